@@ -1,0 +1,15 @@
+//! The segments of isolines (spec section 8).
+
+use crate::factors::{IsolineFactors, ProcessedFactor};
+use crate::points::isoline::line_count;
+use crate::sink::{Primitive, Sink};
+
+pub(crate) fn emit(factors: &IsolineFactors<ProcessedFactor>, sink: &mut impl Sink) {
+    let points = factors.detail.context.points;
+    for line in 0..line_count(factors) {
+        let first = line * points;
+        for p in first + 1..first + points {
+            sink.primitive(Primitive::Line([p - 1, p]));
+        }
+    }
+}

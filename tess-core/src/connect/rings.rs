@@ -1,0 +1,89 @@
+//! Ring by ring, edge by edge: the stitches that triangle and quad patches share
+//! (spec section 7.1).
+
+use crate::factor_context::FactorContext;
+use crate::row::Row;
+use crate::state::{Parity, SplitOrder};
+use crate::stitch::{self, Triangle};
+
+/// What the rings of a patch with `EDGES` edges depend on.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rings<const EDGES: usize> {
+    /// Contexts of the outer edges.
+    pub(crate) outer: [FactorContext; EDGES],
+    /// For each edge, the inside context of the axis that it runs along.
+    pub(crate) along: [FactorContext; EDGES],
+    /// For each edge, whether the rings end in a row of points that lies along it: the inside
+    /// context of the other axis is even, and its last ring has this number.
+    pub(crate) row_at: [Option<u32>; EDGES],
+}
+
+impl<const EDGES: usize> Rings<EDGES> {
+    /// One more than the number of rings that are stitched to the ring outside of them.
+    pub(crate) fn end(&self) -> u32 {
+        self.along.iter().map(ring_end).min().unwrap_or(0)
+    }
+
+    /// Points on the outer ring.
+    pub(crate) fn outer_points(&self) -> u32 {
+        self.outer.iter().map(|edge| edge.points - 1).sum()
+    }
+
+    /// Points on the outer row of an edge's stitch, both ends included.
+    pub(crate) const fn outer_row_points(&self, ring: u32, edge: usize) -> u32 {
+        if ring == 1 { self.outer[edge].points } else { self.inner_row_points(ring - 1, edge) }
+    }
+
+    /// Points on the inner row of an edge's stitch, both ends included.
+    pub(crate) const fn inner_row_points(&self, ring: u32, edge: usize) -> u32 {
+        self.along[edge].points - 2 * ring
+    }
+
+    /// Whether the inner row of this edge walks back over a row of points.
+    pub(crate) fn walks_back(&self, ring: u32, edge: usize) -> bool {
+        edge >= 2 && self.row_at[edge] == Some(ring)
+    }
+
+    /// Emits the triangles of all rings; returns the first index of the innermost.
+    pub(crate) fn emit(&self, split: SplitOrder, mut emit: impl FnMut(Triangle)) -> u32 {
+        let mut outer_base = 0;
+        let mut inner_base = self.outer_points();
+        for ring in 1..self.end() {
+            let (outer_start, inner_start) = (outer_base, inner_base);
+            for edge in 0..EDGES {
+                let outer_points = self.outer_row_points(ring, edge);
+                let inner_points = self.inner_row_points(ring, edge);
+                let mut outer = Row::ascending(outer_base);
+                let mut inner = Row::ascending(inner_base);
+                if self.walks_back(ring, edge) {
+                    inner = Row::descending(inner_base);
+                }
+                if edge == EDGES - 1 {
+                    outer = outer.with(outer_points - 1, outer_start);
+                    if !self.walks_back(ring, edge) {
+                        inner = inner.with(inner_points - 1, inner_start);
+                    }
+                }
+                if ring == 1 {
+                    let (edge, inside) = (&self.outer[edge], &self.along[edge]);
+                    stitch::transition((&outer, &inner), edge, inside, split, &mut emit);
+                } else {
+                    stitch::ring((&outer, &inner), inner_points, &mut emit);
+                }
+                outer_base += outer_points - 1;
+                inner_base += inner_points - 1;
+            }
+        }
+        outer_base
+    }
+}
+
+/// One more than the number of rings that an inside factor makes.
+pub(crate) const fn ring_end(inside: &FactorContext) -> u32 {
+    inside.points.div_ceil(2)
+}
+
+/// The ring that is a single row because of this inside factor's even parity.
+pub(crate) fn row_ring(inside: &FactorContext) -> Option<u32> {
+    (inside.parity == Parity::Even).then_some(ring_end(inside) - 1)
+}

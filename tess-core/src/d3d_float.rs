@@ -1,0 +1,76 @@
+//! The few binary32 operations that factors go through before they become integers.
+//!
+//! Comparisons and bit patterns are enough for them; a NaN is not greater than anything.
+
+/// Whether a patch with these outer factors is culled: one is zero, negative or NaN.
+/// Positive denormals are greater than zero.
+pub(crate) fn is_culled(outer: &[f32]) -> bool {
+    !outer.iter().all(|&factor| factor > 0.0)
+}
+
+/// Clamps to `low..=high`; NaN gives `low`.
+pub(crate) fn clamp(x: f32, (low, high): (f32, f32)) -> f32 {
+    if x >= high {
+        high
+    } else if x > low {
+        x
+    } else {
+        low
+    }
+}
+
+/// The ceiling of a number of at least 1, infinity included.
+///
+/// Adding the mask of the fraction bits carries into the exponent when it must. No overflow: the
+/// carry of the largest number below 2^23 ends at 2^23.
+pub(crate) fn ceil(x: f32) -> f32 {
+    const INTEGERS_ONLY_FROM: f32 = 8_388_608.0; // 2^23
+    debug_assert!(x >= 1.0, "rounding follows clamping or cleaning");
+    if x >= INTEGERS_ONLY_FROM {
+        return x;
+    }
+    let exponent = (x.to_bits() >> 23) - 127; // 0..=22
+    let fraction_mask = (1 << (23 - exponent)) - 1;
+    f32::from_bits((x.to_bits() + fraction_mask) & !fraction_mask)
+}
+
+/// The next power of two at or above a number of at least 1: the mantissa goes, and carries into
+/// the exponent if it was not zero. Above 2^127 that is infinity, which stays as it is.
+pub(crate) fn next_power_of_two(x: f32) -> f32 {
+    const MANTISSA: u32 = 0x007F_FFFF;
+    debug_assert!(x >= 1.0, "rounding follows cleaning");
+    f32::from_bits((x.to_bits() + MANTISSA) & !MANTISSA)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rounding_up() {
+        let cases = [
+            (1.0, 1.0, 1.0),
+            (f32::from_bits(0x3F80_0001), 2.0, 2.0),
+            (2.5, 3.0, 4.0),
+            (63.000_004, 64.0, 64.0),
+            (64.0, 64.0, 64.0),
+            (8_388_607.5, 8_388_608.0, 8_388_608.0),
+            (16_777_217.0, 16_777_216.0, 16_777_216.0),
+            (f32::MAX, f32::MAX, f32::INFINITY),
+            (f32::INFINITY, f32::INFINITY, f32::INFINITY),
+        ];
+        for (x, integer, power) in cases {
+            assert_eq!(ceil(x).to_bits(), integer.to_bits(), "ceil({x})");
+            assert_eq!(next_power_of_two(x).to_bits(), power.to_bits(), "power of two of {x}");
+        }
+    }
+
+    #[test]
+    fn clamping_takes_nan_to_the_low_end() {
+        for bits in [0x7FC0_0000, 0xFFC0_0000, 0x7F80_0001, 0xFF80_0000, 0x8000_0000, 1] {
+            let clamped = clamp(f32::from_bits(bits), (2.0, 64.0));
+            assert_eq!(clamped.to_bits(), 2.0f32.to_bits(), "binary32 {bits:#010x}");
+        }
+        assert_eq!(clamp(f32::INFINITY, (2.0, 64.0)).to_bits(), 64.0f32.to_bits(), "infinity");
+    }
+}

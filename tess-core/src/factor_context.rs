@@ -1,0 +1,100 @@
+//! The six numbers that all of point placement uses (spec section 4).
+
+use crate::fixed_point::{FixedFactor, HALF, ONE, ceil, floor};
+use crate::reciprocal::reciprocal;
+use crate::state::{Parity, SplitOrder};
+
+/// What is derived once from a factor and its parity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct FactorContext {
+    /// Parity of the number of segments.
+    pub parity: Parity,
+    /// Reciprocal of the number of segments of the coarser subdivision, 16 fraction bits.
+    pub inv_floor: u32,
+    /// Reciprocal of the number of segments of the finer subdivision, 16 fraction bits.
+    pub inv_ceil: u32,
+    /// Weight of the finer subdivision, 16 fraction bits, below one.
+    pub fraction: u32,
+    /// Points on a half edge, the midpoint of an even edge not counted, in 1..=32.
+    pub half_points: u32,
+    /// The position on the half edge whose point is being split off its predecessor.
+    pub split: u32,
+    /// Points on the whole edge, both ends included, in 2..=65.
+    pub points: u32,
+}
+
+impl FactorContext {
+    /// The context of a factor: 1..=63 if odd, 1..=64 if even (where 1 acts as 2).
+    ///
+    /// Total: a factor outside its range counts as the nearest end. Spec sections 4 and 10.
+    #[must_use]
+    pub const fn new(factor: FixedFactor, parity: Parity, split_order: SplitOrder) -> Self {
+        let odd = parity.odd();
+        let rounded_half = clamp_to_range(factor, parity).to_bits().div_ceil(2);
+        let shifted = odd == 1 || rounded_half == HALF; // HALF: factor 1 that counts as even
+        let half = if shifted { rounded_half + HALF } else { rounded_half };
+        let floor_points = floor(half) >> 16;
+        let ceil_points = ceil(half) >> 16;
+        Self {
+            parity,
+            inv_floor: reciprocal(2 * floor_points - odd),
+            inv_ceil: reciprocal(2 * ceil_points - odd),
+            fraction: half - floor(half),
+            half_points: ceil_points,
+            split: split_position(floor_points, ceil_points, parity, split_order),
+            points: point_count(rounded_half, parity),
+        }
+    }
+
+    /// The half points that a transition stitch walks: [`Self::half_points`], less one if odd.
+    #[must_use]
+    pub const fn half_steps(&self) -> u32 {
+        self.half_points - self.parity.odd()
+    }
+}
+
+/// What factor processing guarantees already; it makes every reciprocal below exist.
+const fn clamp_to_range(factor: FixedFactor, parity: Parity) -> FixedFactor {
+    let highest = (64 - parity.odd()) << 16;
+    let bits = factor.to_bits();
+    FixedFactor::from_bits(if bits < ONE {
+        ONE
+    } else if bits > highest {
+        highest
+    } else {
+        bits
+    })
+}
+
+/// The position that splits on the way from `floor_points` to `ceil_points`, in 0..=33.
+const fn split_position(
+    floor_points: u32,
+    ceil_points: u32,
+    parity: Parity,
+    split_order: SplitOrder,
+) -> u32 {
+    if floor_points == ceil_points {
+        return ceil_points + 1; // no position reaches it
+    }
+    match (split_order, parity) {
+        (SplitOrder::Ruler, Parity::Odd) if floor_points == 1 => 0,
+        (SplitOrder::Ruler, Parity::Odd) => 2 * drop_most_significant_bit(floor_points - 1) + 1,
+        (SplitOrder::Ruler, Parity::Even) => 2 * drop_most_significant_bit(floor_points) + 1,
+        (SplitOrder::Center, Parity::Odd) => ceil_points - 2,
+        (SplitOrder::Center, Parity::Even) => ceil_points - 1,
+    }
+}
+
+/// Clears the highest set bit of `x >= 1`.
+const fn drop_most_significant_bit(x: u32) -> u32 {
+    x & !(1 << (31 - x.leading_zeros()))
+}
+
+/// Points along the edge, from the factor's half rounded up, both ends included. The even factor 1
+/// has the three points of factor 2, its half being rounded up to one.
+const fn point_count(rounded_half: u32, parity: Parity) -> u32 {
+    match parity {
+        Parity::Odd => 2 * (ceil(HALF + rounded_half) >> 16),
+        Parity::Even => 2 * (ceil(rounded_half) >> 16) + 1,
+    }
+}

@@ -1,0 +1,167 @@
+//! Which line, edge or ring the i-th point of a patch lies on, and where on it.
+
+use crate::connect::rings::Rings;
+use crate::connect::{quad as quad_rings, triangle as triangle_rings};
+use crate::factor_context::FactorContext;
+use crate::factors::{PatchFactors, ProcessedFactor, ProcessedPatch, QuadFactors, TriangleFactors};
+use crate::locate::{last_ring_at_or_before, slot_of};
+use crate::points::quad::Inside;
+use crate::points::{DomainPoint, isoline, minimum_corners, quad, triangle};
+
+/// Where a domain point comes from in the walk of spec section 6.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PointLocation {
+    /// Corner `corner` of a minimum patch.
+    Corner {
+        /// Number of the corner.
+        corner: u32,
+    },
+    /// Point `p` of an isoline.
+    Line {
+        /// Number of the line, from v = 0.
+        line: u32,
+        /// Number of the point on it, from u = 0.
+        p: u32,
+    },
+    /// Point `p` of an outer edge.
+    OuterEdge {
+        /// Number of the edge: u = 0, v = 0, then w = 0 or u = 1, v = 1.
+        edge: u32,
+        /// Number of the point in the direction of the walk.
+        p: u32,
+    },
+    /// Point `p` of an edge of an interior ring.
+    Ring {
+        /// Number of the ring, from 1.
+        ring: u32,
+        /// Number of the edge.
+        edge: u32,
+        /// Number of the point in the direction of the walk.
+        p: u32,
+    },
+    /// Point `p` of the single point or row of points that ends an even interior.
+    Centre {
+        /// Number of the point.
+        p: u32,
+    },
+}
+
+/// Locates point `i`, which is less than the patch's point count.
+pub(crate) fn locate(patch: &ProcessedPatch, i: u32) -> PointLocation {
+    match patch {
+        ProcessedPatch::Culled | ProcessedPatch::Minimum(_) => PointLocation::Corner { corner: i },
+        ProcessedPatch::Regular(PatchFactors::Isoline(factors)) => {
+            let points = factors.detail.context.points;
+            PointLocation::Line { line: i / points, p: i % points }
+        }
+        ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => locate_in_triangle(factors, i),
+        ProcessedPatch::Regular(PatchFactors::Quad(factors)) => locate_in_quad(factors, i),
+    }
+}
+
+fn locate_in_triangle(factors: &TriangleFactors<ProcessedFactor>, i: u32) -> PointLocation {
+    let outer = triangle_rings::rings(factors);
+    let Some(interior) = i.checked_sub(outer.outer_points()) else {
+        return locate_on_outer_edge(&outer, i);
+    };
+    let inside = &factors.inside.context;
+    let end = inside.points / 2;
+    if interior >= triangle_points_before(inside, end) {
+        return PointLocation::Centre { p: 0 };
+    }
+    let ring = last_ring_at_or_before(interior, end, |r| triangle_points_before(inside, r));
+    let in_ring = interior - triangle_points_before(inside, ring);
+    let size = triangle::ring_edge_points(inside, ring);
+    PointLocation::Ring { ring, edge: in_ring / size, p: in_ring % size }
+}
+
+fn locate_in_quad(factors: &QuadFactors<ProcessedFactor>, i: u32) -> PointLocation {
+    let outer = quad_rings::rings(factors);
+    let Some(interior) = i.checked_sub(outer.outer_points()) else {
+        return locate_on_outer_edge(&outer, i);
+    };
+    let inside = Inside::new(factors);
+    let end = inside.ring_end();
+    let rings_total = quad_points_before(&inside, end);
+    if interior >= rings_total {
+        return PointLocation::Centre { p: interior - rings_total };
+    }
+    let ring = last_ring_at_or_before(interior, end, |r| quad_points_before(&inside, r));
+    let in_ring = interior - quad_points_before(&inside, ring);
+    let sizes = [0, 1, 2, 3].map(|edge| inside.ring_edge_points(ring, edge));
+    let (edge, p) = slot_of(in_ring, sizes);
+    PointLocation::Ring { ring, edge, p }
+}
+
+fn locate_on_outer_edge<const EDGES: usize>(rings: &Rings<EDGES>, i: u32) -> PointLocation {
+    let (edge, p) = slot_of(i, rings.outer.map(|context| context.points - 1));
+    PointLocation::OuterEdge { edge, p }
+}
+
+/// Interior points on the rings `1..ring`: the sum of 3 (n - 1 - 2 k).
+pub(crate) const fn triangle_points_before(inside: &FactorContext, ring: u32) -> u32 {
+    3 * (ring - 1) * (inside.points - 1 - ring)
+}
+
+/// Interior points on the rings `1..ring`: the sum of 2 (nU - 1 - 2 k) + 2 (nV - 1 - 2 k).
+pub(crate) const fn quad_points_before(inside: &Inside, ring: u32) -> u32 {
+    2 * (ring - 1) * (inside.u.points + inside.v.points - 2 - 2 * ring)
+}
+
+/// The point at a location that [`locate`] gave for this patch; `None` for one it never gives.
+pub(crate) fn point(patch: &ProcessedPatch, location: PointLocation) -> Option<DomainPoint> {
+    match (patch, location) {
+        (ProcessedPatch::Minimum(factors), PointLocation::Corner { corner }) => {
+            minimum_corners(factors.domain()).get(corner as usize).copied()
+        }
+        (ProcessedPatch::Regular(factors), location) => regular_point(factors, location),
+        _ => None,
+    }
+}
+
+fn regular_point(
+    factors: &PatchFactors<ProcessedFactor>,
+    location: PointLocation,
+) -> Option<DomainPoint> {
+    match (factors, location) {
+        (PatchFactors::Isoline(factors), PointLocation::Line { line, p }) => {
+            Some(isoline::point(factors, line, p))
+        }
+        (PatchFactors::Triangle(factors), location) => triangle_point(factors, location),
+        (PatchFactors::Quad(factors), location) => quad_point(factors, location),
+        _ => None,
+    }
+}
+
+fn triangle_point(
+    factors: &TriangleFactors<ProcessedFactor>,
+    location: PointLocation,
+) -> Option<DomainPoint> {
+    match location {
+        PointLocation::OuterEdge { edge, p } => {
+            let factor = factors.outer().get(edge as usize).copied()?;
+            Some(triangle::outer_point(&factor.context, edge, p))
+        }
+        PointLocation::Ring { ring, edge, p } => {
+            Some(triangle::ring_point(&factors.inside.context, ring, edge, p))
+        }
+        PointLocation::Centre { .. } => Some(triangle::CENTRE),
+        PointLocation::Corner { .. } | PointLocation::Line { .. } => None,
+    }
+}
+
+fn quad_point(
+    factors: &QuadFactors<ProcessedFactor>,
+    location: PointLocation,
+) -> Option<DomainPoint> {
+    let inside = Inside::new(factors);
+    match location {
+        PointLocation::OuterEdge { edge, p } => {
+            let factor = factors.outer().get(edge as usize).copied()?;
+            Some(quad::outer_point(&factor.context, edge, p))
+        }
+        PointLocation::Ring { ring, edge, p } => Some(inside.ring_point(ring, edge, p)),
+        PointLocation::Centre { p } => Some(inside.centre_row_point(inside.centre_row()?, p)),
+        PointLocation::Corner { .. } | PointLocation::Line { .. } => None,
+    }
+}

@@ -1,0 +1,158 @@
+//! The t-th triangle of the rings of a triangle or quad patch.
+
+use crate::connect::quad::CentreStrip;
+use crate::connect::rings::Rings;
+use crate::connect::{quad, triangle};
+use crate::factors::{ProcessedFactor, QuadFactors, TriangleFactors};
+use crate::locate::point::{quad_points_before, triangle_points_before};
+use crate::locate::primitive::PrimitiveLocation;
+use crate::locate::{last_ring_at_or_before, slot_of, stitch};
+use crate::points::quad::Inside;
+use crate::row::Row;
+use crate::state::{Parity, SplitOrder};
+use crate::stitch::Triangle;
+
+/// The closed forms of a patch with `EDGES` edges.
+pub(crate) trait ClosedForms<const EDGES: usize> {
+    fn rings(&self) -> Rings<EDGES>;
+    /// Interior points on the rings `1..ring`.
+    fn points_before(&self, ring: u32) -> u32;
+    /// Triangles of the ring stitches `2..ring`.
+    fn triangles_before(&self, ring: u32) -> u32;
+    /// Triangle `step` inside the innermost ring, whose first index is `innermost`.
+    fn centre_triangle(&self, innermost: u32, step: u32) -> Option<Triangle>;
+}
+
+impl ClosedForms<3> for TriangleFactors<ProcessedFactor> {
+    fn rings(&self) -> Rings<3> {
+        triangle::rings(self)
+    }
+
+    fn points_before(&self, ring: u32) -> u32 {
+        triangle_points_before(&self.inside.context, ring)
+    }
+
+    /// The sum of 3 * 2 (n - 2 k).
+    fn triangles_before(&self, ring: u32) -> u32 {
+        6 * (ring - 2) * (self.inside.context.points - ring - 1)
+    }
+
+    fn centre_triangle(&self, innermost: u32, step: u32) -> Option<Triangle> {
+        let has_centre = self.inside.context.parity == Parity::Odd && step == 0;
+        has_centre.then_some(triangle::centre(innermost))
+    }
+}
+
+impl ClosedForms<4> for QuadFactors<ProcessedFactor> {
+    fn rings(&self) -> Rings<4> {
+        quad::rings(self)
+    }
+
+    fn points_before(&self, ring: u32) -> u32 {
+        quad_points_before(&Inside::new(self), ring)
+    }
+
+    /// The sum of 2 * 2 (nU - 2 k) + 2 * 2 (nV - 2 k).
+    fn triangles_before(&self, ring: u32) -> u32 {
+        let Inside { u, v } = Inside::new(self);
+        4 * (ring - 2) * (u.points + v.points - 2 * ring - 2)
+    }
+
+    fn centre_triangle(&self, innermost: u32, step: u32) -> Option<Triangle> {
+        let strip = CentreStrip::new(&Inside::new(self), innermost)?;
+        let [first, second] = strip.quad(step / 2);
+        Some(if step.is_multiple_of(2) { first } else { second })
+    }
+}
+
+/// Locates triangle `t`: in a transition, in a ring stitch, or in the centre.
+pub(crate) fn locate<const EDGES: usize>(
+    patch: &impl ClosedForms<EDGES>,
+    t: u32,
+) -> PrimitiveLocation {
+    let rings = patch.rings();
+    let transitions: [u32; EDGES] =
+        core::array::from_fn(|e| rings.outer[e].points + rings.along[e].points - 4);
+    let Some(t) = t.checked_sub(transitions.iter().sum()) else {
+        let (edge, step) = slot_of(t, transitions);
+        return PrimitiveLocation::Transition { edge, step };
+    };
+    let end = rings.end();
+    let in_rings = patch.triangles_before(end);
+    if t >= in_rings {
+        return PrimitiveLocation::Centre { step: t - in_rings };
+    }
+    let ring = 1 + last_ring_at_or_before(t, end - 1, |r| patch.triangles_before(r + 1));
+    let stitches: [u32; EDGES] = core::array::from_fn(|e| 2 * rings.inner_row_points(ring, e));
+    let (edge, step) = slot_of(t - patch.triangles_before(ring), stitches);
+    PrimitiveLocation::Ring { ring, edge, step }
+}
+
+/// The triangle at a location that [`locate`] gave, clockwise; `None` for one it never gives.
+pub(crate) fn triangle<const EDGES: usize>(
+    patch: &impl ClosedForms<EDGES>,
+    split: SplitOrder,
+    location: PrimitiveLocation,
+) -> Option<Triangle> {
+    let rings = patch.rings();
+    match location {
+        PrimitiveLocation::Transition { edge, step } => {
+            let edge = edge as usize;
+            let (outer, inner) = rows(patch, &rings, 1, edge);
+            let (edge, inside) = (rings.outer.get(edge)?, rings.along.get(edge)?);
+            Some(stitch::transition_triangle((&outer, &inner), edge, inside, split, step))
+        }
+        PrimitiveLocation::Ring { ring, edge, step } => {
+            let edge = edge as usize;
+            let (outer, inner) = rows(patch, &rings, ring, edge);
+            let inner_points = rings.inner_row_points(ring, edge);
+            Some(stitch::ring_triangle((&outer, &inner), inner_points, step))
+        }
+        PrimitiveLocation::Centre { step } => {
+            let innermost = first_of_ring(patch, &rings, rings.end() - 1);
+            patch.centre_triangle(innermost, step)
+        }
+        PrimitiveLocation::Sequence { .. }
+        | PrimitiveLocation::Line { .. }
+        | PrimitiveLocation::Minimum { .. } => None,
+    }
+}
+
+/// The two rows of the stitch along `edge` between rings `ring - 1` and `ring`.
+fn rows<const EDGES: usize>(
+    patch: &impl ClosedForms<EDGES>,
+    rings: &Rings<EDGES>,
+    ring: u32,
+    edge: usize,
+) -> (Row, Row) {
+    let outer_sizes: [u32; EDGES] = core::array::from_fn(|e| rings.outer_row_points(ring, e));
+    let inner_sizes: [u32; EDGES] = core::array::from_fn(|e| rings.inner_row_points(ring, e));
+    let outer = ring_row(first_of_ring(patch, rings, ring - 1), &outer_sizes, edge);
+    let inner_start = first_of_ring(patch, rings, ring);
+    let inner = if rings.walks_back(ring, edge) {
+        Row::descending(inner_start + points_before_edge(&inner_sizes, edge))
+    } else {
+        ring_row(inner_start, &inner_sizes, edge)
+    };
+    (outer, inner)
+}
+
+/// The first index of a ring; ring 0 is the outer one.
+fn first_of_ring<const EDGES: usize>(
+    patch: &impl ClosedForms<EDGES>,
+    rings: &Rings<EDGES>,
+    ring: u32,
+) -> u32 {
+    if ring == 0 { 0 } else { rings.outer_points() + patch.points_before(ring) }
+}
+
+/// One edge of a ring that starts at index `start`; the last edge ends there again.
+fn ring_row<const EDGES: usize>(start: u32, sizes: &[u32; EDGES], edge: usize) -> Row {
+    let row = Row::ascending(start + points_before_edge(sizes, edge));
+    if edge == EDGES - 1 { row.with(sizes[edge] - 1, start) } else { row }
+}
+
+/// Points of a ring's earlier edges, each without its last point.
+fn points_before_edge(sizes: &[u32], edge: usize) -> u32 {
+    sizes[..edge].iter().map(|size| size - 1).sum()
+}

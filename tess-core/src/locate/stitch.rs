@@ -1,0 +1,137 @@
+//! The t-th triangle of a stitch, from closed forms.
+
+use crate::factor_context::FactorContext;
+use crate::row::Row;
+use crate::ruler::has_point;
+use crate::state::{Parity, SplitOrder};
+use crate::stitch::Triangle;
+
+/// A half edge as a mask: bit k - 1 is set if position k in 1..=32 has a point.
+#[derive(Clone, Copy)]
+struct HalfEdge(u32);
+
+impl HalfEdge {
+    fn new(split: SplitOrder, half_steps: u32) -> Self {
+        let bits = (1..=32).filter(|&k| has_point(split, k, half_steps)).map(|k| 1 << (k - 1));
+        Self(bits.sum())
+    }
+
+    /// Points at positions 1..=k, for `k` in 0..=32.
+    const fn points_up_to(self, k: u32) -> u32 {
+        (self.0 as u64 & ((1 << k) - 1)).count_ones()
+    }
+
+    const fn has(self, k: u32) -> bool {
+        self.points_up_to(k) > self.points_up_to(k - 1)
+    }
+}
+
+/// What one step of a stitch does; `o` and `i` are the positions on the rows before it.
+#[derive(Clone, Copy)]
+enum Step {
+    Outer { o: u32, i: u32 },
+    Inner { o: u32, i: u32 },
+}
+
+impl Step {
+    fn triangle(self, (outer, inner): (&Row, &Row)) -> Triangle {
+        match self {
+            Self::Outer { o, i } => [outer.index(o), outer.index(o + 1), inner.index(i)],
+            Self::Inner { o, i } => [inner.index(i), outer.index(o), inner.index(i + 1)],
+        }
+    }
+}
+
+/// Triangle `t` of a transition stitch (spec section 7.2).
+///
+/// Its first half merges two masks in ascending position, and its second half is the first
+/// one of a patch walked the other way, so a step's number is a count of mask bits.
+pub(crate) fn transition_triangle(
+    rows: (&Row, &Row),
+    outer_edge: &FactorContext,
+    inside: &FactorContext,
+    split: SplitOrder,
+    t: u32,
+) -> Triangle {
+    let outer = HalfEdge::new(split, outer_edge.half_steps());
+    let inner = HalfEdge::new(split, inside.half_steps());
+    let first = outer_edge.half_steps().min(1); // the outer step from the corner, if any
+    let outer_half = first + outer.points_up_to(32);
+    let inner_half = inner.points_up_to(32);
+    let half = outer_half + inner_half;
+    let total = outer_edge.points + inside.points - 2 - 2; // K + M - 2 with M = n - 2
+    if t < half {
+        return half_step(outer, inner, first, t).triangle(rows);
+    }
+    if t >= total - half {
+        let mirrored = half_step(outer, inner, first, total - 1 - t);
+        let outer_steps = outer_edge.points - 1;
+        let inner_steps = inside.points - 3;
+        return match mirrored {
+            Step::Outer { o, i } => Step::Outer { o: outer_steps - 1 - o, i: inner_steps - i },
+            Step::Inner { o, i } => Step::Inner { o: outer_steps - o, i: inner_steps - 1 - i },
+        }
+        .triangle(rows);
+    }
+    middle_triangle(rows, outer_half, inner_half, inside.parity, outer_edge.parity, t - half)
+}
+
+/// Step `t` of the first half of a transition.
+fn half_step(outer: HalfEdge, inner: HalfEdge, first: u32, t: u32) -> Step {
+    if t < first {
+        return Step::Outer { o: 0, i: 0 };
+    }
+    let steps_up_to = |k| first + outer.points_up_to(k) + inner.points_up_to(k);
+    // The largest k in 0..32 with steps_up_to(k) <= t, bit by bit; step t happens at k + 1.
+    let mut k = 0;
+    for step in [16, 8, 4, 2, 1] {
+        if steps_up_to(k + step) <= t {
+            k += step;
+        }
+    }
+    let (o, i) = (first + outer.points_up_to(k), inner.points_up_to(k));
+    let second = t > steps_up_to(k);
+    match (inner.has(k + 1), second) {
+        (true, false) => Step::Inner { o, i },
+        (true, true) => Step::Outer { o, i: i + 1 },
+        (false, _) => Step::Outer { o, i },
+    }
+}
+
+/// Triangle `t` of the middle, which starts at positions `o` and `i`.
+fn middle_triangle(
+    (outer, inner): (&Row, &Row),
+    o: u32,
+    i: u32,
+    inside: Parity,
+    outer_edge: Parity,
+    t: u32,
+) -> Triangle {
+    match (inside, outer_edge, t) {
+        (Parity::Odd, _, 0) => [inner.index(i), outer.index(o), inner.index(i + 1)],
+        (Parity::Odd, _, _) => [inner.index(i + 1), outer.index(o), outer.index(o + 1)],
+        (Parity::Even, _, _) => [inner.index(i), outer.index(o), outer.index(o + 1)],
+    }
+}
+
+/// Triangle `t` of a ring stitch whose inner row has `inner_points` points (spec section 7.3).
+pub(crate) fn ring_triangle((outer, inner): (&Row, &Row), inner_points: u32, t: u32) -> Triangle {
+    let last = 2 * inner_points - 1;
+    if t == 0 {
+        return [outer.index(0), outer.index(1), inner.index(0)];
+    }
+    if t == last {
+        let o = inner_points;
+        return [outer.index(o), outer.index(o + 1), inner.index(inner_points - 1)];
+    }
+    let p = (t - 1) / 2;
+    let first_of_pair = t % 2 == 1;
+    let [o0, o1] = [outer.index(p + 1), outer.index(p + 2)];
+    let [i0, i1] = [inner.index(p), inner.index(p + 1)];
+    match (p < inner_points / 2, first_of_pair) {
+        (true, true) => [o0, i1, i0],
+        (true, false) => [o0, o1, i1],
+        (false, true) => [i0, o0, o1],
+        (false, false) => [i0, o1, i1],
+    }
+}

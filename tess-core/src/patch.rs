@@ -1,0 +1,125 @@
+//! One patch: the model's front door.
+
+use crate::counts::{Counts, counts};
+use crate::error::{Buffer, BufferTooSmall};
+use crate::factors::{PatchFactors, ProcessedPatch, process};
+use crate::locate::point::PointLocation;
+use crate::locate::primitive::PrimitiveLocation;
+use crate::points::DomainPoint;
+use crate::sink::{Primitive, Sink, Slices};
+use crate::state::Config;
+use crate::{connect, locate, points};
+
+/// A patch whose factors have been processed, ready to be tessellated or probed.
+///
+/// Every input is valid: any bit pattern of any factor gives a patch, maybe a culled one,
+/// which has no points and no primitives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Patch {
+    config: Config,
+    processed: ProcessedPatch,
+    counts: Counts,
+}
+
+impl Patch {
+    /// Processes the raw factors of a patch (spec sections 3 and 4).
+    #[must_use]
+    pub fn new(config: Config, factors: PatchFactors) -> Self {
+        let processed = process(config, factors);
+        Self { config, processed, counts: counts(config, &processed) }
+    }
+
+    /// The configuration that the patch was made with.
+    #[must_use]
+    pub const fn config(&self) -> Config {
+        self.config
+    }
+
+    /// The processed factors and their contexts.
+    #[must_use]
+    pub const fn processed(&self) -> &ProcessedPatch {
+        &self.processed
+    }
+
+    /// How many points, primitives and indices the patch has.
+    #[must_use]
+    pub const fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Walks the patch in the specification's order: all points, then all primitives.
+    pub fn emit(&self, sink: &mut impl Sink) {
+        points::emit(&self.processed, sink);
+        connect::emit(self.config, &self.processed, sink);
+    }
+
+    /// Writes points and indices to the start of the caller's buffers.
+    ///
+    /// # Errors
+    /// [`BufferTooSmall`] if either buffer is shorter than [`Self::counts`] says; then nothing is
+    /// written.
+    pub fn write(
+        &self,
+        points: &mut [DomainPoint],
+        indices: &mut [u32],
+    ) -> Result<Counts, BufferTooSmall> {
+        let points = prefix(points, self.counts.points, Buffer::Points)?;
+        let indices = prefix(indices, self.counts.indices, Buffer::Indices)?;
+        self.emit(&mut Slices::new(points, indices));
+        Ok(self.counts)
+    }
+
+    /// The whole patch in vectors.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    pub fn tessellate(&self) -> crate::Tessellation {
+        let mut out = crate::Tessellation {
+            points: alloc::vec::Vec::with_capacity(self.counts.points as usize),
+            indices: alloc::vec::Vec::with_capacity(self.counts.indices as usize),
+        };
+        self.emit(&mut out);
+        out
+    }
+
+    /// Where point `i` comes from; `None` if the patch has no such point. Constant time.
+    #[must_use]
+    pub fn locate_point(&self, i: u32) -> Option<PointLocation> {
+        (i < self.counts.points).then(|| locate::point::locate(&self.processed, i))
+    }
+
+    /// Point `i`; `None` if the patch has no such point. Constant time.
+    #[must_use]
+    pub fn point(&self, i: u32) -> Option<DomainPoint> {
+        locate::point::point(&self.processed, self.locate_point(i)?)
+    }
+
+    /// Where primitive `t` comes from; `None` if the patch has no such primitive. Constant time.
+    #[must_use]
+    pub fn locate_primitive(&self, t: u32) -> Option<PrimitiveLocation> {
+        (t < self.counts.primitives)
+            .then(|| locate::primitive::locate(self.config, &self.processed, t))
+    }
+
+    /// Primitive `t`; `None` if the patch has no such primitive. Constant time.
+    #[must_use]
+    pub fn primitive(&self, t: u32) -> Option<Primitive> {
+        let location = self.locate_primitive(t)?;
+        locate::primitive::primitive(self.config, &self.processed, location)
+    }
+
+    /// All points in order, each by random access.
+    pub fn points(&self) -> impl Iterator<Item = DomainPoint> {
+        (0..self.counts.points).filter_map(|i| self.point(i))
+    }
+
+    /// All primitives in order, each by random access.
+    pub fn primitives(&self) -> impl Iterator<Item = Primitive> {
+        (0..self.counts.primitives).filter_map(|t| self.primitive(t))
+    }
+}
+
+/// The first `needed` elements of a caller's buffer.
+fn prefix<T>(slice: &mut [T], needed: u32, buffer: Buffer) -> Result<&mut [T], BufferTooSmall> {
+    let (needed, got) = (needed as usize, slice.len());
+    slice.get_mut(..needed).ok_or(BufferTooSmall { buffer, needed, got })
+}

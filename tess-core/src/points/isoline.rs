@@ -1,0 +1,28 @@
+//! Isoline points: line by line, from v = 0 (spec section 6).
+
+use crate::factors::{IsolineFactors, ProcessedFactor};
+use crate::place::place;
+use crate::points::DomainPoint;
+use crate::sink::Sink;
+
+pub(crate) fn emit(factors: &IsolineFactors<ProcessedFactor>, sink: &mut impl Sink) {
+    for line in 0..line_count(factors) {
+        for p in 0..factors.detail.context.points {
+            sink.point(point(factors, line, p));
+        }
+    }
+}
+
+/// Lines drawn: the one at v = 1 is not.
+pub(crate) const fn line_count(factors: &IsolineFactors<ProcessedFactor>) -> u32 {
+    factors.density.context.points - 1
+}
+
+/// Point `p` of a line.
+pub(crate) const fn point(
+    factors: &IsolineFactors<ProcessedFactor>,
+    line: u32,
+    p: u32,
+) -> DomainPoint {
+    DomainPoint { u: place(&factors.detail.context, p), v: place(&factors.density.context, line) }
+}

@@ -1,0 +1,118 @@
+//! Quad points: the outer ring, the interior rings, then a row of points if one inside factor
+//! is even (spec section 6).
+
+use crate::factor_context::FactorContext;
+use crate::factors::{ProcessedFactor, QuadFactors};
+use crate::fixed_point::{HALF, ONE};
+use crate::place::place;
+use crate::points::DomainPoint;
+use crate::sink::Sink;
+use crate::state::Parity;
+use fixed::types::U16F16;
+
+/// The contexts of the two inside factors.
+#[derive(Clone, Copy)]
+pub(crate) struct Inside {
+    pub(crate) u: FactorContext,
+    pub(crate) v: FactorContext,
+}
+
+/// The innermost ring where it is a single row of points.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum CentreRow {
+    /// Along u at v = 1/2, ascending.
+    AlongU,
+    /// Along v at u = 1/2, descending.
+    AlongV,
+}
+
+impl Inside {
+    pub(crate) const fn new(factors: &QuadFactors<ProcessedFactor>) -> Self {
+        Self { u: factors.inside_u.context, v: factors.inside_v.context }
+    }
+
+    /// One more than the number of interior rings that go round.
+    pub(crate) const fn ring_end(&self) -> u32 {
+        (if self.u.points < self.v.points { self.u.points } else { self.v.points }) / 2
+    }
+
+    /// Points on an edge of interior ring `ring >= 1`, its last point left out.
+    pub(crate) const fn ring_edge_points(&self, ring: u32, edge: u32) -> u32 {
+        let running = if edge.is_multiple_of(2) { self.v } else { self.u };
+        running.points - 1 - 2 * ring
+    }
+
+    /// The row that the interior ends with, if it does.
+    pub(crate) fn centre_row(&self) -> Option<CentreRow> {
+        if self.u.points > self.v.points {
+            (self.v.parity == Parity::Even).then_some(CentreRow::AlongU)
+        } else {
+            (self.u.parity == Parity::Even).then_some(CentreRow::AlongV)
+        }
+    }
+
+    /// Points on the centre row.
+    pub(crate) const fn centre_row_points(&self, row: CentreRow) -> u32 {
+        let running = match row {
+            CentreRow::AlongU => self.u,
+            CentreRow::AlongV => self.v,
+        };
+        running.points - 2 * self.ring_end()
+    }
+
+    /// Point `p` of an edge of interior ring `ring >= 1`.
+    pub(crate) const fn ring_point(&self, ring: u32, edge: u32, p: u32) -> DomainPoint {
+        let end_u = self.u.points - 1 - ring;
+        let end_v = self.v.points - 1 - ring;
+        match edge {
+            0 => DomainPoint { u: place(&self.u, ring), v: place(&self.v, end_v - p) },
+            1 => DomainPoint { u: place(&self.u, ring + p), v: place(&self.v, ring) },
+            2 => DomainPoint { u: place(&self.u, end_u), v: place(&self.v, ring + p) },
+            _ => DomainPoint { u: place(&self.u, end_u - p), v: place(&self.v, end_v) },
+        }
+    }
+
+    /// Point `p` of the centre row.
+    pub(crate) const fn centre_row_point(&self, row: CentreRow, p: u32) -> DomainPoint {
+        const MIDDLE: U16F16 = U16F16::from_bits(HALF);
+        let ring = self.ring_end();
+        match row {
+            CentreRow::AlongU => DomainPoint { u: place(&self.u, ring + p), v: MIDDLE },
+            CentreRow::AlongV => {
+                DomainPoint { u: MIDDLE, v: place(&self.v, self.v.points - 1 - ring - p) }
+            }
+        }
+    }
+}
+
+pub(crate) fn emit(factors: &QuadFactors<ProcessedFactor>, sink: &mut impl Sink) {
+    for (edge, factor) in (0..).zip(factors.outer()) {
+        for p in 0..factor.context.points - 1 {
+            sink.point(outer_point(&factor.context, edge, p));
+        }
+    }
+    let inside = Inside::new(factors);
+    for ring in 1..inside.ring_end() {
+        for edge in 0..4 {
+            for p in 0..inside.ring_edge_points(ring, edge) {
+                sink.point(inside.ring_point(ring, edge, p));
+            }
+        }
+    }
+    if let Some(row) = inside.centre_row() {
+        for p in 0..inside.centre_row_points(row) {
+            sink.point(inside.centre_row_point(row, p));
+        }
+    }
+}
+
+/// Point `p` of an outer edge with this context.
+pub(crate) const fn outer_point(context: &FactorContext, edge: u32, p: u32) -> DomainPoint {
+    let mirrored = context.points - 1 - p;
+    match edge {
+        0 => DomainPoint::from_bits(0, place(context, mirrored).to_bits()),
+        1 => DomainPoint::from_bits(place(context, p).to_bits(), 0),
+        2 => DomainPoint::from_bits(ONE, place(context, p).to_bits()),
+        _ => DomainPoint::from_bits(place(context, mirrored).to_bits(), ONE),
+    }
+}

@@ -1,0 +1,215 @@
+//! Factor preparation: what HLSL generates in front of the tessellator (spec section 9).
+//!
+//! Optional. It turns the outer factors and inside scales that a hull shader asks for into
+//! *unrounded* factors, which are reported back to the shader, and *rounded* ones, which are
+//! tessellated. All arithmetic is binary32, rounded to nearest even, never fused.
+#![expect(
+    clippy::float_arithmetic,
+    reason = "the one stage that the specification defines in floats"
+)]
+
+use crate::d3d_float::{ceil, clamp, is_culled, next_power_of_two};
+use crate::factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
+use crate::state::Partitioning;
+
+/// How several outer factors become one inside factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Reduction {
+    /// The smallest.
+    Min,
+    /// The largest.
+    Max,
+    /// The sum, left to right, divided by the number.
+    Average,
+}
+
+/// Whether a quad's two inside factors are reduced together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum QuadAxes {
+    /// One reduction over all four edges, with the u scale, for both.
+    One,
+    /// u from the edges v = 0 and v = 1, v from the edges u = 0 and u = 1.
+    Two,
+}
+
+/// What a hull shader hands over for one patch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Request {
+    /// Density and detail, as they are.
+    Isoline(IsolineFactors),
+    /// Outer factors; [`TriangleFactors::inside`] is the scale of the inside factor.
+    Triangle(TriangleFactors),
+    /// Outer factors; the inside fields are the scales of the inside factors.
+    Quad(QuadFactors, QuadAxes),
+}
+
+/// The factors of one patch before and after rounding.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Prepared {
+    /// Reported back to the shader.
+    pub unrounded: PatchFactors,
+    /// Tessellated.
+    pub rounded: PatchFactors,
+}
+
+/// Prepares the factors of one patch. Total: every bit pattern is valid. Spec section 9.
+///
+/// A patch with an outer factor that is not greater than zero is culled: its unrounded outer
+/// factors are the inputs as given, and every other result is 0.
+#[must_use]
+pub fn prepare(partitioning: Partitioning, reduction: Reduction, request: Request) -> Prepared {
+    match request {
+        Request::Isoline(factors) => prepare_isoline(partitioning, factors),
+        Request::Triangle(factors) => prepare_triangle(partitioning, reduction, factors),
+        Request::Quad(factors, axes) => prepare_quad(partitioning, reduction, factors, axes),
+    }
+}
+
+fn prepare_isoline(partitioning: Partitioning, factors: IsolineFactors) -> Prepared {
+    if is_culled(&[factors.density, factors.detail]) {
+        return Prepared {
+            unrounded: PatchFactors::Isoline(factors),
+            rounded: PatchFactors::Isoline(IsolineFactors { density: 0.0, detail: 0.0 }),
+        };
+    }
+    let unrounded = IsolineFactors {
+        density: clamp(clean(factors.density), Partitioning::Integer.range()),
+        detail: clamp(clean(factors.detail), partitioning.range()),
+    };
+    let rounded = IsolineFactors {
+        density: round_up(Partitioning::Integer, unrounded.density),
+        detail: round_up(partitioning, unrounded.detail),
+    };
+    Prepared {
+        unrounded: PatchFactors::Isoline(unrounded),
+        rounded: PatchFactors::Isoline(rounded),
+    }
+}
+
+fn prepare_triangle(
+    partitioning: Partitioning,
+    reduction: Reduction,
+    factors: TriangleFactors,
+) -> Prepared {
+    if is_culled(&factors.outer()) {
+        return Prepared {
+            unrounded: PatchFactors::Triangle(TriangleFactors { inside: 0.0, ..factors }),
+            rounded: PatchFactors::Triangle(TriangleFactors {
+                u0: 0.0,
+                v0: 0.0,
+                w0: 0.0,
+                inside: 0.0,
+            }),
+        };
+    }
+    let [u0, v0, w0] = factors.outer().map(clean);
+    let inside = inside(partitioning, reduction, &[u0, v0, w0], factors.inside);
+    let unrounded = TriangleFactors { u0, v0, w0, inside };
+    let [u0, v0, w0] = unrounded.outer().map(|factor| round_outer(partitioning, factor));
+    let inside = round_up(partitioning, inside);
+    Prepared {
+        unrounded: PatchFactors::Triangle(unrounded),
+        rounded: PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside }),
+    }
+}
+
+fn prepare_quad(
+    partitioning: Partitioning,
+    reduction: Reduction,
+    factors: QuadFactors,
+    axes: QuadAxes,
+) -> Prepared {
+    if is_culled(&factors.outer()) {
+        let unrounded = QuadFactors { inside_u: 0.0, inside_v: 0.0, ..factors };
+        let [u0, v0, u1, v1, inside_u, inside_v] = [0.0; 6];
+        return Prepared {
+            unrounded: PatchFactors::Quad(unrounded),
+            rounded: PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }),
+        };
+    }
+    let [u0, v0, u1, v1] = factors.outer().map(clean);
+    let (inside_u, inside_v) = match axes {
+        QuadAxes::One => {
+            let both = inside(partitioning, reduction, &[v0, v1, u0, u1], factors.inside_u);
+            (both, both)
+        }
+        QuadAxes::Two => widen_narrower_axis(
+            partitioning,
+            inside(partitioning, reduction, &[v0, v1], factors.inside_u),
+            inside(partitioning, reduction, &[u0, u1], factors.inside_v),
+        ),
+    };
+    let unrounded = QuadFactors { u0, v0, u1, v1, inside_u, inside_v };
+    let [u0, v0, u1, v1] = unrounded.outer().map(|factor| round_outer(partitioning, factor));
+    let [inside_u, inside_v] = unrounded.inside().map(|factor| round_up(partitioning, factor));
+    Prepared {
+        unrounded: PatchFactors::Quad(unrounded),
+        rounded: PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }),
+    }
+}
+
+/// Under `fractional_odd`, an axis below 3 and below the other grows to the other, or to 3.
+/// Rounding leaves fractional factors alone, so this holds for the rounded factors too.
+fn widen_narrower_axis(partitioning: Partitioning, u: f32, v: f32) -> (f32, f32) {
+    let widened = |this: f32, other: f32| {
+        let narrower = this < 3.0 && this < other;
+        if partitioning == Partitioning::FractionalOdd && narrower { other.min(3.0) } else { this }
+    };
+    (widened(u, v), widened(v, u))
+}
+
+/// The unrounded inside factor from cleaned outer factors, none of them NaN, and a scale.
+fn inside(partitioning: Partitioning, reduction: Reduction, outer: &[f32], scale: f32) -> f32 {
+    // Infinity times zero is NaN, which the clamp takes to the low end.
+    let scaled = clamp(reduce(reduction, outer) * clean_scale(scale), partitioning.range());
+    if partitioning != Partitioning::FractionalOdd || scaled >= 3.0 {
+        return scaled;
+    }
+    // The picture frame rule.
+    match reduction {
+        Reduction::Max => reduce(Reduction::Max, outer).min(3.0),
+        Reduction::Min | Reduction::Average => reduce(Reduction::Average, outer).min(3.0),
+    }
+}
+
+fn reduce(reduction: Reduction, factors: &[f32]) -> f32 {
+    let [first, rest @ ..] = factors else { return 0.0 }; // patches have outer factors
+    let rest = rest.iter().copied();
+    match reduction {
+        Reduction::Min => rest.fold(*first, f32::min),
+        Reduction::Max => rest.fold(*first, f32::max),
+        Reduction::Average => {
+            let (sum, count) = rest.fold((*first, 1.0), |(sum, n), factor| (sum + factor, n + 1.0));
+            sum / count
+        }
+    }
+}
+
+/// Outer factors below 1 count as 1.
+fn clean(factor: f32) -> f32 {
+    if factor < 1.0 { 1.0 } else { factor }
+}
+
+/// Scales are at least 0, which NaN counts as, and at most 1.
+fn clean_scale(scale: f32) -> f32 {
+    if scale > 1.0 {
+        1.0
+    } else if scale >= 0.0 {
+        scale
+    } else {
+        0.0
+    }
+}
+
+fn round_outer(partitioning: Partitioning, factor: f32) -> f32 {
+    clamp(round_up(partitioning, factor), partitioning.range())
+}
+
+/// Rounds a factor of at least 1 up to what the partitioning can show.
+fn round_up(partitioning: Partitioning, factor: f32) -> f32 {
+    match partitioning {
+        Partitioning::Integer => ceil(factor),
+        Partitioning::Pow2 => next_power_of_two(factor),
+        Partitioning::FractionalOdd | Partitioning::FractionalEven => factor,
+    }
+}

@@ -1,0 +1,50 @@
+//! The order in which points join a half edge (spec sections 7.2 and 10).
+
+use crate::state::SplitOrder;
+
+/// Ruler order: a half edge of `h` points has those positions `k` with `RULER[k] < h`.
+const RULER: [u8; 33] = [
+    0, 32, 16, 8, 17, 4, 18, 9, 19, 2, 20, 10, 21, 5, 22, 11, 23, //
+    1, 24, 12, 25, 6, 26, 13, 27, 3, 28, 14, 29, 7, 30, 15, 31,
+];
+
+/// The rank at which position `k` (0..=32) of a half edge receives its point.
+///
+/// # Panics
+/// For `k` above 32; stitches ask for 1..=32.
+#[must_use]
+pub const fn rank(split: SplitOrder, k: u32) -> u32 {
+    match split {
+        SplitOrder::Ruler => RULER[k as usize] as u32,
+        SplitOrder::Center => k,
+    }
+}
+
+/// Whether a half edge of `half` points has a point at position `k` in 1..=32.
+#[must_use]
+pub const fn has_point(split: SplitOrder, k: u32, half: u32) -> bool {
+    rank(split, k) < half
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Position 0 aside, the table is a breadth-first walk of a balanced binary tree.
+    #[test]
+    fn ruler_is_breadth_first_order() {
+        let mut expected = [0u32; 33];
+        let mut next = 1;
+        for level in 0..5 {
+            let step = 32 >> level;
+            for node in 0..(1 << level) {
+                expected[step / 2 + 1 + node * step] = next;
+                next += 1;
+            }
+        }
+        expected[1] = 32;
+        for (k, &rank_expected) in (0..).zip(&expected) {
+            assert_eq!(rank(SplitOrder::Ruler, k), rank_expected, "position {k}");
+        }
+    }
+}

@@ -1,0 +1,1 @@
+//! Bit-exact tessellation in WGSL compute shaders.

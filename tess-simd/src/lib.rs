@@ -1,0 +1,1 @@
+//! Bit-exact batch tessellation on CPUs.

@@ -1,0 +1,86 @@
+//! What a comparison needs from an implementation, stage by stage.
+
+use std::error::Error;
+use std::fmt;
+use tess_core::{
+    Config, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors, SplitOrder,
+    Tessellation,
+};
+
+/// An implementation of the specification under test.
+///
+/// Every method takes a batch, in any number, zero included, and answers in the same order.
+pub trait Backend {
+    /// Its name, as `--backend` takes it: `core`, `simd` or `gpu`.
+    fn name(&self) -> &'static str;
+
+    /// What it runs on here: a CPU level or the name of an adapter.
+    fn device(&self) -> String;
+
+    /// Whole patches, all of one domain.
+    ///
+    /// # Errors
+    /// [`BackendError`] if the implementation could not run; never for any factor.
+    fn tessellate(
+        &mut self,
+        config: Config,
+        patches: &[PatchFactors],
+    ) -> Result<Vec<Tessellation>, BackendError>;
+
+    /// Factor processing (spec section 3) alone: for each value `x` the fixed-point u = 0 and
+    /// inside factors of the triangle patch (x, 3, 3; x), as `golden/factor.csv` has them.
+    ///
+    /// # Errors
+    /// As for [`Backend::tessellate`].
+    fn fixed_factors(
+        &mut self,
+        partitioning: Partitioning,
+        values: &[f32],
+    ) -> Result<Vec<[FixedFactor; 2]>, BackendError>;
+
+    /// Contexts (spec section 4) of fixed-point factors in range.
+    ///
+    /// # Errors
+    /// As for [`Backend::tessellate`].
+    fn contexts(
+        &mut self,
+        split: SplitOrder,
+        parity: Parity,
+        factors: &[FixedFactor],
+    ) -> Result<Vec<FactorContext>, BackendError>;
+
+    /// The 16.16 locations (spec section 5) of all points of each context, one after another.
+    ///
+    /// # Errors
+    /// As for [`Backend::tessellate`].
+    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError>;
+}
+
+/// An implementation could not run: no adapter, no such CPU level, a device lost.
+#[derive(Debug)]
+pub struct BackendError {
+    /// What happened and what would help.
+    pub message: String,
+    /// The error underneath, if there is one.
+    pub source: Option<Box<dyn Error + Send + Sync>>,
+}
+
+impl BackendError {
+    /// An error with no other underneath.
+    #[must_use]
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), source: None }
+    }
+}
+
+impl fmt::Display for BackendError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl Error for BackendError {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        self.source.as_deref().map(|source| source as _)
+    }
+}

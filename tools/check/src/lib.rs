@@ -1,0 +1,3 @@
+//! The test kit: what every test, fuzz target, bench and the program `tess` compare with.
+
+pub mod backend;

@@ -1,0 +1,2 @@
+//! The program `tess`.
+fn main() {}
