@@ -1,0 +1,26 @@
+//! What continuous integration runs, in the order of what fails fastest.
+
+use crate::command::{self, cargo};
+use crate::test;
+
+/// Formatting, lints, documentation, features, the `no_std` proof, then every test.
+pub(crate) fn run() -> Result<(), String> {
+    command::run(&mut cargo("fmt --all --check"))?;
+    command::run(
+        cargo("clippy --workspace --all-targets --all-features").args(["--", "-D", "warnings"]),
+    )?;
+    command::run(
+        cargo("doc --workspace --no-deps --all-features").env("RUSTDOCFLAGS", "-D warnings"),
+    )?;
+    for features in FEATURE_SETS {
+        command::run(&mut cargo(features))?;
+    }
+    test::run()
+}
+
+/// Libraries also build without their default features.
+const FEATURE_SETS: &[&str] = &[
+    "check --package tess-core --no-default-features",
+    "check --package tess-simd --no-default-features",
+    "check --package tess-gpu",
+];
