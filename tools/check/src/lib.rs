@@ -1,3 +1,6 @@
 //! The test kit: what every test, fuzz target, bench and the program `tess` compare with.
 
 pub mod backend;
+pub mod digest;
+pub mod random;
+pub mod workloads;
