@@ -1,2 +1,7 @@
 //! The program `tess`.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    tess_cli::main()
+}

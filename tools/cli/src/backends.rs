@@ -1,0 +1,49 @@
+//! Who tessellates: the backends that this build has, chosen by `--backend`.
+//!
+//! One adapter per backend, each an implementation of [`Backend`].
+
+pub mod core;
+
+use crate::failure::Failure;
+use clap::ValueEnum;
+use tess_check::backend::Backend;
+
+/// The names that `--backend` takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BackendName {
+    /// The golden model
+    Core,
+    /// Batches on the CPU, 8 patches per vector
+    Simd,
+    /// Compute shaders
+    Gpu,
+}
+
+/// The options that choose a backend.
+#[derive(Clone, Debug, clap::Args)]
+pub struct BackendArgs {
+    /// Implementation to run
+    #[arg(long, value_name = "NAME", default_value = "core")]
+    pub backend: BackendName,
+}
+
+impl BackendArgs {
+    /// Makes the chosen backend ready.
+    ///
+    /// # Errors
+    /// Exit code 3 if this build or this machine does not have it, with the next step.
+    pub fn select(&self) -> Result<Box<dyn Backend>, Failure> {
+        match self.backend {
+            BackendName::Core => Ok(Box::new(core::Core)),
+            BackendName::Simd => Err(not_built_in("simd")),
+            BackendName::Gpu => Err(not_built_in("gpu")),
+        }
+    }
+}
+
+fn not_built_in(name: &str) -> Failure {
+    Failure::unavailable(format!(
+        "this build of tess has no {name} backend; use --backend core, \
+         or a build that has it (`tess --help` lists nothing more)"
+    ))
+}

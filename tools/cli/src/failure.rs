@@ -1,0 +1,78 @@
+//! How a command ends: exit codes and the one error type.
+
+use std::error::Error;
+use std::fmt;
+use std::path::Path;
+use std::process::ExitCode;
+use tess_check::backend::BackendError;
+
+/// The exit codes of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Done, or everything compared equal.
+    Done = 0,
+    /// Something compared different.
+    Different = 1,
+    /// Bad usage, or malformed, short or empty input.
+    BadInput = 2,
+    /// The backend is not available here.
+    Unavailable = 3,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// Why a command could not do what it was asked for.
+///
+/// The message says what was wrong, where, and what would be right.
+#[derive(Debug)]
+pub struct Failure {
+    /// The code to exit with.
+    pub exit: Exit,
+    /// The message, without a trailing newline.
+    pub message: String,
+}
+
+impl Failure {
+    /// Bad usage or bad input: exit code 2.
+    #[must_use]
+    pub fn bad_input(message: impl Into<String>) -> Self {
+        Self { exit: Exit::BadInput, message: message.into() }
+    }
+
+    /// A backend that is not built in or cannot run here: exit code 3.
+    #[must_use]
+    pub fn unavailable(message: impl Into<String>) -> Self {
+        Self { exit: Exit::Unavailable, message: message.into() }
+    }
+
+    /// A file that could not be read or written: exit code 2.
+    #[must_use]
+    pub fn file(action: &str, path: &Path, error: &dyn Error) -> Self {
+        Self::bad_input(format!("cannot {action} {}: {error}", path.display()))
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.message)
+    }
+}
+
+impl Error for Failure {}
+
+/// A backend that failed while it ran did not deliver: exit code 3, with every cause.
+impl From<BackendError> for Failure {
+    fn from(error: BackendError) -> Self {
+        let mut message = error.to_string();
+        let mut cause = error.source();
+        while let Some(error) = cause {
+            message.push_str(&format!("\n  because: {error}"));
+            cause = error.source();
+        }
+        Self::unavailable(message)
+    }
+}

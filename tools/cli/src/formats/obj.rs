@@ -1,0 +1,20 @@
+//! A Wavefront OBJ file of the flat patch: x = u, y = v, z = 0.
+
+use super::OnePatch;
+use crate::args::command_line;
+use std::fmt::Write;
+
+pub(super) fn render(patch: &OnePatch) -> String {
+    let mut text = format!("# {}\n", command_line(patch.config, &patch.factors));
+    for point in &patch.result.points {
+        let [u, v] = point.to_f32();
+        // Writing to a String does not fail. 16.16 numbers are exact in 16 decimals.
+        _ = writeln!(text, "v {u} {v} 0");
+    }
+    let element = ["p", "l", "f"][patch.primitive_size() - 1];
+    for primitive in patch.primitives() {
+        let indices: Vec<_> = primitive.iter().map(|index| (index + 1).to_string()).collect();
+        _ = writeln!(text, "{element} {}", indices.join(" "));
+    }
+    text
+}

@@ -1,0 +1,108 @@
+//! Where results go: stdout, or a file that is there whole or not at all.
+
+use crate::failure::Failure;
+use std::fs;
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+/// The `-o` option.
+#[derive(Clone, Debug, clap::Args)]
+pub struct OutputArgs {
+    /// File to write; - is stdout
+    #[arg(short = 'o', long = "out", value_name = "FILE", default_value = "-")]
+    pub file: PathBuf,
+}
+
+impl OutputArgs {
+    /// Writes `content` to stdout or to the file.
+    ///
+    /// # Errors
+    /// The place cannot be written; a file that was there is then as it was.
+    pub fn write(&self, content: &[u8]) -> Result<(), Failure> {
+        let path = &self.file;
+        let written =
+            if path.as_os_str() == "-" { write_stdout(content) } else { write_file(path, content) };
+        written.map_err(|error| Failure::file("write", path, &error))
+    }
+}
+
+fn write_stdout(content: &[u8]) -> io::Result<()> {
+    let mut out = stdout();
+    out.write_all(content)?;
+    out.flush()
+}
+
+/// Writes a sibling first, then renames it. What is not a regular file is written directly.
+fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
+    if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+        return fs::write(path, content);
+    }
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.partial", std::process::id()));
+    let partial = path.with_file_name(name);
+    let written = fs::write(&partial, content).and_then(|()| fs::rename(&partial, path));
+    if written.is_err() {
+        // It may never have been created; the first error is the one to report.
+        _ = fs::remove_file(&partial);
+    }
+    written
+}
+
+/// Stdout, buffered, that stays quiet when its reader leaves.
+#[must_use]
+pub fn stdout() -> BufWriter<UntilClosed<io::StdoutLock<'static>>> {
+    BufWriter::new(UntilClosed { inner: io::stdout().lock(), closed: false })
+}
+
+/// A writer that drops what comes after its reader has closed the pipe, so that a command still
+/// ends with the exit code that it came to.
+#[derive(Debug)]
+pub struct UntilClosed<W> {
+    inner: W,
+    closed: bool,
+}
+
+impl<W> UntilClosed<W> {
+    /// Whether the reader has left; a command with much still to say may stop then.
+    pub const fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    fn note<T>(&mut self, result: io::Result<T>, if_closed: T) -> io::Result<T> {
+        match result {
+            Err(error) if error.kind() == ErrorKind::BrokenPipe => {
+                self.closed = true;
+                Ok(if_closed)
+            }
+            other => other,
+        }
+    }
+}
+
+impl<W: Write> Write for UntilClosed<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.closed {
+            return Ok(bytes.len());
+        }
+        let result = self.inner.write(bytes);
+        self.note(result, bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        if self.closed {
+            return Ok(());
+        }
+        let result = self.inner.flush();
+        self.note(result, ())
+    }
+}
+
+/// A document as indented JSON with a newline at its end.
+///
+/// # Panics
+/// If the document has a map whose keys are not text; none of this program's has.
+pub fn json(document: &impl serde::Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(document).expect("keys are text");
+    text.push('\n');
+    text
+}
