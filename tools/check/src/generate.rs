@@ -1,0 +1,161 @@
+//! Test vectors in three levels: same arguments, same cases, in the same order.
+//!
+//! - Level 1: every boundary once: small enough for a simulation, and it hits every coverage bin.
+//! - Level 2: every boundary in every position, every pair of counts, and random cases.
+//! - Level 3: random cases, as many as asked for.
+
+mod boundaries;
+mod levels;
+
+pub use boundaries::{boundary_factors, exceptional_factors, special_factors};
+
+use crate::case::Case;
+use crate::random::SplitMix64;
+use tess_core::{
+    Config, Domain, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
+    SplitOrder, TriangleFactors,
+};
+
+/// How much is generated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Every boundary once.
+    One,
+    /// Every boundary in every position, every pair of counts.
+    Two,
+    /// Random.
+    Three,
+}
+
+/// One of `of` disjoint parts that together are everything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shard {
+    /// Number of this part, less than `of`.
+    pub part: u64,
+    /// Number of parts, at least 1.
+    pub of: u64,
+}
+
+impl Shard {
+    /// Everything in one part.
+    pub const WHOLE: Self = Self { part: 0, of: 1 };
+
+    /// Whether item `i` belongs to this part.
+    #[must_use]
+    pub const fn has(&self, i: u64) -> bool {
+        i % self.of == self.part
+    }
+}
+
+/// What to generate.
+#[derive(Clone, Copy, Debug)]
+pub struct Selection {
+    /// How much.
+    pub level: Level,
+    /// Seed of everything random.
+    pub seed: u64,
+    /// Number of random cases; `None` for the level's own number.
+    pub random: Option<u64>,
+    /// One domain only.
+    pub domain: Option<Domain>,
+    /// One partitioning only.
+    pub partitioning: Option<Partitioning>,
+}
+
+impl Selection {
+    /// A level with its own number of random cases, of every domain and partitioning.
+    #[must_use]
+    pub const fn level(level: Level, seed: u64) -> Self {
+        Self { level, seed, random: None, domain: None, partitioning: None }
+    }
+
+    /// The cases, in order.
+    pub fn cases(self) -> impl Iterator<Item = Case> {
+        let systematic = match self.level {
+            Level::One => levels::one(),
+            Level::Two => levels::two(),
+            Level::Three => Vec::new(),
+        };
+        systematic.into_iter().filter(move |case| self.selects(case)).chain(self.random_cases())
+    }
+
+    fn random_cases(self) -> impl Iterator<Item = Case> {
+        let count = self.random.unwrap_or(match self.level {
+            Level::One => 500,
+            Level::Two => 20_000,
+            Level::Three => 1_000_000,
+        });
+        let mut random = SplitMix64::new(self.seed);
+        let domains = self.domain.map_or(Domain::ALL.to_vec(), |domain| vec![domain]);
+        let partitionings =
+            self.partitioning.map_or(Partitioning::ALL.to_vec(), |partitioning| vec![partitioning]);
+        (0..count).map(move |_| {
+            let config = Config {
+                partitioning: pick(&mut random, &partitionings),
+                output: pick(&mut random, &OutputPrimitive::ALL),
+                split: pick(&mut random, &SplitOrder::ALL),
+            };
+            let domain = pick(&mut random, &domains);
+            let factors = patch_of(domain, |_| random_factor(&mut random));
+            Case { config, factors }
+        })
+    }
+
+    fn selects(&self, case: &Case) -> bool {
+        self.domain.is_none_or(|domain| domain == case.factors.domain())
+            && self.partitioning.is_none_or(|p| p == case.config.partitioning)
+    }
+}
+
+/// A patch from its factors by position, in the order of spec section 1: outer, then inside.
+pub fn patch_of(domain: Domain, mut factor: impl FnMut(usize) -> f32) -> PatchFactors {
+    match domain {
+        Domain::Isoline => {
+            let [density, detail] = [0, 1].map(factor);
+            PatchFactors::Isoline(IsolineFactors { density, detail })
+        }
+        Domain::Triangle => {
+            let [u0, v0, w0, inside] = [0, 1, 2, 3].map(factor);
+            PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside })
+        }
+        Domain::Quad => {
+            let [u0, v0, u1, v1, inside_u, inside_v] = [0, 1, 2, 3, 4, 5].map(&mut factor);
+            PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
+        }
+    }
+}
+
+fn pick<T: Copy>(random: &mut SplitMix64, from: &[T]) -> T {
+    from[random.below(u32::try_from(from.len()).unwrap_or(u32::MAX)) as usize]
+}
+
+/// A factor drawn from what finds faults: anywhere in range, small, at and near integers and
+/// halves, special, and any bits at all.
+#[must_use]
+pub fn random_factor(random: &mut SplitMix64) -> f32 {
+    match random.below(20) {
+        0..8 => from_fixed(random.below(0x40_0000 - 0x1_0000) + 0x1_0000),
+        8..12 => from_fixed(random.below(0x7_0000) + 0x1_0000),
+        12..15 => from_fixed((random.below(64) + 1) << 16),
+        15..17 => {
+            let near = from_fixed((random.below(128) + 1) << 15);
+            let ulps = random.below(1 << random.below(12));
+            f32::from_bits(near.to_bits().wrapping_add(ulps).wrapping_sub(ulps / 2))
+        }
+        17 => pick(random, &exceptional_factors()),
+        18 => pick(random, &special_factors()),
+        _ => f32::from_bits(random.next_u32()),
+    }
+}
+
+/// The binary32 with this 15.16 value, exact for values below 2^24.
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::float_arithmetic,
+    reason = "exact: at most 24 significant bits, scaled by a power of two"
+)]
+#[must_use]
+pub fn from_fixed(bits: u32) -> f32 {
+    debug_assert!(bits < 1 << 24, "24 bits fit a binary32 mantissa");
+    bits as f32 / 65536.0
+}

@@ -1,0 +1,130 @@
+//! The names that vector files and the command line use.
+
+use std::fmt;
+use tess_core::prepare::{QuadAxes, Reduction};
+use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
+
+/// A choice whose values have names.
+pub trait Named: Copy + PartialEq + 'static {
+    /// What is chosen, such as `domain`.
+    const WHAT: &'static str;
+    /// Every value with its name, in the order of the specification.
+    const NAMES: &'static [(&'static str, Self)];
+
+    /// The name of a value.
+    #[must_use]
+    fn name(self) -> &'static str {
+        Self::NAMES.iter().find(|(_, value)| *value == self).map_or("", |(name, _)| name)
+    }
+
+    /// The value of a name.
+    ///
+    /// # Errors
+    /// [`UnknownName`], which lists the names there are.
+    fn from_name(name: &str) -> Result<Self, UnknownName> {
+        let found = Self::NAMES.iter().find(|(known, _)| *known == name);
+        found.map(|(_, value)| *value).ok_or_else(|| UnknownName {
+            what: Self::WHAT,
+            name: name.into(),
+            known: Self::NAMES.iter().map(|(known, _)| *known).collect(),
+        })
+    }
+}
+
+/// A name that stands for nothing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownName {
+    /// What was to be chosen.
+    pub what: &'static str,
+    /// The name.
+    pub name: String,
+    /// The names there are.
+    pub known: Vec<&'static str>,
+}
+
+impl fmt::Display for UnknownName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let known = self.known.join(", ");
+        write!(f, "unknown {} `{}`, expected one of: {known}", self.what, self.name)
+    }
+}
+
+impl std::error::Error for UnknownName {}
+
+impl Named for Domain {
+    const WHAT: &'static str = "domain";
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("isoline", Self::Isoline), ("tri", Self::Triangle), ("quad", Self::Quad)];
+}
+
+impl Named for Partitioning {
+    const WHAT: &'static str = "partitioning";
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("integer", Self::Integer),
+        ("pow2", Self::Pow2),
+        ("fractional_odd", Self::FractionalOdd),
+        ("fractional_even", Self::FractionalEven),
+    ];
+}
+
+impl Named for OutputPrimitive {
+    const WHAT: &'static str = "output primitive";
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("point", Self::Point),
+        ("line", Self::Line),
+        ("triangle_cw", Self::TriangleCw),
+        ("triangle_ccw", Self::TriangleCcw),
+    ];
+}
+
+impl Named for SplitOrder {
+    const WHAT: &'static str = "split order";
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("ruler", Self::Ruler), ("center", Self::Center)];
+}
+
+impl Named for Parity {
+    const WHAT: &'static str = "parity";
+    const NAMES: &'static [(&'static str, Self)] = &[("even", Self::Even), ("odd", Self::Odd)];
+}
+
+impl Named for Reduction {
+    const WHAT: &'static str = "reduction";
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("min", Self::Min), ("max", Self::Max), ("average", Self::Average)];
+}
+
+impl Named for QuadAxes {
+    const WHAT: &'static str = "axis";
+    const NAMES: &'static [(&'static str, Self)] = &[("1", Self::One), ("2", Self::Two)];
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn round_trip<T: Named + fmt::Debug>() {
+        assert!(!T::NAMES.is_empty(), "{} has names", T::WHAT);
+        for &(name, value) in T::NAMES {
+            assert_eq!(T::from_name(name).ok(), Some(value), "{name}");
+            assert_eq!(value.name(), name, "{value:?}");
+        }
+    }
+
+    #[test]
+    fn names_and_values_correspond() {
+        round_trip::<Domain>();
+        round_trip::<Partitioning>();
+        round_trip::<OutputPrimitive>();
+        round_trip::<SplitOrder>();
+        round_trip::<Parity>();
+        round_trip::<Reduction>();
+        round_trip::<QuadAxes>();
+    }
+
+    #[test]
+    fn unknown_names_say_what_would_be_right() {
+        let error = SplitOrder::from_name("Ruler").expect_err("case matters").to_string();
+        assert_eq!(error, "unknown split order `Ruler`, expected one of: ruler, center");
+    }
+}
