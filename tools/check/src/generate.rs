@@ -139,7 +139,8 @@ pub fn random_factor(random: &mut SplitMix64) -> f32 {
         12..15 => from_fixed((random.below(64) + 1) << 16),
         15..17 => {
             let near = from_fixed((random.below(128) + 1) << 15);
-            let ulps = random.below(1 << random.below(12));
+            let reach = 1 << random.below(12);
+            let ulps = random.below(reach);
             f32::from_bits(near.to_bits().wrapping_add(ulps).wrapping_sub(ulps / 2))
         }
         17 => pick(random, &exceptional_factors()),

@@ -2,7 +2,11 @@
 
 pub mod backend;
 pub mod case;
+pub mod coverage;
 pub mod digest;
+pub mod generate;
 pub mod names;
 pub mod random;
+pub mod sequences;
+pub mod vectors;
 pub mod workloads;

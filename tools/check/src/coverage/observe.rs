@@ -41,11 +41,7 @@ fn culled(case: &Case, hit: &mut impl FnMut(String)) {
 }
 
 /// What spec sections 3 to 5 do with each factor.
-fn processing(
-    case: &Case,
-    factors: &PatchFactors<ProcessedFactor>,
-    hit: &mut impl FnMut(String),
-) {
+fn processing(case: &Case, factors: &PatchFactors<ProcessedFactor>, hit: &mut impl FnMut(String)) {
     let domain = case.domain();
     let raw = factor_list(&case.factors);
     for (i, (raw, factor)) in raw.iter().copied().zip(factor_list(factors)).enumerate() {

@@ -25,7 +25,7 @@ pub(super) fn one() -> Vec<Case> {
         all_equal(&mut cases, domain, partitioning);
     }
     transitions(&mut cases);
-    interiors(&mut cases, |u, v| (u.max(v) <= 9) || [u, v].iter().all(|n| *n % 15 < 3));
+    interiors(&mut cases, |u, v| u == v || u.max(v) <= 9 || (u % 15 < 3 && v % 15 < 3));
     every_configuration(&mut cases);
     cases
 }
@@ -59,7 +59,7 @@ fn config(partitioning: Partitioning, turn: usize) -> Config {
         2 => OutputPrimitive::Line,
         _ => OutputPrimitive::Point,
     };
-    let split = if turn / 4 % 2 == 0 { SplitOrder::Ruler } else { SplitOrder::Center };
+    let split = if (turn / 4).is_multiple_of(2) { SplitOrder::Ruler } else { SplitOrder::Center };
     Config { partitioning, output, split }
 }
 
