@@ -1,67 +1,55 @@
 //! A patch on the command line: domain, factors and configuration.
 
 use crate::failure::Failure;
-use crate::names::{self, Named};
-use clap::builder::ValueParser;
-use tess_core::{
-    Config, Domain, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
-    SplitOrder, TriangleFactors,
-};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use tess_check::case::{Case, factors_from_list, outer_count};
+use tess_check::names::Named;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
 /// The arguments that describe one patch.
 #[derive(Clone, Debug, clap::Args)]
 pub struct PatchArgs {
     /// Domain of the patch
-    #[arg(value_parser = names::parser::<Domain>())]
+    #[arg(value_parser = name_of::<Domain>())]
     pub domain: Domain,
     /// Outer factors: density,detail (isoline); U=0,V=0,W=0 (tri); U=0,V=0,U=1,V=1 (quad)
     ///
     /// Each decimal (nan, inf and -0 too), or the bits of a binary32 such as 0x40490fdb.
     #[arg(long, value_name = "F,F,..", value_delimiter = ',', allow_hyphen_values = true)]
-    #[arg(required = true, value_parser = ValueParser::new(factor))]
+    #[arg(required = true, value_parser = factor)]
     pub outer: Vec<f32>,
     /// Inside factors: one (tri); along U, along V (quad); none (isoline)
     #[arg(long, value_name = "F,F,..", value_delimiter = ',', allow_hyphen_values = true)]
-    #[arg(value_parser = ValueParser::new(factor))]
+    #[arg(value_parser = factor)]
     pub inner: Vec<f32>,
     /// Spacing of the cuts
     #[arg(long, value_name = "NAME", default_value = "integer")]
-    #[arg(value_parser = names::parser::<Partitioning>())]
+    #[arg(value_parser = name_of::<Partitioning>())]
     pub partitioning: Partitioning,
     /// What the indices describe
     #[arg(long, value_name = "NAME", default_value = "triangle_cw")]
-    #[arg(value_parser = names::parser::<OutputPrimitive>())]
+    #[arg(value_parser = name_of::<OutputPrimitive>())]
     pub output: OutputPrimitive,
     /// Order in which points join an edge
     #[arg(long, value_name = "NAME", default_value = "ruler")]
-    #[arg(value_parser = names::parser::<SplitOrder>())]
+    #[arg(value_parser = name_of::<SplitOrder>())]
     pub split: SplitOrder,
 }
 
 impl PatchArgs {
-    /// The configuration.
-    #[must_use]
-    pub const fn config(&self) -> Config {
-        Config { partitioning: self.partitioning, output: self.output, split: self.split }
-    }
-
-    /// The raw factors.
+    /// The patch: its configuration and raw factors.
     ///
     /// # Errors
     /// The numbers of outer and inside factors are not those of the domain.
-    pub fn factors(&self) -> Result<PatchFactors, Failure> {
-        match (self.domain, &self.outer[..], &self.inner[..]) {
-            (Domain::Isoline, &[density, detail], []) => {
-                Ok(PatchFactors::Isoline(IsolineFactors { density, detail }))
-            }
-            (Domain::Triangle, &[u0, v0, w0], &[inside]) => {
-                Ok(PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside }))
-            }
-            (Domain::Quad, &[u0, v0, u1, v1], &[inside_u, inside_v]) => {
-                Ok(PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }))
-            }
-            _ => Err(self.wrong_count()),
+    pub fn case(&self) -> Result<Case, Failure> {
+        let config =
+            Config { partitioning: self.partitioning, output: self.output, split: self.split };
+        if self.outer.len() != outer_count(self.domain) {
+            return Err(self.wrong_count());
         }
+        let all = [&self.outer[..], &self.inner].concat();
+        let factors = factors_from_list(self.domain, &all).ok_or_else(|| self.wrong_count())?;
+        Ok(Case { config, factors })
     }
 
     fn wrong_count(&self) -> Failure {
@@ -79,6 +67,12 @@ impl PatchArgs {
     }
 }
 
+/// A parser of command-line values that takes the names of `T` and lists them in help and errors.
+fn name_of<T: Named + Send + Sync>() -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(T::NAMES.iter().map(|(name, _)| *name))
+        .try_map(|name| T::from_name(&name))
+}
+
 /// A factor: decimal as Rust reads it (nan, inf, -0, 1e3), or `0x` and the bits of a binary32.
 fn factor(text: &str) -> Result<f32, String> {
     let text = text.trim();
@@ -91,34 +85,6 @@ fn factor(text: &str) -> Result<f32, String> {
     parsed.ok_or_else(|| {
         "a factor is a decimal number, nan, inf, or up to 8 hex digits after 0x".to_owned()
     })
-}
-
-/// The command that tessellates this patch again, to the bit.
-#[must_use]
-pub fn command_line(config: Config, factors: &PatchFactors) -> String {
-    let list = |factors: &[f32]| {
-        let bits: Vec<_> = factors.iter().map(|f| format!("0x{:08x}", f.to_bits())).collect();
-        bits.join(",")
-    };
-    let (outer, inner) = outer_and_inner(factors);
-    let mut line = format!("tess patch {} --outer {}", factors.domain().name(), list(&outer));
-    if !inner.is_empty() {
-        line.push_str(&format!(" --inner {}", list(&inner)));
-    }
-    let (partitioning, output) = (config.partitioning.name(), config.output.name());
-    line.push_str(&format!(" --partitioning {partitioning} --output {output}"));
-    line.push_str(&format!(" --split {}", config.split.name()));
-    line
-}
-
-/// Outer and inside factors, in the order of the specification.
-#[must_use]
-pub fn outer_and_inner<T: Copy>(factors: &PatchFactors<T>) -> (Vec<T>, Vec<T>) {
-    match factors {
-        PatchFactors::Isoline(factors) => (vec![factors.density, factors.detail], vec![]),
-        PatchFactors::Triangle(factors) => (factors.outer().to_vec(), vec![factors.inside]),
-        PatchFactors::Quad(factors) => (factors.outer().to_vec(), factors.inside().to_vec()),
-    }
 }
 
 #[cfg(test)]

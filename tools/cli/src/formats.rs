@@ -8,7 +8,8 @@ mod obj;
 use crate::failure::Failure;
 use clap::ValueEnum;
 use tess_check::backend::Backend;
-use tess_core::{Config, Domain, OutputPrimitive, PatchFactors, Tessellation};
+use tess_check::case::Case;
+use tess_core::{Domain, OutputPrimitive, Tessellation};
 
 /// The forms of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -26,10 +27,8 @@ pub enum Format {
 /// A patch as some backend tessellated it.
 #[derive(Clone, Debug)]
 pub struct OnePatch {
-    /// How it was tessellated.
-    pub config: Config,
-    /// Its raw factors.
-    pub factors: PatchFactors,
+    /// Its configuration and raw factors.
+    pub case: Case,
     /// The result.
     pub result: Tessellation,
     /// Name of the backend.
@@ -41,15 +40,11 @@ impl OnePatch {
     ///
     /// # Errors
     /// The backend could not run, or returned another number of patches than one.
-    pub fn tessellate(
-        backend: &mut dyn Backend,
-        config: Config,
-        factors: PatchFactors,
-    ) -> Result<Self, Failure> {
-        let mut results = backend.tessellate(config, &[factors])?;
+    pub fn tessellate(backend: &mut dyn Backend, case: Case) -> Result<Self, Failure> {
+        let mut results = backend.tessellate(case.config, &[case.factors])?;
         let name = backend.name();
         match (results.pop(), results.is_empty()) {
-            (Some(result), true) => Ok(Self { config, factors, result, backend: name }),
+            (Some(result), true) => Ok(Self { case, result, backend: name }),
             _ => Err(Failure::unavailable(format!("{name} did not return exactly one patch"))),
         }
     }
@@ -57,7 +52,7 @@ impl OnePatch {
     /// How many indices make a primitive: 1, 2 or 3.
     #[must_use]
     pub fn primitive_size(&self) -> usize {
-        match (self.config.output, self.factors.domain()) {
+        match (self.case.config.output, self.case.domain()) {
             (OutputPrimitive::Point, _) => 1,
             (OutputPrimitive::Line, _) | (_, Domain::Isoline) => 2,
             (OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw, _) => 3,
@@ -83,12 +78,4 @@ impl Format {
             Self::Obj => obj::render(patch).into_bytes(),
         })
     }
-}
-
-/// Factors as vector files have them: the hex bits, separated by spaces.
-fn hex_factors(factors: &PatchFactors) -> String {
-    let (mut all, inner) = crate::args::outer_and_inner(factors);
-    all.extend(inner);
-    let bits: Vec<_> = all.iter().map(|factor| format!("{:08x}", factor.to_bits())).collect();
-    bits.join(" ")
 }

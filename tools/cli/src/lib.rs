@@ -7,9 +7,10 @@
 pub mod args;
 pub mod backends;
 pub mod check_command;
+pub mod explain;
+pub mod explain_command;
 pub mod failure;
 pub mod formats;
-pub mod names;
 pub mod output;
 pub mod patch_command;
 
@@ -37,6 +38,7 @@ Examples:
 #[derive(Debug, Subcommand)]
 enum Command {
     Patch(patch_command::Args),
+    Explain(explain_command::Args),
     Check(check_command::Args),
 }
 
@@ -57,6 +59,7 @@ pub fn main() -> ExitCode {
 fn run(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Patch(args) => patch_command::run(args),
+        Command::Explain(args) => explain_command::run(args),
         Command::Check(args) => check_command::run(args),
     }
 }

@@ -30,9 +30,9 @@ pub struct Args {
 /// # Errors
 /// Wrong number of factors, a backend that is not available, an output that cannot be written.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
-    let (config, factors) = (args.patch.config(), args.patch.factors()?);
+    let case = args.patch.case()?;
     let mut backend = args.backend.select()?;
-    let patch = OnePatch::tessellate(backend.as_mut(), config, factors)?;
+    let patch = OnePatch::tessellate(backend.as_mut(), case)?;
     args.output.write(&args.format.render(&patch)?)?;
     Ok(Exit::Done)
 }

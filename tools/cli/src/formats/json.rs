@@ -1,9 +1,9 @@
 //! Everything about one patch as JSON.
 
 use super::OnePatch;
-use crate::args::outer_and_inner;
-use crate::names::Named;
 use serde::Serialize;
+use tess_check::case::{factor_list, factor_names};
+use tess_check::names::Named;
 
 #[derive(Serialize)]
 struct Document<'a> {
@@ -12,8 +12,7 @@ struct Document<'a> {
     output: &'a str,
     split: &'a str,
     backend: &'a str,
-    outer: Vec<Factor>,
-    inner: Vec<Factor>,
+    factors: Vec<Factor>,
     points: Vec<Point>,
     primitives: Vec<&'a [u32]>,
 }
@@ -21,6 +20,7 @@ struct Document<'a> {
 /// NaN and infinities are no JSON numbers: their `value` is null, `bits` has them.
 #[derive(Serialize)]
 struct Factor {
+    name: &'static str,
     bits: String,
     value: f32,
 }
@@ -35,19 +35,16 @@ struct Point {
 }
 
 pub(super) fn render(patch: &OnePatch) -> String {
-    let (outer, inner) = outer_and_inner(&patch.factors);
-    let factors = |list: Vec<f32>| {
-        let factor = |value: f32| Factor { bits: format!("0x{:08x}", value.to_bits()), value };
-        list.into_iter().map(factor).collect()
-    };
+    let case = patch.case;
+    let named = factor_names(case.domain()).iter().zip(factor_list(&case.factors));
+    let factor = |(name, value): (&&'static str, f32)| Factor { name, bits: hex(value), value };
     let document = Document {
-        domain: patch.factors.domain().name(),
-        partitioning: patch.config.partitioning.name(),
-        output: patch.config.output.name(),
-        split: patch.config.split.name(),
+        domain: case.domain().name(),
+        partitioning: case.config.partitioning.name(),
+        output: case.config.output.name(),
+        split: case.config.split.name(),
         backend: patch.backend,
-        outer: factors(outer),
-        inner: factors(inner),
+        factors: named.map(factor).collect(),
         points: points(patch),
         primitives: patch.primitives().collect(),
     };
@@ -60,4 +57,8 @@ fn points(patch: &OnePatch) -> Vec<Point> {
         Point { u_bits: point.u.to_bits(), v_bits: point.v.to_bits(), u, v }
     };
     patch.result.points.iter().map(point).collect()
+}
+
+fn hex(factor: f32) -> String {
+    format!("0x{:08x}", factor.to_bits())
 }

@@ -1,7 +1,6 @@
 //! The listing form of `golden/cases.txt`.
 
-use super::{OnePatch, hex_factors};
-use crate::names::Named;
+use super::OnePatch;
 use std::fmt::Write;
 
 pub(super) fn render(patch: &OnePatch) -> String {
@@ -13,16 +12,9 @@ pub(super) fn render(patch: &OnePatch) -> String {
 
 /// One case, from `case` to `end`.
 fn push_case(text: &mut String, patch: &OnePatch) {
-    let (config, result) = (patch.config, &patch.result);
-    let words = [
-        patch.factors.domain().name(),
-        config.partitioning.name(),
-        config.output.name(),
-        config.split.name(),
-        &hex_factors(&patch.factors),
-    ];
+    let result = &patch.result;
     // Writing to a String does not fail.
-    _ = writeln!(text, "case {}", words.join(" "));
+    _ = writeln!(text, "{}", patch.case);
     _ = writeln!(text, "points {}", result.points.len());
     for point in &result.points {
         _ = writeln!(text, "{:05x} {:05x}", point.u.to_bits(), point.v.to_bits());

@@ -1,11 +1,10 @@
 //! A Wavefront OBJ file of the flat patch: x = u, y = v, z = 0.
 
 use super::OnePatch;
-use crate::args::command_line;
 use std::fmt::Write;
 
 pub(super) fn render(patch: &OnePatch) -> String {
-    let mut text = format!("# {}\n", command_line(patch.config, &patch.factors));
+    let mut text = format!("# {}\n", patch.case.command());
     for point in &patch.result.points {
         let [u, v] = point.to_f32();
         // Writing to a String does not fail. 16.16 numbers are exact in 16 decimals.
