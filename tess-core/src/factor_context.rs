@@ -53,12 +53,14 @@ impl FactorContext {
     }
 }
 
-/// What factor processing guarantees already; it makes every reciprocal below exist.
+/// What factor processing guarantees already; it makes every reciprocal below exist. Between the
+/// even factor 1, which acts as 2, and 2 itself there is none.
 const fn clamp_to_range(factor: FixedFactor, parity: Parity) -> FixedFactor {
+    let lowest = if factor.to_bits() <= ONE { ONE } else { (2 - parity.odd()) << 16 };
     let highest = (64 - parity.odd()) << 16;
     let bits = factor.to_bits();
-    FixedFactor::from_bits(if bits < ONE {
-        ONE
+    FixedFactor::from_bits(if bits < lowest {
+        lowest
     } else if bits > highest {
         highest
     } else {
@@ -96,5 +98,29 @@ const fn point_count(rounded_half: u32, parity: Parity) -> u32 {
     match parity {
         Parity::Odd => 2 * (ceil(HALF + rounded_half) >> 16),
         Parity::Even => 2 * (ceil(rounded_half) >> 16) + 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Factors that factor processing never makes have the context of the nearest that it makes.
+    #[test]
+    fn factors_out_of_range_count_as_the_nearest_end() {
+        let context = |bits, parity| {
+            FactorContext::new(FixedFactor::from_bits(bits), parity, SplitOrder::Ruler)
+        };
+        for bits in (0..2 * ONE).step_by(13) {
+            assert_eq!(context(bits, Parity::Even), context(2 * ONE, Parity::Even), "{bits:#x}");
+        }
+        for bits in (0..ONE).step_by(13) {
+            assert_eq!(context(bits, Parity::Odd), context(ONE, Parity::Odd), "{bits:#x}");
+        }
+        for (parity, highest) in [(Parity::Even, 64 * ONE), (Parity::Odd, 63 * ONE)] {
+            for bits in [highest + 1, highest + ONE, FixedFactor::MAX.to_bits()] {
+                assert_eq!(context(bits, parity), context(highest, parity), "{bits:#x}");
+            }
+        }
     }
 }
