@@ -1,0 +1,106 @@
+//! How closely another implementation is compared with the model (spec section 13).
+//!
+//! The model is exact; the public specification leaves some freedom to hardware. A comparison of a
+//! device's output therefore has a strength: which order, which elements, which conversions from
+//! floating point and which treatment of denormals count as equal.
+
+mod candidates;
+mod unordered;
+
+use crate::case::Case;
+use tess_core::Tessellation;
+
+pub use candidates::candidates;
+pub use unordered::Missing;
+
+/// Whether points and primitives must come in the model's order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// The model's order, index for index.
+    #[default]
+    Exact,
+    /// Any order, and any leading vertex of a triangle; its orientation counts.
+    Any,
+}
+
+/// What is compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Elements {
+    /// Points and the primitives made of them.
+    #[default]
+    Primitives,
+    /// The domain points alone; in any order, each distinct point once.
+    Points,
+}
+
+/// How factors may become fixed-point numbers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Conversion {
+    /// To the nearest, ties to even.
+    #[default]
+    Exact,
+    /// With an error of up to 0.6 units in the last place (D3D11.3 3.2.4.1).
+    Within06Ulp,
+}
+
+/// What happens to a positive denormal outer factor before the cull test.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Denormals {
+    /// It is greater than zero.
+    #[default]
+    Keep,
+    /// It may be flushed to zero, which culls the patch (D3D11.3 3.1.3).
+    Flush,
+}
+
+/// All four together. The default is the strictest: identical sequences.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Strength {
+    /// Order.
+    pub order: Order,
+    /// Elements.
+    pub elements: Elements,
+    /// Conversion.
+    pub conversion: Conversion,
+    /// Denormals.
+    pub denormals: Denormals,
+}
+
+impl Strength {
+    /// Whether this is the comparison for identical sequences.
+    #[must_use]
+    pub fn is_strictest(self) -> bool {
+        self == Self::default()
+    }
+
+    /// Whether an output for a case is one that this strength accepts.
+    #[must_use]
+    pub fn accepts(self, case: &Case, observed: &Tessellation) -> bool {
+        candidates(case, self.conversion, self.denormals)
+            .iter()
+            .any(|candidate| self.equal(case, observed, &candidate.patch().tessellate()))
+    }
+
+    /// Whether two outputs of the same case count as equal.
+    fn equal(self, case: &Case, observed: &Tessellation, expected: &Tessellation) -> bool {
+        match (self.order, self.elements) {
+            (Order::Exact, Elements::Primitives) => observed == expected,
+            (Order::Exact, Elements::Points) => observed.points == expected.points,
+            (Order::Any, _) => self.first_missing(case, observed, expected).is_none(),
+        }
+    }
+
+    /// In any order: the first element of one output that the other lacks.
+    #[must_use]
+    pub fn first_missing(
+        self,
+        case: &Case,
+        observed: &Tessellation,
+        expected: &Tessellation,
+    ) -> Option<Missing> {
+        match self.elements {
+            Elements::Points => unordered::points(observed, expected),
+            Elements::Primitives => unordered::primitives(case, observed, expected),
+        }
+    }
+}
