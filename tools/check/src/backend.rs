@@ -10,7 +10,7 @@ use tess_core::{
 /// An implementation of the specification under test.
 ///
 /// Every method takes a batch, in any number, zero included, and answers in the same order.
-pub trait Backend {
+pub trait Backend: Send {
     /// Its name, as `--backend` takes it: `core`, `simd` or `gpu`.
     fn name(&self) -> &'static str;
 

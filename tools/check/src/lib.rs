@@ -2,11 +2,15 @@
 
 pub mod backend;
 pub mod case;
+pub mod checker;
+pub mod compare;
+pub mod core_backend;
 pub mod coverage;
 pub mod digest;
 pub mod generate;
 pub mod names;
 pub mod random;
 pub mod sequences;
+pub mod strength;
 pub mod vectors;
 pub mod workloads;

@@ -1,0 +1,175 @@
+//! The kinds whose records are patches: single ones, and sequences with one digest.
+
+use super::{Found, all_answered, stages};
+use crate::backend::{Backend, BackendError};
+use crate::case::{Case, factor_bits, factor_names};
+use crate::compare::{self, Element, Mismatch, Stage};
+use crate::core_backend::CoreBackend;
+use crate::digest::{Fnv1a, points_digest, words_digest};
+use crate::sequences;
+use crate::vectors::{ChainRow, Header, PreparationRow, Record, Sizes};
+use tess_core::prepare::prepare;
+use tess_core::{Config, Domain, PatchFactors, Tessellation};
+
+/// Checks listings, patches and preparations.
+pub(super) fn single(
+    header: &Header,
+    backend: &mut dyn Backend,
+    records: &[Record],
+) -> Result<Vec<Found>, BackendError> {
+    let cases: Vec<Case> = records.iter().filter_map(case_of).collect();
+    let outputs = tessellate(backend, &cases)?;
+    let mut found = Vec::with_capacity(records.len());
+    for ((record, case), observed) in records.iter().zip(&cases).zip(&outputs) {
+        let mismatch = compare_one(header, backend, record, case, observed)?;
+        found.push(mismatch.map(|mismatch| (mismatch, Some(*case))));
+    }
+    Ok(found)
+}
+
+/// The patch that a record tessellates; `None` for a record that has several.
+fn case_of(record: &Record) -> Option<Case> {
+    match record {
+        Record::Listing(listing) => Some(listing.case),
+        Record::Patch(row) => Some(row.case),
+        Record::Preparation(row) => {
+            Some(Case { config: row.config, factors: row.prepared.rounded })
+        }
+        _ => None,
+    }
+}
+
+fn compare_one(
+    header: &Header,
+    backend: &mut dyn Backend,
+    record: &Record,
+    case: &Case,
+    output: &Tessellation,
+) -> Result<Option<Mismatch>, BackendError> {
+    match record {
+        Record::Listing(listing) if header.is_from_device() => {
+            Ok(compare::tessellations(case, &listing.output, output))
+        }
+        Record::Listing(listing) => {
+            let found = compare::tessellations(case, output, &listing.output);
+            found.map(|mismatch| stages::trace(backend, case, mismatch)).transpose()
+        }
+        Record::Patch(row) => sizes(backend, case, output, &row.output),
+        Record::Preparation(row) => match prepared(row) {
+            Some(mismatch) => Ok(Some(mismatch)),
+            None => sizes(backend, case, output, &row.output),
+        },
+        _ => Ok(None),
+    }
+}
+
+/// Tessellates cases of any configurations, those that have one in common in one batch.
+fn tessellate(
+    backend: &mut dyn Backend,
+    cases: &[Case],
+) -> Result<Vec<Tessellation>, BackendError> {
+    let mut groups: Vec<((Config, Domain), Vec<usize>)> = Vec::new();
+    for (i, case) in cases.iter().enumerate() {
+        let key = (case.config, case.domain());
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, members)) => members.push(i),
+            None => groups.push((key, vec![i])),
+        }
+    }
+    let mut outputs = vec![Tessellation::default(); cases.len()];
+    for ((config, _), members) in groups {
+        let factors: Vec<_> = members.iter().map(|&i| cases[i].factors).collect();
+        for (i, output) in members.into_iter().zip(batch(backend, config, &factors)?) {
+            outputs[i] = output;
+        }
+    }
+    Ok(outputs)
+}
+
+fn batch(
+    backend: &mut dyn Backend,
+    config: Config,
+    factors: &[PatchFactors],
+) -> Result<Vec<Tessellation>, BackendError> {
+    let answers = backend.tessellate(config, factors)?;
+    all_answered(backend, "patches", answers, factors.len())
+}
+
+/// Compares an output with recorded counts and digests; a difference is narrowed down to the
+/// first element that is not the model's.
+fn sizes(
+    backend: &mut dyn Backend,
+    case: &Case,
+    observed: &Tessellation,
+    expected: &Sizes,
+) -> Result<Option<Mismatch>, BackendError> {
+    let sizes = Sizes {
+        points: observed.points.len() as u64,
+        indices: observed.indices.len() as u64,
+        points_digest: points_digest(&observed.points),
+        indices_digest: words_digest(&observed.indices),
+    };
+    if sizes == *expected {
+        return Ok(None);
+    }
+    let found = compare::tessellations(case, observed, &case.patch().tessellate());
+    if let Some(mismatch) = found {
+        return stages::trace(backend, case, mismatch).map(Some);
+    }
+    let digest = Mismatch::digest;
+    Ok(Mismatch::count("points", sizes.points, expected.points)
+        .or_else(|| Mismatch::count("indices", sizes.indices, expected.indices))
+        .or_else(|| digest("points", sizes.points_digest, expected.points_digest, Stage::Location))
+        .or_else(|| {
+            digest("indices", sizes.indices_digest, expected.indices_digest, Stage::Stitch)
+        }))
+}
+
+/// Compares the model's factor preparation, which no backend has, with the recorded one.
+fn prepared(row: &PreparationRow) -> Option<Mismatch> {
+    let observed = prepare(row.config.partitioning, row.reduction, row.request);
+    let results = [
+        ("unrounded", observed.unrounded, row.prepared.unrounded),
+        ("rounded", observed.rounded, row.prepared.rounded),
+    ];
+    results.into_iter().find_map(|(result, observed, expected)| {
+        let bits = factor_bits(&observed).into_iter().zip(factor_bits(&expected));
+        let mut named = factor_names(expected.domain()).iter().zip(bits);
+        let (&factor, (observed, expected)) = named.find(|(_, (o, e))| o != e)?;
+        let element = Element::Prepared { result, factor };
+        Some(Mismatch::hex(element, 8, observed, expected, Stage::Preparation))
+    })
+}
+
+/// Checks a row of a systematic sweep.
+pub(super) fn sweep(backend: &mut dyn Backend, row: &ChainRow) -> Result<Found, BackendError> {
+    let patches = sequences::sweep(row.domain, row.config.partitioning, row.row);
+    chain(backend, row, &patches)
+}
+
+/// Checks a row of patches whose factors are all equal.
+pub(super) fn uniform(backend: &mut dyn Backend, row: &ChainRow) -> Result<Found, BackendError> {
+    chain(backend, row, &sequences::uniform(row.domain, row.row))
+}
+
+fn chain(
+    backend: &mut dyn Backend,
+    row: &ChainRow,
+    patches: &[PatchFactors],
+) -> Result<Found, BackendError> {
+    let observed = batch(backend, row.config, patches)?;
+    let mut digest = Fnv1a::new();
+    observed.iter().for_each(|patch| digest.patch(patch));
+    if digest.finish() == row.chain {
+        return Ok(None);
+    }
+    let expected = CoreBackend.tessellate(row.config, patches)?;
+    for ((&factors, observed), expected) in patches.iter().zip(&observed).zip(&expected) {
+        let case = Case { config: row.config, factors };
+        if let Some(mismatch) = compare::tessellations(&case, observed, expected) {
+            return Ok(Some((stages::trace(backend, &case, mismatch)?, Some(case))));
+        }
+    }
+    let mismatch = Mismatch::digest("chained patches", digest.finish(), row.chain, Stage::Stitch);
+    Ok(mismatch.map(|mismatch| (mismatch, None)))
+}

@@ -1,0 +1,133 @@
+//! What a check found.
+
+use crate::backend::BackendError;
+use crate::case::Case;
+use crate::compare::Mismatch;
+use crate::vectors::{Header, Record, VectorError};
+use std::fmt;
+
+/// How many differences a report shows in full.
+pub const MAX_DIFFERENCES: usize = 20;
+
+/// The verdict on a vector file.
+#[derive(Clone, Debug, Default)]
+pub struct Report {
+    /// Records that were checked: all of the file.
+    pub cases: u64,
+    /// Records that differ.
+    pub mismatches: u64,
+    /// The first differences, at most [`MAX_DIFFERENCES`], in the order of the file.
+    pub differences: Vec<Difference>,
+}
+
+impl Report {
+    /// Adds what another worker found.
+    pub(super) fn add(&mut self, other: Self) {
+        self.cases += other.cases;
+        self.mismatches += other.mismatches;
+        self.differences.extend(other.differences);
+        self.differences.sort_by_key(|difference| difference.number);
+        self.differences.truncate(MAX_DIFFERENCES);
+    }
+}
+
+/// The summary line.
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} cases, {} mismatches", self.cases, self.mismatches)
+    }
+}
+
+/// One record that differs.
+#[derive(Clone, Debug)]
+pub struct Difference {
+    /// Number of the record, from 1.
+    pub number: u64,
+    /// The line of the file that it starts on.
+    pub line: u64,
+    /// The first wrong element.
+    pub mismatch: Mismatch,
+    /// The patch that shows it, if one does.
+    pub case: Option<Case>,
+    /// The record as a vector file of its own; `None` for a listing, which may be long.
+    pub file: Option<String>,
+}
+
+impl Difference {
+    pub(super) fn new(
+        header: &Header,
+        number: u64,
+        record: &Record,
+        mismatch: Mismatch,
+        case: Option<Case>,
+    ) -> Self {
+        let (line, row) = match record {
+            Record::Listing(listing) => (listing.line, None),
+            Record::Patch(row) => (row.line, Some(&row.text)),
+            Record::Sweep(row) | Record::Uniform(row) => (row.line, Some(&row.text)),
+            Record::Locations(row) => (row.line, Some(&row.text)),
+            Record::Factors(row) => (row.line, Some(&row.text)),
+            Record::Preparation(row) => (row.line, Some(&row.text)),
+        };
+        let file = row.zip(header.kind.columns()).map(|(row, columns)| {
+            let header = Header { count: 1, ..header.clone() };
+            format!("{header}\n{}\n{row}\n", columns.join(","))
+        });
+        Self { number, line, mismatch, case, file }
+    }
+
+    /// Shell commands that show the same again: the record alone through `tess check`, and the
+    /// patch through `tess patch`.
+    #[must_use]
+    pub fn commands(&self, backend: &str) -> Vec<String> {
+        let check = self.file.as_ref().map(|file| {
+            let lines: Vec<_> = file.lines().map(|line| format!("'{line}'")).collect();
+            format!("printf '%s\\n' {} | tess check - --backend {backend}", lines.join(" "))
+        });
+        let patch = self.case.map(|case| format!("{} --backend {backend}", case.command()));
+        check.into_iter().chain(patch).collect()
+    }
+}
+
+/// Number, line, patch and the first wrong element.
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "record {} (line {})", self.number, self.line)?;
+        if let Some(case) = &self.case {
+            write!(f, ": {case}")?;
+        }
+        write!(f, "\n  {}", self.mismatch)
+    }
+}
+
+/// Why there is no verdict.
+#[derive(Debug)]
+pub enum CheckError {
+    /// The file is malformed, truncated, too long or empty.
+    Vectors(VectorError),
+    /// The backend could not run.
+    Backend(BackendError),
+}
+
+impl From<VectorError> for CheckError {
+    fn from(error: VectorError) -> Self {
+        Self::Vectors(error)
+    }
+}
+
+impl From<BackendError> for CheckError {
+    fn from(error: BackendError) -> Self {
+        Self::Backend(error)
+    }
+}
+
+impl fmt::Display for CheckError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Vectors(error) => error.fmt(f),
+            Self::Backend(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for CheckError {}

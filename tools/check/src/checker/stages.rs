@@ -1,0 +1,62 @@
+//! Which stage of a backend goes wrong on a patch that it gets wrong.
+
+use super::all_answered;
+use crate::backend::{Backend, BackendError};
+use crate::case::{Case, factor_list};
+use crate::compare::{Mismatch, Stage};
+use crate::core_backend::CoreBackend;
+use tess_core::{FactorContext, ProcessedFactor, ProcessedPatch};
+
+/// The same mismatch with the earliest stage that the backend gets wrong on this patch, asked one
+/// by one; the stage stays if all of them are right on their own.
+pub(super) fn trace(
+    backend: &mut dyn Backend,
+    case: &Case,
+    mismatch: Mismatch,
+) -> Result<Mismatch, BackendError> {
+    let processed = match case.patch().processed() {
+        ProcessedPatch::Culled => Vec::new(),
+        ProcessedPatch::Minimum(factors) | ProcessedPatch::Regular(factors) => factor_list(factors),
+    };
+    let stage = if !factors_agree(backend, case)? {
+        Stage::Factors
+    } else if !contexts_agree(backend, case, &processed)? {
+        Stage::Context
+    } else if !locations_agree(backend, &processed)? {
+        Stage::Location
+    } else {
+        mismatch.stage
+    };
+    Ok(Mismatch { stage, ..mismatch })
+}
+
+fn factors_agree(backend: &mut dyn Backend, case: &Case) -> Result<bool, BackendError> {
+    let raw = factor_list(&case.factors);
+    let partitioning = case.config.partitioning;
+    let answers = backend.fixed_factors(partitioning, &raw)?;
+    let observed = all_answered(backend, "factors", answers, raw.len())?;
+    Ok(observed == CoreBackend.fixed_factors(partitioning, &raw)?)
+}
+
+fn contexts_agree(
+    backend: &mut dyn Backend,
+    case: &Case,
+    processed: &[ProcessedFactor],
+) -> Result<bool, BackendError> {
+    for factor in processed {
+        let context = factor.context;
+        let answer = backend.contexts(case.config.split, context.parity, &[factor.fixed])?;
+        if answer != [context] {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+fn locations_agree(
+    backend: &mut dyn Backend,
+    processed: &[ProcessedFactor],
+) -> Result<bool, BackendError> {
+    let contexts: Vec<FactorContext> = processed.iter().map(|factor| factor.context).collect();
+    Ok(backend.locations(&contexts)? == CoreBackend.locations(&contexts)?)
+}

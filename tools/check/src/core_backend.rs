@@ -1,0 +1,68 @@
+//! The golden model as a backend.
+
+use crate::backend::{Backend, BackendError};
+use tess_core::factors::process;
+use tess_core::{
+    Config, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, Patch, PatchFactors,
+    ProcessedPatch, SplitOrder, Tessellation, TriangleFactors, place,
+};
+
+/// `tess-core`, the sequential formulation.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CoreBackend;
+
+impl Backend for CoreBackend {
+    fn name(&self) -> &'static str {
+        "core"
+    }
+
+    fn device(&self) -> String {
+        "portable".into()
+    }
+
+    fn tessellate(
+        &mut self,
+        config: Config,
+        patches: &[PatchFactors],
+    ) -> Result<Vec<Tessellation>, BackendError> {
+        Ok(patches.iter().map(|&factors| Patch::new(config, factors).tessellate()).collect())
+    }
+
+    fn fixed_factors(
+        &mut self,
+        partitioning: Partitioning,
+        values: &[f32],
+    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+        Ok(values.iter().map(|&value| outer_and_inside(partitioning, value)).collect())
+    }
+
+    fn contexts(
+        &mut self,
+        split: SplitOrder,
+        parity: Parity,
+        factors: &[FixedFactor],
+    ) -> Result<Vec<FactorContext>, BackendError> {
+        Ok(factors.iter().map(|&factor| FactorContext::new(factor, parity, split)).collect())
+    }
+
+    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+        let mut locations = Vec::with_capacity(contexts.iter().map(|c| c.points as usize).sum());
+        for context in contexts {
+            locations.extend((0..context.points).map(|p| place(context, p).to_bits()));
+        }
+        Ok(locations)
+    }
+}
+
+/// The u = 0 and inside factors of the triangle patch (x, 3, 3; x); zeros if it is culled.
+fn outer_and_inside(partitioning: Partitioning, x: f32) -> [FixedFactor; 2] {
+    let config = Config::new(partitioning, OutputPrimitive::Point);
+    let factors = TriangleFactors { u0: x, v0: 3.0, w0: 3.0, inside: x };
+    match process(config, PatchFactors::Triangle(factors)) {
+        ProcessedPatch::Minimum(PatchFactors::Triangle(factors))
+        | ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => {
+            [factors.u0.fixed, factors.inside.fixed]
+        }
+        _ => [FixedFactor::from_bits(0); 2],
+    }
+}

@@ -1,0 +1,66 @@
+//! The patches behind the chained rows of `sweep.csv` and `uniform.csv`, and the values behind
+//! the exhaustive rows of `factor.csv` and `place.csv`, as `golden/README.md` describes them.
+#![expect(
+    clippy::float_arithmetic,
+    clippy::cast_possible_truncation,
+    reason = "factors are given as decimal fractions, computed in binary64 and rounded once"
+)]
+
+use crate::case::{factor_names, factors_from_list};
+use tess_core::{Domain, FixedFactor, Parity, Partitioning, PatchFactors};
+
+/// The 64 patches of row `row` (1..=64) of a systematic sweep.
+///
+/// Isoline: density `row`, detail 1..=64. Triangle: inside factor 1..=64 with outer factors that
+/// vary with both. Quad: inside factors (`row`, 1..=64) likewise. Fractional triangles and quads
+/// lie 0.25 and 0.625 below the integers.
+#[must_use]
+pub fn sweep(domain: Domain, partitioning: Partitioning, row: u8) -> Vec<PatchFactors> {
+    let below = match (domain, partitioning) {
+        (Domain::Isoline, _) | (_, Partitioning::Integer | Partitioning::Pow2) => 0.0,
+        (Domain::Triangle, _) => 0.25,
+        (Domain::Quad, _) => 0.625,
+    };
+    let a = u32::from(row);
+    let patch = |b: u32| {
+        let factors = match domain {
+            Domain::Isoline => vec![a, b],
+            Domain::Triangle => vec![a, a % 64 + 1, (7 * a) % 64 + 1, b],
+            Domain::Quad => vec![b, a % 64 + 1, (5 * b) % 64 + 1, (11 * a) % 64 + 1, a, b],
+        };
+        let factors: Vec<_> = factors.iter().map(|&x| (f64::from(x) - below) as f32).collect();
+        factors_from_list(domain, &factors)
+    };
+    (1..=64).filter_map(patch).collect()
+}
+
+/// The patches of row `row` (0..=65) with all factors equal: i / 100 for i in 100 `row` ..
+/// 100 `row` + 99; row 65 is 65.00 alone.
+#[must_use]
+pub fn uniform(domain: Domain, row: u8) -> Vec<PatchFactors> {
+    let first = 100 * u32::from(row);
+    let count = if row == 65 { 1 } else { 100 };
+    let patch = |i: u32| {
+        let factor = (f64::from(i) / 100.0) as f32;
+        factors_from_list(domain, &vec![factor; factor_names(domain).len()])
+    };
+    (first..first + count).filter_map(patch).collect()
+}
+
+/// How many binary32 numbers a binade has.
+pub const BINADE_SIZE: u32 = 1 << 23;
+
+/// Numbers `range` of the binade [2^`exponent`, 2^(`exponent` + 1)), ascending; `exponent` is in
+/// -126..=127 and `range` within 0..[`BINADE_SIZE`].
+pub fn binade(exponent: i32, range: std::ops::Range<u32>) -> impl Iterator<Item = f32> {
+    let biased = exponent.saturating_add(127).clamp(1, 254).unsigned_abs();
+    range.map(move |mantissa| f32::from_bits((biased << 23) | mantissa))
+}
+
+/// The fixed-point factors with integer part `bucket`, ascending: all 65536 fractions, or the
+/// integer alone for the highest factor of a parity, 63 (odd) or 64 (even).
+pub fn bucket(parity: Parity, bucket: u32) -> impl Iterator<Item = FixedFactor> {
+    let highest = 64 - parity.odd();
+    let fractions = if bucket == highest { 1 } else { 1 << 16 };
+    (0..fractions).map(move |fraction| FixedFactor::from_bits((bucket << 16) | fraction))
+}

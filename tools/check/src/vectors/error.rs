@@ -1,0 +1,38 @@
+//! What is wrong with a vector file, and where.
+
+use std::fmt;
+use std::sync::Arc;
+
+/// A vector file is malformed, truncated, too long or empty.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VectorError {
+    /// Name of the file.
+    pub file: String,
+    /// Line, from 1.
+    pub line: u64,
+    /// The field, such as a column name.
+    pub field: &'static str,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+impl fmt::Display for VectorError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}: {}: {}", self.file, self.line, self.field, self.message)
+    }
+}
+
+impl std::error::Error for VectorError {}
+
+/// Where the reader is.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    pub(crate) file: Arc<str>,
+    pub(crate) line: u64,
+}
+
+impl Place {
+    pub(crate) fn error(&self, field: &'static str, message: impl Into<String>) -> VectorError {
+        VectorError { file: self.file.to_string(), line: self.line, field, message: message.into() }
+    }
+}

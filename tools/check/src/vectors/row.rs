@@ -1,0 +1,86 @@
+//! One line of a CSV kind, its fields by column name.
+
+use super::error::{Place, VectorError};
+use crate::case::{parse_bits, parse_hex};
+use crate::names::Named;
+use std::ops::RangeInclusive;
+use std::str::FromStr;
+
+/// The fields of one line.
+#[derive(Debug)]
+pub(crate) struct Row<'a> {
+    columns: &'static [&'static str],
+    values: Vec<&'a str>,
+    place: &'a Place,
+}
+
+impl<'a> Row<'a> {
+    pub(crate) fn new(
+        line: &'a str,
+        columns: &'static [&'static str],
+        place: &'a Place,
+    ) -> Result<Self, VectorError> {
+        let values: Vec<_> = line.split(',').collect();
+        if values.len() == columns.len() {
+            return Ok(Self { columns, values, place });
+        }
+        let (expected, found) = (columns.len(), values.len());
+        let message = format!("a row has {expected} fields ({}), not {found}", columns.join(","));
+        // The first column that is missing, or the last one if there are too many.
+        let field = columns[found.min(expected - 1)];
+        Err(place.error(field, message))
+    }
+
+    pub(crate) fn error(&self, column: &'static str, message: impl Into<String>) -> VectorError {
+        self.place.error(column, message)
+    }
+
+    pub(crate) fn line(&self) -> u64 {
+        self.place.line
+    }
+
+    /// The line as it was read.
+    pub(crate) fn text(&self) -> String {
+        self.values.join(",")
+    }
+
+    pub(crate) fn field(&self, column: &'static str) -> Result<&'a str, VectorError> {
+        let at = self.columns.iter().position(|known| *known == column);
+        at.map(|at| self.values[at]).ok_or_else(|| self.error(column, "not a column of this kind"))
+    }
+
+    pub(crate) fn named<T: Named>(&self, column: &'static str) -> Result<T, VectorError> {
+        T::from_name(self.field(column)?).map_err(|error| self.error(column, error.to_string()))
+    }
+
+    pub(crate) fn number<T: FromStr>(&self, column: &'static str) -> Result<T, VectorError> {
+        let text = self.field(column)?;
+        text.parse().map_err(|_| self.error(column, format!("`{text}` is not a number in range")))
+    }
+
+    pub(crate) fn number_in<T: FromStr + PartialOrd + std::fmt::Display>(
+        &self,
+        column: &'static str,
+        range: RangeInclusive<T>,
+    ) -> Result<T, VectorError> {
+        let number = self.number(column)?;
+        if range.contains(&number) {
+            return Ok(number);
+        }
+        let (low, high) = (range.start(), range.end());
+        Err(self.error(column, format!("{number} is not in {low}..={high}")))
+    }
+
+    /// A 64-bit digest.
+    pub(crate) fn digest(&self, column: &'static str) -> Result<u64, VectorError> {
+        let text = self.field(column)?;
+        parse_hex(text, 16)
+            .ok_or_else(|| self.error(column, format!("`{text}` is not a digest of 16 hex digits")))
+    }
+
+    /// Bit patterns of binary32 numbers.
+    pub(crate) fn floats(&self, column: &'static str) -> Result<Vec<f32>, VectorError> {
+        let words: Vec<_> = self.field(column)?.split_whitespace().collect();
+        parse_bits(&words).map_err(|error| self.error(column, error.message))
+    }
+}
