@@ -1,0 +1,681 @@
+/*
+ * Bit-exact Direct3D 11 class tessellation.
+ *
+ * The caller owns all memory; a function on one patch allocates nothing. Every function returns
+ * TESS_OK or the reason why it did nothing; tess_status_message() puts that in words.
+ * Null and misaligned pointers, unknown numbers and small buffers are answers, never undefined
+ * behaviour; that a pointer's memory is as large as said is the caller's part.
+ * All functions may be called from any number of threads at the same time.
+ *
+ * Factors are any binary32 numbers, NaN included, in the order of their domain:
+ *   isoline   density, detail
+ *   triangle  outer U=0, V=0, W=0; inside
+ *   quad      outer U=0, V=0, U=1, V=1; inside U, V
+ */
+
+
+#ifndef TESS_H
+#define TESS_H
+
+/* Generated from the Rust sources of tess-capi by `TESS_BLESS=1 cargo test -p tess-capi --test header`. Do not edit. */
+
+#include <stddef.h>
+#include <stdint.h>
+
+/**
+ * The version as three numbers: `major << 16 | minor << 8 | patch`.
+ */
+#define TESS_VERSION 256
+
+/**
+ * Domain: parallel lines along u, stacked in v. Factors: density, detail.
+ */
+#define TESS_DOMAIN_ISOLINE 0
+
+/**
+ * Domain: barycentric (u, v). Factors: outer U=0, V=0, W=0; inside.
+ */
+#define TESS_DOMAIN_TRIANGLE 1
+
+/**
+ * Domain: the unit square. Factors: outer U=0, V=0, U=1, V=1; inside U, V.
+ */
+#define TESS_DOMAIN_QUAD 2
+
+/**
+ * Partitioning: factors rounded up to integers, 1..64.
+ */
+#define TESS_PARTITIONING_INTEGER 0
+
+/**
+ * Partitioning: as integer; only `tess_prepare` rounds to powers of two.
+ */
+#define TESS_PARTITIONING_POW2 1
+
+/**
+ * Partitioning: an odd number of segments, 1..63.
+ */
+#define TESS_PARTITIONING_FRACTIONAL_ODD 2
+
+/**
+ * Partitioning: an even number of segments, 2..64.
+ */
+#define TESS_PARTITIONING_FRACTIONAL_EVEN 3
+
+/**
+ * Output: one index per point.
+ */
+#define TESS_OUTPUT_POINT 0
+
+/**
+ * Output: line segments.
+ */
+#define TESS_OUTPUT_LINE 1
+
+/**
+ * Output: clockwise triangles, seen with v pointing down (lines on an isoline domain).
+ */
+#define TESS_OUTPUT_TRIANGLE_CW 2
+
+/**
+ * Output: counter-clockwise triangles (lines on an isoline domain).
+ */
+#define TESS_OUTPUT_TRIANGLE_CCW 3
+
+/**
+ * Split order: bit-reversed, the standard.
+ */
+#define TESS_SPLIT_RULER 0
+
+/**
+ * Split order: from the centre outwards, as the Xbox 360 does.
+ */
+#define TESS_SPLIT_CENTER 1
+
+/**
+ * Parity: an even number of segments.
+ */
+#define TESS_PARITY_EVEN 0
+
+/**
+ * Parity: an odd number of segments.
+ */
+#define TESS_PARITY_ODD 1
+
+/**
+ * The most points that one patch has.
+ */
+#define TESS_MAX_POINTS 4225
+
+/**
+ * The most indices that one patch has.
+ */
+#define TESS_MAX_INDICES 24576
+
+/**
+ * The most factors that a patch has.
+ */
+#define TESS_MAX_FACTORS 6
+
+/**
+ * The patch is culled: no points, no indices, no processed factors.
+ */
+#define TESS_OUTCOME_CULLED 0
+
+/**
+ * Every factor is one: the minimum patch of one triangle or two.
+ */
+#define TESS_OUTCOME_MINIMUM 1
+
+/**
+ * Every other patch.
+ */
+#define TESS_OUTCOME_REGULAR 2
+
+/**
+ * Where a point comes from: corner `p` of a minimum patch.
+ */
+#define TESS_POINT_CORNER 0
+
+/**
+ * Where a point comes from: point `p` of isoline `line`.
+ */
+#define TESS_POINT_LINE 1
+
+/**
+ * Where a point comes from: point `p` of outer edge `edge`.
+ */
+#define TESS_POINT_OUTER_EDGE 2
+
+/**
+ * Where a point comes from: point `p` of edge `edge` of interior ring `ring`.
+ */
+#define TESS_POINT_RING 3
+
+/**
+ * Where a point comes from: point `p` of the point or row that ends an even interior.
+ */
+#define TESS_POINT_CENTRE 4
+
+/**
+ * Where a primitive comes from: number `step` of point output or of all points joined in order.
+ */
+#define TESS_PRIMITIVE_SEQUENCE 0
+
+/**
+ * Where a primitive comes from: segment `step` of isoline `line`.
+ */
+#define TESS_PRIMITIVE_LINE 1
+
+/**
+ * Where a primitive comes from: triangle `step` of a minimum patch.
+ */
+#define TESS_PRIMITIVE_MINIMUM 2
+
+/**
+ * Where a primitive comes from: triangle `step` of the transition stitch of edge `edge`.
+ */
+#define TESS_PRIMITIVE_TRANSITION 3
+
+/**
+ * Where a primitive comes from: triangle `step` of the stitch of edge `edge` to ring `ring`.
+ */
+#define TESS_PRIMITIVE_RING 4
+
+/**
+ * Where a primitive comes from: triangle `step` inside the innermost ring.
+ */
+#define TESS_PRIMITIVE_CENTRE 5
+
+/**
+ * Reduction: the smallest of the outer factors.
+ */
+#define TESS_REDUCTION_MIN 0
+
+/**
+ * Reduction: the largest of the outer factors.
+ */
+#define TESS_REDUCTION_MAX 1
+
+/**
+ * Reduction: the sum of the outer factors, divided by their number.
+ */
+#define TESS_REDUCTION_AVERAGE 2
+
+/**
+ * Quad axes: one reduction over all four edges, with the U scale, for both inside factors.
+ */
+#define TESS_AXES_ONE 0
+
+/**
+ * Quad axes: U from the edges V=0 and V=1, V from the edges U=0 and U=1.
+ */
+#define TESS_AXES_TWO 1
+
+/**
+ * What every function returns: `TESS_OK` or the reason why it did nothing.
+ */
+typedef uint32_t TessStatus;
+
+/**
+ * What the tessellator is set to, in the numbers `TESS_DOMAIN_...` and so on.
+ */
+typedef struct TessConfig {
+  /**
+   * `TESS_DOMAIN_...`
+   */
+  uint32_t domain;
+  /**
+   * `TESS_PARTITIONING_...`
+   */
+  uint32_t partitioning;
+  /**
+   * `TESS_OUTPUT_...`
+   */
+  uint32_t output;
+  /**
+   * `TESS_SPLIT_...`
+   */
+  uint32_t split;
+} TessConfig;
+
+/**
+ * Sizes of a patch's output.
+ */
+typedef struct TessCounts {
+  /**
+   * Domain points, at most `TESS_MAX_POINTS`.
+   */
+  uint32_t points;
+  /**
+   * Points, line segments or triangles.
+   */
+  uint32_t primitives;
+  /**
+   * Indices, 1, 2 or 3 for each primitive, at most `TESS_MAX_INDICES`.
+   */
+  uint32_t indices;
+} TessCounts;
+
+/**
+ * A domain point in unsigned 16.16 numbers, 0..0x10000. On triangles w = 0x10000 - u - v.
+ */
+typedef struct TessPoint {
+  /**
+   * First coordinate.
+   */
+  uint32_t u;
+  /**
+   * Second coordinate.
+   */
+  uint32_t v;
+} TessPoint;
+
+/**
+ * The six numbers of a factor, and its parity (specification, section 4).
+ */
+typedef struct TessContext {
+  /**
+   * `TESS_PARITY_...`
+   */
+  uint32_t parity;
+  /**
+   * Reciprocal of the coarser subdivision, 16 fraction bits.
+   */
+  uint32_t inv_floor;
+  /**
+   * Reciprocal of the finer subdivision, 16 fraction bits.
+   */
+  uint32_t inv_ceil;
+  /**
+   * Weight of the finer subdivision, 16 fraction bits, below 0x10000.
+   */
+  uint32_t fraction;
+  /**
+   * Points on a half edge, the midpoint of an even edge not counted, 1..32.
+   */
+  uint32_t half_points;
+  /**
+   * The position on the half edge that is being split off its predecessor.
+   */
+  uint32_t split;
+  /**
+   * Points on the whole edge, both ends included, 2..65.
+   */
+  uint32_t points;
+} TessContext;
+
+/**
+ * One factor after each step of factor processing (specification, section 3).
+ */
+typedef struct TessProcessedFactor {
+  /**
+   * Bits of the binary32 factor after clamping (steps 2 and 5).
+   */
+  uint32_t clamped;
+  /**
+   * Bits of the binary32 factor after rounding (steps 3 and 5).
+   */
+  uint32_t rounded;
+  /**
+   * The factor as an unsigned 15.16 number (step 7).
+   */
+  uint32_t fixed;
+  /**
+   * Its parity (step 6) and the six numbers derived from it (section 4).
+   */
+  struct TessContext context;
+} TessProcessedFactor;
+
+/**
+ * What factor processing makes of a patch.
+ */
+typedef struct TessProcessedPatch {
+  /**
+   * `TESS_OUTCOME_...`
+   */
+  uint32_t outcome;
+  /**
+   * How many of `factors` are used: 0 if culled, else the number of the domain.
+   */
+  uint32_t factor_count;
+  /**
+   * The factors in the order of the input; those from `factor_count` on are all zero.
+   */
+  struct TessProcessedFactor factors[6];
+} TessProcessedPatch;
+
+/**
+ * One primitive: `size` indices into the patch's points.
+ */
+typedef struct TessPrimitive {
+  /**
+   * 1 (point), 2 (line) or 3 (triangle).
+   */
+  uint32_t size;
+  /**
+   * The indices; those from `size` on are 0.
+   */
+  uint32_t indices[3];
+} TessPrimitive;
+
+/**
+ * Where a point comes from (specification, section 6). Fields without meaning are 0.
+ */
+typedef struct TessPointLocation {
+  /**
+   * `TESS_POINT_...`
+   */
+  uint32_t kind;
+  /**
+   * Number of the isoline, from v = 0.
+   */
+  uint32_t line;
+  /**
+   * Number of the interior ring, from 1.
+   */
+  uint32_t ring;
+  /**
+   * Number of the edge: U=0, V=0, then W=0 or U=1, V=1.
+   */
+  uint32_t edge;
+  /**
+   * Number of the point in the direction of the walk.
+   */
+  uint32_t p;
+} TessPointLocation;
+
+/**
+ * Where a primitive comes from (specification, sections 7, 8). Fields without meaning are 0.
+ */
+typedef struct TessPrimitiveLocation {
+  /**
+   * `TESS_PRIMITIVE_...`
+   */
+  uint32_t kind;
+  /**
+   * Number of the isoline, from v = 0.
+   */
+  uint32_t line;
+  /**
+   * Number of the inner ring of the stitch, from 2.
+   */
+  uint32_t ring;
+  /**
+   * Number of the edge: U=0, V=0, then W=0 or U=1, V=1.
+   */
+  uint32_t edge;
+  /**
+   * Number of the primitive along its line, stitch, centre or sequence.
+   */
+  uint32_t step;
+} TessPrimitiveLocation;
+
+/**
+ * How the factors of a patch are prepared, in the numbers `TESS_DOMAIN_...` and so on.
+ */
+typedef struct TessPreparation {
+  /**
+   * `TESS_DOMAIN_...`
+   */
+  uint32_t domain;
+  /**
+   * `TESS_PARTITIONING_...`
+   */
+  uint32_t partitioning;
+  /**
+   * `TESS_REDUCTION_...`; without effect on isolines, but checked.
+   */
+  uint32_t reduction;
+  /**
+   * `TESS_AXES_...`; without effect but on quads, but checked.
+   */
+  uint32_t axes;
+} TessPreparation;
+
+/**
+ * Done.
+ */
+#define TESS_OK 0
+
+/**
+ * A pointer that must point somewhere is null.
+ */
+#define TESS_NULL_POINTER 1
+
+/**
+ * A pointer is not aligned for what it points to.
+ */
+#define TESS_MISALIGNED 2
+
+/**
+ * An enumeration (domain, partitioning, ...) has a value that is not listed.
+ */
+#define TESS_UNKNOWN_VALUE 3
+
+/**
+ * The number of factors is not that of the domain: 2 (isoline), 4 (triangle), 6 (quad).
+ */
+#define TESS_WRONG_FACTOR_COUNT 4
+
+/**
+ * A buffer is too small; the counts that were asked for say what is needed.
+ */
+#define TESS_BUFFER_TOO_SMALL 5
+
+/**
+ * The patch or edge has no element of this number.
+ */
+#define TESS_OUT_OF_RANGE 6
+
+/**
+ * No factor has this context.
+ */
+#define TESS_NOT_A_CONTEXT 7
+
+/**
+ * Two buffers that are written share memory.
+ */
+#define TESS_OVERLAP 8
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+/**
+ * The version of the library that is linked, in the form of `TESS_VERSION`.
+ *
+ * A program that was compiled with another header can compare the two.
+ */
+uint32_t tess_version(void);
+
+/**
+ * The version of the library as text, `major.minor.patch`.
+ *
+ * Never null; the text lives as long as the program and must not be freed.
+ */
+const char *tess_version_string(void);
+
+/**
+ * What a status means, in English, without a newline.
+ *
+ * Never null: a number that is no status gives "unknown status". The text lives as long as the
+ * program and must not be freed.
+ */
+const char *tess_status_message(TessStatus status);
+
+/**
+ * Says how many points, primitives and indices a patch has.
+ *
+ * Any bit pattern of any factor is valid; a culled patch has no points and no indices.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `config` for reading one configuration,
+ * - `factors` for reading `factor_count` floats,
+ * - `counts` for writing one structure.
+ */
+TessStatus tess_count(const struct TessConfig *config,
+                      const float *factors,
+                      size_t factor_count,
+                      struct TessCounts *counts);
+
+/**
+ * Tessellates a patch: points and indices to the start of the caller's buffers.
+ *
+ * `counts` is written whenever the patch is valid, also when a buffer is too small
+ * (`TESS_BUFFER_TOO_SMALL`; then nothing else is written). A buffer of capacity 0 may be null.
+ * `TESS_MAX_POINTS` and `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `config` for reading one configuration,
+ * - `factors` for reading `factor_count` floats,
+ * - `points` for writing `point_capacity` points,
+ * - `indices` for writing `index_capacity` indices,
+ * - `counts` for writing one structure,
+ *
+ * and no other thread may use the written ones at the same time.
+ */
+TessStatus tess_patch(const struct TessConfig *config,
+                      const float *factors,
+                      size_t factor_count,
+                      struct TessPoint *points,
+                      size_t point_capacity,
+                      uint32_t *indices,
+                      size_t index_capacity,
+                      struct TessCounts *counts);
+
+/**
+ * Processes the factors of a patch: cull, clamp, round, parity, conversion, context.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `config` for reading one configuration,
+ * - `factors` for reading `factor_count` floats,
+ * - `processed` for writing one structure.
+ */
+TessStatus tess_process(const struct TessConfig *config,
+                        const float *factors,
+                        size_t factor_count,
+                        struct TessProcessedPatch *processed);
+
+/**
+ * Converts the bits of a binary32 number to an unsigned 15.16 number (specification, section 2).
+ *
+ * To nearest, ties to even; NaN and negative numbers give 0, 2^15 and more 0x7FFFFFFF.
+ */
+uint32_t tess_fixed_factor(uint32_t binary32_bits);
+
+/**
+ * The context of a 15.16 factor (specification, sections 4 and 10).
+ *
+ * `parity` is `TESS_PARITY_...`, `split` is `TESS_SPLIT_...`. A factor outside 1..63 (odd) or
+ * 1..64 (even) counts as the nearest end.
+ *
+ * What the caller must see to:
+ * - `context`, if not null and aligned, must be valid for writing one structure.
+ */
+TessStatus tess_context(uint32_t fixed_factor,
+                        uint32_t parity_number,
+                        uint32_t split,
+                        struct TessContext *context);
+
+/**
+ * The location of point `p` along an edge with this context (specification, section 5).
+ *
+ * `p` is below the context's `points`, else `TESS_OUT_OF_RANGE`. A context that no factor has
+ * gives `TESS_NOT_A_CONTEXT`. `location` is an unsigned 16.16 number, 0..0x10000.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `context` for reading one structure,
+ * - `location` for writing one number.
+ */
+TessStatus tess_place(const struct TessContext *context, uint32_t p, uint32_t *location);
+
+/**
+ * Point `i` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `config` for reading one configuration,
+ * - `factors` for reading `factor_count` floats,
+ * - `point` for writing one structure.
+ */
+TessStatus tess_point(const struct TessConfig *config,
+                      const float *factors,
+                      size_t factor_count,
+                      uint32_t i,
+                      struct TessPoint *point);
+
+/**
+ * Primitive `t` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `config` for reading one configuration,
+ * - `factors` for reading `factor_count` floats,
+ * - `primitive` for writing one structure.
+ */
+TessStatus tess_primitive(const struct TessConfig *config,
+                          const float *factors,
+                          size_t factor_count,
+                          uint32_t t,
+                          struct TessPrimitive *primitive);
+
+/**
+ * Where point `i` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer points.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `config` for reading one configuration,
+ * - `factors` for reading `factor_count` floats,
+ * - `location` for writing one structure.
+ */
+TessStatus tess_locate_point(const struct TessConfig *config,
+                             const float *factors,
+                             size_t factor_count,
+                             uint32_t i,
+                             struct TessPointLocation *location);
+
+/**
+ * Where primitive `t` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer primitives.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `config` for reading one configuration,
+ * - `factors` for reading `factor_count` floats,
+ * - `location` for writing one structure.
+ */
+TessStatus tess_locate_primitive(const struct TessConfig *config,
+                                 const float *factors,
+                                 size_t factor_count,
+                                 uint32_t t,
+                                 struct TessPrimitiveLocation *location);
+
+/**
+ * Prepares the factors of one patch.
+ *
+ * `requested` holds the outer factors and, in the places of the inside factors, the inside
+ * scales. `unrounded` and `rounded` receive `factor_count` factors each; the rounded ones are
+ * then tessellated. All three may be the same array or overlap: inputs are read first, and
+ * `rounded` is written last.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `preparation` for reading one structure,
+ * - `requested` for reading `factor_count` floats,
+ * - `unrounded` and `rounded` for writing `factor_count` floats each.
+ */
+TessStatus tess_prepare(const struct TessPreparation *preparation,
+                        const float *requested,
+                        size_t factor_count,
+                        float *unrounded,
+                        float *rounded);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* TESS_H */

@@ -1,0 +1,135 @@
+//! Contexts that come from outside, and the steps of placing a point with one.
+
+use crate::status::{TESS_NOT_A_CONTEXT, TESS_OUT_OF_RANGE, TessStatus};
+use crate::types::{TessContext, parity};
+use tess_core::fixed_point::ONE;
+use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder, place};
+
+/// The model's context with these numbers, if a factor has one.
+///
+/// `half_points` and `fraction` determine half the factor, and that one of two contexts, one for
+/// each split order; no other numbers are let through to the arithmetic of placement.
+pub(crate) fn checked(given: TessContext) -> Result<FactorContext, TessStatus> {
+    let parity = parity(given.parity)?;
+    if given.half_points == 0 || given.half_points > 32 || given.fraction >= ONE {
+        return Err(TESS_NOT_A_CONTEXT);
+    }
+    // half = C if it has no fraction, else C - 1 and the fraction; at most 32.
+    let below = if given.fraction == 0 { 0 } else { ONE };
+    let half = (given.half_points << 16) - below + given.fraction;
+    let factor = match parity {
+        Parity::Even => 2 * half,
+        Parity::Odd => (2 * half).saturating_sub(ONE),
+    };
+    SplitOrder::ALL
+        .into_iter()
+        .map(|split| FactorContext::new(FixedFactor::from_bits(factor), parity, split))
+        .find(|&context| TessContext::from(context) == given)
+        .ok_or(TESS_NOT_A_CONTEXT)
+}
+
+/// The signals of the placement of one point, in the order in which hardware computes them
+/// (specification, section 5).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct PlaceSteps {
+    /// 1 on the second half of the edge, else 0.
+    pub(crate) flip: u32,
+    /// The position on the half edge, 0..32; equal to `half_points` in the exact middle.
+    pub(crate) position: u32,
+    /// The place in the coarser subdivision; in the exact middle 0.
+    pub(crate) coarse: u32,
+    /// The place in the finer subdivision; in the exact middle 0.
+    pub(crate) fine: u32,
+    /// Between the two, rounded; in the exact middle one half.
+    pub(crate) half_location: u32,
+    /// The location, 0..0x10000.
+    pub(crate) location: u32,
+}
+
+/// The steps that lead to point `p` of an edge.
+pub(crate) fn place_steps(context: &FactorContext, p: u32) -> Result<PlaceSteps, TessStatus> {
+    if p >= context.points {
+        return Err(TESS_OUT_OF_RANGE);
+    }
+    // The model's own answer is the last step and, unmirrored, the one before.
+    let location = place(context, p).to_bits();
+    let flip = p >= context.half_points;
+    let position = if flip { context.points - 1 - p } else { p };
+    let half_location = if flip { ONE - location } else { location };
+    let in_middle = position == context.half_points;
+    let coarse_position = if position > context.split { position - 1 } else { position };
+    Ok(PlaceSteps {
+        flip: u32::from(flip),
+        position,
+        coarse: if in_middle { 0 } else { coarse_position * context.inv_floor },
+        fine: if in_middle { 0 } else { position * context.inv_ceil },
+        half_location,
+        location,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::status::TESS_UNKNOWN_VALUE;
+    use tess_core::fixed_point::HALF;
+
+    /// Integers and halves with their neighbours, in range.
+    fn contexts() -> impl Iterator<Item = FactorContext> {
+        let factors = (2..=128u32).flat_map(|halves| {
+            [halves * HALF - 1, halves * HALF, halves * HALF + 1, halves * HALF + 0x1234]
+        });
+        factors.flat_map(|bits| {
+            [Parity::Even, Parity::Odd].into_iter().flat_map(move |parity| {
+                SplitOrder::ALL
+                    .map(|split| FactorContext::new(FixedFactor::from_bits(bits), parity, split))
+            })
+        })
+    }
+
+    #[test]
+    fn every_context_passes_and_no_altered_one() {
+        let mut altered_seen = 0;
+        for context in contexts() {
+            let given = TessContext::from(context);
+            assert_eq!(checked(given), Ok(context), "the context of a factor");
+            for altered in [
+                TessContext { inv_floor: given.inv_floor ^ 1, ..given },
+                TessContext { inv_ceil: given.inv_ceil + 1, ..given },
+                TessContext { fraction: given.fraction + ONE, ..given },
+                TessContext { half_points: given.half_points + 32, ..given },
+                TessContext { half_points: 0, ..given },
+                TessContext { split: u32::MAX, ..given },
+                TessContext { points: given.points + 1, ..given },
+            ] {
+                altered_seen += 1;
+                assert_eq!(checked(altered), Err(TESS_NOT_A_CONTEXT), "{altered:?}");
+            }
+            let parity = TessContext { parity: 2, ..given };
+            assert_eq!(checked(parity), Err(TESS_UNKNOWN_VALUE), "a third parity");
+        }
+        assert!(altered_seen > 10_000, "only {altered_seen} contexts");
+    }
+
+    /// The formula of section 5 from the steps gives the location that the model gives.
+    #[test]
+    fn steps_lead_to_the_location() {
+        for context in contexts() {
+            for p in 0..context.points {
+                let steps = place_steps(&context, p).expect("a point of this edge");
+                let PlaceSteps { flip, position, coarse, fine, half_location, location } = steps;
+                let blend = if position == context.half_points {
+                    HALF
+                } else {
+                    let weighted = coarse * (ONE - context.fraction) + fine * context.fraction;
+                    (weighted + HALF) >> 16
+                };
+                assert_eq!(half_location, blend, "{context:?}, p = {p}: {steps:?}");
+                let placed = if flip == 1 { ONE - blend } else { blend };
+                assert_eq!(location, placed, "{context:?}, p = {p}: {steps:?}");
+            }
+            let beyond = place_steps(&context, context.points);
+            assert_eq!(beyond, Err(TESS_OUT_OF_RANGE), "{context:?}");
+        }
+    }
+}

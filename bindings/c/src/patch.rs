@@ -1,0 +1,98 @@
+//! Whole patches, into the caller's buffers.
+
+use crate::boundary;
+use crate::status::{TESS_BUFFER_TOO_SMALL, TessStatus, answer};
+use crate::types::{self, TessConfig, TessCounts, TessPoint};
+use std::mem::MaybeUninit;
+use tess_core::{DomainPoint, Primitive, Sink};
+
+/// Says how many points, primitives and indices a patch has.
+///
+/// Any bit pattern of any factor is valid; a culled patch has no points and no indices.
+///
+/// # Safety
+/// Pointers that are not null and aligned must be valid:
+/// - `config` for reading one configuration,
+/// - `factors` for reading `factor_count` floats,
+/// - `counts` for writing one structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_count(
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    counts: *mut TessCounts,
+) -> TessStatus {
+    answer(|| {
+        // SAFETY: `config` and `factors` are readable, as the caller promises.
+        let patch = unsafe { types::patch(config, factors, factor_count) }?;
+        // SAFETY: `counts` is writable, as the caller promises.
+        unsafe { boundary::write(counts, patch.counts().into()) }
+    })
+}
+
+/// Tessellates a patch: points and indices to the start of the caller's buffers.
+///
+/// `counts` is written whenever the patch is valid, also when a buffer is too small
+/// (`TESS_BUFFER_TOO_SMALL`; then nothing else is written). A buffer of capacity 0 may be null.
+/// `TESS_MAX_POINTS` and `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
+///
+/// # Safety
+/// Pointers that are not null and aligned must be valid:
+/// - `config` for reading one configuration,
+/// - `factors` for reading `factor_count` floats,
+/// - `points` for writing `point_capacity` points,
+/// - `indices` for writing `index_capacity` indices,
+/// - `counts` for writing one structure,
+///
+/// and no other thread may use the written ones at the same time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_patch(
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    points: *mut TessPoint,
+    point_capacity: usize,
+    indices: *mut u32,
+    index_capacity: usize,
+    counts: *mut TessCounts,
+) -> TessStatus {
+    answer(|| {
+        // SAFETY: `config` and `factors` are readable, as the caller promises.
+        let patch = unsafe { types::patch(config, factors, factor_count) }?;
+        let needed = patch.counts();
+        // SAFETY: `counts` is writable, as the caller promises.
+        unsafe { boundary::write(counts, needed.into()) }?;
+        let (point_count, index_count) = (needed.points as usize, needed.indices as usize);
+        if point_capacity < point_count || index_capacity < index_count {
+            return Err(TESS_BUFFER_TOO_SMALL);
+        }
+        boundary::check_apart((points, point_count), (indices, index_count))?;
+        // SAFETY: at most `point_capacity` points, writable, as the caller promises, and apart
+        // from the indices; inputs were copied and `counts` is written, so nothing else is used.
+        let points = unsafe { boundary::room(points, point_count) }?;
+        // SAFETY: at most `index_capacity` indices, and as above.
+        let indices = unsafe { boundary::room(indices, index_count) }?;
+        patch.emit(&mut Room { points: points.iter_mut(), indices: indices.iter_mut() });
+        Ok(())
+    })
+}
+
+/// Fills a caller's buffers, which hold as many elements as the patch has.
+struct Room<'a> {
+    points: std::slice::IterMut<'a, MaybeUninit<TessPoint>>,
+    indices: std::slice::IterMut<'a, MaybeUninit<u32>>,
+}
+
+impl Sink for Room<'_> {
+    fn point(&mut self, point: DomainPoint) {
+        if let Some(slot) = self.points.next() {
+            slot.write(point.into());
+        }
+    }
+
+    fn primitive(&mut self, primitive: Primitive) {
+        for (&index, slot) in primitive.indices().iter().zip(self.indices.by_ref()) {
+            slot.write(index);
+        }
+    }
+}

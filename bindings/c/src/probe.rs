@@ -1,0 +1,279 @@
+//! Probes: one number of one stage, for comparing hardware signal by signal.
+
+use crate::boundary;
+use crate::context;
+use crate::status::{TESS_OUT_OF_RANGE, TessStatus, answer};
+use crate::types::{self, TessConfig, TessContext, TessPoint, parity};
+use tess_core::{FactorContext, FixedFactor, PointLocation, PrimitiveLocation, SplitOrder, place};
+
+/// One primitive: `size` indices into the patch's points.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TessPrimitive {
+    /// 1 (point), 2 (line) or 3 (triangle).
+    pub size: u32,
+    /// The indices; those from `size` on are 0.
+    pub indices: [u32; 3],
+}
+
+/// Where a point comes from: corner `p` of a minimum patch.
+pub const TESS_POINT_CORNER: u32 = 0;
+/// Where a point comes from: point `p` of isoline `line`.
+pub const TESS_POINT_LINE: u32 = 1;
+/// Where a point comes from: point `p` of outer edge `edge`.
+pub const TESS_POINT_OUTER_EDGE: u32 = 2;
+/// Where a point comes from: point `p` of edge `edge` of interior ring `ring`.
+pub const TESS_POINT_RING: u32 = 3;
+/// Where a point comes from: point `p` of the point or row that ends an even interior.
+pub const TESS_POINT_CENTRE: u32 = 4;
+
+/// Where a point comes from (specification, section 6). Fields without meaning are 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TessPointLocation {
+    /// `TESS_POINT_...`
+    pub kind: u32,
+    /// Number of the isoline, from v = 0.
+    pub line: u32,
+    /// Number of the interior ring, from 1.
+    pub ring: u32,
+    /// Number of the edge: U=0, V=0, then W=0 or U=1, V=1.
+    pub edge: u32,
+    /// Number of the point in the direction of the walk.
+    pub p: u32,
+}
+
+/// Where a primitive comes from: number `step` of point output or of all points joined in order.
+pub const TESS_PRIMITIVE_SEQUENCE: u32 = 0;
+/// Where a primitive comes from: segment `step` of isoline `line`.
+pub const TESS_PRIMITIVE_LINE: u32 = 1;
+/// Where a primitive comes from: triangle `step` of a minimum patch.
+pub const TESS_PRIMITIVE_MINIMUM: u32 = 2;
+/// Where a primitive comes from: triangle `step` of the transition stitch of edge `edge`.
+pub const TESS_PRIMITIVE_TRANSITION: u32 = 3;
+/// Where a primitive comes from: triangle `step` of the stitch of edge `edge` to ring `ring`.
+pub const TESS_PRIMITIVE_RING: u32 = 4;
+/// Where a primitive comes from: triangle `step` inside the innermost ring.
+pub const TESS_PRIMITIVE_CENTRE: u32 = 5;
+
+/// Where a primitive comes from (specification, sections 7, 8). Fields without meaning are 0.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TessPrimitiveLocation {
+    /// `TESS_PRIMITIVE_...`
+    pub kind: u32,
+    /// Number of the isoline, from v = 0.
+    pub line: u32,
+    /// Number of the inner ring of the stitch, from 2.
+    pub ring: u32,
+    /// Number of the edge: U=0, V=0, then W=0 or U=1, V=1.
+    pub edge: u32,
+    /// Number of the primitive along its line, stitch, centre or sequence.
+    pub step: u32,
+}
+
+/// Converts the bits of a binary32 number to an unsigned 15.16 number (specification, section 2).
+///
+/// To nearest, ties to even; NaN and negative numbers give 0, 2^15 and more 0x7FFFFFFF.
+#[unsafe(no_mangle)]
+pub extern "C" fn tess_fixed_factor(binary32_bits: u32) -> u32 {
+    FixedFactor::from_f32(f32::from_bits(binary32_bits)).to_bits()
+}
+
+/// The context of a 15.16 factor (specification, sections 4 and 10).
+///
+/// `parity` is `TESS_PARITY_...`, `split` is `TESS_SPLIT_...`. A factor outside 1..63 (odd) or
+/// 1..64 (even) counts as the nearest end.
+///
+/// # Safety
+/// - `context`, if not null and aligned, must be valid for writing one structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_context(
+    fixed_factor: u32,
+    parity_number: u32,
+    split: u32,
+    context: *mut TessContext,
+) -> TessStatus {
+    answer(|| {
+        let split = types::listed(&SplitOrder::ALL, split)?;
+        let factor = FixedFactor::from_bits(fixed_factor);
+        let value = FactorContext::new(factor, parity(parity_number)?, split);
+        // SAFETY: `context` is writable, as the caller promises.
+        unsafe { boundary::write(context, value.into()) }
+    })
+}
+
+/// The location of point `p` along an edge with this context (specification, section 5).
+///
+/// `p` is below the context's `points`, else `TESS_OUT_OF_RANGE`. A context that no factor has
+/// gives `TESS_NOT_A_CONTEXT`. `location` is an unsigned 16.16 number, 0..0x10000.
+///
+/// # Safety
+/// Pointers that are not null and aligned must be valid:
+/// - `context` for reading one structure,
+/// - `location` for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_place(
+    context: *const TessContext,
+    p: u32,
+    location: *mut u32,
+) -> TessStatus {
+    answer(|| {
+        // SAFETY: `context` is readable, as the caller promises.
+        let context = context::checked(unsafe { boundary::read(context) }?)?;
+        if p >= context.points {
+            return Err(TESS_OUT_OF_RANGE);
+        }
+        // SAFETY: `location` is writable, as the caller promises.
+        unsafe { boundary::write(location, place(&context, p).to_bits()) }
+    })
+}
+
+/// Point `i` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
+///
+/// # Safety
+/// Pointers that are not null and aligned must be valid:
+/// - `config` for reading one configuration,
+/// - `factors` for reading `factor_count` floats,
+/// - `point` for writing one structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_point(
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    i: u32,
+    point: *mut TessPoint,
+) -> TessStatus {
+    answer(|| {
+        // SAFETY: `config` and `factors` are readable, as the caller promises.
+        let patch = unsafe { types::patch(config, factors, factor_count) }?;
+        let value = patch.point(i).ok_or(TESS_OUT_OF_RANGE)?;
+        // SAFETY: `point` is writable, as the caller promises.
+        unsafe { boundary::write(point, value.into()) }
+    })
+}
+
+/// Primitive `t` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
+///
+/// # Safety
+/// Pointers that are not null and aligned must be valid:
+/// - `config` for reading one configuration,
+/// - `factors` for reading `factor_count` floats,
+/// - `primitive` for writing one structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_primitive(
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    t: u32,
+    primitive: *mut TessPrimitive,
+) -> TessStatus {
+    answer(|| {
+        // SAFETY: `config` and `factors` are readable, as the caller promises.
+        let patch = unsafe { types::patch(config, factors, factor_count) }?;
+        let value = patch.primitive(t).ok_or(TESS_OUT_OF_RANGE)?;
+        // SAFETY: `primitive` is writable, as the caller promises.
+        unsafe { boundary::write(primitive, value.into()) }
+    })
+}
+
+/// Where point `i` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer points.
+///
+/// # Safety
+/// Pointers that are not null and aligned must be valid:
+/// - `config` for reading one configuration,
+/// - `factors` for reading `factor_count` floats,
+/// - `location` for writing one structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_locate_point(
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    i: u32,
+    location: *mut TessPointLocation,
+) -> TessStatus {
+    answer(|| {
+        // SAFETY: `config` and `factors` are readable, as the caller promises.
+        let patch = unsafe { types::patch(config, factors, factor_count) }?;
+        let value = patch.locate_point(i).ok_or(TESS_OUT_OF_RANGE)?;
+        // SAFETY: `location` is writable, as the caller promises.
+        unsafe { boundary::write(location, value.into()) }
+    })
+}
+
+/// Where primitive `t` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer primitives.
+///
+/// # Safety
+/// Pointers that are not null and aligned must be valid:
+/// - `config` for reading one configuration,
+/// - `factors` for reading `factor_count` floats,
+/// - `location` for writing one structure.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_locate_primitive(
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    t: u32,
+    location: *mut TessPrimitiveLocation,
+) -> TessStatus {
+    answer(|| {
+        // SAFETY: `config` and `factors` are readable, as the caller promises.
+        let patch = unsafe { types::patch(config, factors, factor_count) }?;
+        let value = patch.locate_primitive(t).ok_or(TESS_OUT_OF_RANGE)?;
+        // SAFETY: `location` is writable, as the caller promises.
+        unsafe { boundary::write(location, value.into()) }
+    })
+}
+
+impl From<tess_core::Primitive> for TessPrimitive {
+    fn from(primitive: tess_core::Primitive) -> Self {
+        let mut indices = [0; 3];
+        for (slot, &index) in indices.iter_mut().zip(primitive.indices()) {
+            *slot = index;
+        }
+        Self { size: primitive.size(), indices }
+    }
+}
+
+impl From<PointLocation> for TessPointLocation {
+    fn from(location: PointLocation) -> Self {
+        let none = Self::default();
+        match location {
+            PointLocation::Corner { corner } => Self { kind: TESS_POINT_CORNER, p: corner, ..none },
+            PointLocation::Line { line, p } => Self { kind: TESS_POINT_LINE, line, p, ..none },
+            PointLocation::OuterEdge { edge, p } => {
+                Self { kind: TESS_POINT_OUTER_EDGE, edge, p, ..none }
+            }
+            PointLocation::Ring { ring, edge, p } => {
+                Self { kind: TESS_POINT_RING, ring, edge, p, ..none }
+            }
+            PointLocation::Centre { p } => Self { kind: TESS_POINT_CENTRE, p, ..none },
+        }
+    }
+}
+
+impl From<PrimitiveLocation> for TessPrimitiveLocation {
+    fn from(location: PrimitiveLocation) -> Self {
+        let none = Self::default();
+        match location {
+            PrimitiveLocation::Sequence { step } => {
+                Self { kind: TESS_PRIMITIVE_SEQUENCE, step, ..none }
+            }
+            PrimitiveLocation::Line { line, segment } => {
+                Self { kind: TESS_PRIMITIVE_LINE, line, step: segment, ..none }
+            }
+            PrimitiveLocation::Minimum { step } => {
+                Self { kind: TESS_PRIMITIVE_MINIMUM, step, ..none }
+            }
+            PrimitiveLocation::Transition { edge, step } => {
+                Self { kind: TESS_PRIMITIVE_TRANSITION, edge, step, ..none }
+            }
+            PrimitiveLocation::Ring { ring, edge, step } => {
+                Self { kind: TESS_PRIMITIVE_RING, ring, edge, step, ..none }
+            }
+            PrimitiveLocation::Centre { step } => {
+                Self { kind: TESS_PRIMITIVE_CENTRE, step, ..none }
+            }
+        }
+    }
+}

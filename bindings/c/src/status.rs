@@ -1,0 +1,56 @@
+//! What the functions answer: a number, and what it means.
+
+use std::ffi::{CStr, c_char};
+
+/// What every function returns: `TESS_OK` or the reason why it did nothing.
+pub type TessStatus = u32;
+
+/// Done.
+pub const TESS_OK: TessStatus = 0;
+/// A pointer that must point somewhere is null.
+pub const TESS_NULL_POINTER: TessStatus = 1;
+/// A pointer is not aligned for what it points to.
+pub const TESS_MISALIGNED: TessStatus = 2;
+/// An enumeration (domain, partitioning, ...) has a value that is not listed.
+pub const TESS_UNKNOWN_VALUE: TessStatus = 3;
+/// The number of factors is not that of the domain: 2 (isoline), 4 (triangle), 6 (quad).
+pub const TESS_WRONG_FACTOR_COUNT: TessStatus = 4;
+/// A buffer is too small; the counts that were asked for say what is needed.
+pub const TESS_BUFFER_TOO_SMALL: TessStatus = 5;
+/// The patch or edge has no element of this number.
+pub const TESS_OUT_OF_RANGE: TessStatus = 6;
+/// No factor has this context.
+pub const TESS_NOT_A_CONTEXT: TessStatus = 7;
+/// Two buffers that are written share memory.
+pub const TESS_OVERLAP: TessStatus = 8;
+
+/// Every status with its message, in the order of their numbers.
+const MESSAGES: [&CStr; 9] = [
+    c"done",
+    c"a pointer is null",
+    c"a pointer is not aligned",
+    c"an enumeration has an unknown value",
+    c"the number of factors is not that of the domain",
+    c"a buffer is too small",
+    c"there is no element of this number",
+    c"no factor has this context",
+    c"two output buffers overlap",
+];
+
+/// What a status means, in English, without a newline.
+///
+/// Never null: a number that is no status gives "unknown status". The text lives as long as the
+/// program and must not be freed.
+#[unsafe(no_mangle)]
+pub extern "C" fn tess_status_message(status: TessStatus) -> *const c_char {
+    let message = usize::try_from(status).ok().and_then(|status| MESSAGES.get(status));
+    message.copied().unwrap_or(c"unknown status").as_ptr()
+}
+
+/// Does the work of a function and turns its result into the number that C sees.
+pub(crate) fn answer(work: impl FnOnce() -> Result<(), TessStatus>) -> TessStatus {
+    match work() {
+        Ok(()) => TESS_OK,
+        Err(status) => status,
+    }
+}
