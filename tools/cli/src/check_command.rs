@@ -1,14 +1,32 @@
 //! `tess check`: runs the cases of a vector file and compares.
 
-use crate::backends::BackendArgs;
+use crate::backends::{BackendArgs, BackendName};
 use crate::failure::{Exit, Failure};
-use std::path::PathBuf;
+use crate::output::stdout;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
+use tess_check::backend::Backend;
+use tess_check::checker::{self, CheckError, Report};
+use tess_check::vectors::VectorFile;
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Example:
+The first differences and a summary line go to stdout. Each difference shows the case, the first
+wrong element, what was observed and what is right there in hex, the stage of the specification
+that it points to, and commands that show it again.
+
+In a file of listings whose source (in its first line) is neither d3d11-reference... nor tess...,
+the listings are what a device under test gave; everywhere else the file is right.
+
+Exit code 0: all equal; 1: differences; 2: malformed, truncated or empty file; 3: no such backend.
+
+Examples:
   tess check golden/cases.txt
+  tess check golden/place.csv --backend simd
   tess patch tri --outer 3,4,5 --inner 4 | tess check -")]
 pub struct Args {
     /// Vector file; - is stdin
@@ -23,10 +41,65 @@ pub struct Args {
 /// # Errors
 /// Malformed, short or empty input; a backend that is not available.
 pub fn run(args: &Args) -> Result<Exit, Failure> {
-    let backend = args.backend.select()?;
-    Err(Failure::unavailable(format!(
-        "cannot check {} with {}: this build has no comparison yet",
-        args.file.display(),
-        backend.name()
-    )))
+    let mut backends = backends(&args.backend)?;
+    let name =
+        if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
+    let file = VectorFile::new(name, open(&args.file)?).map_err(|e| failure(e.into()))?;
+    let bar = progress_bar(file.header().count);
+    let report = checker::check(file, &mut backends, &|records| bar.inc(records));
+    bar.finish_and_clear();
+    let report = report.map_err(failure)?;
+    let backend = backends.first().map_or("core", |backend| backend.name());
+    show(&report, backend).map_err(|error| Failure::file("write", Path::new("-"), &error))?;
+    Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
+}
+
+/// One backend for each thread: the model runs on every core, the others use them by themselves.
+fn backends(args: &BackendArgs) -> Result<Vec<Box<dyn Backend>>, Failure> {
+    let threads = match args.backend {
+        BackendName::Core => available_parallelism().map_or(1, usize::from),
+        BackendName::Simd | BackendName::Gpu => 1,
+    };
+    (0..threads).map(|_| args.select()).collect()
+}
+
+fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
+    if path.as_os_str() == "-" {
+        return Ok(Box::new(BufReader::new(io::stdin())));
+    }
+    let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
+    Ok(Box::new(BufReader::new(file)))
+}
+
+/// On stderr, and only if that is a terminal.
+fn progress_bar(records: u64) -> ProgressBar {
+    let bar = ProgressBar::new(records);
+    let template = "{wide_bar} {pos}/{len} records, {eta} left";
+    match ProgressStyle::with_template(template) {
+        Ok(style) => bar.with_style(style),
+        Err(_) => bar, // the bar of the library
+    }
+}
+
+fn show(report: &Report, backend: &str) -> io::Result<()> {
+    let mut out = stdout();
+    for difference in &report.differences {
+        writeln!(out, "{difference}")?;
+        for command in difference.commands(backend) {
+            writeln!(out, "  again: {command}")?;
+        }
+    }
+    let hidden = report.mismatches - report.differences.len() as u64;
+    if hidden > 0 {
+        writeln!(out, "and {hidden} more")?;
+    }
+    writeln!(out, "{report}")?;
+    out.flush()
+}
+
+fn failure(error: CheckError) -> Failure {
+    match error {
+        CheckError::Vectors(error) => Failure::bad_input(error.to_string()),
+        CheckError::Backend(error) => error.into(),
+    }
 }
