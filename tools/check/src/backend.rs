@@ -27,8 +27,10 @@ pub trait Backend: Send {
         patches: &[PatchFactors],
     ) -> Result<Vec<Tessellation>, BackendError>;
 
-    /// Factor processing (spec section 3) alone: for each value `x` the fixed-point u = 0 and
-    /// inside factors of the triangle patch (x, 3, 3; x), as `golden/factor.csv` has them.
+    /// Factor processing (spec section 3) alone: for each value `x` the fixed-point u = 0 factor of
+    /// the triangle patch (x, 3, 3; 3), zero if it is culled, and the inside factor of (3, 3, 3; x).
+    ///
+    /// Where (x, 3, 3; x) is not culled, its factors are the same (`golden/factor.csv` has those).
     ///
     /// # Errors
     /// As for [`Backend::tessellate`].
@@ -83,4 +85,18 @@ impl Error for BackendError {
     fn source(&self) -> Option<&(dyn Error + 'static)> {
         self.source.as_deref().map(|source| source as _)
     }
+}
+
+/// Refuses answers that are more or fewer than were asked for.
+pub(crate) fn all_answered<T>(
+    backend: &dyn Backend,
+    what: &str,
+    answers: Vec<T>,
+    asked: usize,
+) -> Result<Vec<T>, BackendError> {
+    if answers.len() == asked {
+        return Ok(answers);
+    }
+    let (name, got) = (backend.name(), answers.len());
+    Err(BackendError::new(format!("{name} answered with {got} {what}, {asked} were asked for")))
 }

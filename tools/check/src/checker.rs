@@ -141,17 +141,3 @@ fn check_unit(
         records => patches::single(header, backend, records),
     }
 }
-
-/// Refuses answers that are more or fewer than were asked for.
-fn all_answered<T>(
-    backend: &dyn Backend,
-    what: &str,
-    answers: Vec<T>,
-    asked: usize,
-) -> Result<Vec<T>, BackendError> {
-    if answers.len() == asked {
-        return Ok(answers);
-    }
-    let (name, got) = (backend.name(), answers.len());
-    Err(BackendError::new(format!("{name} answered with {got} {what}, {asked} were asked for")))
-}

@@ -4,7 +4,7 @@ use crate::backend::{Backend, BackendError};
 use tess_core::factors::process;
 use tess_core::{
     Config, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, Patch, PatchFactors,
-    ProcessedPatch, SplitOrder, Tessellation, TriangleFactors, place,
+    ProcessedFactor, ProcessedPatch, SplitOrder, Tessellation, TriangleFactors, place,
 };
 
 /// `tess-core`, the sequential formulation.
@@ -54,15 +54,28 @@ impl Backend for CoreBackend {
     }
 }
 
-/// The u = 0 and inside factors of the triangle patch (x, 3, 3; x); zeros if it is culled.
+/// The u = 0 factor of the triangle patch (x, 3, 3; 3), zero if it is culled, and the inside factor
+/// of (3, 3, 3; x).
 fn outer_and_inside(partitioning: Partitioning, x: f32) -> [FixedFactor; 2] {
+    let plain = TriangleFactors { u0: 3.0, v0: 3.0, w0: 3.0, inside: 3.0 };
+    let outer = processed(partitioning, TriangleFactors { u0: x, ..plain });
+    let inside = processed(partitioning, TriangleFactors { inside: x, ..plain });
+    let none = FixedFactor::from_bits(0);
+    [
+        outer.map_or(none, |factors| factors.u0.fixed),
+        inside.map_or(none, |factors| factors.inside.fixed),
+    ]
+}
+
+/// The processed factors of a triangle patch, if it is not culled.
+fn processed(
+    partitioning: Partitioning,
+    factors: TriangleFactors,
+) -> Option<TriangleFactors<ProcessedFactor>> {
     let config = Config::new(partitioning, OutputPrimitive::Point);
-    let factors = TriangleFactors { u0: x, v0: 3.0, w0: 3.0, inside: x };
     match process(config, PatchFactors::Triangle(factors)) {
         ProcessedPatch::Minimum(PatchFactors::Triangle(factors))
-        | ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => {
-            [factors.u0.fixed, factors.inside.fixed]
-        }
-        _ => [FixedFactor::from_bits(0); 2],
+        | ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => Some(factors),
+        _ => None,
     }
 }

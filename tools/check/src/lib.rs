@@ -13,4 +13,5 @@ pub mod random;
 pub mod sequences;
 pub mod strength;
 pub mod vectors;
+pub mod verify;
 pub mod workloads;

@@ -1,7 +1,6 @@
 //! The kinds that cover everything there is: all fixed-point factors, all binary32 of a binade.
 
-use super::all_answered;
-use crate::backend::{Backend, BackendError};
+use crate::backend::{Backend, BackendError, all_answered};
 use crate::compare::{self, Mismatch, Stage};
 use crate::core_backend::CoreBackend;
 use crate::digest::{Fnv1a, words_digest};

@@ -1,7 +1,7 @@
 //! The kinds whose records are patches: single ones, and sequences with one digest.
 
-use super::{Found, all_answered, stages};
-use crate::backend::{Backend, BackendError};
+use super::{Found, stages};
+use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::{Case, factor_bits, factor_names};
 use crate::compare::{self, Element, Mismatch, Stage};
 use crate::core_backend::CoreBackend;

@@ -1,7 +1,6 @@
 //! Which stage of a backend goes wrong on a patch that it gets wrong.
 
-use super::all_answered;
-use crate::backend::{Backend, BackendError};
+use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::{Case, factor_list};
 use crate::compare::{Mismatch, Stage};
 use crate::core_backend::CoreBackend;
