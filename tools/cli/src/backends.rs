@@ -2,11 +2,10 @@
 //!
 //! One adapter per backend, each an implementation of [`Backend`].
 
-pub mod core;
-
 use crate::failure::Failure;
 use clap::ValueEnum;
 use tess_check::backend::Backend;
+use tess_check::core_backend::CoreBackend;
 
 /// The names that `--backend` takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -33,8 +32,16 @@ impl BackendArgs {
     /// # Errors
     /// Exit code 3 if this build or this machine does not have it, with the next step.
     pub fn select(&self) -> Result<Box<dyn Backend>, Failure> {
-        match self.backend {
-            BackendName::Core => Ok(Box::new(core::Core)),
+        self.select_named(self.backend)
+    }
+
+    /// Makes a backend ready that another option names, as these options say.
+    ///
+    /// # Errors
+    /// As for [`Self::select`].
+    pub fn select_named(&self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
+        match name {
+            BackendName::Core => Ok(Box::new(CoreBackend)),
             BackendName::Simd => Err(not_built_in("simd")),
             BackendName::Gpu => Err(not_built_in("gpu")),
         }
@@ -43,7 +50,6 @@ impl BackendArgs {
 
 fn not_built_in(name: &str) -> Failure {
     Failure::unavailable(format!(
-        "this build of tess has no {name} backend; use --backend core, \
-         or a build that has it (`tess --help` lists nothing more)"
+        "this build of tess has no {name} backend; --backend core is always there"
     ))
 }

@@ -2,14 +2,15 @@
 
 mod csv;
 mod json;
-mod listing;
 mod obj;
 
+use crate::draw::DrawOptions;
 use crate::failure::Failure;
 use clap::ValueEnum;
 use tess_check::backend::Backend;
 use tess_check::case::Case;
-use tess_core::{Domain, OutputPrimitive, Tessellation};
+use tess_check::vectors::{Header, Kind, Listing, primitive_size};
+use tess_core::Tessellation;
 
 /// The forms of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -22,16 +23,18 @@ pub enum Format {
     Json,
     /// A Wavefront mesh in the plane, (u, v) as (x, y)
     Obj,
+    /// A picture of 800 x 800 pixels; `tess draw` can do more
+    Svg,
+    /// The same as pixels
+    Png,
 }
 
 /// A patch as some backend tessellated it.
 #[derive(Clone, Debug)]
 pub struct OnePatch {
-    /// Its configuration and raw factors.
-    pub case: Case,
-    /// The result.
-    pub result: Tessellation,
-    /// Name of the backend.
+    /// The case and its result.
+    pub listing: Listing,
+    /// Who tessellated it.
     pub backend: &'static str,
 }
 
@@ -44,24 +47,39 @@ impl OnePatch {
         let mut results = backend.tessellate(case.config, &[case.factors])?;
         let name = backend.name();
         match (results.pop(), results.is_empty()) {
-            (Some(result), true) => Ok(Self { case, result, backend: name }),
+            (Some(output), true) => {
+                Ok(Self { listing: Listing { line: 0, case, output }, backend: name })
+            }
             _ => Err(Failure::unavailable(format!("{name} did not return exactly one patch"))),
         }
     }
 
-    /// How many indices make a primitive: 1, 2 or 3.
+    /// What was tessellated.
     #[must_use]
-    pub fn primitive_size(&self) -> usize {
-        match (self.case.config.output, self.case.domain()) {
-            (OutputPrimitive::Point, _) => 1,
-            (OutputPrimitive::Line, _) | (_, Domain::Isoline) => 2,
-            (OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw, _) => 3,
-        }
+    pub const fn case(&self) -> &Case {
+        &self.listing.case
+    }
+
+    /// What came out.
+    #[must_use]
+    pub const fn output(&self) -> &Tessellation {
+        &self.listing.output
+    }
+
+    /// The first line of a vector file with this one record.
+    fn header(&self, kind: Kind) -> Header {
+        let source = format!("tess-{}", self.backend);
+        Header { kind, count: 1, source, notes: Vec::new() }
+    }
+
+    /// The patch as a file of one listing.
+    fn to_text(&self) -> String {
+        format!("{}\n{}", self.header(Kind::Listings), self.listing)
     }
 
     /// The index list, primitive by primitive.
     pub fn primitives(&self) -> impl Iterator<Item = &[u32]> {
-        self.result.indices.chunks(self.primitive_size())
+        self.output().indices.chunks(primitive_size(self.case()))
     }
 }
 
@@ -72,10 +90,17 @@ impl Format {
     /// The picture could not be made.
     pub fn render(self, patch: &OnePatch) -> Result<Vec<u8>, Failure> {
         Ok(match self {
-            Self::Text => listing::render(patch).into_bytes(),
+            Self::Text => patch.to_text().into_bytes(),
             Self::Csv => csv::render(patch).into_bytes(),
             Self::Json => json::render(patch).into_bytes(),
             Self::Obj => obj::render(patch).into_bytes(),
+            Self::Svg => picture(patch).to_svg().into_bytes(),
+            Self::Png => picture(patch).to_png()?,
         })
     }
+}
+
+fn picture(patch: &OnePatch) -> crate::picture::Picture {
+    let options = DrawOptions { size: 800, ..DrawOptions::default() };
+    crate::draw::draw(patch, &options).picture
 }

@@ -7,12 +7,15 @@
 pub mod args;
 pub mod backends;
 pub mod check_command;
+pub mod draw;
+pub mod draw_command;
 pub mod explain;
 pub mod explain_command;
 pub mod failure;
 pub mod formats;
 pub mod output;
 pub mod patch_command;
+pub mod picture;
 
 use clap::{Parser, Subcommand};
 use failure::{Exit, Failure};
@@ -39,6 +42,7 @@ Examples:
 enum Command {
     Patch(patch_command::Args),
     Explain(explain_command::Args),
+    Draw(draw_command::Args),
     Check(check_command::Args),
 }
 
@@ -60,6 +64,7 @@ fn run(command: &Command) -> Result<Exit, Failure> {
     match command {
         Command::Patch(args) => patch_command::run(args),
         Command::Explain(args) => explain_command::run(args),
+        Command::Draw(args) => draw_command::run(args),
         Command::Check(args) => check_command::run(args),
     }
 }

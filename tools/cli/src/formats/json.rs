@@ -35,7 +35,7 @@ struct Point {
 }
 
 pub(super) fn render(patch: &OnePatch) -> String {
-    let case = patch.case;
+    let case = patch.case();
     let named = factor_names(case.domain()).iter().zip(factor_list(&case.factors));
     let factor = |(name, value): (&&'static str, f32)| Factor { name, bits: hex(value), value };
     let document = Document {
@@ -56,7 +56,7 @@ fn points(patch: &OnePatch) -> Vec<Point> {
         let [u, v] = point.to_f32();
         Point { u_bits: point.u.to_bits(), v_bits: point.v.to_bits(), u, v }
     };
-    patch.result.points.iter().map(point).collect()
+    patch.output().points.iter().map(point).collect()
 }
 
 fn hex(factor: f32) -> String {

@@ -1,0 +1,69 @@
+//! Where numbers go, and how large they can be.
+#![expect(clippy::float_arithmetic, reason = "positions of a drawing, in pixels")]
+
+use crate::picture::{Position, number_width};
+
+/// Digits below this height cannot be read.
+const SMALLEST: f64 = 4.5;
+/// Digits need not be higher than this.
+const LARGEST: f64 = 13.0;
+
+/// A disc around each point that leaves room for its nearest neighbour: the radius.
+pub(super) fn disc_radii(points: &[Position]) -> Vec<f64> {
+    const LARGEST_RADIUS: f64 = 15.0;
+    let nearest = |i: usize| {
+        let others = points.iter().enumerate().filter(|&(k, _)| k != i);
+        let distances = others.map(|(_, &other)| distance(points[i], other));
+        distances.fold(f64::INFINITY, f64::min)
+    };
+    (0..points.len()).map(|i| (0.44 * nearest(i)).min(LARGEST_RADIUS)).collect()
+}
+
+/// The radius of a number's disc and the height of its digits, if the disc can hold it.
+pub(super) fn in_disc(number: u32, radius: f64) -> Option<(f64, f64)> {
+    // Digits of height h and width w fit if their diagonal is a diameter.
+    let diagonal_per_height = number_width(number, 1.0).hypot(1.0);
+    let height = (1.7 * radius / diagonal_per_height).min(LARGEST);
+    let needed = (height * diagonal_per_height / 1.7).max(6.0).min(radius);
+    (height >= SMALLEST).then_some((needed, height))
+}
+
+/// Centre and height of a primitive's number: in the middle of its incircle or segment.
+pub(super) fn in_primitive(number: u32, corners: &[Position]) -> Option<(Position, f64)> {
+    let (centre, room) = match corners {
+        [a, b] => (middle(*a, *b), distance(*a, *b) * 0.4),
+        [a, b, c] => incircle(*a, *b, *c)?,
+        _ => return None,
+    };
+    let height = (1.8 * room / number_width(number, 1.0).hypot(1.0)).min(LARGEST);
+    (height >= SMALLEST).then_some((centre, height))
+}
+
+/// The corners of a plate behind a number.
+pub(super) fn plate(number: u32, [x, y]: Position, height: f64) -> Vec<Position> {
+    let (half_width, half_height) = (number_width(number, height) / 2.0 + 2.0, height / 2.0 + 2.0);
+    [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+        .map(|(right, down)| [x + right * half_width, y + down * half_height])
+        .to_vec()
+}
+
+fn middle(a: Position, b: Position) -> Position {
+    [0, 1].map(|axis| (a[axis] + b[axis]) / 2.0)
+}
+
+fn distance(a: Position, b: Position) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+/// Centre and radius; `None` for a triangle without an inside.
+fn incircle(a: Position, b: Position, c: Position) -> Option<(Position, f64)> {
+    let sides = [distance(b, c), distance(c, a), distance(a, b)];
+    let perimeter: f64 = sides.iter().sum();
+    let area = ((b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])).abs() / 2.0;
+    if area <= 0.0 {
+        return None;
+    }
+    let coordinate =
+        |axis: usize| (sides[0] * a[axis] + sides[1] * b[axis] + sides[2] * c[axis]) / perimeter;
+    Some(([coordinate(0), coordinate(1)], 2.0 * area / perimeter))
+}
