@@ -9,6 +9,7 @@ mod header;
 mod listing;
 mod record;
 mod row;
+mod write;
 
 pub use error::VectorError;
 pub use header::{Header, Kind};
@@ -16,6 +17,7 @@ pub use listing::{Listing, primitive_size};
 pub use record::{
     ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Record, Recorded, Sizes,
 };
+pub use write::{write_listings, write_patches};
 
 use error::Place;
 use row::Row;

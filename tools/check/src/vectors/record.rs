@@ -4,8 +4,12 @@ use super::error::VectorError;
 use super::header::Kind;
 use super::listing::Listing;
 use super::row::Row;
-use crate::case::{Case, factor_names, factors_from_list};
+use crate::case::{Case, factor_bits, factor_names, factors_from_list};
+use crate::digest::{points_digest, words_digest};
+use crate::names::Named;
+use std::fmt;
 use std::ops::RangeInclusive;
+use tess_core::Tessellation;
 use tess_core::prepare::{Prepared, QuadAxes, Reduction, Request};
 use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, PatchFactors, SplitOrder};
 
@@ -67,6 +71,32 @@ pub struct PatchRow {
     pub case: Case,
     /// What came out.
     pub output: Sizes,
+}
+
+impl Sizes {
+    /// Counts and digests of an output.
+    #[must_use]
+    pub fn of(output: &Tessellation) -> Self {
+        Self {
+            points: output.points.len() as u64,
+            indices: output.indices.len() as u64,
+            points_digest: points_digest(&output.points),
+            indices_digest: words_digest(&output.indices),
+        }
+    }
+}
+
+/// The row as it stands in a file of the kind `patches`.
+impl fmt::Display for PatchRow {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Case { config: Config { partitioning, output, split }, factors } = self.case;
+        let domain = self.case.domain().name();
+        write!(f, "{domain},{},{},{},", partitioning.name(), output.name(), split.name())?;
+        let bits = factor_bits(&factors).into_iter().map(|bits| format!("{bits:08x}"));
+        f.write_str(&bits.collect::<Vec<_>>().join(" "))?;
+        let Sizes { points, indices, points_digest, indices_digest } = self.output;
+        write!(f, ",{points},{indices},{points_digest:016x},{indices_digest:016x}")
+    }
 }
 
 /// A digest chained over a sequence of patches.
