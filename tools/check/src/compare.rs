@@ -22,6 +22,8 @@ pub enum Stage {
     PointOrder,
     /// Connectivity (spec sections 7 and 8).
     Stitch,
+    /// A digest over whole patches differs, every element of which is the model's.
+    Unknown,
 }
 
 impl fmt::Display for Stage {
@@ -34,6 +36,7 @@ impl fmt::Display for Stage {
             Self::Location => "location",
             Self::PointOrder => "point order",
             Self::Stitch => "stitch",
+            Self::Unknown => "unknown, every element is the model's",
         })
     }
 }

@@ -170,6 +170,6 @@ fn chain(
             return Ok(Some((stages::trace(backend, &case, mismatch)?, Some(case))));
         }
     }
-    let mismatch = Mismatch::digest("chained patches", digest.finish(), row.chain, Stage::Stitch);
+    let mismatch = Mismatch::digest("chained patches", digest.finish(), row.chain, Stage::Unknown);
     Ok(mismatch.map(|mismatch| (mismatch, None)))
 }

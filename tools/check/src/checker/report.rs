@@ -81,7 +81,8 @@ impl Difference {
     #[must_use]
     pub fn commands(&self, backend: &str) -> Vec<String> {
         let check = self.file.as_ref().map(|file| {
-            let lines: Vec<_> = file.lines().map(|line| format!("'{line}'")).collect();
+            let quoted = |line: &str| format!("'{}'", line.replace('\'', r"'\''"));
+            let lines: Vec<_> = file.lines().map(quoted).collect();
             format!("printf '%s\\n' {} | tess check - --backend {backend}", lines.join(" "))
         });
         let patch = self.case.map(|case| format!("{} --backend {backend}", case.command()));
