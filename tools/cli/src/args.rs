@@ -68,7 +68,7 @@ impl PatchArgs {
 }
 
 /// A parser of command-line values that takes the names of `T` and lists them in help and errors.
-fn name_of<T: Named + Send + Sync>() -> impl TypedValueParser<Value = T> {
+pub(crate) fn name_of<T: Named + Send + Sync>() -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(T::NAMES.iter().map(|(name, _)| *name))
         .try_map(|name| T::from_name(&name))
 }

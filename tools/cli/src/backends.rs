@@ -27,6 +27,12 @@ pub struct BackendArgs {
 }
 
 impl BackendArgs {
+    /// A backend with no further options.
+    #[must_use]
+    pub const fn named(backend: BackendName) -> Self {
+        Self { backend }
+    }
+
     /// Makes the chosen backend ready.
     ///
     /// # Errors
@@ -48,7 +54,8 @@ impl BackendArgs {
     }
 }
 
-fn not_built_in(name: &str) -> Failure {
+/// The failure of asking for a backend that this build does not have.
+pub(crate) fn not_built_in(name: &str) -> Failure {
     Failure::unavailable(format!(
         "this build of tess has no {name} backend; --backend core is always there"
     ))

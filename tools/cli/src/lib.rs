@@ -6,6 +6,8 @@
 
 pub mod args;
 pub mod backends;
+pub mod bench;
+pub mod bench_command;
 pub mod check_command;
 pub mod draw;
 pub mod draw_command;
@@ -13,9 +15,11 @@ pub mod explain;
 pub mod explain_command;
 pub mod failure;
 pub mod formats;
+pub mod gen_command;
 pub mod output;
 pub mod patch_command;
 pub mod picture;
+pub mod verify_command;
 
 use clap::{Parser, Subcommand};
 use failure::{Exit, Failure};
@@ -36,7 +40,9 @@ struct Program {
 const EXAMPLES: &str = "\
 Examples:
   tess patch tri --outer 3,4,5 --inner 4        one patch as a listing
-  tess check golden/patches.csv                 4000 recorded patches, compared";
+  tess draw tri --outer 17,5,9 --inner 3 -o fan.png
+  tess check golden/patches.csv                 4000 recorded patches, compared
+  tess bench --workload uniform-16              how fast on this machine";
 
 #[derive(Debug, Subcommand)]
 enum Command {
@@ -44,6 +50,9 @@ enum Command {
     Explain(explain_command::Args),
     Draw(draw_command::Args),
     Check(check_command::Args),
+    Bench(bench_command::Args),
+    Gen(gen_command::Args),
+    Verify(verify_command::Args),
 }
 
 /// Runs the program on the process's arguments and says how it ended.
@@ -66,5 +75,8 @@ fn run(command: &Command) -> Result<Exit, Failure> {
         Command::Explain(args) => explain_command::run(args),
         Command::Draw(args) => draw_command::run(args),
         Command::Check(args) => check_command::run(args),
+        Command::Bench(args) => bench_command::run(args),
+        Command::Gen(args) => gen_command::run(args),
+        Command::Verify(args) => verify_command::run(args),
     }
 }

@@ -19,6 +19,17 @@ impl OutputArgs {
     /// # Errors
     /// The place cannot be written; a file that was there is then as it was.
     pub fn write(&self, content: &[u8]) -> Result<(), Failure> {
+        self.stream(|out| out.write_all(content))
+    }
+
+    /// Writes to stdout or to the file what `content` writes, as it comes.
+    ///
+    /// # Errors
+    /// The place cannot be written; a file that was there is then as it was.
+    pub fn stream(
+        &self,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
         let path = &self.file;
         let written =
             if path.as_os_str() == "-" { write_stdout(content) } else { write_file(path, content) };
@@ -26,26 +37,38 @@ impl OutputArgs {
     }
 }
 
-fn write_stdout(content: &[u8]) -> io::Result<()> {
+fn write_stdout(content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     let mut out = stdout();
-    out.write_all(content)?;
+    content(&mut out)?;
     out.flush()
 }
 
 /// Writes a sibling first, then renames it. What is not a regular file is written directly.
-fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
+fn write_file(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     if path.metadata().is_ok_and(|metadata| !metadata.is_file()) {
-        return fs::write(path, content);
+        return write_directly(path, content);
     }
     let mut name = path.file_name().unwrap_or_default().to_owned();
     name.push(format!(".{}.partial", std::process::id()));
     let partial = path.with_file_name(name);
-    let written = fs::write(&partial, content).and_then(|()| fs::rename(&partial, path));
+    let written = write_directly(&partial, content).and_then(|()| fs::rename(&partial, path));
     if written.is_err() {
         // It may never have been created; the first error is the one to report.
         _ = fs::remove_file(&partial);
     }
     written
+}
+
+fn write_directly(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = BufWriter::new(fs::File::create(path)?);
+    content(&mut out)?;
+    out.flush()
 }
 
 /// Stdout, buffered, that stays quiet when its reader leaves.

@@ -1,0 +1,105 @@
+//! `tess verify`: every backend against the model.
+
+use crate::backends::{BackendArgs, BackendName};
+use crate::failure::{Exit, Failure};
+use crate::gen_command::shard;
+use crate::output::stdout;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::{self, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+use tess_check::backend::Backend;
+use tess_check::generate::Shard;
+use tess_check::names::Named;
+use tess_check::verify::{Plan, Row, Subject, verify};
+
+/// Compare every backend with the model, over generated levels or over everything there is
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Without --exhaustive: levels 1 and 2 of `tess gen`. With it, also all 2^32 factors in every
+partitioning, all fixed-point factors with their contexts and locations, all transitions and all
+interiors. Shards are disjoint, and together they are everything, so any batch system can spread
+the work.
+
+Exit code 0: all equal; 1: differences; 3: a backend is not available here.
+
+Examples:
+  tess verify
+  tess verify --backend simd --exhaustive
+  tess verify --exhaustive --shard 3/64")]
+pub struct Args {
+    /// Backend to compare; all of this build unless said
+    #[arg(long, value_name = "NAME")]
+    backend: Vec<BackendName>,
+    /// Everything that is finite
+    #[arg(long)]
+    exhaustive: bool,
+    /// One subject only: level-1, level-2, transitions, interiors, locations or factors
+    #[arg(long, value_name = "NAME", value_parser = crate::args::name_of::<Subject>())]
+    subject: Vec<Subject>,
+    /// One of N disjoint parts, counted from 1
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
+    shard: Shard,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A backend that is not available.
+pub fn run(args: &Args) -> Result<Exit, Failure> {
+    let mut workers = args.workers()?;
+    let plan = args.plan();
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{msg:12} {wide_bar} {pos}/{len}, {eta} left") {
+        bar.set_style(style);
+    }
+    let started = Instant::now();
+    let table = verify(&mut workers, &plan, &|subject, done, all| {
+        bar.set_length(all);
+        bar.set_message(subject.name());
+        bar.set_position(done);
+    });
+    bar.finish_and_clear();
+    let table = table?;
+    show(&table, started.elapsed())
+        .map_err(|error| Failure::file("write", Path::new("-"), &error))?;
+    let equal = table.iter().all(|row| row.mismatches == 0);
+    Ok(if equal { Exit::Done } else { Exit::Different })
+}
+
+impl Args {
+    fn plan(&self) -> Plan {
+        let plan = if self.exhaustive { Plan::exhaustive() } else { Plan::levels() };
+        let subjects = if self.subject.is_empty() { plan.subjects } else { self.subject.clone() };
+        Plan { subjects, shard: self.shard }
+    }
+
+    /// One thread with every backend that was asked for; a GPU is not shared.
+    fn workers(&self) -> Result<Vec<Vec<Box<dyn Backend>>>, Failure> {
+        let all = [BackendName::Simd, BackendName::Gpu];
+        let names = if self.backend.is_empty() { &all[..] } else { &self.backend };
+        let threads = if names.contains(&BackendName::Gpu) {
+            1
+        } else {
+            std::thread::available_parallelism().map_or(1, usize::from)
+        };
+        let backends = || names.iter().map(|&name| BackendArgs::named(name).select()).collect();
+        (0..threads).map(|_| backends()).collect()
+    }
+}
+
+fn show(table: &[Row], took: Duration) -> io::Result<()> {
+    let mut out = stdout();
+    writeln!(out, "{:<12} {:<8} {:>15} {:>10}", "subject", "backend", "compared", "mismatches")?;
+    for row in table {
+        let Row { subject, backend, compared, mismatches, .. } = row;
+        writeln!(out, "{:<12} {backend:<8} {compared:>15} {mismatches:>10}", subject.name())?;
+    }
+    for row in table {
+        if let Some(first) = &row.first {
+            writeln!(out, "first of {} in {}: {first}", row.subject.name(), row.backend)?;
+        }
+    }
+    writeln!(out, "in {} s", took.as_secs())?;
+    out.flush()
+}
