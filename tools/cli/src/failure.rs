@@ -43,6 +43,12 @@ impl Failure {
         Self { exit: Exit::BadInput, message: message.into() }
     }
 
+    /// A result that is not what it must be: exit code 1.
+    #[must_use]
+    pub fn different(message: impl Into<String>) -> Self {
+        Self { exit: Exit::Different, message: message.into() }
+    }
+
     /// A backend that is not built in or cannot run here: exit code 3.
     #[must_use]
     pub fn unavailable(message: impl Into<String>) -> Self {

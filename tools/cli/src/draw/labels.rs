@@ -21,8 +21,8 @@ pub(super) fn disc_radii(points: &[Position]) -> Vec<f64> {
 
 /// The radius of a number's disc and the height of its digits, if the disc can hold it.
 pub(super) fn in_disc(number: u32, radius: f64) -> Option<(f64, f64)> {
-    // Digits of height h and width w fit if their diagonal is a diameter.
-    let diagonal_per_height = number_width(number, 1.0).hypot(1.0);
+    // Digits fit if their diagonal is a diameter; two digits at least, so that discs are alike.
+    let diagonal_per_height = number_width(number.max(10), 1.0).hypot(1.0);
     let height = (1.7 * radius / diagonal_per_height).min(LARGEST);
     let needed = (height * diagonal_per_height / 1.7).max(6.0).min(radius);
     (height >= SMALLEST).then_some((needed, height))

@@ -1,0 +1,116 @@
+//! `tess bench`: how fast the backends are on this machine.
+
+use crate::backends::BackendName;
+use crate::bench::{self, Plan, Row, RunnerOptions, WorkingSet};
+use crate::failure::{Exit, Failure};
+use crate::output;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::Write;
+use tess_check::workloads::{self, IndexType, Workload};
+
+/// Time the named workloads against filling the same bytes and against the core
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  tess bench --workload uniform-16 --workload uniform-64
+  tess bench --backend simd --working-set cache --json > simd.json
+
+Every result is compared with the model before it is timed. Backend, fill and core run in turn;
+figures are medians, and ratios are medians of the ratios of neighbouring runs. Workloads: uniform-1
+to uniform-64, seed-table, terrain, character, worst.")]
+pub struct Args {
+    /// Workload or family of workloads; may be repeated [default: all]
+    #[arg(long, value_name = "NAME")]
+    workload: Vec<String>,
+    /// Implementation to time
+    #[arg(long, value_name = "NAME", default_value = "core")]
+    backend: BackendName,
+    /// Where the output goes; may be repeated [default: both]
+    #[arg(long, value_name = "NAME")]
+    working_set: Vec<WorkingSet>,
+    /// Threads to run on
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1024))]
+    threads: u32,
+    /// Width of the indices: u16 or u32
+    #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = index_type)]
+    index_type: IndexType,
+    /// Interleaved runs that each median is taken of
+    #[arg(long, value_name = "N", default_value_t = 9)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
+    samples: u32,
+    /// Print one JSON array of objects
+    #[arg(long)]
+    json: bool,
+}
+
+fn index_type(name: &str) -> Result<IndexType, String> {
+    match name {
+        "u16" => Ok(IndexType::U16),
+        "u32" => Ok(IndexType::U32),
+        _ => Err("an index type is u16 or u32".to_owned()),
+    }
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// An unknown workload, a backend that is not available, a result that differs from the model's.
+pub fn run(args: &Args) -> Result<Exit, Failure> {
+    let workloads = find_workloads(&args.workload)?;
+    let working_sets = match &args.working_set[..] {
+        [] => &[WorkingSet::Cache, WorkingSet::Stream],
+        chosen => chosen,
+    };
+    let options = RunnerOptions { threads: args.threads, index_type: args.index_type };
+    let mut runner = bench::runner(args.backend, options)?;
+    if cfg!(debug_assertions) {
+        // A closed stderr does not change the result.
+        _ = writeln!(std::io::stderr(), "this build has debug assertions; figures need --release");
+    }
+    let progress = progress(workloads.len() * working_sets.len());
+    let mut rows = Vec::new();
+    for workload in &workloads {
+        for &working_set in working_sets {
+            progress.set_message(format!("{}, {}", workload.name, working_set.name()));
+            let plan = Plan { workload, working_set, samples: args.samples };
+            rows.push(bench::measure(runner.as_mut(), plan)?);
+            progress.inc(1);
+        }
+    }
+    progress.finish_and_clear();
+    print(&rows, args.json)?;
+    Ok(Exit::Done)
+}
+
+fn find_workloads(names: &[String]) -> Result<Vec<Workload>, Failure> {
+    if names.is_empty() {
+        return Ok(workloads::all());
+    }
+    let mut found = Vec::new();
+    for name in names {
+        let workloads = workloads::named(name);
+        if workloads.is_empty() {
+            let known: Vec<_> = workloads::all().into_iter().map(|known| known.name).collect();
+            let known = known.join(", ");
+            return Err(Failure::bad_input(format!(
+                "--workload: there is no workload {name}; there are {known}"
+            )));
+        }
+        found.extend(workloads);
+    }
+    Ok(found)
+}
+
+fn progress(steps: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}");
+    ProgressBar::new(steps as u64)
+        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn print(rows: &[Row], json: bool) -> Result<(), Failure> {
+    let text = if json { output::json(&rows) } else { bench::table(rows) };
+    let mut out = output::stdout();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    written.map_err(|error| Failure::bad_input(format!("cannot write results: {error}")))
+}
