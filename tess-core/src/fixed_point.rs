@@ -138,7 +138,6 @@ mod tests {
     /// Against exact arithmetic in binary64, with rounding done by its own rule.
     #[test]
     #[expect(
-        clippy::float_arithmetic,
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
         reason = "the independent oracle is written in binary64"

@@ -1,0 +1,134 @@
+//! All ways out of a patch agree: sinks, slices, vectors and predicted counts.
+
+mod common;
+
+use proptest::prelude::*;
+use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
+use tess_core::{
+    Buffer, BufferTooSmall, Config, Counter, DomainPoint, MAX_INDICES, MAX_POINTS, Partitioning,
+    Patch, PatchFactors,
+};
+
+/// What unwritten elements hold.
+const POINT: DomainPoint = DomainPoint::from_bits(0xDEAD_BEEF, 0xDEAD_BEEF);
+const INDEX: u32 = 0xDEAD_BEEF;
+
+fn check_buffers(config: Config, factors: PatchFactors) -> Result<(), TestCaseError> {
+    let patch = Patch::new(config, factors);
+    let counts = patch.counts();
+    let (n, m) = (counts.points as usize, counts.indices as usize);
+    prop_assert!(n <= MAX_POINTS && m <= MAX_INDICES, "limits of a patch: {counts:?}");
+    let whole = patch.tessellate();
+    prop_assert_eq!((whole.points.len(), whole.indices.len()), (n, m), "predicted sizes");
+    let mut counter = Counter::default();
+    patch.emit(&mut counter);
+    let counted = (counter.points, counter.primitives, counter.indices);
+    prop_assert_eq!(counted, (counts.points, counts.primitives, counts.indices), "counted");
+
+    // Exactly as written, and nothing after it.
+    let (mut points, mut indices) = (vec![POINT; n + 2], vec![INDEX; m + 2]);
+    prop_assert_eq!(patch.write(&mut points, &mut indices), Ok(counts), "room to spare");
+    prop_assert!(points[..n] == whole.points && indices[..m] == whole.indices, "contents");
+    prop_assert!(points[n..] == [POINT; 2] && indices[m..] == [INDEX; 2], "guards");
+    prop_assert_eq!(patch.write(&mut points[..n], &mut indices[..m]), Ok(counts), "exact room");
+    Ok(())
+}
+
+/// Both buffers stay as they are when either is too small.
+fn check_too_small(
+    patch: &Patch,
+    (points, indices): (usize, usize),
+    expected: BufferTooSmall,
+) -> Result<(), TestCaseError> {
+    let (mut points, mut indices) = (vec![POINT; points], vec![INDEX; indices]);
+    prop_assert_eq!(patch.write(&mut points, &mut indices), Err(expected), "the error");
+    prop_assert!(points.iter().all(|&point| point == POINT), "no point was written");
+    prop_assert!(indices.iter().all(|&index| index == INDEX), "no index was written");
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(2000))]
+
+    #[test]
+    fn sinks_slices_vectors_and_counts(config in common::config(), factors in common::factors()) {
+        check_buffers(config, factors)?;
+    }
+
+    #[test]
+    fn buffers_that_are_too_small(
+        config in common::config(),
+        factors in common::factors(),
+        fraction in 0u32..100,
+    ) {
+        let patch = Patch::new(config, factors);
+        let (n, m) = (patch.counts().points as usize, patch.counts().indices as usize);
+        for less in [1, n * fraction as usize / 100, n] {
+            if let Some(got) = n.checked_sub(less).filter(|&got| got < n) {
+                let error = BufferTooSmall { buffer: Buffer::Points, needed: n, got };
+                check_too_small(&patch, (got, m), error)?;
+            }
+        }
+        for less in [1, m * fraction as usize / 100, m] {
+            if let Some(got) = m.checked_sub(less).filter(|&got| got < m) {
+                let error = BufferTooSmall { buffer: Buffer::Indices, needed: m, got };
+                check_too_small(&patch, (n, got), error)?;
+            }
+        }
+    }
+
+    /// Factor preparation: culled patches come back as they were, with zeros; the rounded factors
+    /// of all others lie in the partitioning's range, so that the tessellator clamps nothing.
+    #[test]
+    fn prepared_factors_are_in_range(
+        partitioning in prop::sample::select(&Partitioning::ALL[..]),
+        reduction in prop::sample::select(&[Reduction::Min, Reduction::Max, Reduction::Average][..]),
+        axes in prop::sample::select(&[QuadAxes::One, QuadAxes::Two][..]),
+        factors in common::factors(),
+    ) {
+        let request = match factors {
+            PatchFactors::Isoline(factors) => Request::Isoline(factors),
+            PatchFactors::Triangle(factors) => Request::Triangle(factors),
+            PatchFactors::Quad(factors) => Request::Quad(factors, axes),
+        };
+        let outer_count = match factors {
+            PatchFactors::Isoline(_) => 2,
+            PatchFactors::Triangle(_) => 3,
+            PatchFactors::Quad(_) => 4,
+        };
+        let raw = list(&factors);
+        let prepared = prepare(partitioning, reduction, request);
+        let (unrounded, rounded) = (list(&prepared.unrounded), list(&prepared.rounded));
+        if raw[..outer_count].iter().any(|factor| factor.is_nan() || *factor <= 0.0) {
+            let bits = |factors: &[f32]| factors.iter().map(|f| f.to_bits()).collect::<Vec<_>>();
+            let as_given = bits(&unrounded[..outer_count]) == bits(&raw[..outer_count]);
+            prop_assert!(as_given, "unrounded outer factors are the inputs: {unrounded:?}");
+            let rest = unrounded[outer_count..].iter().chain(&rounded);
+            prop_assert!(rest.clone().all(|f| f.to_bits() == 0), "the rest is 0: {prepared:?}");
+        } else {
+            let (low, high) = partitioning.range();
+            let low = if matches!(factors, PatchFactors::Isoline(_)) { 1.0 } else { low };
+            let high = if matches!(factors, PatchFactors::Isoline(_)) { 64.0 } else { high };
+            let in_range = rounded.iter().all(|factor| (low..=high).contains(factor));
+            prop_assert!(in_range, "rounded factors in {low}..={high}: {rounded:?}");
+        }
+    }
+}
+
+fn list(factors: &PatchFactors) -> Vec<f32> {
+    match factors {
+        PatchFactors::Isoline(f) => vec![f.density, f.detail],
+        PatchFactors::Triangle(f) => [&f.outer()[..], &[f.inside]].concat(),
+        PatchFactors::Quad(f) => [&f.outer()[..], &f.inside()].concat(),
+    }
+}
+
+#[test]
+fn the_error_says_what_was_needed() {
+    let error = BufferTooSmall { buffer: Buffer::Indices, needed: 66, got: 65 };
+    assert_eq!(
+        error.to_string(),
+        "the index buffer holds 65 elements, but the patch needs 66",
+        "the message"
+    );
+}

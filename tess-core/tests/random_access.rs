@@ -1,0 +1,151 @@
+//! Both formulations give the same elements: on every topology, and on random patches.
+
+mod common;
+
+use proptest::prelude::*;
+use tess_core::{
+    Config, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch, PatchFactors,
+    Primitive, QuadFactors, Sink, SplitOrder, TriangleFactors,
+};
+
+/// The sequential formulation's elements, primitives kept apart.
+#[derive(Clone, Default)]
+struct Elements {
+    points: Vec<DomainPoint>,
+    primitives: Vec<Primitive>,
+}
+
+impl Sink for Elements {
+    fn point(&mut self, point: DomainPoint) {
+        self.points.push(point);
+    }
+
+    fn primitive(&mut self, primitive: Primitive) {
+        self.primitives.push(primitive);
+    }
+}
+
+impl Elements {
+    fn of(patch: &Patch) -> Self {
+        let mut elements = Self::default();
+        patch.emit(&mut elements);
+        elements
+    }
+}
+
+/// The first element that random access gives differently, one past the ends included.
+fn first_difference(patch: &Patch, sequential: &Elements) -> Option<String> {
+    fn differ<T: Copy + PartialEq + std::fmt::Debug>(
+        what: &str,
+        sequential: &[T],
+        access: impl Fn(u32) -> Option<T>,
+    ) -> Option<String> {
+        let expected = sequential.iter().copied().map(Some).chain([None]);
+        let mut elements = (0u32..).zip(expected).map(|(i, expected)| (i, access(i), expected));
+        let (i, random, expected) = elements.find(|(_, random, expected)| random != expected)?;
+        Some(format!("{what} {i}: random access {random:?}, sequential {expected:?}"))
+    }
+    differ("point", &sequential.points, |i| patch.point(i))
+        .or_else(|| differ("primitive", &sequential.primitives, |t| patch.primitive(t)))
+}
+
+fn assert_equal(config: Config, factors: PatchFactors) {
+    let patch = Patch::new(config, factors);
+    let difference = first_difference(&patch, &Elements::of(&patch));
+    assert_eq!(difference, None, "{config:?} {factors:?}");
+}
+
+/// Integer factors have every parity and number of half points that a factor can have, and a
+/// patch's connectivity depends on nothing else (spec section 12.8).
+fn integer(split: SplitOrder) -> Config {
+    let (partitioning, output) = (Partitioning::Integer, OutputPrimitive::TriangleCw);
+    Config { partitioning, output, split }
+}
+
+fn pairs() -> impl Iterator<Item = (u8, u8)> {
+    (1..=64).flat_map(|a| (1..=64).map(move |b| (a, b)))
+}
+
+/// Factor `a` moved on by `step` within 1..=64.
+fn turned(a: u8, step: u8) -> f32 {
+    f32::from((a - 1 + step) % 64 + 1)
+}
+
+#[test]
+fn every_isoline() {
+    for (density, detail) in pairs() {
+        let factors = IsolineFactors { density: density.into(), detail: detail.into() };
+        assert_equal(integer(SplitOrder::Ruler), PatchFactors::Isoline(factors));
+    }
+}
+
+/// Every interior, and on each edge every pair of an outer and an inside factor.
+#[test]
+fn every_triangle_topology() {
+    for split in SplitOrder::ALL {
+        for (outer, inside) in pairs() {
+            let [u0, v0, w0] = [0, 21, 42].map(|step| turned(outer, step));
+            let factors = TriangleFactors { u0, v0, w0, inside: inside.into() };
+            assert_equal(integer(split), PatchFactors::Triangle(factors));
+        }
+    }
+}
+
+/// Every interior, and on each edge every pair of an outer factor and the inside factor along it:
+/// along u on the edges v = 0 and v = 1, whose outer factors vary with the other inside factor.
+fn every_quad_topology(split: SplitOrder) {
+    for (u, v) in pairs() {
+        let factors = QuadFactors {
+            u0: turned(u, 0),
+            v0: turned(v, 0),
+            u1: turned(u, 31),
+            v1: turned(v, 32),
+            inside_u: u.into(),
+            inside_v: v.into(),
+        };
+        assert_equal(integer(split), PatchFactors::Quad(factors));
+    }
+}
+
+#[test]
+fn every_quad_topology_ruler() {
+    every_quad_topology(SplitOrder::Ruler);
+}
+
+#[test]
+fn every_quad_topology_center() {
+    every_quad_topology(SplitOrder::Center);
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(4000))]
+
+    #[test]
+    fn any_factors_in_any_configuration(config in common::config(), factors in common::factors()) {
+        assert_equal(config, factors);
+    }
+}
+
+/// The comparison is seen to fail on each kind of damage.
+#[test]
+fn damage_is_noticed() {
+    let factors = TriangleFactors { u0: 3.0, v0: 4.0, w0: 5.0, inside: 6.0 };
+    let patch = Patch::new(integer(SplitOrder::Ruler), PatchFactors::Triangle(factors));
+    let good = Elements::of(&patch);
+    assert_eq!(first_difference(&patch, &good), None, "undamaged");
+    type Damage = fn(&mut Elements);
+    let damages: [(Damage, &str); 6] = [
+        (|e| e.points[7] = DomainPoint::from_bits(e.points[7].u.to_bits() ^ 1, 0), "point 7:"),
+        (|e| _ = e.points.pop(), "point 30:"),
+        (|e| e.points.push(DomainPoint::default()), "point 31:"),
+        (|e| e.primitives.swap(0, 1), "primitive 0:"),
+        (|e| _ = e.primitives.pop(), "primitive 47:"),
+        (|e| e.primitives.push(Primitive::Triangle([0, 1, 2])), "primitive 48:"),
+    ];
+    for (damage, expected) in damages {
+        let mut damaged = good.clone();
+        damage(&mut damaged);
+        let found = first_difference(&patch, &damaged).unwrap_or_default();
+        assert!(found.starts_with(expected), "{expected} was found as {found:?}");
+    }
+}
