@@ -1,0 +1,126 @@
+//! Factor contexts of eight patches (spec section 4).
+
+use crate::lanes::{Column, LANES, MAX_FACTORS};
+use crate::reciprocal::reciprocal;
+use tess_core::fixed_point::HALF;
+use tess_core::{FactorContext, Parity, SplitOrder};
+
+/// The six numbers of each factor of a block, one column each, and the parity.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contexts {
+    pub(crate) odd: Column,
+    pub(crate) inv_floor: Column,
+    pub(crate) inv_ceil: Column,
+    pub(crate) fraction: Column,
+    pub(crate) half_points: Column,
+    pub(crate) split: Column,
+    pub(crate) points: Column,
+}
+
+/// The context of one factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Context {
+    pub(crate) odd: u32,
+    pub(crate) inv_floor: u32,
+    pub(crate) inv_ceil: u32,
+    pub(crate) fraction: u32,
+    pub(crate) half_points: u32,
+    pub(crate) split: u32,
+    pub(crate) points: u32,
+}
+
+impl Contexts {
+    /// The contexts of the first `count` factors of two columns.
+    #[inline(always)]
+    pub(crate) fn new(fixed: &Column, odd: &Column, count: usize, order: SplitOrder) -> Self {
+        const NONE: Column = [0; LANES * MAX_FACTORS];
+        let mut all = Self {
+            odd: *odd,
+            inv_floor: NONE,
+            inv_ceil: NONE,
+            fraction: NONE,
+            half_points: NONE,
+            split: NONE,
+            points: NONE,
+        };
+        for i in 0..count.min(NONE.len()) {
+            let context = Context::new(fixed[i], odd[i], order);
+            all.inv_floor[i] = context.inv_floor;
+            all.inv_ceil[i] = context.inv_ceil;
+            all.fraction[i] = context.fraction;
+            all.half_points[i] = context.half_points;
+            all.split[i] = context.split;
+            all.points[i] = context.points;
+        }
+        all
+    }
+
+    /// The context of one factor of one patch.
+    #[inline(always)]
+    pub(crate) fn get(&self, factor: usize, lane: usize) -> Context {
+        let i = factor * LANES + lane;
+        Context {
+            odd: self.odd[i],
+            inv_floor: self.inv_floor[i],
+            inv_ceil: self.inv_ceil[i],
+            fraction: self.fraction[i],
+            half_points: self.half_points[i],
+            split: self.split[i],
+            points: self.points[i],
+        }
+    }
+}
+
+impl Context {
+    /// The context of a factor in range: 1..=63 if odd, 1..=64 if even. Free of branches.
+    #[inline(always)]
+    pub(crate) fn new(fixed: u32, odd: u32, order: SplitOrder) -> Self {
+        let rounded = (fixed + 1) >> 1;
+        let shifted = odd | u32::from(rounded == HALF);
+        let half = rounded + HALF * shifted;
+        let floor = half >> 16;
+        let ceil = (half + 0xFFFF) >> 16;
+        let split = match order {
+            // For an odd factor with floor = 1 the position is 0, not 2 * 0 + 1.
+            SplitOrder::Ruler => {
+                let first = u32::from(odd == 1 && floor == 1);
+                2 * drop_most_significant_bit(floor - odd) + 1 - first
+            }
+            SplitOrder::Center => ceil.wrapping_sub(1 + odd),
+        };
+        Self {
+            odd,
+            inv_floor: reciprocal(2 * floor - odd),
+            inv_ceil: reciprocal(2 * ceil - odd),
+            fraction: half & 0xFFFF,
+            half_points: ceil,
+            split: if floor == ceil { ceil + 1 } else { split },
+            points: 2 * ceil + 1 - odd,
+        }
+    }
+}
+
+/// Clears the highest set bit of `x <= 32`; 0 stays 0.
+#[inline(always)]
+const fn drop_most_significant_bit(x: u32) -> u32 {
+    let x1 = x | (x >> 1);
+    let x2 = x1 | (x1 >> 2);
+    let below = (x2 | (x2 >> 4)) >> 1;
+    x & below
+}
+
+impl From<&FactorContext> for Context {
+    fn from(context: &FactorContext) -> Self {
+        let FactorContext { parity, inv_floor, inv_ceil, fraction, half_points, split, points } =
+            *context;
+        Self { odd: parity.odd(), inv_floor, inv_ceil, fraction, half_points, split, points }
+    }
+}
+
+impl From<&Context> for FactorContext {
+    fn from(context: &Context) -> Self {
+        let Context { odd, inv_floor, inv_ceil, fraction, half_points, split, points } = *context;
+        let parity = if odd == 1 { Parity::Odd } else { Parity::Even };
+        Self { parity, inv_floor, inv_ceil, fraction, half_points, split, points }
+    }
+}

@@ -1,0 +1,53 @@
+//! Eight patches side by side.
+//!
+//! A *lane* is a patch of a block of eight; a *column* is one quantity of all factors of a block,
+//! factor by factor, eight lanes each. Stages are branch-free functions of one element, mapped
+//! over a column: plain loops over arrays of a fixed size, which the compiler turns into vectors
+//! of whatever width the CPU level has.
+
+use tess_core::Domain;
+
+/// Patches in a block.
+pub(crate) const LANES: usize = 8;
+
+/// The most factors that a patch has: a quad's.
+pub(crate) const MAX_FACTORS: usize = 6;
+
+/// One quantity of the patches of a block.
+pub(crate) type Lanes<T = u32> = [T; LANES];
+
+/// One quantity of all factors of a block: element `factor * LANES + lane`.
+pub(crate) type Column<T = u32> = [T; LANES * MAX_FACTORS];
+
+/// Outer factors of a patch, which come first; an isoline's factors all count as outer ones.
+pub(crate) const fn outer_factors(domain: Domain) -> usize {
+    match domain {
+        Domain::Isoline => 2,
+        Domain::Triangle => 3,
+        Domain::Quad => 4,
+    }
+}
+
+/// Factors of a patch.
+pub(crate) const fn factors(domain: Domain) -> usize {
+    match domain {
+        Domain::Isoline => 2,
+        Domain::Triangle => 4,
+        Domain::Quad => 6,
+    }
+}
+
+/// Point counts of a patch's edges and inside axes, in the order of its factors.
+pub(crate) type EdgePoints = [u32; MAX_FACTORS];
+
+/// Whether the parity of an edge with this many points is odd: its segments are one fewer.
+#[inline(always)]
+pub(crate) const fn is_odd(points: u32) -> bool {
+    points.is_multiple_of(2)
+}
+
+/// One factor's part of a column.
+#[inline(always)]
+pub(crate) fn factor<T>(column: &Column<T>, factor: usize) -> &Lanes<T> {
+    &column.as_chunks().0[factor]
+}

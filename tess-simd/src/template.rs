@@ -1,0 +1,165 @@
+//! Small patches as templates.
+//!
+//! A patch's indices, counted from its own first point, depend on its point counts alone, and with
+//! integer factors so do its points. Small patches of a topology that was seen before are copied.
+//! The templates are made by the same emission that larger patches go through.
+
+use crate::block::Block;
+use crate::connect;
+use crate::emit::Writer;
+use crate::lanes::EdgePoints;
+use crate::points::{self, LocationTables};
+use crate::stitch::Stitches;
+use alloc::vec::Vec;
+use tess_core::{
+    Config, Domain, DomainPoint, IsolineFactors, Patch, PatchFactors, QuadFactors, TriangleFactors,
+};
+
+/// The most indices that a patch with a template has: those of a quad of factor 16.
+pub(crate) const MAX_INDICES: usize = 1536;
+/// The most points that a patch with a template has; any patch with few enough indices has fewer,
+/// unless the output primitive is a point.
+const MAX_POINTS: usize = 768;
+
+/// Templates kept at a time. Two topologies that share a slot replace each other.
+const SLOTS: usize = 1024;
+/// Indices of all templates.
+const INDEX_ROOM: usize = 96 << 10;
+/// Points of all templates.
+const POINT_ROOM: usize = 24 << 10;
+/// Room to read whole blocks.
+const PADDING: usize = 16;
+
+/// The templates of one configuration. 412 KiB.
+#[derive(Clone, Debug)]
+pub(crate) struct Templates {
+    /// Topologies: see [`topology`]; 0 at first.
+    keys: Vec<u64>,
+    starts: Vec<(u32, u32)>,
+    indices: Vec<u16>,
+    points: Vec<DomainPoint>,
+    indices_used: usize,
+    points_used: usize,
+}
+
+/// One patch's template.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Template<'a> {
+    /// Indices counted from the patch's first point, and then unspecified ones.
+    pub(crate) indices: &'a [u16],
+    /// Points, and then unspecified ones; only if the topology decides them.
+    pub(crate) points: Option<&'a [DomainPoint]>,
+}
+
+impl Templates {
+    pub(crate) fn new() -> Self {
+        Self {
+            keys: alloc::vec![0; SLOTS],
+            starts: alloc::vec![(0, 0); SLOTS],
+            indices: alloc::vec![0; INDEX_ROOM],
+            points: alloc::vec![DomainPoint::default(); POINT_ROOM],
+            indices_used: 0,
+            points_used: 0,
+        }
+    }
+
+    /// The template of a patch that is not culled, if it is small enough for one.
+    #[inline(always)]
+    pub(crate) fn get(
+        &mut self,
+        (config, stitches): (Config, &Stitches),
+        (block, lane): (&Block, usize),
+        edges: &EdgePoints,
+        tables: &mut LocationTables,
+    ) -> Option<Template<'_>> {
+        let indices = block.counts.indices[lane] as usize;
+        let points = block.counts.points[lane] as usize;
+        if indices > MAX_INDICES || points > MAX_POINTS {
+            return None;
+        }
+        let key = topology(edges, block.is_minimum(lane));
+        let slot = slot(key);
+        if self.keys[slot] != key {
+            self.make((config, stitches), (block, lane), (edges, tables), key);
+        }
+        let (first_point, first_index) = self.starts[slot];
+        let decided = block.integer() || block.is_minimum(lane);
+        Some(Template {
+            indices: &self.indices[first_index as usize..],
+            points: if decided { Some(&self.points[first_point as usize..]) } else { None },
+        })
+    }
+
+    /// Makes a template; if there is no room, all others are forgotten.
+    #[cold]
+    #[inline(never)]
+    fn make(
+        &mut self,
+        (config, stitches): (Config, &Stitches),
+        (block, lane): (&Block, usize),
+        (edges, tables): (&EdgePoints, &mut LocationTables),
+        key: u64,
+    ) {
+        let (points, indices) = (block.counts.points[lane], block.counts.indices[lane]);
+        let full = self.indices_used + indices as usize + PADDING > INDEX_ROOM
+            || self.points_used + points as usize + PADDING > POINT_ROOM;
+        if full {
+            self.keys.fill(0);
+            (self.indices_used, self.points_used) = (0, 0);
+        }
+        let (index_room, point_room) =
+            (&mut self.indices[self.indices_used..], &mut self.points[self.points_used..]);
+        let domain = block.domain();
+        if block.is_minimum(lane) {
+            let minimum = minimum(config, domain);
+            let mut wide = [0; 8];
+            let written = minimum.write(point_room, &mut wide);
+            debug_assert!(written.is_ok(), "a minimum patch has at most 4 points and 6 indices");
+            for (narrow, wide) in index_room.iter_mut().zip(wide) {
+                *narrow = wide as u16;
+            }
+        } else {
+            let mut writer = Writer::new(index_room);
+            connect::emit((domain, config.output), edges, stitches, (0, points), &mut writer);
+            if block.integer() {
+                points::emit(block, lane, edges, tables, &mut Writer::new(point_room));
+            }
+        }
+        self.keys[slot(key)] = key;
+        self.starts[slot(key)] = (self.points_used as u32, self.indices_used as u32);
+        self.indices_used += indices as usize;
+        self.points_used += points as usize;
+    }
+}
+
+/// A number for each topology of a domain, not 0.
+#[inline(always)]
+fn topology(edges: &EdgePoints, minimum: bool) -> u64 {
+    let counts = edges.iter().fold(1, |key, &points| (key << 7) | u64::from(points));
+    (counts << 1) | u64::from(minimum)
+}
+
+/// Where a topology's template is kept: the upper bits of a product with 2^64 over the golden ratio.
+#[inline(always)]
+const fn slot(key: u64) -> usize {
+    (key.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SLOTS.ilog2())) as usize
+}
+
+/// The minimum patch of a domain.
+fn minimum(config: Config, domain: Domain) -> Patch {
+    let factors = match domain {
+        Domain::Isoline => PatchFactors::Isoline(IsolineFactors { density: 1.0, detail: 1.0 }),
+        Domain::Triangle => {
+            PatchFactors::Triangle(TriangleFactors { u0: 1.0, v0: 1.0, w0: 1.0, inside: 1.0 })
+        }
+        Domain::Quad => PatchFactors::Quad(QuadFactors {
+            u0: 1.0,
+            v0: 1.0,
+            u1: 1.0,
+            v1: 1.0,
+            inside_u: 1.0,
+            inside_v: 1.0,
+        }),
+    };
+    Patch::new(config, factors)
+}

@@ -1,0 +1,281 @@
+//! What the comparisons share: seeded patches, the core's answer, and the first difference.
+
+use tess_check::random::SplitMix64;
+use tess_core::{
+    Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch,
+    PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
+};
+use tess_simd::{Batch, Error, IndexFormat, Level, Numbering, Output, PointFormat, Tessellator};
+
+/// Every configuration there is.
+pub fn configs() -> impl Iterator<Item = Config> {
+    SplitOrder::ALL.into_iter().flat_map(|split| {
+        Partitioning::ALL.into_iter().flat_map(move |partitioning| {
+            OutputPrimitive::ALL.into_iter().map(move |output| Config {
+                partitioning,
+                output,
+                split,
+            })
+        })
+    })
+}
+
+/// The levels to compare at: every one of this machine. Set `TESS_REQUIRE_LEVELS` to fail where
+/// one is missing; otherwise it is reported.
+pub fn levels() -> Vec<Level> {
+    let (available, missing): (Vec<_>, Vec<_>) =
+        Level::ALL.into_iter().partition(|level| level.is_available());
+    if !missing.is_empty() {
+        let required = std::env::var_os("TESS_REQUIRE_LEVELS").is_some();
+        assert!(!required, "this machine lacks the levels {missing:?}");
+        use std::io::Write as _;
+        let _ = writeln!(std::io::stderr(), "NOT COMPARED, not on this machine: {missing:?}");
+    }
+    available
+}
+
+/// A raw factor: mostly in or near 1..64, sometimes special.
+pub fn factor(random: &mut SplitMix64) -> f32 {
+    let specials = [
+        0.0,
+        -0.0,
+        -1.0,
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::MIN_POSITIVE / 2.0,
+        1.0,
+        1.0 + f32::EPSILON,
+        64.0,
+        65.0,
+        1e30,
+    ];
+    let integer = |random: &mut SplitMix64| f32::from(1 + random.below(64) as u8);
+    match random.below(64) {
+        0 => specials[random.below(specials.len() as u32) as usize],
+        1..=8 => 1.0,
+        9..=16 => 64.0,
+        17..=28 => integer(random),
+        29..=34 => f32::from_bits(integer(random).to_bits() + random.below(600)),
+        35..=48 => f32::from_bits(0x3F80_0000 + random.below(0x0180_0000)), // 1..8
+        _ => f32::from_bits(0x3F80_0000 + random.below(0x0300_0000)),       // 1..64, log-uniform
+    }
+}
+
+/// Factors of one patch: mostly unrelated, often all equal, now and then all one or culled.
+pub fn patch(random: &mut SplitMix64, domain: Domain) -> PatchFactors {
+    let equal = match random.below(8) {
+        0 => Some(1.0),
+        1 => Some(64.0),
+        2 => Some(factor(random)),
+        3 => Some(0.0),
+        _ => None,
+    };
+    let mut next = || equal.unwrap_or_else(|| factor(random));
+    match domain {
+        Domain::Isoline => {
+            PatchFactors::Isoline(IsolineFactors { density: next(), detail: next() })
+        }
+        Domain::Triangle => PatchFactors::Triangle(TriangleFactors {
+            u0: next(),
+            v0: next(),
+            w0: next(),
+            inside: next(),
+        }),
+        Domain::Quad => PatchFactors::Quad(QuadFactors {
+            u0: next(),
+            v0: next(),
+            u1: next(),
+            v1: next(),
+            inside_u: next(),
+            inside_v: next(),
+        }),
+    }
+}
+
+/// Patches of one domain in both layouts.
+#[derive(Default, Debug)]
+pub struct Patches {
+    pub all: Vec<PatchFactors>,
+    isolines: Vec<IsolineFactors>,
+    triangles: Vec<TriangleFactors>,
+    quads: Vec<QuadFactors>,
+    columns: [Vec<f32>; 6],
+}
+
+impl Patches {
+    pub fn new(all: Vec<PatchFactors>) -> Self {
+        let mut patches = Self::default();
+        for patch in &all {
+            let factors = match *patch {
+                PatchFactors::Isoline(f) => {
+                    patches.isolines.push(f);
+                    vec![f.density, f.detail]
+                }
+                PatchFactors::Triangle(f) => {
+                    patches.triangles.push(f);
+                    vec![f.u0, f.v0, f.w0, f.inside]
+                }
+                PatchFactors::Quad(f) => {
+                    patches.quads.push(f);
+                    [f.outer().to_vec(), f.inside().to_vec()].concat()
+                }
+            };
+            patches.columns.iter_mut().zip(factors).for_each(|(column, f)| column.push(f));
+        }
+        Self { all, ..patches }
+    }
+
+    pub fn random(seed: u64, domain: Domain, count: usize) -> Self {
+        let mut random = SplitMix64::new(seed);
+        Self::new((0..count).map(|_| patch(&mut random, domain)).collect())
+    }
+
+    pub fn structures(&self, domain: Domain) -> Batch<'_> {
+        match domain {
+            Domain::Isoline => Batch::Isolines(&self.isolines),
+            Domain::Triangle => Batch::Triangles(&self.triangles),
+            Domain::Quad => Batch::Quads(&self.quads),
+        }
+    }
+
+    pub fn columns(&self, domain: Domain) -> Batch<'_> {
+        let [a, b, c, d, e, f] = self.columns.each_ref().map(|column| &column[..]);
+        match domain {
+            Domain::Isoline => Batch::IsolineColumns(IsolineFactors { density: a, detail: b }),
+            Domain::Triangle => {
+                Batch::TriangleColumns(TriangleFactors { u0: a, v0: b, w0: c, inside: d })
+            }
+            Domain::Quad => Batch::QuadColumns(QuadFactors {
+                u0: a,
+                v0: b,
+                u1: c,
+                v1: d,
+                inside_u: e,
+                inside_v: f,
+            }),
+        }
+    }
+
+    pub fn expected(&self, config: Config) -> Vec<Tessellation> {
+        self.all.iter().map(|&factors| Patch::new(config, factors).tessellate()).collect()
+    }
+}
+
+/// A point or an index as the bits of what the core would have.
+pub trait Bits: Copy {
+    fn bits(self) -> [u32; 2];
+}
+impl Bits for DomainPoint {
+    fn bits(self) -> [u32; 2] {
+        [self.u.to_bits(), self.v.to_bits()]
+    }
+}
+impl Bits for [f32; 2] {
+    fn bits(self) -> [u32; 2] {
+        self.map(f32::to_bits)
+    }
+}
+impl Bits for u16 {
+    fn bits(self) -> [u32; 2] {
+        [self.into(), 0]
+    }
+}
+impl Bits for u32 {
+    fn bits(self) -> [u32; 2] {
+        [self, 0]
+    }
+}
+
+/// The first difference between an output and the core's patches, with the patch that can be run
+/// again.
+pub fn difference<P: PointFormat + Bits, I: IndexFormat + Bits>(
+    patches: &[PatchFactors],
+    expected: &[Tessellation],
+    numbering: Numbering,
+    output: &Output<P, I>,
+    point: impl Fn(DomainPoint) -> P,
+) -> Option<String> {
+    if output.ranges().len() != expected.len() {
+        return Some(format!("{} ranges for {} patches", output.ranges().len(), expected.len()));
+    }
+    let (mut first_point, mut first_index) = (0, 0);
+    for (i, expected) in expected.iter().enumerate() {
+        let range = output.ranges()[i];
+        let starts = (range.first_point as usize, range.first_index as usize);
+        if starts != (first_point, first_index) {
+            return Some(format!("patch {i} starts at {starts:?}"));
+        }
+        let (points, indices) = output.patch(i)?;
+        let base = match numbering {
+            Numbering::PerPatch => 0,
+            Numbering::Batch { base_vertex } => base_vertex + first_point as u32,
+        };
+        let expected_points = expected.points.iter().map(|&p| point(p).bits()).collect::<Vec<_>>();
+        let expected_indices =
+            expected.indices.iter().map(|&index| [base + index, 0]).collect::<Vec<_>>();
+        let what = [
+            ("point", first(points.iter().map(|p| p.bits()), &expected_points)),
+            ("index", first(indices.iter().map(|p| p.bits()), &expected_indices)),
+        ];
+        for (what, difference) in what {
+            if let Some(difference) = difference {
+                return Some(format!("patch {i} {:?}: {what} {difference}", patches[i]));
+            }
+        }
+        first_point += expected.points.len();
+        first_index += expected.indices.len();
+    }
+    let ends = (output.points().len(), output.indices().len());
+    (ends != (first_point, first_index)).then(|| format!("output ends at {ends:?}"))
+}
+
+fn first(
+    observed: impl ExactSizeIterator<Item = [u32; 2]>,
+    expected: &[[u32; 2]],
+) -> Option<String> {
+    let lengths = (observed.len(), expected.len());
+    for (i, (observed, expected)) in observed.zip(expected).enumerate() {
+        if observed != *expected {
+            return Some(format!("{i}: {observed:x?}, expected {expected:x?}"));
+        }
+    }
+    (lengths.0 != lengths.1).then(|| format!("count {}, expected {}", lengths.0, lengths.1))
+}
+
+/// Runs a batch in one pair of formats and compares it.
+pub fn compare<P: PointFormat + Bits, I: IndexFormat + Bits>(
+    tessellator: &mut Tessellator,
+    (patches, batch): (&Patches, Batch<'_>),
+    expected: &[Tessellation],
+    numbering: Numbering,
+    point: impl Fn(DomainPoint) -> P,
+) {
+    let mut output = Output::<P, I>::new();
+    let what = format!(
+        "{:?} {} {} {numbering:?} {} patches of {} bytes",
+        tessellator.config(),
+        tessellator.level(),
+        std::any::type_name::<(P, I)>(),
+        patches.all.len(),
+        size_of::<I>(),
+    );
+    let largest = expected.iter().map(|patch| patch.points.len()).max().unwrap_or(0);
+    let total = expected.iter().map(|patch| patch.points.len()).sum::<usize>();
+    let end = match numbering {
+        Numbering::PerPatch => largest as u64,
+        Numbering::Batch { base_vertex } if total > 0 => u64::from(base_vertex) + total as u64,
+        Numbering::Batch { .. } => 0,
+    };
+    let result = tessellator.tessellate(batch, numbering, &mut output);
+    if end.saturating_sub(1) > I::LARGEST {
+        let error = Error::IndexTooLarge { largest: end - 1, format: I::LARGEST };
+        assert_eq!(result, Err(error), "{what}");
+        assert_eq!(output.ranges().len(), 0, "{what}: nothing written");
+        return;
+    }
+    let counts = result.unwrap_or_else(|error| panic!("{what}: {error}"));
+    assert_eq!(tessellator.count(batch), Ok(counts), "{what}: counts");
+    let difference = difference(&patches.all, expected, numbering, &output, point);
+    assert_eq!(difference, None, "{what}");
+}
