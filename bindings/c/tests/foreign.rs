@@ -1,1 +1,40 @@
-fn main() {}
+//! Runs what is not Rust: the header in a C and a C++ compiler, the C example, the Verilog bench.
+//!
+//! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the
+//! environment variable `CI` set they fail.
+
+mod foreign {
+    pub(crate) mod c;
+    pub(crate) mod tools;
+    pub(crate) mod verilog;
+}
+
+use foreign::{c, tools, verilog};
+use libtest_mimic::{Arguments, Failed, Trial};
+
+type Test = fn() -> Result<(), Failed>;
+
+const TESTS: &[(&str, &[&str], Test)] = &[
+    ("header_is_c99", &["cc"], c::header_is_c99),
+    ("header_is_cpp", &["c++"], c::header_is_cpp),
+    ("example_equals_golden_static", &["cc"], c::example_equals_golden_static),
+    ("example_equals_golden_shared", &["cc"], c::example_equals_golden_shared),
+    ("example_refuses_bad_usage", &["cc"], c::example_refuses_bad_usage),
+    ("verilog_equals_model", &["c++", "make", "verilator"], verilog::equals_model),
+    ("verilog_faults_are_caught", &["c++", "make", "verilator"], verilog::faults_are_caught),
+    ("verilog_stimuli_are_checked", &["c++", "make", "verilator"], verilog::stimuli_are_checked),
+];
+
+fn main() {
+    let in_ci = std::env::var_os("CI").is_some();
+    let trials = TESTS.iter().map(|&(name, needed, test)| {
+        let missing: Vec<&str> = needed.iter().copied().filter(|tool| !tools::has(tool)).collect();
+        if missing.is_empty() {
+            return Trial::test(name, test);
+        }
+        let missing = format!("not run, missing: {}", missing.join(" "));
+        let failing = missing.clone();
+        Trial::test(name, move || Err(failing.into())).with_kind(missing).with_ignored_flag(!in_ci)
+    });
+    libtest_mimic::run(&Arguments::from_args(), trials.collect()).exit();
+}

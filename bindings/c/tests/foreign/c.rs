@@ -1,0 +1,111 @@
+//! The header and the example, in C and C++.
+
+use super::tools::{build_folder, crate_folder, libraries, output, run, text};
+use libtest_mimic::Failed;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const STRICT: &[&str] = &["-Wall", "-Wextra", "-pedantic", "-Werror"];
+/// What a Rust static library needs from the system.
+const SYSTEM_LIBRARIES: &[&str] = &["-lpthread", "-ldl", "-lm"];
+
+pub(crate) fn header_is_c99() -> Result<(), Failed> {
+    header_compiles("cc", "-std=c99", "c")
+}
+
+pub(crate) fn header_is_cpp() -> Result<(), Failed> {
+    header_compiles("c++", "-std=c++11", "c++")
+}
+
+/// Includes the header twice and calls a function, which the example is too long for in C++.
+fn header_compiles(compiler: &str, standard: &str, language: &str) -> Result<(), Failed> {
+    let source = build_folder().join(format!("header-{compiler}.c"));
+    let call = "int main(void) { return tess_version() != TESS_VERSION; }\n";
+    std::fs::write(&source, format!("#include \"tess.h\"\n#include \"tess.h\"\n{call}"))?;
+    let program = build_folder().join(format!("header-{compiler}"));
+    let mut command = Command::new(compiler);
+    command.arg(standard).args(STRICT).arg("-I").arg(crate_folder().join("include"));
+    command.args(["-x", language]).arg(source).args(["-x", "none"]).arg(libraries()?.archive);
+    run(command.args(SYSTEM_LIBRARIES).arg("-o").arg(&program))?;
+    // The linked library has the version that the header was made for.
+    run(&mut Command::new(program))?;
+    Ok(())
+}
+
+pub(crate) fn example_equals_golden_static() -> Result<(), Failed> {
+    equals_golden(&static_example("patch-static")?)
+}
+
+pub(crate) fn example_equals_golden_shared() -> Result<(), Failed> {
+    let library = libraries()?.shared;
+    let folder = library.parent().ok_or("a library lies in a folder")?;
+    let program = build_folder().join("patch-shared");
+    let mut command = compile_example();
+    command.arg(&library).arg("-o").arg(&program);
+    run(command.arg(format!("-Wl,-rpath,{}", folder.display())))?;
+    equals_golden(&program)
+}
+
+fn compile_example() -> Command {
+    let mut command = Command::new("cc");
+    command.arg("-std=c99").args(STRICT).arg("-I").arg(crate_folder().join("include"));
+    command.arg(crate_folder().join("examples/patch.c"));
+    command
+}
+
+fn static_example(name: &str) -> Result<PathBuf, String> {
+    let program = build_folder().join(name);
+    let mut command = compile_example();
+    command.arg(libraries()?.archive).args(SYSTEM_LIBRARIES);
+    run(command.arg("-o").arg(&program))?;
+    Ok(program)
+}
+
+/// Every listing of golden/cases.txt comes out of the program, to the letter.
+fn equals_golden(program: &Path) -> Result<(), Failed> {
+    let golden = std::fs::read_to_string(crate_folder().join("../../golden/cases.txt"))?;
+    let (header, cases) = golden.split_once('\n').ok_or("golden/cases.txt is empty")?;
+    let cases: Vec<&str> = cases.split_inclusive("\nend\n").collect();
+    if !header.contains(&format!("count={} ", cases.len())) {
+        return Err(format!("{} cases, but golden/cases.txt starts: {header}", cases.len()).into());
+    }
+    for case in cases {
+        let (line, expected) = case.split_once('\n').ok_or("a case has lines")?;
+        let arguments = line.strip_prefix("case ").ok_or("a case line starts with `case`")?;
+        let listing = run(Command::new(program).args(arguments.split(' ')))?;
+        if let Some(difference) = first_difference(&listing, expected) {
+            return Err(format!("{line}\n{difference}").into());
+        }
+    }
+    Ok(())
+}
+
+fn first_difference(observed: &str, expected: &str) -> Option<String> {
+    let pairs = observed.lines().zip(expected.lines()).enumerate();
+    for (number, (observed, expected)) in pairs {
+        if observed != expected {
+            return Some(format!("line {}: {observed}, expected {expected}", number + 1));
+        }
+    }
+    let (observed, expected) = (observed.lines().count(), expected.lines().count());
+    (observed != expected).then(|| format!("{observed} lines, expected {expected}"))
+}
+
+pub(crate) fn example_refuses_bad_usage() -> Result<(), Failed> {
+    let program = static_example("patch-usage")?;
+    for (arguments, complaint) in [
+        ("", "usage: patch"),
+        ("cube integer point ruler 3f800000 3f800000", "unknown name: cube"),
+        ("isoline integer point ruler 3f800000 1x", "not the bits of a factor: 1x"),
+        ("isoline integer point ruler 3f800000 123456789", "not the bits of a factor"),
+        ("quad integer point ruler 3f800000 3f800000", "number of factors"),
+    ] {
+        let output = output(Command::new(&program).args(arguments.split_whitespace()))?;
+        let said = text(&output.stderr);
+        if output.status.code() != Some(2) || !said.contains(complaint) {
+            let status = output.status;
+            return Err(format!("`patch {arguments}` ended with {status} and said: {said}").into());
+        }
+    }
+    Ok(())
+}
