@@ -1,0 +1,126 @@
+//! Bicubic Bezier patches, polynomial and rational, with exact partial derivatives.
+//!
+//! G. Farin, *Curves and Surfaces for CAGD*, 5th edition, 2002: tensor product patches and their
+//! derivatives (chapter 14), rational patches (chapter 16).
+
+use crate::curve::{Curve, de_casteljau};
+use crate::frame::{Frame, Tangents};
+use crate::math::{lerp, plain_zero, project};
+use glam::{Vec3, Vec4};
+
+/// A bicubic patch over the unit square: `points[row][column]`, rows along v, columns along u.
+///
+/// Points are homogeneous, (w x, w y, w z, w) with w > 0; a polynomial patch has w = 1
+/// throughout and is evaluated without rounding differences to a rational one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BezierPatch {
+    /// The control net.
+    pub points: [[Vec4; 4]; 4],
+}
+
+/// Everything that a normal may need: the homogeneous derivatives up to the second.
+#[derive(Clone, Copy)]
+struct Jet {
+    s: Vec4,
+    u: Vec4,
+    v: Vec4,
+    uu: Vec4,
+    uv: Vec4,
+    vv: Vec4,
+}
+
+impl BezierPatch {
+    /// A polynomial patch.
+    #[must_use]
+    pub fn polynomial(points: [[Vec3; 4]; 4]) -> Self {
+        Self { points: points.map(|row| row.map(|point| point.extend(1.0))) }
+    }
+
+    /// A rational patch from its points in space and their weights w > 0.
+    #[must_use]
+    pub fn rational(points: [[Vec3; 4]; 4], weights: [[f32; 4]; 4]) -> Self {
+        let mut homogeneous = [[Vec4::ZERO; 4]; 4];
+        for (row, (points, weights)) in homogeneous.iter_mut().zip(points.iter().zip(weights)) {
+            for (out, (&point, weight)) in row.iter_mut().zip(points.iter().zip(weights)) {
+                *out = (point * weight).extend(weight);
+            }
+        }
+        Self { points: homogeneous }
+    }
+
+    /// The boundary curves in the order u = 0, v = 0, u = 1, v = 1, each along its coordinate.
+    #[must_use]
+    pub fn boundary(&self) -> [Curve; 4] {
+        let column = |i: usize| Curve::Cubic(self.points.map(|row| row[i]));
+        let [first, _, _, last] = self.points;
+        [column(0), Curve::Cubic(first), column(3), Curve::Cubic(last)]
+    }
+
+    /// Position and partial derivatives at (u, v) in the unit square.
+    #[must_use]
+    pub fn frame(&self, u: f32, v: f32) -> Frame {
+        let rows = self.points.map(|row| de_casteljau(row, u));
+        let (s, sv) = de_casteljau(rows.map(|(point, _)| point), v);
+        let (su, _) = de_casteljau(rows.map(|(_, derivative)| derivative), v);
+        let position = project(s);
+        Frame {
+            position: plain_zero(position),
+            tangents: Tangents { du: quotient(su, s, position), dv: quotient(sv, s, position) },
+        }
+    }
+
+    /// The unit normal, on the side from which u to v turns counter-clockwise.
+    ///
+    /// Where the partial derivatives do not span a plane, as at a corner onto which a whole edge
+    /// is collapsed, it is the limit of the normal along a way into the patch.
+    #[must_use]
+    pub fn normal(&self, u: f32, v: f32) -> Vec3 {
+        let tangents = self.frame(u, v).tangents;
+        tangents.normal().or_else(|| self.limit_normal(u, v)).unwrap_or(Vec3::Z)
+    }
+
+    /// The first term that does not vanish of the normal's expansion along a way inwards.
+    ///
+    /// With N = Su x Sv = 0 at (u, v), N there is to first order the way's
+    /// a (Suu x Sv + Su x Suv) + b (Suv x Sv + Su x Svv), (a, b) pointing into the patch.
+    pub(crate) fn limit_normal(&self, u: f32, v: f32) -> Option<Vec3> {
+        let jet = self.jet(u, v);
+        let inwards = |x: f32| if x < 0.5 { 1.0 } else { -1.0 };
+        let first_order = jet.normal_derivative(inwards(u), inwards(v));
+        crate::math::unit(first_order).or_else(|| {
+            // Flatter still: the normal a little further inside.
+            let nearer = |x: f32| x + (0.5 - x) / 64.0;
+            self.frame(nearer(u), nearer(v)).tangents.normal()
+        })
+    }
+
+    fn jet(&self, u: f32, v: f32) -> Jet {
+        let second =
+            |[a, b, c, d]: [Vec4; 4], t: f32| lerp((c - b) - (b - a), (d - c) - (c - b), t) * 6.0;
+        let rows = self.points.map(|row| de_casteljau(row, u));
+        let (values, slopes) = (rows.map(|(point, _)| point), rows.map(|(_, slope)| slope));
+        let (s, sv) = de_casteljau(values, v);
+        let (su, suv) = de_casteljau(slopes, v);
+        let (suu, _) = de_casteljau(self.points.map(|row| second(row, u)), v);
+        Jet { s, u: su, v: sv, uu: suu, uv: suv, vv: second(values, v) }
+    }
+}
+
+impl Jet {
+    /// The derivative of Su x Sv along (a, b), by the quotient rule where weights vary.
+    fn normal_derivative(&self, a: f32, b: f32) -> Vec3 {
+        let position = project(self.s);
+        let du = quotient(self.u, self.s, position);
+        let dv = quotient(self.v, self.s, position);
+        let w = self.s.w;
+        let duu = (self.uu.truncate() - position * self.uu.w - du * (2.0 * self.u.w)) / w;
+        let dvv = (self.vv.truncate() - position * self.vv.w - dv * (2.0 * self.v.w)) / w;
+        let duv = (self.uv.truncate() - position * self.uv.w - du * self.v.w - dv * self.u.w) / w;
+        (duu.cross(dv) + du.cross(duv)) * a + (duv.cross(dv) + du.cross(dvv)) * b
+    }
+}
+
+/// The derivative of a projected point: (A' - w' S) / w.
+fn quotient(derivative: Vec4, s: Vec4, position: Vec3) -> Vec3 {
+    (derivative.truncate() - position * derivative.w) / s.w
+}

@@ -1,0 +1,33 @@
+//! A point of a surface with its tangents.
+
+use crate::math::unit;
+use glam::Vec3;
+
+/// The partial derivatives of a surface's position by the domain coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tangents {
+    /// By u.
+    pub du: Vec3,
+    /// By v (on triangles at constant u, so that w shrinks).
+    pub dv: Vec3,
+}
+
+/// Position and tangents.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Frame {
+    /// The point of the surface.
+    pub position: Vec3,
+    /// Its partial derivatives.
+    pub tangents: Tangents,
+}
+
+impl Tangents {
+    /// The unit vector of du x dv; `None` where these are zero or parallel to within 2^-15.
+    #[must_use]
+    pub fn normal(&self) -> Option<Vec3> {
+        let (du, dv) = (unit(self.du)?, unit(self.dv)?);
+        let cross = du.cross(dv);
+        const PARALLEL: f32 = 1.0 / (1u32 << 30) as f32;
+        (cross.length_squared() > PARALLEL).then(|| unit(cross)).flatten()
+    }
+}

@@ -1,0 +1,37 @@
+//! Small vector operations whose every rounding is spelled out here.
+
+use glam::{Vec3, Vec4};
+
+/// `a + (b - a) t`: exact at `t = 0`, and where `a` equals `b`.
+pub(crate) fn lerp(a: Vec4, b: Vec4, t: f32) -> Vec4 {
+    a + (b - a) * t
+}
+
+/// The point that a homogeneous point stands for; exact for weight 1.
+pub(crate) fn project(point: Vec4) -> Vec3 {
+    point.truncate() / point.w
+}
+
+/// The same point without negative zeros, so that equal points have equal bits.
+pub(crate) fn plain_zero(point: Vec3) -> Vec3 {
+    point + Vec3::ZERO
+}
+
+/// Integers that sort as the coordinates do and are equal where those are; -0 counts as 0.
+pub(crate) fn order_key(point: Vec4) -> [i32; 4] {
+    let total_order = |x: f32| {
+        let bits = (x + 0.0).to_bits().cast_signed();
+        bits ^ ((bits >> 31) & i32::MAX)
+    };
+    (point + Vec4::ZERO).to_array().map(total_order)
+}
+
+/// The unit vector of `v`; `None` where the length is zero, overflows or is NaN.
+pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
+    // Scaled first, so that neither tiny nor huge vectors are lost in the squares.
+    let largest = v.abs().max_element();
+    if !(largest > 0.0 && largest < f32::INFINITY) {
+        return None;
+    }
+    (v / largest).try_normalize()
+}

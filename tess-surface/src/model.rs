@@ -1,0 +1,210 @@
+//! A model: patches that know their neighbours.
+
+use crate::bezier::BezierPatch;
+use crate::curve::Edge;
+use crate::error::{Fault, MeshError};
+use crate::math::unit;
+use crate::mesh::{Face, PolygonMesh};
+use crate::patch::{Patch, Surface};
+use crate::pn::{PnCorner, PnQuad, PnTriangle, edge_points};
+use crate::sides::{Sides, edge_corners};
+use crate::topology::{HalfEdge, Topology, check_count, hash, weld};
+use alloc::vec::Vec;
+use glam::Vec3;
+
+/// How the faces of a polygon mesh become surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Style {
+    /// Planes and bilinear quads.
+    Flat,
+    /// Point-normal triangles and quads.
+    PointNormal,
+}
+
+/// Patches with adjacency.
+#[derive(Clone, Debug)]
+pub struct Model {
+    source: Source,
+    topology: Topology,
+}
+
+#[derive(Clone, Debug)]
+enum Source {
+    Polygons { mesh: PolygonMesh, vertices: Vec<u32>, normals: Vec<Vec3>, style: Style },
+    Bezier(Vec<BezierPatch>),
+}
+
+impl Model {
+    /// A model of a polygon mesh. Faces without normals get smooth ones.
+    ///
+    /// # Errors
+    /// What [`PolygonMesh::check`] finds, and edges of more than two faces. Positions are the
+    /// same if their coordinates are equal, whatever their numbers.
+    pub fn polygons(mut mesh: PolygonMesh, style: Style) -> Result<Self, MeshError> {
+        mesh.check()?;
+        let vertices = weld(&mesh.positions);
+        let lacks_normals = mesh.faces.iter().any(|face| face.normals.is_none());
+        let normals = if lacks_normals { mesh.smooth_normals(&vertices) } else { Vec::new() };
+        let ends = |half: HalfEdge| polygon_edge(&mesh.faces[half.patch], half.edge, &vertices);
+        let key = |half| {
+            let [a, b] = ends(half);
+            (u64::from(a.min(b)) << 32) | u64::from(a.max(b))
+        };
+        let edges = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
+            (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
+        });
+        let hashes = edges.map(|half| (key(half), half.slot())).collect();
+        let topology = Topology::pair(mesh.faces.len(), hashes, |_, _| true)?;
+        Ok(Self { source: Source::Polygons { mesh, vertices, normals, style }, topology })
+    }
+
+    /// A model of bicubic patches, adjacent where their boundary control points are equal.
+    ///
+    /// # Errors
+    /// Points that are not finite, weights that are not greater than zero, patches with no area,
+    /// edges of more than two patches. A boundary collapsed to a point is no error and no edge.
+    pub fn bezier(patches: Vec<BezierPatch>) -> Result<Self, MeshError> {
+        check_count(patches.len())?;
+        let mut hashes = Vec::with_capacity(patches.len() * 4);
+        for (number, patch) in patches.iter().enumerate() {
+            check_patch(patch).map_err(|fault| MeshError::face(number, fault))?;
+            for (edge, curve) in patch.boundary().into_iter().enumerate() {
+                if curve.collapsed_to().is_none() {
+                    let bits = Edge::new(curve).curve.key();
+                    let half = HalfEdge { patch: number, edge };
+                    hashes.push((hash(bits.into_iter().flatten()), half.slot()));
+                }
+            }
+        }
+        let canonical = |half: HalfEdge| Edge::new(patches[half.patch].boundary()[half.edge]).curve;
+        let same = |a, b| canonical(a).key() == canonical(b).key();
+        let topology = Topology::pair(patches.len(), hashes, same)?;
+        Ok(Self { source: Source::Bezier(patches), topology })
+    }
+
+    /// The number of patches, at least one.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "a model is never empty")]
+    pub const fn len(&self) -> usize {
+        match &self.source {
+            Source::Polygons { mesh, .. } => mesh.faces.len(),
+            Source::Bezier(patches) => patches.len(),
+        }
+    }
+
+    /// The other side of an edge; `None` on the border of the model and for collapsed edges.
+    #[must_use]
+    pub fn twin(&self, half: HalfEdge) -> Option<HalfEdge> {
+        self.topology.twin(half)
+    }
+
+    /// Patch number `number`, ready for evaluation.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn patch(&self, number: usize) -> Patch {
+        match &self.source {
+            Source::Bezier(patches) => Patch::new(Surface::Bezier(patches[number]), None),
+            Source::Polygons { mesh, style, .. } => {
+                let face = &mesh.faces[number];
+                let texcoords = face.texcoords;
+                let texcoords = texcoords.map(|t| t.map(|number| mesh.texcoords[number as usize]));
+                let surface = match style {
+                    Style::Flat => flat(mesh.corners(face)),
+                    Style::PointNormal => self.point_normal(number),
+                };
+                Patch::new(surface, texcoords)
+            }
+        }
+    }
+
+    /// A box around all control points, which holds the surface: (least, greatest) corner.
+    #[must_use]
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let grow = |(low, high): (Vec3, Vec3), p: Vec3| (low.min(p), high.max(p));
+        match &self.source {
+            Source::Polygons { mesh, .. } => {
+                let corners = mesh.faces.iter().map(|face| mesh.corners(face));
+                corners.fold(empty, |b, c| c.as_slice().iter().copied().fold(b, grow))
+            }
+            Source::Bezier(patches) => {
+                let points = patches.iter().flat_map(|patch| patch.points.as_flattened());
+                points.map(|&point| crate::math::project(point)).fold(empty, grow)
+            }
+        }
+    }
+
+    /// The point-normal surface of a face, its edges shared with the neighbours'.
+    fn point_normal(&self, number: usize) -> Surface {
+        let corners = self.pn_corners(number);
+        let ends = edge_corners(&corners);
+        let edges = corners.map_numbered(|edge, _| {
+            let [start, end] = ends[edge].map(|corner| corners.as_slice()[corner]);
+            self.shared_edge_points(HalfEdge { patch: number, edge }, start, end)
+        });
+        match (corners, edges) {
+            (Sides::Triangle(corners), Sides::Triangle(edges)) => {
+                Surface::PnTriangle(PnTriangle::new(corners, edges))
+            }
+            (Sides::Quad(corners), Sides::Quad(edges)) => {
+                Surface::PnQuad(PnQuad::new(corners, edges))
+            }
+            _ => unreachable!("one edge for each corner"),
+        }
+    }
+
+    /// The means of the control points that both sides of an edge ask for.
+    fn shared_edge_points(&self, half: HalfEdge, start: PnCorner, end: PnCorner) -> [Vec3; 2] {
+        let own = edge_points(start, end);
+        let Some(twin) = self.twin(half) else { return own };
+        let corners = self.pn_corners(twin.patch);
+        let [a, b] = edge_corners(&corners)[twin.edge].map(|corner| corners.as_slice()[corner]);
+        let theirs =
+            if a.position == start.position { edge_points(a, b) } else { edge_points(b, a) };
+        [(own[0] + theirs[0]) * 0.5, (own[1] + theirs[1]) * 0.5]
+    }
+
+    fn pn_corners(&self, number: usize) -> Sides<PnCorner> {
+        let Source::Polygons { mesh, vertices, normals, .. } = &self.source else {
+            unreachable!("only polygons have point-normal surfaces");
+        };
+        let face = &mesh.faces[number];
+        face.positions.map_numbered(|corner, position| {
+            let normal = match &face.normals {
+                Some(given) => mesh.normals[given.as_slice()[corner] as usize],
+                None => normals[vertices[position as usize] as usize],
+            };
+            PnCorner { position: mesh.positions[position as usize], normal }
+        })
+    }
+}
+
+fn polygon_edge(face: &Face, edge: usize, vertices: &[u32]) -> [u32; 2] {
+    let ends = edge_corners(&face.positions)[edge];
+    ends.map(|corner| vertices[face.positions.as_slice()[corner] as usize])
+}
+
+fn flat(corners: Sides<Vec3>) -> Surface {
+    match corners {
+        Sides::Triangle(corners) => Surface::FlatTriangle(corners),
+        Sides::Quad(corners) => Surface::Bilinear(corners),
+    }
+}
+
+fn check_patch(patch: &BezierPatch) -> Result<(), Fault> {
+    let points = patch.points.as_flattened();
+    if points.iter().any(|point| !point.is_finite()) {
+        return Err(Fault::NotFinite("control point"));
+    }
+    if points.iter().any(|point| point.w <= 0.0) {
+        return Err(Fault::Weight);
+    }
+    let points = points.iter().map(|&point| crate::math::project(point));
+    let mut directions = points.map(|point| point - crate::math::project(patch.points[0][0]));
+    let first = directions.by_ref().find_map(unit).ok_or(Fault::NoArea)?;
+    let mut others = directions.filter_map(unit);
+    let spans = others.any(|other| first.cross(other).length_squared() > 1e-12);
+    if spans { Ok(()) } else { Err(Fault::NoArea) }
+}

@@ -1,0 +1,244 @@
+//! One patch of a model, evaluated so that neighbours agree to the bit.
+//!
+//! Inside, a point is a function of the patch. On an edge it is a function of the edge alone, in
+//! the edge's canonical direction ([`Edge`]), and on a corner of the corner alone. So two patches
+//! that share an edge give the same bits along it, from whichever side it is evaluated.
+
+use crate::bezier::BezierPatch;
+use crate::curve::{Curve, Direction, Edge};
+use crate::frame::{Frame, Tangents};
+use crate::math::{plain_zero, unit};
+use crate::pn::{PnQuad, PnTriangle, normal_along};
+use crate::sides::{Place, Sides, edge_corners, locate};
+use glam::{Vec2, Vec3};
+use tess_core::Domain;
+
+/// The formula of a patch's inside.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    /// The plane of three corners at u = 1, v = 1, w = 1.
+    FlatTriangle([Vec3; 3]),
+    /// The bilinear surface of four corners at (0,0), (1,0), (1,1), (0,1).
+    Bilinear([Vec3; 4]),
+    /// A bicubic patch.
+    Bezier(BezierPatch),
+    /// A cubic triangle with quadratic normals.
+    PnTriangle(PnTriangle),
+    /// A bicubic quad with quadratic normals.
+    PnQuad(PnQuad),
+}
+
+/// A point of the tessellated surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Position, in the model's units.
+    pub position: Vec3,
+    /// Unit normal; (0, 0, 1) where the surface has none.
+    pub normal: Vec3,
+    /// Texture coordinates, (0, 0) at the lower left of the image.
+    pub texcoord: Vec2,
+}
+
+/// A surface over a triangle or quad domain, with its edges in canonical direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Patch {
+    surface: Surface,
+    edges: Sides<Edge>,
+    texcoords: Sides<Vec2>,
+}
+
+impl Patch {
+    /// The patch of a surface with texture coordinates at its corners.
+    ///
+    /// Of [`Sides`] of the wrong domain, the unit square's corners are used instead.
+    #[must_use]
+    pub fn new(surface: Surface, texcoords: Option<Sides<Vec2>>) -> Self {
+        let edges = boundary(&surface).map(Edge::new);
+        let texcoords = texcoords
+            .filter(|given| given.domain() == edges.domain())
+            .unwrap_or_else(|| domain_corners(edges.domain()));
+        Self { surface, edges, texcoords }
+    }
+
+    /// The domain whose points the patch is evaluated at.
+    #[must_use]
+    pub const fn domain(&self) -> Domain {
+        self.edges.domain()
+    }
+
+    /// The formula.
+    #[must_use]
+    pub const fn surface(&self) -> &Surface {
+        &self.surface
+    }
+
+    /// The edges, in the tessellator's order.
+    #[must_use]
+    pub const fn edges(&self) -> &Sides<Edge> {
+        &self.edges
+    }
+
+    /// The texture coordinates of the corners.
+    #[must_use]
+    pub const fn texcoords(&self) -> &Sides<Vec2> {
+        &self.texcoords
+    }
+
+    /// Where (u, v) lies on the patch.
+    #[must_use]
+    pub fn place(&self, u: f32, v: f32) -> Place {
+        locate(&self.edges, u, v)
+    }
+
+    /// The point at domain coordinates (u, v), as the tessellator outputs them.
+    #[must_use]
+    pub fn sample(&self, [u, v]: [f32; 2]) -> Sample {
+        let place = self.place(u, v);
+        let frame = self.frame(u, v);
+        Sample {
+            position: self.boundary_position(place).unwrap_or(frame.position),
+            normal: self.normal_in(&frame.tangents, place, u, v),
+            texcoord: self.texcoord(place, u, v),
+        }
+    }
+
+    /// The position alone.
+    #[must_use]
+    pub fn position(&self, [u, v]: [f32; 2]) -> Vec3 {
+        let place = self.place(u, v);
+        self.boundary_position(place).unwrap_or_else(|| self.frame(u, v).position)
+    }
+
+    /// The unit normal alone.
+    #[must_use]
+    pub fn normal(&self, [u, v]: [f32; 2]) -> Vec3 {
+        self.normal_in(&self.frame(u, v).tangents, self.place(u, v), u, v)
+    }
+
+    /// Position and tangents by the formula of the inside, on edges too.
+    #[must_use]
+    pub fn frame(&self, u: f32, v: f32) -> Frame {
+        let frame = match &self.surface {
+            Surface::FlatTriangle([a, b, c]) => Frame {
+                position: *c + (*a - *c) * u + (*b - *c) * v,
+                tangents: Tangents { du: *a - *c, dv: *b - *c },
+            },
+            Surface::Bilinear(corners) => bilinear(corners, u, v),
+            Surface::Bezier(patch) => patch.frame(u, v),
+            Surface::PnTriangle(triangle) => triangle.frame(u, v),
+            Surface::PnQuad(quad) => quad.patch.frame(u, v),
+        };
+        Frame { position: plain_zero(frame.position), ..frame }
+    }
+
+    /// The position where the neighbours have a say: from the edge or the corner alone.
+    fn boundary_position(&self, place: Place) -> Option<Vec3> {
+        match place {
+            Place::Inside => None,
+            Place::Edge(edge, t) => Some(self.edges.as_slice()[edge].position(t)),
+            Place::Corner(corner) => Some(self.corner(corner)),
+        }
+    }
+
+    /// The position of a corner: the end of an edge, which is a control point.
+    fn corner(&self, corner: usize) -> Vec3 {
+        let ends = edge_corners(&self.edges).iter().zip(self.edges.as_slice());
+        let mut at_corner = ends.filter_map(|([start, end], edge)| match corner {
+            c if c == *start => Some(edge.position(0.0)),
+            c if c == *end => Some(edge.position(1.0)),
+            _ => None,
+        });
+        at_corner.next().unwrap_or(Vec3::ZERO) // every corner ends two edges
+    }
+
+    fn normal_in(&self, tangents: &Tangents, place: Place, u: f32, v: f32) -> Vec3 {
+        let normal = match &self.surface {
+            Surface::FlatTriangle(_) | Surface::Bilinear(_) => tangents.normal(),
+            Surface::Bezier(patch) => tangents.normal().or_else(|| patch.limit_normal(u, v)),
+            Surface::PnTriangle(triangle) => unit(match place {
+                Place::Inside => triangle.normal(u, v),
+                Place::Edge(edge, t) => {
+                    let [nu, nv, nw] = triangle.corners.map(|corner| corner.normal);
+                    let [vw, uw, uv] = triangle.edge_normals;
+                    let along = [[nw, vw, nv], [nw, uw, nu], [nv, uv, nu]];
+                    self.edge_normal(along[edge], edge, t)
+                }
+                Place::Corner(corner) => triangle.corners[corner].normal,
+            }),
+            Surface::PnQuad(quad) => unit(match place {
+                Place::Inside => quad.normal(u, v),
+                Place::Edge(edge, t) => self.edge_normal(quad.boundary_normals()[edge], edge, t),
+                Place::Corner(corner) => quad.corner_normals[corner],
+            }),
+        };
+        normal.or_else(|| tangents.normal()).unwrap_or(Vec3::Z)
+    }
+
+    /// A quadratic normal along an edge, evaluated in the edge's canonical direction.
+    fn edge_normal(&self, along: [Vec3; 3], edge: usize, t: f32) -> Vec3 {
+        let [a, middle, b] = along;
+        match self.edges.as_slice()[edge].direction {
+            Direction::Against => normal_along([b, middle, a], 1.0 - t),
+            Direction::Along | Direction::Symmetric => normal_along(along, t),
+        }
+    }
+
+    fn texcoord(&self, place: Place, u: f32, v: f32) -> Vec2 {
+        match (place, &self.texcoords) {
+            (Place::Corner(corner), texcoords) => texcoords.as_slice()[corner],
+            (Place::Edge(edge, t), texcoords) => {
+                let [start, end] = edge_corners(texcoords)[edge];
+                let ends = [texcoords.as_slice()[start], texcoords.as_slice()[end]];
+                along_edge(self.edges.as_slice()[edge].direction, ends, t)
+            }
+            (Place::Inside, Sides::Triangle([a, b, c])) => *a * u + *b * v + *c * (1.0 - u - v),
+            (Place::Inside, Sides::Quad([a, b, c, d])) => {
+                (*a * (1.0 - u) + *b * u) * (1.0 - v) + (*d * (1.0 - u) + *c * u) * v
+            }
+        }
+    }
+}
+
+/// Texture coordinates on an edge, interpolated in its canonical direction.
+fn along_edge(direction: Direction, [start, end]: [Vec2; 2], t: f32) -> Vec2 {
+    match direction {
+        Direction::Against => end + (start - end) * (1.0 - t),
+        Direction::Along | Direction::Symmetric => start + (end - start) * t,
+    }
+}
+
+/// The boundary curves in the tessellator's order, each in the direction of its coordinate.
+fn boundary(surface: &Surface) -> Sides<Curve> {
+    match surface {
+        Surface::FlatTriangle([u, v, w]) => {
+            Sides::Triangle([[*w, *v], [*w, *u], [*v, *u]].map(Curve::Line))
+        }
+        Surface::Bilinear([a, b, c, d]) => {
+            Sides::Quad([[*a, *d], [*a, *b], [*b, *c], [*d, *c]].map(Curve::Line))
+        }
+        Surface::Bezier(patch) => Sides::Quad(patch.boundary()),
+        Surface::PnQuad(quad) => Sides::Quad(quad.patch.boundary()),
+        Surface::PnTriangle(triangle) => {
+            let ([u, v, w], [u0, v0, w0], _) = triangle.net();
+            let curve = |a, [b, c]: [Vec3; 2], d| Curve::cubic([a, b, c, d]);
+            Sides::Triangle([curve(w, u0, v), curve(w, v0, u), curve(v, w0, u)])
+        }
+    }
+}
+
+fn bilinear([a, b, c, d]: &[Vec3; 4], u: f32, v: f32) -> Frame {
+    let (low, high) = (*a + (*b - *a) * u, *d + (*c - *d) * u);
+    Frame {
+        position: low + (high - low) * v,
+        tangents: Tangents { du: (*b - *a) * (1.0 - v) + (*c - *d) * v, dv: high - low },
+    }
+}
+
+/// The domain coordinates of the corners.
+const fn domain_corners(domain: Domain) -> Sides<Vec2> {
+    let [a, b, c, d] = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    match domain {
+        Domain::Triangle => Sides::Triangle([b, d, a]),
+        Domain::Quad | Domain::Isoline => Sides::Quad([a, b, c, d]),
+    }
+}

@@ -1,0 +1,17 @@
+//! The formulas as WGSL text, for vertex shaders that evaluate domain points themselves.
+//!
+//! Modules have functions only, no bindings and no entry points; put the ones you need in front of
+//! your own text. Bits are those of the device: within one pipeline both sides of an edge agree,
+//! as they call the same function with the same values; they need not equal the CPU's.
+
+/// Curves, edges in canonical direction, bicubic patches and their normals.
+pub const BEZIER: &str = include_str!("../shaders/bezier.wgsl");
+
+/// Point-normal triangles and quads.
+pub const POINT_NORMAL: &str = include_str!("../shaders/pn.wgsl");
+
+/// Flat triangles, bilinear quads and displacement.
+pub const FLAT: &str = include_str!("../shaders/flat.wgsl");
+
+/// Factor rules. Needs [`BEZIER`].
+pub const FACTORS: &str = include_str!("../shaders/factors.wgsl");

@@ -1,0 +1,109 @@
+//! Which edges of a model's patches are the same edge.
+
+use crate::error::{Fault, MeshError};
+use alloc::vec;
+use alloc::vec::Vec;
+use glam::Vec3;
+
+/// One side of an edge: an edge of a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct HalfEdge {
+    /// Number of the patch.
+    pub patch: usize,
+    /// Number of the edge in the patch.
+    pub edge: usize,
+}
+
+/// For every edge of every patch the edge on its other side.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Topology {
+    /// Indexed by slot; `ALONE` for edges of the model's border and collapsed edges.
+    twins: Vec<u32>,
+}
+
+const ALONE: u32 = u32::MAX;
+
+/// The largest number of patches, so that slots are numbered in 32 bits.
+const MAX_PATCHES: usize = 1 << 30;
+
+/// Refuses empty models and those too large to be numbered.
+pub(crate) const fn check_count(faces: usize) -> Result<(), MeshError> {
+    match faces {
+        0 => Err(MeshError::Empty),
+        1..MAX_PATCHES => Ok(()),
+        faces => Err(MeshError::TooMany { faces }),
+    }
+}
+
+impl HalfEdge {
+    /// Its number among all possible ones: four per patch.
+    #[expect(clippy::cast_possible_truncation, reason = "there are less than 2^30 patches")]
+    pub(crate) const fn slot(self) -> u32 {
+        (self.patch * 4 + self.edge) as u32
+    }
+
+    const fn of_slot(slot: u32) -> Self {
+        Self { patch: (slot / 4) as usize, edge: (slot % 4) as usize }
+    }
+}
+
+impl Topology {
+    /// Pairs the half-edges that are equal. Of each there is a hash and its slot; `same` decides
+    /// about those with equal hashes.
+    pub(crate) fn pair(
+        patches: usize,
+        mut hashes: Vec<(u64, u32)>,
+        same: impl Fn(HalfEdge, HalfEdge) -> bool,
+    ) -> Result<Self, MeshError> {
+        hashes.sort_unstable();
+        let mut twins = vec![ALONE; patches * 4];
+        for run in hashes.chunk_by(|a, b| a.0 == b.0) {
+            for (i, &(_, slot)) in run.iter().enumerate() {
+                let half = HalfEdge::of_slot(slot);
+                let before = run[..i].iter().map(|&(_, slot)| HalfEdge::of_slot(slot));
+                let mut equal = before.filter(|&other| same(half, other));
+                match (equal.next(), equal.next()) {
+                    (None, _) => {}
+                    (Some(twin), None) => {
+                        twins[half.slot() as usize] = twin.slot();
+                        twins[twin.slot() as usize] = half.slot();
+                    }
+                    (Some(a), Some(b)) => {
+                        let fault = Fault::NonManifold { others: [a.patch, b.patch] };
+                        return Err(MeshError::face(half.patch, fault));
+                    }
+                }
+            }
+        }
+        Ok(Self { twins })
+    }
+
+    /// The other side of an edge, if there is one.
+    pub(crate) fn twin(&self, half: HalfEdge) -> Option<HalfEdge> {
+        let twin = *self.twins.get(half.slot() as usize)?;
+        (twin != ALONE).then(|| HalfEdge::of_slot(twin))
+    }
+}
+
+/// For each point the number of the first one at the same place.
+#[expect(clippy::cast_possible_truncation, reason = "faces index points with 32 bits")]
+pub(crate) fn weld(points: &[Vec3]) -> Vec<u32> {
+    let key = |i: u32| crate::math::order_key(points[i as usize].extend(0.0));
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.sort_unstable_by_key(|&i| (key(i), i));
+    let mut first = vec![0; points.len()];
+    for run in order.chunk_by(|&a, &b| key(a) == key(b)) {
+        run.iter().for_each(|&i| first[i as usize] = run[0]);
+    }
+    first
+}
+
+/// A hash of a curve's bits. Good enough spread is all it takes: equality is checked.
+pub(crate) fn hash(words: impl Iterator<Item = i32>) -> u64 {
+    // FNV-1a over words, with a final mix.
+    let start = 0xCBF2_9CE4_8422_2325u64;
+    let folded = words.fold(start, |hash, word| {
+        (hash ^ u64::from(word.cast_unsigned())).wrapping_mul(0x0000_0100_0000_01B3)
+    });
+    folded ^ (folded >> 32)
+}
