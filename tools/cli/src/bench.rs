@@ -1,6 +1,8 @@
 //! Timing: what a backend must offer to be timed, and how it is measured.
 
 mod core;
+mod measure;
+pub mod parts;
 mod table;
 
 use crate::backends::{BackendName, not_built_in};
@@ -11,6 +13,7 @@ use std::time::Duration;
 use tess_check::backend::BackendError;
 use tess_check::workloads::{IndexType, Workload};
 
+pub use measure::{Plan, measure};
 pub use table::table;
 
 /// Where a runner's output goes.
@@ -33,7 +36,7 @@ impl WorkingSet {
     }
 }
 
-/// What one run of a prepared workload amounts to.
+/// What one run of a part amounts to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Amount {
     /// Patches tessellated.
@@ -46,8 +49,10 @@ pub struct Amount {
 
 /// An implementation that can be timed.
 ///
-/// [`Runner::run`] and [`Runner::fill`] write the same bytes to the same buffers in the same order
-/// of batches; neither allocates. Both give their own time, so that a device can use its clock.
+/// A workload runs in parts, so that runs which are compared lie close together in time: a part is
+/// about a mebibyte of output on a CPU, as much as a device likes in one go elsewhere.
+/// [`Runner::run`] and [`Runner::fill`] write the same bytes to the same buffers in the same order;
+/// neither allocates. Both give their own time, so that a device can use its clock.
 pub trait Runner {
     /// Name of the backend.
     fn backend(&self) -> &'static str;
@@ -61,7 +66,8 @@ pub trait Runner {
     /// Width of the indices it writes.
     fn index_type(&self) -> IndexType;
 
-    /// Gets everything ready to run a workload in a working set, buffers included.
+    /// Gets everything ready to run a workload in a working set, buffers included, and says what
+    /// each part amounts to.
     ///
     /// # Errors
     /// The implementation cannot run it.
@@ -69,7 +75,7 @@ pub trait Runner {
         &mut self,
         workload: &Workload,
         working_set: WorkingSet,
-    ) -> Result<Amount, BackendError>;
+    ) -> Result<Vec<Amount>, BackendError>;
 
     /// Runs what is prepared, once over the workload's patches, and digests the output as
     /// [`Workload::digest`] does.
@@ -78,17 +84,17 @@ pub trait Runner {
     /// The implementation failed.
     fn digest(&mut self) -> Result<u64, BackendError>;
 
-    /// Runs what is prepared and says how long it took.
+    /// Runs a part and says how long it took.
     ///
     /// # Errors
     /// The implementation failed.
-    fn run(&mut self) -> Result<Duration, BackendError>;
+    fn run(&mut self, part: usize) -> Result<Duration, BackendError>;
 
-    /// Fills the bytes that a run writes and says how long it took.
+    /// Fills the bytes that a run of the part writes and says how long it took.
     ///
     /// # Errors
     /// The device failed.
-    fn fill(&mut self) -> Result<Duration, BackendError>;
+    fn fill(&mut self, part: usize) -> Result<Duration, BackendError>;
 }
 
 /// What a runner is made for.
@@ -126,149 +132,4 @@ pub struct Row {
     bytes_per_s: f64,
     fill_ratio: f64,
     core_ratio: f64,
-}
-
-/// What is measured.
-#[derive(Clone, Copy, Debug)]
-pub struct Plan<'a> {
-    /// The patches.
-    pub workload: &'a Workload,
-    /// Where the output goes.
-    pub working_set: WorkingSet,
-    /// Interleaved samples, at least 1.
-    pub samples: u32,
-}
-
-/// Checks the digest, then times backend, fill and core in turn.
-///
-/// # Errors
-/// The output differs from the model's (exit code 1), or a run failed.
-pub fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Failure> {
-    let amount = runner.prepare(plan.workload, plan.working_set)?;
-    check_digest(runner, plan.workload)?;
-    let mut core = if runner.backend() == "core" { None } else { Some(prepared_core(plan)?) };
-    let repeats = repeats(runner)?;
-    let mut samples = Vec::new();
-    for _ in 0..plan.samples {
-        let run = repeat(repeats, || runner.run())?;
-        let fill = repeat(repeats, || runner.fill())?;
-        let core_rate = match &mut core {
-            Some((core, core_amount)) => core_amount.per_second(core.run()?).patches,
-            None => amount.per_second(run).patches,
-        };
-        samples.push(Sample { run, fill, core_rate });
-    }
-    Ok(row(runner, plan, amount, &samples))
-}
-
-fn check_digest(runner: &mut dyn Runner, workload: &Workload) -> Result<(), Failure> {
-    let (expected, observed) = (workload.digest(), runner.digest()?);
-    if expected == observed {
-        return Ok(());
-    }
-    Err(Failure::different(format!(
-        "{}: {} gives digest {observed:016x}, the model {expected:016x}; not timed",
-        workload.name,
-        runner.backend()
-    )))
-}
-
-fn prepared_core(plan: Plan<'_>) -> Result<(core::CoreRunner, Amount), Failure> {
-    let options = RunnerOptions { threads: 1, index_type: IndexType::U32 };
-    let mut core = core::CoreRunner::new(options)?;
-    let amount = core.prepare(plan.workload, plan.working_set)?;
-    Ok((core, amount))
-}
-
-/// How often a short run is repeated, so that a sample takes about 5 ms.
-fn repeats(runner: &mut dyn Runner) -> Result<u32, Failure> {
-    const SAMPLE: Duration = Duration::from_millis(5);
-    let once = runner.run()?.max(Duration::from_nanos(100));
-    let times = SAMPLE.as_nanos().div_ceil(once.as_nanos());
-    Ok(u32::try_from(times).unwrap_or(u32::MAX))
-}
-
-/// The mean time of several runs.
-fn repeat(
-    times: u32,
-    mut run: impl FnMut() -> Result<Duration, BackendError>,
-) -> Result<Duration, BackendError> {
-    let mut total = Duration::ZERO;
-    for _ in 0..times {
-        total += run()?;
-    }
-    Ok(total / times)
-}
-
-/// Neighbouring runs.
-#[derive(Clone, Copy, Debug)]
-struct Sample {
-    run: Duration,
-    fill: Duration,
-    /// Patches per second of the core.
-    core_rate: f64,
-}
-
-/// Something per second.
-#[derive(Clone, Copy, Debug)]
-struct Rates {
-    patches: f64,
-    triangles: f64,
-    bytes: f64,
-}
-
-#[expect(
-    clippy::float_arithmetic,
-    clippy::cast_precision_loss,
-    reason = "rates and ratios of measurements"
-)]
-impl Amount {
-    fn per_second(self, time: Duration) -> Rates {
-        let seconds = time.as_secs_f64().max(1e-9);
-        let rate = |count: u64| count as f64 / seconds;
-        Rates {
-            patches: rate(self.patches),
-            triangles: rate(self.triangles),
-            bytes: rate(self.bytes),
-        }
-    }
-}
-
-#[expect(clippy::float_arithmetic, reason = "rates and ratios of measurements")]
-fn row(runner: &dyn Runner, plan: Plan<'_>, amount: Amount, samples: &[Sample]) -> Row {
-    let median_of = |figure: &dyn Fn(&Sample) -> f64| median(samples.iter().map(figure).collect());
-    let rates = |sample: &Sample| amount.per_second(sample.run);
-    Row {
-        workload: plan.workload.name.clone(),
-        backend: runner.backend(),
-        level: runner.level(),
-        working_set: plan.working_set.name(),
-        threads: runner.threads(),
-        index_type: match runner.index_type() {
-            IndexType::U16 => "u16",
-            IndexType::U32 => "u32",
-        },
-        patches_per_s: median_of(&|sample| rates(sample).patches),
-        triangles_per_s: median_of(&|sample| rates(sample).triangles),
-        bytes_per_s: median_of(&|sample| rates(sample).bytes),
-        fill_ratio: median_of(&|sample| rates(sample).bytes / amount.per_second(sample.fill).bytes),
-        core_ratio: median_of(&|sample| rates(sample).patches / sample.core_rate),
-    }
-}
-
-/// The middle value, the lower of two; there is at least one.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values[(values.len() - 1) / 2]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn medians() {
-        assert_eq!(median(vec![3.0, 1.0, 2.0]).to_bits(), 2.0f64.to_bits(), "odd count");
-        assert_eq!(median(vec![4.0, 1.0, 3.0, 2.0]).to_bits(), 2.0f64.to_bits(), "even count");
-    }
 }

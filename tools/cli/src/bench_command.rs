@@ -16,7 +16,7 @@ Examples:
   tess bench --backend simd --working-set cache --json > simd.json
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
-figures are medians, and ratios are medians of the ratios of neighbouring runs. Workloads: uniform-1
+a part's time is the median of its samples, a workload's the sum over its parts. Workloads: uniform-1
 to uniform-64, seed-table, terrain, character, worst.")]
 pub struct Args {
     /// Workload or family of workloads; may be repeated [default: all]

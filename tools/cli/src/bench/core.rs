@@ -1,5 +1,7 @@
 //! The golden model under the clock.
 
+use super::measure::total;
+use super::parts::parts;
 use super::{Amount, Runner, RunnerOptions, WorkingSet};
 use crate::failure::Failure;
 use std::hint::black_box;
@@ -16,6 +18,8 @@ pub(super) struct CoreRunner {
     config: Option<Config>,
     patches: Vec<PatchFactors>,
     batches: Vec<Batch>,
+    /// The batches of each part.
+    parts: Vec<Range<usize>>,
     points: Vec<DomainPoint>,
     indices: Vec<u32>,
 }
@@ -28,6 +32,7 @@ struct Batch {
     start: (usize, usize),
     points: usize,
     indices: usize,
+    amount: Amount,
 }
 
 impl CoreRunner {
@@ -41,6 +46,7 @@ impl CoreRunner {
             config: None,
             patches: Vec::new(),
             batches: Vec::new(),
+            parts: Vec::new(),
             points: Vec::new(),
             indices: Vec::new(),
         })
@@ -91,7 +97,7 @@ impl Runner for CoreRunner {
         &mut self,
         workload: &Workload,
         working_set: WorkingSet,
-    ) -> Result<Amount, BackendError> {
+    ) -> Result<Vec<Amount>, BackendError> {
         self.config = Some(workload.config);
         self.patches.clone_from(&workload.patches);
         let counts: Vec<_> = workload.counts().collect();
@@ -99,16 +105,18 @@ impl Runner for CoreRunner {
             WorkingSet::Cache => cache_batches(workload, &counts),
             WorkingSet::Stream => stream_batches(workload, &counts),
         };
+        let bytes: Vec<_> = self.batches.iter().map(|batch| batch.amount.bytes).collect();
+        self.parts = parts(&bytes);
         let ends = |end: fn(&Batch) -> usize| self.batches.iter().map(end).max().unwrap_or(0);
         let points = ends(|batch| batch.start.0 + batch.points);
         let indices = ends(|batch| batch.start.1 + batch.indices);
         self.points = vec![DomainPoint::default(); points];
         self.indices = vec![0; indices];
-        let passes = match working_set {
-            WorkingSet::Cache => 1,
-            WorkingSet::Stream => workload.stream_repeats(IndexType::U32),
-        };
-        Ok(amount(&workload.totals(), passes))
+        let amounts = self
+            .parts
+            .iter()
+            .map(|part| total(self.batches[part.clone()].iter().map(|batch| batch.amount)));
+        Ok(amounts.collect())
     }
 
     fn digest(&mut self) -> Result<u64, BackendError> {
@@ -129,18 +137,20 @@ impl Runner for CoreRunner {
         Ok(digest.finish())
     }
 
-    fn run(&mut self) -> Result<Duration, BackendError> {
+    fn run(&mut self, part: usize) -> Result<Duration, BackendError> {
+        let batches = self.parts[part].clone();
         let start = Instant::now();
-        for batch in 0..self.batches.len() {
+        for batch in batches {
             self.tessellate(batch, |_, _| ())?;
             black_box((&mut self.points[..], &mut self.indices[..]));
         }
         Ok(start.elapsed())
     }
 
-    fn fill(&mut self) -> Result<Duration, BackendError> {
+    fn fill(&mut self, part: usize) -> Result<Duration, BackendError> {
+        let batches = &self.batches[self.parts[part].clone()];
         let start = Instant::now();
-        for Batch { start: (first_point, first_index), points, indices, .. } in &self.batches {
+        for Batch { start: (first_point, first_index), points, indices, .. } in batches {
             // Zeros, so that the compiler makes `memset` of both.
             self.points[*first_point..][..*points].fill(DomainPoint::default());
             self.indices[*first_index..][..*indices].fill(0);
@@ -156,14 +166,17 @@ fn cache_batches(workload: &Workload, counts: &[Counts]) -> Vec<Batch> {
     ranges.into_iter().map(|patches| Batch::new(patches, counts, (0, 0))).collect()
 }
 
-/// The whole workload again and again, one after another.
+/// The whole workload again and again, one after another, in the same batches.
 fn stream_batches(workload: &Workload, counts: &[Counts]) -> Vec<Batch> {
+    let ranges = workload.cache_batches(IndexType::U32);
     let mut batches = Vec::new();
     let mut start = (0, 0);
     for _ in 0..workload.stream_repeats(IndexType::U32) {
-        let batch = Batch::new(0..counts.len(), counts, start);
-        start = (start.0 + batch.points, start.1 + batch.indices);
-        batches.push(batch);
+        for patches in &ranges {
+            let batch = Batch::new(patches.clone(), counts, start);
+            start = (start.0 + batch.points, start.1 + batch.indices);
+            batches.push(batch);
+        }
     }
     batches
 }
@@ -171,16 +184,23 @@ fn stream_batches(workload: &Workload, counts: &[Counts]) -> Vec<Batch> {
 impl Batch {
     fn new(patches: Range<usize>, counts: &[Counts], start: (usize, usize)) -> Self {
         let counts = &counts[patches.clone()];
-        let points = counts.iter().map(|counts| counts.points as usize).sum();
-        let indices = counts.iter().map(|counts| counts.indices as usize).sum();
-        Self { patches, start, points, indices }
-    }
-}
-
-fn amount(totals: &Totals, passes: u64) -> Amount {
-    Amount {
-        patches: passes * totals.patches,
-        triangles: passes * totals.primitives,
-        bytes: passes * totals.bytes(IndexType::U32),
+        let sum = |figure: fn(&Counts) -> u32| counts.iter().map(|c| u64::from(figure(c))).sum();
+        let totals = Totals {
+            patches: patches.len() as u64,
+            points: sum(|counts| counts.points),
+            primitives: sum(|counts| counts.primitives),
+            indices: sum(|counts| counts.indices),
+        };
+        Self {
+            patches,
+            start,
+            points: counts.iter().map(|counts| counts.points as usize).sum(),
+            indices: counts.iter().map(|counts| counts.indices as usize).sum(),
+            amount: Amount {
+                patches: totals.patches,
+                triangles: totals.primitives,
+                bytes: totals.bytes(IndexType::U32),
+            },
+        }
     }
 }
