@@ -25,13 +25,13 @@ struct Factor {
     value: f32,
 }
 
-/// `u_bits` and `v_bits` are exact 16.16 numbers; `u` and `v` are the same values as binary32.
+/// `u_bits` and `v_bits` are exact 16.16 numbers; `u` and `v` are the same values, exactly.
 #[derive(Serialize)]
 struct Point {
     u_bits: u32,
     v_bits: u32,
-    u: f32,
-    v: f32,
+    u: f64,
+    v: f64,
 }
 
 pub(super) fn render(patch: &OnePatch) -> String {
@@ -53,7 +53,7 @@ pub(super) fn render(patch: &OnePatch) -> String {
 
 fn points(patch: &OnePatch) -> Vec<Point> {
     let point = |point: &tess_core::DomainPoint| {
-        let [u, v] = point.to_f32();
+        let [u, v] = point.to_f32().map(f64::from);
         Point { u_bits: point.u.to_bits(), v_bits: point.v.to_bits(), u, v }
     };
     patch.output().points.iter().map(point).collect()

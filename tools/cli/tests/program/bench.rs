@@ -1,0 +1,54 @@
+//! `tess bench`: the keys that it prints, and its errors. No time is asserted.
+
+use crate::support::tess;
+use serde_json::Value;
+
+const KEYS: [&str; 11] = [
+    "workload",
+    "backend",
+    "level",
+    "working_set",
+    "threads",
+    "index_type",
+    "patches_per_s",
+    "triangles_per_s",
+    "bytes_per_s",
+    "fill_ratio",
+    "core_ratio",
+];
+
+#[test]
+fn json_has_exactly_the_documented_keys() {
+    let words = "bench --workload uniform-2 --workload seed-table/quad-16 \
+                 --working-set cache --samples 1 --json";
+    let run = tess(words);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let json: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    let rows = json.as_array().expect("an array");
+    assert_eq!(rows.len(), 2, "one row for each workload");
+    for row in rows {
+        let keys: Vec<_> = row.as_object().expect("an object").keys().collect();
+        let mut expected = KEYS.to_vec();
+        expected.sort_unstable();
+        assert_eq!(keys, expected, "{row}");
+        for rate in &KEYS[6..] {
+            assert!(row[rate].as_f64().is_some_and(|rate| rate > 0.0), "{rate} of {row}");
+        }
+    }
+}
+
+#[test]
+fn bad_options_say_what_would_be_right() {
+    let cases = [
+        ("bench --workload uniform-3", "uniform-64"),
+        ("bench --threads 0", "1..=1024"),
+        ("bench --threads 2", "one thread"),
+        ("bench --index-type u8", "u16 or u32"),
+        ("bench --working-set ram", "stream"),
+    ];
+    for (words, remedy) in cases {
+        let run = tess(words);
+        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains(remedy), "{words}: {}", run.stderr);
+    }
+}

@@ -1,0 +1,69 @@
+//! `tess draw`: pictures of the right form, and overlays that tell differences.
+
+use crate::support::{directory, tess};
+use std::fs;
+
+const PATCH: &str = "quad --outer 3,4,5,6 --inner 4,7";
+
+#[test]
+fn svg_has_every_triangle_and_point() {
+    let run = tess(&format!("draw {PATCH}"));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let count = |element: &str| run.stdout.matches(element).count();
+    assert_eq!((count("<polygon"), count("<circle")), (52, 36), "triangles and points");
+    assert!(run.stdout.starts_with("<svg ") && run.stdout.ends_with("</svg>\n"), "whole");
+    assert_eq!(run.stdout, tess(&format!("draw {PATCH}")).stdout, "the same again");
+    assert_eq!(run.stdout, tess(&format!("patch {PATCH} --format svg")).stdout, "by tess patch");
+}
+
+#[test]
+fn png_is_chosen_by_name_and_has_the_size() {
+    let directory = directory("png_is_chosen_by_name");
+    let file = directory.join("patch.png");
+    for options in ["", "--indices", "--order", "--rings", "--indices --rings"] {
+        let run = tess(&format!("draw {PATCH} {options} --size 300 -o {}", file.display()));
+        assert_eq!(run.code, Some(0), "{options}: {}", run.stderr);
+        let png = fs::read(&file).expect("the picture");
+        assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n", "{options}: signature");
+        assert_eq!(&png[16..24], [0, 0, 1, 44, 0, 0, 1, 44], "{options}: 300 x 300");
+    }
+}
+
+#[test]
+fn numbers_left_out_are_reported() {
+    let run = tess("draw quad --outer 64,64,64,64 --inner 64,64 --indices --size 400");
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stderr.contains("4225 numbers left out"), "{}", run.stderr);
+}
+
+/// An equal listing is equal; one with a moved point and a turned triangle shows both.
+#[test]
+fn overlays_show_differences() {
+    let directory = directory("overlays_show_differences");
+    let file = directory.join("device.txt");
+    let listing = tess(&format!("patch {PATCH}")).stdout;
+    fs::write(&file, &listing).expect("a listing");
+    let draw = format!("draw {PATCH} --overlay {}", file.display());
+    let equal = tess(&draw);
+    assert_eq!(equal.code, Some(0), "{}", equal.stderr);
+    assert!(equal.stderr.contains("0 points and 0 primitives differ"), "{}", equal.stderr);
+
+    let faulty = listing.replacen("00000 10000", "00100 0fff0", 1).replacen("\n0 1 ", "\n1 0 ", 1);
+    fs::write(&file, faulty).expect("a faulty listing");
+    let different = tess(&draw);
+    assert_eq!(different.code, Some(1), "{}", different.stderr);
+    assert!(different.stderr.contains("1 points and 1 primitives"), "{}", different.stderr);
+    assert!(different.stdout.contains("#d51f1f"), "something is red");
+
+    let other = tess(&draw.replace("3,4,5,6", "3,4,5,7"));
+    assert_eq!(other.code, Some(2), "no listing of that patch: {}", other.stderr);
+    fs::write(&file, &listing[..listing.len() / 2]).expect("half a listing");
+    assert_eq!(tess(&draw).code, Some(2), "a truncated listing");
+}
+
+#[test]
+fn two_backends_are_compared() {
+    let run = tess(&format!("draw {PATCH} --against core"));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stderr.contains("0 points and 0 primitives"), "{}", run.stderr);
+}

@@ -1,0 +1,66 @@
+//! `tess explain`: the decisions it names, and that its parts fit the patch.
+
+use crate::support::tess;
+use serde_json::Value;
+
+#[test]
+fn decisions_are_named() {
+    let cases = [
+        ("tri --outer 1,nan,1 --inner 1", "culled: V=0 is NaN"),
+        ("tri --outer 1,1,1 --inner 1", "minimum patch: every"),
+        ("tri --outer 1,1,1 --inner 2", "not the minimum patch: inside"),
+        ("tri --outer 70,1,1 --inner 1", "U=0: 70 is clamped to 64"),
+        ("tri --outer 1.5,1,1 --inner 1", "U=0: 1.5 is rounded up to 2"),
+        ("quad --outer 2,1,1,1 --inner 1,3", "inside U is 1 and counts as even"),
+        ("tri --outer 2,1,1 --inner 1 --partitioning fractional_odd", "picture frame: U=0 is 2"),
+        ("tri --outer 1,1,1 --inner 1 --partitioning fractional_odd", "no picture frame"),
+        ("isoline --outer 3,4", "density is processed as integer"),
+    ];
+    for (patch, sentence) in cases {
+        let run = tess(&format!("explain {patch}"));
+        assert_eq!(run.code, Some(0), "{patch}: {}", run.stderr);
+        assert!(run.stdout.contains(sentence), "{patch} says {sentence}:\n{}", run.stdout);
+    }
+}
+
+/// Runs of points and of primitives cover the patch, and each stitch has K + M - 2 triangles.
+#[test]
+fn json_adds_up() {
+    for patch in ["quad --outer 3,4,5,6 --inner 4,7", "tri --outer 17,5,9 --inner 3"] {
+        let run = tess(&format!("explain {patch} --json"));
+        let json: Value = serde_json::from_str(&run.stdout).expect("JSON");
+        let list = |key: &str| json[key].as_array().cloned().expect("a list");
+        for (runs, total) in [("point_runs", "points"), ("stitches", "primitives")] {
+            let mut next = 0;
+            for run in list(runs) {
+                assert_eq!(run["first"].as_u64(), Some(next), "{patch}: {run}");
+                next += run["count"].as_u64().expect("a count");
+            }
+            assert_eq!(json[total].as_u64(), Some(next), "{patch}: all {total}");
+        }
+        for stitch in list("stitches") {
+            let length = |key: &str| stitch[key].as_array().map_or(0, Vec::len);
+            let rows = length("outer_row") + length("inner_row");
+            if rows > 0 {
+                assert_eq!(stitch["count"].as_u64(), Some(rows as u64 - 2), "{patch}: {stitch}");
+            }
+        }
+    }
+}
+
+#[test]
+fn elements_are_explained() {
+    let patch = "explain quad --outer 3,4,5,6 --inner 4,7";
+    let point = tess(&format!("{patch} --point 20"));
+    assert!(point.stdout.starts_with("point 20: ring 1, edge 0"), "{}", point.stdout);
+    assert!(point.stdout.contains("place(inside V, "), "{}", point.stdout);
+    let primitive = tess(&format!("{patch} --primitive 0"));
+    assert!(
+        primitive.stdout.starts_with("primitive 0: transition, edge 0"),
+        "{}",
+        primitive.stdout
+    );
+    for element in ["--point 36", "--primitive 52", "--point x", "--point 1 --primitive 1"] {
+        assert_eq!(tess(&format!("{patch} {element}")).code, Some(2), "{element}");
+    }
+}

@@ -1,0 +1,52 @@
+//! Help: every command has it, with an example that runs.
+
+use crate::support::tess;
+
+const COMMANDS: [&str; 5] = ["patch", "explain", "draw", "check", "bench"];
+
+#[test]
+fn every_command_is_listed_and_has_an_example() {
+    let program = tess("--help");
+    assert_eq!(program.code, Some(0), "{}", program.stderr);
+    let listed = program.stdout.lines().skip_while(|line| !line.starts_with("Commands:")).skip(1);
+    let listed: Vec<_> = listed
+        .take_while(|line| !line.is_empty())
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "))
+        .filter_map(|line| line.split_whitespace().next())
+        .filter(|&name| name != "help")
+        .collect();
+    for command in COMMANDS {
+        assert!(listed.contains(&command), "{command} is listed: {listed:?}");
+    }
+    for command in listed {
+        let help = tess(&format!("{command} --help"));
+        assert_eq!(help.code, Some(0), "{command}: {}", help.stderr);
+        let example = format!("  tess {command} ");
+        assert!(help.stdout.contains(&example), "{command} shows an example:\n{}", help.stdout);
+    }
+}
+
+/// The examples of `patch` and `explain`, without the ones that write files.
+#[test]
+fn examples_run() {
+    for command in ["patch", "explain"] {
+        let help = tess(&format!("{command} --help")).stdout;
+        let examples = help.lines().filter_map(|line| line.strip_prefix("  tess "));
+        let examples: Vec<_> = examples.filter(|line| !line.contains(" -o ")).collect();
+        assert!(examples.len() >= 2, "{command} has examples:\n{help}");
+        for example in examples {
+            let run = tess(example);
+            assert_eq!(run.code, Some(0), "{example}: {}", run.stderr);
+            assert!(!run.stdout.is_empty(), "{example} prints something");
+        }
+    }
+}
+
+#[test]
+fn no_command_and_unknown_commands_are_bad_usage() {
+    for words in ["", "tessellate", "patch --what"] {
+        let run = tess(words);
+        assert_eq!(run.code, Some(2), "tess {words}: {}", run.stderr);
+        assert!(run.stderr.contains("Usage"), "tess {words}: {}", run.stderr);
+    }
+}

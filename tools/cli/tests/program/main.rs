@@ -1,0 +1,8 @@
+//! The program as its users run it.
+
+mod bench;
+mod draw;
+mod explain;
+mod help;
+mod patch;
+mod support;
