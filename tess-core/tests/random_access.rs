@@ -118,7 +118,7 @@ fn every_quad_topology_center() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(4000))]
+    #![proptest_config(ProptestConfig::with_cases(20_000))]
 
     #[test]
     fn any_factors_in_any_configuration(config in common::config(), factors in common::factors()) {

@@ -9,6 +9,7 @@ pub mod coverage;
 pub mod digest;
 pub mod faults;
 pub mod generate;
+pub mod invariants;
 pub mod names;
 pub mod random;
 pub mod readmemh;
