@@ -1,0 +1,67 @@
+// Factor processing (spec section 3): one thread per patch, from the bits of its raw factors to
+// its topology, contexts and counts, and the sums of the counts over blocks of 256 patches.
+
+@group(0) @binding(0) var<uniform> job: Job;
+@group(0) @binding(1) var<storage, read> raw_factors: array<vec2<u32>>;
+@group(0) @binding(2) var<storage, read> tables: array<u32>;
+@group(0) @binding(3) var<storage, read_write> topologies: array<vec2<u32>>;
+@group(0) @binding(4) var<storage, read_write> contexts: array<vec2<u32>>;
+@group(0) @binding(5) var<storage, read_write> offsets: array<vec2<u32>>;
+
+fn process(patch_index: u32) -> Processed {
+    if DOMAIN == ISOLINE {
+        return process_isoline(raw_factors[patch_index]);
+    }
+    if DOMAIN == TRIANGLE {
+        let at = 2u * patch_index;
+        return process_triangle(vec4<u32>(raw_factors[at], raw_factors[at + 1u]));
+    }
+    let at = 3u * patch_index;
+    let outer = vec4<u32>(raw_factors[at], raw_factors[at + 1u]);
+    return process_quad(outer, raw_factors[at + 2u]);
+}
+
+// Only what later stages read: contexts of regular patches, as many as the domain has factors.
+fn write_contexts(patch_index: u32, processed: Processed) {
+    let at = patch_index;
+    let step = job.stride;
+    contexts[at] = make_context(processed.outer.x, processed.outer_odd.x);
+    contexts[at + step] = make_context(processed.outer.y, processed.outer_odd.y);
+    if DOMAIN == ISOLINE {
+        return;
+    }
+    contexts[at + 2u * step] = make_context(processed.outer.z, processed.outer_odd.z);
+    if DOMAIN == TRIANGLE {
+        contexts[at + 3u * step] = make_context(processed.inside.x, processed.inside_odd.x);
+        return;
+    }
+    contexts[at + 3u * step] = make_context(processed.outer.w, processed.outer_odd.w);
+    contexts[at + 4u * step] = make_context(processed.inside.x, processed.inside_odd.x);
+    contexts[at + 5u * step] = make_context(processed.inside.y, processed.inside_odd.y);
+}
+
+@compute @workgroup_size(256)
+fn factors(
+    @builtin(workgroup_id) workgroup: vec3<u32>,
+    @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let block = workgroup.x + workgroup.y * workgroups.x;
+    let patch_index = block * 256u + thread;
+    var own = vec2<u32>(0u, 0u);
+    if patch_index < job.patches {
+        let processed = process(patch_index);
+        topologies[patch_index] = processed.topology;
+        own = counts(processed.topology);
+        if state_of(processed.topology) == REGULAR {
+            write_contexts(patch_index, processed);
+        }
+    }
+    let through = inclusive_scan(thread, own);
+    if patch_index < job.patches {
+        offsets[patch_index] = through - own;
+    }
+    if thread == 255u && block * 256u < job.patches {
+        offsets[job.blocks_at + block] = through;
+    }
+}

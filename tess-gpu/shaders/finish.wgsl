@@ -1,0 +1,71 @@
+// What depends on the totals: whether the output fits, the draw arguments, and how many
+// workgroups each chunk needs in each window of the output.
+
+@group(0) @binding(0) var<uniform> job: Job;
+@group(0) @binding(1) var<storage, read_write> status: Status;
+// draw_indexed_indirect's five numbers, three reserved, then dispatch sizes of three numbers:
+// for each chunk its partition, its windows of points, its windows of primitives.
+@group(0) @binding(2) var<storage, read_write> arguments: array<u32>;
+
+const DISPATCHES_AT = 8u;
+const MAX_WORKGROUPS = 65535u; // along one dimension
+
+fn write_dispatch(number: u32, workgroups: u32) {
+    let rows = (workgroups + MAX_WORKGROUPS - 1u) / MAX_WORKGROUPS;
+    let at = DISPATCHES_AT + 3u * number;
+    arguments[at] = select(MAX_WORKGROUPS, workgroups, rows <= 1u);
+    arguments[at + 1u] = max(rows, 1u);
+    arguments[at + 2u] = 1u;
+}
+
+// Tiles that begin..end touches.
+fn tiles_between(begin: u32, end: u32) -> u32 {
+    return select(0u, (end + TILE - 1u) / TILE - begin / TILE, end > begin);
+}
+
+// Tiles of begin..end in a window.
+fn tiles_in_window(begin: u32, end: u32, window: u32, window_tiles: u32) -> u32 {
+    let first = max(begin / TILE, window * window_tiles);
+    let last = min((end + TILE - 1u) / TILE, (window + 1u) * window_tiles);
+    return select(0u, last - first, last > first && end > begin);
+}
+
+fn workgroups_of(slot: u32, range: Range) -> u32 {
+    if slot == 0u {
+        let tiles = tiles_between(range.points_begin, range.points_end)
+            + tiles_between(range.primitives_begin, range.primitives_end);
+        return (tiles + 2u + 63u) / 64u; // one entry more for each output: see partition.wgsl
+    }
+    if slot <= job.point_windows {
+        return tiles_in_window(
+            range.points_begin, range.points_end, slot - 1u, job.point_window_tiles);
+    }
+    return tiles_in_window(
+        range.primitives_begin, range.primitives_end,
+        slot - 1u - job.point_windows, job.primitive_window_tiles);
+}
+
+fn overflow() -> u32 {
+    let points = status.points_high != 0u || status.points > job.point_capacity;
+    let primitives = status.primitives_high != 0u || status.primitives > job.primitive_capacity;
+    return select(0u, 1u, points) | select(0u, 2u, primitives);
+}
+
+@compute @workgroup_size(64)
+fn finish(@builtin(global_invocation_id) id: vec3<u32>) {
+    let slots = 1u + job.point_windows + job.primitive_windows;
+    let is_overflow = overflow();
+    if id.x < job.chunks * slots {
+        let range = status.ranges[id.x / slots];
+        let workgroups = workgroups_of(id.x % slots, range);
+        write_dispatch(id.x, select(workgroups, 0u, is_overflow != 0u));
+    }
+    if id.x == 0u {
+        status.overflow = is_overflow;
+        arguments[0] = select(status.primitives * INDICES, 0u, is_overflow != 0u);
+        arguments[1] = 1u; // instances
+        arguments[2] = 0u; // first index
+        arguments[3] = 0u; // base vertex
+        arguments[4] = 0u; // first instance
+    }
+}

@@ -1,0 +1,67 @@
+// For each tile of the output, the patch that its first element belongs to: one thread per tile,
+// a binary search on each level of the offsets. One entry more says whose the last element is.
+
+@group(0) @binding(0) var<uniform> job: Job;
+@group(0) @binding(1) var<storage, read> offsets: array<vec2<u32>>;
+@group(0) @binding(2) var<storage, read> status: Status;
+@group(0) @binding(3) var<storage, read_write> tiles: array<u32>;
+
+fn offset_at(index: u32, kind: u32) -> u32 {
+    return offsets[index][kind];
+}
+
+// The last of `count` (1..=256) ascending entries, from `first` on, that is at most `target`; the first entry is.
+fn last_at_or_before(first: u32, count: u32, kind: u32, goal: u32) -> u32 {
+    var found = 0u;
+    for (var step = 128u; step > 0u; step >>= 1u) {
+        let next = found + step;
+        if next < count && offset_at(first + next, kind) <= goal {
+            found = next;
+        }
+    }
+    return found;
+}
+
+// The patch that an element of this chunk's output belongs to; `kind` is 0 for points, 1 for
+// primitives. Of patches that begin together the last one has elements.
+fn patch_of(goal: u32, kind: u32) -> u32 {
+    let blocks = (job.patches + 255u) >> 8u;
+    let groups = (blocks + 255u) >> 8u;
+    let group = last_at_or_before(job.groups_at, groups, kind, goal);
+    let in_group = goal - offset_at(job.groups_at + group, kind);
+    let first_block = job.blocks_at + (group << 8u);
+    let block = (group << 8u)
+        + last_at_or_before(first_block, min(256u, blocks - (group << 8u)), kind, in_group);
+    let in_block = in_group - offset_at(job.blocks_at + block, kind);
+    let patches = min(256u, job.patches - (block << 8u));
+    return (block << 8u) + last_at_or_before(block << 8u, patches, kind, in_block);
+}
+
+// Entries for begin..end: one per tile and one for the last element.
+fn entries(begin: u32, end: u32) -> u32 {
+    return select(0u, (end + TILE - 1u) / TILE - begin / TILE + 1u, end > begin);
+}
+
+fn entry(number: u32, begin: u32, end: u32, kind: u32) -> u32 {
+    let element = (begin / TILE + number) * TILE;
+    return patch_of(clamp(element, begin, end - 1u), kind);
+}
+
+@compute @workgroup_size(64)
+fn partition_tiles(
+    @builtin(workgroup_id) workgroup: vec3<u32>,
+    @builtin(num_workgroups) workgroups: vec3<u32>,
+    @builtin(local_invocation_index) thread: u32,
+) {
+    let number = (workgroup.x + workgroup.y * workgroups.x) * 64u + thread;
+    let range = status.ranges[job.chunk];
+    let point_entries = entries(range.points_begin, range.points_end);
+    let primitive_entries = entries(range.primitives_begin, range.primitives_end);
+    if number < point_entries {
+        tiles[number] = entry(number, range.points_begin, range.points_end, 0u);
+    } else if number - point_entries < primitive_entries {
+        let own = number - point_entries;
+        tiles[job.primitive_tiles_at + own] =
+            entry(own, range.primitives_begin, range.primitives_end, 1u);
+    }
+}

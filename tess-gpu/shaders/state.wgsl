@@ -1,0 +1,82 @@
+// What every stage agrees on. The constants DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT,
+// NUMBERING, WORKGROUP and TILE stand in front of this file (src/shaders.rs writes them).
+
+const ISOLINE = 0u;
+const TRIANGLE = 1u;
+const QUAD = 2u;
+
+const INTEGER = 0u;
+const POW2 = 1u;
+const FRACTIONAL_ODD = 2u;
+const FRACTIONAL_EVEN = 3u;
+
+const OUTPUT_POINT = 0u;
+const OUTPUT_LINE = 1u;
+const OUTPUT_TRIANGLE_CW = 2u;
+const OUTPUT_TRIANGLE_CCW = 3u;
+
+const RULER = 0u;
+const CENTER = 1u;
+
+const PACKED = 0u;
+const FLOAT = 1u;
+
+const PER_BATCH = 0u;
+const PER_PATCH = 1u;
+
+// Edges of a triangle or quad.
+const EDGES = select(3u, 4u, DOMAIN == QUAD);
+
+const IS_TRIANGLES = DOMAIN != ISOLINE && OUTPUT >= OUTPUT_TRIANGLE_CW;
+const INDICES = select(select(2u, 3u, IS_TRIANGLES), 1u, OUTPUT == OUTPUT_POINT);
+
+// One chunk of a batch and one window of its output; the host's `layout::Job`.
+struct Job {
+    // Patches in this chunk, at least 1.
+    patches: u32,
+    // Number of the chunk's first patch within the batch.
+    first_patch: u32,
+    // Number of the chunk.
+    chunk: u32,
+    // Distance between the contexts of one factor and of the next.
+    stride: u32,
+    // Where in `offsets` the blocks of 256 patches begin, and the groups of 256 blocks.
+    blocks_at: u32,
+    groups_at: u32,
+    // Where in `tiles` the primitives' tiles begin.
+    primitive_tiles_at: u32,
+    // The window of the output that is bound, in tiles.
+    window_first: u32,
+    window_tiles: u32,
+    // Of the whole batch: chunks, room for elements, windows of each output and their size.
+    chunks: u32,
+    point_capacity: u32,
+    primitive_capacity: u32,
+    point_windows: u32,
+    primitive_windows: u32,
+    point_window_tiles: u32,
+    primitive_window_tiles: u32,
+}
+
+// Where a chunk's output lies within the batch's.
+struct Range {
+    points_begin: u32,
+    points_end: u32,
+    primitives_begin: u32,
+    primitives_end: u32,
+}
+
+// The host's `layout::Status`, with the range of each chunk behind it.
+struct Status {
+    // What the batch needs, low and high words.
+    points: u32,
+    points_high: u32,
+    primitives: u32,
+    primitives_high: u32,
+    // Bit 0: the points don't fit, bit 1: the indices don't.
+    overflow: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32,
+    ranges: array<Range>,
+}

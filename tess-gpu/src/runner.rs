@@ -1,0 +1,113 @@
+//! A ready-made runner over wgpu: pipelines are made once, a batch's buffers and bind groups
+//! once per batch, and encoding it into the caller's command encoder is all that is left per frame.
+
+mod batch;
+mod gpu;
+mod whole;
+
+pub use batch::{Batch, Error, Outputs};
+pub use gpu::{Gpu, Unavailable, Wanted};
+pub use whole::Output;
+
+use crate::bindings::{Access, Binding, Resource};
+use crate::setup::Setup;
+use crate::shaders::Stage;
+use crate::tables::tables;
+use std::collections::HashMap;
+use tess_core::SplitOrder;
+
+/// Makes and keeps the pipelines of one device.
+#[derive(Debug)]
+pub struct Tessellator {
+    device: wgpu::Device,
+    pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
+    tables: HashMap<SplitOrder, wgpu::Buffer>,
+}
+
+impl Tessellator {
+    /// For a device with at least WebGPU's default limits; it uses what the device has beyond.
+    #[must_use]
+    pub fn new(device: &wgpu::Device) -> Self {
+        Self { device: device.clone(), pipelines: HashMap::new(), tables: HashMap::new() }
+    }
+
+    /// Prepares `patches` patches of the caller's buffers: see [`Batch`].
+    ///
+    /// # Errors
+    /// [`Error`] if the buffer of factors is too short or is not to be bound as storage.
+    pub fn batch(
+        &mut self,
+        setup: Setup,
+        patches: u32,
+        factors: &wgpu::Buffer,
+        outputs: Outputs<'_>,
+    ) -> Result<Batch, Error> {
+        Batch::new(self, setup, patches, factors, outputs)
+    }
+
+    pub(crate) const fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// The pipeline of a stage, made when it is first asked for.
+    pub(crate) fn pipeline(&mut self, stage: Stage, setup: Setup) -> wgpu::ComputePipeline {
+        let key = (stage, stage.relevant(setup));
+        let device = &self.device;
+        let make = || make_pipeline(device, stage, &stage.source(key.1));
+        self.pipelines.entry(key).or_insert_with(make).clone()
+    }
+
+    /// The constant tables of a split order, uploaded when they are first asked for.
+    pub(crate) fn tables(&mut self, split: SplitOrder) -> wgpu::Buffer {
+        let device = &self.device;
+        let make = || {
+            let words = tables(split);
+            gpu::filled(device, "tables", bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE)
+        };
+        self.tables.entry(split).or_insert_with(make).clone()
+    }
+}
+
+fn make_pipeline(device: &wgpu::Device, stage: Stage, source: &str) -> wgpu::ComputePipeline {
+    let label = Some(stage.entry_point());
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label,
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    });
+    let entries: Vec<_> = (0..).zip(stage.bindings()).map(layout_entry).collect();
+    let group = device
+        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label,
+        bind_group_layouts: &[Some(&group)],
+        immediate_size: 0,
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label,
+        layout: Some(&layout),
+        module: &module,
+        entry_point: label,
+        compilation_options: wgpu::PipelineCompilationOptions {
+            // Every word of it is written before it is read.
+            zero_initialize_workgroup_memory: false,
+            ..Default::default()
+        },
+        cache: None,
+    })
+}
+
+fn layout_entry(
+    (binding, &Binding(resource, access)): (u32, &Binding),
+) -> wgpu::BindGroupLayoutEntry {
+    let ty = match (resource, access) {
+        (Resource::Job, _) => wgpu::BufferBindingType::Uniform,
+        (_, Access::Read) => wgpu::BufferBindingType::Storage { read_only: true },
+        (_, Access::ReadWrite) => wgpu::BufferBindingType::Storage { read_only: false },
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+        count: None,
+    }
+}

@@ -1,0 +1,90 @@
+//! What a batch of patches is tessellated to.
+
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+
+/// How domain points are stored, in 8 bytes either way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PointFormat {
+    /// u in bits 0..=16, v in bits 17..=33, the number of the patch in bits 34..=63
+    /// (little-endian): see [`crate::layout::PackedPoint`].
+    #[default]
+    Packed,
+    /// u and v as binary32, exactly.
+    Float,
+}
+
+/// What indices count from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Numbering {
+    /// The first point of the batch: the index buffer draws the whole batch.
+    #[default]
+    PerBatch,
+    /// The first point of the patch, as the specification has it.
+    PerPatch,
+}
+
+/// Everything that is fixed before the patches of a batch arrive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Setup {
+    /// Domain of all patches.
+    pub domain: Domain,
+    /// Partitioning, output primitive and split order.
+    pub config: Config,
+    /// Format of the points.
+    pub point_format: PointFormat,
+    /// What indices count from.
+    pub numbering: Numbering,
+}
+
+impl Setup {
+    /// Packed points and indices for the whole batch.
+    #[must_use]
+    pub const fn new(domain: Domain, config: Config) -> Self {
+        let (point_format, numbering) = (PointFormat::Packed, Numbering::PerBatch);
+        Self { domain, config, point_format, numbering }
+    }
+
+    /// Factors of one patch: each a binary32 in the buffer of factors, in the specification's
+    /// order (section 1), patch after patch without gaps.
+    #[must_use]
+    pub const fn factors(&self) -> u32 {
+        match self.domain {
+            Domain::Isoline => 2,
+            Domain::Triangle => 4,
+            Domain::Quad => 6,
+        }
+    }
+
+    /// Indices of one primitive: 1, 2 or 3. Isolines asked for triangles are lines.
+    #[must_use]
+    pub const fn indices_per_primitive(&self) -> u32 {
+        match (self.config.output, self.domain) {
+            (OutputPrimitive::Point, _) => 1,
+            (OutputPrimitive::Line, _) | (_, Domain::Isoline) => 2,
+            _ => 3,
+        }
+    }
+
+    /// The constants that stand in front of every shader.
+    pub(crate) fn prelude(&self) -> String {
+        let Config { partitioning, output, split } = self.config;
+        let constants = [
+            ("DOMAIN", position(&Domain::ALL, self.domain)),
+            ("PARTITIONING", position(&Partitioning::ALL, partitioning)),
+            ("OUTPUT", position(&OutputPrimitive::ALL, output)),
+            ("SPLIT", position(&SplitOrder::ALL, split)),
+            ("POINT_FORMAT", u32::from(self.point_format == PointFormat::Float)),
+            ("NUMBERING", u32::from(self.numbering == Numbering::PerPatch)),
+            ("WORKGROUP", crate::sizes::WORKGROUP),
+            ("TILE", crate::sizes::TILE),
+            ("RECIPROCALS_AT", crate::tables::RECIPROCALS_AT),
+            ("STEPS_AT", crate::tables::STEPS_AT),
+        ];
+        constants.map(|(name, value)| format!("const {name} = {value}u;\n")).concat()
+    }
+}
+
+/// The number of a value in the list of all values, which `state.wgsl` numbers the same way.
+fn position<T: PartialEq>(all: &[T], value: T) -> u32 {
+    (0..).zip(all).find(|&(_, other)| *other == value).map_or(0, |(number, _)| number)
+}

@@ -1,0 +1,180 @@
+//! The WGSL of each stage: constants, then the parts that the stage is made of.
+
+use crate::bindings::{Access, Binding, Resource};
+use crate::setup::{Numbering, PointFormat, Setup};
+use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
+
+/// A part of a shader: one file of `shaders/`.
+macro_rules! part {
+    ($name:literal) => {
+        include_str!(concat!("../shaders/", $name, ".wgsl"))
+    };
+}
+
+/// One compute shader.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Raw factors to topologies, contexts, counts and offsets within blocks of 256 patches.
+    Factors,
+    /// Offsets of blocks within groups of 256 blocks.
+    Scan,
+    /// Offsets of groups in the output, and what the batch needs.
+    Totals,
+    /// Whether the output fits, draw arguments and dispatch sizes.
+    Finish,
+    /// The patch that each tile of the output begins with.
+    Partition,
+    /// Tiles of points.
+    ExpandPoints,
+    /// Tiles of indices.
+    ExpandPrimitives,
+}
+
+impl Stage {
+    /// Every stage, in the order in which they run.
+    pub const ALL: [Self; 7] = [
+        Self::Factors,
+        Self::Scan,
+        Self::Totals,
+        Self::Finish,
+        Self::Partition,
+        Self::ExpandPoints,
+        Self::ExpandPrimitives,
+    ];
+
+    /// The name of its entry point.
+    #[must_use]
+    pub const fn entry_point(self) -> &'static str {
+        match self {
+            Self::Factors => "factors",
+            Self::Scan => "scan",
+            Self::Totals => "totals",
+            Self::Finish => "finish",
+            Self::Partition => "partition_tiles",
+            Self::ExpandPoints => "expand_points",
+            Self::ExpandPrimitives => "expand_primitives",
+        }
+    }
+
+    /// Its bindings, all in group 0, in order from binding 0.
+    #[must_use]
+    pub const fn bindings(self) -> &'static [Binding] {
+        use Access::{Read, ReadWrite};
+        use Resource::{
+            Arguments, Contexts, Factors, Indices, Job, Offsets, Points, Status, Tables, Tiles,
+            Topologies,
+        };
+        match self {
+            Self::Factors => &[
+                Binding(Job, Read),
+                Binding(Factors, Read),
+                Binding(Tables, Read),
+                Binding(Topologies, ReadWrite),
+                Binding(Contexts, ReadWrite),
+                Binding(Offsets, ReadWrite),
+            ],
+            Self::Scan | Self::Totals => {
+                &[Binding(Job, Read), Binding(Offsets, ReadWrite), Binding(Status, ReadWrite)]
+            }
+            Self::Finish => {
+                &[Binding(Job, Read), Binding(Status, ReadWrite), Binding(Arguments, ReadWrite)]
+            }
+            Self::Partition => &[
+                Binding(Job, Read),
+                Binding(Offsets, Read),
+                Binding(Status, Read),
+                Binding(Tiles, ReadWrite),
+            ],
+            Self::ExpandPoints => &[
+                Binding(Job, Read),
+                Binding(Topologies, Read),
+                Binding(Contexts, Read),
+                Binding(Offsets, Read),
+                Binding(Status, Read),
+                Binding(Tiles, Read),
+                Binding(Points, ReadWrite),
+            ],
+            Self::ExpandPrimitives => &[
+                Binding(Job, Read),
+                Binding(Topologies, Read),
+                Binding(Tables, Read),
+                Binding(Offsets, Read),
+                Binding(Status, Read),
+                Binding(Tiles, Read),
+                Binding(Indices, ReadWrite),
+            ],
+        }
+    }
+
+    /// Its WGSL, a whole module.
+    #[must_use]
+    pub fn source(self, setup: Setup) -> String {
+        setup.prelude() + &self.parts().concat()
+    }
+
+    const fn parts(self) -> &'static [&'static str] {
+        match self {
+            Self::Factors => &[
+                part!("state"),
+                part!("fixed_point"),
+                part!("d3d_float"),
+                part!("process"),
+                part!("make_context"),
+                part!("topology"),
+                part!("counts"),
+                part!("prefix_sum"),
+                part!("factors"),
+            ],
+            Self::Scan | Self::Totals => &[part!("state"), part!("prefix_sum"), part!("scan")],
+            Self::Finish => &[part!("state"), part!("finish")],
+            Self::Partition => &[part!("state"), part!("partition")],
+            Self::ExpandPoints => &[
+                part!("state"),
+                part!("fixed_point"),
+                part!("factor_context"),
+                part!("place"),
+                part!("topology"),
+                part!("points"),
+                part!("point_format"),
+                part!("offsets"),
+                part!("tile"),
+                part!("expand_points"),
+            ],
+            Self::ExpandPrimitives => &[
+                part!("state"),
+                part!("topology"),
+                part!("counts"),
+                part!("connect"),
+                part!("stitch"),
+                part!("offsets"),
+                part!("tile"),
+                part!("expand_primitives"),
+            ],
+        }
+    }
+
+    /// `setup` with everything that this stage does not depend on set to one value, so that
+    /// pipelines can be shared.
+    #[must_use]
+    pub fn relevant(self, setup: Setup) -> Setup {
+        let plain =
+            Setup { point_format: PointFormat::Packed, numbering: Numbering::PerBatch, ..setup };
+        match self {
+            Self::Factors => plain,
+            Self::Scan | Self::Totals | Self::Finish | Self::Partition => any_factors(plain),
+            Self::ExpandPoints => {
+                let mut own = any_factors(Setup { point_format: setup.point_format, ..plain });
+                own.config.output = OutputPrimitive::Point;
+                own
+            }
+            Self::ExpandPrimitives => any_factors(Setup { numbering: setup.numbering, ..plain }),
+        }
+    }
+}
+
+/// Once factors are processed, partitioning and split order are in contexts and tables.
+fn any_factors(mut setup: Setup) -> Setup {
+    setup.config.partitioning = Partitioning::Integer;
+    setup.config.split = SplitOrder::Ruler;
+    setup
+}

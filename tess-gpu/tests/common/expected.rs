@@ -1,0 +1,89 @@
+//! What the golden model says the buffers of a batch must hold.
+
+use super::device::{POISON, Written};
+use tess_core::{DomainPoint, Patch, PatchFactors};
+use tess_gpu::{Numbering, PointFormat, Setup};
+
+/// The words of both buffers, and where each patch's begin.
+#[derive(Debug)]
+pub(crate) struct Expected<'a> {
+    setup: Setup,
+    patches: &'a [PatchFactors],
+    points: Vec<u32>,
+    indices: Vec<u32>,
+    /// First point word and first index word of each patch.
+    begins: Vec<(usize, usize)>,
+}
+
+impl<'a> Expected<'a> {
+    pub(crate) fn new(setup: Setup, patches: &'a [PatchFactors]) -> Self {
+        let mut own =
+            Self { setup, patches, points: Vec::new(), indices: Vec::new(), begins: Vec::new() };
+        for (number, &factors) in (0..).zip(patches) {
+            own.begins.push((own.points.len(), own.indices.len()));
+            let base = u32::try_from(own.points.len() / 2).expect("a test's points");
+            let base = if setup.numbering == Numbering::PerBatch { base } else { 0 };
+            let whole = Patch::new(setup.config, factors).tessellate();
+            let words = |&point: &DomainPoint| point_words(setup.point_format, point, number);
+            own.points.extend(whole.points.iter().flat_map(words));
+            own.indices.extend(whole.indices.iter().map(|index| base + index));
+        }
+        own
+    }
+
+    /// Words of points and of indices.
+    pub(crate) fn words(&self) -> (u32, u32) {
+        let count = |words: &[u32]| u32::try_from(words.len()).expect("a test's output");
+        (count(&self.points), count(&self.indices))
+    }
+
+    /// The first difference, guards included.
+    pub(crate) fn compare(&self, written: &Written) -> Result<(), String> {
+        let Written { status, draw, points, indices } = written;
+        let (point_words, index_words) = self.words();
+        let per_primitive = self.setup.indices_per_primitive();
+        let counts = (status.points(), status.primitives(), draw.index_count);
+        let expected =
+            (u64::from(point_words / 2), u64::from(index_words / per_primitive), index_words);
+        if counts != expected || !status.fits() || draw.instance_count != 1 {
+            return Err(format!("status {status:?}, {draw:?}, expected counts {expected:?}"));
+        }
+        self.first_difference("point", &self.points, points, |begins| begins.0)?;
+        self.first_difference("index", &self.indices, indices, |begins| begins.1)
+    }
+
+    fn first_difference(
+        &self,
+        what: &str,
+        expected: &[u32],
+        observed: &[u32],
+        begin: impl Fn(&(usize, usize)) -> usize,
+    ) -> Result<(), String> {
+        let expected_then_guard = expected.iter().chain(std::iter::repeat(&POISON));
+        let mut pairs = observed.iter().zip(expected_then_guard);
+        let Some(at) = pairs.position(|(observed, expected)| observed != expected) else {
+            return Ok(());
+        };
+        let patch = self.begins.partition_point(|begins| begin(begins) <= at).saturating_sub(1);
+        let word = at - self.begins.get(patch).map_or(0, begin);
+        Err(format!(
+            "{what} word {word} of patch {patch} {:?} (word {at} of {}): observed {:#010x}, \
+             expected {:#010x}",
+            self.patches.get(patch),
+            expected.len(),
+            observed[at],
+            expected.get(at).unwrap_or(&POISON),
+        ))
+    }
+}
+
+fn point_words(format: PointFormat, point: DomainPoint, patch: u32) -> [u32; 2] {
+    match format {
+        PointFormat::Float => point.to_f32().map(f32::to_bits),
+        PointFormat::Packed => {
+            let [u, v] = [point.u, point.v].map(|bits| u64::from(bits.to_bits()));
+            let packed = u | v << 17 | u64::from(patch) << 34;
+            [packed & 0xFFFF_FFFF, packed >> 32].map(|word| u32::try_from(word).unwrap_or(0))
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! What the tests share.
+
+#![allow(dead_code, reason = "each test crate uses its part")]
+
+#[cfg(feature = "wgpu")]
+pub(crate) mod device;
+#[cfg(feature = "wgpu")]
+pub(crate) mod expected;
+pub(crate) mod patches;
+
+use naga::Module;
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_gpu::{Numbering, PointFormat, Setup};
+
+/// Every configuration there is.
+pub(crate) fn all_configs() -> Vec<(Domain, Config)> {
+    let mut all = Vec::new();
+    for domain in Domain::ALL {
+        for partitioning in Partitioning::ALL {
+            for output in OutputPrimitive::ALL {
+                for split in SplitOrder::ALL {
+                    all.push((domain, Config { partitioning, output, split }));
+                }
+            }
+        }
+    }
+    all
+}
+
+/// Every configuration in every point format and numbering.
+pub(crate) fn all_setups() -> Vec<Setup> {
+    let mut all = Vec::new();
+    for (domain, config) in all_configs() {
+        for point_format in [PointFormat::Packed, PointFormat::Float] {
+            for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
+                all.push(Setup { domain, config, point_format, numbering });
+            }
+        }
+    }
+    all
+}
+
+/// The module of a shader.
+pub(crate) fn parse(source: &str) -> Module {
+    naga::front::wgsl::parse_str(source)
+        .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)))
+}
+
+/// The module of a shader that passes every check without any optional capability.
+pub(crate) fn validated(source: &str) -> Module {
+    let module = parse(source);
+    let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+    if let Err(error) = validator.validate(&module) {
+        panic!("{}", error.emit_to_string(source));
+    }
+    module
+}

@@ -1,0 +1,207 @@
+//! Every shader in every setup: valid, without floats, with the layouts that the host has.
+
+mod common;
+
+use common::{all_setups, parse};
+use naga::{AddressSpace, Module, ScalarKind, TypeInner};
+use tess_gpu::{Access, Binding, Resource, Stage, layout};
+
+#[test]
+fn every_stage_is_valid_in_every_setup() {
+    let setups = all_setups();
+    assert_eq!(
+        setups.len(),
+        384,
+        "domains x partitionings x outputs x splits x formats x numberings"
+    );
+    for setup in setups {
+        for stage in Stage::ALL {
+            common::validated(&stage.source(setup));
+        }
+    }
+}
+
+/// The house rule: no float arithmetic. There is not even a float type.
+#[test]
+fn no_stage_knows_floats() {
+    for setup in all_setups() {
+        for stage in Stage::ALL {
+            let found = float_types(&parse(&stage.source(setup)));
+            assert!(found.is_empty(), "{}: {found:?}", stage.entry_point());
+        }
+    }
+}
+
+#[test]
+fn the_house_rule_sees_floats() {
+    for planted in
+        ["fn f(a: f32) -> f32 { return a + a; }", "fn g(a: u32) -> u32 { return u32(f32(a)); }"]
+    {
+        assert!(!float_types(&parse(planted)).is_empty(), "{planted}");
+    }
+}
+
+/// Types of a module with floats in them, and its float literals.
+fn float_types(module: &Module) -> Vec<String> {
+    let scalar_of = |inner: &TypeInner| match *inner {
+        TypeInner::Scalar(scalar)
+        | TypeInner::Vector { scalar, .. }
+        | TypeInner::Matrix { scalar, .. }
+        | TypeInner::Atomic(scalar) => Some(scalar.kind),
+        _ => None,
+    };
+    let is_float = |kind| matches!(kind, ScalarKind::Float | ScalarKind::AbstractFloat);
+    let types = module
+        .types
+        .iter()
+        .filter(|(_, ty)| scalar_of(&ty.inner).is_some_and(is_float))
+        .map(|(_, ty)| format!("{ty:?}"));
+    let arenas = module.functions.iter().map(|(_, function)| &function.expressions);
+    let entries = module.entry_points.iter().map(|entry| &entry.function.expressions);
+    let literals = arenas
+        .chain(entries)
+        .chain([&module.global_expressions])
+        .flat_map(|arena| arena.iter())
+        .filter_map(|(_, expression)| match expression {
+            naga::Expression::Literal(literal) if is_float(literal.scalar().kind) => {
+                Some(format!("{literal:?}"))
+            }
+            naga::Expression::As { kind, .. } if is_float(*kind) => Some(format!("{expression:?}")),
+            _ => None,
+        });
+    types.chain(literals).collect()
+}
+
+#[test]
+fn bindings_are_those_of_the_shaders() {
+    for setup in all_setups() {
+        for stage in Stage::ALL {
+            let module = parse(&stage.source(setup));
+            let mut found: Vec<(u32, Access, bool)> = module
+                .global_variables
+                .iter()
+                .filter_map(|(_, variable)| {
+                    let binding = variable.binding?;
+                    assert_eq!(binding.group, 0, "{variable:?}");
+                    let (access, is_uniform) = match variable.space {
+                        AddressSpace::Uniform => (Access::Read, true),
+                        AddressSpace::Storage { access }
+                            if access.contains(naga::StorageAccess::STORE) =>
+                        {
+                            (Access::ReadWrite, false)
+                        }
+                        _ => (Access::Read, false),
+                    };
+                    Some((binding.binding, access, is_uniform))
+                })
+                .collect();
+            found.sort_by_key(|&(number, ..)| number);
+            let expected: Vec<_> = (0..)
+                .zip(stage.bindings())
+                .map(|(number, &Binding(resource, access))| {
+                    (number, access, resource == Resource::Job)
+                })
+                .collect();
+            assert_eq!(found, expected, "{}", stage.entry_point());
+            let storage = expected.iter().filter(|(.., is_uniform)| !is_uniform).count();
+            assert!(storage <= 8, "{}: {storage} storage buffers", stage.entry_point());
+        }
+    }
+}
+
+#[test]
+fn layouts_are_those_of_the_shaders() {
+    let source = Stage::Finish.source(all_setups()[0]);
+    let module = parse(&source);
+    assert_eq!(struct_size(&module, "Job"), size_of::<layout::Job>(), "Job");
+    assert_eq!(struct_size(&module, "Range"), size_of::<layout::Range>(), "Range");
+    let expected = [
+        "patches",
+        "first_patch",
+        "chunk",
+        "stride",
+        "blocks_at",
+        "groups_at",
+        "primitive_tiles_at",
+        "window_first",
+        "window_tiles",
+        "chunks",
+        "point_capacity",
+        "primitive_capacity",
+        "point_windows",
+        "primitive_windows",
+        "point_window_tiles",
+        "primitive_window_tiles",
+    ];
+    let fields = layout::Job {
+        patches: 0,
+        first_patch: 1,
+        chunk: 2,
+        stride: 3,
+        blocks_at: 4,
+        groups_at: 5,
+        primitive_tiles_at: 6,
+        window_first: 7,
+        window_tiles: 8,
+        chunks: 9,
+        point_capacity: 10,
+        primitive_capacity: 11,
+        point_windows: 12,
+        primitive_windows: 13,
+        point_window_tiles: 14,
+        primitive_window_tiles: 15,
+    };
+    let words: &[u32] = bytemuck::cast_slice(bytemuck::bytes_of(&fields));
+    assert_eq!(words, (0..16).collect::<Vec<_>>(), "the host's members are in this order");
+    assert_eq!(members(&module, "Job"), (0..).map(|n| 4 * n).zip(expected).collect::<Vec<_>>());
+    let ranges = members(&module, "Status").into_iter().find(|&(_, name)| name == "ranges");
+    assert_eq!(ranges, Some((size_of::<layout::Status>(), "ranges")));
+    let status = ["points", "points_high", "primitives", "primitives_high", "overflow"];
+    assert_eq!(
+        members(&module, "Status")[..5],
+        (0..).map(|n| 4 * n).zip(status).collect::<Vec<_>>()
+    );
+}
+
+fn members<'a>(module: &'a Module, name: &str) -> Vec<(usize, &'a str)> {
+    let TypeInner::Struct { members, .. } = structure(module, name) else { unreachable!() };
+    let named = |member: &'a naga::StructMember| {
+        (member.offset as usize, member.name.as_deref().unwrap_or_default())
+    };
+    members.iter().map(named).collect()
+}
+
+fn struct_size(module: &Module, name: &str) -> usize {
+    let TypeInner::Struct { span, .. } = structure(module, name) else { unreachable!() };
+    *span as usize
+}
+
+fn structure<'a>(module: &'a Module, name: &str) -> &'a TypeInner {
+    let found = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name));
+    let (_, ty) = found.unwrap_or_else(|| panic!("no structure {name}"));
+    assert!(matches!(ty.inner, TypeInner::Struct { .. }), "{name} is a structure");
+    &ty.inner
+}
+
+/// WebGPU guarantees 16 KiB of workgroup memory and 256 invocations.
+#[test]
+fn workgroups_keep_to_the_default_limits() {
+    for setup in all_setups() {
+        for stage in Stage::ALL {
+            let module = parse(&stage.source(setup));
+            let mut layouter = naga::proc::Layouter::default();
+            layouter.update(module.to_ctx()).expect("types have layouts");
+            let shared: u32 = module
+                .global_variables
+                .iter()
+                .filter(|(_, variable)| variable.space == AddressSpace::WorkGroup)
+                .map(|(_, variable)| layouter[variable.ty].size)
+                .sum();
+            assert!(shared <= 16384, "{}: {shared} bytes", stage.entry_point());
+            for entry in &module.entry_points {
+                let threads: u32 = entry.workgroup_size.iter().product();
+                assert!(threads <= 256, "{}: {threads} threads", entry.name);
+            }
+        }
+    }
+}
