@@ -1,1 +1,118 @@
-//! The named workloads under Criterion.
+//! The named workloads under Criterion, for development; `tess bench` is for users.
+//!
+//! ```text
+//! cargo bench -p tess-benches --bench core -- --save-baseline before
+//! cargo bench -p tess-benches --bench core -- --baseline before
+//! ```
+//!
+//! A [`Case`] is a workload's first batch of the working set `cache` with buffers for its output.
+//! The digest of its output is compared with the random-access formulation before it is timed, and by
+//! `cargo test`.
+
+use std::ops::Range;
+use tess_check::digest::Fnv1a;
+use tess_check::workloads::{IndexType, Totals, Workload, all};
+use tess_core::{BufferTooSmall, DomainPoint, Patch};
+
+/// Patches to tessellate and buffers of the right size.
+#[derive(Debug)]
+pub struct Case {
+    /// The workload.
+    pub workload: Workload,
+    /// The patches that are timed.
+    pub batch: Range<usize>,
+    /// What they amount to.
+    pub totals: Totals,
+    points: Vec<DomainPoint>,
+    indices: Vec<u32>,
+}
+
+/// Every workload's first batch.
+#[must_use]
+pub fn cases() -> Vec<Case> {
+    all().into_iter().map(Case::new).collect()
+}
+
+impl Case {
+    fn new(workload: Workload) -> Self {
+        let batch = workload.cache_batches(IndexType::U32).swap_remove(0);
+        let part =
+            Workload { patches: workload.patches[batch.clone()].to_vec(), ..workload.clone() };
+        let totals = part.totals();
+        let points = part.counts().map(|counts| counts.points as usize).sum();
+        let indices = part.counts().map(|counts| counts.indices as usize).sum();
+        Self {
+            workload,
+            batch,
+            totals,
+            points: vec![DomainPoint::default(); points],
+            indices: vec![0; indices],
+        }
+    }
+
+    /// Tessellates the batch by the core, patch after patch.
+    ///
+    /// # Errors
+    /// The buffers are too small, which their sizes rule out.
+    pub fn run_core(&mut self) -> Result<(), BufferTooSmall> {
+        let (mut points, mut indices) = (&mut self.points[..], &mut self.indices[..]);
+        for &factors in &self.workload.patches[self.batch.clone()] {
+            let counts = Patch::new(self.workload.config, factors).write(points, indices)?;
+            points = &mut points[counts.points as usize..];
+            indices = &mut indices[counts.indices as usize..];
+        }
+        Ok(())
+    }
+
+    /// The digest of what the buffers hold: all points, then all indices.
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        let mut digest = Fnv1a::new();
+        digest.points(&self.points);
+        digest.words(self.indices.iter().copied());
+        digest.finish()
+    }
+
+    /// The digest that the random-access formulation gives, which shares no walk with what is
+    /// timed.
+    #[must_use]
+    pub fn expected_digest(&self) -> u64 {
+        let patches = &self.workload.patches[self.batch.clone()];
+        let patches = || patches.iter().map(|&factors| Patch::new(self.workload.config, factors));
+        let mut digest = Fnv1a::new();
+        for patch in patches() {
+            digest.points(&patch.points().collect::<Vec<_>>());
+        }
+        for patch in patches() {
+            for primitive in patch.primitives() {
+                digest.words(primitive.indices().iter().copied());
+            }
+        }
+        digest.finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_workload_gives_the_expected_digest() {
+        let cases = cases();
+        assert!(cases.len() >= 17, "workloads: {}", cases.len());
+        for mut case in cases {
+            case.run_core().expect("the buffers fit");
+            let (digest, expected) = (case.digest(), case.expected_digest());
+            assert_eq!(digest, expected, "{}: {digest:016x}", case.workload.name);
+        }
+    }
+
+    /// The comparison can fail: one wrong index changes the digest.
+    #[test]
+    fn a_planted_fault_changes_the_digest() {
+        let mut case = cases().swap_remove(0);
+        case.run_core().expect("the buffers fit");
+        case.indices[5] ^= 1;
+        assert_ne!(case.digest(), case.expected_digest(), "a wrong index");
+    }
+}

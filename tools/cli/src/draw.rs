@@ -115,18 +115,22 @@ impl Drawing {
         self.picture.shapes.extend(points.iter().map(dot));
     }
 
-    /// Each point as a disc with its number, as large as its neighbours allow.
+    /// Each point as a disc with its number, as large as its neighbours allow, else as a dot.
     fn point_numbers(&mut self, points: &[Position]) {
-        let radii = labels::disc_radii(points);
-        for (number, (&centre, radius)) in (0..).zip(points.iter().zip(radii)) {
-            let Some((radius, height)) = labels::in_disc(number, radius) else {
-                self.labels_left_out += 1;
-                let radius = layout::dot_radius(points.len());
-                self.picture.shapes.push(Shape::Disc { centre, radius, fill: POINT, rim: POINT });
-                continue;
-            };
-            self.picture.shapes.push(Shape::Disc { centre, radius, fill: PAPER, rim: INK });
-            self.picture.number(number, centre, height, INK);
+        let dot = layout::dot_radius(points.len());
+        let labels: Vec<_> = (0..)
+            .zip(labels::disc_radii(points))
+            .map(|(number, room)| labels::in_disc(number, room))
+            .collect();
+        for (&centre, _) in points.iter().zip(&labels).filter(|(_, label)| label.is_none()) {
+            self.labels_left_out += 1;
+            self.picture.shapes.push(Shape::Disc { centre, radius: dot, fill: POINT, rim: POINT });
+        }
+        for (number, (&centre, label)) in (0..).zip(points.iter().zip(labels)) {
+            if let Some((radius, height)) = label {
+                self.picture.shapes.push(Shape::Disc { centre, radius, fill: PAPER, rim: INK });
+                self.picture.number(number, centre, height, INK);
+            }
         }
     }
 }

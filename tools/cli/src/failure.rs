@@ -82,3 +82,30 @@ impl From<BackendError> for Failure {
         Self::unavailable(message)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io;
+
+    #[test]
+    fn exit_codes_are_the_documented_ones() {
+        let failures = [
+            (Failure::different(""), 1),
+            (Failure::bad_input(""), 2),
+            (Failure::file("read", Path::new("x"), &io::Error::other("y")), 2),
+            (Failure::unavailable(""), 3),
+            (BackendError::new("no adapter").into(), 3),
+        ];
+        for (failure, code) in failures {
+            assert_eq!(failure.exit as u8, code, "{failure:?}");
+        }
+    }
+
+    #[test]
+    fn causes_are_told() {
+        let source = Some(io::Error::other("device lost").into());
+        let failure = Failure::from(BackendError { message: "gpu failed".into(), source });
+        assert_eq!(failure.to_string(), "gpu failed\n  because: device lost", "both lines");
+    }
+}

@@ -9,14 +9,20 @@ const SMALLEST: f64 = 4.5;
 const LARGEST: f64 = 13.0;
 
 /// A disc around each point that leaves room for its nearest neighbour: the radius.
+///
+/// Of points that coincide on the picture the first has the room, the others none.
 pub(super) fn disc_radii(points: &[Position]) -> Vec<f64> {
     const LARGEST_RADIUS: f64 = 15.0;
-    let nearest = |i: usize| {
-        let others = points.iter().enumerate().filter(|&(k, _)| k != i);
-        let distances = others.map(|(_, &other)| distance(points[i], other));
-        distances.fold(f64::INFINITY, f64::min)
+    const COINCIDE: f64 = 2.0;
+    let radius = |i: usize| {
+        let distances = || points.iter().map(|&other| distance(points[i], other));
+        if distances().take(i).any(|distance| distance < COINCIDE) {
+            return 0.0;
+        }
+        let others = distances().filter(|&distance| distance >= COINCIDE);
+        (0.44 * others.fold(f64::INFINITY, f64::min)).min(LARGEST_RADIUS)
     };
-    (0..points.len()).map(|i| (0.44 * nearest(i)).min(LARGEST_RADIUS)).collect()
+    (0..points.len()).map(radius).collect()
 }
 
 /// The radius of a number's disc and the height of its digits, if the disc can hold it.
