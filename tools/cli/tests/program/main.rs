@@ -1,6 +1,7 @@
 //! The program as its users run it.
 
 mod bench;
+mod check;
 mod draw;
 mod explain;
 mod help;

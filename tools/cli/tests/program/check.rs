@@ -1,0 +1,162 @@
+//! `tess check`: exit codes and messages for good, damaged and malformed files of every kind.
+
+use crate::support::{directory, tess, tess_with_input};
+use std::fs::{read_to_string, write};
+
+const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden");
+
+/// The first `rows` rows of a golden file, with a header that says so.
+fn excerpt(name: &str, rows: usize) -> String {
+    let text = read_to_string(format!("{GOLDEN}/{name}")).expect("readable");
+    let (header, rest) = text.split_once('\n').expect("a header");
+    let kind = header.split_whitespace().nth(3).expect("a kind");
+    let body: Vec<_> = rest.lines().take(rows + 1).collect();
+    format!("# tess-vectors 1 {kind} count={rows} source=tess\n{}\n", body.join("\n"))
+}
+
+/// One small excerpt of each CSV kind.
+fn excerpts() -> Vec<String> {
+    ["patches.csv", "corners.csv", "sweep.csv", "uniform.csv", "place.csv", "hlsl.csv"]
+        .map(|name| excerpt(name, 3))
+        .into_iter()
+        .chain([excerpt("factor.csv", 1)])
+        .collect()
+}
+
+#[test]
+fn equal_files() {
+    let run = tess(&format!("check {GOLDEN}/cases.txt"));
+    assert_eq!((run.code, run.stdout.as_str()), (Some(0), "51 cases, 0 mismatches\n"), "listings");
+    for text in excerpts() {
+        let run = tess_with_input("check -", &text);
+        assert_eq!(run.code, Some(0), "{text}{}", run.stderr);
+        assert!(run.stdout.ends_with(" cases, 0 mismatches\n"), "{}", run.stdout);
+    }
+}
+
+/// The last hex or decimal digit of the last row is changed.
+#[test]
+fn different_files() {
+    for text in excerpts() {
+        let text = text.trim_end();
+        let last = if text.ends_with('1') { "2" } else { "1" };
+        let run = tess_with_input("check -", &format!("{}{last}\n", &text[..text.len() - 1]));
+        assert_eq!(run.code, Some(1), "{text}: {}", run.stderr);
+        assert!(run.stdout.ends_with(" cases, 1 mismatches\n"), "{}", run.stdout);
+        assert!(run.stdout.contains("observed ") && run.stdout.contains("expected "), "both");
+        assert!(run.stdout.contains("stage: "), "the stage: {}", run.stdout);
+    }
+}
+
+/// The printed command shows the difference again.
+#[cfg(unix)]
+#[test]
+fn differences_can_be_run_again() {
+    let text = excerpt("patches.csv", 30).replacen(",435,", ",436,", 1);
+    let first = tess_with_input("check -", &text);
+    assert_eq!(first.code, Some(1), "{}", first.stderr);
+    let commands: Vec<_> =
+        first.stdout.lines().filter_map(|l| l.trim().strip_prefix("again: ")).collect();
+    let [check, patch] = &commands[..] else { panic!("two commands: {}", first.stdout) };
+    let run = |command: &str| {
+        let command = command.replace("tess check", "\"$TESS\" check");
+        let mut shell = std::process::Command::new("sh");
+        shell.env("TESS", env!("CARGO_BIN_EXE_tess")).args(["-c", &command]);
+        shell.output().expect("a shell")
+    };
+    let again = run(check);
+    assert_eq!(again.status.code(), Some(1), "{check}");
+    let again = String::from_utf8_lossy(&again.stdout).into_owned();
+    let element = "number of indices: observed 435, expected 436 (stage: counts)";
+    assert!(first.stdout.contains(element) && again.contains(element), "{again}");
+    let output = tess(patch.strip_prefix("tess ").expect("the program"));
+    assert!(output.stdout.contains("\nindices 435\n"), "{patch}: {}", output.stdout);
+}
+
+#[test]
+fn malformed_truncated_surplus_and_empty_files() {
+    let directory = directory("check");
+    let good = excerpt("patches.csv", 3);
+    let lines: Vec<_> = good.lines().collect();
+    let cases = [
+        ("empty", String::new(), ":1: header: a vector file starts with"),
+        ("header", lines[0].to_owned() + "\n", ":2: columns: the file ends here"),
+        (
+            "truncated",
+            lines[..4].join("\n"),
+            ":5: count: the header announces 3, but the file ends",
+        ),
+        ("cut", good[..good.len() - 30].to_owned(), ":5: indices"),
+        ("surplus", format!("{good}{}\n", lines[2]), ":6: count: the header announces 3, but"),
+        ("kind", good.replace("kind=patches", "kind=patch"), ":1: kind: unknown kind `patch`"),
+        ("version", good.replace("vectors 1", "vectors 9"), ":1: header: format version `9`"),
+        ("columns", good.replace("split,", ""), ":2: columns: the column names must be"),
+        (
+            "hex",
+            good.replacen("ruler,", "ruler,xyz ", 1),
+            ":3: factors_f32_hex: `xyz` is not the 8",
+        ),
+        ("factors", good.replacen("ruler,", "ruler,3f800000 ", 1), ":3: factors_f32_hex: expected"),
+        (
+            "listing",
+            "# tess-vectors 1 kind=listings count=2 source=rtl\ncase\n".into(),
+            ":2: case: a",
+        ),
+    ];
+    for (name, text, expected) in cases {
+        let path = directory.join(name);
+        write(&path, &text).expect("written");
+        let from_file = tess(&format!("check {}", path.display()));
+        let from_stdin = tess_with_input("check -", &text);
+        for (run, source) in [(from_file, path.display().to_string()), (from_stdin, "stdin".into())]
+        {
+            assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{name}: {}", run.stderr);
+            let message = format!("tess: {source}{expected}");
+            assert!(run.stderr.starts_with(&message), "{name}: {} is not {message}", run.stderr);
+        }
+    }
+}
+
+/// A file that is truncated gives no verdict, even if what is there already differs.
+#[test]
+fn a_truncated_file_with_differences_is_malformed() {
+    let text = excerpt("patches.csv", 1000).replace(",1", ",2");
+    let run = tess_with_input("check -", &text[..text.len() - 200]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+}
+
+#[test]
+fn missing_files_and_wrong_usage() {
+    assert_eq!(tess("check /nothing/here.csv").code, Some(2), "no such file");
+    assert_eq!(tess("check").code, Some(2), "no file given");
+    assert_eq!(tess("check - --backend abacus").code, Some(2), "no such backend");
+}
+
+/// Listings from a device under test: its source is not ours, so it is what is judged.
+#[test]
+fn listings_of_a_device() {
+    let patch = tess("patch quad --outer 3,4,5,6 --inner 4,7").stdout;
+    let device = patch.replacen("source=tess-core", "source=rtl", 1);
+    assert_ne!(patch, device, "the source is replaced");
+    let run = tess_with_input("check -", &device);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(0), "1 cases, 0 mismatches\n"), "equal");
+    let faulty = device.replacen("\n08000 ", "\n08001 ", 1);
+    assert_ne!(device, faulty, "a fault is planted");
+    let run = tess_with_input("check -", &faulty);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stdout.contains("u: observed 0x08001, expected 0x08000"), "{}", run.stdout);
+}
+
+/// Only the first 20 differences are shown, all are counted.
+#[test]
+fn many_differences() {
+    let text = excerpt("patches.csv", 100);
+    let rows = text.lines().enumerate().map(|(i, line)| {
+        let cut = line.len() - if i > 1 { 16 } else { 0 };
+        line[..cut].to_owned() + if i > 1 { "0123456789abcdef" } else { "" }
+    });
+    let run = tess_with_input("check -", &rows.collect::<Vec<_>>().join("\n"));
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert_eq!(run.stdout.matches("\nrecord ").count() + 1, 20, "{}", run.stdout);
+    assert!(run.stdout.ends_with("\nand 80 more\n100 cases, 100 mismatches\n"), "{}", run.stdout);
+}
