@@ -1,14 +1,17 @@
 //! Runs the records of a vector file through a backend.
 
+mod device;
 mod exhaustive;
 mod patches;
 mod report;
 mod stages;
 
+pub(crate) use patches::tessellate;
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, Report};
 
 use crate::backend::{Backend, BackendError};
 use crate::compare::Mismatch;
+use crate::strength::Strength;
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
 use std::io::BufRead;
 use std::sync::{Mutex, PoisonError};
@@ -16,7 +19,8 @@ use std::sync::{Mutex, PoisonError};
 /// Checks every record of a file: each result of the backend must equal the recorded one.
 ///
 /// Takes one backend for each thread that is to be used; the report does not depend on how many
-/// there are. `progress` is told, from any thread, how many more records are done.
+/// there are. `strength` says what counts as equal in the listings of a device under test.
+/// `progress` is told, from any thread, how many more records are done.
 ///
 /// # Errors
 /// A file that is malformed, truncated or too long, which is known at its end: the report of a
@@ -24,15 +28,16 @@ use std::sync::{Mutex, PoisonError};
 pub fn check<R: BufRead + Send>(
     file: VectorFile<R>,
     backends: &mut [Box<dyn Backend>],
+    strength: Strength,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Report, CheckError> {
     if backends.is_empty() {
         return Err(BackendError::new("no backend to check with").into());
     }
-    let header = file.header().clone();
+    let how = How { header: file.header().clone(), strength };
     let source = Mutex::new(Source { file, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
-        let result = run(&header, &source, backend.as_mut(), progress);
+        let result = run(&how, &source, backend.as_mut(), progress);
         if result.is_err() {
             lock(&source).stopped.get_or_insert(Ok(()));
         }
@@ -57,6 +62,12 @@ pub fn check<R: BufRead + Send>(
     Ok(report)
 }
 
+/// What the comparison of a record depends on besides the record.
+struct How {
+    header: Header,
+    strength: Strength,
+}
+
 /// The records that are still to be checked.
 struct Source<R> {
     file: VectorFile<R>,
@@ -73,9 +84,9 @@ struct Unit {
 }
 
 impl<R: BufRead> Source<R> {
-    fn next_unit(&mut self, header: &Header) -> Option<Unit> {
+    fn next_unit(&mut self, kind: Kind) -> Option<Unit> {
         let mut unit = Unit { first: self.taken + 1, records: Vec::new() };
-        while self.stopped.is_none() && unit.records.len() < unit_size(header.kind) {
+        while self.stopped.is_none() && unit.records.len() < unit_size(kind) {
             match self.file.next() {
                 Some(Ok(record)) => unit.records.push(record),
                 Some(Err(error)) => self.stopped = Some(Err(error)),
@@ -101,20 +112,20 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 
 /// One worker: takes units until there are none.
 fn run<R: BufRead>(
-    header: &Header,
+    how: &How,
     source: &Mutex<Source<R>>,
     backend: &mut dyn Backend,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Report, BackendError> {
     let mut report = Report::default();
     loop {
-        let Some(unit) = lock(source).next_unit(header) else { return Ok(report) };
-        let found = check_unit(header, backend, &unit.records)?;
+        let Some(unit) = lock(source).next_unit(how.header.kind) else { return Ok(report) };
+        let found = check_unit(how, backend, &unit.records)?;
         for ((number, record), found) in (unit.first..).zip(&unit.records).zip(found) {
             report.cases += 1;
             if let Some((mismatch, case)) = found {
                 report.mismatches += 1;
-                let difference = Difference::new(header, number, record, mismatch, case);
+                let difference = Difference::new(&how.header, number, record, mismatch, case);
                 report.differences.push(difference);
             }
         }
@@ -128,7 +139,7 @@ type Found = Option<(Mismatch, Option<crate::case::Case>)>;
 
 /// The findings of each record, in order.
 fn check_unit(
-    header: &Header,
+    how: &How,
     backend: &mut dyn Backend,
     records: &[Record],
 ) -> Result<Vec<Found>, BackendError> {
@@ -138,6 +149,6 @@ fn check_unit(
         [Record::Uniform(row)] => Ok(vec![patches::uniform(backend, row)?]),
         [Record::Locations(row)] => exhaustive::locations(backend, row).map(in_rows),
         [Record::Factors(row)] => exhaustive::factors(backend, row).map(in_rows),
-        records => patches::single(header, backend, records),
+        records => patches::single(how, backend, records),
     }
 }

@@ -42,7 +42,7 @@ impl fmt::Display for Stage {
 }
 
 /// One element of a result.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Element {
     /// A number of elements, such as `points`.
     Count(&'static str),
@@ -88,13 +88,15 @@ pub enum Element {
         /// Name of the factor.
         factor: &'static str,
     },
+    /// A point, or a primitive by its vertices, where the order is free: 16.16 bits of u and v.
+    Vertices(Vec<[u32; 2]>),
     /// A digest that differs although every element agrees with the model's.
     Digest(&'static str),
 }
 
 impl fmt::Display for Element {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
+        match self {
             Self::Count(what) => write!(f, "number of {what}"),
             Self::Point { index, coordinate } => write!(f, "point {index} {coordinate}"),
             Self::Index { primitive, position } => {
@@ -108,6 +110,10 @@ impl fmt::Display for Element {
             }
             Self::Factor { x, role } => write!(f, "{role} factor from 0x{x:08x}"),
             Self::Prepared { result, factor } => write!(f, "{result} {factor}"),
+            Self::Vertices(vertices) => {
+                f.write_str(if vertices.len() == 1 { "point" } else { "primitive" })?;
+                vertices.iter().try_for_each(|[u, v]| write!(f, " ({u:05x}, {v:05x})"))
+            }
             Self::Digest(what) => write!(f, "digest of the {what}"),
         }
     }

@@ -7,6 +7,7 @@ use tess_check::checker::{CheckError, MAX_DIFFERENCES, Report, check};
 use tess_check::compare::{Element, Stage};
 use tess_check::core_backend::CoreBackend;
 use tess_check::faults::{Fault, Faulty};
+use tess_check::strength::Strength;
 use tess_check::vectors::VectorFile;
 
 /// Rows of a golden file as a file of its own; of listings, all.
@@ -27,7 +28,7 @@ fn excerpt(name: &str, keep: impl Fn(usize, &str) -> bool) -> String {
 }
 
 fn run(text: &str, backends: &mut [Box<dyn Backend>]) -> Result<Report, CheckError> {
-    check(VectorFile::new("excerpt", text.as_bytes())?, backends, &|_| ())
+    check(VectorFile::new("excerpt", text.as_bytes())?, backends, Strength::default(), &|_| ())
 }
 
 /// Checks `text` with a faulty backend; fails if the fault was not committed.
@@ -44,9 +45,8 @@ fn run_core(text: &str) -> Report {
 }
 
 /// Whether a difference in `element` and `stage` is what a fault of patches looks like.
-fn looks_like(fault: Fault, element: Element, stage: Stage) -> bool {
-    let first =
-        |wanted| matches!(element, Element::Point { index: 0, coordinate } if coordinate == wanted);
+fn looks_like(fault: Fault, element: &Element, stage: Stage) -> bool {
+    let first = |wanted| matches!(element, Element::Point { index: 0, coordinate } if *coordinate == wanted);
     match fault {
         Fault::PointU => first("u") && stage == Stage::Location,
         Fault::PointV => first("v") && stage == Stage::Location,
@@ -55,14 +55,14 @@ fn looks_like(fault: Fault, element: Element, stage: Stage) -> bool {
         }
         Fault::SwappedPoints => (first("u") || first("v")) && stage == Stage::PointOrder,
         Fault::DroppedPoint | Fault::ExtraPoint | Fault::EmptyPatch => {
-            element == Element::Count("points") && stage == Stage::Counts
+            *element == Element::Count("points") && stage == Stage::Counts
         }
         Fault::SwappedIndices => {
-            element == Element::Index { primitive: 0, position: 0 } && stage == Stage::Stitch
+            *element == Element::Index { primitive: 0, position: 0 } && stage == Stage::Stitch
         }
         Fault::LastIndex => matches!(element, Element::Index { .. }) && stage == Stage::Stitch,
         Fault::DroppedIndex | Fault::ExtraIndex => {
-            element == Element::Count("indices") && stage == Stage::Counts
+            *element == Element::Count("indices") && stage == Stage::Counts
         }
         _ => true,
     }
@@ -91,7 +91,7 @@ fn faults_of_patches_in_every_kind_that_has_patches() {
                 let report = result.expect("a verdict");
                 assert_eq!((report.cases, report.mismatches), (clean.cases, 1), "{fault:?}");
                 let mismatch = &report.differences[0].mismatch;
-                let as_expected = looks_like(fault, mismatch.element, mismatch.stage);
+                let as_expected = looks_like(fault, &mismatch.element, mismatch.stage);
                 assert!(as_expected, "{fault:?} looks like {mismatch}");
                 assert!(report.differences[0].case.is_some(), "{fault:?}: the patch is named");
             }
@@ -120,7 +120,7 @@ fn faults_of_contexts_and_locations() {
             let stage = if counted { Stage::Counts } else { stage };
             assert_eq!(mismatch.stage, stage, "{fault:?}: {mismatch}");
             let found = matches!(
-                (fault, mismatch.element),
+                (fault, mismatch.element.clone()),
                 (Fault::Context(_), Element::Context { .. })
                     | (Fault::LastLocation | Fault::SwappedLocations, Element::Location { .. })
                     | (Fault::DroppedLocation, Element::Count("locations"))

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use tess_check::backend::Backend;
 use tess_check::checker::check;
 use tess_check::core_backend::CoreBackend;
+use tess_check::strength::Strength;
 use tess_check::vectors::{Kind, VectorFile};
 
 /// Every vector file there is.
@@ -34,7 +35,8 @@ fn check_file(name: &str) {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let mut backends: Vec<Box<dyn Backend>> = Vec::new();
     backends.resize_with(threads, || Box::new(CoreBackend));
-    let report = check(file, &mut backends, &|_| ()).unwrap_or_else(|error| panic!("{error}"));
+    let report = check(file, &mut backends, Strength::default(), &|_| ())
+        .unwrap_or_else(|error| panic!("{error}"));
     let differences: Vec<_> = report.differences.iter().map(|d| format!("{d}\n")).collect();
     assert_eq!(report.mismatches, 0, "{name}: {report}\n{}", differences.concat());
     assert_eq!(report.cases, count, "{name}: all cases were checked");

@@ -1,67 +1,10 @@
 //! Verification of backends: it compares what it says, in any number of shards, and sees faults.
 
-use tess_check::backend::{Backend, BackendError};
+use tess_check::backend::Backend;
 use tess_check::core_backend::CoreBackend;
+use tess_check::faults::{Fault, Faulty};
 use tess_check::generate::Shard;
 use tess_check::verify::{Plan, Row, Subject, units, verify};
-use tess_core::{
-    Config, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors, SplitOrder,
-    Tessellation,
-};
-
-/// The model with the last bit of one result per call wrong.
-struct LastBitWrong;
-
-impl Backend for LastBitWrong {
-    fn name(&self) -> &'static str {
-        "faulty"
-    }
-
-    fn device(&self) -> String {
-        "nowhere".into()
-    }
-
-    fn tessellate(
-        &mut self,
-        config: Config,
-        patches: &[PatchFactors],
-    ) -> Result<Vec<Tessellation>, BackendError> {
-        let mut results = CoreBackend.tessellate(config, patches)?;
-        if let Some(index) = results.iter_mut().rev().find_map(|t| t.indices.last_mut()) {
-            *index ^= 1;
-        }
-        Ok(results)
-    }
-
-    fn fixed_factors(
-        &mut self,
-        partitioning: Partitioning,
-        values: &[f32],
-    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
-        let mut results = CoreBackend.fixed_factors(partitioning, values)?;
-        if let Some([_, inside]) = results.last_mut() {
-            *inside = FixedFactor::from_bits(inside.to_bits() ^ 1);
-        }
-        Ok(results)
-    }
-
-    fn contexts(
-        &mut self,
-        split: SplitOrder,
-        parity: Parity,
-        factors: &[FixedFactor],
-    ) -> Result<Vec<FactorContext>, BackendError> {
-        CoreBackend.contexts(split, parity, factors)
-    }
-
-    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
-        let mut results = CoreBackend.locations(contexts)?;
-        if let Some(location) = results.last_mut() {
-            *location ^= 1;
-        }
-        Ok(results)
-    }
-}
 
 /// One part in 61 of every subject (and far less of the largest).
 fn small_plan() -> Plan {
@@ -90,13 +33,24 @@ fn the_model_equals_itself_on_any_number_of_threads() {
     assert_eq!(one, two, "threads change nothing");
 }
 
+/// The fault that a subject's units must see, and a plan of few of them.
+fn faulty_plan(subject: Subject) -> (Fault, Plan) {
+    let (fault, of) = match subject {
+        Subject::Factors => (Fault::InsideFactor, 16384),
+        Subject::Locations => (Fault::LastLocation, 61),
+        _ => (Fault::LastIndex, 5),
+    };
+    (fault, Plan { subjects: vec![subject], shard: Shard { part: 1, of } })
+}
+
 #[test]
 fn every_subject_sees_a_wrong_bit() {
-    let factors = Plan { subjects: vec![Subject::Factors], shard: Shard { part: 1000, of: 16384 } };
-    for plan in [without_factors(small_plan()), factors] {
-        for row in run(&mut [vec![Box::new(LastBitWrong)]], &plan) {
-            assert!(row.mismatches > 0 && row.first.is_some(), "{row:?} sees it");
-        }
+    for subject in Subject::ALL {
+        let (fault, plan) = faulty_plan(subject);
+        let faulty = Faulty::new(CoreBackend, fault, 0);
+        let rows = run(&mut [vec![Box::new(faulty)]], &plan);
+        let [row] = &rows[..] else { panic!("one row: {rows:?}") };
+        assert!(row.mismatches > 0 && row.first.is_some(), "{fault:?}: {row:?}");
     }
 }
 

@@ -1,15 +1,18 @@
 //! `tess check`: runs the cases of a vector file and compares.
 
 use crate::backends::{BackendArgs, BackendName};
+use crate::explain::{PointReport, PrimitiveReport};
 use crate::failure::{Exit, Failure};
 use crate::output::stdout;
+use crate::strength::StrengthArgs;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 use tess_check::backend::Backend;
-use tess_check::checker::{self, CheckError, Report};
+use tess_check::checker::{self, CheckError, Difference, Report};
+use tess_check::compare::Element;
 use tess_check::vectors::VectorFile;
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
@@ -22,18 +25,24 @@ that it points to, and commands that show it again.
 In a file of listings whose source (in its first line) is neither d3d11-reference... nor tess...,
 the listings are what a device under test gave; everywhere else the file is right.
 
+A device's listings are compared in a strength: --order, --points, --conversion and --denormals say
+which freedom of the public specification counts as equal (docs/verification.md).
+
 Exit code 0: all equal; 1: differences; 2: malformed, truncated or empty file; 3: no such backend.
 
 Examples:
   tess check golden/cases.txt
   tess check golden/place.csv --backend simd
-  tess patch tri --outer 3,4,5 --inner 4 | tess check -")]
+  tess patch tri --outer 3,4,5 --inner 4 | tess check -
+  ./my-device | tess check - --order any --conversion 0.6ulp")]
 pub struct Args {
     /// Vector file; - is stdin
     #[arg(value_name = "FILE")]
     file: PathBuf,
     #[command(flatten)]
     backend: BackendArgs,
+    #[command(flatten)]
+    strength: StrengthArgs,
 }
 
 /// Runs the command.
@@ -45,8 +54,9 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     let name =
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
     let file = VectorFile::new(name, open(&args.file)?).map_err(|e| failure(e.into()))?;
+    let strength = args.strength.of(file.header())?;
     let bar = progress_bar(file.header().count);
-    let report = checker::check(file, &mut backends, &|records| bar.inc(records));
+    let report = checker::check(file, &mut backends, strength, &|records| bar.inc(records));
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
     let backend = backends.first().map_or("core", |backend| backend.name());
@@ -85,6 +95,9 @@ fn show(report: &Report, backend: &str) -> io::Result<()> {
     let mut out = stdout();
     for difference in &report.differences {
         writeln!(out, "{difference}")?;
+        for line in model_values(difference).lines() {
+            writeln!(out, "  model: {line}")?;
+        }
         for command in difference.commands(backend) {
             writeln!(out, "  again: {command}")?;
         }
@@ -95,6 +108,22 @@ fn show(report: &Report, backend: &str) -> io::Result<()> {
     }
     writeln!(out, "{report}")?;
     out.flush()
+}
+
+/// Where the first wrong element comes from in the model, with the values that went into it.
+fn model_values(difference: &Difference) -> String {
+    let Some(case) = &difference.case else { return String::new() };
+    let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    let report: Option<String> = match difference.mismatch.element {
+        Element::Point { index, .. } => {
+            PointReport::new(&case.patch(), number(index)).map(|report| report.to_string())
+        }
+        Element::Index { primitive, .. } => {
+            PrimitiveReport::new(&case.patch(), number(primitive)).map(|report| report.to_string())
+        }
+        _ => None,
+    };
+    report.unwrap_or_default()
 }
 
 fn failure(error: CheckError) -> Failure {

@@ -1,19 +1,19 @@
 //! The kinds whose records are patches: single ones, and sequences with one digest.
 
-use super::{Found, stages};
+use super::{Found, How, device, stages};
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::{Case, factor_bits, factor_names};
 use crate::compare::{self, Element, Mismatch, Stage};
 use crate::core_backend::CoreBackend;
-use crate::digest::{Fnv1a, points_digest, words_digest};
+use crate::digest::Fnv1a;
 use crate::sequences;
-use crate::vectors::{ChainRow, Header, PreparationRow, Record, Sizes};
+use crate::vectors::{ChainRow, PreparationRow, Record, Sizes};
 use tess_core::prepare::prepare;
 use tess_core::{Config, Domain, PatchFactors, Tessellation};
 
 /// Checks listings, patches and preparations.
 pub(super) fn single(
-    header: &Header,
+    how: &How,
     backend: &mut dyn Backend,
     records: &[Record],
 ) -> Result<Vec<Found>, BackendError> {
@@ -21,7 +21,7 @@ pub(super) fn single(
     let outputs = tessellate(backend, &cases)?;
     let mut found = Vec::with_capacity(records.len());
     for ((record, case), observed) in records.iter().zip(&cases).zip(&outputs) {
-        let mismatch = compare_one(header, backend, record, case, observed)?;
+        let mismatch = compare_one(how, backend, record, case, observed)?;
         found.push(mismatch.map(|mismatch| (mismatch, Some(*case))));
     }
     Ok(found)
@@ -40,15 +40,15 @@ fn case_of(record: &Record) -> Option<Case> {
 }
 
 fn compare_one(
-    header: &Header,
+    how: &How,
     backend: &mut dyn Backend,
     record: &Record,
     case: &Case,
     output: &Tessellation,
 ) -> Result<Option<Mismatch>, BackendError> {
     match record {
-        Record::Listing(listing) if header.is_from_device() => {
-            Ok(compare::tessellations(case, &listing.output, output))
+        Record::Listing(listing) if how.header.is_from_device() => {
+            Ok(device::compare(case, &listing.output, output, how.strength))
         }
         Record::Listing(listing) => {
             let found = compare::tessellations(case, output, &listing.output);
@@ -64,7 +64,7 @@ fn compare_one(
 }
 
 /// Tessellates cases of any configurations, those that have one in common in one batch.
-fn tessellate(
+pub(crate) fn tessellate(
     backend: &mut dyn Backend,
     cases: &[Case],
 ) -> Result<Vec<Tessellation>, BackendError> {
@@ -103,12 +103,7 @@ fn sizes(
     observed: &Tessellation,
     expected: &Sizes,
 ) -> Result<Option<Mismatch>, BackendError> {
-    let sizes = Sizes {
-        points: observed.points.len() as u64,
-        indices: observed.indices.len() as u64,
-        points_digest: points_digest(&observed.points),
-        indices_digest: words_digest(&observed.indices),
-    };
+    let sizes = Sizes::of(observed);
     if sizes == *expected {
         return Ok(None);
     }

@@ -4,13 +4,14 @@ use super::units::VALUES;
 use super::{Plan, Subject, Unit, units};
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::Case;
+use crate::checker::tessellate;
 use crate::compare;
 use crate::core_backend::CoreBackend;
 use crate::names::Named;
 use crate::sequences::bucket;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use tess_core::{FixedFactor, Parity, Partitioning, PatchFactors, SplitOrder};
+use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder};
 
 /// What was compared of one subject in one backend.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -101,28 +102,14 @@ fn compare_unit(backend: &mut dyn Backend, unit: &Unit) -> Result<Compared, Back
     }
 }
 
-/// Patches of one domain and configuration go to the backend together.
 fn compare_patches(backend: &mut dyn Backend, cases: &[Case]) -> Result<Compared, BackendError> {
-    let mut order: Vec<&Case> = cases.iter().collect();
-    let key = |case: &Case| {
-        let config = case.config;
-        let names = [config.partitioning.name(), config.output.name(), config.split.name()];
-        (case.domain().name(), names)
-    };
-    order.sort_by_key(|case| key(case));
-    let mut first = None;
-    for group in order.chunk_by(|a, b| key(a) == key(b)) {
-        let factors: Vec<PatchFactors> = group.iter().map(|case| case.factors).collect();
-        let answers = backend.tessellate(group[0].config, &factors)?;
-        let observed = all_answered(backend, "patches", answers, group.len())?;
-        for (case, observed) in group.iter().zip(&observed) {
-            let expected = case.patch().tessellate();
-            if let Some(mismatch) = compare::tessellations(case, observed, &expected) {
-                first.get_or_insert_with(|| format!("{case}\n  {mismatch}\n  {}", case.command()));
-            }
-        }
-    }
-    Ok((cases.len() as u64, first))
+    let observed = tessellate(backend, cases)?;
+    let mut differences = cases.iter().zip(&observed).filter_map(|(case, observed)| {
+        let expected = case.patch().tessellate();
+        let mismatch = compare::tessellations(case, observed, &expected)?;
+        Some(format!("{case}\n  {mismatch}\n  {}", case.command()))
+    });
+    Ok((cases.len() as u64, differences.next()))
 }
 
 fn compare_values(
