@@ -19,6 +19,7 @@ pub mod gen_command;
 pub mod output;
 pub mod patch_command;
 pub mod picture;
+pub mod strength;
 pub mod verify_command;
 
 use clap::{Parser, Subcommand};
