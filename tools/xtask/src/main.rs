@@ -14,7 +14,7 @@ usage: cargo xtask <command>
   test    set up what the tests need, then run every test of the workspace
   ci      what the continuous integration runs: formatting, lints, documentation,
           the no_std proof, then `test`
-  setup   only set up: the software Vulkan driver that the GPU tests run on";
+  setup   only set up: a Vulkan driver, C and C++ compilers, Verilator";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

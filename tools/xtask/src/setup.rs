@@ -12,11 +12,23 @@ struct Need {
     is_there: fn() -> bool,
 }
 
-const NEEDS: &[Need] = &[Need {
-    what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
-    packages: &["libvulkan1", "mesa-vulkan-drivers"],
-    is_there: has_vulkan,
-}];
+const NEEDS: &[Need] = &[
+    Need {
+        what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
+        packages: &["libvulkan1", "mesa-vulkan-drivers"],
+        is_there: has_vulkan,
+    },
+    Need {
+        what: "C and C++ compilers and make (tests of the C interface)",
+        packages: &["gcc", "g++", "libc6-dev", "make"],
+        is_there: || ["cc", "c++", "make"].into_iter().all(has_program),
+    },
+    Need {
+        what: "Verilator (tests of the SystemVerilog interface)",
+        packages: &["verilator"],
+        is_there: || has_program("verilator"),
+    },
+];
 
 /// Installs what is missing where the system allows it, and says what to install where not.
 pub(crate) fn run() -> Result<(), String> {
@@ -71,4 +83,9 @@ fn has_vulkan() -> bool {
 fn has_library(name: &str) -> bool {
     let known = Command::new("/sbin/ldconfig").arg("-p").output();
     known.is_ok_and(|list| String::from_utf8_lossy(&list.stdout).contains(name))
+}
+
+fn has_program(name: &str) -> bool {
+    let path = std::env::var_os("PATH").unwrap_or_default();
+    std::env::split_paths(&path).any(|folder| folder.join(name).is_file())
 }
