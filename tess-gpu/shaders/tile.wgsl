@@ -71,12 +71,13 @@ fn link_segments(thread: u32) {
     if thread >= TILE_WORDS {
         return;
     }
-    var before = 0u;
-    for (var word = 0u; word < thread; word++) {
-        let bits = atomicLoad(&starts[word]);
-        before = select(before, 32u * word + firstLeadingBit(bits), bits != 0u);
+    var word = thread;
+    var bits = 0u;
+    while word > 0u && bits == 0u {
+        word -= 1u;
+        bits = atomicLoad(&starts[word]);
     }
-    start_before[thread] = before;
+    start_before[thread] = select(32u * word + firstLeadingBit(bits), 0u, bits == 0u);
 }
 
 fn find_segment(element: u32) -> Found {

@@ -3,10 +3,12 @@
 
 mod batch;
 mod gpu;
+mod stopwatch;
 mod whole;
 
 pub use batch::{Batch, Error, Outputs};
 pub use gpu::{Gpu, Unavailable, Wanted};
+pub use stopwatch::Stopwatch;
 pub use whole::Output;
 
 use crate::bindings::{Access, Binding, Resource};
@@ -20,6 +22,7 @@ use tess_core::SplitOrder;
 #[derive(Debug)]
 pub struct Tessellator {
     device: wgpu::Device,
+    edit: fn(Stage, String) -> String,
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
     tables: HashMap<SplitOrder, wgpu::Buffer>,
 }
@@ -28,7 +31,14 @@ impl Tessellator {
     /// For a device with at least WebGPU's default limits; it uses what the device has beyond.
     #[must_use]
     pub fn new(device: &wgpu::Device) -> Self {
-        Self { device: device.clone(), pipelines: HashMap::new(), tables: HashMap::new() }
+        Self::with_edit(device, |_, source| source)
+    }
+
+    /// The same, with every shader edited before it is compiled: for tests that plant faults and
+    /// for experiments.
+    #[must_use]
+    pub fn with_edit(device: &wgpu::Device, edit: fn(Stage, String) -> String) -> Self {
+        Self { device: device.clone(), edit, pipelines: HashMap::new(), tables: HashMap::new() }
     }
 
     /// Prepares `patches` patches of the caller's buffers: see [`Batch`].
@@ -52,8 +62,8 @@ impl Tessellator {
     /// The pipeline of a stage, made when it is first asked for.
     pub(crate) fn pipeline(&mut self, stage: Stage, setup: Setup) -> wgpu::ComputePipeline {
         let key = (stage, stage.relevant(setup));
-        let device = &self.device;
-        let make = || make_pipeline(device, stage, &stage.source(key.1));
+        let (device, edit) = (&self.device, self.edit);
+        let make = || make_pipeline(device, stage, &edit(stage, stage.source(key.1)));
         self.pipelines.entry(key).or_insert_with(make).clone()
     }
 

@@ -9,7 +9,7 @@ use crate::setup::Setup;
 /// Threads of the workgroups that expand a tile.
 pub const WORKGROUP: u32 = 128;
 /// Elements of a tile: points or primitives.
-pub const TILE: u32 = 1024;
+pub const TILE: u32 = 512;
 /// Patches of a block, whose offsets one workgroup sums.
 pub const BLOCK: u32 = 256;
 /// Patches of a group, 256 blocks.

@@ -66,6 +66,7 @@ pub struct Batch {
 
 #[derive(Debug)]
 struct Dispatch {
+    stage: Stage,
     pipeline: wgpu::ComputePipeline,
     group: wgpu::BindGroup,
     workgroups: Workgroups,
@@ -101,12 +102,21 @@ impl Batch {
 
     /// Records everything, from factors to draw arguments, into one compute pass.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        self.encode_each(encoder, |_, _| {});
+    }
+
+    /// The same, with `after` called behind each dispatch; for timing stages one by one.
+    pub fn encode_each(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        mut after: impl FnMut(&mut wgpu::ComputePass<'_>, Stage),
+    ) {
         encoder.clear_buffer(&self.status, 0, None);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("tessellate"),
             timestamp_writes: None,
         });
-        for Dispatch { pipeline, group, workgroups } in &self.dispatches {
+        for Dispatch { stage, pipeline, group, workgroups } in &self.dispatches {
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, group, &[]);
             match workgroups {
@@ -115,6 +125,7 @@ impl Batch {
                     pass.dispatch_workgroups_indirect(&self.arguments, *at);
                 }
             }
+            after(&mut pass, *stage);
         }
     }
 
@@ -329,7 +340,7 @@ impl Encoding<'_> {
             layout: &pipeline.get_bind_group_layout(0),
             entries: &entries,
         });
-        Dispatch { pipeline, group, workgroups }
+        Dispatch { stage, pipeline, group, workgroups }
     }
 
     fn resource(&self, resource: Resource, part: Part) -> wgpu::BindingResource<'_> {
