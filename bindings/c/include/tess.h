@@ -213,6 +213,61 @@
 #define TESS_AXES_TWO 1
 
 /**
+ * CPU level: the most capable one of this machine.
+ */
+#define TESS_LEVEL_DETECT 0
+
+/**
+ * CPU level: what the library was compiled for; always available.
+ */
+#define TESS_LEVEL_BASELINE 1
+
+/**
+ * CPU level: AVX2 on x86-64.
+ */
+#define TESS_LEVEL_AVX2 2
+
+/**
+ * CPU level: AVX-512 (F, BW, CD, DQ, VL) on x86-64.
+ */
+#define TESS_LEVEL_AVX512 3
+
+/**
+ * Point format: `TessPoint`, a pair of unsigned 16.16 numbers.
+ */
+#define TESS_POINTS_FIXED 0
+
+/**
+ * Point format: two floats, exactly the 16.16 numbers.
+ */
+#define TESS_POINTS_FLOAT 1
+
+/**
+ * Index format: `uint32_t`.
+ */
+#define TESS_INDICES_32 0
+
+/**
+ * Index format: `uint16_t`; always enough when each patch is numbered on its own.
+ */
+#define TESS_INDICES_16 1
+
+/**
+ * Numbering: indices count from the first point of their patch.
+ */
+#define TESS_NUMBERING_PATCH 0
+
+/**
+ * Numbering: indices count from the first point of the batch, which has number `base_vertex`.
+ */
+#define TESS_NUMBERING_BATCH 1
+
+/**
+ * Tessellates batches. Made by `tess_batch_create`, given back to `tess_batch_free`.
+ */
+typedef struct TessBatch TessBatch;
+
+/**
  * What every function returns: `TESS_OK` or the reason why it did nothing.
  */
 typedef uint32_t TessStatus;
@@ -434,6 +489,93 @@ typedef struct TessPreparation {
 } TessPreparation;
 
 /**
+ * Sizes of a batch's output.
+ */
+typedef struct TessBatchCounts {
+  /**
+   * Patches, culled ones included: elements of `ranges`.
+   */
+  size_t patches;
+  /**
+   * Elements of `points`.
+   */
+  size_t points;
+  /**
+   * Elements of `indices`.
+   */
+  size_t indices;
+} TessBatchCounts;
+
+/**
+ * Where one patch's output lies. A culled patch has no points and no indices.
+ */
+typedef struct TessRange {
+  /**
+   * Number of its first point in the batch's points.
+   */
+  uint32_t first_point;
+  /**
+   * Number of its points.
+   */
+  uint32_t points;
+  /**
+   * Number of its first index in the batch's indices.
+   */
+  uint32_t first_index;
+  /**
+   * Number of its indices.
+   */
+  uint32_t indices;
+} TessRange;
+
+/**
+ * Where and in what form a batch is written. Capacities count elements; a buffer of capacity 0
+ * may be null.
+ */
+typedef struct TessBatchOutput {
+  /**
+   * Points of all patches, one patch after another.
+   */
+  void *points;
+  /**
+   * Room in `points`.
+   */
+  size_t point_capacity;
+  /**
+   * Indices of all patches, one patch after another.
+   */
+  void *indices;
+  /**
+   * Room in `indices`.
+   */
+  size_t index_capacity;
+  /**
+   * One range for each patch.
+   */
+  struct TessRange *ranges;
+  /**
+   * Room in `ranges`.
+   */
+  size_t range_capacity;
+  /**
+   * `TESS_POINTS_...`
+   */
+  uint32_t point_format;
+  /**
+   * `TESS_INDICES_...`
+   */
+  uint32_t index_format;
+  /**
+   * `TESS_NUMBERING_...`
+   */
+  uint32_t numbering;
+  /**
+   * Number of the batch's first point under `TESS_NUMBERING_BATCH`, else without effect.
+   */
+  uint32_t base_vertex;
+} TessBatchOutput;
+
+/**
  * Done.
  */
 #define TESS_OK 0
@@ -474,9 +616,29 @@ typedef struct TessPreparation {
 #define TESS_NOT_A_CONTEXT 7
 
 /**
- * Two buffers that are written share memory.
+ * Two buffers share memory, and one of them is written.
  */
 #define TESS_OVERLAP 8
+
+/**
+ * A size is larger than memory can be, or a batch has more than 2^32 - 1 points or indices.
+ */
+#define TESS_TOO_LARGE 9
+
+/**
+ * An index does not fit the index format: use wider indices or number each patch on its own.
+ */
+#define TESS_INDEX_TOO_LARGE 10
+
+/**
+ * This machine, or this build, cannot run the CPU level.
+ */
+#define TESS_LEVEL_UNAVAILABLE 11
+
+/**
+ * A defect of this library; nothing was written.
+ */
+#define TESS_INTERNAL 12
 
 #ifdef __cplusplus
 extern "C" {
@@ -673,6 +835,83 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
                         size_t factor_count,
                         float *unrounded,
                         float *rounded);
+
+/**
+ * Makes a tessellator for batches of one domain in one configuration.
+ *
+ * `level` is `TESS_LEVEL_...`; all levels give the same bits, and one that this machine lacks
+ * gives `TESS_LEVEL_UNAVAILABLE`. Takes a few milliseconds and about a megabyte; make it once and
+ * keep it. What is stored in `batch` is to be given to `tess_batch_free`.
+ *
+ * What the caller must see to:
+ * Pointers that are not null and aligned must be valid:
+ * - `config` for reading one configuration,
+ * - `batch` for writing one pointer.
+ */
+TessStatus tess_batch_create(const struct TessConfig *config,
+                             uint32_t level,
+                             struct TessBatch **batch);
+
+/**
+ * Frees what `tess_batch_create` made. Null is allowed and does nothing.
+ *
+ * What the caller must see to:
+ * - `batch` is null or came from `tess_batch_create`, is not in use and is not used again.
+ */
+void tess_batch_free(struct TessBatch *batch);
+
+/**
+ * Says at which CPU level, `TESS_LEVEL_...`, a batch runs.
+ *
+ * What the caller must see to:
+ * - `batch` is null or came from `tess_batch_create`.
+ * - `level`, if not null and aligned, is valid for writing one number.
+ */
+TessStatus tess_batch_level(const struct TessBatch *batch, uint32_t *level);
+
+/**
+ * Says how large the output of a batch is.
+ *
+ * `factors` holds the factors of one patch after another; `factor_count` counts floats and is a
+ * multiple of the domain's number of factors, else `TESS_WRONG_FACTOR_COUNT`.
+ *
+ * What the caller must see to:
+ * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+ *
+ * Other pointers that are not null and aligned must be valid:
+ * - `factors` for reading `factor_count` floats,
+ * - `counts` for writing one structure.
+ */
+TessStatus tess_batch_count(const struct TessBatch *batch,
+                            const float *factors,
+                            size_t factor_count,
+                            struct TessBatchCounts *counts);
+
+/**
+ * Tessellates a batch into the caller's buffers.
+ *
+ * Factors as for `tess_batch_count`. `counts` is written whenever the batch is valid, also when a
+ * buffer is too small (`TESS_BUFFER_TOO_SMALL`; then nothing else is written). Buffers must not
+ * overlap each other or the factors (`TESS_OVERLAP`). After the first call with a batch, none
+ * allocates.
+ *
+ * What the caller must see to:
+ * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+ *
+ * Other pointers that are not null and aligned must be valid:
+ * - `factors` for reading `factor_count` floats,
+ * - `output` for reading one structure,
+ * - the buffers that it names for reading and writing as many elements of their formats as it
+ *   says (a caller in Rust must have initialised them),
+ * - `counts` for writing one structure, which lies in none of the buffers,
+ *
+ * and no other thread may use any of them at the same time.
+ */
+TessStatus tess_batch_run(struct TessBatch *batch,
+                          const float *factors,
+                          size_t factor_count,
+                          const struct TessBatchOutput *output,
+                          struct TessBatchCounts *counts);
 
 #ifdef __cplusplus
 }  // extern "C"

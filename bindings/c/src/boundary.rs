@@ -3,8 +3,9 @@
 //! Null and misaligned pointers are refused. What cannot be checked is the caller's part and
 //! stands under `# Safety` of every function: that the memory behind a pointer is there.
 
-use crate::status::{TESS_MISALIGNED, TESS_NULL_POINTER, TESS_OVERLAP, TessStatus};
+use crate::status::{TESS_MISALIGNED, TESS_NULL_POINTER, TESS_OVERLAP, TESS_TOO_LARGE, TessStatus};
 use std::mem::MaybeUninit;
+use std::ops::Range;
 
 /// Refuses null and misaligned pointers.
 pub(crate) fn check<T>(pointer: *const T) -> Result<(), TessStatus> {
@@ -17,16 +18,18 @@ pub(crate) fn check<T>(pointer: *const T) -> Result<(), TessStatus> {
     }
 }
 
-/// Refuses two output buffers of `a_len` and `b_len` elements that share memory.
-pub(crate) fn check_apart<A, B>(
-    (a, a_len): (*const A, usize),
-    (b, b_len): (*const B, usize),
-) -> Result<(), TessStatus> {
-    let bytes = |start: usize, len: usize, size: usize| {
-        start..start.saturating_add(len.saturating_mul(size))
-    };
-    let a = bytes(a.addr(), a_len, size_of::<A>());
-    let b = bytes(b.addr(), b_len, size_of::<B>());
+/// Where a caller's array lies, in addresses.
+pub(crate) type Bytes = Range<usize>;
+
+/// The addresses of an array of `len` values. Refuses arrays larger than memory can be.
+pub(crate) fn bytes<T>(pointer: *const T, len: usize) -> Result<Bytes, TessStatus> {
+    let size = len.checked_mul(size_of::<T>()).filter(|&size| isize::try_from(size).is_ok());
+    let end = size.and_then(|size| pointer.addr().checked_add(size));
+    end.map(|end| pointer.addr()..end).ok_or(TESS_TOO_LARGE)
+}
+
+/// Refuses two arrays that share memory, of which one is written.
+pub(crate) fn check_apart(a: &Bytes, b: &Bytes) -> Result<(), TessStatus> {
     let apart = a.is_empty() || b.is_empty() || a.end <= b.start || b.end <= a.start;
     if apart { Ok(()) } else { Err(TESS_OVERLAP) }
 }
@@ -61,9 +64,9 @@ pub(crate) unsafe fn list<'a, T>(pointer: *const T, len: usize) -> Result<&'a [T
     if len == 0 {
         return Ok(&[]);
     }
-    check(pointer)?;
-    // SAFETY: not null and aligned, as was just checked; `len` readable values, as the caller
-    // promises, which also bounds their size by that of the address space.
+    check_array(pointer, len)?;
+    // SAFETY: not null, aligned and of a possible size, as was just checked; `len` readable
+    // values, as the caller promises.
     Ok(unsafe { std::slice::from_raw_parts(pointer, len) })
 }
 
@@ -80,10 +83,33 @@ pub(crate) unsafe fn room<'a, T>(
     if len == 0 {
         return Ok(&mut []);
     }
-    check(pointer)?;
-    // SAFETY: not null and aligned, as was just checked; room for `len` values that is ours alone,
-    // as the caller promises. `MaybeUninit<T>` has the layout of `T` and is always initialised.
+    check_array(pointer, len)?;
+    // SAFETY: not null, aligned and of a possible size, as was just checked; room for `len` values
+    // that is ours alone, as the caller promises. `MaybeUninit<T>` has the layout of `T`.
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), len) })
+}
+
+/// A caller's array that is read and written. With `len` 0 the pointer is not looked at.
+///
+/// # Safety
+/// - If not null and aligned, `pointer` points to `len` values that are initialised, can be read
+///   and written, and that nothing else reads or writes while the slice lives.
+pub(crate) unsafe fn list_mut<'a, T>(
+    pointer: *mut T,
+    len: usize,
+) -> Result<&'a mut [T], TessStatus> {
+    if len == 0 {
+        return Ok(&mut []);
+    }
+    check_array(pointer, len)?;
+    // SAFETY: not null, aligned and of a possible size, as was just checked; `len` values that are
+    // ours alone, as the caller promises.
+    Ok(unsafe { std::slice::from_raw_parts_mut(pointer, len) })
+}
+
+fn check_array<T>(pointer: *const T, len: usize) -> Result<(), TessStatus> {
+    check(pointer)?;
+    bytes(pointer, len).map(drop)
 }
 
 #[cfg(test)]
@@ -93,13 +119,22 @@ mod tests {
     #[test]
     fn overlap_is_found() {
         let words = [0u32; 8];
-        let at = |i: usize| &raw const words[i];
-        assert_eq!(check_apart((at(0), 4), (at(4), 4)), Ok(()), "next to each other");
-        assert_eq!(check_apart((at(4), 4), (at(0), 4)), Ok(()), "the other way round");
-        assert_eq!(check_apart((at(0), 5), (at(4), 4)), Err(TESS_OVERLAP), "one word shared");
-        assert_eq!(check_apart((at(4), 4), (at(0), 5)), Err(TESS_OVERLAP), "and reversed");
-        assert_eq!(check_apart((at(2), 1), (at(0), 8)), Err(TESS_OVERLAP), "contained");
-        assert_eq!(check_apart((at(2), 0), (at(0), 8)), Ok(()), "empty");
-        assert_eq!(check_apart((at(2), usize::MAX), (at(7), 1)), Err(TESS_OVERLAP), "hostile");
+        let at = |i: usize, len| bytes(&raw const words[i], len).expect("an array");
+        assert_eq!(check_apart(&at(0, 4), &at(4, 4)), Ok(()), "next to each other");
+        assert_eq!(check_apart(&at(4, 4), &at(0, 4)), Ok(()), "the other way round");
+        assert_eq!(check_apart(&at(0, 5), &at(4, 4)), Err(TESS_OVERLAP), "one word shared");
+        assert_eq!(check_apart(&at(4, 4), &at(0, 5)), Err(TESS_OVERLAP), "and reversed");
+        assert_eq!(check_apart(&at(2, 1), &at(0, 8)), Err(TESS_OVERLAP), "contained");
+        assert_eq!(check_apart(&at(2, 0), &at(0, 8)), Ok(()), "empty");
+    }
+
+    #[test]
+    fn impossible_sizes_are_refused() {
+        let word = 0u32;
+        let most = isize::MAX.unsigned_abs() / 4;
+        assert!(bytes(&raw const word, most).is_ok(), "half of all addresses");
+        for len in [most + 1, usize::MAX / 4, usize::MAX / 4 + 1, usize::MAX] {
+            assert_eq!(bytes(&raw const word, len), Err(TESS_TOO_LARGE), "{len} words");
+        }
     }
 }

@@ -3,7 +3,8 @@
 //! `include/tess.h` is generated from this crate and documents every function for its users;
 //! `verilog/tess_dpi.sv` does so for simulators. Three rules hold everywhere:
 //!
-//! - The caller owns all memory. Functions on one patch, and probes, allocate nothing.
+//! - The caller owns all memory. Functions on one patch, and probes, allocate nothing;
+//!   a batch has a handle, which holds tables and is made once.
 //! - Every function answers a status. Null or misaligned pointers, unknown numbers and too small
 //!   buffers are answers, never undefined behaviour. Enumerations cross as `uint32_t` and are checked.
 //! - Nothing panics. Should a defect make it so, the program ends: a panic never unwinds into the
@@ -12,6 +13,7 @@
 //! This is the one crate of the workspace with `unsafe`: in `boundary`, which looks through the
 //! callers' pointers, and in the functions that hand pointers to it.
 
+pub mod batch;
 mod boundary;
 mod context;
 pub mod dpi;

@@ -66,7 +66,9 @@ pub unsafe extern "C" fn tess_patch(
         if point_capacity < point_count || index_capacity < index_count {
             return Err(TESS_BUFFER_TOO_SMALL);
         }
-        boundary::check_apart((points, point_count), (indices, index_count))?;
+        let (point_bytes, index_bytes) =
+            (boundary::bytes(points, point_count)?, boundary::bytes(indices, index_count)?);
+        boundary::check_apart(&point_bytes, &index_bytes)?;
         // SAFETY: at most `point_capacity` points, writable, as the caller promises, and apart
         // from the indices; inputs were copied and `counts` is written, so nothing else is used.
         let points = unsafe { boundary::room(points, point_count) }?;

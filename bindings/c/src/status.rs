@@ -21,11 +21,19 @@ pub const TESS_BUFFER_TOO_SMALL: TessStatus = 5;
 pub const TESS_OUT_OF_RANGE: TessStatus = 6;
 /// No factor has this context.
 pub const TESS_NOT_A_CONTEXT: TessStatus = 7;
-/// Two buffers that are written share memory.
+/// Two buffers share memory, and one of them is written.
 pub const TESS_OVERLAP: TessStatus = 8;
+/// A size is larger than memory can be, or a batch has more than 2^32 - 1 points or indices.
+pub const TESS_TOO_LARGE: TessStatus = 9;
+/// An index does not fit the index format: use wider indices or number each patch on its own.
+pub const TESS_INDEX_TOO_LARGE: TessStatus = 10;
+/// This machine, or this build, cannot run the CPU level.
+pub const TESS_LEVEL_UNAVAILABLE: TessStatus = 11;
+/// A defect of this library; nothing was written.
+pub const TESS_INTERNAL: TessStatus = 12;
 
 /// Every status with its message, in the order of their numbers.
-const MESSAGES: [&CStr; 9] = [
+const MESSAGES: [&CStr; 13] = [
     c"done",
     c"a pointer is null",
     c"a pointer is not aligned",
@@ -34,7 +42,11 @@ const MESSAGES: [&CStr; 9] = [
     c"a buffer is too small",
     c"there is no element of this number",
     c"no factor has this context",
-    c"two output buffers overlap",
+    c"two buffers overlap",
+    c"a size is too large",
+    c"an index does not fit the index format",
+    c"the CPU level is not available",
+    c"a defect of the library",
 ];
 
 /// What a status means, in English, without a newline.

@@ -3,7 +3,8 @@
 use std::path::Path;
 
 /// The sources with an interface for C, in the order in which the header is best read.
-const SOURCES: &[&str] = &["version", "status", "types", "patch", "process", "probe", "prepare"];
+const SOURCES: &[&str] =
+    &["version", "status", "types", "patch", "process", "probe", "prepare", "batch"];
 
 /// With `TESS_BLESS` set, writes the header instead of comparing it.
 #[test]

@@ -1,0 +1,253 @@
+//! Batches against the model, in every format, numbering and CPU level; and what they refuse.
+
+use super::samples::{patch_factors, samples};
+use std::ffi::c_void;
+use std::ptr::{null, null_mut};
+use tess_capi::batch::{
+    TESS_INDICES_16, TESS_INDICES_32, TESS_LEVEL_AVX512, TESS_LEVEL_DETECT, TESS_NUMBERING_BATCH,
+    TESS_NUMBERING_PATCH, TESS_POINTS_FIXED, TESS_POINTS_FLOAT, TessBatch, TessBatchCounts,
+    TessBatchOutput, TessRange, tess_batch_count, tess_batch_create, tess_batch_free,
+    tess_batch_level, tess_batch_run,
+};
+use tess_capi::status::{
+    TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_LEVEL_UNAVAILABLE, TESS_MISALIGNED,
+    TESS_NULL_POINTER, TESS_OK, TESS_OVERLAP, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE,
+    TESS_WRONG_FACTOR_COUNT, TessStatus,
+};
+use tess_capi::types::TessConfig;
+use tess_core::{Domain, Patch, Tessellation};
+
+/// A batch of quads and memory for what it gives, all of it filled with `FILL`.
+struct Fixture {
+    batch: *mut TessBatch,
+    factors: Vec<f32>,
+    patches: Vec<Tessellation>,
+    points: Vec<u64>,
+    indices: Vec<u32>,
+    ranges: Vec<TessRange>,
+}
+
+const FILL: u32 = 0xCCCC_CCCC;
+const FILLED_RANGE: TessRange =
+    TessRange { first_point: FILL, points: FILL, first_index: FILL, indices: FILL };
+
+impl Fixture {
+    fn new(config: TessConfig, level: u32) -> Result<Self, TessStatus> {
+        let mut batch = null_mut();
+        match unsafe { tess_batch_create(&config, level, &mut batch) } {
+            TESS_OK => {}
+            status => return Err(status),
+        }
+        let same = |c: &TessConfig| c.domain == config.domain;
+        let samples: Vec<_> = samples().into_iter().filter(|s| same(&s.config)).collect();
+        let model = samples.iter().map(|s| s.patch.config()).find(|c| {
+            (c.partitioning as u32, c.output as u32, c.split as u32)
+                == (config.partitioning, config.output, config.split)
+        });
+        let model = model.expect("samples have every configuration");
+        let domain = Domain::ALL[config.domain as usize];
+        let patches: Vec<Tessellation> = samples
+            .iter()
+            .map(|s| Patch::new(model, patch_factors(domain, &s.factors)).tessellate())
+            .collect();
+        let factors = samples.into_iter().flat_map(|s| s.factors).collect();
+        let points = vec![0; patches.iter().map(|p| p.points.len()).sum()];
+        let indices = vec![FILL; patches.iter().map(|p| p.indices.len()).sum()];
+        let ranges = vec![FILLED_RANGE; patches.len()];
+        Ok(Self { batch, factors, patches, points, indices, ranges })
+    }
+
+    fn output(&mut self) -> TessBatchOutput {
+        TessBatchOutput {
+            points: self.points.as_mut_ptr().cast(),
+            point_capacity: self.points.len(),
+            indices: self.indices.as_mut_ptr().cast(),
+            index_capacity: self.indices.len(),
+            ranges: self.ranges.as_mut_ptr(),
+            range_capacity: self.ranges.len(),
+            point_format: TESS_POINTS_FIXED,
+            index_format: TESS_INDICES_32,
+            numbering: TESS_NUMBERING_PATCH,
+            base_vertex: 0,
+        }
+    }
+
+    fn run(&self, output: &TessBatchOutput) -> (TessStatus, TessBatchCounts) {
+        let mut counts = TessBatchCounts::default();
+        let (f, n) = (self.factors.as_ptr(), self.factors.len());
+        (unsafe { tess_batch_run(self.batch, f, n, output, &mut counts) }, counts)
+    }
+
+    fn needed(&self) -> TessBatchCounts {
+        TessBatchCounts {
+            patches: self.patches.len(),
+            points: self.points.len(),
+            indices: self.indices.len(),
+        }
+    }
+}
+
+impl Drop for Fixture {
+    fn drop(&mut self) {
+        unsafe { tess_batch_free(self.batch) };
+    }
+}
+
+#[test]
+fn every_level_and_format() {
+    let mut levels_run = 0;
+    for level in TESS_LEVEL_DETECT..=TESS_LEVEL_AVX512 {
+        for (domain, partitioning, output, split) in [(2, 2, 2, 0), (1, 3, 3, 1), (0, 0, 1, 0)] {
+            let config = TessConfig { domain, partitioning, output, split };
+            let mut fixture = match Fixture::new(config, level) {
+                Ok(fixture) => fixture,
+                Err(status) => {
+                    assert_eq!(status, TESS_LEVEL_UNAVAILABLE, "level {level}");
+                    continue;
+                }
+            };
+            levels_run += 1;
+            let mut runs_at = 9;
+            assert_eq!(unsafe { tess_batch_level(fixture.batch, &mut runs_at) }, TESS_OK, "level");
+            assert!(runs_at == level || level == TESS_LEVEL_DETECT, "{runs_at} is not {level}");
+            let (f, n) = (fixture.factors.as_ptr(), fixture.factors.len());
+            let mut counts = TessBatchCounts::default();
+            let status = unsafe { tess_batch_count(fixture.batch, f, n, &mut counts) };
+            assert_eq!((status, counts), (TESS_OK, fixture.needed()), "{config:?}");
+            for point_format in [TESS_POINTS_FIXED, TESS_POINTS_FLOAT] {
+                for index_format in [TESS_INDICES_32, TESS_INDICES_16] {
+                    let formats =
+                        TessBatchOutput { point_format, index_format, ..fixture.output() };
+                    assert_eq!(fixture.run(&formats), (TESS_OK, fixture.needed()), "{config:?}");
+                    check(&fixture, &formats);
+                }
+            }
+            let numbered = TessBatchOutput {
+                numbering: TESS_NUMBERING_BATCH,
+                base_vertex: 1000,
+                ..fixture.output()
+            };
+            assert_eq!(fixture.run(&numbered), (TESS_OK, fixture.needed()), "{config:?}");
+            check(&fixture, &numbered);
+        }
+    }
+    assert!(levels_run >= 6, "the detected level and the baseline run everywhere");
+}
+
+/// Compares what was written with the model.
+fn check(fixture: &Fixture, output: &TessBatchOutput) {
+    let (mut first_point, mut first_index) = (0, 0);
+    let small = |count: usize| u32::try_from(count).expect("a small count");
+    for (patch, range) in fixture.patches.iter().zip(&fixture.ranges) {
+        let expected = TessRange {
+            first_point: small(first_point),
+            points: small(patch.points.len()),
+            first_index: small(first_index),
+            indices: small(patch.indices.len()),
+        };
+        assert_eq!(*range, expected, "range");
+        for (i, point) in patch.points.iter().enumerate() {
+            let pair = fixture.points[first_point + i].to_ne_bytes();
+            let [u, v] = [0, 4].map(|at| [pair[at], pair[at + 1], pair[at + 2], pair[at + 3]]);
+            let observed = [u32::from_ne_bytes(u), u32::from_ne_bytes(v)];
+            let expected = match output.point_format {
+                TESS_POINTS_FIXED => [point.u.to_bits(), point.v.to_bits()],
+                _ => point.to_f32().map(f32::to_bits),
+            };
+            assert_eq!(observed, expected, "point {i}");
+        }
+        let base = match output.numbering {
+            TESS_NUMBERING_PATCH => 0,
+            _ => output.base_vertex + small(first_point),
+        };
+        for (i, index) in patch.indices.iter().enumerate() {
+            let at = first_index + i;
+            let observed = match output.index_format {
+                TESS_INDICES_32 => fixture.indices[at],
+                _ => unsafe { u32::from(*fixture.indices.as_ptr().cast::<u16>().add(at)) },
+            };
+            assert_eq!(observed, base + index, "index {i}");
+        }
+        first_point += patch.points.len();
+        first_index += patch.indices.len();
+    }
+}
+
+const CONFIG: TessConfig = TessConfig { domain: 2, partitioning: 2, output: 2, split: 0 };
+
+#[test]
+fn bad_outputs_write_nothing() {
+    let mut fixture = Fixture::new(CONFIG, TESS_LEVEL_DETECT).expect("a batch");
+    let good = fixture.output();
+    let askew = |pointer: *mut c_void| pointer.wrapping_byte_add(1);
+    let too_many = usize::MAX / 8 + 1;
+    let needed = fixture.needed();
+    for (bad, status) in [
+        (TessBatchOutput { point_capacity: needed.points - 1, ..good }, TESS_BUFFER_TOO_SMALL),
+        (TessBatchOutput { index_capacity: needed.indices - 1, ..good }, TESS_BUFFER_TOO_SMALL),
+        (TessBatchOutput { range_capacity: needed.patches - 1, ..good }, TESS_BUFFER_TOO_SMALL),
+        (TessBatchOutput { points: null_mut(), point_capacity: 0, ..good }, TESS_BUFFER_TOO_SMALL),
+        (TessBatchOutput { points: null_mut(), ..good }, TESS_NULL_POINTER),
+        (TessBatchOutput { indices: null_mut(), ..good }, TESS_NULL_POINTER),
+        (TessBatchOutput { ranges: null_mut(), ..good }, TESS_NULL_POINTER),
+        (TessBatchOutput { points: askew(good.points), ..good }, TESS_MISALIGNED),
+        (TessBatchOutput { indices: askew(good.indices), ..good }, TESS_MISALIGNED),
+        (TessBatchOutput { point_capacity: too_many, ..good }, TESS_TOO_LARGE),
+        (TessBatchOutput { index_capacity: usize::MAX, ..good }, TESS_TOO_LARGE),
+        (TessBatchOutput { range_capacity: too_many, ..good }, TESS_TOO_LARGE),
+        (TessBatchOutput { points: good.indices, ..good }, TESS_OVERLAP),
+        (TessBatchOutput { points: fixture.factors.as_mut_ptr().cast(), ..good }, TESS_OVERLAP),
+        (TessBatchOutput { point_format: 2, ..good }, TESS_UNKNOWN_VALUE),
+        (TessBatchOutput { index_format: 2, ..good }, TESS_UNKNOWN_VALUE),
+        (TessBatchOutput { numbering: 2, ..good }, TESS_UNKNOWN_VALUE),
+        (
+            TessBatchOutput {
+                numbering: TESS_NUMBERING_BATCH,
+                base_vertex: 65_535,
+                index_format: TESS_INDICES_16,
+                ..good
+            },
+            TESS_INDEX_TOO_LARGE,
+        ),
+    ] {
+        let (observed, counts) = fixture.run(&bad);
+        assert_eq!(observed, status, "{bad:?}");
+        let reported = if status == TESS_BUFFER_TOO_SMALL { needed } else { counts };
+        assert_eq!(counts, reported, "what is needed is said when room lacks");
+    }
+    assert!(fixture.points.iter().all(|&p| p == 0), "no point was written");
+    assert!(fixture.indices.iter().all(|&i| i == FILL), "no index was written");
+    assert!(fixture.ranges.iter().all(|&r| r == FILLED_RANGE), "no range was written");
+}
+
+#[test]
+fn bad_inputs_are_refused() {
+    let mut fixture = Fixture::new(CONFIG, TESS_LEVEL_DETECT).expect("a batch");
+    let output = fixture.output();
+    let (b, f) = (fixture.batch, fixture.factors.as_ptr());
+    let mut counts = TessBatchCounts::default();
+    let mut handle = null_mut();
+    unsafe {
+        assert_eq!(tess_batch_count(null(), f, 6, &mut counts), TESS_NULL_POINTER, "no batch");
+        assert_eq!(tess_batch_count(b, null(), 6, &mut counts), TESS_NULL_POINTER, "no factors");
+        assert_eq!(tess_batch_count(b, f, 6, null_mut()), TESS_NULL_POINTER, "no counts");
+        assert_eq!(tess_batch_count(b, f, 7, &mut counts), TESS_WRONG_FACTOR_COUNT, "seven");
+        let many = usize::MAX / 6 * 6;
+        assert_eq!(tess_batch_count(b, f, many, &mut counts), TESS_TOO_LARGE, "impossibly many");
+        assert_eq!(tess_batch_run(b, f, many, &output, &mut counts), TESS_TOO_LARGE, "many");
+        assert_eq!(tess_batch_run(b, f, 6, null(), &mut counts), TESS_NULL_POINTER, "no output");
+        assert_eq!(tess_batch_run(b, f, 6, &output, null_mut()), TESS_NULL_POINTER, "no counts");
+        assert_eq!(tess_batch_run(null_mut(), f, 6, &output, &mut counts), TESS_NULL_POINTER);
+        assert_eq!(tess_batch_level(b, null_mut()), TESS_NULL_POINTER, "no level");
+        let bad = TessConfig { domain: 3, ..CONFIG };
+        assert_eq!(tess_batch_create(&bad, 0, &mut handle), TESS_UNKNOWN_VALUE, "domain");
+        assert_eq!(tess_batch_create(&CONFIG, 4, &mut handle), TESS_UNKNOWN_VALUE, "level");
+        assert_eq!(tess_batch_create(null(), 0, &mut handle), TESS_NULL_POINTER, "no config");
+        assert_eq!(tess_batch_create(&CONFIG, 0, null_mut()), TESS_NULL_POINTER, "no handle");
+        assert!(handle.is_null(), "no handle was made");
+        tess_batch_free(null_mut());
+        // An empty batch is a batch.
+        assert_eq!(tess_batch_run(b, null(), 0, &output, &mut counts), TESS_OK, "no patches");
+        assert_eq!(counts, TessBatchCounts::default(), "no patches");
+    }
+}
