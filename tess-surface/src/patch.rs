@@ -29,7 +29,7 @@ pub enum Surface {
 }
 
 /// A point of the tessellated surface.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     /// Position, in the model's units.
     pub position: Vec3,

@@ -16,6 +16,8 @@ pub mod explain_command;
 pub mod failure;
 pub mod formats;
 pub mod gen_command;
+pub mod mesh;
+pub mod mesh_command;
 pub mod output;
 pub mod patch_command;
 pub mod picture;
@@ -52,6 +54,7 @@ enum Command {
     Draw(draw_command::Args),
     Check(check_command::Args),
     Bench(bench_command::Args),
+    Mesh(mesh_command::Args),
     Gen(gen_command::Args),
     Verify(verify_command::Args),
 }
@@ -77,6 +80,7 @@ fn run(command: &Command) -> Result<Exit, Failure> {
         Command::Draw(args) => draw_command::run(args),
         Command::Check(args) => check_command::run(args),
         Command::Bench(args) => bench_command::run(args),
+        Command::Mesh(args) => mesh_command::run(args),
         Command::Gen(args) => gen_command::run(args),
         Command::Verify(args) => verify_command::run(args),
     }

@@ -1,0 +1,192 @@
+//! Factors, tessellation and evaluation, a block of patches at a time.
+//!
+//! Memory beyond the model is that of one block, whatever the model's size and the factors.
+
+use super::output::Sink;
+use super::statistics::{Stage, Statistics};
+use crate::failure::Failure;
+use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
+use std::ops::Range;
+use std::time::Duration;
+use tess_core::{
+    Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
+};
+use tess_simd::{Batch, Numbering, Output, Tessellator};
+use tess_surface::height::{Anchors, DisplacedPatch, Displacement};
+use tess_surface::patch::Sample;
+use tess_surface::{FactorRule, Model};
+
+/// Patches per block: at factor 64, 1.1 million vertices in 35 MB and 25 MB of indices.
+const BLOCK: usize = 256;
+
+/// What is done to a model.
+#[derive(Debug)]
+pub struct Job<'a> {
+    /// The patches.
+    pub model: &'a Model,
+    /// How finely they are cut.
+    pub rule: FactorRule,
+    /// Spacing of the cuts.
+    pub partitioning: Partitioning,
+    /// How their surface is displaced, with the model's anchors.
+    pub displacement: Option<(&'a Displacement, &'a Anchors)>,
+}
+
+/// Part of the result.
+#[derive(Clone, Copy, Debug)]
+pub struct Block<'a> {
+    /// How many vertices came before.
+    pub first_vertex: u64,
+    /// The vertices.
+    pub vertices: &'a [Sample],
+    /// Three numbers for each triangle, counted from this block's first vertex.
+    pub indices: &'a [u32],
+}
+
+/// Patches of one domain, their factors ready.
+struct Group<F> {
+    patches: Vec<usize>,
+    factors: Vec<F>,
+}
+
+/// The state that is kept from block to block.
+struct Stream<'a> {
+    job: &'a Job<'a>,
+    tessellator: Tessellator,
+    domain_points: Output<[f32; 2], u32>,
+    vertices: Vec<Sample>,
+}
+
+/// Sends every patch of the model through all stages into `sink`.
+///
+/// # Errors
+/// What the sink reports.
+pub fn run(job: &Job<'_>, sink: &mut dyn Sink, statistics: &mut Statistics) -> Result<(), Failure> {
+    let config = Config::new(job.partitioning, OutputPrimitive::TriangleCw);
+    let mut stream = Stream {
+        job,
+        tessellator: Tessellator::new(config),
+        domain_points: Output::new(),
+        vertices: Vec::new(),
+    };
+    statistics.patches = job.model.len();
+    let progress = progress(job.model.len());
+    for start in (0..job.model.len()).step_by(BLOCK) {
+        let end = job.model.len().min(start + BLOCK);
+        stream.block_of_patches(start..end, sink, statistics)?;
+        progress.set_position(end as u64);
+    }
+    progress.finish_and_clear();
+    Ok(())
+}
+
+/// A bar on stderr, where that is a terminal, of work that takes a while.
+fn progress(patches: usize) -> ProgressBar {
+    let bar = ProgressBar::new(patches as u64);
+    let style = ProgressStyle::with_template("{bar:30} {human_pos}/{human_len} patches {eta}");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+impl Stream<'_> {
+    fn block_of_patches(
+        &mut self,
+        patches: Range<usize>,
+        sink: &mut dyn Sink,
+        statistics: &mut Statistics,
+    ) -> Result<(), Failure> {
+        let (triangles, quads) = statistics.time(Stage::Factors, || self.factors(patches));
+        self.group(&triangles.patches, Batch::from(&triangles.factors[..]), sink, statistics)?;
+        self.group(&quads.patches, Batch::from(&quads.factors[..]), sink, statistics)
+    }
+
+    /// The factors of a range of patches, by domain.
+    fn factors(&self, patches: Range<usize>) -> (Group<TriangleFactors>, Group<QuadFactors>) {
+        let Job { model, rule, partitioning, .. } = self.job;
+        let factors: Vec<PatchFactors> = patches
+            .clone()
+            .into_par_iter()
+            .map(|number| rule.patch(model, number, *partitioning))
+            .collect();
+        let mut triangles = Group { patches: Vec::new(), factors: Vec::new() };
+        let mut quads = Group { patches: Vec::new(), factors: Vec::new() };
+        for (number, factors) in patches.zip(factors) {
+            match factors {
+                PatchFactors::Triangle(factors) => triangles.push(number, factors),
+                PatchFactors::Quad(factors) => quads.push(number, factors),
+                PatchFactors::Isoline(_) => {} // no surface has isolines
+            }
+        }
+        (triangles, quads)
+    }
+
+    /// Tessellates and evaluates patches of one domain.
+    fn group(
+        &mut self,
+        patches: &[usize],
+        batch: Batch<'_>,
+        sink: &mut dyn Sink,
+        statistics: &mut Statistics,
+    ) -> Result<(), Failure> {
+        if patches.is_empty() {
+            return Ok(());
+        }
+        let numbering = Numbering::Batch { base_vertex: 0 };
+        statistics
+            .time(Stage::Tessellation, || {
+                self.tessellator.tessellate(batch, numbering, &mut self.domain_points)
+            })
+            .map_err(|error| Failure::bad_input(error.to_string()))?;
+        statistics.time(Stage::Evaluation, || self.evaluate(patches));
+        let block = Block {
+            first_vertex: statistics.vertices,
+            vertices: &self.vertices,
+            indices: self.domain_points.indices(),
+        };
+        statistics.time(Stage::Output, || sink.block(&block))?;
+        statistics.vertices += block.vertices.len() as u64;
+        statistics.triangles += block.indices.len() as u64 / 3;
+        Ok(())
+    }
+
+    /// The vertices of the block: every patch's domain points on its surface.
+    fn evaluate(&mut self, patches: &[usize]) {
+        let (points, ranges) = (self.domain_points.points(), self.domain_points.ranges());
+        self.vertices.resize(points.len(), Sample::default());
+        let mut rest = &mut self.vertices[..];
+        let mut parts = Vec::with_capacity(patches.len());
+        for (&number, range) in patches.iter().zip(ranges) {
+            let (own, after) = rest.split_at_mut(range.points as usize);
+            let first = range.first_point as usize;
+            parts.push((number, &points[first..first + own.len()], own));
+            rest = after;
+        }
+        let job = self.job;
+        parts
+            .into_par_iter()
+            .for_each(|(number, points, out)| evaluate_patch(job, number, points, out));
+    }
+}
+
+fn evaluate_patch(job: &Job<'_>, number: usize, points: &[[f32; 2]], out: &mut [Sample]) {
+    let pairs = out.iter_mut().zip(points);
+    match job.displacement {
+        None => {
+            let patch = job.model.patch(number);
+            pairs.for_each(|(vertex, &point)| *vertex = patch.sample(point));
+        }
+        Some((displacement, anchors)) => {
+            let patch = DisplacedPatch::new(job.model, anchors, number, displacement);
+            pairs.for_each(|(vertex, &point)| *vertex = patch.sample(point));
+        }
+    }
+}
+
+impl<F> Group<F> {
+    fn push(&mut self, patch: usize, factors: F) {
+        self.patches.push(patch);
+        self.factors.push(factors);
+    }
+}
