@@ -882,7 +882,7 @@ TessStatus tess_batch_level(const struct TessBatch *batch, uint32_t *level);
  * - `factors` for reading `factor_count` floats,
  * - `counts` for writing one structure.
  */
-TessStatus tess_batch_count(const struct TessBatch *batch,
+TessStatus tess_batch_count(struct TessBatch *batch,
                             const float *factors,
                             size_t factor_count,
                             struct TessBatchCounts *counts);

@@ -190,15 +190,15 @@ pub unsafe extern "C" fn tess_batch_level(batch: *const TessBatch, level: *mut u
 /// - `counts` for writing one structure.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tess_batch_count(
-    batch: *const TessBatch,
+    batch: *mut TessBatch,
     factors: *const f32,
     factor_count: usize,
     counts: *mut TessBatchCounts,
 ) -> TessStatus {
     answer(|| {
         boundary::check(batch)?;
-        // SAFETY: not null, and made by `tess_batch_create`, as the caller promises.
-        let batch = unsafe { &*batch };
+        // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
+        let batch = unsafe { &mut *batch };
         // SAFETY: `factor_count` readable floats, as the caller promises.
         let patches = unsafe { patches(batch.domain, factors, factor_count) }?;
         let value = batch.tessellator.count(patches).map_err(|error| status_of(&error))?;

@@ -228,7 +228,7 @@ fn bad_inputs_are_refused() {
     let mut counts = TessBatchCounts::default();
     let mut handle = null_mut();
     unsafe {
-        assert_eq!(tess_batch_count(null(), f, 6, &mut counts), TESS_NULL_POINTER, "no batch");
+        assert_eq!(tess_batch_count(null_mut(), f, 6, &mut counts), TESS_NULL_POINTER, "no batch");
         assert_eq!(tess_batch_count(b, null(), 6, &mut counts), TESS_NULL_POINTER, "no factors");
         assert_eq!(tess_batch_count(b, f, 6, null_mut()), TESS_NULL_POINTER, "no counts");
         assert_eq!(tess_batch_count(b, f, 7, &mut counts), TESS_WRONG_FACTOR_COUNT, "seven");
