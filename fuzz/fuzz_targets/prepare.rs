@@ -1,0 +1,4 @@
+//! Factor preparation against a second formulation.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| tess_fuzz::fail_if(tess_fuzz::prepare::check(data)));

@@ -1,0 +1,153 @@
+//! `tess_batch_run`.
+
+use super::hostile::{CANARY, Wrongs};
+use super::patch::capacity;
+use crate::input::{Bytes, factor_count};
+use crate::{compare_with_model, repeatable};
+use std::ptr::null_mut;
+use tess_capi::batch::{
+    TESS_INDICES_32, TESS_LEVEL_DETECT, TESS_NUMBERING_PATCH, TESS_POINTS_FIXED, TessBatchCounts,
+    TessBatchOutput, TessRange, tess_batch_create, tess_batch_free, tess_batch_run,
+};
+use tess_capi::status::{TESS_BUFFER_TOO_SMALL, TESS_OK, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE};
+use tess_capi::types::{TessConfig, TessPoint};
+use tess_check::case::{Case, factor_list};
+use tess_core::{Config, DomainPoint, PatchFactors, Tessellation};
+
+const NO_POINT: TessPoint = TessPoint { u: CANARY, v: CANARY };
+const NO_RANGE: TessRange =
+    TessRange { first_point: CANARY, points: CANARY, first_index: CANARY, indices: CANARY };
+
+/// A batch's own memory.
+struct Memory {
+    points: Vec<TessPoint>,
+    indices: Vec<u32>,
+    ranges: Vec<TessRange>,
+}
+
+pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
+    let choices: Vec<u8> = (0..12).map(|_| bytes.byte()).collect();
+    let (config, patches) = bytes.batch(5);
+    let Some(first) = patches.first() else { return Ok(()) };
+    let case = Case { config, factors: *first };
+    let model: Vec<_> =
+        patches.iter().map(|&factors| Case { config, factors }.patch().tessellate()).collect();
+    let mut wrongs = Wrongs::default();
+    let mut choices = Bytes(&choices);
+    let (output, memory) = output(&mut choices, &mut wrongs, &model);
+    let factors: Vec<f32> = patches.iter().flat_map(factor_list).collect();
+    let (status, counts) = run(&case, &factors, &output)?;
+    wrongs.judge("tess_batch_run", &case, status)?;
+    if wrongs.is_empty() {
+        let needed = TessBatchCounts {
+            patches: patches.len(),
+            points: model.iter().map(|patch| patch.points.len()).sum(),
+            indices: model.iter().map(|patch| patch.indices.len()).sum(),
+        };
+        if counts != needed {
+            return Err(repeatable(&case, &format!("tess_batch_run: {counts:?}, not {needed:?}")));
+        }
+        return compare(config, &patches, &model, &memory);
+    }
+    let untouched = memory.points.iter().all(|&point| point == NO_POINT)
+        && memory.indices.iter().all(|&index| index == CANARY)
+        && memory.ranges.iter().all(|&range| range == NO_RANGE);
+    if untouched { Ok(()) } else { Err(repeatable(&case, "tess_batch_run wrote, but refused")) }
+}
+
+/// Output buffers, sometimes wrong.
+fn output(
+    bytes: &mut Bytes<'_>,
+    wrongs: &mut Wrongs,
+    model: &[Tessellation],
+) -> (TessBatchOutput, Memory) {
+    let mut sized = |needed: usize, size: usize| {
+        let (capacity, room) = capacity(bytes, needed);
+        wrongs.add_if(capacity < needed, TESS_BUFFER_TOO_SMALL);
+        let possible = capacity.checked_mul(size).is_some_and(|n| isize::try_from(n).is_ok());
+        wrongs.add_if(!possible, TESS_TOO_LARGE);
+        // A possible capacity must be there: the library may believe it.
+        (capacity, if possible { capacity } else { room })
+    };
+    let (point_capacity, points) = sized(model.iter().map(|patch| patch.points.len()).sum(), 8);
+    let (index_capacity, indices) = sized(model.iter().map(|patch| patch.indices.len()).sum(), 4);
+    let (range_capacity, ranges) = sized(model.len(), 16);
+    let mut memory = Memory {
+        points: vec![NO_POINT; points],
+        indices: vec![CANARY; indices],
+        ranges: vec![NO_RANGE; ranges],
+    };
+    let points = wrongs.room(bytes, memory.points.as_mut_ptr(), point_capacity);
+    let indices = wrongs.room(bytes, memory.indices.as_mut_ptr(), index_capacity);
+    let ranges = wrongs.room(bytes, memory.ranges.as_mut_ptr(), range_capacity);
+    let [point_format, index_format, numbering] =
+        [TESS_POINTS_FIXED, TESS_INDICES_32, TESS_NUMBERING_PATCH].map(|good| {
+            let wrong = bytes.byte() == 255;
+            wrongs.add_if(wrong, TESS_UNKNOWN_VALUE);
+            if wrong { 2 } else { good }
+        });
+    let output = TessBatchOutput {
+        points: points.cast(),
+        point_capacity,
+        indices: indices.cast(),
+        index_capacity,
+        ranges,
+        range_capacity,
+        point_format,
+        index_format,
+        numbering,
+        base_vertex: 0,
+    };
+    (output, memory)
+}
+
+fn run(
+    case: &Case,
+    factors: &[f32],
+    output: &TessBatchOutput,
+) -> Result<(u32, TessBatchCounts), String> {
+    let Config { partitioning, output: primitive, split } = case.config;
+    let config = TessConfig {
+        domain: case.domain() as u32,
+        partitioning: partitioning as u32,
+        output: primitive as u32,
+        split: split as u32,
+    };
+    let mut batch = null_mut();
+    let mut counts = TessBatchCounts::default();
+    // SAFETY: the pointers are to memory of this function.
+    let made = unsafe { tess_batch_create(&config, TESS_LEVEL_DETECT, &mut batch) };
+    if made != TESS_OK || !factors.len().is_multiple_of(factor_count(case.domain())) {
+        return Err(repeatable(case, &format!("tess_batch_create answered {made}")));
+    }
+    // SAFETY: a batch that was made; buffers that are null, askew, impossibly large or as large as
+    // they say.
+    let status =
+        unsafe { tess_batch_run(batch, factors.as_ptr(), factors.len(), output, &mut counts) };
+    // SAFETY: a batch that was made and is not used any more.
+    unsafe { tess_batch_free(batch) };
+    Ok((status, counts))
+}
+
+fn compare(
+    config: Config,
+    patches: &[PatchFactors],
+    model: &[Tessellation],
+    memory: &Memory,
+) -> Result<(), String> {
+    for ((&factors, model), range) in patches.iter().zip(model).zip(&memory.ranges) {
+        let case = Case { config, factors };
+        let part = |first: u32, count: u32| first as usize..(first as usize + count as usize);
+        let (points, indices) = (
+            memory.points.get(part(range.first_point, range.points)),
+            memory.indices.get(part(range.first_index, range.indices)),
+        );
+        let (Some(points), Some(indices)) = (points, indices) else {
+            return Err(repeatable(&case, &format!("tess_batch_run: no such range: {range:?}")));
+        };
+        let points = points.iter().map(|point| DomainPoint::from_bits(point.u, point.v)).collect();
+        let observed = Tessellation { points, indices: indices.to_vec() };
+        compare_with_model("tess_batch_run", &case, observed, model)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! Factor preparation against a second formulation, in binary64 with every rounding made explicit.
+//!
+//! Sums, products and quotients of two binary32 numbers, computed in binary64 and then rounded to
+//! binary32, are the correctly rounded binary32 results, as 53 bits are more than twice 24 plus one.
+
+use crate::fault_is_planted;
+use crate::input::Bytes;
+use tess_check::case::{Case, factor_bits, factor_list, factor_names};
+use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
+use tess_core::{Domain, Partitioning, PatchFactors};
+
+/// Compares the unrounded and the rounded factors of one request.
+///
+/// # Errors
+/// The first factor that differs.
+pub fn check(data: &[u8]) -> Result<(), String> {
+    let mut bytes = Bytes(data);
+    let (domain, config) = bytes.setting();
+    let reduction = bytes.one_of([Reduction::Min, Reduction::Max, Reduction::Average]);
+    let axes = bytes.one_of([QuadAxes::One, QuadAxes::Two]);
+    let factors = bytes.factors(domain);
+    let request = match factors {
+        PatchFactors::Isoline(factors) => Request::Isoline(factors),
+        PatchFactors::Triangle(factors) => Request::Triangle(factors),
+        PatchFactors::Quad(factors) => Request::Quad(factors, axes),
+    };
+    let prepared = prepare(config.partitioning, reduction, request);
+    let second = Second { partitioning: config.partitioning, reduction, axes };
+    let [unrounded, rounded] = second.prepare(domain, &factor_list(&factors));
+    for (result, observed, expected) in [
+        ("unrounded", factor_bits(&prepared.unrounded), unrounded),
+        ("rounded", factor_bits(&prepared.rounded), rounded),
+    ] {
+        for (i, name) in factor_names(domain).iter().enumerate() {
+            let (mut observed, expected) = (observed[i], expected[i].to_bits());
+            observed ^= u32::from(fault_is_planted());
+            if observed != expected {
+                // The case is the request in the form of a patch: scales stand for inside factors.
+                let case = Case { config, factors };
+                return Err(format!(
+                    "\n{case}\nprepared with {reduction:?}, axes {axes:?}: {result} {name} is \
+                     {observed:08x}, expected {expected:08x}"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The second formulation.
+struct Second {
+    partitioning: Partitioning,
+    reduction: Reduction,
+    axes: QuadAxes,
+}
+
+/// To binary32, nearest even.
+fn rounded(x: f64) -> f32 {
+    x as f32
+}
+
+impl Second {
+    /// Unrounded and rounded factors in the order of the domain.
+    fn prepare(&self, domain: Domain, inputs: &[f32]) -> [Vec<f32>; 2] {
+        let outer_count = match domain {
+            Domain::Isoline => 2,
+            Domain::Triangle => 3,
+            Domain::Quad => 4,
+        };
+        let (outer, scales) = inputs.split_at(outer_count);
+        if outer.iter().any(|x| x.is_nan() || *x <= 0.0) {
+            let zeros = vec![0.0; inputs.len()];
+            let unrounded = outer.iter().chain(scales.iter().map(|_| &0.0)).copied().collect();
+            return [unrounded, zeros];
+        }
+        let cleaned: Vec<f32> = outer.iter().map(|x| x.max(1.0)).collect();
+        if domain == Domain::Isoline {
+            let parts = [Partitioning::Integer, self.partitioning];
+            let unrounded: Vec<f32> =
+                cleaned.iter().zip(parts).map(|(&x, p)| clamp(p, x)).collect();
+            let up = unrounded.iter().zip(parts).map(|(&x, p)| round_up(p, x)).collect();
+            return [unrounded, up];
+        }
+        let inside = match (domain, &cleaned[..], scales) {
+            (Domain::Triangle, _, &[scale]) => vec![self.inside(&cleaned, scale)],
+            (_, &[u0, v0, u1, v1], &[scale_u, scale_v]) => match self.axes {
+                QuadAxes::One => vec![self.inside(&[v0, v1, u0, u1], scale_u); 2],
+                QuadAxes::Two => {
+                    let u = self.inside(&[v0, v1], scale_u);
+                    let v = self.inside(&[u0, u1], scale_v);
+                    self.widened(u, v)
+                }
+            },
+            _ => unreachable!("as many scales as the domain has"),
+        };
+        let up = |x: &f32| round_up(self.partitioning, *x);
+        let outer_up = cleaned.iter().map(|x| clamp(self.partitioning, up(x)));
+        let rounded = outer_up.chain(inside.iter().map(up)).collect();
+        [cleaned.iter().chain(&inside).copied().collect(), rounded]
+    }
+
+    fn inside(&self, outer: &[f32], scale: f32) -> f32 {
+        let scale = if scale > 0.0 { scale.min(1.0) } else { 0.0 };
+        let product = f64::from(reduce(self.reduction, outer)) * f64::from(scale);
+        let x = clamp(self.partitioning, rounded(product));
+        if self.partitioning != Partitioning::FractionalOdd || x >= 3.0 {
+            return x;
+        }
+        let frame =
+            if self.reduction == Reduction::Max { Reduction::Max } else { Reduction::Average };
+        reduce(frame, outer).min(3.0)
+    }
+
+    /// The narrower of two axes grows to the other or to 3.
+    fn widened(&self, u: f32, v: f32) -> Vec<f32> {
+        if self.partitioning != Partitioning::FractionalOdd {
+            return vec![u, v];
+        }
+        let at_least = u.max(v).min(3.0);
+        vec![u.max(at_least), v.max(at_least)]
+    }
+}
+
+fn reduce(reduction: Reduction, outer: &[f32]) -> f32 {
+    let sum = || {
+        let add = |sum: f32, x: &f32| rounded(f64::from(sum) + f64::from(*x));
+        outer.iter().fold(0.0, add)
+    };
+    match reduction {
+        Reduction::Min => outer.iter().copied().fold(f32::INFINITY, f32::min),
+        Reduction::Max => outer.iter().copied().fold(0.0, f32::max),
+        Reduction::Average => rounded(f64::from(sum()) / outer.len() as f64),
+    }
+}
+
+fn clamp(partitioning: Partitioning, x: f32) -> f32 {
+    let (low, high) = match partitioning {
+        Partitioning::Integer | Partitioning::Pow2 => (1.0, 64.0),
+        Partitioning::FractionalOdd => (1.0, 63.0),
+        Partitioning::FractionalEven => (2.0, 64.0),
+    };
+    if x.is_nan() { low } else { x.clamp(low, high) }
+}
+
+fn round_up(partitioning: Partitioning, x: f32) -> f32 {
+    match partitioning {
+        Partitioning::Integer => rounded(f64::from(x).ceil()),
+        Partitioning::Pow2 => {
+            let mut power = 1.0_f64;
+            while power < f64::from(x) && power < f64::INFINITY {
+                power *= 2.0;
+            }
+            rounded(power)
+        }
+        Partitioning::FractionalOdd | Partitioning::FractionalEven => x,
+    }
+}

@@ -1,0 +1,111 @@
+//! Seeds: the factors at which something changes, in the form that each target reads.
+
+use crate::input::{batch_bytes, factor_count};
+use std::io;
+use std::path::Path;
+use tess_check::case::factors_from_list;
+use tess_check::generate::{boundary_factors, exceptional_factors, special_factors};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+
+/// Every target.
+pub const TARGETS: [&str; 6] = ["random_access", "simd", "prepare", "vectors", "capi", "gpu"];
+
+/// Writes the seeds of every target to `corpus/TARGET/`; `golden` is the folder of recorded results.
+///
+/// # Errors
+/// Those of the file system.
+pub fn write(corpus: &Path, golden: &Path) -> io::Result<usize> {
+    let mut count = 0;
+    for target in TARGETS {
+        let folder = corpus.join(target);
+        std::fs::create_dir_all(&folder)?;
+        for (name, bytes) in of(target, golden)? {
+            std::fs::write(folder.join(format!("seed-{name}")), bytes)?;
+            count += 1;
+        }
+    }
+    Ok(count)
+}
+
+/// The seeds of one target, each with a name.
+///
+/// # Errors
+/// Those of the file system, for the recorded results.
+pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
+    if target == "vectors" {
+        return recorded(golden);
+    }
+    let seed = |(i, (domain, config, patches)): (usize, &(Domain, Config, Vec<PatchFactors>))| {
+        let batch = batch_bytes(*domain, *config, patches);
+        let (setting, factors) = batch.split_at(1);
+        let bytes = match target {
+            "prepare" => [setting, &[low_byte(i % 3), low_byte(i / 3 % 2)], factors].concat(),
+            "capi" => {
+                let operation = low_byte(i % 4);
+                let choices = if operation == 3 { &[9; 12][..] } else { &[] };
+                [&[operation], choices, &batch].concat()
+            }
+            _ => batch,
+        };
+        (i.to_string(), bytes)
+    };
+    Ok(patches().iter().enumerate().map(seed).collect())
+}
+
+fn low_byte(number: usize) -> u8 {
+    number.to_le_bytes()[0]
+}
+
+/// The first records of every vector file.
+fn recorded(golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
+    let mut seeds = Vec::new();
+    for file in std::fs::read_dir(golden)? {
+        let file = file?;
+        if let Some(seed) = first_records(&std::fs::read_to_string(file.path())?) {
+            seeds.push((file.file_name().to_string_lossy().into_owned(), seed.into_bytes()));
+        }
+    }
+    Ok(seeds)
+}
+
+/// The head of a vector file, with the number of its records put right.
+fn first_records(text: &str) -> Option<String> {
+    let (header, rest) = text.split_once('\n')?;
+    let (before, count) = header.split_once(" count=")?;
+    let after = count.split_once(' ')?.1;
+    let (records, body) = if header.contains("kind=listings") {
+        let listings: Vec<&str> = rest.split_inclusive("\nend\n").collect();
+        let small: Vec<&str> = listings.into_iter().filter(|l| l.len() < 1500).take(4).collect();
+        (small.len(), small.concat())
+    } else {
+        let rows: Vec<&str> = rest.split_inclusive('\n').take(6).collect();
+        (rows.len() - 1, rows.concat())
+    };
+    Some(format!("{before} count={records} {after}\n{body}"))
+}
+
+/// Three patches for each interesting factor: it on an edge, inside, and everywhere.
+fn patches() -> Vec<(Domain, Config, Vec<PatchFactors>)> {
+    let mut all = Vec::new();
+    let factors = [boundary_factors(), exceptional_factors(), special_factors()].concat();
+    for (i, factor) in factors.into_iter().enumerate() {
+        let domain = Domain::ALL[i % 3];
+        let config = Config {
+            partitioning: Partitioning::ALL[i / 3 % 4],
+            output: OutputPrimitive::ALL[i / 5 % 4],
+            split: SplitOrder::ALL[i / 7 % 2],
+        };
+        let n = factor_count(domain);
+        let ordinary = [3.0, 4.5, 1.0, 7.25, 2.0, 5.0];
+        let patches = [0, n - 1, n].map(|place| {
+            let mut list = ordinary[..n].to_vec();
+            match list.get_mut(place) {
+                Some(one) => *one = factor,
+                None => list.fill(factor),
+            }
+            factors_from_list(domain, &list).expect("as many factors as the domain has")
+        });
+        all.push((domain, config, patches.to_vec()));
+    }
+    all
+}

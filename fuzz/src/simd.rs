@@ -1,0 +1,96 @@
+//! The batch backend, at every CPU level of this machine, against the core.
+
+use crate::compare_with_model;
+use crate::input::Bytes;
+use std::cell::RefCell;
+use std::collections::HashMap;
+use tess_check::case::Case;
+use tess_core::{
+    Config, DomainPoint, IsolineFactors, PatchFactors, QuadFactors, Tessellation, TriangleFactors,
+};
+use tess_simd::{Batch, ExactOutput, Level, Numbering, Output, Tessellator};
+
+/// Patches in a batch: more than two blocks of eight, and not a multiple of them.
+const MOST: usize = 19;
+
+thread_local! {
+    /// Tessellators hold tables that take milliseconds to make.
+    static MADE: RefCell<HashMap<(Config, Level), Tessellator>> = RefCell::new(HashMap::new());
+}
+
+/// Compares a batch at every level, in both index formats and numberings.
+///
+/// # Errors
+/// The first difference.
+pub fn check(data: &[u8]) -> Result<(), String> {
+    let (config, patches) = Bytes(data).batch(MOST);
+    let model: Vec<Tessellation> =
+        patches.iter().map(|&factors| Case { config, factors }.patch().tessellate()).collect();
+    for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        MADE.with_borrow_mut(|made| {
+            let tessellator = made.entry((config, level)).or_insert_with(|| {
+                Tessellator::with_level(config, level).expect("the level is available")
+            });
+            check_level(tessellator, &patches, &model)
+        })?;
+    }
+    Ok(())
+}
+
+fn check_level(
+    tessellator: &mut Tessellator,
+    patches: &[PatchFactors],
+    model: &[Tessellation],
+) -> Result<(), String> {
+    const BASE: u32 = 70_000; // beyond 16 bits
+    let mut wide = ExactOutput::new();
+    let mut narrow: Output<DomainPoint, u16> = Output::new();
+    let mut numbered = ExactOutput::new();
+    let across = Numbering::Batch { base_vertex: BASE };
+    with_batch(patches, |batch| {
+        tessellator.tessellate(batch, Numbering::PerPatch, &mut wide)?;
+        tessellator.tessellate(batch, Numbering::PerPatch, &mut narrow)?;
+        tessellator.tessellate(batch, across, &mut numbered)
+    })
+    .map_err(|error| format!("simd refused a batch: {error}"))?;
+    let (config, level) = (tessellator.config(), tessellator.level());
+    for (i, (&factors, model)) in patches.iter().zip(model).enumerate() {
+        let case = Case { config, factors };
+        let missing = || format!("simd at {level} has no patch {i}");
+        let (points, indices) = wide.patch(i).ok_or_else(missing)?;
+        let observed = Tessellation { points: points.to_vec(), indices: indices.to_vec() };
+        let name = format!("simd at {level}, patch {i} of {}", patches.len());
+        compare_with_model(&name, &case, observed, model)?;
+
+        let (points, indices) = narrow.patch(i).ok_or_else(missing)?;
+        let indices = indices.iter().map(|&index| u32::from(index)).collect();
+        let observed = Tessellation { points: points.to_vec(), indices };
+        compare_with_model(&format!("{name}, 16 bits"), &case, observed, model)?;
+
+        let first = numbered.ranges().get(i).ok_or_else(missing)?.first_point;
+        let (points, indices) = numbered.patch(i).ok_or_else(missing)?;
+        let indices = indices.iter().map(|index| index.wrapping_sub(BASE + first)).collect();
+        let observed = Tessellation { points: points.to_vec(), indices };
+        compare_with_model(&format!("{name}, numbered across"), &case, observed, model)?;
+    }
+    Ok(())
+}
+
+/// Hands over patches of one domain as a batch.
+fn with_batch<T>(patches: &[PatchFactors], run: impl FnOnce(Batch<'_>) -> T) -> T {
+    let mut isolines: Vec<IsolineFactors> = Vec::new();
+    let mut triangles: Vec<TriangleFactors> = Vec::new();
+    let mut quads: Vec<QuadFactors> = Vec::new();
+    for patch in patches {
+        match *patch {
+            PatchFactors::Isoline(factors) => isolines.push(factors),
+            PatchFactors::Triangle(factors) => triangles.push(factors),
+            PatchFactors::Quad(factors) => quads.push(factors),
+        }
+    }
+    match patches.first() {
+        Some(PatchFactors::Isoline(_)) => run(Batch::Isolines(&isolines)),
+        Some(PatchFactors::Triangle(_)) => run(Batch::Triangles(&triangles)),
+        Some(PatchFactors::Quad(_)) | None => run(Batch::Quads(&quads)),
+    }
+}

@@ -1,0 +1,67 @@
+//! The reader of vector files, on any bytes.
+
+use crate::fault_is_planted;
+use tess_check::case::Case;
+use tess_check::vectors::{Listing, Record, VectorFile};
+
+/// Reads a file to its end. It never panics; it gives as many records as its header says, or an
+/// error that names a line of the file; and what it read says the same when written and read again.
+///
+/// # Errors
+/// What was broken.
+pub fn check(data: &[u8]) -> Result<(), String> {
+    let lines = data.split(|&byte| byte == b'\n').count() as u64 + 1;
+    let mut file = match VectorFile::new("fuzz", data) {
+        Ok(file) => file,
+        Err(error) => return names_a_line(&error.to_string(), lines),
+    };
+    let announced = file.header().count;
+    let mut records = 0;
+    for record in file.by_ref() {
+        match record {
+            Err(error) => return names_a_line(&error.to_string(), lines),
+            Ok(Record::Listing(listing)) => listing_survives(&listing)?,
+            Ok(Record::Patch(row)) => case_survives(&row.row.case)?,
+            Ok(_) => {}
+        }
+        records += 1;
+    }
+    if fault_is_planted() {
+        records += 1;
+    }
+    if records == announced {
+        Ok(())
+    } else {
+        Err(format!("{records} records without an error, but the header says {announced}"))
+    }
+}
+
+/// An error reads `fuzz:LINE: ...`, with a line that the file has, or the one behind its end.
+fn names_a_line(message: &str, lines: u64) -> Result<(), String> {
+    let line = message.strip_prefix("fuzz:").and_then(|rest| rest.split(':').next());
+    match line.and_then(|line| line.trim().parse::<u64>().ok()) {
+        Some(line) if line <= lines => Ok(()),
+        _ => Err(format!("an error that names no line of a file of {lines}: {message}")),
+    }
+}
+
+fn case_survives(case: &Case) -> Result<(), String> {
+    match case.to_string().parse::<Case>() {
+        Ok(again) if again == *case => Ok(()),
+        other => Err(format!("\n{case}\nis read back as {other:?}")),
+    }
+}
+
+fn listing_survives(listing: &Listing) -> Result<(), String> {
+    case_survives(&listing.case)?;
+    let text = format!("# tess-vectors 1 kind=listings count=1 source=fuzz\n{listing}");
+    let mut again = VectorFile::new("again", text.as_bytes()).map_err(|e| e.to_string())?;
+    match again.next() {
+        Some(Ok(Record::Listing(same)))
+            if same.case == listing.case && same.output == listing.output =>
+        {
+            Ok(())
+        }
+        other => Err(format!("\n{listing}\nis read back as {other:?}")),
+    }
+}
