@@ -24,12 +24,14 @@ pub struct Bend {
     pub v: f32,
 }
 
-/// The triangles of a tessellated quad extend at most this much further than one segment,
-/// measured over all pairs of outer and inside factors.
-const QUAD_EXTENT: f32 = 1.5;
+/// The triangles of a tessellated quad extend over at most one segment of the coarsest factor,
+/// as long as factors are powers of two. (With others, up to five: the stitch between two rows
+/// advances in ruler order, which then runs ahead of the positions.)
+const QUAD_EXTENT: f32 = 1.0;
 
-/// The same for triangles, whose inside rings lie closer but shifted.
-const TRIANGLE_EXTENT: f32 = 1.5;
+/// The same for triangles, whose inside rings are shifted by a third of a segment; exactly 4/3
+/// but for the rounding of their points.
+const TRIANGLE_EXTENT: f32 = 1.334;
 
 /// The number of segments that keeps a bend within the tolerance.
 #[must_use]

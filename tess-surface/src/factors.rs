@@ -37,7 +37,9 @@ pub enum FactorRule {
         segment: f32,
     },
     /// No point of a triangle further than `tolerance` from the point of the surface with the
-    /// same domain coordinates, unless a factor is cut off at 64. See [`crate::bend`].
+    /// same domain coordinates, unless a factor is cut off at 64. See [`crate::bend`]. The factors
+    /// are powers of two, without which transitions between factors would deviate more; under
+    /// `fractional_odd`, which cannot have these, the tolerance is approximate.
     Flatness {
         /// Largest distance, in the model's units.
         tolerance: f32,
@@ -64,7 +66,7 @@ impl FactorRule {
                 let pixels = curve.length_bound() * pixels_per_unit;
                 pixels / (eye.distance(curve.position(0.5)) * segment)
             }
-            Self::Flatness { tolerance } => bend::segments(bend, tolerance),
+            Self::Flatness { tolerance } => flat_segments(bend, tolerance),
         })
     }
 
@@ -108,7 +110,7 @@ impl FactorRule {
         };
         // The rule applied to the inside alone; 1 for rules that look at edges only.
         let inside = |bend: f32| match *self {
-            Self::Flatness { tolerance } => in_range(bend::segments(bend, tolerance)),
+            Self::Flatness { tolerance } => flat_segments(bend, tolerance),
             _ => RANGE.0,
         };
         match outer.map(up) {
@@ -126,6 +128,11 @@ impl FactorRule {
             }),
         }
     }
+}
+
+/// The factor that keeps a bend within the tolerance.
+fn flat_segments(bend: f32, tolerance: f32) -> f32 {
+    next_power_of_two(in_range(bend::segments(bend, tolerance)))
 }
 
 /// The least power of two that is not less than `factor`, for factors 1..=64.

@@ -1,11 +1,9 @@
 //! No cracks: after welding positions of equal bits, the open edges of a tessellated model are
 //! those of its border, for every model, rule, partitioning and displacement.
-#![expect(clippy::float_cmp, clippy::float_arithmetic, reason = "equal bits are what is tested")]
 
-mod support;
-
+use crate::models::{bumps, models, rules};
+use crate::weld::{Tamper, complaint, tessellate};
 use glam::Vec3;
-use support::{Tamper, bumps, complaint, models, rules, tessellate};
 use tess_core::{Partitioning, PatchFactors};
 use tess_surface::curve::Direction;
 use tess_surface::height::{Anchors, DisplacedPatch};

@@ -1,17 +1,13 @@
-//! Models and the welding that the tests of cracks share.
-#![allow(dead_code, reason = "each test file uses its part")]
+//! The models that the tests run over.
 
-use glam::{Vec2, Vec3};
-use std::collections::HashMap;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
-use tess_surface::height::{Anchors, DisplacedPatch, Displacement, HeightMap};
+use glam::{Vec2, Vec3, Vec4};
+use tess_surface::bezier::BezierPatch;
+use tess_surface::height::{Displacement, HeightMap};
 use tess_surface::mesh::{Face, PolygonMesh};
 use tess_surface::sides::Sides;
-use tess_surface::{FactorRule, HalfEdge, Model, Style, teapot};
+use tess_surface::{FactorRule, Model, Style, teapot};
 
-pub type Triangle = [[f32; 3]; 3];
-
-pub fn face(corners: &[u32]) -> Face {
+pub(crate) fn face(corners: &[u32]) -> Face {
     let positions = match *corners {
         [a, b, c] => Sides::Triangle([a, b, c]),
         [a, b, c, d] => Sides::Quad([a, b, c, d]),
@@ -20,7 +16,7 @@ pub fn face(corners: &[u32]) -> Face {
     Face { positions, normals: None, texcoords: None }
 }
 
-pub fn mesh(positions: &[[f32; 3]], faces: &[&[u32]]) -> PolygonMesh {
+pub(crate) fn mesh(positions: &[[f32; 3]], faces: &[&[u32]]) -> PolygonMesh {
     PolygonMesh {
         positions: positions.iter().map(|&p| Vec3::from_array(p)).collect(),
         faces: faces.iter().map(|corners| face(corners)).collect(),
@@ -28,7 +24,7 @@ pub fn mesh(positions: &[[f32; 3]], faces: &[&[u32]]) -> PolygonMesh {
     }
 }
 
-pub fn octahedron() -> PolygonMesh {
+pub(crate) fn octahedron() -> PolygonMesh {
     let p = [[1., 0., 0.], [-1., 0., 0.], [0., 1., 0.], [0., -1., 0.], [0., 0., 1.], [0., 0., -1.]];
     mesh(
         &p,
@@ -56,7 +52,7 @@ const CUBE: [[f32; 3]; 8] = [
     [-1., 1., 1.],
 ];
 
-pub fn cube() -> PolygonMesh {
+pub(crate) fn cube() -> PolygonMesh {
     mesh(
         &CUBE,
         &[&[0, 3, 2, 1], &[4, 5, 6, 7], &[0, 1, 5, 4], &[1, 2, 6, 5], &[2, 3, 7, 6], &[3, 0, 4, 7]],
@@ -65,7 +61,7 @@ pub fn cube() -> PolygonMesh {
 
 /// A cube whose faces have their own normals, positions and texture coordinates: all edges are
 /// creases and all are seams.
-pub fn creased_cube() -> PolygonMesh {
+pub(crate) fn creased_cube() -> PolygonMesh {
     let shared = cube();
     let mut mesh = PolygonMesh::default();
     for face in &shared.faces {
@@ -86,7 +82,7 @@ pub fn creased_cube() -> PolygonMesh {
 }
 
 /// A torus of quads, every third one cut into two triangles, with a bumpy tube.
-pub fn torus() -> PolygonMesh {
+pub(crate) fn torus() -> PolygonMesh {
     let (rings, tubes) = (7u32, 5u32);
     let mut out = PolygonMesh::default();
     for i in 0..rings {
@@ -112,7 +108,7 @@ pub fn torus() -> PolygonMesh {
 }
 
 /// An open hilly grid.
-pub fn hills() -> PolygonMesh {
+pub(crate) fn hills() -> PolygonMesh {
     let n = 5u32;
     let mut out = PolygonMesh::default();
     for j in 0..=n {
@@ -131,7 +127,7 @@ pub fn hills() -> PolygonMesh {
     out
 }
 
-pub fn models() -> Vec<(&'static str, Model)> {
+pub(crate) fn models() -> Vec<(&'static str, Model)> {
     let polygons = [
         ("octahedron", octahedron()),
         ("cube", cube()),
@@ -153,8 +149,7 @@ pub fn models() -> Vec<(&'static str, Model)> {
 
 /// The unit ball as eight rational patches, each an eighth with one edge collapsed to a pole:
 /// quarter circles as cubics, from the degree-raised rational quadratic.
-pub fn rational_ball() -> Vec<tess_surface::bezier::BezierPatch> {
-    use glam::Vec4;
+pub(crate) fn rational_ball() -> Vec<BezierPatch> {
     let h = std::f32::consts::FRAC_1_SQRT_2;
     // (x, y, w) of a quarter circle of degree 2, raised to 3.
     let quadratic = [[1.0, 0.0, 1.0], [h, h, h], [0.0, 1.0, 1.0]];
@@ -182,13 +177,13 @@ pub fn rational_ball() -> Vec<tess_surface::bezier::BezierPatch> {
             };
             let column = |i: usize| if up > 0.0 { i } else { 3 - i };
             let points = std::array::from_fn(|j| std::array::from_fn(|i| point(column(i), j)));
-            patches.push(tess_surface::bezier::BezierPatch { points });
+            patches.push(BezierPatch { points });
         }
     }
     patches
 }
 
-pub fn rules() -> Vec<(&'static str, FactorRule)> {
+pub(crate) fn rules() -> Vec<(&'static str, FactorRule)> {
     let eye = Vec3::new(3.0, -4.0, 2.5);
     vec![
         ("uniform 1", FactorRule::Uniform(1.0)),
@@ -200,111 +195,7 @@ pub fn rules() -> Vec<(&'static str, FactorRule)> {
     ]
 }
 
-pub fn bumps() -> Displacement {
+pub(crate) fn bumps() -> Displacement {
     let texels = (0..64 * 64).map(|i| ((i * 37 + (i / 64) * 11) % 101) as f32 / 100.0).collect();
     Displacement { map: HeightMap::new(64, 64, texels).unwrap(), scale: 0.1 }
-}
-
-/// A change of one patch's factors, to plant a fault.
-pub type Tamper = fn(usize, &mut PatchFactors);
-
-/// A tessellated model.
-#[derive(Default)]
-pub struct Tessellated {
-    pub triangles: Vec<Triangle>,
-    /// The segments of the model's border: of edges with no other side that are not collapsed.
-    pub border: Vec<[[f32; 3]; 2]>,
-}
-
-/// Tessellates a model, every position from the public evaluators.
-pub fn tessellate(
-    model: &Model,
-    rule: &FactorRule,
-    partitioning: Partitioning,
-    displacement: Option<&Displacement>,
-    tamper: Option<Tamper>,
-) -> Tessellated {
-    let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
-    let anchors = displacement.map(|_| Anchors::of(model));
-    let mut out = Tessellated::default();
-    for number in 0..model.len() {
-        let mut factors = rule.patch(model, number, partitioning);
-        if let Some(tamper) = tamper {
-            tamper(number, &mut factors);
-        }
-        let patch = model.patch(number);
-        let displaced = displacement.zip(anchors.as_ref()).map(|(displacement, anchors)| {
-            DisplacedPatch::new(model, anchors, number, displacement)
-        });
-        let position = |at: [f32; 2]| match &displaced {
-            Some(displaced) => displaced.sample(at).position.to_array(),
-            None => patch.sample(at).position.to_array(),
-        };
-        let whole = Patch::new(config, factors).tessellate();
-        assert!(!whole.indices.is_empty(), "rules cull no patch");
-        let at: Vec<[f32; 2]> = whole.points.iter().map(|point| point.to_f32()).collect();
-        let positions: Vec<_> = at.iter().map(|&at| position(at)).collect();
-        let corners = whole.indices.as_chunks::<3>().0;
-        out.triangles.extend(corners.iter().map(|t| t.map(|index| positions[index as usize])));
-        for edge in border_edges(model, number) {
-            let line = points_on(&patch, edge, &at);
-            out.border.extend(line.windows(2).map(|pair| [position(pair[0]), position(pair[1])]));
-        }
-    }
-    out
-}
-
-fn border_edges(model: &Model, number: usize) -> Vec<usize> {
-    let patch = model.patch(number);
-    let edges = patch.edges().as_slice().iter().enumerate();
-    let alone = edges.filter(|(edge, shared)| {
-        let twin = model.twin(HalfEdge { patch: number, edge: *edge });
-        twin.is_none() && shared.curve.collapsed_to().is_none()
-    });
-    alone.map(|(edge, _)| edge).collect()
-}
-
-/// The domain points on an edge, in order.
-fn points_on(patch: &tess_surface::patch::Patch, edge: usize, at: &[[f32; 2]]) -> Vec<[f32; 2]> {
-    let on_edge = |&[u, v]: &[f32; 2]| match (patch.domain(), edge) {
-        (_, 0) => u == 0.0,
-        (_, 1) => v == 0.0,
-        (Domain::Triangle, _) => u + v == 1.0,
-        (_, 2) => u == 1.0,
-        (_, _) => v == 1.0,
-    };
-    let mut line: Vec<_> = at.iter().copied().filter(on_edge).collect();
-    line.sort_by(|a, b| (a[0] - a[1]).total_cmp(&(b[0] - b[1])));
-    line
-}
-
-type EdgeKey = [[u32; 3]; 2];
-
-fn edge_key(a: [f32; 3], b: [f32; 3]) -> Option<EdgeKey> {
-    let [a, b] = [a, b].map(|p| p.map(f32::to_bits));
-    (a != b).then(|| if a < b { [a, b] } else { [b, a] })
-}
-
-fn uses(edges: impl Iterator<Item = EdgeKey>) -> HashMap<EdgeKey, u32> {
-    let mut uses = HashMap::new();
-    edges.for_each(|key| *uses.entry(key).or_default() += 1);
-    uses
-}
-
-/// What welding positions of equal bits leaves to complain about: `None` if the edges with an odd
-/// number of triangles are those that the border passes an odd number of times. (Where a coarse
-/// tessellation lays two edges into the same segment, four triangles meet.)
-pub fn complaint(out: &Tessellated) -> Option<String> {
-    // Triangles that welding has collapsed have no area and count for nothing.
-    let solid = out
-        .triangles
-        .iter()
-        .filter_map(|&[a, b, c]| Some([edge_key(a, b)?, edge_key(b, c)?, edge_key(c, a)?]));
-    let inside = uses(solid.flatten());
-    let border = uses(out.border.iter().filter_map(|&[a, b]| edge_key(a, b)));
-    let odd =
-        |uses: &HashMap<EdgeKey, u32>, key: &EdgeKey| uses.get(key).copied().unwrap_or(0) % 2 == 1;
-    let cracks = inside.keys().filter(|key| odd(&inside, key) && !odd(&border, key)).count();
-    let missing = border.keys().filter(|key| odd(&border, key) && !odd(&inside, key)).count();
-    (cracks + missing > 0).then(|| format!("{cracks} cracks, {missing} border segments missing"))
 }

@@ -1,0 +1,80 @@
+//! What is refused, and with which words.
+
+use crate::models::{cube, mesh};
+use glam::Vec3;
+use tess_surface::bezier::BezierPatch;
+use tess_surface::mesh::PolygonMesh;
+use tess_surface::sides::Sides;
+use tess_surface::{Fault, MeshError, Model, Style, teapot};
+
+fn refused(mesh: PolygonMesh) -> MeshError {
+    Model::polygons(mesh, Style::PointNormal).expect_err("it is refused")
+}
+
+#[test]
+fn polygons() {
+    let at = |face, fault| MeshError::Face { face, fault };
+    assert_eq!(refused(PolygonMesh::default()), MeshError::Empty, "no face");
+
+    let mut nan = cube();
+    nan.positions[6].y = f32::NAN;
+    assert_eq!(refused(nan), at(1, Fault::NotFinite("position")), "the first face with corner 6");
+
+    let mut beyond = cube();
+    beyond.faces[2].positions = Sides::Quad([0, 1, 5, 8]);
+    let fault = Fault::OutOfRange { what: "position", count: 8 };
+    assert_eq!(refused(beyond), at(2, fault), "an index too large");
+
+    let mut no_normal = cube();
+    no_normal.normals = vec![Vec3::ZERO];
+    no_normal.faces[3].normals = Some(Sides::Quad([0; 4]));
+    assert_eq!(refused(no_normal), at(3, Fault::NotFinite("normal")), "a normal of length zero");
+
+    let points =
+        [[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [0., 1., 0.], [0., 0., 0.], [0., 0., 1.]];
+    let on_a_line = mesh(&points, &[&[0, 1, 3], &[0, 1, 2]]);
+    assert_eq!(refused(on_a_line), at(1, Fault::NoArea), "three corners on a line");
+    let repeated = mesh(&points, &[&[0, 1, 3], &[0, 4, 3]]);
+    assert_eq!(refused(repeated), at(1, Fault::RepeatedCorner), "two positions, one place");
+
+    let fan = mesh(&points, &[&[0, 1, 3], &[1, 4, 5], &[3, 2, 1], &[0, 2, 5]]);
+    assert!(Model::polygons(fan, Style::Flat).is_ok(), "two faces at an edge are right");
+    let three = mesh(&points, &[&[0, 1, 3], &[1, 4, 5], &[3, 2, 1], &[3, 0, 5], &[0, 3, 2]]);
+    let fault = Fault::NonManifold { others: [0, 3] };
+    assert_eq!(refused(three), at(4, fault), "the third face at an edge");
+}
+
+#[test]
+fn patches() {
+    let at = |fault| Err(MeshError::Face { face: 7, fault });
+    let tampered = |change: fn(&mut BezierPatch)| {
+        let mut patches = teapot::patches();
+        change(&mut patches[7]);
+        Model::bezier(patches).map(|model| model.len())
+    };
+    assert_eq!(tampered(|_| ()), Ok(32), "as it is");
+    let nan = tampered(|patch| patch.points[1][2].z = f32::NAN);
+    assert_eq!(nan, at(Fault::NotFinite("control point")), "NaN");
+    let weightless = tampered(|patch| patch.points[0][0].w = 0.0);
+    assert_eq!(weightless, at(Fault::Weight), "weight 0");
+    let line = tampered(|patch| {
+        patch.points = [patch.points[0]; 4].map(|row| [row[0], row[3], row[0], row[3]])
+    });
+    assert_eq!(line, at(Fault::NoArea), "all points on a line");
+    let doubled = tampered(|_| ()).and_then(|_| {
+        let mut patches = teapot::patches();
+        patches.push(patches[5]);
+        Model::bezier(patches).map(|model| model.len())
+    });
+    let crowded =
+        matches!(doubled, Err(MeshError::Face { face: 32, fault: Fault::NonManifold { .. } }));
+    assert!(crowded, "a patch twice: {doubled:?}");
+}
+
+#[test]
+fn messages() {
+    let error = MeshError::Face { face: 3, fault: Fault::NoArea };
+    assert_eq!(error.to_string(), "face 3: it has zero area", "which and what");
+    let fault = Fault::OutOfRange { what: "normal", count: 5 };
+    assert_eq!(fault.to_string(), "a normal index is out of range: there are 5", "what and why");
+}

@@ -1,0 +1,19 @@
+//! What the surfaces promise: no cracks, right normals, bounded deviation, errors that are told.
+#![expect(
+    clippy::float_arithmetic,
+    clippy::float_cmp,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "tests compute in floats, and compare bits"
+)]
+
+mod cracks;
+mod errors;
+mod factors;
+mod flatness;
+mod models;
+mod normals;
+mod point_normal;
+mod teapot;
+mod weld;
+mod wgsl;
