@@ -1,6 +1,6 @@
 //! The scalar functions that simulators import, against the model.
 
-use super::samples::samples;
+use super::samples::{self, Sample, samples};
 use std::ptr::null_mut;
 use tess_capi::dpi::{
     tess_dpi_context, tess_dpi_count, tess_dpi_place, tess_dpi_point, tess_dpi_primitive,
@@ -8,81 +8,67 @@ use tess_capi::dpi::{
 };
 use tess_capi::process::{TESS_OUTCOME_CULLED, TessProcessedPatch};
 use tess_capi::status::{TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE, TESS_UNKNOWN_VALUE};
-use tess_capi::types::{TessContext, TessCounts};
+use tess_capi::types::{TessConfig, TessContext};
+use tess_core::fixed_point::{HALF, ONE};
 use tess_core::place;
 
-#[test]
-fn patches_and_their_elements() {
-    for s in samples() {
-        let mut bits = [0xFFC0_0000; 6]; // factors that the domain has not are not looked at
-        for (slot, factor) in bits.iter_mut().zip(&s.factors) {
-            *slot = factor.to_bits();
-        }
-        let [f0, f1, f2, f3, f4, f5] = bits;
-        let c = s.config;
-        let mut out = [0u32; 4];
-        let [a, b, d, e] = out.each_mut().map(|slot| &raw mut *slot);
-        let counts = TessCounts::from(s.patch.counts());
-        let status = unsafe {
-            tess_dpi_count(
-                c.domain,
-                c.partitioning,
-                c.output,
-                c.split,
-                f0,
-                f1,
-                f2,
-                f3,
-                f4,
-                f5,
-                a,
-                b,
-                d,
-            )
-        };
-        assert_eq!(status, TESS_OK, "counts of {:?}", s.factors);
-        assert_eq!(out[..3], [counts.points, counts.primitives, counts.indices], "{:?}", s.factors);
+/// The bits of a sample's factors; those that the domain has not are not looked at.
+fn bits(sample: &Sample) -> [u32; 6] {
+    let mut bits = [0xFFC0_0000; 6];
+    for (slot, factor) in bits.iter_mut().zip(&sample.factors) {
+        *slot = factor.to_bits();
+    }
+    bits
+}
 
-        let i = counts.points / 2;
+#[test]
+fn sizes() {
+    for s in samples() {
+        let TessConfig { domain, partitioning, output, split } = s.config;
+        let [f0, f1, f2, f3, f4, f5] = bits(&s);
+        let mut out = [0u32; 3];
+        let [a, b, c] = out.each_mut().map(|slot| &raw mut *slot);
+        #[rustfmt::skip]
+        let status = unsafe {
+            tess_dpi_count(domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, a, b, c)
+        };
+        let counts = samples::counts(s.patch.counts());
+        let expected = [counts.points, counts.primitives, counts.indices];
+        assert_eq!((status, out), (TESS_OK, expected), "{:?}", s.factors);
+    }
+}
+
+#[test]
+fn points() {
+    for s in samples() {
+        let TessConfig { domain, partitioning, output, split } = s.config;
+        let [f0, f1, f2, f3, f4, f5] = bits(&s);
+        let i = s.patch.counts().points / 2;
+        let (mut u, mut v) = (0, 0);
+        #[rustfmt::skip]
         let status = unsafe {
             tess_dpi_point(
-                c.domain,
-                c.partitioning,
-                c.output,
-                c.split,
-                f0,
-                f1,
-                f2,
-                f3,
-                f4,
-                f5,
-                i,
-                a,
-                b,
+                domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, i, &mut u, &mut v,
             )
         };
         let expected = s.patch.point(i).map(|p| [p.u.to_bits(), p.v.to_bits()]);
-        let observed = (status == TESS_OK).then_some([out[0], out[1]]);
+        let observed = (status == TESS_OK).then_some([u, v]);
         assert_eq!(observed, expected, "point {i} of {:?}, status {status}", s.factors);
+    }
+}
 
-        let t = counts.primitives / 2;
+#[test]
+fn primitives() {
+    for s in samples() {
+        let TessConfig { domain, partitioning, output, split } = s.config;
+        let [f0, f1, f2, f3, f4, f5] = bits(&s);
+        let t = s.patch.counts().primitives / 2;
+        let mut out = [0u32; 4];
+        let [a, b, c, d] = out.each_mut().map(|slot| &raw mut *slot);
+        #[rustfmt::skip]
         let status = unsafe {
             tess_dpi_primitive(
-                c.domain,
-                c.partitioning,
-                c.output,
-                c.split,
-                f0,
-                f1,
-                f2,
-                f3,
-                f4,
-                f5,
-                t,
-                a,
-                b,
-                d,
-                e,
+                domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, t, a, b, c, d,
             )
         };
         let observed = (status == TESS_OK).then(|| out[1..=out[0] as usize].to_vec());
@@ -94,11 +80,7 @@ fn patches_and_their_elements() {
 #[test]
 fn processed_factors_and_places() {
     for s in samples() {
-        let mut bits = [0; 6];
-        for (slot, factor) in bits.iter_mut().zip(&s.factors) {
-            *slot = factor.to_bits();
-        }
-        let [f0, f1, f2, f3, f4, f5] = bits;
+        let [f0, f1, f2, f3, f4, f5] = bits(&s);
         let c = s.config;
         let model = TessProcessedPatch::from(s.patch.processed());
         for number in 0..=6 {
@@ -154,12 +136,30 @@ fn check_edge(factor: u32, context: &TessContext, split: u32) {
     );
     for p in 0..points {
         let status = unsafe { tess_dpi_place(factor, parity, split, p, a, b, c, d, e, f) };
-        let flip = u32::from(p >= half_points);
-        assert_eq!((status, out[0]), (TESS_OK, flip), "flip of {p}, {context:?}");
+        assert_eq!(status, TESS_OK, "point {p} of {context:?}");
+        check_steps(context, p, out);
         assert_eq!(out[5], place(&model, p).to_bits(), "location of {p}, {context:?}");
     }
     let status = unsafe { tess_dpi_place(factor, parity, split, points, a, b, c, d, e, f) };
     assert_eq!(status, TESS_OUT_OF_RANGE, "a point behind the last");
+}
+
+/// Each step of placing a point follows from the one before (specification, section 5).
+fn check_steps(context: &TessContext, p: u32, steps: [u32; 6]) {
+    let [flip, position, coarse, fine, half_location, location] = steps;
+    let TessContext { fraction, half_points, points, .. } = *context;
+    assert_eq!(flip, u32::from(p >= half_points), "flip of {p}, {context:?}");
+    let mirrored = if flip == 1 { points - 1 - p } else { p };
+    assert_eq!(position, mirrored, "position of {p}, {context:?}");
+    let blended = if position == half_points {
+        assert_eq!((coarse, fine), (0, 0), "the middle has no places, {context:?}");
+        HALF
+    } else {
+        (coarse * (ONE - fraction) + fine * fraction + HALF) >> 16
+    };
+    assert_eq!(half_location, blended, "blend at {p}, {context:?}");
+    let back = if flip == 1 { ONE - half_location } else { half_location };
+    assert_eq!(location, back, "location of {p}, {context:?}");
 }
 
 #[test]

@@ -1,9 +1,9 @@
 //! Patches to compare with: every configuration, factors of every kind.
 
-use tess_capi::types::TessConfig;
+use tess_capi::types::{TessConfig, TessContext, TessCounts, TessPoint};
 use tess_core::{
-    Config, Domain, IsolineFactors, OutputPrimitive, Partitioning, Patch, PatchFactors,
-    QuadFactors, SplitOrder, TriangleFactors,
+    Config, Counts, Domain, DomainPoint, FactorContext, IsolineFactors, OutputPrimitive, Parity,
+    Partitioning, Patch, PatchFactors, QuadFactors, SplitOrder, TriangleFactors,
 };
 
 /// One patch as C describes it and as the model does.
@@ -69,5 +69,26 @@ pub(super) fn patch_factors(domain: Domain, factors: &[f32]) -> PatchFactors {
             PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
         }
         _ => unreachable!("as many factors as the domain has"),
+    }
+}
+
+/// The model's values in C's structures, field by field and not by the conversions under test.
+pub(super) fn point(point: DomainPoint) -> TessPoint {
+    TessPoint { u: point.u.to_bits(), v: point.v.to_bits() }
+}
+
+pub(super) fn counts(counts: Counts) -> TessCounts {
+    TessCounts { points: counts.points, primitives: counts.primitives, indices: counts.indices }
+}
+
+pub(super) fn context(context: FactorContext) -> TessContext {
+    TessContext {
+        parity: u32::from(context.parity == Parity::Odd),
+        inv_floor: context.inv_floor,
+        inv_ceil: context.inv_ceil,
+        fraction: context.fraction,
+        half_points: context.half_points,
+        split: context.split,
+        points: context.points,
     }
 }

@@ -1,6 +1,6 @@
 //! One patch and its probes against the model.
 
-use super::samples::{patch_factors, samples};
+use super::samples::{self, patch_factors, samples};
 use std::ffi::CStr;
 use tess_capi::patch::{tess_count, tess_patch};
 use tess_capi::prepare::{TessPreparation, tess_prepare};
@@ -31,7 +31,7 @@ fn whole_patches() {
         let (factors, n) = (s.factors.as_ptr(), s.factors.len());
         let mut counts = TessCounts::default();
         assert_eq!(unsafe { tess_count(&s.config, factors, n, &mut counts) }, TESS_OK, "count");
-        assert_eq!(counts, s.patch.counts().into(), "{:?} {:?}", s.config, s.factors);
+        assert_eq!(counts, samples::counts(s.patch.counts()), "{:?} {:?}", s.config, s.factors);
 
         points.fill(TessPoint { u: 7, v: 7 });
         indices.fill(u32::MAX);
@@ -45,7 +45,7 @@ fn whole_patches() {
         assert_eq!((status, written), (TESS_OK, counts), "patch");
         let whole = s.patch.tessellate();
         let (point_count, index_count) = (whole.points.len(), whole.indices.len());
-        let expected: Vec<TessPoint> = whole.points.into_iter().map(TessPoint::from).collect();
+        let expected: Vec<TessPoint> = whole.points.into_iter().map(samples::point).collect();
         assert_eq!(points[..point_count], expected, "points of {:?} {:?}", s.config, s.factors);
         assert_eq!(indices[..index_count], whole.indices, "indices of {:?}", s.factors);
         assert!(points[point_count..].iter().all(|p| p.u == 7 && p.v == 7), "points behind");
@@ -62,7 +62,7 @@ fn elements_and_their_locations() {
         for i in (0..counts.points).step_by(step(counts.points)) {
             let (mut point, mut location) = (TessPoint::default(), TessPointLocation::default());
             let status = unsafe { tess_point(&s.config, factors, n, i, &mut point) };
-            assert_eq!((status, Some(point)), (TESS_OK, s.patch.point(i).map(TessPoint::from)));
+            assert_eq!((status, Some(point)), (TESS_OK, s.patch.point(i).map(samples::point)));
             let status = unsafe { tess_locate_point(&s.config, factors, n, i, &mut location) };
             assert_eq!(status, TESS_OK, "location of point {i}");
             assert_eq!(s.patch.locate_point(i), Some(point_location(location)), "point {i}");
@@ -143,7 +143,7 @@ fn processed_factors_contexts_and_places() {
             assert_eq!(ours.clamped, model.clamped, "clamped of {:?}", s.factors);
             assert_eq!(ours.rounded, model.rounded, "rounded of {:?}", s.factors);
             assert_eq!(ours.fixed, model.fixed.to_bits(), "fixed of {:?}", s.factors);
-            assert_eq!(ours.context, model.context.into(), "context of {:?}", s.factors);
+            assert_eq!(ours.context, samples::context(model.context), "context of {:?}", s.factors);
             let context = &ours.context;
             let mut again = TessContext::default();
             let split = s.config.split;
