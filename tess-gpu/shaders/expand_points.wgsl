@@ -11,6 +11,10 @@
 var<workgroup> runs: array<u32, TILE>;
 var<workgroup> run_patches: array<u32, TILE>;
 
+fn context_of(patch_index: u32, context: u32) -> vec2<u32> {
+    return contexts[context * job.stride + patch_index];
+}
+
 fn lay_down_runs(tile: Tile, patch_index: u32, lane: u32, lanes: u32) {
     let topology = topologies[patch_index];
     let offset = patch_offset(patch_index).x;

@@ -55,10 +55,6 @@ fn make_run(fixed: u32, first: u32, descends: bool, form: u32, context: u32) -> 
         | (context << 27u);
 }
 
-fn context_of(patch_index: u32, context: u32) -> vec2<u32> {
-    return contexts[context * job.stride + patch_index];
-}
-
 fn describe_run(patch_index: u32, topology: vec2<u32>, run: u32) -> u32 {
     if DOMAIN == ISOLINE {
         return make_run(place(context_of(patch_index, 0u), run), 0u, false, FORM_Q_FIXED, 1u);

@@ -39,5 +39,5 @@ pub mod tables;
 
 pub use bindings::{Access, Binding, Resource};
 pub use setup::{Numbering, PointFormat, Setup};
-pub use shaders::Stage;
+pub use shaders::{Probe, Pull, Stage};
 pub use sizes::{Capacity, Limits, Plan};

@@ -80,13 +80,48 @@ impl Tessellator {
 
 fn make_pipeline(device: &wgpu::Device, stage: Stage, source: &str) -> wgpu::ComputePipeline {
     let label = Some(stage.entry_point());
+    let entries: Vec<_> = (0..).zip(stage.bindings()).map(layout_entry).collect();
+    compute_pipeline(device, label, source, &entries)
+}
+
+/// The pipeline of a probe's source, and its buffers bound.
+pub(crate) fn probe_pipeline(
+    device: &wgpu::Device,
+    source: &str,
+    buffers: &[wgpu::Buffer; 3],
+) -> (wgpu::ComputePipeline, wgpu::BindGroup) {
+    let label = Some("probes");
+    let accesses = [Access::Read, Access::ReadWrite, Access::Read];
+    let bindings = accesses.map(|access| Binding(Resource::Tables, access));
+    let entries: Vec<_> = (0..).zip(&bindings).map(layout_entry).collect();
+    let pipeline = compute_pipeline(device, label, source, &entries);
+    let entries: Vec<_> = (0..)
+        .zip(buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &entries,
+    });
+    (pipeline, group)
+}
+
+fn compute_pipeline(
+    device: &wgpu::Device,
+    label: Option<&str>,
+    source: &str,
+    entries: &[wgpu::BindGroupLayoutEntry],
+) -> wgpu::ComputePipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label,
         source: wgpu::ShaderSource::Wgsl(source.into()),
     });
-    let entries: Vec<_> = (0..).zip(stage.bindings()).map(layout_entry).collect();
-    let group = device
-        .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries: &entries });
+    let group =
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries });
     let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label,
         bind_group_layouts: &[Some(&group)],

@@ -178,3 +178,105 @@ fn any_factors(mut setup: Setup) -> Setup {
     setup.config.split = SplitOrder::Ruler;
     setup
 }
+
+/// A shader that runs one step alone, for comparing it with the golden model's. Binding 0 is what
+/// goes in, 1 what comes out, 2 the [`crate::tables`]; the entry point is `probes`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Probe {
+    /// Four words of a triangle patch's factors to its fixed-point u = 0 and inside factors.
+    Factors,
+    /// A 15.16 factor and its parity (1 is odd) to its packed context.
+    Contexts,
+    /// A packed context to 65 words of locations, as many of them written as it has points.
+    Locations,
+}
+
+impl Probe {
+    /// Every probe.
+    pub const ALL: [Self; 3] = [Self::Factors, Self::Contexts, Self::Locations];
+
+    /// Words of input and of output of one probe.
+    #[must_use]
+    pub const fn words(self) -> (u32, u32) {
+        match self {
+            Self::Factors => (4, 2),
+            Self::Contexts => (2, 2),
+            Self::Locations => (2, 65),
+        }
+    }
+
+    /// Its WGSL, a whole module.
+    #[must_use]
+    pub fn source(self, setup: Setup) -> String {
+        let parts: &[&str] = match self {
+            Self::Factors => &[
+                part!("state"),
+                part!("fixed_point"),
+                part!("d3d_float"),
+                part!("process"),
+                part!("make_context"),
+                part!("topology"),
+                part!("probe_factors"),
+            ],
+            Self::Contexts => &[
+                part!("state"),
+                part!("fixed_point"),
+                part!("make_context"),
+                part!("probe_contexts"),
+            ],
+            Self::Locations => &[
+                part!("state"),
+                part!("fixed_point"),
+                part!("factor_context"),
+                part!("place"),
+                part!("probe_locations"),
+            ],
+        };
+        setup.prelude() + &parts.concat() + part!("probe")
+    }
+}
+
+/// WGSL that a user's own shader includes to compute any point or primitive of a patch from its
+/// number alone, in constant time, so that nothing needs to be written out for drawing.
+///
+/// It declares `topologies`, `contexts` (as a batch of one chunk leaves them) and `tables` as
+/// read-only storage buffers, and offers
+/// - `tess_point(patch_index, i) -> vec2<u32>`: u and v as 16.16 numbers,
+/// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
+/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the patch's own indices, as many as a
+///   primitive has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Pull {
+    /// Bind group of the three buffers.
+    pub group: u32,
+    /// Binding of `topologies`; `contexts` and `tables` follow.
+    pub first_binding: u32,
+}
+
+impl Pull {
+    /// The WGSL, to stand in front of the user's.
+    #[must_use]
+    pub fn source(self, setup: Setup) -> String {
+        let declare = |offset: u32, name: &str, of: &str| {
+            let (group, binding) = (self.group, self.first_binding + offset);
+            format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
+        };
+        let bindings = declare(0, "topologies", "vec2<u32>")
+            + &declare(1, "contexts", "vec2<u32>")
+            + &declare(2, "tables", "u32")
+            + &format!("const FACTORS = {}u;\n", setup.factors());
+        let parts = [
+            part!("state"),
+            part!("fixed_point"),
+            part!("factor_context"),
+            part!("place"),
+            part!("topology"),
+            part!("counts"),
+            part!("points"),
+            part!("connect"),
+            part!("stitch"),
+            part!("locate"),
+        ];
+        setup.prelude() + &bindings + &parts.concat()
+    }
+}

@@ -191,6 +191,17 @@ impl Plan {
         self.region(chunk, 8 * u64::from(entries))
     }
 
+    /// The entries of the buffer of offsets whose sum is where a patch's output begins: its own,
+    /// its block's and its group's. Each is a number of points and one of primitives.
+    #[must_use]
+    pub fn offset_entries(&self, patch: u32) -> [u64; 3] {
+        let job = self.job(patch / self.chunk_patches);
+        let in_chunk = patch % self.chunk_patches;
+        let first = self.offsets(job.chunk).offset / 8;
+        [in_chunk, job.blocks_at + in_chunk / BLOCK, job.groups_at + in_chunk / GROUP]
+            .map(|entry| first + u64::from(entry))
+    }
+
     fn region(&self, chunk: u32, size: u64) -> Span {
         Span { offset: u64::from(chunk) * size.next_multiple_of(ALIGNMENT), size }
     }

@@ -4,8 +4,7 @@ mod common;
 
 use common::{all_configs, device::Machine};
 use tess_check::random::SplitMix64;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_gpu::{Numbering, PointFormat, Setup};
+use tess_gpu::Setup;
 
 /// Random patches of each configuration, through the whole pipeline.
 #[test]
@@ -18,16 +17,16 @@ fn random_patches_in_every_configuration() {
     }
 }
 
+/// As many patches per configuration as a night has time for.
 #[test]
-fn quads_first() {
+#[ignore = "hours in software: cargo test -p tess-gpu --features wgpu --test exact -- --ignored"]
+fn a_hundred_thousand_patches_in_every_configuration() {
     let mut machine = Machine::open();
-    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-    let setup = Setup {
-        point_format: PointFormat::Float,
-        numbering: Numbering::PerPatch,
-        ..Setup::new(Domain::Quad, config)
-    };
-    let mut random = SplitMix64::new(2);
-    let patches = common::patches::random(Domain::Quad, 50, &mut random);
-    machine.assert_equal(setup, &patches);
+    let mut random = SplitMix64::new(6);
+    for (domain, config) in all_configs() {
+        for _ in 0..100 {
+            let patches = common::patches::random(domain, 1000, &mut random);
+            machine.assert_equal(Setup::new(domain, config), &patches);
+        }
+    }
 }

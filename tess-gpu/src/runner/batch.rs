@@ -263,7 +263,7 @@ fn all_jobs(plan: &Plan) -> Vec<u8> {
     let mut bytes = Vec::new();
     for job in &jobs {
         bytes.extend_from_slice(bytemuck::bytes_of(job));
-        bytes.resize(bytes.len().next_multiple_of(ALIGNMENT as usize), 0);
+        bytes.extend_from_slice(&[0; PADDING]);
     }
     bytes
 }
@@ -372,5 +372,7 @@ fn job_span(job: u32) -> Span {
     Span { offset: ALIGNMENT * u64::from(job), size: size_of::<Job>() as u64 }
 }
 
-const _: () = assert!(size_of::<Job>() as u64 <= ALIGNMENT, "jobs don't overlap");
+/// Bytes between two jobs.
+const PADDING: usize = 192;
+const _: () = assert!((size_of::<Job>() + PADDING) as u64 == ALIGNMENT, "jobs are aligned");
 const _: () = assert!(size_of::<Status>() == 32, "ranges follow the status at once");

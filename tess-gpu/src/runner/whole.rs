@@ -3,6 +3,7 @@
 use crate::layout::{DrawIndexed, Status, factor_words};
 use crate::runner::{Batch, Gpu, Outputs, Tessellator};
 use crate::setup::Setup;
+use crate::shaders::Probe;
 use tess_core::PatchFactors;
 
 /// A batch's output, read back.
@@ -12,6 +13,8 @@ pub struct Output {
     pub status: Status,
     /// The draw arguments.
     pub draw: DrawIndexed,
+    /// Where each patch's output begins: its first point and its first primitive.
+    pub begins: Vec<[u32; 2]>,
     /// The points, two words each: see [`crate::PointFormat`].
     pub points: Vec<[u32; 2]>,
     /// The indices.
@@ -51,10 +54,63 @@ impl Tessellator {
         Ok(Output {
             status,
             draw: bytemuck::pod_read_unaligned(&draw),
+            begins: begins(gpu, &batch)?,
             points: bytemuck::pod_collect_to_vec(&gpu.read(&point_buffer, 8 * needed.points())?),
             indices: bytemuck::pod_collect_to_vec(&gpu.read(&index_buffer, 4 * indices)?),
         })
     }
+}
+
+impl Tessellator {
+    /// Runs a probe over `input`, whose length is a multiple of the probe's.
+    ///
+    /// # Errors
+    /// A message if the device was lost.
+    pub fn probe(
+        &mut self,
+        gpu: &Gpu,
+        probe: Probe,
+        setup: Setup,
+        input: &[u32],
+    ) -> Result<Vec<u32>, String> {
+        use wgpu::BufferUsages as Usage;
+        let (words_in, words_out) = probe.words();
+        let count = input.len() as u64 / u64::from(words_in);
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let size = 4 * count * u64::from(words_out);
+        let output = gpu.buffer("probes", size, Usage::STORAGE | Usage::COPY_SRC);
+        let buffers = [
+            gpu.upload("input", bytemuck::cast_slice(input), Usage::STORAGE),
+            output.clone(),
+            self.tables(setup.config.split),
+        ];
+        let (pipeline, group) = super::probe_pipeline(&gpu.device, &probe.source(setup), &buffers);
+        let workgroups = u32::try_from(count.div_ceil(64)).map_err(|error| error.to_string())?;
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups(workgroups.min(65535), workgroups.div_ceil(65535), 1);
+        }
+        gpu.run(encoder)?;
+        Ok(bytemuck::pod_collect_to_vec(&gpu.read(&output, size)?))
+    }
+}
+
+/// Where each patch's output begins.
+fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, String> {
+    let bytes = gpu.read(batch.offsets(), batch.offsets().size())?;
+    let offsets: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&bytes[..bytes.len() / 8 * 8]);
+    let at = |entry: u64| usize::try_from(entry).ok().and_then(|entry| offsets.get(entry));
+    let sum = |[points, primitives]: [u32; 2], entry: u64| {
+        let [more_points, more_primitives] = at(entry).copied().unwrap_or_default();
+        [points.wrapping_add(more_points), primitives.wrapping_add(more_primitives)]
+    };
+    let begin = |patch| batch.plan().offset_entries(patch).into_iter().fold([0; 2], sum);
+    Ok((0..batch.plan().patches()).map(begin).collect())
 }
 
 /// Runs a batch; returns its status.

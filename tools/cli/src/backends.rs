@@ -2,6 +2,11 @@
 //!
 //! One adapter per backend, each an implementation of [`Backend`].
 
+#[cfg(feature = "gpu")]
+pub mod gpu;
+
+pub mod simd;
+
 use crate::failure::Failure;
 use clap::ValueEnum;
 use tess_check::backend::Backend;
@@ -48,7 +53,10 @@ impl BackendArgs {
     pub fn select_named(&self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
         match name {
             BackendName::Core => Ok(Box::new(CoreBackend)),
-            BackendName::Simd => Err(not_built_in("simd")),
+            BackendName::Simd => Ok(Box::new(simd::Simd::new())),
+            #[cfg(feature = "gpu")]
+            BackendName::Gpu => Ok(Box::new(gpu::GpuBackend::open()?)),
+            #[cfg(not(feature = "gpu"))]
             BackendName::Gpu => Err(not_built_in("gpu")),
         }
     }

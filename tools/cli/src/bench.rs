@@ -1,8 +1,11 @@
 //! Timing: what a backend must offer to be timed, and how it is measured.
 
 mod core;
+#[cfg(feature = "gpu")]
+mod gpu;
 mod measure;
 pub mod parts;
+mod simd;
 mod table;
 
 use crate::backends::{BackendName, not_built_in};
@@ -113,7 +116,10 @@ pub struct RunnerOptions {
 pub fn runner(name: BackendName, options: RunnerOptions) -> Result<Box<dyn Runner>, Failure> {
     match name {
         BackendName::Core => Ok(Box::new(core::CoreRunner::new(options)?)),
-        BackendName::Simd => Err(not_built_in("simd")),
+        BackendName::Simd => simd::runner(options),
+        #[cfg(feature = "gpu")]
+        BackendName::Gpu => Ok(Box::new(gpu::GpuRunner::new(options)?)),
+        #[cfg(not(feature = "gpu"))]
         BackendName::Gpu => Err(not_built_in("gpu")),
     }
 }

@@ -1,0 +1,131 @@
+//! The compute shaders as a backend.
+
+use crate::failure::Failure;
+use tess_check::backend::{Backend, BackendError};
+use tess_core::state::{Parity, SplitOrder};
+use tess_core::{
+    Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Partitioning,
+    PatchFactors, Tessellation,
+};
+use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
+use tess_gpu::runner::{Gpu, Output, Tessellator};
+use tess_gpu::{Numbering, Probe, Setup};
+
+/// `tess-gpu` on the first adapter that there is, with WebGPU's default limits.
+#[derive(Debug)]
+pub struct GpuBackend {
+    gpu: Gpu,
+    tessellator: Tessellator,
+}
+
+impl GpuBackend {
+    /// Opens the adapter.
+    ///
+    /// # Errors
+    /// Exit code 3 if there is none.
+    pub fn open() -> Result<Self, Failure> {
+        let gpu = pollster::block_on(Gpu::open())
+            .map_err(|error| Failure::unavailable(error.to_string()))?;
+        let tessellator = Tessellator::new(&gpu.device);
+        Ok(Self { gpu, tessellator })
+    }
+
+    fn probe(
+        &mut self,
+        probe: Probe,
+        partitioning: Partitioning,
+        split: SplitOrder,
+        input: &[u32],
+    ) -> Result<Vec<u32>, BackendError> {
+        let config = Config { split, ..Config::new(partitioning, OutputPrimitive::Point) };
+        let setup = Setup::new(Domain::Triangle, config);
+        self.tessellator.probe(&self.gpu, probe, setup, input).map_err(BackendError::new)
+    }
+}
+
+impl Backend for GpuBackend {
+    fn name(&self) -> &'static str {
+        "gpu"
+    }
+
+    fn device(&self) -> String {
+        self.gpu.name()
+    }
+
+    fn tessellate(
+        &mut self,
+        config: Config,
+        patches: &[PatchFactors],
+    ) -> Result<Vec<Tessellation>, BackendError> {
+        let Some(first) = patches.first() else { return Ok(Vec::new()) };
+        let setup =
+            Setup { numbering: Numbering::PerPatch, ..Setup::new(first.domain(), config) };
+        let output = self.tessellator.tessellate(&self.gpu, setup, patches);
+        split_by_patch(&output.map_err(BackendError::new)?, setup)
+    }
+
+    fn fixed_factors(
+        &mut self,
+        partitioning: Partitioning,
+        values: &[f32],
+    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+        let patch = |x: &f32| [x.to_bits(), 3f32.to_bits(), 3f32.to_bits(), x.to_bits()];
+        let input: Vec<u32> = values.iter().flat_map(patch).collect();
+        let words = self.probe(Probe::Factors, partitioning, SplitOrder::Ruler, &input)?;
+        Ok(words.as_chunks().0.iter().map(|pair| pair.map(FixedFactor::from_bits)).collect())
+    }
+
+    fn contexts(
+        &mut self,
+        split: SplitOrder,
+        parity: Parity,
+        factors: &[FixedFactor],
+    ) -> Result<Vec<FactorContext>, BackendError> {
+        let pair = |factor: &FixedFactor| [factor.to_bits(), parity.odd()];
+        let input: Vec<u32> = factors.iter().flat_map(pair).collect();
+        let words = self.probe(Probe::Contexts, Partitioning::Integer, split, &input)?;
+        Ok(words.as_chunks().0.iter().copied().map(unpack_context).collect())
+    }
+
+    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+        let input: Vec<u32> = contexts.iter().flat_map(pack_context).collect();
+        let words =
+            self.probe(Probe::Locations, Partitioning::Integer, SplitOrder::Ruler, &input)?;
+        let all = words.as_chunks::<65>().0.iter().zip(contexts);
+        Ok(all.flat_map(|(all, context)| all.iter().copied().take(context.points as usize)).collect())
+    }
+}
+
+/// The patches of a batch, one after another, as the specification numbers them.
+pub(crate) fn split_by_patch(output: &Output, setup: Setup) -> Result<Vec<Tessellation>, BackendError> {
+    let each = setup.indices_per_primitive() as usize;
+    let end = [output.points.len(), output.indices.len() / each];
+    let begins = output.begins.iter().map(|begin| begin.map(|element| element as usize));
+    let ends = begins.clone().skip(1).chain([end]);
+    begins
+        .zip(ends)
+        .enumerate()
+        .map(|(number, (begin, end))| {
+            let points = output.points.get(begin[0]..end[0]);
+            let indices = output.indices.get(begin[1] * each..end[1] * each);
+            let (Some(points), Some(indices)) = (points, indices) else {
+                return Err(BackendError::new(format!(
+                    "patch {number} lies at {begin:?}..{end:?}, outside of the output"
+                )));
+            };
+            let points = points.iter().map(|&words| own_point(number, words));
+            Ok(Tessellation { points: points.collect::<Result<_, _>>()?, indices: indices.to_vec() })
+        })
+        .collect()
+}
+
+/// The point of these words, which must say that they belong to this patch.
+fn own_point(patch: usize, words: [u32; 2]) -> Result<DomainPoint, BackendError> {
+    let packed = PackedPoint(words);
+    if packed.patch() as usize == patch {
+        Ok(packed.point())
+    } else {
+        let other = packed.patch();
+        Err(BackendError::new(format!("a point of patch {patch} says it is of patch {other}")))
+    }
+}

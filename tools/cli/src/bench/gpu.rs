@@ -1,0 +1,192 @@
+//! The compute shaders under the clock of their device.
+
+use super::{Amount, Runner, RunnerOptions, WorkingSet};
+use crate::backends::gpu::split_by_patch;
+use crate::bench::measure::total;
+use crate::failure::Failure;
+use fill::Fill;
+use std::ops::Range;
+use std::time::Duration;
+use tess_check::backend::BackendError;
+use tess_check::digest::Fnv1a;
+use tess_check::workloads::{IndexType, Totals, Workload};
+use tess_core::{Counts, PatchFactors};
+use tess_gpu::layout::factor_words;
+use tess_gpu::runner::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+use tess_gpu::{Numbering, Setup};
+
+mod fill;
+
+/// Batches that are submitted together, so that a part is long enough for a clock.
+const BATCHES_PER_PART: usize = 64;
+
+/// Everything from factors to draw arguments, on the device.
+#[derive(Debug)]
+pub(super) struct GpuRunner {
+    gpu: Gpu,
+    stopwatch: Stopwatch,
+    tessellator: Tessellator,
+    fill: Fill,
+    workload: Option<(Setup, Vec<PatchFactors>)>,
+    batches: Vec<Timed>,
+}
+
+/// A batch, what it amounts to, and the bind groups that fill its bytes.
+#[derive(Debug)]
+struct Timed {
+    batch: Batch,
+    amount: Amount,
+    fills: Vec<fill::Span>,
+}
+
+impl GpuRunner {
+    pub(super) fn new(options: RunnerOptions) -> Result<Self, Failure> {
+        if options.threads != 1 || options.index_type != IndexType::U32 {
+            return Err(Failure::bad_input(
+                "backend gpu is run by one thread (--threads 1) with --index-type u32",
+            ));
+        }
+        let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
+            .map_err(|error| Failure::unavailable(error.to_string()))?;
+        let stopwatch = Stopwatch::new(&gpu).ok_or_else(|| {
+            Failure::unavailable(format!("{} has no timestamps to measure with", gpu.name()))
+        })?;
+        let tessellator = Tessellator::new(&gpu.device);
+        let fill = Fill::new(&gpu);
+        Ok(Self { gpu, stopwatch, tessellator, fill, workload: None, batches: Vec::new() })
+    }
+
+    fn timed(
+        &mut self,
+        setup: Setup,
+        patches: &[PatchFactors],
+        outputs: (&wgpu::Buffer, &wgpu::Buffer),
+        amount: (Totals, u64),
+    ) -> Result<Timed, BackendError> {
+        let (totals, repeats) = amount;
+        let words = factor_words(patches).repeat(usize::try_from(repeats).unwrap_or(1));
+        let usage = wgpu::BufferUsages::STORAGE;
+        let factors = self.gpu.upload("factors", words_as_bytes(&words).as_slice(), usage);
+        let (points, indices) = outputs;
+        let count = u32::try_from(totals.patches * repeats)
+            .map_err(|_| BackendError::new("more patches than 32 bits count"))?;
+        let batch = self
+            .tessellator
+            .batch(setup, count, &factors, Outputs::Buffers { points, indices })
+            .map_err(|error| BackendError::new(error.to_string()))?;
+        let spans = [(points, 8 * totals.points), (indices, 4 * totals.indices)];
+        Ok(Timed {
+            batch,
+            amount: Amount {
+                patches: totals.patches * repeats,
+                triangles: totals.primitives * repeats,
+                bytes: totals.bytes(IndexType::U32) * repeats,
+            },
+            fills: spans
+                .into_iter()
+                .flat_map(|(buffer, bytes)| self.fill.spans(&self.gpu, buffer, bytes * repeats))
+                .collect(),
+        })
+    }
+
+    fn outputs(&self, points: u64, indices: u64) -> (wgpu::Buffer, wgpu::Buffer) {
+        let usage = wgpu::BufferUsages::STORAGE;
+        let buffer = |label, bytes: u64| self.gpu.buffer(label, bytes.next_multiple_of(16), usage);
+        (buffer("points", 8 * points), buffer("indices", 4 * indices))
+    }
+
+    fn part(&self, part: usize) -> &[Timed] {
+        let first = part * BATCHES_PER_PART;
+        &self.batches[first..(first + BATCHES_PER_PART).min(self.batches.len())]
+    }
+}
+
+impl Runner for GpuRunner {
+    fn backend(&self) -> &'static str {
+        "gpu"
+    }
+
+    fn level(&self) -> String {
+        self.gpu.name()
+    }
+
+    fn threads(&self) -> u32 {
+        1
+    }
+
+    fn index_type(&self) -> IndexType {
+        IndexType::U32
+    }
+
+    fn prepare(
+        &mut self,
+        workload: &Workload,
+        working_set: WorkingSet,
+    ) -> Result<Vec<Amount>, BackendError> {
+        let first = workload.patches.first().ok_or_else(|| BackendError::new("no patches"))?;
+        let numbering = Numbering::PerPatch;
+        let setup = Setup { numbering, ..Setup::new(first.domain(), workload.config) };
+        let counts: Vec<_> = workload.counts().collect();
+        let (ranges, repeats) = match working_set {
+            WorkingSet::Cache => (workload.cache_batches(IndexType::U32), 1),
+            WorkingSet::Stream => {
+                (vec![0..workload.patches.len()], workload.stream_repeats(IndexType::U32))
+            }
+        };
+        let totals: Vec<_> = ranges.iter().map(|range| totals(&counts, range)).collect();
+        let most = |figure: fn(&Totals) -> u64| totals.iter().map(figure).max().unwrap_or(0);
+        let (points, indices) = self.outputs(
+            most(|totals| totals.points) * repeats,
+            most(|totals| totals.indices) * repeats,
+        );
+        self.batches.clear();
+        for (range, &totals) in ranges.iter().zip(&totals) {
+            let patches = &workload.patches[range.clone()];
+            let timed = self.timed(setup, patches, (&points, &indices), (totals, repeats))?;
+            self.batches.push(timed);
+        }
+        self.workload = Some((setup, workload.patches.clone()));
+        let parts = self.batches.chunks(BATCHES_PER_PART);
+        Ok(parts.map(|part| total(part.iter().map(|timed| timed.amount))).collect())
+    }
+
+    fn digest(&mut self) -> Result<u64, BackendError> {
+        let (setup, patches) =
+            self.workload.as_ref().ok_or_else(|| BackendError::new("nothing is prepared"))?;
+        let output = self.tessellator.tessellate(&self.gpu, *setup, patches);
+        let mut digest = Fnv1a::new();
+        for patch in split_by_patch(&output.map_err(BackendError::new)?, *setup)? {
+            digest.patch(&patch);
+        }
+        Ok(digest.finish())
+    }
+
+    fn run(&mut self, part: usize) -> Result<Duration, BackendError> {
+        let time = self.stopwatch.time(&self.gpu, |encoder| {
+            self.part(part).iter().for_each(|timed| timed.batch.encode(encoder));
+        });
+        time.map(Duration::from_nanos).map_err(BackendError::new)
+    }
+
+    fn fill(&mut self, part: usize) -> Result<Duration, BackendError> {
+        let time = self.stopwatch.time(&self.gpu, |encoder| {
+            self.part(part).iter().for_each(|timed| self.fill.encode(encoder, &timed.fills));
+        });
+        time.map(Duration::from_nanos).map_err(BackendError::new)
+    }
+}
+
+fn totals(counts: &[Counts], range: &Range<usize>) -> Totals {
+    let counts = &counts[range.clone()];
+    let sum = |figure: fn(&Counts) -> u32| counts.iter().map(|c| u64::from(figure(c))).sum();
+    Totals {
+        patches: range.len() as u64,
+        points: sum(|counts| counts.points),
+        primitives: sum(|counts| counts.primitives),
+        indices: sum(|counts| counts.indices),
+    }
+}
+
+fn words_as_bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_ne_bytes()).collect()
+}
