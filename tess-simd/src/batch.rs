@@ -152,14 +152,17 @@ fn load_structures<F, const N: usize>(
     let mut column = [0.0; LANES * MAX_FACTORS];
     let patches = patches.get(first..).unwrap_or_default();
     if let Some(patches) = patches.first_chunk::<LANES>() {
-        let rows = patches.each_ref().map(factors);
-        for (i, value) in column[..LANES * N].iter_mut().enumerate() {
-            *value = rows[i % LANES][i / LANES];
+        for (lane, patch) in patches.iter().enumerate() {
+            let row = factors(patch);
+            for factor in 0..N {
+                column[factor * LANES + lane] = row[factor];
+            }
         }
     } else {
         for (lane, patch) in patches.iter().enumerate() {
-            for (factor, value) in factors(patch).into_iter().enumerate() {
-                column[factor * LANES + lane] = value;
+            let row = factors(patch);
+            for factor in 0..N {
+                column[factor * LANES + lane] = row[factor];
             }
         }
     }

@@ -38,20 +38,15 @@ pub(crate) fn emit<I: IndexFormat>(
 
 /// Emits all indices in order.
 #[inline(always)]
-pub(crate) fn sequence<I: IndexFormat>(base: u32, points: u32, out: &mut Writer<'_, I>) {
-    out.count(points as usize, |first| block(base.wrapping_add(first), |k| k));
+fn sequence<I: IndexFormat>(base: u32, points: u32, out: &mut Writer<'_, I>) {
+    out.count::<STEP>(points as usize, |number| I::wrapping_from(base.wrapping_add(number)));
 }
 
 /// Emits the lines that join points in order.
 #[inline(always)]
-pub(crate) fn chain<I: IndexFormat>(base: u32, points: u32, out: &mut Writer<'_, I>) {
+fn chain<I: IndexFormat>(base: u32, points: u32, out: &mut Writer<'_, I>) {
     let indices = 2 * (points as usize).saturating_sub(1);
-    out.count(indices, |first| block(base.wrapping_add(first / 2), |k| k / 2 + k % 2));
-}
-
-/// Indices that are an offset each from the first.
-#[inline(always)]
-fn block<I: IndexFormat>(first: u32, offset: impl Fn(u32) -> u32) -> [I; STEP] {
-    let first = I::wrapping_from(first);
-    core::array::from_fn(|k| first.wrapping_add(I::wrapping_from(offset(k as u32))))
+    out.count::<STEP>(indices, |number| {
+        I::wrapping_from(base.wrapping_add(number / 2 + number % 2))
+    });
 }

@@ -1,8 +1,7 @@
 //! Output sizes of eight patches, by formula (spec section 12.6).
 
-use crate::factor_context::Contexts;
 use crate::factors::Processed;
-use crate::lanes::{LANES, Lanes, factor, outer_factors};
+use crate::lanes::{Column, LANES, Lanes, factor, is_odd, outer_factors};
 use tess_core::{Config, Domain, OutputPrimitive};
 
 /// Points and indices of each patch of a block.
@@ -18,11 +17,11 @@ pub(crate) fn counts(
     config: Config,
     domain: Domain,
     processed: &Processed,
-    contexts: &Contexts,
+    points: &Column,
 ) -> BlockCounts {
     let mut counts = BlockCounts { points: [0; LANES], indices: [0; LANES] };
     for lane in 0..LANES {
-        let n = |f: usize| factor(&contexts.points, f)[lane];
+        let n = |f: usize| factor(points, f)[lane];
         let minimum = processed.minimum[lane] == 1;
         let boundary: u32 = (0..outer_factors(domain)).map(|edge| n(edge).wrapping_sub(1)).sum();
         let (points, lines, triangles) = match domain {
@@ -32,7 +31,7 @@ pub(crate) fn counts(
             }
             Domain::Triangle => {
                 let half = n(3) / 2;
-                let odd = factor(&contexts.odd, 3)[lane] == 1;
+                let odd = is_odd(n(3));
                 let rings = 3 * half.wrapping_sub(1);
                 let interior = if odd { rings * half.wrapping_sub(1) } else { rings * half + 1 };
                 disc(boundary, if minimum { 0 } else { interior })

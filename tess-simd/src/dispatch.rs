@@ -4,61 +4,79 @@ use crate::batch::Batch;
 use crate::format::{IndexFormat, PointFormat};
 use crate::level::Level;
 use crate::part::{self, Part, PartCounts};
+use crate::probe;
 use crate::stitch::Stitches;
+use alloc::vec::Vec;
 use multiversion::multiversion;
-use tess_core::Config;
+use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 
-/// [`part::count`] at a level.
-pub(crate) fn count(level: Level, config: Config, batch: &Batch<'_>) -> PartCounts {
-    match level {
-        Level::Baseline => part::count(config, batch),
-        Level::Avx2 => count_avx2(config, batch),
-        Level::Avx512 => count_avx512(config, batch),
-    }
+/// Defines a function that runs `$kernel` at a level: one instance for each, which the level's
+/// availability was checked for ([`Level::is_available`] asks for the same instructions).
+macro_rules! at_each_level {
+    (
+        $(#[$doc:meta])*
+        fn $name:ident $(<$($type:ident: $bound:ident),*>)? ($($arg:ident: $arg_type:ty),* $(,)?)
+            $(-> $result:ty)? = $kernel:path;
+    ) => {
+        $(#[$doc])*
+        pub(crate) fn $name $(<$($type: $bound),*>)? (level: Level, $($arg: $arg_type),*)
+            $(-> $result)?
+        {
+            #[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
+            fn avx2 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
+                $kernel($($arg),*)
+            }
+
+            #[multiversion(targets(
+                "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
+            ))]
+            fn avx512 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
+                $kernel($($arg),*)
+            }
+
+            match level {
+                Level::Baseline => $kernel($($arg),*),
+                Level::Avx2 => avx2($($arg),*),
+                Level::Avx512 => avx512($($arg),*),
+            }
+        }
+    };
 }
 
-/// [`part::emit`] at a level.
-pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
-    level: Level,
-    config: Config,
-    stitches: &Stitches,
-    part: Part<'_, P, I>,
-) {
-    match level {
-        Level::Baseline => part::emit(config, stitches, part),
-        Level::Avx2 => emit_avx2(config, stitches, part),
-        Level::Avx512 => emit_avx512(config, stitches, part),
-    }
+at_each_level! {
+    /// [`part::count`] at a level.
+    fn count(config: Config, batch: &Batch<'_>) -> PartCounts = part::count;
 }
 
-#[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
-fn count_avx2(config: Config, batch: &Batch<'_>) -> PartCounts {
-    part::count(config, batch)
+at_each_level! {
+    /// [`part::emit`] at a level.
+    fn emit<P: PointFormat, I: IndexFormat>(
+        config: Config,
+        stitches: &Stitches,
+        part: Part<'_, P, I>,
+    ) = part::emit;
 }
 
-#[multiversion(targets(
-    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
-))]
-fn count_avx512(config: Config, batch: &Batch<'_>) -> PartCounts {
-    part::count(config, batch)
+at_each_level! {
+    /// [`probe::fixed_factors`] at a level.
+    fn fixed_factors(
+        partitioning: Partitioning,
+        values: &[f32],
+        factors: &mut [[FixedFactor; 2]],
+    ) = probe::fixed_factors_kernel;
 }
 
-#[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
-fn emit_avx2<P: PointFormat, I: IndexFormat>(
-    config: Config,
-    stitches: &Stitches,
-    part: Part<'_, P, I>,
-) {
-    part::emit(config, stitches, part);
+at_each_level! {
+    /// [`probe::contexts`] at a level.
+    fn contexts(
+        split: SplitOrder,
+        parity: Parity,
+        factors: &[FixedFactor],
+        contexts: &mut [FactorContext],
+    ) = probe::contexts_kernel;
 }
 
-#[multiversion(targets(
-    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
-))]
-fn emit_avx512<P: PointFormat, I: IndexFormat>(
-    config: Config,
-    stitches: &Stitches,
-    part: Part<'_, P, I>,
-) {
-    part::emit(config, stitches, part);
+at_each_level! {
+    /// [`probe::locations`] at a level.
+    fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) = probe::locations_kernel;
 }

@@ -5,6 +5,8 @@
 //! by whatever comes next, and nothing is ever written past the slice. Only where the slice ends
 //! within a block is that block cut.
 
+use core::sync::atomic::{Ordering, compiler_fence};
+
 /// A slice that is written from front to back.
 #[derive(Debug)]
 pub(crate) struct Writer<'a, T> {
@@ -12,7 +14,7 @@ pub(crate) struct Writer<'a, T> {
     at: usize,
 }
 
-impl<'a, T: Copy> Writer<'a, T> {
+impl<'a, T: Copy + Default> Writer<'a, T> {
     /// Writes from the start of `out`.
     #[inline(always)]
     pub(crate) fn new(out: &'a mut [T]) -> Self {
@@ -31,45 +33,55 @@ impl<'a, T: Copy> Writer<'a, T> {
         self.out.len()
     }
 
-    /// The next `length` elements, in blocks made from the blocks of `source`, which must be long
-    /// enough: elements it has no block for stay unwritten.
+    /// The next `length` elements, each made from the one of `source` in its place, in blocks of
+    /// `N`. `source` must have whole blocks for them all: elements without one stay unwritten.
     #[inline(always)]
-    pub(crate) fn map<S, const N: usize>(
+    pub(crate) fn map<S: Copy, const N: usize>(
         &mut self,
         length: usize,
         source: &[S],
-        block: impl Fn(&[S; N]) -> [T; N],
+        element: impl Fn(S) -> T,
     ) {
         let padded = length.next_multiple_of(N);
         let room = self.out.get_mut(self.at..).unwrap_or_default();
         self.at += length;
-        if let Some(room) = room.get_mut(..padded) {
-            let sources = source.as_chunks::<N>().0;
-            for (target, source) in room.as_chunks_mut::<N>().0.iter_mut().zip(sources) {
-                *target = block(source);
+        if room.len() < padded {
+            write_cut(room, source, element);
+            return;
+        }
+        let targets = room[..padded].as_chunks_mut::<N>().0;
+        for (target, block) in targets.iter_mut().zip(source.as_chunks::<N>().0) {
+            let mut made = [T::default(); N];
+            for (made, &from) in made.iter_mut().zip(block) {
+                *made = element(from);
             }
-        } else {
-            write_cut(room, length, source, block);
+            *target = made;
+            separate_blocks();
         }
     }
 
-    /// The next `length` elements, in blocks made from the number of their first element.
+    /// The next `length` elements, each made from its number, in blocks of `N`.
     #[inline(always)]
-    pub(crate) fn count<const N: usize>(&mut self, length: usize, block: impl Fn(u32) -> [T; N]) {
+    pub(crate) fn count<const N: usize>(&mut self, length: usize, element: impl Fn(u32) -> T) {
         let padded = length.next_multiple_of(N);
         let room = self.out.get_mut(self.at..).unwrap_or_default();
         self.at += length;
-        let mut first = 0;
-        if let Some(room) = room.get_mut(..padded) {
-            for target in room.as_chunks_mut::<N>().0 {
-                *target = block(first);
-                first += N as u32;
+        let mut number = 0;
+        if room.len() < padded {
+            for target in room {
+                *target = element(number);
+                number += 1;
             }
-        } else {
-            for target in room.chunks_mut(N) {
-                target.copy_from_slice(&block(first)[..target.len()]);
-                first += N as u32;
+            return;
+        }
+        for target in room[..padded].as_chunks_mut::<N>().0 {
+            let mut made = [T::default(); N];
+            for made in &mut made {
+                *made = element(number);
+                number += 1;
             }
+            *target = made;
+            separate_blocks();
         }
     }
 
@@ -84,17 +96,18 @@ impl<'a, T: Copy> Writer<'a, T> {
     }
 }
 
-/// A run whose last block reaches past the end of the slice: that block is cut.
+/// The last elements of a slice that ends within a block.
 #[cold]
 #[inline(never)]
-fn write_cut<T: Copy, S, const N: usize>(
-    room: &mut [T],
-    length: usize,
-    source: &[S],
-    block: impl Fn(&[S; N]) -> [T; N],
-) {
-    debug_assert!(length <= room.len(), "the output was counted");
-    for (target, source) in room.chunks_mut(N).zip(source.as_chunks::<N>().0) {
-        target.copy_from_slice(&block(source)[..target.len()]);
+fn write_cut<S: Copy, T>(room: &mut [T], source: &[S], element: impl Fn(S) -> T) {
+    for (target, &from) in room.iter_mut().zip(source) {
+        *target = element(from);
     }
+}
+
+/// Keeps the compiler from turning the loop over blocks, instead of each block, into vectors: it
+/// does not vectorise loops that have a fence in them. There is no instruction behind it.
+#[inline(always)]
+fn separate_blocks() {
+    compiler_fence(Ordering::AcqRel);
 }

@@ -2,20 +2,8 @@
 
 use crate::lanes::{Column, LANES, MAX_FACTORS};
 use crate::reciprocal::reciprocal;
-use tess_core::fixed_point::HALF;
+use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{FactorContext, Parity, SplitOrder};
-
-/// The six numbers of each factor of a block, one column each, and the parity.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Contexts {
-    pub(crate) odd: Column,
-    pub(crate) inv_floor: Column,
-    pub(crate) inv_ceil: Column,
-    pub(crate) fraction: Column,
-    pub(crate) half_points: Column,
-    pub(crate) split: Column,
-    pub(crate) points: Column,
-}
 
 /// The context of one factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,21 +17,45 @@ pub(crate) struct Context {
     pub(crate) points: u32,
 }
 
+/// The point counts of the first `ALL` elements of two columns; 0 for the others.
+#[inline(always)]
+pub(crate) fn point_counts<const ALL: usize>(fixed: &Column, odd: &Column) -> Column {
+    let mut points = [0; LANES * MAX_FACTORS];
+    for i in 0..ALL {
+        points[i] = 2 * (half(fixed[i], odd[i]).div_ceil(ONE)) + 1 - odd[i];
+    }
+    points
+}
+
+/// The contexts of a block of fractional factors, one column for each number that place needs.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Contexts {
+    inv_floor: Column,
+    inv_ceil: Column,
+    fraction: Column,
+    half_points: Column,
+    split: Column,
+    points: Column,
+}
+
 impl Contexts {
-    /// The contexts of the first `count` factors of two columns.
-    #[inline(always)]
-    pub(crate) fn new(fixed: &Column, odd: &Column, count: usize, order: SplitOrder) -> Self {
+    pub(crate) const NONE: Self = {
         const NONE: Column = [0; LANES * MAX_FACTORS];
-        let mut all = Self {
-            odd: *odd,
+        Self {
             inv_floor: NONE,
             inv_ceil: NONE,
             fraction: NONE,
             half_points: NONE,
             split: NONE,
             points: NONE,
-        };
-        for i in 0..count.min(NONE.len()) {
+        }
+    };
+
+    /// The contexts of the first `ALL` elements of two columns.
+    #[inline(always)]
+    pub(crate) fn new<const ALL: usize>(fixed: &Column, odd: &Column, order: SplitOrder) -> Self {
+        let mut all = Self::NONE;
+        for i in 0..ALL {
             let context = Context::new(fixed[i], odd[i], order);
             all.inv_floor[i] = context.inv_floor;
             all.inv_ceil[i] = context.inv_ceil;
@@ -55,12 +67,11 @@ impl Contexts {
         all
     }
 
-    /// The context of one factor of one patch.
+    /// The context of an element whose parity is `odd`.
     #[inline(always)]
-    pub(crate) fn get(&self, factor: usize, lane: usize) -> Context {
-        let i = factor * LANES + lane;
+    pub(crate) const fn get(&self, i: usize, odd: u32) -> Context {
         Context {
-            odd: self.odd[i],
+            odd,
             inv_floor: self.inv_floor[i],
             inv_ceil: self.inv_ceil[i],
             fraction: self.fraction[i],
@@ -75,9 +86,7 @@ impl Context {
     /// The context of a factor in range: 1..=63 if odd, 1..=64 if even. Free of branches.
     #[inline(always)]
     pub(crate) fn new(fixed: u32, odd: u32, order: SplitOrder) -> Self {
-        let rounded = (fixed + 1) >> 1;
-        let shifted = odd | u32::from(rounded == HALF);
-        let half = rounded + HALF * shifted;
+        let half = half(fixed, odd);
         let floor = half >> 16;
         let ceil = (half + 0xFFFF) >> 16;
         let split = match order {
@@ -98,6 +107,14 @@ impl Context {
             points: 2 * ceil + 1 - odd,
         }
     }
+}
+
+/// Half of a factor, from which the points of a half edge follow, in 16.16: at most 32.
+#[inline(always)]
+const fn half(fixed: u32, odd: u32) -> u32 {
+    let rounded = (fixed + 1) >> 1;
+    let shifted = odd | (rounded == HALF) as u32;
+    rounded + HALF * shifted
 }
 
 /// Clears the highest set bit of `x <= 32`; 0 stays 0.

@@ -1,6 +1,6 @@
 //! Factor processing of eight patches (spec section 3), steps named as there.
 
-use crate::lanes::{Column, LANES, Lanes, MAX_FACTORS, factors, outer_factors};
+use crate::lanes::{Column, LANES, Lanes, MAX_FACTORS};
 use crate::reciprocal::{MANTISSA, TWO_POW_23};
 use tess_core::fixed_point::ONE;
 use tess_core::{Config, Domain, Partitioning};
@@ -21,37 +21,60 @@ pub(crate) struct Processed {
 /// Processes the raw factors of eight patches. Total: every bit pattern is valid.
 #[inline(always)]
 pub(crate) fn process(config: Config, domain: Domain, raw: &Column<f32>) -> Processed {
-    let (_, high) = config.partitioning.range();
-    let outer = LANES * outer_factors(domain);
-    let all = LANES * factors(domain);
-    let low = inside_low(config.partitioning, &raw[..all]);
-    let mut fixed = [ONE; LANES * MAX_FACTORS];
-    let mut odd = [0; LANES * MAX_FACTORS];
-    let parts = [(0..outer, false), (outer..all, true)];
-    for (part, inside) in parts {
-        let columns = fixed[part.clone()].iter_mut().zip(&mut odd[part.clone()]);
-        for ((fixed, odd), (i, &raw)) in columns.zip(raw[part].iter().enumerate()) {
-            let outer_low = config.partitioning.range().0;
-            let clamped = clamp(raw, if inside { low[i % LANES] } else { outer_low }, high);
-            (*fixed, *odd) = convert(config.partitioning, inside, clamped);
-        }
-    }
+    const N: usize = LANES;
+    let partitioning = config.partitioning;
+    let mut processed = match domain {
+        Domain::Isoline => process_as::<{ 2 * N }, { 2 * N }>(partitioning, raw),
+        Domain::Triangle => process_as::<{ 3 * N }, { 4 * N }>(partitioning, raw),
+        Domain::Quad => process_as::<{ 4 * N }, { 6 * N }>(partitioning, raw),
+    };
     if domain == Domain::Isoline {
-        for (lane, &density) in raw[..LANES].iter().enumerate() {
-            let clamped = clamp(density, 1.0, 64.0);
-            (fixed[lane], odd[lane]) = convert(Partitioning::Integer, false, clamped);
+        processed.minimum = [0; N];
+        for lane in 0..N {
+            let density = ceil(clamp(raw[lane], 1.0, 64.0));
+            processed.fixed[lane] = density << 16;
+            processed.odd[lane] = density & 1;
         }
     }
-    let minimum = minimum(domain, &fixed[..all]);
-    Processed { fixed, odd, alive: alive(&raw[..outer]), minimum }
+    processed
+}
+
+/// Processes factors of which the elements below `OUTER` are outer ones and those below `ALL`
+/// exist.
+#[inline(always)]
+fn process_as<const OUTER: usize, const ALL: usize>(
+    partitioning: Partitioning,
+    raw: &Column<f32>,
+) -> Processed {
+    let (outer_low, high) = partitioning.range();
+    let inside_low = inside_low::<ALL>(partitioning, raw);
+    let mut clamped = [1.0; LANES * MAX_FACTORS];
+    for i in 0..OUTER {
+        clamped[i] = clamp(raw[i], outer_low, high);
+    }
+    let inside = clamped[OUTER..ALL].as_chunks_mut::<LANES>().0;
+    for (clamped, raw) in inside.iter_mut().zip(raw[OUTER..ALL].as_chunks::<LANES>().0) {
+        for lane in 0..LANES {
+            clamped[lane] = clamp(raw[lane], inside_low[lane], high);
+        }
+    }
+    let (fixed, odd) = match partitioning {
+        Partitioning::Integer | Partitioning::Pow2 => integers::<OUTER, ALL>(&clamped),
+        Partitioning::FractionalOdd => (fractions::<ALL>(&clamped), [1; LANES * MAX_FACTORS]),
+        Partitioning::FractionalEven => (fractions::<ALL>(&clamped), [0; LANES * MAX_FACTORS]),
+    };
+    let minimum = minimum::<ALL>(&fixed);
+    Processed { fixed, odd, alive: alive::<OUTER>(raw), minimum }
 }
 
 /// Step 1: 1 where every outer factor is greater than zero.
 #[inline(always)]
-fn alive(outer: &[f32]) -> Lanes {
+fn alive<const OUTER: usize>(raw: &Column<f32>) -> Lanes {
     let mut alive = [1; LANES];
-    for (i, &factor) in outer.iter().enumerate() {
-        alive[i % LANES] &= u32::from(factor > 0.0);
+    for factors in raw[..OUTER].as_chunks::<LANES>().0 {
+        for (alive, &factor) in alive.iter_mut().zip(factors) {
+            *alive &= u32::from(factor > 0.0);
+        }
     }
     alive
 }
@@ -65,31 +88,45 @@ fn clamp(x: f32, low: f32, high: f32) -> f32 {
 
 /// Step 4: the lower bound of the inside factors.
 #[inline(always)]
-fn inside_low(partitioning: Partitioning, raw: &[f32]) -> Lanes<f32> {
+fn inside_low<const ALL: usize>(partitioning: Partitioning, raw: &Column<f32>) -> Lanes<f32> {
     const ONE_PLUS_2_POW_MINUS_17: f32 = f32::from_bits(0x3F80_0040);
     const ONE_PLUS_2_POW_MINUS_16: f32 = f32::from_bits(0x3F80_0080);
     let mut low = [partitioning.range().0; LANES];
     if partitioning == Partitioning::FractionalOdd {
-        for (i, &factor) in raw.iter().enumerate() {
-            if factor > ONE_PLUS_2_POW_MINUS_17 {
-                low[i % LANES] = ONE_PLUS_2_POW_MINUS_16;
+        for factors in raw[..ALL].as_chunks::<LANES>().0 {
+            for (low, &factor) in low.iter_mut().zip(factors) {
+                let above = factor > ONE_PLUS_2_POW_MINUS_17;
+                *low = if above { ONE_PLUS_2_POW_MINUS_16 } else { *low };
             }
         }
     }
     low
 }
 
-/// Steps 3, 6 and 7: a clamped factor as 15.16 number, and 1 if its parity is odd.
+/// Steps 3, 6 and 7 for integer partitionings.
 #[inline(always)]
-pub(crate) fn convert(partitioning: Partitioning, inside: bool, clamped: f32) -> (u32, u32) {
-    match partitioning {
-        Partitioning::Integer | Partitioning::Pow2 => {
-            let integer = ceil(clamped);
-            (integer << 16, integer & 1 & !u32::from(inside && integer == 1))
-        }
-        Partitioning::FractionalOdd => (to_fixed(clamped), 1),
-        Partitioning::FractionalEven => (to_fixed(clamped), 0),
+fn integers<const OUTER: usize, const ALL: usize>(clamped: &Column<f32>) -> (Column, Column) {
+    let mut fixed = [ONE; LANES * MAX_FACTORS];
+    let mut odd = [0; LANES * MAX_FACTORS];
+    for i in 0..ALL {
+        let integer = ceil(clamped[i]);
+        fixed[i] = integer << 16;
+        odd[i] = integer & 1;
     }
+    for i in OUTER..ALL {
+        odd[i] &= u32::from(fixed[i] != ONE);
+    }
+    (fixed, odd)
+}
+
+/// Step 7 for fractional partitionings.
+#[inline(always)]
+fn fractions<const ALL: usize>(clamped: &Column<f32>) -> Column {
+    let mut fixed = [ONE; LANES * MAX_FACTORS];
+    for i in 0..ALL {
+        fixed[i] = to_fixed(clamped[i]);
+    }
+    fixed
 }
 
 /// The ceiling of a number in 0..2^22: the nearest integer, one more if that lies below.
@@ -110,12 +147,14 @@ fn to_fixed(x: f32) -> u32 {
     (x * 65536.0 + TWO_POW_23).to_bits() & MANTISSA
 }
 
-/// Step 8.
+/// Step 8, for triangles and quads.
 #[inline(always)]
-fn minimum(domain: Domain, fixed: &[u32]) -> Lanes {
-    let mut minimum = [u32::from(domain != Domain::Isoline); LANES];
-    for (i, &fixed) in fixed.iter().enumerate() {
-        minimum[i % LANES] &= u32::from(fixed == ONE);
+fn minimum<const ALL: usize>(fixed: &Column) -> Lanes {
+    let mut minimum = [1; LANES];
+    for factors in fixed[..ALL].as_chunks::<LANES>().0 {
+        for (minimum, &factor) in minimum.iter_mut().zip(factors) {
+            *minimum &= u32::from(factor == ONE);
+        }
     }
     minimum
 }

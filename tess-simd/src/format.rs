@@ -35,6 +35,7 @@ pub trait IndexFormat: sealed::Sealed + Copy + Default + Send + Sync + 'static {
 
 mod sealed {
     /// Keeps the formats to those that the kernels were compared with the core in.
+    #[expect(unnameable_types, reason = "that is what seals them")]
     pub trait Sealed {}
     impl Sealed for tess_core::DomainPoint {}
     impl Sealed for [f32; 2] {}

@@ -4,6 +4,7 @@ use crate::batch::Batch;
 use crate::block::Block;
 use crate::connect;
 use crate::emit::Writer;
+use crate::factor_context::Contexts;
 use crate::format::{IndexFormat, PointFormat};
 use crate::lanes::LANES;
 use crate::output::{Buffers, Numbering, PatchRange};
@@ -22,6 +23,11 @@ pub(crate) struct PartCounts {
 }
 
 impl PartCounts {
+    /// What its output amounts to, in bytes of the widest formats.
+    pub(crate) fn weight(&self) -> u64 {
+        8 * self.points + 4 * self.indices
+    }
+
     /// The counts of two parts together.
     pub(crate) fn and(self, other: Self) -> Self {
         Self {
@@ -42,6 +48,11 @@ pub(crate) struct Workspace {
 impl Workspace {
     pub(crate) fn new() -> Self {
         Self { tables: LocationTables::EMPTY, templates: Templates::new() }
+    }
+
+    /// Bytes of memory that it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of::<Self>() + self.templates.bytes()
     }
 }
 
@@ -86,6 +97,7 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
     let mut indices = Writer::new(buffers.indices);
     for (number, ranges) in buffers.ranges.chunks_mut(LANES).enumerate() {
         let block = Block::new(config, &batch, number * LANES);
+        let contexts = block.contexts();
         for (lane, range) in ranges.iter_mut().enumerate() {
             *range = PatchRange {
                 first_point,
@@ -98,7 +110,7 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
                 Numbering::Batch { base_vertex } => base_vertex.wrapping_add(first_point),
             };
             if range.points > 0 {
-                let patch = (&block, lane);
+                let patch = (&block, &contexts, lane);
                 emit_patch(config, stitches, patch, base, workspace, (&mut points, &mut indices));
             }
             first_point += range.points;
@@ -114,7 +126,7 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
 fn emit_patch<P: PointFormat, I: IndexFormat>(
     config: Config,
     stitches: &Stitches,
-    (block, lane): (&Block, usize),
+    (block, contexts, lane): (&Block, &Contexts, usize),
     base: u32,
     workspace: &mut Workspace,
     (points, indices): (&mut Writer<'_, P>, &mut Writer<'_, I>),
@@ -123,20 +135,20 @@ fn emit_patch<P: PointFormat, I: IndexFormat>(
     let edges = block.edges(lane);
     let counts = (block.counts.points[lane], block.counts.indices[lane] as usize);
     let Some(template) = templates.get((config, stitches), (block, lane), &edges, tables) else {
-        points::emit(block, lane, &edges, tables, points);
+        points::emit((block, contexts), lane, &edges, tables, points);
         let kind = (block.domain(), config.output);
         connect::emit(kind, &edges, stitches, (base, counts.0), indices);
         return;
     };
     if let Some(template) = template.points {
-        points.map(counts.0 as usize, template, |block: &[DomainPoint; 8]| {
-            block.map(|point| P::from_bits(point.u.to_bits(), point.v.to_bits()))
+        points.map::<_, 8>(counts.0 as usize, template, |point: DomainPoint| {
+            P::from_bits(point.u.to_bits(), point.v.to_bits())
         });
     } else {
-        points::emit(block, lane, &edges, tables, points);
+        points::emit((block, contexts), lane, &edges, tables, points);
     }
     let base = I::wrapping_from(base);
-    indices.map(counts.1, template.indices, |block: &[u16; 16]| {
-        block.map(|index| base.wrapping_add(I::wrapping_from(index.into())))
+    indices.map::<_, 16>(counts.1, template.indices, |index: u16| {
+        base.wrapping_add(I::wrapping_from(index.into()))
     });
 }

@@ -6,7 +6,7 @@ use tess_core::fixed_point::{HALF, ONE};
 /// Locations computed at a time.
 const STEP: usize = 16;
 /// Room for an edge's 65 locations and for reading whole blocks from any start.
-const ROOM: usize = 96;
+const ROOM: usize = 112;
 
 /// The 16.16 locations of all points of an edge, ascending in position; what follows them is
 /// unspecified.
@@ -23,7 +23,11 @@ impl Locations {
     pub(crate) fn fill(&mut self, context: &Context) {
         let mut first = 0;
         for chunk in self.0.as_chunks_mut::<STEP>().0 {
-            *chunk = core::array::from_fn(|k| place(context, first + k as u32));
+            let mut p = first;
+            for location in chunk {
+                *location = place(context, p);
+                p += 1;
+            }
             first += STEP as u32;
             if first >= context.points {
                 break;

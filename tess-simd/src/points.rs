@@ -9,6 +9,7 @@ mod triangle;
 
 use crate::block::Block;
 use crate::emit::Writer;
+use crate::factor_context::Contexts;
 use crate::format::PointFormat;
 use crate::lanes::{EdgePoints, MAX_FACTORS, factors};
 use crate::place::Locations;
@@ -41,7 +42,12 @@ impl LocationTables {
 
     /// The number of the table that holds a factor's locations.
     #[inline(always)]
-    fn prepare(&mut self, block: &Block, factor: usize, lane: usize) -> usize {
+    fn prepare(
+        &mut self,
+        (block, contexts): (&Block, &Contexts),
+        factor: usize,
+        lane: usize,
+    ) -> usize {
         let points = block.edge_points(factor, lane);
         let (slot, key) = if block.integer() {
             (points as usize % COUNTS, points)
@@ -50,7 +56,7 @@ impl LocationTables {
         };
         if self.keys[slot] != key {
             self.keys[slot] = key;
-            self.tables[slot].fill(&block.context(factor, lane));
+            self.tables[slot].fill(&block.context(contexts, factor, lane));
         }
         slot
     }
@@ -59,7 +65,7 @@ impl LocationTables {
 /// Emits the points of a regular patch of a block.
 #[inline(always)]
 pub(crate) fn emit<P: PointFormat>(
-    block: &Block,
+    (block, contexts): (&Block, &Contexts),
     lane: usize,
     edges: &EdgePoints,
     tables: &mut LocationTables,
@@ -68,9 +74,10 @@ pub(crate) fn emit<P: PointFormat>(
     let domain = block.domain();
     let mut slots = [0; MAX_FACTORS];
     for (factor, slot) in slots.iter_mut().enumerate().take(factors(domain)) {
-        *slot = tables.prepare(block, factor, lane);
+        *slot = tables.prepare((block, contexts), factor, lane);
     }
-    let tables = slots.map(|slot| &tables.tables[slot]);
+    let slot = |factor: usize| &tables.tables[slots[factor]];
+    let tables = [slot(0), slot(1), slot(2), slot(3), slot(4), slot(5)];
     match domain {
         Domain::Isoline => isoline::emit(edges, tables, out),
         Domain::Triangle => triangle::emit(edges, tables, out),
@@ -86,5 +93,5 @@ fn run<P: PointFormat>(
     locations: &[u32],
     point: impl Fn(u32) -> P,
 ) {
-    out.map(length as usize, locations, |block: &[u32; STEP]| block.map(&point));
+    out.map::<_, STEP>(length as usize, locations, point);
 }

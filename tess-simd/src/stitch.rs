@@ -13,7 +13,7 @@ use crate::emit::Writer;
 use crate::format::IndexFormat;
 
 /// Codes turned into indices at a time; tables are padded to it.
-pub(crate) const STEP: usize = 16;
+pub(crate) const STEP: usize = 32;
 
 /// What a row position gains as inner row.
 pub(crate) const INNER: i8 = i8::MIN;
@@ -35,14 +35,6 @@ pub(crate) struct Rows {
     pub(crate) outer_replaced: Option<(u32, u32)>,
     /// Entry of the inner row that is replaced, and by what.
     pub(crate) inner_replaced: Option<(u32, u32)>,
-}
-
-impl Rows {
-    /// Two rows that run up by one.
-    #[inline(always)]
-    pub(crate) const fn ascending(outer: u32, inner: u32) -> Self {
-        Self { outer, inner, descending: false, outer_replaced: None, inner_replaced: None }
-    }
 }
 
 /// The code of an entry of the outer row, at most 64.
@@ -69,8 +61,8 @@ pub(crate) fn ascending<I: IndexFormat>(
 ) {
     let outer = I::wrapping_from(outer);
     let inner = I::wrapping_from(inner.wrapping_add(128));
-    out.map(length, codes, |codes: &[i8; STEP]| {
-        codes.map(|code| I::from_code(code).wrapping_add(if code < 0 { inner } else { outer }))
+    out.map::<_, STEP>(length, codes, |code: i8| {
+        I::from_code(code).wrapping_add(if code < 0 { inner } else { outer })
     });
 }
 
@@ -91,21 +83,23 @@ pub(crate) fn general<I: IndexFormat>(
     };
     let outer = I::wrapping_from(rows.outer);
     let inner = I::wrapping_from(inner);
-    let (outer_at, outer_index) =
-        rows.outer_replaced.map_or((NOWHERE, 0), |(k, index)| (outer_code(k), index));
-    let (inner_at, inner_index) =
-        rows.inner_replaced.map_or((NOWHERE, 0), |(k, index)| (inner_code(k), index));
+    let (outer_at, outer_index) = match rows.outer_replaced {
+        Some((k, index)) => (outer_code(k), index),
+        None => (NOWHERE, 0),
+    };
+    let (inner_at, inner_index) = match rows.inner_replaced {
+        Some((k, index)) => (inner_code(k), index),
+        None => (NOWHERE, 0),
+    };
     let (outer_index, inner_index) = (I::wrapping_from(outer_index), I::wrapping_from(inner_index));
-    out.map(length, codes, |codes: &[i8; STEP]| {
-        codes.map(|code| {
-            let position = I::from_code(code);
-            let index = if code < 0 {
-                position.xor(flip).wrapping_add(inner)
-            } else {
-                position.wrapping_add(outer)
-            };
-            let index = if code == outer_at { outer_index } else { index };
-            if code == inner_at { inner_index } else { index }
-        })
+    out.map::<_, STEP>(length, codes, |code: i8| {
+        let position = I::from_code(code);
+        let index = if code < 0 {
+            position.xor(flip).wrapping_add(inner)
+        } else {
+            position.wrapping_add(outer)
+        };
+        let index = if code == outer_at { outer_index } else { index };
+        if code == inner_at { inner_index } else { index }
     });
 }

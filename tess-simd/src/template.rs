@@ -1,12 +1,14 @@
-//! Small patches as templates.
+//! Templates of patches.
 //!
 //! A patch's indices, counted from its own first point, depend on its point counts alone, and with
-//! integer factors so do its points. Small patches of a topology that was seen before are copied.
+//! integer factors so do its points. Small patches of a topology that was seen before, and large
+//! ones of the topology of the patch before, are copied.
 //! The templates are made by the same emission that larger patches go through.
 
 use crate::block::Block;
 use crate::connect;
 use crate::emit::Writer;
+use crate::factor_context::Contexts;
 use crate::lanes::EdgePoints;
 use crate::points::{self, LocationTables};
 use crate::stitch::Stitches;
@@ -15,11 +17,8 @@ use tess_core::{
     Config, Domain, DomainPoint, IsolineFactors, Patch, PatchFactors, QuadFactors, TriangleFactors,
 };
 
-/// The most indices that a patch with a template has: those of a quad of factor 16.
-pub(crate) const MAX_INDICES: usize = 1536;
-/// The most points that a patch with a template has; any patch with few enough indices has fewer,
-/// unless the output primitive is a point.
-const MAX_POINTS: usize = 768;
+/// Points of a small patch: as many as a quad of factor 16 has.
+const SMALL: usize = 17 * 17;
 
 /// Templates kept at a time. Two topologies that share a slot replace each other.
 const SLOTS: usize = 1024;
@@ -36,6 +35,8 @@ pub(crate) struct Templates {
     /// Topologies: see [`topology`]; 0 at first.
     keys: Vec<u64>,
     starts: Vec<(u32, u32)>,
+    /// Topology of the patch before.
+    last: u64,
     indices: Vec<u16>,
     points: Vec<DomainPoint>,
     indices_used: usize,
@@ -56,6 +57,7 @@ impl Templates {
         Self {
             keys: alloc::vec![0; SLOTS],
             starts: alloc::vec![(0, 0); SLOTS],
+            last: 0,
             indices: alloc::vec![0; INDEX_ROOM],
             points: alloc::vec![DomainPoint::default(); POINT_ROOM],
             indices_used: 0,
@@ -63,7 +65,14 @@ impl Templates {
         }
     }
 
-    /// The template of a patch that is not culled, if it is small enough for one.
+    /// Bytes of memory that they take on the heap.
+    pub(crate) fn bytes(&self) -> usize {
+        SLOTS * (size_of::<u64>() + size_of::<(u32, u32)>())
+            + INDEX_ROOM * size_of::<u16>()
+            + POINT_ROOM * size_of::<DomainPoint>()
+    }
+
+    /// The template of a patch that is not culled, if it is small or like the patch before.
     #[inline(always)]
     pub(crate) fn get(
         &mut self,
@@ -72,12 +81,11 @@ impl Templates {
         edges: &EdgePoints,
         tables: &mut LocationTables,
     ) -> Option<Template<'_>> {
-        let indices = block.counts.indices[lane] as usize;
-        let points = block.counts.points[lane] as usize;
-        if indices > MAX_INDICES || points > MAX_POINTS {
+        let key = topology(edges, block.is_minimum(lane));
+        let repeats = core::mem::replace(&mut self.last, key) == key;
+        if block.counts.points[lane] as usize > SMALL && !repeats {
             return None;
         }
-        let key = topology(edges, block.is_minimum(lane));
         let slot = slot(key);
         if self.keys[slot] != key {
             self.make((config, stitches), (block, lane), (edges, tables), key);
@@ -122,7 +130,13 @@ impl Templates {
             let mut writer = Writer::new(index_room);
             connect::emit((domain, config.output), edges, stitches, (0, points), &mut writer);
             if block.integer() {
-                points::emit(block, lane, edges, tables, &mut Writer::new(point_room));
+                points::emit(
+                    (block, &Contexts::NONE),
+                    lane,
+                    edges,
+                    tables,
+                    &mut Writer::new(point_room),
+                );
             }
         }
         self.keys[slot(key)] = key;

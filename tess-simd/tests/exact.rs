@@ -1,12 +1,13 @@
 //! Whole batches, bit for bit the core's: every configuration, level, format and numbering.
-#![expect(missing_docs, reason = "a test")]
-#![expect(clippy::missing_panics_doc, clippy::cast_possible_truncation, reason = "a test")]
 
 mod common;
 
-use common::{Patches, compare, configs, levels};
-use tess_core::{Config, Domain, DomainPoint};
-use tess_simd::{Level, Numbering, Tessellator};
+use common::{Patches, compare, configs, difference, levels};
+use tess_core::{
+    Config, Domain, DomainPoint, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
+    SplitOrder, Tessellation, TriangleFactors,
+};
+use tess_simd::{Level, Numbering, Output, Tessellator};
 
 const SAME: fn(DomainPoint) -> DomainPoint = |point| point;
 
@@ -49,6 +50,123 @@ fn every_batch_size() {
                 let domain = Domain::ALL[count % 3];
                 compare_all(&mut tessellator, domain, &Patches::random(seed, domain, count));
             }
+        }
+    }
+}
+
+/// More than one slice for every thread, and every template forgotten at least once.
+#[test]
+fn large_batches() {
+    let outputs = [OutputPrimitive::TriangleCcw, OutputPrimitive::Line];
+    for (seed, level) in (200..).zip(levels()) {
+        for output in outputs {
+            for partitioning in Partitioning::ALL {
+                let mut tessellator = tessellator(Config::new(partitioning, output), level);
+                for domain in Domain::ALL {
+                    let patches = Patches::random(seed, domain, 3001);
+                    compare_all(&mut tessellator, domain, &patches);
+                }
+            }
+        }
+    }
+}
+
+/// Large patches of one topology, which are copied, between others.
+#[test]
+fn repeated_patches() {
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    let different = Patches::random(7, Domain::Quad, 40);
+    let repeated = different.all.iter().flat_map(|&patch| [patch; 3]).collect();
+    let repeated = Patches::new(repeated);
+    for level in levels() {
+        compare_all(&mut tessellator(config, level), Domain::Quad, &repeated);
+    }
+}
+
+/// Every pair of integer factors: outer and inside factor of triangles, both inside factors of
+/// quads.
+#[test]
+fn every_pair_of_counts() {
+    let pairs = (1..=64u8).flat_map(|a| (1..=64u8).map(move |b| (f32::from(a), f32::from(b))));
+    let triangle = |(a, b)| {
+        PatchFactors::Triangle(TriangleFactors { u0: a, v0: 65.0 - a, w0: 1.0, inside: b })
+    };
+    let quad = |(a, b)| {
+        PatchFactors::Quad(QuadFactors {
+            u0: b,
+            v0: a,
+            u1: 65.0 - a,
+            v1: 65.0 - b,
+            inside_u: a,
+            inside_v: b,
+        })
+    };
+    let triangles = Patches::new(pairs.clone().map(triangle).collect());
+    let quads = Patches::new(pairs.map(quad).collect());
+    for level in levels() {
+        for split in SplitOrder::ALL {
+            let config = Config {
+                partitioning: Partitioning::Integer,
+                output: OutputPrimitive::TriangleCw,
+                split,
+            };
+            let mut tessellator = tessellator(config, level);
+            for (domain, patches) in [(Domain::Triangle, &triangles), (Domain::Quad, &quads)] {
+                let expected = patches.expected(config);
+                let batch = (patches, patches.structures(domain));
+                compare::<DomainPoint, u32>(
+                    &mut tessellator,
+                    batch,
+                    &expected,
+                    Numbering::PerPatch,
+                    SAME,
+                );
+            }
+        }
+    }
+}
+
+/// The comparison above sees a fault in any element.
+#[test]
+fn planted_faults_are_seen() {
+    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+    let patches = Patches::random(5, Domain::Quad, 17);
+    let mut output = Output::<DomainPoint, u32>::new();
+    let numbering = Numbering::PerPatch;
+    let batch = patches.structures(Domain::Quad);
+    let counts = Tessellator::new(config).tessellate(batch, numbering, &mut output);
+    assert!(counts.is_ok_and(|counts| counts.indices > 0), "something to compare");
+    let right = patches.expected(config);
+    let seen =
+        |expected: &[Tessellation]| difference(&patches.all, expected, numbering, &output, SAME);
+    assert_eq!(seen(&right), None, "no fault yet");
+    for (patch, whole) in right.iter().enumerate().filter(|(_, whole)| !whole.points.is_empty()) {
+        for element in [0, whole.points.len() - 1] {
+            let mut wrong = right.clone();
+            let point = wrong[patch].points[element];
+            wrong[patch].points[element] =
+                DomainPoint::from_bits(point.u.to_bits(), point.v.to_bits() ^ 1);
+            assert!(seen(&wrong).is_some_and(|d| d.contains("point")), "point of patch {patch}");
+        }
+        for element in [0, whole.indices.len() - 1] {
+            let mut wrong = right.clone();
+            wrong[patch].indices[element] ^= 1;
+            assert!(seen(&wrong).is_some_and(|d| d.contains("index")), "index of patch {patch}");
+        }
+        let mut wrong = right.clone();
+        wrong[patch].indices.pop();
+        assert!(seen(&wrong).is_some(), "count of patch {patch}");
+    }
+}
+
+#[cfg(feature = "rayon")]
+#[test]
+fn any_number_of_threads() {
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    for threads in [1, 2, 3, 5, 8] {
+        let mut tessellator = Tessellator::new(config).threads(threads);
+        for (count, domain) in [(0, Domain::Quad), (7, Domain::Triangle), (1001, Domain::Quad)] {
+            compare_all(&mut tessellator, domain, &Patches::random(31, domain, count));
         }
     }
 }

@@ -8,7 +8,7 @@ use tess_core::{
 use tess_simd::{Batch, Error, IndexFormat, Level, Numbering, Output, PointFormat, Tessellator};
 
 /// Every configuration there is.
-pub fn configs() -> impl Iterator<Item = Config> {
+pub(crate) fn configs() -> impl Iterator<Item = Config> {
     SplitOrder::ALL.into_iter().flat_map(|split| {
         Partitioning::ALL.into_iter().flat_map(move |partitioning| {
             OutputPrimitive::ALL.into_iter().map(move |output| Config {
@@ -22,7 +22,7 @@ pub fn configs() -> impl Iterator<Item = Config> {
 
 /// The levels to compare at: every one of this machine. Set `TESS_REQUIRE_LEVELS` to fail where
 /// one is missing; otherwise it is reported.
-pub fn levels() -> Vec<Level> {
+pub(crate) fn levels() -> Vec<Level> {
     let (available, missing): (Vec<_>, Vec<_>) =
         Level::ALL.into_iter().partition(|level| level.is_available());
     if !missing.is_empty() {
@@ -35,7 +35,7 @@ pub fn levels() -> Vec<Level> {
 }
 
 /// A raw factor: mostly in or near 1..64, sometimes special.
-pub fn factor(random: &mut SplitMix64) -> f32 {
+pub(crate) fn factor(random: &mut SplitMix64) -> f32 {
     let specials = [
         0.0,
         -0.0,
@@ -63,7 +63,7 @@ pub fn factor(random: &mut SplitMix64) -> f32 {
 }
 
 /// Factors of one patch: mostly unrelated, often all equal, now and then all one or culled.
-pub fn patch(random: &mut SplitMix64, domain: Domain) -> PatchFactors {
+pub(crate) fn patch(random: &mut SplitMix64, domain: Domain) -> PatchFactors {
     let equal = match random.below(8) {
         0 => Some(1.0),
         1 => Some(64.0),
@@ -95,8 +95,8 @@ pub fn patch(random: &mut SplitMix64, domain: Domain) -> PatchFactors {
 
 /// Patches of one domain in both layouts.
 #[derive(Default, Debug)]
-pub struct Patches {
-    pub all: Vec<PatchFactors>,
+pub(crate) struct Patches {
+    pub(crate) all: Vec<PatchFactors>,
     isolines: Vec<IsolineFactors>,
     triangles: Vec<TriangleFactors>,
     quads: Vec<QuadFactors>,
@@ -104,7 +104,7 @@ pub struct Patches {
 }
 
 impl Patches {
-    pub fn new(all: Vec<PatchFactors>) -> Self {
+    pub(crate) fn new(all: Vec<PatchFactors>) -> Self {
         let mut patches = Self::default();
         for patch in &all {
             let factors = match *patch {
@@ -126,12 +126,12 @@ impl Patches {
         Self { all, ..patches }
     }
 
-    pub fn random(seed: u64, domain: Domain, count: usize) -> Self {
+    pub(crate) fn random(seed: u64, domain: Domain, count: usize) -> Self {
         let mut random = SplitMix64::new(seed);
         Self::new((0..count).map(|_| patch(&mut random, domain)).collect())
     }
 
-    pub fn structures(&self, domain: Domain) -> Batch<'_> {
+    pub(crate) fn structures(&self, domain: Domain) -> Batch<'_> {
         match domain {
             Domain::Isoline => Batch::Isolines(&self.isolines),
             Domain::Triangle => Batch::Triangles(&self.triangles),
@@ -139,7 +139,7 @@ impl Patches {
         }
     }
 
-    pub fn columns(&self, domain: Domain) -> Batch<'_> {
+    pub(crate) fn columns(&self, domain: Domain) -> Batch<'_> {
         let [a, b, c, d, e, f] = self.columns.each_ref().map(|column| &column[..]);
         match domain {
             Domain::Isoline => Batch::IsolineColumns(IsolineFactors { density: a, detail: b }),
@@ -157,13 +157,13 @@ impl Patches {
         }
     }
 
-    pub fn expected(&self, config: Config) -> Vec<Tessellation> {
+    pub(crate) fn expected(&self, config: Config) -> Vec<Tessellation> {
         self.all.iter().map(|&factors| Patch::new(config, factors).tessellate()).collect()
     }
 }
 
 /// A point or an index as the bits of what the core would have.
-pub trait Bits: Copy {
+pub(crate) trait Bits: Copy {
     fn bits(self) -> [u32; 2];
 }
 impl Bits for DomainPoint {
@@ -189,7 +189,7 @@ impl Bits for u32 {
 
 /// The first difference between an output and the core's patches, with the patch that can be run
 /// again.
-pub fn difference<P: PointFormat + Bits, I: IndexFormat + Bits>(
+pub(crate) fn difference<P: PointFormat + Bits, I: IndexFormat + Bits>(
     patches: &[PatchFactors],
     expected: &[Tessellation],
     numbering: Numbering,
@@ -244,7 +244,7 @@ fn first(
 }
 
 /// Runs a batch in one pair of formats and compares it.
-pub fn compare<P: PointFormat + Bits, I: IndexFormat + Bits>(
+pub(crate) fn compare<P: PointFormat + Bits, I: IndexFormat + Bits>(
     tessellator: &mut Tessellator,
     (patches, batch): (&Patches, Batch<'_>),
     expected: &[Tessellation],

@@ -1,0 +1,135 @@
+//! Buffers: what does not fit is an error and leaves everything as it was, what is not needed is
+//! not touched, and nothing is allocated once a tessellator is warm.
+
+use allocation_counter::measure;
+use tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
+use tess_simd::{
+    Batch, Buffer, Buffers, Error, Level, LevelUnavailable, Numbering, Output, PatchRange,
+    Tessellator,
+};
+
+const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+const POISON: u32 = 0xDEAD_BEEF;
+
+fn quad(f: f32) -> QuadFactors {
+    QuadFactors { u0: f, v0: 1.0, u1: f, v1: 3.0, inside_u: 2.0, inside_v: f }
+}
+
+/// Buffers of these sizes, poisoned.
+fn poisoned(
+    points: usize,
+    indices: usize,
+    ranges: usize,
+) -> (Vec<[f32; 2]>, Vec<u32>, Vec<PatchRange>) {
+    let range =
+        PatchRange { first_point: POISON, points: POISON, first_index: POISON, indices: POISON };
+    (vec![[f32::from_bits(POISON); 2]; points], vec![POISON; indices], vec![range; ranges])
+}
+
+#[test]
+fn too_small_buffers_stay_as_they_were() {
+    let patches = [quad(4.5), quad(0.0), quad(63.0)];
+    let mut tessellator = Tessellator::new(CONFIG);
+    let counts = tessellator.count(&patches[..]).expect("a small batch");
+    let (points, indices, ranges) = (counts.points, counts.indices, counts.patches);
+    let cases = [
+        (Buffer::Points, points, (points - 1, indices, ranges)),
+        (Buffer::Indices, indices, (points, indices - 1, ranges)),
+        (Buffer::Ranges, ranges, (points, indices, ranges - 1)),
+    ];
+    for (buffer, needed, sizes) in cases {
+        let (mut p, mut i, mut r) = poisoned(sizes.0, sizes.1, sizes.2);
+        let buffers = Buffers { points: &mut p[..], indices: &mut i[..], ranges: &mut r[..] };
+        let result = tessellator.write(&patches[..], Numbering::PerPatch, buffers);
+        assert_eq!(result, Err(Error::BufferTooSmall { buffer, needed, got: needed - 1 }));
+        assert!(p.iter().flatten().all(|x| x.to_bits() == POISON), "points untouched");
+        assert!(i.iter().all(|&x| x == POISON), "indices untouched");
+        assert!(r.iter().all(|range| range.points == POISON), "ranges untouched");
+    }
+}
+
+/// Blocks may reach past a run, never past the output: at every level and for every length.
+#[test]
+fn what_lies_behind_the_output_stays() {
+    for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        let mut tessellator = Tessellator::with_level(CONFIG, level).expect("available");
+        for step in 0..120u8 {
+            let patches = [quad(2.0), quad(1.0 + f32::from(step) / 2.0)];
+            let counts = tessellator.count(&patches[..]).expect("a small batch");
+            let (mut p, mut i, mut r) = poisoned(counts.points + 40, counts.indices + 40, 3);
+            let buffers = Buffers { points: &mut p[..], indices: &mut i[..], ranges: &mut r[..] };
+            let result = tessellator.write(&patches[..], Numbering::PerPatch, buffers);
+            assert_eq!(result, Ok(counts), "step {step}");
+            let behind = p[counts.points..].iter().flatten();
+            assert!(behind.clone().all(|x| x.to_bits() == POISON), "points, step {step} {level}");
+            assert!(i[counts.indices..].iter().all(|&x| x == POISON), "indices, step {step}");
+            assert_eq!(r[2].points, POISON, "ranges, step {step}");
+            assert!(p[..counts.points].iter().flatten().all(|x| x.to_bits() != POISON), "all");
+            assert!(i[..counts.indices].iter().all(|&x| x != POISON), "all indices written");
+        }
+    }
+}
+
+#[test]
+fn indices_that_do_not_fit() {
+    let mut tessellator = Tessellator::new(CONFIG);
+    let mut output = Output::<[f32; 2], u16>::new();
+    let patches = [quad(63.0); 20];
+    let counts = tessellator.count(&patches[..]).expect("a small batch");
+    let base = |spare: usize| {
+        let base_vertex = u32::try_from(65536 - counts.points + spare).expect("small");
+        Numbering::Batch { base_vertex }
+    };
+    assert_eq!(tessellator.tessellate(&patches[..], base(0), &mut output), Ok(counts), "just fits");
+    assert_eq!(output.indices().iter().max(), Some(&65535), "the largest index");
+    let before = output.clone();
+    let error = Error::IndexTooLarge { largest: 65536, format: 65535 };
+    let result = tessellator.tessellate(&patches[..], base(1), &mut output);
+    assert_eq!(result, Err(error), "one too many");
+    assert_eq!(before.indices(), output.indices(), "the output stays");
+    let mut wide = Output::<[f32; 2], u32>::new();
+    let numbering = Numbering::Batch { base_vertex: u32::MAX };
+    let result = tessellator.tessellate(&patches[..], numbering, &mut wide);
+    assert!(matches!(result, Err(Error::IndexTooLarge { .. })), "beyond 32 bits: {result:?}");
+}
+
+#[test]
+fn uneven_columns() {
+    let (long, short) = ([2.0; 9], [2.0; 8]);
+    let columns = tess_core::TriangleFactors {
+        u0: &long[..],
+        v0: &long[..],
+        w0: &short[..],
+        inside: &long[..],
+    };
+    let result = Tessellator::new(CONFIG).count(Batch::TriangleColumns(columns));
+    assert_eq!(result, Err(Error::UnevenColumns));
+}
+
+#[test]
+fn levels_that_this_machine_lacks_are_errors() {
+    for level in Level::ALL {
+        let made = Tessellator::with_level(CONFIG, level).map(|made| made.level());
+        let expected = if level.is_available() { Ok(level) } else { Err(LevelUnavailable(level)) };
+        assert_eq!(made, expected, "{level}");
+    }
+}
+
+#[test]
+fn a_warm_tessellator_allocates_nothing() {
+    let small: Vec<_> = (0..250u16).map(|i| quad(f32::from(i % 40) / 4.0)).collect();
+    let large: Vec<_> = (0..300u16).map(|i| quad(f32::from(i) / 4.0)).collect();
+    let mut tessellator = Tessellator::new(CONFIG);
+    let mut output = Output::<[f32; 2], u32>::new();
+    let mut run = |patches: &[QuadFactors]| {
+        measure(|| {
+            let result = tessellator.tessellate(patches, Numbering::PerPatch, &mut output);
+            assert!(result.is_ok(), "{result:?}");
+        })
+        .count_total
+    };
+    assert!(run(&large) > 0, "the output grows, and the counter sees it");
+    assert_eq!(run(&large), 0, "warm");
+    assert_eq!(run(&small), 0, "a smaller batch");
+    assert_eq!(run(&[]), 0, "an empty batch");
+}
