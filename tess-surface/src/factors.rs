@@ -79,6 +79,10 @@ impl FactorRule {
     /// If there is no such patch.
     #[must_use]
     pub fn patch(&self, model: &Model, number: usize, partitioning: Partitioning) -> PatchFactors {
+        if let Self::Uniform(factor) = *self {
+            let outer = model.sides(number).map(|()| in_range(factor));
+            return self.prepare(outer, Bend::ZERO, partitioning);
+        }
         let patch = model.patch(number);
         let bend = self.bend(&patch);
         let outer = patch.edges().map_numbered(|edge, shared| {

@@ -131,7 +131,7 @@ impl Anchors {
     }
 }
 
-fn corner_coordinates<T: Clone>(sides: &Sides<T>) -> Sides<[f32; 2]> {
+fn corner_coordinates<T>(sides: &Sides<T>) -> Sides<[f32; 2]> {
     match sides {
         Sides::Triangle(_) => Sides::Triangle([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
         Sides::Quad(_) => Sides::Quad([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),

@@ -98,6 +98,18 @@ impl Model {
         self.topology.twin(half)
     }
 
+    /// The shape of patch number `number`, without its surface.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn sides(&self, number: usize) -> Sides<()> {
+        match &self.source {
+            Source::Polygons { mesh, .. } => mesh.faces[number].positions.map(drop),
+            Source::Bezier(_) => Sides::Quad([(); 4]),
+        }
+    }
+
     /// Patch number `number`, ready for evaluation.
     ///
     /// # Panics

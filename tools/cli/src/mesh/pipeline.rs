@@ -17,8 +17,14 @@ use tess_surface::height::{Anchors, DisplacedPatch, Displacement};
 use tess_surface::patch::Sample;
 use tess_surface::{FactorRule, Model};
 
-/// Patches per block: at factor 64, 1.1 million vertices in 35 MB and 25 MB of indices.
-const BLOCK: usize = 256;
+/// Patches whose factors are held at a time.
+const FACTOR_BLOCK: usize = 8192;
+
+/// Largest number of vertices that are held at a time: 32 MiB of them and 24 MiB of indices.
+const VERTEX_BLOCK: f32 = 1_048_576.0;
+
+/// Patches that a thread takes at a time.
+const PATCHES_PER_TASK: usize = 32;
 
 /// What is done to a model.
 #[derive(Debug)]
@@ -72,8 +78,8 @@ pub fn run(job: &Job<'_>, sink: &mut dyn Sink, statistics: &mut Statistics) -> R
     };
     statistics.patches = job.model.len();
     let progress = progress(job.model.len());
-    for start in (0..job.model.len()).step_by(BLOCK) {
-        let end = job.model.len().min(start + BLOCK);
+    for start in (0..job.model.len()).step_by(FACTOR_BLOCK) {
+        let end = job.model.len().min(start + FACTOR_BLOCK);
         stream.block_of_patches(start..end, sink, statistics)?;
         progress.set_position(end as u64);
     }
@@ -98,8 +104,13 @@ impl Stream<'_> {
         statistics: &mut Statistics,
     ) -> Result<(), Failure> {
         let (triangles, quads) = statistics.time(Stage::Factors, || self.factors(patches));
-        self.group(&triangles.patches, Batch::from(&triangles.factors[..]), sink, statistics)?;
-        self.group(&quads.patches, Batch::from(&quads.factors[..]), sink, statistics)
+        for part in triangles.parts(|f| f.outer().into_iter().fold(f.inside, f32::max)) {
+            self.group(part.0, Batch::from(part.1), sink, statistics)?;
+        }
+        for part in quads.parts(|f| f.outer().into_iter().chain(f.inside()).fold(1.0, f32::max)) {
+            self.group(part.0, Batch::from(part.1), sink, statistics)?;
+        }
+        Ok(())
     }
 
     /// The factors of a range of patches, by domain.
@@ -108,6 +119,7 @@ impl Stream<'_> {
         let factors: Vec<PatchFactors> = patches
             .clone()
             .into_par_iter()
+            .with_min_len(PATCHES_PER_TASK)
             .map(|number| rule.patch(model, number, *partitioning))
             .collect();
         let mut triangles = Group { patches: Vec::new(), factors: Vec::new() };
@@ -166,6 +178,7 @@ impl Stream<'_> {
         let job = self.job;
         parts
             .into_par_iter()
+            .with_min_len(PATCHES_PER_TASK)
             .for_each(|(number, points, out)| evaluate_patch(job, number, points, out));
     }
 }
@@ -188,5 +201,24 @@ impl<F> Group<F> {
     fn push(&mut self, patch: usize, factors: F) {
         self.patches.push(patch);
         self.factors.push(factors);
+    }
+
+    /// The group in parts of few enough vertices, by the largest factor of each patch.
+    fn parts(&self, largest: impl Fn(&F) -> f32) -> impl Iterator<Item = (&[usize], &[F])> {
+        // A patch of factors up to f has at most as many points as a grid of f + 2 by f + 2.
+        let mut room = VERTEX_BLOCK;
+        let parts = self.factors.chunk_by(move |a, b| {
+            let side = largest(a).max(largest(b)) + 3.0;
+            room -= side * side;
+            let fits = room > 0.0;
+            room = if fits { room } else { VERTEX_BLOCK };
+            fits
+        });
+        let mut first = 0;
+        parts.map(move |factors| {
+            let patches = &self.patches[first..first + factors.len()];
+            first += factors.len();
+            (patches, factors)
+        })
     }
 }

@@ -5,5 +5,6 @@ mod check;
 mod draw;
 mod explain;
 mod help;
+mod mesh;
 mod patch;
 mod support;

@@ -1,0 +1,220 @@
+//! `tess mesh`.
+
+use crate::support::{Run, directory, tess};
+use std::collections::HashMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const CUBE: &str = "\
+v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+";
+
+fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+    let path = folder.join(name);
+    fs::write(&path, content).expect("the test's file is written");
+    path
+}
+
+/// Runs `tess mesh IN [options] -o OUT`, which must do what it is asked for.
+fn mesh(input: &Path, options: &str, output: &Path) -> Run {
+    let run = tess(&format!("mesh {} {options} -o {}", input.display(), output.display()));
+    assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{options}: {}", run.stderr);
+    run
+}
+
+/// A number from the line of counts.
+fn counts(run: &Run) -> Vec<u64> {
+    let line = run.stderr.lines().next().unwrap_or_default();
+    line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
+}
+
+/// Edges of one triangle, after welding positions that are written alike.
+fn open_edges(obj: &Path) -> usize {
+    let text = fs::read_to_string(obj).expect("the OBJ is there");
+    let positions: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("v ")).collect();
+    let mut uses: HashMap<[&str; 2], u32> = HashMap::new();
+    for face in text.lines().filter_map(|line| line.strip_prefix("f ")) {
+        let number = |word: &str| word.split('/').next()?.parse::<usize>().ok();
+        let corners: Vec<&str> =
+            face.split(' ').filter_map(number).map(|n| positions[n - 1]).collect();
+        let [a, b, c] = corners[..] else { panic!("triangles: {face}") };
+        if a != b && b != c && c != a {
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                *uses.entry(if from < to { [from, to] } else { [to, from] }).or_default() += 1;
+            }
+        }
+    }
+    uses.values().filter(|&&count| count == 1).count()
+}
+
+#[test]
+fn the_teapot_in_every_form() {
+    let folder = directory("mesh_forms");
+    for name in ["teapot.obj", "teapot.gltf", "teapot.glb", "teapot.png"] {
+        let out = folder.join(name);
+        let run = mesh(Path::new(""), "--factor 4 --size 120x90", &out);
+        assert_eq!(counts(&run), [32, 800, 1024], "patches, vertices, triangles of {name}");
+        assert!(out.metadata().is_ok_and(|file| file.len() > 1000), "{name} is there");
+    }
+    let names = fs::read_dir(&folder).unwrap().count();
+    assert_eq!(names, 5, "the four and teapot.bin, nothing half-written");
+    // 16 open curves of 4 segments.
+    assert_eq!(open_edges(&folder.join("teapot.obj")), 64, "open edges");
+}
+
+/// A cube has no border, so neither has what becomes of it.
+#[test]
+fn no_cracks_in_files() {
+    let folder = directory("mesh_cracks");
+    let cube = write(&folder, "cube.obj", CUBE);
+    let image = folder.join("height.png");
+    mesh(Path::new(""), "--factor 2 --size 32x24", &image);
+    let displace = format!("--displace {} --height 0.2", image.display());
+    let out = folder.join("out.obj");
+    for options in [
+        "--factor 5".to_owned(),
+        "--surface flat --distance 20 --partitioning fractional_odd".to_owned(),
+        "--pixels 9 --partitioning fractional_even".to_owned(),
+        format!("--tolerance 0.01 {displace}"),
+        format!("--distance 30 {displace}"),
+    ] {
+        mesh(&cube, &options, &out);
+        assert_eq!(open_edges(&out), 0, "{options}");
+    }
+    let cut = fs::read_to_string(&out).unwrap().replacen("\nf ", "\n# ", 1);
+    fs::write(&out, cut).unwrap();
+    assert_eq!(open_edges(&out), 3, "a missing triangle leaves three open edges");
+}
+
+/// What was written reads back: meshes as quads and triangles, with the counts that were stated.
+#[test]
+fn outputs_are_inputs() {
+    let folder = directory("mesh_round");
+    let cube = write(&folder, "cube.obj", CUBE);
+    for (name, width) in [("a.obj", "auto"), ("a.gltf", "16"), ("a.glb", "16"), ("b.glb", "32")] {
+        let out = folder.join(name);
+        mesh(&cube, &format!("--factor 3 --indices {width}"), &out);
+        let again = mesh(&out, "--factor 1", &folder.join("again.obj"));
+        assert_eq!(counts(&again), [108, 324, 108], "6 quads of 18 triangles, from {name}");
+        assert_eq!(open_edges(&folder.join("again.obj")), 0, "{name}");
+    }
+    let glb = fs::read(folder.join("a.glb")).unwrap();
+    let length = u32::from_le_bytes(glb[8..12].try_into().unwrap());
+    assert_eq!(length as usize, glb.len(), "the length in the header");
+}
+
+#[test]
+fn bezier_patch_files() {
+    let folder = directory("mesh_bpt");
+    let rows = |z: &str| (0..16).map(|k| format!("{} {} {z}\n", k % 4, k / 4)).collect::<String>();
+    let plane = write(&folder, "plane.bpt", format!("1\n3 3\n{}", rows("0")));
+    let run = mesh(&plane, "--factor 2", &folder.join("plane.obj"));
+    assert_eq!(counts(&run), [1, 9, 8], "patches, vertices, triangles");
+    let rational = write(&folder, "rational.bpt", format!("1\n3 3\n{}", rows("0 2")));
+    mesh(&rational, "--factor 2", &folder.join("rational.obj"));
+    let [a, b] = ["plane.obj", "rational.obj"].map(|name| fs::read(folder.join(name)).unwrap());
+    assert_eq!(a, b, "a weight common to all points changes nothing");
+}
+
+/// Every kind of bad input: exit code 2, file and line, and the output as it was.
+#[test]
+fn bad_input_is_told() {
+    let folder = directory("mesh_bad");
+    let out = write(&folder, "out.obj", "as it was");
+    let patch = format!("3 3\n{}", "0 0 0\n1 0 0\n2 1 0\n3 0 0\n".repeat(4));
+    let cases: [(&str, String, &str); 17] = [
+        (
+            "broken.obj",
+            CUBE.replace("v 1 1 1", "v 1 one 1"),
+            "line 7: position parse error: `v 1 one 1`",
+        ),
+        ("short.obj", CUBE.replace("v 1 1 1", "v 1 1"), "line 7: position parse error"),
+        (
+            "face.obj",
+            CUBE.replace("f 5 6 7 8", "f 5 6 7 x"),
+            "line 10: face parse error: `f 5 6 7 x`",
+        ),
+        ("nan.obj", CUBE.replace("v 1 1 1", "v 1 nan 1"), "line 10: a position is NaN or infinite"),
+        (
+            "zero.obj",
+            format!("{CUBE}\nv 5 0 0\nv 6 0 0\nv 7 0 0\nf 9 10 11\n"),
+            "line 19: it has zero area",
+        ),
+        ("twice.obj", format!("{CUBE}f 1 2 2\n"), "line 15: two neighbouring corners"),
+        (
+            "edge.obj",
+            format!("{CUBE}v 0 0 5\nf 1 2 9\n"),
+            "line 16: an edge of this face belongs to two other faces already (line 9 and line 11)",
+        ),
+        ("ngon.obj", format!("{CUBE}v 0 0 5\nf 1 2 6 5 9\n"), "line 16: a face with 5 corners"),
+        ("beyond.obj", CUBE.replace("f 5 6 7 8", "f 5 6 7 9"), "out of bounds"),
+        ("empty.obj", String::new(), "there is no face"),
+        ("count.bpt", "many\n".to_owned(), "line 1: `many` is no number of patches"),
+        (
+            "cut.bpt",
+            format!("2\n{patch}"),
+            "line 18: the file ends after this line; patch 2 of 2 is missing",
+        ),
+        ("degree.bpt", "1\n2 3\n".to_owned(), "line 2: the degrees of patch 1 are `2 3`"),
+        (
+            "point.bpt",
+            format!("1\n{}", patch.replacen("2 1 0", "2 1", 1)),
+            "line 5: `2 1` is no point",
+        ),
+        (
+            "more.bpt",
+            format!("1\n{patch}0 0 0\n"),
+            "line 19: `0 0 0` follows the last of 1 patches",
+        ),
+        ("text.gltf", "{".to_owned(), "text.gltf: "),
+        ("model.stl", "solid".to_owned(), "models are .obj, .gltf, .glb or .bpt"),
+    ];
+    for (name, content, message) in cases {
+        let input = write(&folder, name, content);
+        let run = tess(&format!("mesh {} -o {}", input.display(), out.display()));
+        assert_eq!(run.code, Some(2), "{name}: {}", run.stderr);
+        let told = run.stderr.contains(message) && run.stderr.contains(name);
+        assert!(told, "{name}: `{message}` is not in `{}`", run.stderr);
+        assert_eq!(fs::read(&out).unwrap(), b"as it was", "{name}");
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 18, "nothing half-written stays");
+}
+
+#[test]
+fn bad_usage_is_told() {
+    let folder = directory("mesh_usage");
+    let cube = write(&folder, "cube.obj", CUBE);
+    let (cube, out) = (cube.display(), folder.join("out.glb"));
+    let out = out.display();
+    for (words, message) in [
+        (format!("mesh missing.obj -o {out}"), "cannot read missing.obj"),
+        (format!("mesh {cube} -o {out}.xyz"), "cannot tell what to write"),
+        (format!("mesh {cube} -o no/such/folder/out.glb"), "cannot write no/such/folder/out.glb"),
+        (format!("mesh {cube}"), "-o"),
+        (format!("mesh {cube} --factor 0 -o {out}"), "greater than zero"),
+        (format!("mesh {cube} --factor 2 --pixels 3 -o {out}"), "cannot be used with"),
+        (format!("mesh {cube} --size 0x5 -o {out}"), "a size is such as 800x600"),
+        (format!("mesh {cube} --height 1 -o {out}"), "--displace"),
+        (format!("mesh {cube} --displace {cube} -o {out}"), "cannot read"),
+        (format!("mesh --surface flat -o {out}"), "the teapot is made of Bezier patches"),
+        (format!("mesh --indices 16 -o {out}"), "more than 65535 vertices"),
+    ] {
+        let run = tess(&words);
+        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains(message), "{words}: `{message}` is not in `{}`", run.stderr);
+    }
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "no output was written");
+}
