@@ -3,7 +3,6 @@
     clippy::float_arithmetic,
     clippy::float_cmp,
     clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
     reason = "tests compute in floats, and compare bits"
 )]
 

@@ -56,14 +56,11 @@ fn closes_where_it_should() {
 #[test]
 fn outside_is_out() {
     let patches = teapot::patches();
-    let part = |numbers: &[std::ops::Range<usize>]| {
-        numbers.iter().cloned().flat_map(|r| patches[r].to_vec()).collect::<Vec<_>>()
-    };
     let parts = [
-        ("body and bottom", part(&[0..12, 28..32])),
-        ("handle", part(&[12..16])),
-        ("spout", part(&[16..20])),
-        ("lid", part(&[20..28])),
+        ("body and bottom", [&patches[..12], &patches[28..]].concat()),
+        ("handle", patches[12..16].to_vec()),
+        ("spout", patches[16..20].to_vec()),
+        ("lid", patches[20..28].to_vec()),
     ];
     for (name, patches) in parts {
         let model = Model::bezier(patches).unwrap();
