@@ -63,6 +63,7 @@ impl BackendArgs {
 }
 
 /// The failure of asking for a backend that this build does not have.
+#[cfg(not(feature = "gpu"))]
 pub(crate) fn not_built_in(name: &str) -> Failure {
     Failure::unavailable(format!(
         "this build of tess has no {name} backend; --backend core is always there"

@@ -8,7 +8,9 @@ pub mod parts;
 mod simd;
 mod table;
 
-use crate::backends::{BackendName, not_built_in};
+use crate::backends::BackendName;
+#[cfg(not(feature = "gpu"))]
+use crate::backends::not_built_in;
 use crate::failure::Failure;
 use clap::ValueEnum;
 use serde::Serialize;

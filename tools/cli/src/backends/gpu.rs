@@ -58,8 +58,7 @@ impl Backend for GpuBackend {
         patches: &[PatchFactors],
     ) -> Result<Vec<Tessellation>, BackendError> {
         let Some(first) = patches.first() else { return Ok(Vec::new()) };
-        let setup =
-            Setup { numbering: Numbering::PerPatch, ..Setup::new(first.domain(), config) };
+        let setup = Setup { numbering: Numbering::PerPatch, ..Setup::new(first.domain(), config) };
         let output = self.tessellator.tessellate(&self.gpu, setup, patches);
         split_by_patch(&output.map_err(BackendError::new)?, setup)
     }
@@ -92,12 +91,17 @@ impl Backend for GpuBackend {
         let words =
             self.probe(Probe::Locations, Partitioning::Integer, SplitOrder::Ruler, &input)?;
         let all = words.as_chunks::<65>().0.iter().zip(contexts);
-        Ok(all.flat_map(|(all, context)| all.iter().copied().take(context.points as usize)).collect())
+        Ok(all
+            .flat_map(|(all, context)| all.iter().copied().take(context.points as usize))
+            .collect())
     }
 }
 
 /// The patches of a batch, one after another, as the specification numbers them.
-pub(crate) fn split_by_patch(output: &Output, setup: Setup) -> Result<Vec<Tessellation>, BackendError> {
+pub(crate) fn split_by_patch(
+    output: &Output,
+    setup: Setup,
+) -> Result<Vec<Tessellation>, BackendError> {
     let each = setup.indices_per_primitive() as usize;
     let end = [output.points.len(), output.indices.len() / each];
     let begins = output.begins.iter().map(|begin| begin.map(|element| element as usize));
@@ -114,7 +118,10 @@ pub(crate) fn split_by_patch(output: &Output, setup: Setup) -> Result<Vec<Tessel
                 )));
             };
             let points = points.iter().map(|&words| own_point(number, words));
-            Ok(Tessellation { points: points.collect::<Result<_, _>>()?, indices: indices.to_vec() })
+            Ok(Tessellation {
+                points: points.collect::<Result<_, _>>()?,
+                indices: indices.to_vec(),
+            })
         })
         .collect()
 }

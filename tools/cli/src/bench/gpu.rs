@@ -6,7 +6,7 @@ use crate::bench::measure::total;
 use crate::failure::Failure;
 use fill::Fill;
 use std::ops::Range;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 use tess_check::backend::BackendError;
 use tess_check::digest::Fnv1a;
 use tess_check::workloads::{IndexType, Totals, Workload};
@@ -16,6 +16,11 @@ use tess_gpu::runner::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 use tess_gpu::{Numbering, Setup};
 
 mod fill;
+
+/// How long the device works before a measurement if it was idle, so that its clock is up.
+const WARM_UP: Duration = Duration::from_millis(40);
+/// How long a pause makes a device idle.
+const IDLE: Duration = Duration::from_millis(5);
 
 /// Batches that are submitted together, so that a part is long enough for a clock.
 const BATCHES_PER_PART: usize = 64;
@@ -29,6 +34,7 @@ pub(super) struct GpuRunner {
     fill: Fill,
     workload: Option<(Setup, Vec<PatchFactors>)>,
     batches: Vec<Timed>,
+    last_use: Option<Instant>,
 }
 
 /// A batch, what it amounts to, and the bind groups that fill its bytes.
@@ -53,7 +59,15 @@ impl GpuRunner {
         })?;
         let tessellator = Tessellator::new(&gpu.device);
         let fill = Fill::new(&gpu);
-        Ok(Self { gpu, stopwatch, tessellator, fill, workload: None, batches: Vec::new() })
+        Ok(Self {
+            gpu,
+            stopwatch,
+            tessellator,
+            fill,
+            workload: None,
+            batches: Vec::new(),
+            last_use: None,
+        })
     }
 
     fn timed(
@@ -93,6 +107,25 @@ impl GpuRunner {
         let usage = wgpu::BufferUsages::STORAGE;
         let buffer = |label, bytes: u64| self.gpu.buffer(label, bytes.next_multiple_of(16), usage);
         (buffer("points", 8 * points), buffer("indices", 4 * indices))
+    }
+
+    /// Runs a part until the device has left its idle state.
+    fn warm(&mut self, part: usize) -> Result<(), BackendError> {
+        if self.last_use.is_none_or(|last| last.elapsed() > IDLE) {
+            let start = Instant::now();
+            while start.elapsed() < WARM_UP {
+                self.time(|encoder| {
+                    self.part(part).iter().for_each(|timed| timed.batch.encode(encoder));
+                })?;
+            }
+        }
+        self.last_use = Some(Instant::now());
+        Ok(())
+    }
+
+    fn time(&self, work: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<Duration, BackendError> {
+        let time = self.stopwatch.time(&self.gpu, work);
+        time.map(Duration::from_nanos).map_err(BackendError::new)
     }
 
     fn part(&self, part: usize) -> &[Timed] {
@@ -162,17 +195,17 @@ impl Runner for GpuRunner {
     }
 
     fn run(&mut self, part: usize) -> Result<Duration, BackendError> {
-        let time = self.stopwatch.time(&self.gpu, |encoder| {
+        self.warm(part)?;
+        self.time(|encoder| {
             self.part(part).iter().for_each(|timed| timed.batch.encode(encoder));
-        });
-        time.map(Duration::from_nanos).map_err(BackendError::new)
+        })
     }
 
     fn fill(&mut self, part: usize) -> Result<Duration, BackendError> {
-        let time = self.stopwatch.time(&self.gpu, |encoder| {
+        self.warm(part)?;
+        self.time(|encoder| {
             self.part(part).iter().for_each(|timed| self.fill.encode(encoder, &timed.fills));
-        });
-        time.map(Duration::from_nanos).map_err(BackendError::new)
+        })
     }
 }
 
