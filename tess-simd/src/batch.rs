@@ -135,7 +135,7 @@ impl Batch<'_> {
     }
 }
 
-fn padded<'a, const N: usize>(columns: [&'a [f32]; N]) -> ([&'a [f32]; MAX_FACTORS], usize) {
+fn padded<const N: usize>(columns: [&[f32]; N]) -> ([&[f32]; MAX_FACTORS], usize) {
     (core::array::from_fn(|i| columns.get(i).copied().unwrap_or_default()), N)
 }
 

@@ -30,8 +30,8 @@ pub(crate) fn process(config: Config, domain: Domain, raw: &Column<f32>) -> Proc
     };
     if domain == Domain::Isoline {
         processed.minimum = [0; N];
-        for lane in 0..N {
-            let density = ceil(clamp(raw[lane], 1.0, 64.0));
+        for (lane, &density) in raw[..N].iter().enumerate() {
+            let density = ceil(clamp(density, 1.0, 64.0));
             processed.fixed[lane] = density << 16;
             processed.odd[lane] = density & 1;
         }

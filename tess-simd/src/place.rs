@@ -21,15 +21,13 @@ impl Locations {
     /// Computes the locations of points `0..context.points`.
     #[inline(always)]
     pub(crate) fn fill(&mut self, context: &Context) {
-        let mut first = 0;
+        let mut p = 0;
         for chunk in self.0.as_chunks_mut::<STEP>().0 {
-            let mut p = first;
             for location in chunk {
                 *location = place(context, p);
                 p += 1;
             }
-            first += STEP as u32;
-            if first >= context.points {
+            if p >= context.points {
                 break;
             }
         }

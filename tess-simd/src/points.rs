@@ -38,6 +38,7 @@ pub(crate) struct LocationTables {
 type Tables<'a> = [&'a Locations; MAX_FACTORS];
 
 impl LocationTables {
+    #[expect(clippy::large_stack_arrays, reason = "27 KiB, moved to its place once")]
     pub(crate) const EMPTY: Self = Self { keys: [0; SLOTS], tables: [Locations::EMPTY; SLOTS] };
 
     /// The number of the table that holds a factor's locations.

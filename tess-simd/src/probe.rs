@@ -10,6 +10,7 @@ use crate::lanes::{Column, LANES, MAX_FACTORS};
 use crate::level::Level;
 use crate::place::Locations;
 use alloc::vec::Vec;
+use tess_core::fixed_point::ONE;
 use tess_core::{
     Config, Domain, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, SplitOrder,
 };
@@ -30,8 +31,8 @@ pub fn fixed_factors(
     Ok(factors)
 }
 
-/// Contexts (spec section 4) of fixed-point factors; one outside 1..=63 (odd) or 1..=64 (even)
-/// counts as the nearest end.
+/// Contexts (spec section 4) of fixed-point factors: 1..=63 if odd, 1 and 2..=64 if even; one outside
+/// counts as the nearest.
 ///
 /// # Errors
 /// [`LevelUnavailable`] if this machine cannot run the level.
@@ -97,7 +98,9 @@ pub(crate) fn contexts_kernel(
     let odd = parity.odd();
     let highest = (64 - odd) << 16;
     for (factor, context) in factors.iter().zip(contexts) {
-        let fixed = factor.to_bits().clamp(FixedFactor::ONE.to_bits(), highest);
+        // Between the even factor 1, which acts as 2, and 2 itself there is none.
+        let lowest = if factor.to_bits() <= ONE { ONE } else { (2 - odd) << 16 };
+        let fixed = factor.to_bits().clamp(lowest, highest);
         *context = FactorContext::from(&Context::new(fixed, odd, split));
     }
 }

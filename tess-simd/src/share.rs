@@ -84,6 +84,7 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
 }
 
 /// Cuts a share of at least two slices in two, the first with the output of half the threads.
+#[expect(clippy::cast_possible_truncation, reason = "a checked batch's sizes fit 32 bits")]
 fn halve<'a, P, I>(
     plan: Plan<'_>,
     share: Share<'a, P, I>,
@@ -95,7 +96,6 @@ fn halve<'a, P, I>(
     let nearest = (1..counts.len()).min_by_key(|&n| weight(&counts[..n]).abs_diff(wanted));
     let (left, right) = counts.split_at(nearest.unwrap_or(1));
     let total = left.iter().copied().fold(PartCounts::default(), PartCounts::and);
-    // A batch's points and indices fit 32 bits.
     let (points, indices) = (total.points as usize, total.indices as usize);
     let (one, other) = cut(batch, left.len() * plan.slice);
     let (points, more_points) = buffers.points.split_at_mut(points);

@@ -39,7 +39,7 @@ pub(crate) struct Rows {
 
 /// The code of an entry of the outer row, at most 64.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 64")]
+#[expect(clippy::cast_possible_truncation, reason = "at most 64")]
 const fn outer_code(k: u32) -> i8 {
     k as i8
 }

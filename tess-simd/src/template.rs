@@ -101,6 +101,10 @@ impl Templates {
     /// Makes a template; if there is no room, all others are forgotten.
     #[cold]
     #[inline(never)]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "indices of 4 points, and places in the room"
+    )]
     fn make(
         &mut self,
         (config, stitches): (Config, &Stitches),
@@ -155,6 +159,7 @@ fn topology(edges: &EdgePoints, minimum: bool) -> u64 {
 
 /// Where a topology's template is kept: the upper bits of a product with 2^64 over the golden ratio.
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the upper ten bits")]
 const fn slot(key: u64) -> usize {
     (key.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SLOTS.ilog2())) as usize
 }

@@ -160,8 +160,8 @@ impl Tessellator {
     }
 }
 
+#[expect(clippy::cast_possible_truncation, reason = "a checked batch's sizes fit 32 bits")]
 fn sizes(batch: &Batch<'_>, counts: PartCounts) -> BatchCounts {
-    // Both counts fit 32 bits.
     BatchCounts {
         patches: batch.len(),
         points: counts.points as usize,

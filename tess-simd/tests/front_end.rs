@@ -2,9 +2,10 @@
 //! fixed-point factor in the slow suite (`cargo test --release -p tess-simd --test front_end --
 //! --ignored`).
 
-mod common;
+#[path = "common/levels.rs"]
+mod levels;
 
-use common::levels;
+use levels::levels;
 use tess_check::backend::Backend;
 use tess_check::core_backend::CoreBackend;
 use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
@@ -66,7 +67,7 @@ fn factors_of_every_value() {
 }
 
 /// Compares contexts and all their locations for every `step`-th fixed-point factor.
-fn compare_contexts(step: usize) {
+fn compare_contexts(step: u32) {
     for level in levels() {
         for (split, parity) in [
             (SplitOrder::Ruler, Parity::Even),
@@ -76,7 +77,7 @@ fn compare_contexts(step: usize) {
         ] {
             let last = (64 - parity.odd()) << 16;
             let all: Vec<_> = (1 << 16..=last)
-                .filter(|bits| bits % step as u32 == 0 || (bits + 40) & 0xFFFF < 80)
+                .filter(|bits| bits % step == 0 || (bits + 40) & 0xFFFF < 80)
                 .map(FixedFactor::from_bits)
                 .collect();
             for factors in all.chunks(BATCH) {

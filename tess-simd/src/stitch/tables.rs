@@ -113,7 +113,7 @@ impl Stitches {
                 let quad = Quad::new(config, [outer, 1, 1, 1], [2, inside]);
                 let Some(quad) = quad else { continue };
                 let [outer_points, ..] = quad.outer;
-                let at = (outer_points * COUNTS as u32 + quad.inside[1]) as usize;
+                let at = outer_points as usize * COUNTS + quad.inside[1] as usize;
                 if self.transitions[at].length > 0 {
                     continue;
                 }
@@ -215,7 +215,7 @@ impl Quad {
 }
 
 /// A row position as a code. Positions are at most 64.
-#[expect(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "at most 64")]
+#[expect(clippy::cast_possible_truncation, reason = "at most 64")]
 const fn code(position: u32) -> i8 {
     position as i8
 }

@@ -162,16 +162,24 @@ impl<I: Index> Runner for SimdRunner<I> {
         for range in workload.cache_batches(I::TYPE) {
             batches.push(counted_batch::<I>(&mut tessellator, &patches, range, indices_each)?);
         }
-        if working_set == WorkingSet::Stream {
-            batches = streamed(&batches, workload.stream_repeats(I::TYPE));
-        }
-        let bytes: Vec<_> = batches.iter().map(|batch| batch.amount.bytes).collect();
-        let parts = parts(&bytes);
+        let parts = match working_set {
+            WorkingSet::Cache => {
+                let bytes: Vec<_> = batches.iter().map(|batch| batch.amount.bytes).collect();
+                parts(&bytes)
+            }
+            // One part: between shorter ones the caches would have time to write back.
+            WorkingSet::Stream => {
+                batches = streamed(&batches, workload.stream_repeats(I::TYPE));
+                std::iter::once(0..batches.len()).collect()
+            }
+        };
         let amount = |part: &Range<usize>| total(batches[part.clone()].iter().map(|b| b.amount));
         let amounts = parts.iter().map(amount).collect();
         let largest = |end: fn(&Batch) -> usize| batches.iter().map(end).max().unwrap_or(0);
-        self.points = vec![[0.0; 2]; largest(|batch| batch.start.0 + batch.counts.points)];
-        self.indices = vec![I::default(); largest(|batch| batch.start.1 + batch.counts.indices)];
+        // Not zeros, which would leave the memory to be mapped under the clock.
+        self.points = vec![[1.0; 2]; largest(|batch| batch.start.0 + batch.counts.points)];
+        self.indices =
+            vec![I::wrapping_from(1); largest(|batch| batch.start.1 + batch.counts.indices)];
         self.ranges = vec![PatchRange::default(); largest(|batch| batch.patches.len())];
         self.prepared = Some(Prepared { tessellator, patches, batches, parts });
         Ok(amounts)
