@@ -7,6 +7,7 @@
 )]
 
 mod cracks;
+mod displacement;
 mod errors;
 mod factors;
 mod flatness;

@@ -70,7 +70,9 @@ pub(crate) fn creased_cube() -> PolygonMesh {
         let first = u32::try_from(mesh.positions.len()).unwrap();
         let numbers = Sides::Quad([first, first + 1, first + 2, first + 3]);
         mesh.positions.extend([*a, *b, *c, *d]);
-        mesh.normals.extend([(*b - *a).cross(*c - *a); 4]);
+        // Tilted, so that both sides want different curves.
+        let across = (*b - *a).cross(*c - *a);
+        mesh.normals.extend([*a, *b, *c, *d].map(|corner| across + corner));
         mesh.texcoords.extend([Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y].map(|t| t * 0.7));
         mesh.faces.push(Face {
             positions: numbers,

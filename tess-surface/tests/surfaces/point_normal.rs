@@ -123,9 +123,30 @@ fn creases_meet_in_the_middle() {
     }
     let model = Model::polygons(creased, Style::PointNormal).unwrap();
     // Corner 0 at u = 1, corner 1 at v = 1: their edge is w = 0 in both.
-    let (ours, theirs) = (model.patch(0).position([0.5, 0.5]), model.patch(1).position([0.5, 0.5]));
+    let (ours, theirs) =
+        (model.patch(0).position([0.75, 0.25]), model.patch(1).position([0.25, 0.75]));
     assert_eq!(ours.to_array().map(f32::to_bits), theirs.to_array().map(f32::to_bits), "one edge");
-    assert!(ours.z.abs() > 1e-3 || ours.y.abs() < 1e-6, "the mean of both sides: {ours}");
+    assert!(ours.z.abs() > 1e-3 && ours.y.abs() < 1e-6, "the mean of both sides: {ours}");
     let normals = [model.patch(0).normal([0.5, 0.5]), model.patch(1).normal([0.5, 0.5])];
     assert!(normals[0].distance(normals[1]) > 0.1, "the crease is still lit as one");
+}
+
+/// The centre's coefficient makes a quadratic surface of a quadratic boundary, as the paper says:
+/// z = u^2 + 2uv - v^2, its edges raised to cubics.
+#[test]
+fn quadratic_surfaces_are_met() {
+    let corner = |position| PnCorner { position: Vec3::from_array(position), normal: Vec3::Z };
+    let corners = [[1., 0., 1.], [0., 1., -1.], [0., 0., 0.]].map(corner);
+    let third = 1.0 / 3.0;
+    let edges = [
+        [[0., third, 0.], [0., 2. * third, -third]],
+        [[third, 0., 0.], [2. * third, 0., third]],
+        [[third, 2. * third, third], [2. * third, third, 1.]],
+    ];
+    let triangle = PnTriangle::new(corners, edges.map(|edge| edge.map(Vec3::from_array)));
+    for [u, v] in grid(true) {
+        let expected = Vec3::new(u, v, u * u + 2.0 * u * v - v * v);
+        let found = triangle.frame(u, v).position;
+        assert!(found.distance(expected) < 1e-6, "at ({u}, {v}): {found}");
+    }
 }
