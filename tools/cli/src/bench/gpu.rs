@@ -18,7 +18,7 @@ use tess_gpu::{Numbering, Setup};
 mod fill;
 
 /// How long the device works before a measurement if it was idle, so that its clock is up.
-const WARM_UP: Duration = Duration::from_millis(40);
+const WARM_UP: Duration = Duration::from_millis(700);
 /// How long a pause makes a device idle.
 const IDLE: Duration = Duration::from_millis(5);
 
