@@ -3,7 +3,7 @@
 use crate::command::{self, cargo};
 use crate::test;
 
-/// Formatting, lints, documentation, features, the `no_std` proof, then every test.
+/// Formatting, lints, documentation, features, the oracles of the fuzz targets, then every test.
 pub(crate) fn run() -> Result<(), String> {
     command::run(&mut cargo("fmt --all --check"))?;
     command::run(
@@ -15,6 +15,7 @@ pub(crate) fn run() -> Result<(), String> {
     for features in FEATURE_SETS {
         command::run(&mut cargo(features))?;
     }
+    command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
     test::run()
 }
 

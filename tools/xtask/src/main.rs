@@ -13,7 +13,7 @@ usage: cargo xtask <command>
 
   test    set up what the tests need, then run every test of the workspace
   ci      what the continuous integration runs: formatting, lints, documentation,
-          the no_std proof, then `test`
+          features, the fuzz targets' oracles on their seeds, then `test`
   setup   only set up: a Vulkan driver, C and C++ compilers, Verilator";
 
 fn main() -> ExitCode {
