@@ -163,7 +163,7 @@ impl Runner for GpuRunner {
         let (ranges, repeats) = match working_set {
             WorkingSet::Cache => (workload.cache_batches(IndexType::U32), 1),
             WorkingSet::Stream => {
-                (vec![0..workload.patches.len()], workload.stream_repeats(IndexType::U32))
+                (Vec::from([0..workload.patches.len()]), workload.stream_repeats(IndexType::U32))
             }
         };
         let totals: Vec<_> = ranges.iter().map(|range| totals(&counts, range)).collect();
