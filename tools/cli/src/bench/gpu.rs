@@ -163,7 +163,8 @@ impl Runner for GpuRunner {
         let (ranges, repeats) = match working_set {
             WorkingSet::Cache => (workload.cache_batches(IndexType::U32), 1),
             WorkingSet::Stream => {
-                (Vec::from([0..workload.patches.len()]), workload.stream_repeats(IndexType::U32))
+                let whole = std::iter::once(0..workload.patches.len()).collect();
+                (whole, workload.stream_repeats(IndexType::U32))
             }
         };
         let totals: Vec<_> = ranges.iter().map(|range| totals(&counts, range)).collect();
