@@ -20,7 +20,7 @@
 //! ```
 //!
 //! The modules follow a patch on its way: [`state`] and [`factors`] (what goes in),
-//! [`fixed_point`], [`factor_context`], [`place`] (one dimension), `points` (two dimensions), `row`,
+//! [`fixed_point`], [`factor_context`], [`mod@place`] (one dimension), `points` (two dimensions), `row`,
 //! `stitch`, `connect` (triangles), with `locate` for random access; [`prepare`] is what a hull
 //! shader does in front of the tessellator.
 #![no_std]
