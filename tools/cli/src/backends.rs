@@ -11,6 +11,7 @@ use crate::failure::Failure;
 use clap::ValueEnum;
 use tess_check::backend::Backend;
 use tess_check::core_backend::CoreBackend;
+use tess_simd::Level;
 
 /// The names that `--backend` takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -29,15 +30,26 @@ pub struct BackendArgs {
     /// Implementation to run
     #[arg(long, value_name = "NAME", default_value = "core")]
     pub backend: BackendName,
+    /// What it can be told.
+    #[command(flatten)]
+    pub options: BackendOptions,
+}
+
+/// What a backend can be told.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub struct BackendOptions {
+    /// CPU level of the simd backend (baseline, avx2 or avx512); the best of this machine unless
+    /// said
+    #[arg(long, value_name = "NAME", value_parser = cpu_level)]
+    pub cpu_level: Option<Level>,
+}
+
+fn cpu_level(name: &str) -> Result<Level, String> {
+    let known = Level::ALL.into_iter().find(|level| level.name() == name);
+    known.ok_or_else(|| "the levels are baseline, avx2 and avx512".to_owned())
 }
 
 impl BackendArgs {
-    /// A backend with no further options.
-    #[must_use]
-    pub const fn named(backend: BackendName) -> Self {
-        Self { backend }
-    }
-
     /// Makes the chosen backend ready.
     ///
     /// # Errors
@@ -51,9 +63,25 @@ impl BackendArgs {
     /// # Errors
     /// As for [`Self::select`].
     pub fn select_named(&self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
+        self.options.select(name)
+    }
+}
+
+impl BackendOptions {
+    /// Makes a backend ready as these options say.
+    ///
+    /// # Errors
+    /// Exit code 3 if this build or this machine does not have it, with the next step.
+    pub fn select(self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
         match name {
             BackendName::Core => Ok(Box::new(CoreBackend)),
-            BackendName::Simd => Ok(Box::new(simd::Simd::new())),
+            BackendName::Simd => {
+                let level = self.cpu_level.unwrap_or_else(Level::detect);
+                let simd = simd::Simd::with_level(level).map_err(|error| {
+                    Failure::unavailable(format!("{error}; leave out --cpu-level for the best"))
+                })?;
+                Ok(Box::new(simd))
+            }
             #[cfg(feature = "gpu")]
             BackendName::Gpu => Ok(Box::new(gpu::GpuBackend::open()?)),
             #[cfg(not(feature = "gpu"))]

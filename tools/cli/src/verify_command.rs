@@ -1,6 +1,6 @@
 //! `tess verify`: every backend against the model.
 
-use crate::backends::{BackendArgs, BackendName};
+use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
 use crate::gen_command::shard;
 use crate::output::stdout;
@@ -31,6 +31,8 @@ pub struct Args {
     /// Backend to compare; all of this build unless said
     #[arg(long, value_name = "NAME")]
     backend: Vec<BackendName>,
+    #[command(flatten)]
+    options: BackendOptions,
     /// Everything that is finite
     #[arg(long)]
     exhaustive: bool,
@@ -83,7 +85,7 @@ impl Args {
         } else {
             std::thread::available_parallelism().map_or(1, usize::from)
         };
-        let backends = || names.iter().map(|&name| BackendArgs::named(name).select()).collect();
+        let backends = || names.iter().map(|&name| self.options.select(name)).collect();
         (0..threads).map(|_| backends()).collect()
     }
 }

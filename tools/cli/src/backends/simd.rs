@@ -1,14 +1,15 @@
 //! The SIMD backend as a backend under test.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use tess_check::backend::{Backend, BackendError};
 use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, IsolineFactors, Parity, Partitioning,
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
-use tess_simd::{Batch, Level, Numbering, Output, Tessellator};
+use tess_simd::{Batch, Level, LevelUnavailable, Numbering, Output, Tessellator};
 
-/// `tess-simd` at the most capable CPU level of this machine.
+/// `tess-simd` at one CPU level.
 #[derive(Debug)]
 pub struct Simd {
     level: Level,
@@ -18,16 +19,15 @@ pub struct Simd {
 }
 
 impl Simd {
-    /// Chooses the level.
-    #[must_use]
-    pub fn new() -> Self {
-        Self { level: Level::detect(), tessellators: HashMap::new(), output: Output::new() }
-    }
-}
-
-impl Default for Simd {
-    fn default() -> Self {
-        Self::new()
+    /// A backend that runs at `level`.
+    ///
+    /// # Errors
+    /// This machine cannot run that level.
+    pub fn with_level(level: Level) -> Result<Self, LevelUnavailable> {
+        if !level.is_available() {
+            return Err(LevelUnavailable(level));
+        }
+        Ok(Self { level, tessellators: HashMap::new(), output: Output::new() })
     }
 }
 
@@ -45,8 +45,13 @@ impl Backend for Simd {
         config: Config,
         patches: &[PatchFactors],
     ) -> Result<Vec<Tessellation>, BackendError> {
-        let Self { tessellators, output, .. } = self;
-        let tessellator = tessellators.entry(config).or_insert_with(|| Tessellator::new(config));
+        let Self { level, tessellators, output } = self;
+        let tessellator = match tessellators.entry(config) {
+            Entry::Occupied(known) => known.into_mut(),
+            Entry::Vacant(new) => {
+                new.insert(Tessellator::with_level(config, *level).map_err(unavailable)?)
+            }
+        };
         let patches = Patches::new(patches)?;
         let mut all = Vec::with_capacity(patches.len());
         // Small batches: a batch's points and indices must be countable in 32 bits.
@@ -87,7 +92,7 @@ impl Backend for Simd {
     }
 }
 
-fn unavailable(error: tess_simd::LevelUnavailable) -> BackendError {
+fn unavailable(error: LevelUnavailable) -> BackendError {
     BackendError::new(error.to_string())
 }
 

@@ -1,5 +1,6 @@
 //! The program as its users run it.
 
+mod backends;
 mod bench;
 mod check;
 mod draw;

@@ -40,6 +40,14 @@ pub(crate) fn tess_with_input(words: &str, input: &str) -> Run {
     child.wait_with_output().expect("tess ends").into()
 }
 
+/// Runs `tess` with these words and environment variables.
+#[cfg(all(feature = "gpu", target_os = "linux"))]
+pub(crate) fn tess_with_environment(words: &str, variables: &[(&str, &str)]) -> Run {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tess"));
+    command.args(words.split_whitespace()).envs(variables.iter().copied());
+    command.output().expect("tess runs").into()
+}
+
 /// An empty directory of a test's own.
 pub(crate) fn directory(test: &str) -> PathBuf {
     let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);

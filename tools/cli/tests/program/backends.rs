@@ -1,0 +1,78 @@
+//! The backends behind the program: exact on the recorded results, and told when they are not there.
+
+use crate::support::tess;
+#[cfg(all(feature = "gpu", target_os = "linux"))]
+use crate::support::tess_with_environment;
+use tess_simd::Level;
+
+const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden");
+
+fn equals(file: &str, backend: &str) {
+    let run = tess(&format!("check {GOLDEN}/{file} --backend {backend}"));
+    assert_eq!(run.code, Some(0), "{file} with {backend}: {}{}", run.stdout, run.stderr);
+    assert!(run.stdout.ends_with(" cases, 0 mismatches\n"), "{file}: {}", run.stdout);
+}
+
+#[test]
+fn simd_equals_every_recorded_result() {
+    let files = ["cases.txt", "patches.csv", "corners.csv", "hlsl.csv", "sweep.csv", "uniform.csv"];
+    for file in files.into_iter().chain(["place.csv", "factor.csv"]) {
+        equals(file, "simd");
+    }
+}
+
+/// A level that this machine lacks ends with exit code 3, not with another level.
+#[test]
+fn simd_at_every_cpu_level() {
+    for level in Level::ALL {
+        let backend = format!("simd --cpu-level {level}");
+        for file in ["cases.txt", "patches.csv", "corners.csv", "sweep.csv"] {
+            if level.is_available() {
+                equals(file, &backend);
+            } else {
+                let run = tess(&format!("check {GOLDEN}/{file} --backend {backend}"));
+                assert_eq!(run.code, Some(3), "{level} is not available: {}", run.stdout);
+            }
+        }
+    }
+    let run = tess(&format!("check {GOLDEN}/cases.txt --backend simd --cpu-level avx1024"));
+    assert_eq!(run.code, Some(2), "no such level: {}", run.stderr);
+}
+
+#[cfg(feature = "gpu")]
+#[test]
+fn gpu_equals_recorded_patches() {
+    for file in ["cases.txt", "patches.csv", "corners.csv", "hlsl.csv"] {
+        equals(file, "gpu");
+    }
+}
+
+/// Without a driver there is no adapter: exit code 3 and the next step, never a pass.
+#[cfg(all(feature = "gpu", target_os = "linux"))]
+#[test]
+fn no_adapter_is_reported() {
+    let none = [("VK_DRIVER_FILES", "/nonexistent"), ("VK_ICD_FILENAMES", "/nonexistent")];
+    let run = tess_with_environment(&format!("check {GOLDEN}/cases.txt --backend gpu"), &none);
+    assert_eq!(run.code, Some(3), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.is_empty() && !run.stderr.is_empty(), "a message: {}", run.stderr);
+}
+
+/// The same vectors from the generator through every backend, without a file.
+#[test]
+fn verify_compares_what_it_says() {
+    let run = tess("verify --backend simd --subject transitions --subject interiors");
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    let words = |name: &str| {
+        let line = run.stdout.lines().find(|line| line.starts_with(name));
+        line.map(|line| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+    };
+    let row = |name: &str, n: &str| Some([name, "simd", n, "0"].map(str::to_owned).to_vec());
+    assert_eq!(words("transitions"), row("transitions", "24576"), "{}", run.stdout);
+    assert_eq!(words("interiors"), row("interiors", "8256"), "{}", run.stdout);
+    // One part in 16384 of all binary32 in all partitionings: NaNs and negatives among them.
+    for part in [1, 3000, 8191, 8193, 16384] {
+        let run = tess(&format!("verify --backend simd --subject factors --shard {part}/16384"));
+        assert_eq!(run.code, Some(0), "part {part}: {}{}", run.stdout, run.stderr);
+        assert!(run.stdout.contains(" 1048576 "), "a unit was compared: {}", run.stdout);
+    }
+}
