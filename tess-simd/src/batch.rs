@@ -120,18 +120,80 @@ impl Batch<'_> {
             }
         }
     }
+}
 
-    /// The factors of patches `first..first + LANES`, zero where there is no patch.
+/// The factors of up to [`Chunk::PATCHES`] patches, factor by factor.
+///
+/// Blocks are read from here and not from the batch: what is written in single numbers is read
+/// as vectors, for which the writes must have been long ago.
+#[derive(Clone, Debug)]
+pub(crate) struct Chunk([[f32; Self::PATCHES]; MAX_FACTORS]);
+
+impl Chunk {
+    pub(crate) const PATCHES: usize = 4 * LANES;
+    pub(crate) const EMPTY: Self = Self([[0.0; Self::PATCHES]; MAX_FACTORS]);
+
+    /// Loads patches from `first` on, as many as there is room for; zero where there is no patch.
     #[inline(always)]
-    pub(crate) fn load(&self, first: usize) -> Column<f32> {
-        match self {
-            Self::Isolines(patches) => load_structures(patches, first, isoline),
-            Self::Triangles(patches) => load_structures(patches, first, triangle),
-            Self::Quads(patches) => load_structures(patches, first, quad),
-            Self::IsolineColumns(columns) => load_columns(isoline(columns), first),
-            Self::TriangleColumns(columns) => load_columns(triangle(columns), first),
-            Self::QuadColumns(columns) => load_columns(quad(columns), first),
+    pub(crate) fn load(&mut self, batch: &Batch<'_>, first: usize) {
+        match batch {
+            Batch::Isolines(patches) => self.load_structures(patches, first, isoline),
+            Batch::Triangles(patches) => self.load_structures(patches, first, triangle),
+            Batch::Quads(patches) => self.load_structures(patches, first, quad),
+            Batch::IsolineColumns(columns) => self.load_columns(isoline(columns), first),
+            Batch::TriangleColumns(columns) => self.load_columns(triangle(columns), first),
+            Batch::QuadColumns(columns) => self.load_columns(quad(columns), first),
         }
+    }
+
+    #[inline(always)]
+    fn load_structures<F, const N: usize>(
+        &mut self,
+        patches: &[F],
+        first: usize,
+        factors: impl Fn(&F) -> [f32; N],
+    ) {
+        let patches = patches.get(first..).unwrap_or_default();
+        let patches = patches.get(..Self::PATCHES).unwrap_or(patches);
+        for (i, patch) in patches.iter().enumerate().take(Self::PATCHES) {
+            let row = factors(patch);
+            for factor in 0..N {
+                self.0[factor][i] = row[factor];
+            }
+        }
+        self.clear(patches.len());
+    }
+
+    #[inline(always)]
+    fn load_columns<const N: usize>(&mut self, columns: [&[f32]; N], first: usize) {
+        let count = columns.iter().map(|c| c.len()).min().unwrap_or(0);
+        let mut loaded = 0;
+        for (values, source) in self.0.iter_mut().zip(columns) {
+            let source = source.get(first..count.min(first + Self::PATCHES)).unwrap_or_default();
+            values[..source.len()].copy_from_slice(source);
+            loaded = source.len();
+        }
+        self.clear(loaded);
+    }
+
+    /// Zeros from a patch on.
+    #[inline(always)]
+    fn clear(&mut self, first: usize) {
+        if first < Self::PATCHES {
+            for values in &mut self.0 {
+                values[first..].fill(0.0);
+            }
+        }
+    }
+
+    /// The factors of the eight patches of a block, `number` blocks into the chunk.
+    #[inline(always)]
+    pub(crate) fn block(&self, number: usize) -> Column<f32> {
+        let mut column = [0.0; LANES * MAX_FACTORS];
+        for (lanes, values) in column.as_chunks_mut::<LANES>().0.iter_mut().zip(&self.0) {
+            *lanes = values.as_chunks().0[number % (Self::PATCHES / LANES)];
+        }
+        column
     }
 }
 
@@ -141,41 +203,4 @@ fn padded<const N: usize>(columns: [&[f32]; N]) -> ([&[f32]; MAX_FACTORS], usize
 
 fn part<'a, T>(slice: &'a [T], range: &Range<usize>) -> &'a [T] {
     slice.get(range.clone()).unwrap_or_default()
-}
-
-#[inline(always)]
-fn load_structures<F, const N: usize>(
-    patches: &[F],
-    first: usize,
-    factors: impl Fn(&F) -> [f32; N],
-) -> Column<f32> {
-    let mut column = [0.0; LANES * MAX_FACTORS];
-    let patches = patches.get(first..).unwrap_or_default();
-    if let Some(patches) = patches.first_chunk::<LANES>() {
-        for (lane, patch) in patches.iter().enumerate() {
-            let row = factors(patch);
-            for factor in 0..N {
-                column[factor * LANES + lane] = row[factor];
-            }
-        }
-    } else {
-        for (lane, patch) in patches.iter().enumerate() {
-            let row = factors(patch);
-            for factor in 0..N {
-                column[factor * LANES + lane] = row[factor];
-            }
-        }
-    }
-    column
-}
-
-#[inline(always)]
-fn load_columns<const N: usize>(columns: [&[f32]; N], first: usize) -> Column<f32> {
-    let mut column = [0.0; LANES * MAX_FACTORS];
-    let count = columns.iter().map(|c| c.len()).min().unwrap_or(0);
-    for (values, source) in column.chunks_exact_mut(LANES).zip(columns) {
-        let source = source.get(first..count.min(first + LANES)).unwrap_or_default();
-        values[..source.len()].copy_from_slice(source);
-    }
-    column
 }

@@ -1,11 +1,15 @@
 //! A block of eight patches after the front end: factors, contexts and counts.
 
-use crate::batch::Batch;
+use crate::batch::{Batch, Chunk};
 use crate::counts::{BlockCounts, counts};
-use crate::factor_context::{Context, Contexts, point_counts};
+use crate::factor_context::{Context, Spacings, point_counts};
 use crate::factors::process;
-use crate::lanes::{Column, EdgePoints, LANES, Lanes};
+use crate::lanes::{Column, EdgePoints, LANES, Lanes, is_odd};
+use crate::place::Spacing;
 use tess_core::{Config, Domain, Partitioning};
+
+/// Blocks that go through the front end in one call.
+pub(crate) const BLOCKS: usize = Chunk::PATCHES / LANES;
 
 /// Eight patches of one domain after factor processing, their output sizes known.
 #[derive(Clone, Copy, Debug)]
@@ -13,41 +17,70 @@ pub(crate) struct Block {
     config: Config,
     domain: Domain,
     fixed: Column,
-    odd: Column,
     points: Column,
+    spacings: Spacings,
     minimum: Lanes,
+    topologies: Lanes<u64>,
     pub(crate) counts: BlockCounts,
 }
 
+/// Takes patches from `first` on through the front end, as many as there is room for; those past
+/// the end of the batch count as culled.
+#[inline(always)]
+pub(crate) fn process_blocks(
+    config: Config,
+    batch: &Batch<'_>,
+    first: usize,
+    blocks: &mut [Block; BLOCKS],
+) {
+    let mut chunk = Chunk::EMPTY;
+    chunk.load(batch, first);
+    for (number, block) in blocks.iter_mut().enumerate() {
+        if first + number * LANES >= batch.len() {
+            break;
+        }
+        *block = Block::new(config, batch.domain(), &chunk.block(number));
+    }
+}
+
 impl Block {
-    /// Processes patches `first..first + LANES` of a batch; those past its end count as culled.
+    /// A block of culled patches.
+    pub(crate) const EMPTY: Self = Self {
+        config: Config::new(Partitioning::Integer, tess_core::OutputPrimitive::Point),
+        domain: Domain::Quad,
+        fixed: [0; _],
+        points: [0; _],
+        spacings: Spacings::NONE,
+        minimum: [0; _],
+        topologies: [0; _],
+        counts: BlockCounts { points: [0; _], indices: [0; _] },
+    };
+
+    /// Processes the raw factors of eight patches; zeros count as culled.
     #[inline(always)]
-    pub(crate) fn new(config: Config, batch: &Batch<'_>, first: usize) -> Self {
-        let domain = batch.domain();
-        let processed = process(config, domain, &batch.load(first));
-        let (fixed, odd) = (processed.fixed, processed.odd);
-        let points = match domain {
-            Domain::Isoline => point_counts::<{ 2 * LANES }>(&fixed, &odd),
-            Domain::Triangle => point_counts::<{ 4 * LANES }>(&fixed, &odd),
-            Domain::Quad => point_counts::<{ 6 * LANES }>(&fixed, &odd),
-        };
-        let counts = counts(config, domain, &processed, &points);
-        Self { config, domain, fixed, odd, points, minimum: processed.minimum, counts }
+    pub(crate) fn new(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
+        match domain {
+            Domain::Isoline => Self::of_factors::<{ 2 * LANES }>(config, domain, raw),
+            Domain::Triangle => Self::of_factors::<{ 4 * LANES }>(config, domain, raw),
+            Domain::Quad => Self::of_factors::<{ 6 * LANES }>(config, domain, raw),
+        }
     }
 
-    /// The contexts of its factors. Where factors are integers, few are ever needed, and
-    /// [`Block::context`] computes them one by one.
+    /// [`Block::new`] for patches whose factors are the first `ALL` elements of a column.
     #[inline(always)]
-    pub(crate) fn contexts(&self) -> Contexts {
-        let Self { config, fixed, odd, .. } = self;
-        if self.integer() {
-            return Contexts::NONE;
-        }
-        match self.domain {
-            Domain::Isoline => Contexts::new::<{ 2 * LANES }>(fixed, odd, config.split),
-            Domain::Triangle => Contexts::new::<{ 4 * LANES }>(fixed, odd, config.split),
-            Domain::Quad => Contexts::new::<{ 6 * LANES }>(fixed, odd, config.split),
-        }
+    fn of_factors<const ALL: usize>(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
+        let processed = process(config, domain, raw);
+        let points = point_counts::<ALL>(&processed.fixed, &processed.odd);
+        // Where factors are integers, few spacings are ever needed: see `Block::spacing`.
+        let spacings = if is_integer(config) {
+            Spacings::NONE
+        } else {
+            Spacings::new::<ALL>(&processed.fixed, &processed.odd, config.split)
+        };
+        let counts = counts(config, domain, &processed, &points);
+        let topologies = topologies(&points, &processed.minimum);
+        let (fixed, minimum) = (processed.fixed, processed.minimum);
+        Self { config, domain, fixed, points, spacings, minimum, topologies, counts }
     }
 
     /// The domain of its patches.
@@ -59,13 +92,19 @@ impl Block {
     /// Whether all factors are integers, so that a point count says all about a factor.
     #[inline(always)]
     pub(crate) const fn integer(&self) -> bool {
-        matches!(self.config.partitioning, Partitioning::Integer | Partitioning::Pow2)
+        is_integer(self.config)
     }
 
     /// Whether a patch is a minimum patch.
     #[inline(always)]
     pub(crate) const fn is_minimum(&self, lane: usize) -> bool {
         self.minimum[lane] == 1
+    }
+
+    /// A number for each topology of a domain, not 0.
+    #[inline(always)]
+    pub(crate) const fn topology(&self, lane: usize) -> u64 {
+        self.topologies[lane]
     }
 
     /// The point counts of a patch's factors.
@@ -85,17 +124,38 @@ impl Block {
     #[inline(always)]
     pub(crate) const fn key(&self, factor: usize, lane: usize) -> u32 {
         let i = factor * LANES + lane;
-        (self.fixed[i] << 1) | self.odd[i]
+        (self.fixed[i] << 1) | (self.points[i] & 1)
     }
 
-    /// The context of one factor; `contexts` are this block's.
+    /// The spacing of one factor's points.
     #[inline(always)]
-    pub(crate) fn context(&self, contexts: &Contexts, factor: usize, lane: usize) -> Context {
+    pub(crate) fn spacing(&self, factor: usize, lane: usize) -> Spacing {
         let i = factor * LANES + lane;
         if self.integer() {
-            Context::new(self.fixed[i], self.odd[i], self.config.split)
+            let odd = u32::from(is_odd(self.points[i]));
+            Spacing::new(&Context::new(self.fixed[i], odd, self.config.split))
         } else {
-            contexts.get(i, self.odd[i])
+            self.spacings.get(i, self.points[i])
         }
     }
+}
+
+const fn is_integer(config: Config) -> bool {
+    matches!(config.partitioning, Partitioning::Integer | Partitioning::Pow2)
+}
+
+/// A number for each topology: the point counts of all factors, after a leading 1, and whether it
+/// is a minimum patch.
+#[inline(always)]
+fn topologies(points: &Column, minimum: &Lanes) -> Lanes<u64> {
+    let mut topologies = [1; LANES];
+    for points in points.as_chunks::<LANES>().0 {
+        for (topology, &points) in topologies.iter_mut().zip(points) {
+            *topology = (*topology << 7) | u64::from(points);
+        }
+    }
+    for (topology, &minimum) in topologies.iter_mut().zip(minimum) {
+        *topology = (*topology << 1) | u64::from(minimum);
+    }
+    topologies
 }

@@ -1,7 +1,7 @@
 //! Output sizes of eight patches, by formula (spec section 12.6).
 
 use crate::factors::Processed;
-use crate::lanes::{Column, LANES, Lanes, factor, is_odd, outer_factors};
+use crate::lanes::{Column, LANES, Lanes, factor, is_odd};
 use tess_core::{Config, Domain, OutputPrimitive};
 
 /// Points and indices of each patch of a block.
@@ -19,42 +19,77 @@ pub(crate) fn counts(
     processed: &Processed,
     points: &Column,
 ) -> BlockCounts {
+    let each = indices_each(config.output, domain);
+    match domain {
+        Domain::Isoline => of_each_lane(each, processed, |lane| isoline(points, lane)),
+        Domain::Triangle => {
+            of_each_lane(each, processed, |lane| triangle(points, processed.minimum[lane], lane))
+        }
+        Domain::Quad => {
+            of_each_lane(each, processed, |lane| quad(points, processed.minimum[lane], lane))
+        }
+    }
+}
+
+/// Points, lines that join them in order, and triangles of a patch.
+type Sizes = [u32; 3];
+
+/// Indices for each of these.
+#[inline(always)]
+const fn indices_each(output: OutputPrimitive, domain: Domain) -> Sizes {
+    match (output, domain) {
+        (OutputPrimitive::Point, _) => [1, 0, 0],
+        (OutputPrimitive::Line, _) | (_, Domain::Isoline) => [0, 2, 0],
+        (OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw, _) => [0, 0, 3],
+    }
+}
+
+/// The counts of eight patches from the sizes that they have unless they are culled.
+#[inline(always)]
+fn of_each_lane(
+    indices_each: Sizes,
+    processed: &Processed,
+    sizes: impl Fn(usize) -> Sizes,
+) -> BlockCounts {
     let mut counts = BlockCounts { points: [0; LANES], indices: [0; LANES] };
     for lane in 0..LANES {
-        let n = |f: usize| factor(points, f)[lane];
-        let minimum = processed.minimum[lane] == 1;
-        let boundary: u32 = (0..outer_factors(domain)).map(|edge| n(edge).wrapping_sub(1)).sum();
-        let (points, lines, triangles) = match domain {
-            Domain::Isoline => {
-                let lines = n(0).wrapping_sub(1);
-                (lines * n(1), lines * n(1).wrapping_sub(1), 0)
-            }
-            Domain::Triangle => {
-                let half = n(3) / 2;
-                let odd = is_odd(n(3));
-                let rings = 3 * half.wrapping_sub(1);
-                let interior = if odd { rings * half.wrapping_sub(1) } else { rings * half + 1 };
-                disc(boundary, if minimum { 0 } else { interior })
-            }
-            Domain::Quad => {
-                let interior = n(4).wrapping_sub(2) * n(5).wrapping_sub(2);
-                disc(boundary, if minimum { 0 } else { interior })
-            }
-        };
-        let indices = match (config.output, domain) {
-            (OutputPrimitive::Point, _) => points,
-            (OutputPrimitive::Line, _) | (_, Domain::Isoline) => 2 * lines,
-            (OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw, _) => 3 * triangles,
-        };
+        let [points, lines, triangles] = sizes(lane);
+        let [per_point, per_line, per_triangle] = indices_each;
+        let indices = per_point * points + per_line * lines + per_triangle * triangles;
         counts.points[lane] = points * processed.alive[lane];
         counts.indices[lane] = indices * processed.alive[lane];
     }
     counts
 }
 
-/// Points, lines that join them in order, and triangles: Euler's formula for a disc.
 #[inline(always)]
-const fn disc(boundary: u32, interior: u32) -> (u32, u32, u32) {
-    let points = boundary.wrapping_add(interior);
-    (points, points.wrapping_sub(1), (2 * points).wrapping_sub(2).wrapping_sub(boundary))
+fn isoline(points: &Column, lane: usize) -> Sizes {
+    let (density, detail) = (factor(points, 0)[lane], factor(points, 1)[lane]);
+    let lines = density.wrapping_sub(1);
+    [lines.wrapping_mul(detail), lines.wrapping_mul(detail.wrapping_sub(1)), 0]
+}
+
+#[inline(always)]
+fn triangle(points: &Column, minimum: u32, lane: usize) -> Sizes {
+    let n = |f: usize| factor(points, f)[lane];
+    let half = n(3) / 2;
+    let odd = u32::from(is_odd(n(3)));
+    let rings = half.wrapping_sub(1).wrapping_mul(3);
+    let interior = rings.wrapping_mul(half.wrapping_sub(odd)).wrapping_add(1 - odd);
+    disc(n(0).wrapping_add(n(1)).wrapping_add(n(2)).wrapping_sub(3), interior, minimum)
+}
+
+#[inline(always)]
+fn quad(points: &Column, minimum: u32, lane: usize) -> Sizes {
+    let n = |f: usize| factor(points, f)[lane];
+    let boundary = n(0).wrapping_add(n(1)).wrapping_add(n(2)).wrapping_add(n(3)).wrapping_sub(4);
+    disc(boundary, n(4).wrapping_sub(2).wrapping_mul(n(5).wrapping_sub(2)), minimum)
+}
+
+/// The sizes of a patch with these points on its boundary and, unless it is a minimum patch,
+/// inside: Euler's formula for a disc.
+#[inline(always)]
+const fn disc(boundary: u32, interior: u32, minimum: u32) -> Sizes {
+    let points = boundary.wrapping_add(interior.wrapping_mul(1 - minimum));
+    [points, points.wrapping_sub(1), (2 * points).wrapping_sub(2).wrapping_sub(boundary)]
 }

@@ -1,9 +1,10 @@
 //! The kernels, compiled once for each CPU level and chosen at run time.
 
 use crate::batch::Batch;
+use crate::block::{self, BLOCKS, Block};
 use crate::format::{IndexFormat, PointFormat};
 use crate::level::Level;
-use crate::part::{self, Part, PartCounts};
+use crate::part::{self, Blocks, PartCounts};
 use crate::probe;
 use crate::stitch::Stitches;
 use alloc::vec::Vec;
@@ -49,12 +50,22 @@ at_each_level! {
 }
 
 at_each_level! {
-    /// [`part::emit`] at a level.
+    /// [`block::process_blocks`] at a level.
+    fn process_blocks(
+        config: Config,
+        batch: &Batch<'_>,
+        first: usize,
+        blocks: &mut [Block; BLOCKS],
+    ) = block::process_blocks;
+}
+
+at_each_level! {
+    /// [`part::emit_blocks`] at a level.
     fn emit<P: PointFormat, I: IndexFormat>(
         config: Config,
         stitches: &Stitches,
-        part: Part<'_, P, I>,
-    ) = part::emit;
+        blocks: Blocks<'_, P, I>,
+    ) -> (u32, u32) = part::emit_blocks;
 }
 
 at_each_level! {

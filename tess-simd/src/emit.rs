@@ -42,20 +42,21 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         source: &[S],
         element: impl Fn(S) -> T,
     ) {
-        let padded = length.next_multiple_of(N);
         let room = self.out.get_mut(self.at..).unwrap_or_default();
         self.at += length;
-        if room.len() < padded {
-            write_cut(room, source, element);
+        if length <= N
+            && let (Some(target), Some(block)) = (room.first_chunk_mut::<N>(), source.first_chunk())
+        {
+            *target = make(block, element);
             return;
         }
-        let targets = room[..padded].as_chunks_mut::<N>().0;
-        for (target, block) in targets.iter_mut().zip(source.as_chunks::<N>().0) {
-            let mut made = [T::default(); N];
-            for (made, &from) in made.iter_mut().zip(block) {
-                *made = element(from);
-            }
-            *target = made;
+        let padded = length.next_multiple_of(N);
+        let (Some(whole), Some(source)) = (room.get_mut(..padded), source.get(..padded)) else {
+            write_cut(room, source, element);
+            return;
+        };
+        for (target, block) in whole.as_chunks_mut::<N>().0.iter_mut().zip(source.as_chunks().0) {
+            *target = make(block, &element);
             separate_blocks();
         }
     }
@@ -94,6 +95,19 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
             *target = values;
         }
     }
+}
+
+/// A block made from another, element by element.
+#[inline(always)]
+fn make<S: Copy, T: Copy + Default, const N: usize>(
+    block: &[S; N],
+    element: impl Fn(S) -> T,
+) -> [T; N] {
+    let mut made = [T::default(); N];
+    for (made, &from) in made.iter_mut().zip(block) {
+        *made = element(from);
+    }
+    made
 }
 
 /// The last elements of a slice that ends within a block.

@@ -1,6 +1,7 @@
 //! Factor contexts of eight patches (spec section 4).
 
 use crate::lanes::{Column, LANES, MAX_FACTORS};
+use crate::place::Spacing;
 use crate::reciprocal::reciprocal;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{FactorContext, Parity, SplitOrder};
@@ -27,58 +28,37 @@ pub(crate) fn point_counts<const ALL: usize>(fixed: &Column, odd: &Column) -> Co
     points
 }
 
-/// The contexts of a block of fractional factors, one column for each number that place needs.
+/// The spacings of a block of fractional factors.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Contexts {
-    inv_floor: Column,
-    inv_ceil: Column,
-    fraction: Column,
-    half_points: Column,
+pub(crate) struct Spacings {
     split: Column,
-    points: Column,
+    step: Column,
+    lag: Column,
 }
 
-impl Contexts {
+impl Spacings {
     pub(crate) const NONE: Self = {
         const NONE: Column = [0; LANES * MAX_FACTORS];
-        Self {
-            inv_floor: NONE,
-            inv_ceil: NONE,
-            fraction: NONE,
-            half_points: NONE,
-            split: NONE,
-            points: NONE,
-        }
+        Self { split: NONE, step: NONE, lag: NONE }
     };
 
-    /// The contexts of the first `ALL` elements of two columns.
+    /// The spacings of the first `ALL` elements of two columns.
     #[inline(always)]
     pub(crate) fn new<const ALL: usize>(fixed: &Column, odd: &Column, order: SplitOrder) -> Self {
         let mut all = Self::NONE;
         for i in 0..ALL {
-            let context = Context::new(fixed[i], odd[i], order);
-            all.inv_floor[i] = context.inv_floor;
-            all.inv_ceil[i] = context.inv_ceil;
-            all.fraction[i] = context.fraction;
-            all.half_points[i] = context.half_points;
-            all.split[i] = context.split;
-            all.points[i] = context.points;
+            let spacing = Spacing::new(&Context::new(fixed[i], odd[i], order));
+            all.split[i] = spacing.split;
+            all.step[i] = spacing.step;
+            all.lag[i] = spacing.lag;
         }
         all
     }
 
-    /// The context of an element whose parity is `odd`.
+    /// The spacing of an element with this many points.
     #[inline(always)]
-    pub(crate) const fn get(&self, i: usize, odd: u32) -> Context {
-        Context {
-            odd,
-            inv_floor: self.inv_floor[i],
-            inv_ceil: self.inv_ceil[i],
-            fraction: self.fraction[i],
-            half_points: self.half_points[i],
-            split: self.split[i],
-            points: self.points[i],
-        }
+    pub(crate) const fn get(&self, i: usize, points: u32) -> Spacing {
+        Spacing { points, split: self.split[i], step: self.step[i], lag: self.lag[i] }
     }
 }
 

@@ -8,7 +8,7 @@
 use tess_core::Domain;
 
 /// Patches in a block.
-pub(crate) const LANES: usize = 8;
+pub(crate) const LANES: usize = 16;
 
 /// The most factors that a patch has: a quad's.
 pub(crate) const MAX_FACTORS: usize = 6;

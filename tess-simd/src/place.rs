@@ -1,12 +1,40 @@
 //! Locations along one dimension, a whole edge at a time (spec section 5).
 
 use crate::factor_context::Context;
+use crate::lanes::is_odd;
 use tess_core::fixed_point::{HALF, ONE};
 
 /// Locations computed at a time.
 const STEP: usize = 16;
 /// Room for an edge's 65 locations and for reading whole blocks from any start.
 const ROOM: usize = 112;
+
+/// What the locations of an edge's points follow from, all modulo 2^32.
+///
+/// With `a` and `b` the places of a position in the coarser and in the finer subdivision, the
+/// specification takes `a * (ONE - fraction) + b * fraction`, which fits 32 bits. `b` is the
+/// position times `inv_ceil`; `a` is the position, less one behind the split, times `inv_floor`.
+/// Hence the sum is the position times `step`, less `lag` behind the split.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spacing {
+    /// Points of the edge.
+    pub(crate) points: u32,
+    /// The last position before the split.
+    pub(crate) split: u32,
+    pub(crate) step: u32,
+    pub(crate) lag: u32,
+}
+
+impl Spacing {
+    /// The spacing of a context's points.
+    #[inline(always)]
+    pub(crate) const fn new(context: &Context) -> Self {
+        let Context { inv_floor, inv_ceil, fraction, split, points, .. } = *context;
+        let lag = inv_floor.wrapping_mul(ONE - fraction);
+        let step = lag.wrapping_add(inv_ceil.wrapping_mul(fraction));
+        Self { points, split, step, lag }
+    }
+}
 
 /// The 16.16 locations of all points of an edge, ascending in position; what follows them is
 /// unspecified.
@@ -18,16 +46,16 @@ pub(crate) struct Locations([u32; ROOM]);
 impl Locations {
     pub(crate) const EMPTY: Self = Self([0; ROOM]);
 
-    /// Computes the locations of points `0..context.points`.
+    /// Computes the locations of points `0..spacing.points`.
     #[inline(always)]
-    pub(crate) fn fill(&mut self, context: &Context) {
+    pub(crate) fn fill(&mut self, spacing: &Spacing) {
         let mut p = 0;
         for chunk in self.0.as_chunks_mut::<STEP>().0 {
             for location in chunk {
-                *location = place(context, p);
+                *location = place(spacing, p);
                 p += 1;
             }
-            if p >= context.points {
+            if p >= spacing.points {
                 break;
             }
         }
@@ -52,21 +80,14 @@ impl Locations {
     }
 }
 
-/// The location of point `p < context.points`; unspecified beyond. Free of branches.
-///
-/// With `a` and `b` the places in the coarser and in the finer subdivision, the sum
-/// `a * (ONE - fraction) + b * fraction` is taken as `a * ONE + (b - a) * fraction` modulo 2^32,
-/// where the whole sum fits.
+/// The location of point `p < spacing.points`; unspecified beyond. Free of branches.
 #[inline(always)]
-pub(crate) fn place(context: &Context, p: u32) -> u32 {
-    let mirrored = context.points.wrapping_sub(1 + p);
-    let flip = p >= context.half_points;
-    let on_half = if flip { mirrored } else { p };
-    let coarse = on_half.wrapping_sub(u32::from(on_half > context.split));
-    let a = coarse.wrapping_mul(context.inv_floor);
-    let b = on_half.wrapping_mul(context.inv_ceil);
-    let sum = (a << 16).wrapping_add(b.wrapping_sub(a).wrapping_mul(context.fraction));
+pub(crate) fn place(spacing: &Spacing, p: u32) -> u32 {
+    let Spacing { points, split, step, lag } = *spacing;
+    let position = p.min(points.wrapping_sub(1 + p));
+    let sum = position.wrapping_mul(step).wrapping_sub(if position > split { lag } else { 0 });
     let x = sum.wrapping_add(HALF) >> 16;
-    let x = if flip { ONE.wrapping_sub(x) } else { x };
-    if on_half == context.half_points { HALF } else { x }
+    let x = if p >= points / 2 { ONE.wrapping_sub(x) } else { x };
+    let middle = !is_odd(points) && p == points / 2;
+    if middle { HALF } else { x }
 }

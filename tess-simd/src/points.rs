@@ -9,7 +9,6 @@ mod triangle;
 
 use crate::block::Block;
 use crate::emit::Writer;
-use crate::factor_context::Contexts;
 use crate::format::PointFormat;
 use crate::lanes::{EdgePoints, MAX_FACTORS, factors};
 use crate::place::Locations;
@@ -20,16 +19,19 @@ const STEP: usize = 8;
 
 /// Point counts of edges are below this.
 const COUNTS: usize = 66;
-/// A table for each point count, then one for each factor.
-const SLOTS: usize = COUNTS + MAX_FACTORS;
+/// Patches whose tables are computed together where factors are fractional: long before they are
+/// read, as vectors read across what was just written would wait for it.
+pub(crate) const GROUP: usize = 4;
+/// A table for each point count, then one for each factor of a group of patches.
+const SLOTS: usize = COUNTS + GROUP * MAX_FACTORS;
 
 /// Tables of locations that points are read from, kept from patch to patch.
 ///
 /// Where factors are integers there is a table for each point count; otherwise one for each factor
-/// of a patch, computed again only where that factor differs from the patch before. 27 KiB.
+/// of a group of patches, computed again only where that factor changed. 40 KiB.
 #[derive(Clone, Debug)]
 pub(crate) struct LocationTables {
-    /// What each table was computed for: see [`Block::key`]; 0 at first.
+    /// What each table was computed for: a point count or [`Block::key`]; 0 at first.
     keys: [u32; SLOTS],
     tables: [Locations; SLOTS],
 }
@@ -38,48 +40,56 @@ pub(crate) struct LocationTables {
 type Tables<'a> = [&'a Locations; MAX_FACTORS];
 
 impl LocationTables {
-    #[expect(clippy::large_stack_arrays, reason = "27 KiB, moved to its place once")]
+    #[expect(clippy::large_stack_arrays, reason = "40 KiB, moved to its place once")]
     pub(crate) const EMPTY: Self = Self { keys: [0; SLOTS], tables: [Locations::EMPTY; SLOTS] };
 
-    /// The number of the table that holds a factor's locations.
+    /// Computes the tables of a group of patches, of which `first` is the first.
     #[inline(always)]
-    fn prepare(
-        &mut self,
-        (block, contexts): (&Block, &Contexts),
-        factor: usize,
-        lane: usize,
-    ) -> usize {
-        let points = block.edge_points(factor, lane);
-        let (slot, key) = if block.integer() {
-            (points as usize % COUNTS, points)
-        } else {
-            (COUNTS + factor, block.key(factor, lane))
-        };
-        if self.keys[slot] != key {
-            self.keys[slot] = key;
-            self.tables[slot].fill(&block.context(contexts, factor, lane));
+    pub(crate) fn prepare_group(&mut self, block: &Block, first: usize) {
+        for lane in first..first + GROUP {
+            self.prepare(block, lane);
         }
-        slot
+    }
+
+    /// Computes those tables of a patch that are not there yet.
+    #[inline(always)]
+    pub(crate) fn prepare(&mut self, block: &Block, lane: usize) {
+        for factor in 0..factors(block.domain()) {
+            let slot = slot(block, factor, lane);
+            let key = if block.integer() {
+                block.edge_points(factor, lane)
+            } else {
+                block.key(factor, lane)
+            };
+            if self.keys[slot] != key {
+                self.keys[slot] = key;
+                self.tables[slot].fill(&block.spacing(factor, lane));
+            }
+        }
     }
 }
 
-/// Emits the points of a regular patch of a block.
+/// The number of the table that holds a factor's locations.
+#[inline(always)]
+fn slot(block: &Block, factor: usize, lane: usize) -> usize {
+    if block.integer() {
+        block.edge_points(factor, lane) as usize % COUNTS
+    } else {
+        COUNTS + lane % GROUP * MAX_FACTORS + factor
+    }
+}
+
+/// Emits the points of a regular patch of a block whose tables are prepared.
 #[inline(always)]
 pub(crate) fn emit<P: PointFormat>(
-    (block, contexts): (&Block, &Contexts),
-    lane: usize,
+    (block, lane): (&Block, usize),
     edges: &EdgePoints,
-    tables: &mut LocationTables,
+    tables: &LocationTables,
     out: &mut Writer<'_, P>,
 ) {
-    let domain = block.domain();
-    let mut slots = [0; MAX_FACTORS];
-    for (factor, slot) in slots.iter_mut().enumerate().take(factors(domain)) {
-        *slot = tables.prepare((block, contexts), factor, lane);
-    }
-    let slot = |factor: usize| &tables.tables[slots[factor]];
-    let tables = [slot(0), slot(1), slot(2), slot(3), slot(4), slot(5)];
-    match domain {
+    let table = |factor: usize| &tables.tables[slot(block, factor, lane)];
+    let tables = [table(0), table(1), table(2), table(3), table(4), table(5)];
+    match block.domain() {
         Domain::Isoline => isoline::emit(edges, tables, out),
         Domain::Triangle => triangle::emit(edges, tables, out),
         Domain::Quad => quad::emit(edges, tables, out),

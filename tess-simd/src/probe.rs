@@ -8,7 +8,7 @@ use crate::factor_context::Context;
 use crate::factors::process;
 use crate::lanes::{Column, LANES, MAX_FACTORS};
 use crate::level::Level;
-use crate::place::Locations;
+use crate::place::{Locations, Spacing};
 use alloc::vec::Vec;
 use tess_core::fixed_point::ONE;
 use tess_core::{
@@ -110,7 +110,7 @@ pub(crate) fn contexts_kernel(
 pub(crate) fn locations_kernel(contexts: &[FactorContext], locations: &mut Vec<u32>) {
     let mut table = Locations::EMPTY;
     for context in contexts {
-        table.fill(&Context::from(context));
+        table.fill(&Spacing::new(&Context::from(context)));
         locations.extend(table.from(0).iter().take(context.points as usize));
     }
 }

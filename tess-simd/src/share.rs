@@ -9,7 +9,7 @@ use crate::format::{IndexFormat, PointFormat};
 use crate::lanes::LANES;
 use crate::level::Level;
 use crate::output::{Buffers, Numbering};
-use crate::part::{Part, PartCounts, Workspace};
+use crate::part::{self, Part, PartCounts, Workspace};
 use crate::stitch::Stitches;
 use tess_core::Config;
 
@@ -78,8 +78,8 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
         let (one, other) = halve(plan, Share { batch, counts, buffers, first }, threads);
         join(|| emit(plan, one, left), || emit(plan, other, right));
     } else if let Some(workspace) = workspaces.first_mut() {
-        let part = Part { batch, buffers, first, numbering: plan.numbering, workspace };
-        dispatch::emit(plan.level, plan.config, plan.stitches, part);
+        let part = Part { batch, buffers, first, numbering: plan.numbering };
+        part::emit((plan.level, plan.config), plan.stitches, part, workspace);
     }
 }
 

@@ -8,8 +8,6 @@
 use crate::block::Block;
 use crate::connect;
 use crate::emit::Writer;
-use crate::factor_context::Contexts;
-use crate::lanes::EdgePoints;
 use crate::points::{self, LocationTables};
 use crate::stitch::Stitches;
 use alloc::vec::Vec;
@@ -32,7 +30,7 @@ const PADDING: usize = 16;
 /// The templates of one configuration. 412 KiB.
 #[derive(Clone, Debug)]
 pub(crate) struct Templates {
-    /// Topologies: see [`topology`]; 0 at first.
+    /// Topologies: see [`Block::topology`]; 0 at first.
     keys: Vec<u64>,
     starts: Vec<(u32, u32)>,
     /// Topology of the patch before.
@@ -78,17 +76,16 @@ impl Templates {
         &mut self,
         (config, stitches): (Config, &Stitches),
         (block, lane): (&Block, usize),
-        edges: &EdgePoints,
         tables: &mut LocationTables,
     ) -> Option<Template<'_>> {
-        let key = topology(edges, block.is_minimum(lane));
+        let key = block.topology(lane);
         let repeats = core::mem::replace(&mut self.last, key) == key;
         if block.counts.points[lane] as usize > SMALL && !repeats {
             return None;
         }
         let slot = slot(key);
         if self.keys[slot] != key {
-            self.make((config, stitches), (block, lane), (edges, tables), key);
+            self.make((config, stitches), (block, lane), tables);
         }
         let (first_point, first_index) = self.starts[slot];
         let decided = block.integer() || block.is_minimum(lane);
@@ -109,9 +106,9 @@ impl Templates {
         &mut self,
         (config, stitches): (Config, &Stitches),
         (block, lane): (&Block, usize),
-        (edges, tables): (&EdgePoints, &mut LocationTables),
-        key: u64,
+        tables: &mut LocationTables,
     ) {
+        let (key, edges) = (block.topology(lane), &block.edges(lane));
         let (points, indices) = (block.counts.points[lane], block.counts.indices[lane]);
         let full = self.indices_used + indices as usize + PADDING > INDEX_ROOM
             || self.points_used + points as usize + PADDING > POINT_ROOM;
@@ -134,13 +131,8 @@ impl Templates {
             let mut writer = Writer::new(index_room);
             connect::emit((domain, config.output), edges, stitches, (0, points), &mut writer);
             if block.integer() {
-                points::emit(
-                    (block, &Contexts::NONE),
-                    lane,
-                    edges,
-                    tables,
-                    &mut Writer::new(point_room),
-                );
+                tables.prepare(block, lane);
+                points::emit((block, lane), edges, tables, &mut Writer::new(point_room));
             }
         }
         self.keys[slot(key)] = key;
@@ -148,13 +140,6 @@ impl Templates {
         self.indices_used += indices as usize;
         self.points_used += points as usize;
     }
-}
-
-/// A number for each topology of a domain, not 0.
-#[inline(always)]
-fn topology(edges: &EdgePoints, minimum: bool) -> u64 {
-    let counts = edges.iter().fold(1, |key, &points| (key << 7) | u64::from(points));
-    (counts << 1) | u64::from(minimum)
 }
 
 /// Where a topology's template is kept: the upper bits of a product with 2^64 over the golden ratio.
