@@ -133,7 +133,7 @@ impl Chunk {
     pub(crate) const PATCHES: usize = 4 * LANES;
     pub(crate) const EMPTY: Self = Self([[0.0; Self::PATCHES]; MAX_FACTORS]);
 
-    /// Loads patches from `first` on, as many as there is room for; zero where there is no patch.
+    /// Loads patches from `first` on, as many as there is room for; zero where the last block has no patch.
     #[inline(always)]
     pub(crate) fn load(&mut self, batch: &Batch<'_>, first: usize) {
         match batch {
@@ -156,9 +156,8 @@ impl Chunk {
         let patches = patches.get(first..).unwrap_or_default();
         let patches = patches.get(..Self::PATCHES).unwrap_or(patches);
         for (i, patch) in patches.iter().enumerate().take(Self::PATCHES) {
-            let row = factors(patch);
-            for factor in 0..N {
-                self.0[factor][i] = row[factor];
+            for (values, factor) in self.0.iter_mut().zip(factors(patch)) {
+                values[i] = factor;
             }
         }
         self.clear(patches.len());
@@ -176,17 +175,17 @@ impl Chunk {
         self.clear(loaded);
     }
 
-    /// Zeros from a patch on.
+    /// Zeros from a patch to the end of its block.
     #[inline(always)]
     fn clear(&mut self, first: usize) {
-        if first < Self::PATCHES {
+        for i in first..first.next_multiple_of(LANES).min(Self::PATCHES) {
             for values in &mut self.0 {
-                values[first..].fill(0.0);
+                values[i] = 0.0;
             }
         }
     }
 
-    /// The factors of the eight patches of a block, `number` blocks into the chunk.
+    /// The factors of the patches of a block, `number` blocks into the chunk.
     #[inline(always)]
     pub(crate) fn block(&self, number: usize) -> Column<f32> {
         let mut column = [0.0; LANES * MAX_FACTORS];

@@ -1,4 +1,4 @@
-//! A block of eight patches after the front end: factors, contexts and counts.
+//! A block of patches after the front end: factors, contexts and counts.
 
 use crate::batch::{Batch, Chunk};
 use crate::counts::{BlockCounts, counts};
@@ -11,7 +11,7 @@ use tess_core::{Config, Domain, Partitioning};
 /// Blocks that go through the front end in one call.
 pub(crate) const BLOCKS: usize = Chunk::PATCHES / LANES;
 
-/// Eight patches of one domain after factor processing, their output sizes known.
+/// Sixteen patches of one domain after factor processing, their output sizes known.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Block {
     config: Config,
@@ -56,7 +56,7 @@ impl Block {
         counts: BlockCounts { points: [0; _], indices: [0; _] },
     };
 
-    /// Processes the raw factors of eight patches; zeros count as culled.
+    /// Processes the raw factors of a block; zeros count as culled.
     #[inline(always)]
     pub(crate) fn new(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
         match domain {

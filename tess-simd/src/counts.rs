@@ -1,4 +1,4 @@
-//! Output sizes of eight patches, by formula (spec section 12.6).
+//! Output sizes of a block, by formula (spec section 12.6).
 
 use crate::factors::Processed;
 use crate::lanes::{Column, LANES, Lanes, factor, is_odd};
@@ -44,7 +44,7 @@ const fn indices_each(output: OutputPrimitive, domain: Domain) -> Sizes {
     }
 }
 
-/// The counts of eight patches from the sizes that they have unless they are culled.
+/// The counts of a block from the sizes that they have unless they are culled.
 #[inline(always)]
 fn of_each_lane(
     indices_each: Sizes,

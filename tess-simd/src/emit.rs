@@ -21,20 +21,8 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         Self { out, at: 0 }
     }
 
-    /// How much has been written.
-    #[inline(always)]
-    pub(crate) fn written(&self) -> usize {
-        self.at
-    }
-
-    /// How much can be written.
-    #[inline(always)]
-    pub(crate) fn capacity(&self) -> usize {
-        self.out.len()
-    }
-
     /// The next `length` elements, each made from the one of `source` in its place, in blocks of
-    /// `N`. `source` must have whole blocks for them all: elements without one stay unwritten.
+    /// `N`. Where `source` has no whole blocks for them all, the rest stays unwritten.
     #[inline(always)]
     pub(crate) fn map<S: Copy, const N: usize>(
         &mut self,

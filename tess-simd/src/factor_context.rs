@@ -1,4 +1,4 @@
-//! Factor contexts of eight patches (spec section 4).
+//! Factor contexts of a block (spec section 4).
 
 use crate::lanes::{Column, LANES, MAX_FACTORS};
 use crate::place::Spacing;

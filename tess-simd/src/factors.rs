@@ -1,11 +1,11 @@
-//! Factor processing of eight patches (spec section 3), steps named as there.
+//! Factor processing of a block (spec section 3), steps named as there.
 
 use crate::lanes::{Column, LANES, Lanes, MAX_FACTORS};
 use crate::reciprocal::{MANTISSA, TWO_POW_23};
 use tess_core::fixed_point::ONE;
 use tess_core::{Config, Domain, Partitioning};
 
-/// The factors of eight patches as fixed-point numbers.
+/// The factors of a block as fixed-point numbers.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Processed {
     /// 15.16 factors, in 1..=64.
@@ -18,7 +18,7 @@ pub(crate) struct Processed {
     pub(crate) minimum: Lanes,
 }
 
-/// Processes the raw factors of eight patches. Total: every bit pattern is valid.
+/// Processes the raw factors of a block. Total: every bit pattern is valid.
 #[inline(always)]
 pub(crate) fn process(config: Config, domain: Domain, raw: &Column<f32>) -> Processed {
     const N: usize = LANES;

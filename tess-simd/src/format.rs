@@ -1,10 +1,14 @@
 //! What points and indices look like in memory.
 
+use crate::dispatch;
+use crate::level::Level;
+use crate::part::Blocks;
 use crate::reciprocal::to_f32;
-use tess_core::DomainPoint;
+use crate::stitch::Stitches;
+use tess_core::{Config, DomainPoint};
 
 /// A point format: [`DomainPoint`] (16.16 pairs) or `[f32; 2]`.
-pub trait PointFormat: sealed::Sealed + Copy + Default + Send + Sync + 'static {
+pub trait PointFormat: sealed::PointKernels + Copy + Default + Send + Sync + 'static {
     /// The point with these 16.16 coordinates, each in `0..=ONE`. Exact; beyond that range
     /// unspecified.
     #[must_use]
@@ -12,7 +16,7 @@ pub trait PointFormat: sealed::Sealed + Copy + Default + Send + Sync + 'static {
 }
 
 /// An index format: `u16` or `u32`.
-pub trait IndexFormat: sealed::Sealed + Copy + Default + Send + Sync + 'static {
+pub trait IndexFormat: sealed::IndexKernels + Copy + Default + Send + Sync + 'static {
     /// The largest index.
     const LARGEST: u64;
 
@@ -33,15 +37,50 @@ pub trait IndexFormat: sealed::Sealed + Copy + Default + Send + Sync + 'static {
     fn xor(self, other: Self) -> Self;
 }
 
+/// [`dispatch::emit`] for each pair of formats. Whoever calls it for formats of its own choice uses
+/// the instances of this crate, where generic ones would be compiled anew in every crate.
 mod sealed {
-    /// Keeps the formats to those that the kernels were compared with the core in.
-    #[expect(unnameable_types, reason = "that is what seals them")]
-    pub trait Sealed {}
-    impl Sealed for tess_core::DomainPoint {}
-    impl Sealed for [f32; 2] {}
-    impl Sealed for u16 {}
-    impl Sealed for u32 {}
+    use super::{Blocks, Config, Level, PointFormat, Stitches};
+
+    /// A call of a kernel.
+    #[derive(Debug)]
+    #[expect(unnameable_types, reason = "keeps its private parts from the public traits")]
+    pub struct Call<'a, P, I> {
+        pub(crate) level: Level,
+        pub(crate) config: Config,
+        pub(crate) stitches: &'a Stitches,
+        pub(crate) blocks: Blocks<'a, P, I>,
+    }
+
+    #[expect(unnameable_types, reason = "keeps the formats to those compared with the core")]
+    pub trait PointKernels: Sized {
+        fn emit_u16(call: Call<'_, Self, u16>) -> (u32, u32);
+        fn emit_u32(call: Call<'_, Self, u32>) -> (u32, u32);
+    }
+
+    #[expect(unnameable_types, reason = "keeps the formats to those compared with the core")]
+    pub trait IndexKernels: Sized {
+        fn emit<P: PointFormat>(call: Call<'_, P, Self>) -> (u32, u32);
+    }
 }
+
+pub(crate) use sealed::Call;
+
+macro_rules! point_kernels {
+    ($format:ty) => {
+        impl sealed::PointKernels for $format {
+            fn emit_u16(call: Call<'_, Self, u16>) -> (u32, u32) {
+                dispatch::emit(call.level, call.config, call.stitches, call.blocks)
+            }
+
+            fn emit_u32(call: Call<'_, Self, u32>) -> (u32, u32) {
+                dispatch::emit(call.level, call.config, call.stitches, call.blocks)
+            }
+        }
+    };
+}
+point_kernels!(DomainPoint);
+point_kernels!([f32; 2]);
 
 impl PointFormat for DomainPoint {
     #[inline(always)]
@@ -61,7 +100,13 @@ impl PointFormat for [f32; 2] {
 }
 
 macro_rules! index_format {
-    ($format:ty) => {
+    ($format:ty, $emit:ident) => {
+        impl sealed::IndexKernels for $format {
+            fn emit<P: PointFormat>(call: Call<'_, P, Self>) -> (u32, u32) {
+                P::$emit(call)
+            }
+        }
+
         impl IndexFormat for $format {
             const LARGEST: u64 = <$format>::MAX as u64;
 
@@ -93,5 +138,5 @@ macro_rules! index_format {
         }
     };
 }
-index_format!(u16);
-index_format!(u32);
+index_format!(u16, emit_u16);
+index_format!(u32, emit_u32);

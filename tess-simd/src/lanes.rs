@@ -1,7 +1,7 @@
-//! Eight patches side by side.
+//! Sixteen patches side by side.
 //!
-//! A *lane* is a patch of a block of eight; a *column* is one quantity of all factors of a block,
-//! factor by factor, eight lanes each. Stages are branch-free functions of one element, mapped
+//! A *lane* is a patch of a block of sixteen, which fill one vector of AVX-512, two of AVX2 or
+//! four of SSE; a *column* is one quantity of all factors of a block, factor by factor. Stages are branch-free functions of one element, mapped
 //! over a column: plain loops over arrays of a fixed size, which the compiler turns into vectors
 //! of whatever width the CPU level has.
 
@@ -18,15 +18,6 @@ pub(crate) type Lanes<T = u32> = [T; LANES];
 
 /// One quantity of all factors of a block: element `factor * LANES + lane`.
 pub(crate) type Column<T = u32> = [T; LANES * MAX_FACTORS];
-
-/// Outer factors of a patch, which come first; an isoline's factors all count as outer ones.
-pub(crate) const fn outer_factors(domain: Domain) -> usize {
-    match domain {
-        Domain::Isoline => 2,
-        Domain::Triangle => 3,
-        Domain::Quad => 4,
-    }
-}
 
 /// Factors of a patch.
 pub(crate) const fn factors(domain: Domain) -> usize {

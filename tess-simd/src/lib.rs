@@ -17,7 +17,7 @@
 //! # Ok::<(), tess_simd::Error>(())
 //! ```
 //!
-//! The modules have the names of the core's: a block of eight patches goes through `factors`,
+//! The modules have the names of the core's: a block of sixteen patches goes through `factors`,
 //! `factor_context` and `counts` side by side, lane by lane; then each patch is emitted by
 //! `points` (runs copied from tables of locations, `place`) and `connect` (stitches copied from
 //! tables, `stitch`). Small patches of a topology seen before are copied whole (`template`).
@@ -48,6 +48,7 @@ mod share;
 mod stitch;
 mod template;
 mod tessellator;
+mod threads;
 
 pub use batch::Batch;
 pub use error::{Buffer, Error, LevelUnavailable};

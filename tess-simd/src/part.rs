@@ -5,7 +5,7 @@ use crate::block::{BLOCKS, Block};
 use crate::connect;
 use crate::dispatch;
 use crate::emit::Writer;
-use crate::format::{IndexFormat, PointFormat};
+use crate::format::{Call, IndexFormat, PointFormat};
 use crate::lanes::LANES;
 use crate::level::Level;
 use crate::output::{Buffers, Numbering, PatchRange};
@@ -26,6 +26,7 @@ pub(crate) struct PartCounts {
 
 impl PartCounts {
     /// What its output amounts to, in bytes of the widest formats.
+    #[cfg(feature = "rayon")]
     pub(crate) fn weight(&self) -> u64 {
         8 * self.points + 4 * self.indices
     }
@@ -41,8 +42,9 @@ impl PartCounts {
 }
 
 /// What a thread keeps from batch to batch. All of it depends on the configuration alone, but for
-/// the blocks, which are those at hand.
+/// the blocks, which are those at hand. Two threads' workspaces share no cache lines.
 #[derive(Clone, Debug)]
+#[repr(align(128))]
 pub(crate) struct Workspace {
     blocks: Box<[Block; BLOCKS]>,
     tables: Box<LocationTables>,
@@ -110,8 +112,8 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
         let chunk = number * Chunk::PATCHES;
         dispatch::process_blocks(level, config, &batch, chunk, &mut workspace.blocks);
         let buffers = Buffers { points: &mut *points, indices: &mut *indices, ranges };
-        let chunk = Blocks { buffers, first, numbering, workspace };
-        let end = dispatch::emit(level, config, stitches, chunk);
+        let blocks = Blocks { buffers, first, numbering, workspace };
+        let end = I::emit(Call { level, config, stitches, blocks });
         points = points.split_at_mut((end.0 - first.0) as usize).1;
         indices = indices.split_at_mut((end.1 - first.1) as usize).1;
         first = end;

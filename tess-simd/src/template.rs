@@ -10,6 +10,7 @@ use crate::connect;
 use crate::emit::Writer;
 use crate::points::{self, LocationTables};
 use crate::stitch::Stitches;
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use tess_core::{
     Config, Domain, DomainPoint, IsolineFactors, Patch, PatchFactors, QuadFactors, TriangleFactors,
@@ -27,18 +28,25 @@ const POINT_ROOM: usize = 24 << 10;
 /// Room to read whole blocks.
 const PADDING: usize = 16;
 
-/// The templates of one configuration. 412 KiB.
+/// The templates of one configuration. 404 KiB.
 #[derive(Clone, Debug)]
 pub(crate) struct Templates {
-    /// Topologies: see [`Block::topology`]; 0 at first.
-    keys: Vec<u64>,
-    starts: Vec<(u32, u32)>,
-    /// Topology of the patch before.
-    last: u64,
+    slots: Box<[Slot; SLOTS]>,
+    /// Topology of the last large patch that had no template.
+    last_large: u64,
     indices: Vec<u16>,
     points: Vec<DomainPoint>,
     indices_used: usize,
     points_used: usize,
+}
+
+/// Where a template begins.
+#[derive(Clone, Copy, Debug)]
+struct Slot {
+    /// See [`Block::topology`]; 0 if there is none.
+    topology: u64,
+    point: u32,
+    index: u32,
 }
 
 /// One patch's template.
@@ -53,9 +61,8 @@ pub(crate) struct Template<'a> {
 impl Templates {
     pub(crate) fn new() -> Self {
         Self {
-            keys: alloc::vec![0; SLOTS],
-            starts: alloc::vec![(0, 0); SLOTS],
-            last: 0,
+            slots: Box::new([Slot { topology: 0, point: 0, index: 0 }; SLOTS]),
+            last_large: 0,
             indices: alloc::vec![0; INDEX_ROOM],
             points: alloc::vec![DomainPoint::default(); POINT_ROOM],
             indices_used: 0,
@@ -64,13 +71,13 @@ impl Templates {
     }
 
     /// Bytes of memory that they take on the heap.
-    pub(crate) fn bytes(&self) -> usize {
-        SLOTS * (size_of::<u64>() + size_of::<(u32, u32)>())
+    pub(crate) const fn bytes(&self) -> usize {
+        size_of::<[Slot; SLOTS]>()
             + INDEX_ROOM * size_of::<u16>()
             + POINT_ROOM * size_of::<DomainPoint>()
     }
 
-    /// The template of a patch that is not culled, if it is small or like the patch before.
+    /// The template of a patch that is not culled, if there is one or should be.
     #[inline(always)]
     pub(crate) fn get(
         &mut self,
@@ -78,21 +85,28 @@ impl Templates {
         (block, lane): (&Block, usize),
         tables: &mut LocationTables,
     ) -> Option<Template<'_>> {
-        let key = block.topology(lane);
-        let repeats = core::mem::replace(&mut self.last, key) == key;
-        if block.counts.points[lane] as usize > SMALL && !repeats {
-            return None;
-        }
-        let slot = slot(key);
-        if self.keys[slot] != key {
+        let topology = block.topology(lane);
+        let slot = slot(topology);
+        if self.slots[slot].topology != topology {
+            if !self.wanted(block, lane) {
+                return None;
+            }
             self.make((config, stitches), (block, lane), tables);
         }
-        let (first_point, first_index) = self.starts[slot];
+        let Slot { point, index, .. } = self.slots[slot];
         let decided = block.integer() || block.is_minimum(lane);
         Some(Template {
-            indices: &self.indices[first_index as usize..],
-            points: if decided { Some(&self.points[first_point as usize..]) } else { None },
+            indices: self.indices.get(index as usize..).unwrap_or_default(),
+            points: decided.then(|| self.points.get(point as usize..).unwrap_or_default()),
         })
+    }
+
+    /// Whether a patch is small or like the large patch before.
+    #[inline(always)]
+    fn wanted(&mut self, block: &Block, lane: usize) -> bool {
+        let topology = block.topology(lane);
+        block.counts.points[lane] as usize <= SMALL
+            || core::mem::replace(&mut self.last_large, topology) == topology
     }
 
     /// Makes a template; if there is no room, all others are forgotten.
@@ -108,12 +122,12 @@ impl Templates {
         (block, lane): (&Block, usize),
         tables: &mut LocationTables,
     ) {
-        let (key, edges) = (block.topology(lane), &block.edges(lane));
+        let (topology, edges) = (block.topology(lane), &block.edges(lane));
         let (points, indices) = (block.counts.points[lane], block.counts.indices[lane]);
         let full = self.indices_used + indices as usize + PADDING > INDEX_ROOM
             || self.points_used + points as usize + PADDING > POINT_ROOM;
         if full {
-            self.keys.fill(0);
+            self.slots.iter_mut().for_each(|slot| slot.topology = 0);
             (self.indices_used, self.points_used) = (0, 0);
         }
         let (index_room, point_room) =
@@ -135,8 +149,8 @@ impl Templates {
                 points::emit((block, lane), edges, tables, &mut Writer::new(point_room));
             }
         }
-        self.keys[slot(key)] = key;
-        self.starts[slot(key)] = (self.points_used as u32, self.indices_used as u32);
+        self.slots[slot(topology)] =
+            Slot { topology, point: self.points_used as u32, index: self.indices_used as u32 };
         self.indices_used += indices as usize;
         self.points_used += points as usize;
     }
@@ -145,8 +159,8 @@ impl Templates {
 /// Where a topology's template is kept: the upper bits of a product with 2^64 over the golden ratio.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "the upper ten bits")]
-const fn slot(key: u64) -> usize {
-    (key.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SLOTS.ilog2())) as usize
+const fn slot(topology: u64) -> usize {
+    (topology.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SLOTS.ilog2())) as usize % SLOTS
 }
 
 /// The minimum patch of a domain.

@@ -5,9 +5,10 @@ use crate::error::{Buffer, Error, LevelUnavailable};
 use crate::format::{IndexFormat, PointFormat};
 use crate::level::Level;
 use crate::output::{BatchCounts, Buffers, Numbering, Output};
-use crate::part::{PartCounts, Workspace};
+use crate::part::PartCounts;
 use crate::share::{self, Plan, Share};
 use crate::stitch::Stitches;
+use crate::threads::Workspaces;
 use alloc::vec::Vec;
 use tess_core::Config;
 
@@ -21,8 +22,7 @@ pub struct Tessellator {
     config: Config,
     level: Level,
     stitches: Stitches,
-    /// One for each thread.
-    workspaces: Vec<Workspace>,
+    workspaces: Workspaces,
     /// Of each slice of the batch at hand.
     counts: Vec<PartCounts>,
 }
@@ -47,7 +47,7 @@ impl Tessellator {
     }
 
     fn at(config: Config, level: Level) -> Self {
-        let workspaces = alloc::vec![Workspace::new()];
+        let workspaces = Workspaces::new();
         Self { config, level, stitches: Stitches::new(config), workspaces, counts: Vec::new() }
     }
 
@@ -62,14 +62,14 @@ impl Tessellator {
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
-        self.workspaces.resize_with(threads.max(1), Workspace::new);
+        self.workspaces = Workspaces::of_threads(threads);
         self
     }
 
     /// Bytes of memory that its tables and workspaces take.
     #[must_use]
     pub fn memory(&self) -> usize {
-        self.stitches.bytes() + self.workspaces.iter().map(Workspace::bytes).sum::<usize>()
+        self.stitches.bytes() + self.workspaces.bytes()
     }
 
     /// The CPU level that it runs at.
@@ -134,10 +134,11 @@ impl Tessellator {
         if !batch.is_even() {
             return Err(Error::UnevenColumns);
         }
-        let (slice, slices) = share::slices(batch.len(), self.workspaces.len());
+        let (slice, slices) = share::slices(batch.len(), self.workspaces.threads());
         self.counts.clear();
         self.counts.resize(slices, PartCounts::default());
-        share::count((self.level, self.config), *batch, slice, &mut self.counts);
+        let threads = self.workspaces.threads();
+        share::count((self.level, self.config), *batch, slice, &mut self.counts, threads);
         let counts = self.counts.iter().copied().fold(PartCounts::default(), PartCounts::and);
         if counts.points.max(counts.indices) > u64::from(u32::MAX) {
             return Err(Error::BatchTooLarge { points: counts.points, indices: counts.indices });
@@ -152,11 +153,10 @@ impl Tessellator {
         numbering: Numbering,
         buffers: Buffers<'_, P, I>,
     ) {
-        let (slice, _) = share::slices(batch.len(), self.workspaces.len());
-        let Self { config, level, stitches, .. } = self;
+        let (slice, _) = share::slices(batch.len(), self.workspaces.threads());
+        let Self { config, level, stitches, workspaces, counts } = self;
         let plan = Plan { level: *level, config: *config, stitches, numbering, slice };
-        let share = Share { batch, counts: &self.counts, buffers, first: (0, 0) };
-        share::emit(plan, share, &mut self.workspaces);
+        workspaces.emit(plan, Share { batch, counts, buffers, first: (0, 0) });
     }
 }
 
