@@ -6,6 +6,7 @@ use tess_check::backend::Backend;
 use tess_check::core_backend::CoreBackend;
 use tess_check::faults::{Fault, Faulty};
 use tess_check::generate::{Level, Selection, Shard};
+use tess_check::second::SecondFormulation;
 use tess_check::verify::{Plan, Row, Subject, Unit, units, verify};
 
 /// One part in 61 of every subject (and far less of the largest).
@@ -23,16 +24,28 @@ fn without_factors(mut plan: Plan) -> Plan {
 }
 
 #[test]
-fn the_model_equals_itself_on_any_number_of_threads() {
+fn both_formulations_agree_on_any_number_of_threads() {
     let plan = without_factors(small_plan());
-    let one = run(&mut [vec![Box::new(CoreBackend)]], &plan);
+    let one = run(&mut [vec![Box::new(SecondFormulation)]], &plan);
     assert_eq!(one.len(), plan.subjects.len(), "a row for each subject");
     for row in &one {
         assert!(row.compared > 0, "{row:?} compared something");
         assert_eq!(row.first, None, "{row:?}");
     }
-    let two = run(&mut [vec![Box::new(CoreBackend)], vec![Box::new(CoreBackend)]], &plan);
+    let two =
+        run(&mut [vec![Box::new(SecondFormulation)], vec![Box::new(SecondFormulation)]], &plan);
     assert_eq!(one, two, "threads change nothing");
+}
+
+/// The 2^20 numbers from 1 on, in every partitioning.
+#[test]
+fn factors_agree_with_binary64() {
+    let shard = Shard { part: 1016, of: 4096 };
+    let rows = run(
+        &mut [vec![Box::new(SecondFormulation)]],
+        &Plan { subjects: vec![Subject::Factors], shard },
+    );
+    assert_eq!((rows[0].compared, rows[0].first.as_deref()), (4 << 20, None), "four units");
 }
 
 /// The faults that a subject's units must see, and a plan of few of them.

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use tess_check::backend::Backend;
 use tess_check::generate::Shard;
 use tess_check::names::Named;
+use tess_check::second::SecondFormulation;
 use tess_check::verify::{Plan, Row, Subject, verify};
 
 /// Compare every backend with the model, over generated levels or over everything there is
@@ -27,7 +28,7 @@ Examples:
   tess verify --backend simd --exhaustive
   tess verify --exhaustive --shard 3/64")]
 pub struct Args {
-    /// Backend to compare; all of this build unless said
+    /// Backend to compare; simd and gpu unless said. core is the model's second formulation
     #[arg(long, value_name = "NAME")]
     backend: Vec<BackendName>,
     #[command(flatten)]
@@ -81,7 +82,13 @@ impl Args {
         } else {
             std::thread::available_parallelism().map_or(1, usize::from)
         };
-        let backends = || names.iter().map(|&name| self.options.select(name)).collect();
+        let backend = |&name: &BackendName| -> Result<Box<dyn Backend>, Failure> {
+            match name {
+                BackendName::Core => Ok(Box::new(SecondFormulation)),
+                _ => self.options.select(name),
+            }
+        };
+        let backends = || names.iter().map(backend).collect();
         (0..threads).map(|_| backends()).collect()
     }
 }
