@@ -9,10 +9,10 @@ use tess_check::backend::Backend;
 use tess_check::core_backend::CoreBackend;
 use tess_core::fixed_point::ONE;
 use tess_core::{
-    Config, Domain, DomainPoint, FixedFactor, OutputPrimitive, Parity, Partitioning, PatchFactors,
-    QuadFactors, SplitOrder,
+    Config, Domain, DomainPoint, FixedFactor, IsolineFactors, OutputPrimitive, Parity,
+    Partitioning, PatchFactors, QuadFactors, SplitOrder,
 };
-use tess_simd::{Level, Numbering, Tessellator, contexts, fixed_factors, locations};
+use tess_simd::{Batch, Level, Numbering, Tessellator, contexts, fixed_factors, locations};
 
 /// Compares patches in both layouts and numberings with the core's.
 fn check(config: Config, domain: Domain, patches: &Patches) {
@@ -61,6 +61,23 @@ fn interiors() {
             Config { split, ..Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw) };
         check(config, Domain::Quad, &patches);
     }
+}
+
+#[test]
+fn batches_know_their_size() {
+    for domain in Domain::ALL {
+        let [none, some] = [0, 21].map(|count| Patches::random(1, domain, count));
+        for empty in [none.structures(domain), none.columns(domain)] {
+            assert!(empty.is_empty() && empty.is_even(), "{empty:?}");
+        }
+        for batch in [some.structures(domain), some.columns(domain)] {
+            let size = (batch.len(), batch.is_empty(), batch.is_even(), batch.domain());
+            assert_eq!(size, (21, false, true, domain), "{domain:?}");
+        }
+    }
+    let (long, short) = ([2.0; 9], [2.0; 8]);
+    let uneven = Batch::IsolineColumns(IsolineFactors { density: &long, detail: &short });
+    assert!(!uneven.is_even(), "a column is longer");
 }
 
 #[test]

@@ -10,7 +10,8 @@ pub(crate) const BRIEFLY: &str = "10";
 /// many seconds. Without a nightly compiler, which sanitizers need, this fails.
 pub(crate) fn run(seconds: &str) -> Result<(), String> {
     set_up()?;
-    command::run(Command::new(workspace().join("fuzz/run")).args(["--gpu", seconds]))
+    let mut run = Command::new("sh");
+    command::run(run.args(["fuzz/run", "--gpu", seconds]).current_dir(workspace()))
 }
 
 /// Installs the nightly compiler and cargo-fuzz where they are missing.
