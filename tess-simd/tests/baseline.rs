@@ -6,6 +6,7 @@ mod patches;
 
 use patches::{Patches, compare, configs};
 use tess_check::backend::Backend;
+use tess_check::case::{factor_names, factors_from_list};
 use tess_check::core_backend::CoreBackend;
 use tess_core::fixed_point::ONE;
 use tess_core::{
@@ -21,6 +22,7 @@ fn every_stage() {
     factors();
     factor_contexts_and_locations();
     random_patches_in_every_configuration();
+    topologies_that_differ_in_one_factor();
     interiors();
     many_patches();
 }
@@ -51,6 +53,24 @@ fn many_patches() {
     for domain in Domain::ALL {
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
         check(config, domain, &Patches::random(300, domain, 600));
+    }
+}
+
+/// Batches in which one factor takes every integer, up and down again, so that patches come whose
+/// topologies were met before and differ by one point.
+fn topologies_that_differ_in_one_factor() {
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    for domain in [Domain::Triangle, Domain::Quad] {
+        let count = factor_names(domain).len();
+        for position in 0..count {
+            let patch = |n: u8| {
+                let mut factors = [3.0, 5.0, 2.0, 4.0, 6.0, 3.0][..count].to_vec();
+                factors[position] = f32::from(n);
+                factors_from_list(domain, &factors).expect("as many as the domain has")
+            };
+            let all = (1..=16).chain((1..=16).rev()).chain(1..=64).map(patch).collect();
+            check(config, domain, &Patches::new(all));
+        }
     }
 }
 
