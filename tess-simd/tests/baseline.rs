@@ -18,6 +18,7 @@ use tess_simd::{Batch, Level, Numbering, Tessellator, contexts, fixed_factors, l
 /// One test, the fastest parts first, so that it ends at the first difference.
 #[test]
 fn every_stage() {
+    levels_that_are_missing();
     batches_know_their_size();
     factors();
     factor_contexts_and_locations();
@@ -91,6 +92,18 @@ fn interiors() {
     }
 }
 
+/// Levels that this machine lacks are refused.
+fn levels_that_are_missing() {
+    for level in Level::ALL {
+        let answers = [
+            fixed_factors(level, Partitioning::Integer, &[2.0]).is_ok(),
+            contexts(level, SplitOrder::Ruler, Parity::Even, &[FixedFactor::ONE]).is_ok(),
+            locations(level, &[]).is_ok(),
+        ];
+        assert_eq!(answers, [level.is_available(); 3], "{level}");
+    }
+}
+
 fn batches_know_their_size() {
     for domain in Domain::ALL {
         let [none, some] = [0, 21].map(|count| Patches::random(1, domain, count));
@@ -126,8 +139,10 @@ fn factors() {
 fn factor_contexts_and_locations() {
     let pairs = |split| [Parity::Even, Parity::Odd].map(|parity| (split, parity));
     for (split, parity) in SplitOrder::ALL.into_iter().flat_map(pairs) {
-        let factors: Vec<FixedFactor> = (ONE..=(64 - parity.odd()) << 16)
+        let out_of_range = [0, 1, ONE - 1, 64 * ONE + 1, 65 * ONE, FixedFactor::MAX.to_bits()];
+        let factors: Vec<FixedFactor> = (ONE..=64 * ONE)
             .filter(|bits| bits % 997 == 0 || (bits + 3) & 0xFFFF < 6)
+            .chain(out_of_range)
             .map(FixedFactor::from_bits)
             .collect();
         let observed = contexts(Level::Baseline, split, parity, &factors).expect("available");
