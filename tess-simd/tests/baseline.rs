@@ -13,11 +13,13 @@ use tess_core::{
     Config, Domain, DomainPoint, FixedFactor, IsolineFactors, OutputPrimitive, Parity,
     Partitioning, PatchFactors, QuadFactors, SplitOrder,
 };
-use tess_simd::{Batch, Level, Numbering, Tessellator, contexts, fixed_factors, locations};
+use tess_simd::{Batch, Buffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
+use tess_simd::{contexts, fixed_factors, locations};
 
 /// One test, the fastest parts first, so that it ends at the first difference.
 #[test]
 fn every_stage() {
+    messages();
     levels_that_are_missing();
     batches_know_their_size();
     factors();
@@ -90,6 +92,15 @@ fn interiors() {
             Config { split, ..Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw) };
         check(config, Domain::Quad, &patches);
     }
+}
+
+/// Errors say what was needed and what there was.
+fn messages() {
+    let error = Error::BufferTooSmall { buffer: Buffer::Indices, needed: 66, got: 65 };
+    let message = "the index buffer holds 65 elements, but the batch needs 66";
+    assert_eq!(error.to_string(), message, "a buffer");
+    let message = "this machine cannot run the CPU level avx512";
+    assert_eq!(LevelUnavailable(Level::Avx512).to_string(), message, "a level");
 }
 
 /// Levels that this machine lacks are refused.

@@ -20,7 +20,7 @@ const SUBJECTS: &[Subject] = &[
         package: "tess-simd",
         // Without `std` the kernels are compiled for one CPU level alone.
         passes: &[
-            "-C=--no-default-features -C=--lib -C=--test=baseline",
+            "-C=--no-default-features -C=--test=baseline",
             "-C=--features=rayon -C=--lib -C=--test=buffers -C=--test=exact",
         ],
     },
