@@ -2,7 +2,7 @@
 
 use crate::compare_with_model;
 use crate::input::Bytes;
-use std::cell::RefCell;
+use std::sync::{Mutex, OnceLock, PoisonError};
 use tess_check::case::Case;
 use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
 use tess_gpu::runner::{Gpu, Tessellator};
@@ -11,9 +11,8 @@ use tess_gpu::{Numbering, PointFormat, Setup};
 /// Patches in a batch: small, as a software adapter runs them.
 const MOST: usize = 12;
 
-thread_local! {
-    static DEVICE: RefCell<Option<(Gpu, Tessellator)>> = const { RefCell::new(None) };
-}
+/// Stays to the end of the process: a driver cannot be closed while a thread's locals go.
+static DEVICE: OnceLock<Mutex<(Gpu, Tessellator)>> = OnceLock::new();
 
 /// Compares a batch of packed points and indices that count from the patch.
 ///
@@ -25,10 +24,12 @@ thread_local! {
 pub fn check(data: &[u8]) -> Result<(), String> {
     let (config, patches) = Bytes(data).batch(MOST);
     let Some(first) = patches.first() else { return Ok(()) };
-    let output = DEVICE.with_borrow_mut(|device| {
-        let (gpu, tessellator) = device.get_or_insert_with(open);
-        run(gpu, tessellator, first.domain(), config, &patches)
-    })?;
+    let output = {
+        let device = DEVICE.get_or_init(|| Mutex::new(open()));
+        let mut device = device.lock().unwrap_or_else(PoisonError::into_inner);
+        let (gpu, tessellator) = &mut *device;
+        run(gpu, tessellator, first.domain(), config, &patches)?
+    };
     let (mut points, mut indices) = (&output.0[..], &output.1[..]);
     for (i, &factors) in patches.iter().enumerate() {
         let case = Case { config, factors };

@@ -5,8 +5,8 @@ mod common;
 use proptest::prelude::*;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{
-    Buffer, BufferTooSmall, Config, Counter, DomainPoint, MAX_INDICES, MAX_POINTS, Partitioning,
-    Patch, PatchFactors,
+    Buffer, BufferTooSmall, Config, Counter, Counts, DomainPoint, MAX_INDICES, MAX_POINTS,
+    OutputPrimitive, Partitioning, Patch, PatchFactors, QuadFactors,
 };
 
 /// What unwritten elements hold.
@@ -131,4 +131,25 @@ fn the_error_says_what_was_needed() {
         "the index buffer holds 65 elements, but the patch needs 66",
         "the message"
     );
+}
+
+/// The largest patch fills the largest buffers, and what lies past its end is nowhere.
+#[test]
+fn the_largest_patch() {
+    let [u0, v0, u1, v1, inside_u, inside_v] = [64.0; 6];
+    let factors = PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v });
+    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+    let patch = Patch::new(config, factors);
+    let Counts { points, primitives, indices } = patch.counts();
+    assert_eq!((points as usize, indices as usize), (MAX_POINTS, MAX_INDICES), "limits");
+    assert!(patch.locate_point(points - 1).is_some(), "the last point");
+    assert_eq!(patch.locate_point(points), None, "one past the last point");
+    assert!(patch.locate_primitive(primitives - 1).is_some(), "the last primitive");
+    assert_eq!(patch.locate_primitive(primitives), None, "one past the last primitive");
+}
+
+#[test]
+fn coordinates_as_floats() {
+    let bits = DomainPoint::from_bits(0x4000, 0x1_0000).to_f32().map(f32::to_bits);
+    assert_eq!(bits, [0.25f32, 1.0].map(f32::to_bits), "a quarter and one");
 }

@@ -183,13 +183,21 @@ pub fn tessellations(
     expected: &Tessellation,
 ) -> Option<Mismatch> {
     let size = primitive_size(case);
-    Mismatch::count("points", observed.points.len() as u64, expected.points.len() as u64)
-        .or_else(|| {
-            let [observed, expected] = [observed, expected].map(|t| t.indices.len() as u64);
-            Mismatch::count("indices", observed, expected)
-        })
+    count("points", &observed.points, &expected.points)
+        .or_else(|| count("indices", &observed.indices, &expected.indices))
         .or_else(|| points(&observed.points, &expected.points))
         .or_else(|| indices(size, &observed.indices, &expected.indices))
+}
+
+/// The first difference between the points of two outputs, whatever their indices.
+#[must_use]
+pub fn points_alone(observed: &Tessellation, expected: &Tessellation) -> Option<Mismatch> {
+    count("points", &observed.points, &expected.points)
+        .or_else(|| points(&observed.points, &expected.points))
+}
+
+fn count<T>(what: &'static str, observed: &[T], expected: &[T]) -> Option<Mismatch> {
+    Mismatch::count(what, observed.len() as u64, expected.len() as u64)
 }
 
 fn points(observed: &[DomainPoint], expected: &[DomainPoint]) -> Option<Mismatch> {

@@ -54,17 +54,16 @@ impl Backend for CoreBackend {
     }
 }
 
-/// The u = 0 factor of the triangle patch (x, 3, 3; 3), zero if it is culled, and the inside factor
-/// of (3, 3, 3; x).
+/// The u = 0 factor of the triangle patch (x, 3, 3; x), zero if it is culled, and the inside factor,
+/// if need be of (3, 3, 3; x).
 fn outer_and_inside(partitioning: Partitioning, x: f32) -> [FixedFactor; 2] {
-    let plain = TriangleFactors { u0: 3.0, v0: 3.0, w0: 3.0, inside: 3.0 };
-    let outer = processed(partitioning, TriangleFactors { u0: x, ..plain });
-    let inside = processed(partitioning, TriangleFactors { inside: x, ..plain });
+    let both = TriangleFactors { u0: x, v0: 3.0, w0: 3.0, inside: x };
+    if let Some(factors) = processed(partitioning, both) {
+        return [factors.u0.fixed, factors.inside.fixed];
+    }
     let none = FixedFactor::from_bits(0);
-    [
-        outer.map_or(none, |factors| factors.u0.fixed),
-        inside.map_or(none, |factors| factors.inside.fixed),
-    ]
+    let inside = processed(partitioning, TriangleFactors { u0: 3.0, ..both });
+    [none, inside.map_or(none, |factors| factors.inside.fixed)]
 }
 
 /// The processed factors of a triangle patch, if it is not culled.

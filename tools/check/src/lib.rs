@@ -13,6 +13,7 @@ pub mod invariants;
 pub mod names;
 pub mod random;
 pub mod readmemh;
+pub mod second;
 pub mod sequences;
 pub mod strength;
 pub mod vectors;

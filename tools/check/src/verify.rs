@@ -21,7 +21,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Levels 1 and 2.
+    /// Levels 1 and 2, what they have in common once.
     #[must_use]
     pub fn levels() -> Self {
         Self { subjects: vec![Subject::Level1, Subject::Level2], shard: Shard::WHOLE }

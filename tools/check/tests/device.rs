@@ -5,7 +5,7 @@ use tess_check::case::Case;
 use tess_check::checker::{Report, check};
 use tess_check::compare::Stage;
 use tess_check::core_backend::CoreBackend;
-use tess_check::strength::{Conversion, Order, Strength};
+use tess_check::strength::{Conversion, Elements, Order, Strength};
 use tess_check::vectors::{Listing, VectorFile};
 use tess_core::{DomainPoint, Tessellation};
 
@@ -82,4 +82,21 @@ fn strength_applies_to_devices() {
     let up = right(&TRIANGLE.replace("40733333", "40733340"));
     let lenient = Strength { conversion: Conversion::Within06Ulp, ..Strength::default() };
     assert_eq!(observe(case(&tie), up, lenient).mismatches, 0, "the other neighbour");
+}
+
+/// A device that has points alone is told of a wrong point, not of the indices that it lacks.
+#[test]
+fn points_alone() {
+    let strength = Strength { elements: Elements::Points, ..Strength::default() };
+    let mut device = right(TRIANGLE);
+    device.indices.clear();
+    assert_eq!(observe(case(TRIANGLE), device.clone(), strength).mismatches, 0, "no indices");
+    let v = device.points[3].v.to_bits();
+    device.points[3] = DomainPoint::from_bits(0, v ^ 1);
+    let report = observe(case(TRIANGLE), device.clone(), strength);
+    let shown = report.differences[0].mismatch.to_string();
+    assert!(shown.starts_with("point 3 v: observed"), "{shown}");
+    device.points.pop();
+    let report = observe(case(TRIANGLE), device, strength);
+    assert_eq!(report.differences[0].mismatch.stage, Stage::Counts, "a point too few");
 }

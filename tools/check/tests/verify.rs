@@ -1,10 +1,13 @@
 //! Verification of backends: it compares what it says, in any number of shards, and sees faults.
 
+use std::collections::BTreeSet;
+use std::sync::atomic::Ordering;
 use tess_check::backend::Backend;
 use tess_check::core_backend::CoreBackend;
 use tess_check::faults::{Fault, Faulty};
-use tess_check::generate::Shard;
-use tess_check::verify::{Plan, Row, Subject, units, verify};
+use tess_check::generate::{Level, Selection, Shard};
+use tess_check::second::SecondFormulation;
+use tess_check::verify::{Plan, Row, Subject, Unit, units, verify};
 
 /// One part in 61 of every subject (and far less of the largest).
 fn small_plan() -> Plan {
@@ -21,43 +24,90 @@ fn without_factors(mut plan: Plan) -> Plan {
 }
 
 #[test]
-fn the_model_equals_itself_on_any_number_of_threads() {
+fn both_formulations_agree_on_any_number_of_threads() {
     let plan = without_factors(small_plan());
-    let one = run(&mut [vec![Box::new(CoreBackend)]], &plan);
+    let one = run(&mut [vec![Box::new(SecondFormulation)]], &plan);
     assert_eq!(one.len(), plan.subjects.len(), "a row for each subject");
     for row in &one {
         assert!(row.compared > 0, "{row:?} compared something");
         assert_eq!(row.first, None, "{row:?}");
     }
-    let two = run(&mut [vec![Box::new(CoreBackend)], vec![Box::new(CoreBackend)]], &plan);
+    let two =
+        run(&mut [vec![Box::new(SecondFormulation)], vec![Box::new(SecondFormulation)]], &plan);
     assert_eq!(one, two, "threads change nothing");
 }
 
-/// The fault that a subject's units must see, and a plan of few of them.
-fn faulty_plan(subject: Subject) -> (Fault, Plan) {
-    let (fault, of) = match subject {
-        Subject::Factors => (Fault::InsideFactor, 16384),
-        Subject::Locations => (Fault::LastLocation, 61),
-        _ => (Fault::LastIndex, 5),
+/// The 2^20 numbers from 1 on, in every partitioning.
+#[test]
+fn factors_agree_with_binary64() {
+    let shard = Shard { part: 1016, of: 4096 };
+    let rows = run(
+        &mut [vec![Box::new(SecondFormulation)]],
+        &Plan { subjects: vec![Subject::Factors], shard },
+    );
+    assert_eq!((rows[0].compared, rows[0].first.as_deref()), (4 << 20, None), "four units");
+}
+
+/// The faults that a subject's units must see, and a plan of few of them.
+fn faulty_plan(subject: Subject) -> (Vec<Fault>, Plan) {
+    let (faults, of) = match subject {
+        Subject::Factors => (Fault::OF_FACTORS.to_vec(), 16384),
+        Subject::Locations => ([&Fault::OF_CONTEXTS[..], &Fault::OF_LOCATIONS].concat(), 252),
+        _ => (Fault::OF_PATCHES.to_vec(), 31),
     };
-    (fault, Plan { subjects: vec![subject], shard: Shard { part: 1, of } })
+    (faults, Plan { subjects: vec![subject], shard: Shard { part: 1, of } })
 }
 
 #[test]
-fn every_subject_sees_a_wrong_bit() {
+fn every_subject_sees_every_fault() {
     for subject in Subject::ALL {
-        let (fault, plan) = faulty_plan(subject);
-        let faulty = Faulty::new(CoreBackend, fault, 0);
-        let rows = run(&mut [vec![Box::new(faulty)]], &plan);
-        let [row] = &rows[..] else { panic!("one row: {rows:?}") };
-        assert!(row.mismatches > 0 && row.first.is_some(), "{fault:?}: {row:?}");
+        let (faults, plan) = faulty_plan(subject);
+        for fault in faults {
+            let faulty = Faulty::new(CoreBackend, fault, 0);
+            let committed = faulty.committed();
+            let result = verify(&mut [vec![Box::new(faulty)]], &plan, &|_, _, _| {});
+            assert!(committed.load(Ordering::Relaxed), "{fault:?} was committed");
+            if fault == Fault::ShortAnswer {
+                assert!(result.is_err(), "{subject:?}: an answer too few");
+                continue;
+            }
+            let rows = result.expect("the backend runs");
+            let [row] = &rows[..] else { panic!("one row: {rows:?}") };
+            assert!(row.mismatches > 0 && row.first.is_some(), "{fault:?}: {row:?}");
+        }
     }
+}
+
+/// A difference is counted for the backend that has it, not for the one beside it.
+#[test]
+fn differences_are_told_apart_by_backend() {
+    let plan = Plan { subjects: vec![Subject::Transitions], shard: Shard { part: 1, of: 31 } };
+    let faulty = Faulty::new(CoreBackend, Fault::LastIndex, 0);
+    let rows = run(&mut [vec![Box::new(CoreBackend), Box::new(faulty)]], &plan);
+    let mismatches: Vec<u64> = rows.iter().map(|row| row.mismatches).collect();
+    assert_eq!(mismatches, [0, 1], "{rows:?}");
 }
 
 #[test]
 fn factors_cover_every_binary32() {
     assert_eq!(units(Subject::Factors).len(), 4 * 4096, "2^20 each, four partitionings");
     assert_eq!(units(Subject::Locations).len(), 252, "as many as golden/place.csv has rows");
+}
+
+/// Every case of level 2 is in one of the two subjects, and none is in both.
+#[test]
+fn levels_are_compared_once() {
+    let texts = |subject| -> BTreeSet<String> {
+        let cases = units(subject).into_iter().flat_map(|unit| match unit {
+            Unit::Patches(cases) => cases,
+            other => panic!("levels are patches: {other:?}"),
+        });
+        cases.map(|case| case.to_string()).collect()
+    };
+    let [one, two] = [Subject::Level1, Subject::Level2].map(texts);
+    assert!(one.is_disjoint(&two), "nothing is compared twice");
+    let whole = Selection::level(Level::Two, 1).cases().map(|case| case.to_string());
+    assert_eq!(&one | &two, whole.collect(), "level 2");
 }
 
 #[test]

@@ -4,7 +4,6 @@ use crate::backends::{BackendName, BackendOptions};
 use crate::bench::{self, Plan, Row, RunnerOptions, WorkingSet};
 use crate::failure::{Exit, Failure};
 use crate::output;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write;
 use tess_check::workloads::{self, IndexType, Workload};
 
@@ -72,7 +71,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         // A closed stderr does not change the result.
         _ = writeln!(std::io::stderr(), "this build has debug assertions; figures need --release");
     }
-    let progress = progress(workloads.len() * working_sets.len());
+    let progress = output::progress((workloads.len() * working_sets.len()) as u64, "measurements");
     let mut rows = Vec::new();
     for workload in &workloads {
         for &working_set in working_sets {
@@ -104,12 +103,6 @@ fn find_workloads(names: &[String]) -> Result<Vec<Workload>, Failure> {
         found.extend(workloads);
     }
     Ok(found)
-}
-
-fn progress(steps: usize) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}");
-    ProgressBar::new(steps as u64)
-        .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 fn print(rows: &[Row], json: bool) -> Result<(), Failure> {

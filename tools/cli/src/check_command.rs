@@ -3,9 +3,8 @@
 use crate::backends::{BackendArgs, BackendName};
 use crate::explain::{PointReport, PrimitiveReport};
 use crate::failure::{Exit, Failure};
-use crate::output::stdout;
+use crate::output::{progress, stdout};
 use crate::strength::StrengthArgs;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -55,7 +54,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
     let file = VectorFile::new(name, open(&args.file)?).map_err(|e| failure(e.into()))?;
     let strength = args.strength.of(file.header())?;
-    let bar = progress_bar(file.header().count);
+    let bar = progress(file.header().count, "records");
     let report = checker::check(file, &mut backends, strength, &|records| bar.inc(records));
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
@@ -79,16 +78,6 @@ fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
     }
     let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
     Ok(Box::new(BufReader::new(file)))
-}
-
-/// On stderr, and only if that is a terminal.
-fn progress_bar(records: u64) -> ProgressBar {
-    let bar = ProgressBar::new(records);
-    let template = "{wide_bar} {pos}/{len} records, {eta} left";
-    match ProgressStyle::with_template(template) {
-        Ok(style) => bar.with_style(style),
-        Err(_) => bar, // the bar of the library
-    }
 }
 
 fn show(report: &Report, backend: &str) -> io::Result<()> {

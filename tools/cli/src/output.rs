@@ -1,9 +1,11 @@
 //! Where results go: stdout, or a file that is there whole or not at all.
 
 use crate::failure::Failure;
+use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;
 use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 /// The `-o` option.
 #[derive(Clone, Debug, clap::Args)]
@@ -118,6 +120,18 @@ impl<W: Write> Write for UntilClosed<W> {
         let result = self.inner.flush();
         self.note(result, ())
     }
+}
+
+/// A progress bar over `length` of what `unit` names, on stderr if that is a terminal. Its message,
+/// if one is set, says what is being done.
+#[must_use]
+pub fn progress(length: u64, unit: &str) -> ProgressBar {
+    let template = format!("{{bar:30}} {{human_pos}}/{{human_len}} {unit}, {{eta}} left  {{msg}}");
+    let style = ProgressStyle::with_template(&template);
+    let bar = ProgressBar::new(length);
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
 }
 
 /// A document as indented JSON with a newline at its end.

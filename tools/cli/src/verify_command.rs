@@ -3,23 +3,23 @@
 use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
 use crate::gen_command::shard;
-use crate::output::stdout;
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::output::{progress, stdout};
 use std::io::{self, Write};
 use std::path::Path;
 use std::time::{Duration, Instant};
 use tess_check::backend::Backend;
 use tess_check::generate::Shard;
 use tess_check::names::Named;
+use tess_check::second::SecondFormulation;
 use tess_check::verify::{Plan, Row, Subject, verify};
 
 /// Compare every backend with the model, over generated levels or over everything there is
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
-Without --exhaustive: levels 1 and 2 of `tess gen`. With it, also all 2^32 factors in every
-partitioning, all fixed-point factors with their contexts and locations, all transitions and all
-interiors. Shards are disjoint, and together they are everything, so any batch system can spread
-the work.
+Without --exhaustive: levels 1 and 2 of `tess gen`; level-2 is what level 2 has beyond level 1. With
+it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and
+locations, all transitions and all interiors. Shards are disjoint, and together they are everything,
+so any batch system can spread the work.
 
 Exit code 0: all equal; 1: differences; 3: a backend is not available here.
 
@@ -28,7 +28,7 @@ Examples:
   tess verify --backend simd --exhaustive
   tess verify --exhaustive --shard 3/64")]
 pub struct Args {
-    /// Backend to compare; all of this build unless said
+    /// Backend to compare; simd and gpu unless said. core is the model's second formulation
     #[arg(long, value_name = "NAME")]
     backend: Vec<BackendName>,
     #[command(flatten)]
@@ -51,10 +51,7 @@ pub struct Args {
 pub fn run(args: &Args) -> Result<Exit, Failure> {
     let mut workers = args.workers()?;
     let plan = args.plan();
-    let bar = ProgressBar::new(0);
-    if let Ok(style) = ProgressStyle::with_template("{msg:12} {wide_bar} {pos}/{len}, {eta} left") {
-        bar.set_style(style);
-    }
+    let bar = progress(0, "units");
     let started = Instant::now();
     let table = verify(&mut workers, &plan, &|subject, done, all| {
         bar.set_length(all);
@@ -85,7 +82,13 @@ impl Args {
         } else {
             std::thread::available_parallelism().map_or(1, usize::from)
         };
-        let backends = || names.iter().map(|&name| self.options.select(name)).collect();
+        let backend = |&name: &BackendName| -> Result<Box<dyn Backend>, Failure> {
+            match name {
+                BackendName::Core => Ok(Box::new(SecondFormulation)),
+                _ => self.options.select(name),
+            }
+        };
+        let backends = || names.iter().map(backend).collect();
         (0..threads).map(|_| backends()).collect()
     }
 }

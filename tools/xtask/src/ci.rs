@@ -1,9 +1,9 @@
 //! What continuous integration runs, in the order of what fails fastest.
 
 use crate::command::{self, cargo};
-use crate::test;
+use crate::{fuzz, test};
 
-/// Formatting, lints, documentation, features, the oracles of the fuzz targets, then every test.
+/// Formatting, lints, documentation, features, the fuzz targets, then every test.
 pub(crate) fn run() -> Result<(), String> {
     command::run(&mut cargo("fmt --all --check"))?;
     command::run(
@@ -16,6 +16,7 @@ pub(crate) fn run() -> Result<(), String> {
         command::run(&mut cargo(features))?;
     }
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
+    fuzz::run(fuzz::BRIEFLY)?;
     test::run()
 }
 

@@ -3,7 +3,7 @@
 use crate::case::{Case, factor_list, factors_from_list, outer_count};
 use crate::compare::{self, Element, Mismatch, Stage};
 use crate::generate::from_fixed;
-use crate::strength::{Missing, Order, Strength};
+use crate::strength::{Elements, Missing, Order, Strength};
 use tess_core::{Config, ProcessedPatch, SplitOrder, Tessellation};
 
 /// What a device's output for a case has wrong, if `strength` does not accept it.
@@ -16,9 +16,10 @@ pub(super) fn compare(
     if strength.accepts(case, observed) {
         return None;
     }
-    let mismatch = match strength.order {
-        Order::Exact => compare::tessellations(case, observed, expected),
-        Order::Any => strength.first_missing(case, observed, expected).map(missing),
+    let mismatch = match (strength.order, strength.elements) {
+        (Order::Exact, Elements::Primitives) => compare::tessellations(case, observed, expected),
+        (Order::Exact, Elements::Points) => compare::points_alone(observed, expected),
+        (Order::Any, _) => strength.first_missing(case, observed, expected).map(missing),
     };
     mismatch.map(|mismatch| Mismatch { stage: stage(case, observed, mismatch.stage), ..mismatch })
 }

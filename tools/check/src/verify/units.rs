@@ -1,8 +1,9 @@
 //! What there is to compare, cut into units.
 
-use crate::case::{Case, factors_from_list};
+use crate::case::{Case, factor_bits, factors_from_list};
 use crate::generate::{Level, Selection};
 use crate::names::Named;
+use std::collections::HashSet;
 use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
 
 /// Something that can be compared completely.
@@ -10,7 +11,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, SplitOrde
 pub enum Subject {
     /// The generated level 1.
     Level1,
-    /// The generated level 2.
+    /// What the generated level 2 has beyond level 1.
     Level2,
     /// All 2^32 binary32 factors, as outer and as inside factor, in every partitioning.
     Factors,
@@ -79,7 +80,7 @@ const PATCHES: usize = 1024;
 pub fn units(subject: Subject) -> Vec<Unit> {
     match subject {
         Subject::Level1 => patches(Selection::level(Level::One, 1).cases()),
-        Subject::Level2 => patches(Selection::level(Level::Two, 1).cases()),
+        Subject::Level2 => patches(beyond_level_one()),
         Subject::Factors => values().collect(),
         Subject::Locations => buckets().collect(),
         Subject::Transitions => patches(transitions()),
@@ -90,6 +91,14 @@ pub fn units(subject: Subject) -> Vec<Unit> {
 fn patches(cases: impl Iterator<Item = Case>) -> Vec<Unit> {
     let cases: Vec<Case> = cases.collect();
     cases.chunks(PATCHES).map(|cases| Unit::Patches(cases.to_vec())).collect()
+}
+
+/// The cases of level 2, most of which level 1 does not have, without those that it has.
+fn beyond_level_one() -> impl Iterator<Item = Case> {
+    let key = |case: &Case| (case.config, case.domain(), factor_bits(&case.factors));
+    let known: HashSet<_> =
+        Selection::level(Level::One, 1).cases().map(|case| key(&case)).collect();
+    Selection::level(Level::Two, 1).cases().filter(move |case| !known.contains(&key(case)))
 }
 
 fn values() -> impl Iterator<Item = Unit> {

@@ -5,10 +5,9 @@
 use super::output::Sink;
 use super::statistics::{Stage, Statistics};
 use crate::failure::Failure;
-use indicatif::{ProgressBar, ProgressStyle};
+use crate::output::progress;
 use rayon::prelude::*;
 use std::ops::Range;
-use std::time::Duration;
 use tess_core::{
     Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
 };
@@ -77,23 +76,14 @@ pub fn run(job: &Job<'_>, sink: &mut dyn Sink, statistics: &mut Statistics) -> R
         vertices: Vec::new(),
     };
     statistics.patches = job.model.len();
-    let progress = progress(job.model.len());
+    let bar = progress(job.model.len() as u64, "patches");
     for start in (0..job.model.len()).step_by(FACTOR_BLOCK) {
         let end = job.model.len().min(start + FACTOR_BLOCK);
         stream.block_of_patches(start..end, sink, statistics)?;
-        progress.set_position(end as u64);
+        bar.set_position(end as u64);
     }
-    progress.finish_and_clear();
+    bar.finish_and_clear();
     Ok(())
-}
-
-/// A bar on stderr, where that is a terminal, of work that takes a while.
-fn progress(patches: usize) -> ProgressBar {
-    let bar = ProgressBar::new(patches as u64);
-    let style = ProgressStyle::with_template("{bar:30} {human_pos}/{human_len} patches {eta}");
-    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(200));
-    bar
 }
 
 impl Stream<'_> {

@@ -1,0 +1,116 @@
+//! Recorded results of the reference model, in both formulations: enough of `golden/` for the core's
+//! tests to stand alone. All of it goes through `tools/check`.
+
+mod recorded;
+
+use recorded::{Lines, config, digest, factors, hex_words, text};
+use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
+use tess_core::{
+    DomainPoint, FactorContext, FixedFactor, Parity, Patch, PatchFactors, Primitive, SplitOrder,
+    place,
+};
+
+/// Points and indices by random access.
+fn by_number(patch: &Patch) -> (Vec<DomainPoint>, Vec<u32>) {
+    let indices = |primitive: Primitive| primitive.indices().to_vec();
+    (patch.points().collect(), patch.primitives().flat_map(indices).collect())
+}
+
+#[test]
+fn whole_outputs() {
+    let text = text("cases.txt");
+    let mut lines = Lines::new(&text);
+    let mut cases = 0;
+    while let Some(case) = lines.next_starting("case ") {
+        let fields: Vec<&str> = case.split(' ').collect();
+        let patch = Patch::new(config(&fields[1..4]), factors(fields[0], &fields[4..]));
+        let points = lines.next_list("points ", 2, 16);
+        let points = points.chunks(2).map(|uv| DomainPoint::from_bits(uv[0], uv[1])).collect();
+        let indices = lines.next_list("indices ", 1, 10);
+        let whole = patch.tessellate();
+        assert!((&whole.points, &whole.indices) == (&points, &indices), "{case}: in sequence");
+        assert!(by_number(&patch) == (points, indices), "{case}: by number");
+        cases += 1;
+    }
+    assert_eq!(cases, 51, "cases in the file");
+}
+
+/// Checks a digest of a patch's points and one of its indices.
+fn check_digests(row: &str, patch: &Patch, recorded: &[&str]) {
+    let counts = patch.counts();
+    let [points, indices] = [recorded[0], recorded[1]].map(|n| n.parse::<u32>().expect("a number"));
+    assert_eq!((counts.points, counts.indices), (points, indices), "{row}: predicted sizes");
+    let whole = patch.tessellate();
+    for (points, indices) in [(whole.points, whole.indices), by_number(patch)] {
+        let words = points.iter().flat_map(|point| [point.u.to_bits(), point.v.to_bits()]);
+        assert_eq!([digest(words), digest(indices)], recorded[2..], "{row}");
+    }
+}
+
+fn check_patches(file: &str, step: usize) {
+    for row in text(file).lines().skip(2).step_by(step) {
+        let fields: Vec<&str> = row.split(',').collect();
+        let raw: Vec<&str> = fields[4].split(' ').collect();
+        let patch = Patch::new(config(&fields[1..4]), factors(fields[0], &raw));
+        check_digests(row, &patch, &fields[5..]);
+    }
+}
+
+#[test]
+fn random_patches() {
+    check_patches("patches.csv", 4);
+}
+
+#[test]
+fn corners() {
+    check_patches("corners.csv", 1);
+}
+
+/// Contexts and locations of every fraction, for some integer parts.
+#[test]
+fn contexts_and_locations() {
+    for row in text("place.csv").lines().skip(2).step_by(11) {
+        let fields: Vec<&str> = row.split(',').collect();
+        let split = if fields[0] == "ruler" { SplitOrder::Ruler } else { SplitOrder::Center };
+        let parity = if fields[1] == "odd" { Parity::Odd } else { Parity::Even };
+        let first = fields[2].parse::<u32>().expect("an integer part") << 16;
+        let highest = (64 - parity.odd()) << 16;
+        let contexts = (first..=(first | 0xFFFF).min(highest))
+            .map(|bits| FactorContext::new(FixedFactor::from_bits(bits), parity, split));
+        let numbers = contexts
+            .clone()
+            .flat_map(|c| [c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split, c.points]);
+        assert_eq!(digest(numbers), fields[3], "contexts of {row}");
+        let locations = contexts.flat_map(|c| (0..c.points).map(move |p| place(&c, p).to_bits()));
+        assert_eq!(digest(locations), fields[4], "locations of {row}");
+    }
+}
+
+fn request(domain: &str, axis: &str, input: &[&str]) -> Request {
+    match factors(domain, input) {
+        PatchFactors::Isoline(factors) => Request::Isoline(factors),
+        PatchFactors::Triangle(factors) => Request::Triangle(factors),
+        PatchFactors::Quad(factors) if axis == "1" => Request::Quad(factors, QuadAxes::One),
+        PatchFactors::Quad(factors) => Request::Quad(factors, QuadAxes::Two),
+    }
+}
+
+#[test]
+fn factor_preparation() {
+    for row in text("hlsl.csv").lines().skip(2) {
+        let fields: Vec<&str> = row.split(',').collect();
+        let [domain, partitioning, reduction, axis, output] = fields[..5] else {
+            panic!("{row}: five settings")
+        };
+        let config = config(&[partitioning, output, "ruler"]);
+        let reduction = match reduction {
+            "min" => Reduction::Min,
+            "max" => Reduction::Max,
+            _ => Reduction::Average,
+        };
+        let input: Vec<&str> = fields[5].split(' ').collect();
+        let prepared = prepare(config.partitioning, reduction, request(domain, axis, &input));
+        assert_eq!(hex_words(&prepared.unrounded), fields[6], "{row}: unrounded");
+        assert_eq!(hex_words(&prepared.rounded), fields[7], "{row}: rounded");
+    }
+}

@@ -1,0 +1,115 @@
+//! Every stage at the baseline level, in one pair of formats: a small test program that sees a fault
+//! anywhere soon. The other tests have every level, format and numbering.
+
+#[path = "common/patches.rs"]
+mod patches;
+
+use patches::{Patches, compare, configs};
+use tess_check::backend::Backend;
+use tess_check::core_backend::CoreBackend;
+use tess_core::fixed_point::ONE;
+use tess_core::{
+    Config, Domain, DomainPoint, FixedFactor, IsolineFactors, OutputPrimitive, Parity,
+    Partitioning, PatchFactors, QuadFactors, SplitOrder,
+};
+use tess_simd::{Batch, Level, Numbering, Tessellator, contexts, fixed_factors, locations};
+
+/// Compares patches in both layouts and numberings with the core's.
+fn check(config: Config, domain: Domain, patches: &Patches) {
+    let mut tessellator =
+        Tessellator::with_level(config, Level::Baseline).expect("always available");
+    let expected = patches.expected(config);
+    for (batch, numbering) in [
+        (patches.structures(domain), Numbering::PerPatch),
+        (patches.columns(domain), Numbering::Batch { base_vertex: 77 }),
+    ] {
+        let same = |point| point;
+        compare::<DomainPoint, u32>(&mut tessellator, (patches, batch), &expected, numbering, same);
+    }
+}
+
+#[test]
+fn random_patches_in_every_configuration() {
+    for (seed, config) in (0..).zip(configs()) {
+        for domain in Domain::ALL {
+            check(config, domain, &Patches::random(seed, domain, 83));
+        }
+    }
+}
+
+#[test]
+fn many_patches() {
+    for domain in Domain::ALL {
+        let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
+        check(config, domain, &Patches::random(300, domain, 900));
+    }
+}
+
+/// Quads of most pairs of inside factors, each outer factor with each parity of inside factor.
+#[test]
+fn interiors() {
+    let pairs = (1..=64u8).flat_map(|u| (1..=64u8).map(move |v| (u, v)));
+    let some = pairs.filter(|(u, v)| u.max(v) <= &12 || (u % 7 * 3 + v) % 7 == 0);
+    let quad = |(u, v): (u8, u8)| {
+        let [u, v] = [u, v].map(f32::from);
+        let [u0, v0, u1, v1] = [v, u, 65.0 - v, 65.0 - u];
+        PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u: u, inside_v: v })
+    };
+    let patches = Patches::new(some.map(quad).collect());
+    for split in SplitOrder::ALL {
+        let config =
+            Config { split, ..Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw) };
+        check(config, Domain::Quad, &patches);
+    }
+}
+
+#[test]
+fn batches_know_their_size() {
+    for domain in Domain::ALL {
+        let [none, some] = [0, 21].map(|count| Patches::random(1, domain, count));
+        for empty in [none.structures(domain), none.columns(domain)] {
+            assert!(empty.is_empty() && empty.is_even(), "{empty:?}");
+        }
+        for batch in [some.structures(domain), some.columns(domain)] {
+            let size = (batch.len(), batch.is_empty(), batch.is_even(), batch.domain());
+            assert_eq!(size, (21, false, true, domain), "{domain:?}");
+        }
+    }
+    let (long, short) = ([2.0; 9], [2.0; 8]);
+    let uneven = Batch::IsolineColumns(IsolineFactors { density: &long, detail: &short });
+    assert!(!uneven.is_even(), "a column is longer");
+}
+
+#[test]
+fn factors() {
+    let near = |integer: u8| {
+        let centre = f32::from(integer).to_bits();
+        (centre.saturating_sub(200)..centre + 200).map(f32::from_bits)
+    };
+    let spread = (0..=u32::MAX).step_by(65_521).map(f32::from_bits);
+    let values: Vec<f32> = (0..=66).flat_map(near).chain(spread).collect();
+    for partitioning in Partitioning::ALL {
+        let observed = fixed_factors(Level::Baseline, partitioning, &values).expect("available");
+        let expected = CoreBackend.fixed_factors(partitioning, &values).expect("the core");
+        let different = observed.iter().zip(&expected).position(|(a, b)| a != b);
+        assert_eq!(different.map(|at| values[at].to_bits()), None, "{partitioning:?}");
+        assert_eq!(observed.len(), expected.len(), "every value");
+    }
+}
+
+#[test]
+fn factor_contexts_and_locations() {
+    let pairs = |split| [Parity::Even, Parity::Odd].map(|parity| (split, parity));
+    for (split, parity) in SplitOrder::ALL.into_iter().flat_map(pairs) {
+        let factors: Vec<FixedFactor> = (ONE..=(64 - parity.odd()) << 16)
+            .filter(|bits| bits % 997 == 0 || (bits + 3) & 0xFFFF < 6)
+            .map(FixedFactor::from_bits)
+            .collect();
+        let observed = contexts(Level::Baseline, split, parity, &factors).expect("available");
+        let expected = CoreBackend.contexts(split, parity, &factors).expect("the core");
+        assert_eq!(observed, expected, "contexts {split:?} {parity:?}");
+        let observed = locations(Level::Baseline, &expected).expect("available");
+        let expected = CoreBackend.locations(&expected).expect("the core");
+        assert!(observed == expected, "locations {split:?} {parity:?}");
+    }
+}
