@@ -22,12 +22,12 @@ fn scan(
     if block < blocks() {
         own = offsets[job.blocks_at + block];
     }
-    let through = inclusive_scan(thread, own);
+    let sums = prefix_sums(thread, own);
     if block < blocks() {
-        offsets[job.blocks_at + block] = through - own;
+        offsets[job.blocks_at + block] = sums.before;
     }
-    if thread == 255u {
-        offsets[job.groups_at + workgroup.x] = through;
+    if thread == 0u {
+        offsets[job.groups_at + workgroup.x] = sums.all;
     }
 }
 
@@ -50,16 +50,16 @@ fn totals(@builtin(local_invocation_index) thread: u32) {
     if thread < groups {
         own = offsets[job.groups_at + thread];
     }
-    let through = inclusive_scan(thread, own);
-    let points = inclusive_scan(thread, vec2<u32>(own.x & 0xffffu, own.x >> 16u));
-    let primitives = inclusive_scan(thread, vec2<u32>(own.y & 0xffffu, own.y >> 16u));
+    let sums = prefix_sums(thread, own);
+    let points = prefix_sums(thread, vec2<u32>(own.x & 0xffffu, own.x >> 16u)).all;
+    let primitives = prefix_sums(thread, vec2<u32>(own.y & 0xffffu, own.y >> 16u)).all;
     let begin = vec2<u32>(status.points, status.primitives);
     storageBarrier();
     if thread < groups {
-        offsets[job.groups_at + thread] = begin + through - own;
+        offsets[job.groups_at + thread] = begin + sums.before;
     }
-    if thread == 255u {
-        let end = begin + through;
+    if thread == 0u {
+        let end = begin + sums.all;
         status.ranges[job.chunk] = Range(begin.x, end.x, begin.y, end.y);
         let all_points = add_wide(points, vec2<u32>(status.points, status.points_high));
         let all_primitives =

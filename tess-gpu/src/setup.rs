@@ -65,6 +65,13 @@ impl Setup {
         }
     }
 
+    /// Whether factors are rounded to integers: then no contexts are stored, as a number of points
+    /// says it all.
+    #[must_use]
+    pub const fn has_integer_factors(&self) -> bool {
+        matches!(self.config.partitioning, Partitioning::Integer | Partitioning::Pow2)
+    }
+
     /// The constants that stand in front of every shader.
     pub(crate) fn prelude(&self) -> String {
         let Config { partitioning, output, split } = self.config;
@@ -77,8 +84,13 @@ impl Setup {
             ("NUMBERING", u32::from(self.numbering == Numbering::PerPatch)),
             ("WORKGROUP", crate::sizes::WORKGROUP),
             ("TILE", crate::sizes::TILE),
+            ("ROUND", crate::sizes::ROUND),
             ("RECIPROCALS_AT", crate::tables::RECIPROCALS_AT),
             ("STEPS_AT", crate::tables::STEPS_AT),
+            ("FAN_BLOCK", crate::tables::FAN_BLOCK),
+            ("RING_BLOCK", crate::tables::RING_BLOCK),
+            ("MIRRORED_BLOCK", crate::tables::MIRRORED_BLOCK),
+            ("STRIP_BLOCK", crate::tables::STRIP_BLOCK),
         ];
         constants.map(|(name, value)| format!("const {name} = {value}u;\n")).concat()
     }

@@ -89,6 +89,7 @@ impl Stage {
                 Binding(Job, Read),
                 Binding(Topologies, Read),
                 Binding(Contexts, Read),
+                Binding(Tables, Read),
                 Binding(Offsets, Read),
                 Binding(Status, Read),
                 Binding(Tiles, Read),
@@ -109,10 +110,10 @@ impl Stage {
     /// Its WGSL, a whole module.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        setup.prelude() + &self.parts().concat()
+        setup.prelude() + &self.parts(setup).concat()
     }
 
-    const fn parts(self) -> &'static [&'static str] {
+    const fn parts(self, setup: Setup) -> &'static [&'static str] {
         match self {
             Self::Factors => &[
                 part!("state"),
@@ -128,12 +129,26 @@ impl Stage {
             Self::Scan | Self::Totals => &[part!("state"), part!("prefix_sum"), part!("scan")],
             Self::Finish => &[part!("state"), part!("finish")],
             Self::Partition => &[part!("state"), part!("partition")],
+            Self::ExpandPoints if setup.has_integer_factors() => &[
+                part!("state"),
+                part!("fixed_point"),
+                part!("place_evenly"),
+                part!("topology"),
+                part!("shape"),
+                part!("points"),
+                part!("point_format"),
+                part!("offsets"),
+                part!("tile"),
+                part!("expand_points"),
+            ],
             Self::ExpandPoints => &[
                 part!("state"),
                 part!("fixed_point"),
                 part!("factor_context"),
                 part!("place"),
+                part!("stored_contexts"),
                 part!("topology"),
+                part!("shape"),
                 part!("points"),
                 part!("point_format"),
                 part!("offsets"),
@@ -143,9 +158,9 @@ impl Stage {
             Self::ExpandPrimitives => &[
                 part!("state"),
                 part!("topology"),
-                part!("counts"),
-                part!("connect"),
+                part!("shape"),
                 part!("stitch"),
+                part!("connect"),
                 part!("offsets"),
                 part!("tile"),
                 part!("expand_primitives"),
@@ -165,6 +180,9 @@ impl Stage {
             Self::ExpandPoints => {
                 let mut own = any_factors(Setup { point_format: setup.point_format, ..plain });
                 own.config.output = OutputPrimitive::Point;
+                if !setup.has_integer_factors() {
+                    own.config.partitioning = Partitioning::FractionalOdd;
+                }
                 own
             }
             Self::ExpandPrimitives => any_factors(Setup { numbering: setup.numbering, ..plain }),
@@ -239,17 +257,17 @@ impl Probe {
 /// WGSL that a user's own shader includes to compute any point or primitive of a patch from its
 /// number alone, in constant time, so that nothing needs to be written out for drawing.
 ///
-/// It declares `topologies`, `contexts` (as a batch of one chunk leaves them) and `tables` as
-/// read-only storage buffers, and offers
+/// It declares `topologies` (as a batch of one chunk leaves them), `tables` and, unless
+/// [`Setup::has_integer_factors`], `contexts` as read-only storage buffers, and offers
 /// - `tess_point(patch_index, i) -> vec2<u32>`: u and v as 16.16 numbers,
 /// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
 /// - `tess_primitive(patch_index, t) -> vec3<u32>`: the patch's own indices, as many as a
 ///   primitive has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Pull {
-    /// Bind group of the three buffers.
+    /// Bind group of the buffers.
     pub group: u32,
-    /// Binding of `topologies`; `contexts` and `tables` follow.
+    /// Binding of `topologies`; `tables` and `contexts` follow.
     pub first_binding: u32,
 }
 
@@ -261,22 +279,26 @@ impl Pull {
             let (group, binding) = (self.group, self.first_binding + offset);
             format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
         };
-        let bindings = declare(0, "topologies", "vec2<u32>")
-            + &declare(1, "contexts", "vec2<u32>")
-            + &declare(2, "tables", "u32")
-            + &format!("const FACTORS = {}u;\n", setup.factors());
+        let mut head = setup.prelude()
+            + &declare(0, "topologies", "vec2<u32>")
+            + &declare(1, "tables", "u32")
+            + part!("state")
+            + part!("fixed_point");
+        if setup.has_integer_factors() {
+            head += part!("place_evenly");
+        } else {
+            head += &declare(2, "contexts", "vec2<u32>");
+            head += &format!("const FACTORS = {}u;\n", setup.factors());
+            head += &[part!("factor_context"), part!("place"), part!("pulled_contexts")].concat();
+        }
         let parts = [
-            part!("state"),
-            part!("fixed_point"),
-            part!("factor_context"),
-            part!("place"),
             part!("topology"),
-            part!("counts"),
+            part!("shape"),
             part!("points"),
-            part!("connect"),
             part!("stitch"),
+            part!("connect"),
             part!("locate"),
         ];
-        setup.prelude() + &bindings + &parts.concat()
+        head + &parts.concat()
     }
 }

@@ -7,9 +7,11 @@ use crate::layout::{DrawIndexed, Job, Range, Status, Topology};
 use crate::setup::Setup;
 
 /// Threads of the workgroups that expand a tile.
-pub const WORKGROUP: u32 = 128;
+pub const WORKGROUP: u32 = 64;
 /// Elements of a tile: points or primitives.
-pub const TILE: u32 = 512;
+pub const TILE: u32 = 1024;
+/// Patches of a tile that are expanded at a time.
+pub const ROUND: u32 = 512;
 /// Patches of a block, whose offsets one workgroup sums.
 pub const BLOCK: u32 = 256;
 /// Patches of a group, 256 blocks.
@@ -276,7 +278,8 @@ impl Plan {
 fn window_span(capacity: u32, each: u32, window_tiles: u32, window: u32) -> Span {
     let first = u64::from(window) * u64::from(window_tiles) * u64::from(TILE);
     let elements = (u64::from(capacity) - first).min(u64::from(window_tiles) * u64::from(TILE));
-    Span { offset: first * u64::from(each), size: elements * u64::from(each) }
+    let size = (elements * u64::from(each)).next_multiple_of(8);
+    Span { offset: first * u64::from(each), size }
 }
 
 const fn size<T>() -> u64 {

@@ -190,7 +190,7 @@ fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
     let elements = |size: u64, each: u32| u32::try_from(size / u64::from(each)).unwrap_or(u32::MAX);
     Capacity {
         points: elements(points.size(), 8),
-        primitives: elements(indices.size(), 4 * setup.indices_per_primitive()),
+        primitives: elements(indices.size() / 8 * 8, 4 * setup.indices_per_primitive()),
     }
 }
 

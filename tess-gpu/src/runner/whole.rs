@@ -43,7 +43,7 @@ impl Tessellator {
         let indices = needed.primitives() * u64::from(setup.indices_per_primitive());
         let usage = Usage::STORAGE | Usage::COPY_SRC;
         let point_buffer = gpu.buffer("points", 8 * needed.points(), usage);
-        let index_buffer = gpu.buffer("indices", 4 * indices, usage);
+        let index_buffer = gpu.buffer("indices", (4 * indices).next_multiple_of(8), usage);
         let outputs = Outputs::Buffers { points: &point_buffer, indices: &index_buffer };
         let batch = prepare(self, outputs)?;
         let status = run(gpu, &batch)?;
