@@ -20,7 +20,7 @@ struct Source {
 
 fn load_source(round: Round, number: u32) -> Source {
     let patch_index = round.first + number;
-    let topology = topologies[patch_index];
+    let topology = round_topologies[number];
     if DOMAIN == ISOLINE || state_of(topology) != REGULAR {
         var plain: Source;
         plain.number = number;
@@ -109,6 +109,7 @@ fn expand_points(
         workgroupBarrier();
         for (var i = thread; i < count; i += WORKGROUP) {
             begins[i] = i32(patch_offset(first + i).x - tile.base);
+            round_topologies[i] = topologies[first + i];
         }
         workgroupBarrier();
         let begin = u32(max(begins[0], i32(tile.begin - tile.base)));

@@ -20,7 +20,7 @@ struct Source {
 
 fn load_source(round: Round, number: u32) -> Source {
     let patch_index = round.first + number;
-    let topology = topologies[patch_index];
+    let topology = round_topologies[number];
     let base = select(0u, patch_offset(patch_index).x, NUMBERING == PER_BATCH);
     return Source(
         number, u32(begins[number]), base, state_of(topology) == REGULAR, shape_of(topology));
@@ -102,7 +102,7 @@ fn write_sequences(round: Round, thread: u32, out: u32) {
         let patch_index = round.first + number;
         let base = select(0u, patch_offset(patch_index).x, NUMBERING == PER_BATCH);
         let t = element - u32(begins[number]);
-        let index = sequence_first(topologies[patch_index], t, base);
+        let index = sequence_first(round_topologies[number], t, base);
         if INDICES == 2u {
             indices_out[out + element] = vec2<u32>(index, index + 1u);
         } else if (element & 1u) == 0u {
@@ -132,6 +132,7 @@ fn expand_primitives(
         workgroupBarrier();
         for (var i = thread; i < count; i += WORKGROUP) {
             begins[i] = i32(patch_offset(first + i).y - tile.base);
+            round_topologies[i] = topologies[first + i];
         }
         workgroupBarrier();
         let begin = u32(max(begins[0], i32(tile.begin - tile.base)));

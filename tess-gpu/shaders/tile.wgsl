@@ -21,6 +21,7 @@ struct Round {
 
 // Where each patch of a round begins, counted from the tile's base.
 var<workgroup> begins: array<i32, ROUND>;
+var<workgroup> round_topologies: array<vec2<u32>, ROUND>;
 
 // The tile of a workgroup; `end` is 0 if there is none for it. `begin..end` is the chunk's range,
 // whose table of tiles begins at `table_at`.
@@ -44,17 +45,18 @@ fn find_patch(round: Round, element: u32) -> u32 {
         return found;
     }
     let last = round.count - 1u;
-    if round.count > 16u {
+    if round.count > 32u {
         if round.count > 128u {
-            found = nearer_patch(found, 256u, last, element);
             found = nearer_patch(found, 128u, last, element);
         }
         found = nearer_patch(found, 64u, last, element);
         found = nearer_patch(found, 32u, last, element);
+    }
+    if round.count > 8u {
         found = nearer_patch(found, 16u, last, element);
+        found = nearer_patch(found, 8u, last, element);
     }
     if round.count > 4u {
-        found = nearer_patch(found, 8u, last, element);
         found = nearer_patch(found, 4u, last, element);
     }
     found = nearer_patch(found, 2u, last, element);

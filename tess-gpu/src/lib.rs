@@ -11,9 +11,9 @@
 //! feature `wgpu` adds a ready-made `runner`.
 //!
 //! The stages, in the order in which they run: `factors` (one thread per patch), `scan` and
-//! `totals` (prefix sums over the patches), `finish` (draw arguments, dispatch sizes, whether
-//! everything fits), `partition` (which patches a tile of the output belongs to),
-//! `expand_points` and `expand_primitives` (one workgroup per tile).
+//! `totals` (prefix sums over the patches; draw arguments, dispatch sizes, whether everything
+//! fits), `partition` (which patches a tile of the output belongs to), `expand_points` and
+//! `expand_primitives` (one workgroup per tile).
 //!
 //! ```
 //! use tess_core::{Config, Domain, OutputPrimitive, Partitioning};

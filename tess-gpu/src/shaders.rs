@@ -18,10 +18,9 @@ pub enum Stage {
     Factors,
     /// Offsets of blocks within groups of 256 blocks.
     Scan,
-    /// Offsets of groups in the output, and what the batch needs.
+    /// Offsets of groups in the output, and what the batch needs; behind the last chunk whether
+    /// the output fits, draw arguments and dispatch sizes.
     Totals,
-    /// Whether the output fits, draw arguments and dispatch sizes.
-    Finish,
     /// The patch that each tile of the output begins with.
     Partition,
     /// Tiles of points.
@@ -32,11 +31,10 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 6] = [
         Self::Factors,
         Self::Scan,
         Self::Totals,
-        Self::Finish,
         Self::Partition,
         Self::ExpandPoints,
         Self::ExpandPrimitives,
@@ -49,7 +47,6 @@ impl Stage {
             Self::Factors => "factors",
             Self::Scan => "scan",
             Self::Totals => "totals",
-            Self::Finish => "finish",
             Self::Partition => "partition_tiles",
             Self::ExpandPoints => "expand_points",
             Self::ExpandPrimitives => "expand_primitives",
@@ -73,12 +70,13 @@ impl Stage {
                 Binding(Contexts, ReadWrite),
                 Binding(Offsets, ReadWrite),
             ],
-            Self::Scan | Self::Totals => {
-                &[Binding(Job, Read), Binding(Offsets, ReadWrite), Binding(Status, ReadWrite)]
-            }
-            Self::Finish => {
-                &[Binding(Job, Read), Binding(Status, ReadWrite), Binding(Arguments, ReadWrite)]
-            }
+            Self::Scan => &[Binding(Job, Read), Binding(Offsets, ReadWrite)],
+            Self::Totals => &[
+                Binding(Job, Read),
+                Binding(Offsets, ReadWrite),
+                Binding(Status, ReadWrite),
+                Binding(Arguments, ReadWrite),
+            ],
             Self::Partition => &[
                 Binding(Job, Read),
                 Binding(Offsets, Read),
@@ -126,8 +124,8 @@ impl Stage {
                 part!("prefix_sum"),
                 part!("factors"),
             ],
-            Self::Scan | Self::Totals => &[part!("state"), part!("prefix_sum"), part!("scan")],
-            Self::Finish => &[part!("state"), part!("finish")],
+            Self::Scan => &[part!("state"), part!("prefix_sum"), part!("scan")],
+            Self::Totals => &[part!("state"), part!("prefix_sum"), part!("totals")],
             Self::Partition => &[part!("state"), part!("partition")],
             Self::ExpandPoints if setup.has_integer_factors() => &[
                 part!("state"),
@@ -176,7 +174,7 @@ impl Stage {
             Setup { point_format: PointFormat::Packed, numbering: Numbering::PerBatch, ..setup };
         match self {
             Self::Factors => plain,
-            Self::Scan | Self::Totals | Self::Finish | Self::Partition => any_factors(plain),
+            Self::Scan | Self::Totals | Self::Partition => any_factors(plain),
             Self::ExpandPoints => {
                 let mut own = any_factors(Setup { point_format: setup.point_format, ..plain });
                 own.config.output = OutputPrimitive::Point;

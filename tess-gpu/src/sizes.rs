@@ -9,9 +9,9 @@ use crate::setup::Setup;
 /// Threads of the workgroups that expand a tile.
 pub const WORKGROUP: u32 = 64;
 /// Elements of a tile: points or primitives.
-pub const TILE: u32 = 1024;
+pub const TILE: u32 = 2048;
 /// Patches of a tile that are expanded at a time.
-pub const ROUND: u32 = 512;
+pub const ROUND: u32 = 256;
 /// Patches of a block, whose offsets one workgroup sums.
 pub const BLOCK: u32 = 256;
 /// Patches of a group, 256 blocks.
@@ -125,9 +125,9 @@ impl Plan {
         }
     }
 
-    /// The job of the stage `finish`: what holds for the whole batch.
+    /// The job of the stage `totals` in a batch of no patches, which has no chunks.
     #[must_use]
-    pub fn finish_job(&self) -> Job {
+    pub fn empty_job(&self) -> Job {
         self.batch_job(0, self.chunk_patches)
     }
 
@@ -265,12 +265,6 @@ impl Plan {
     #[must_use]
     pub fn scan_workgroups(&self, chunk: u32) -> [u32; 3] {
         [self.patches_in(chunk).div_ceil(GROUP), 1, 1]
-    }
-
-    /// Workgroups of the stage `finish`.
-    #[must_use]
-    pub fn finish_workgroups(&self) -> [u32; 3] {
-        [(self.chunks() * self.slots()).div_ceil(64).max(1), 1, 1]
     }
 }
 

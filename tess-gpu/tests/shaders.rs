@@ -111,7 +111,7 @@ fn bindings_are_those_of_the_shaders() {
 
 #[test]
 fn layouts_are_those_of_the_shaders() {
-    let source = Stage::Finish.source(all_setups()[0]);
+    let source = Stage::Totals.source(all_setups()[0]);
     let module = parse(&source);
     assert_eq!(struct_size(&module, "Job"), size_of::<layout::Job>(), "Job");
     assert_eq!(struct_size(&module, "Range"), size_of::<layout::Range>(), "Range");

@@ -229,7 +229,7 @@ impl Buffers {
         let device = tessellator.device();
         let storage = Usage::STORAGE | Usage::COPY_SRC;
         let make = |label, size, more| gpu::empty(device, label, size, storage | more);
-        let all = |region: fn(&Plan, u32) -> Span| region(plan, plan.chunks()).offset;
+        let all = |region: fn(&Plan, u32) -> Span| region(plan, plan.chunks().max(1)).offset;
         let jobs = all_jobs(plan);
         // Without outputs there are no windows, so nothing binds what stands for them here.
         let (points, indices) = match outputs {
@@ -252,9 +252,9 @@ impl Buffers {
     }
 }
 
-/// The job of `finish`, then for each chunk its own and those of its windows.
+/// A job of no patches, then for each chunk its own and those of its windows.
 fn all_jobs(plan: &Plan) -> Vec<u8> {
-    let mut jobs = vec![plan.finish_job()];
+    let mut jobs = vec![plan.empty_job()];
     for chunk in 0..plan.chunks() {
         jobs.push(plan.job(chunk));
         jobs.extend((0..plan.point_windows()).map(|window| plan.point_job(chunk, window)));
@@ -296,9 +296,10 @@ impl Encoding<'_> {
             dispatches.push(self.dispatch(Stage::Scan, part, scan));
             dispatches.push(self.dispatch(Stage::Totals, part, Workgroups::Direct([1; 3])));
         }
-        let finish = Workgroups::Direct(self.plan.finish_workgroups());
-        let whole = Part { chunk: 0, job: 0, window: 0 };
-        dispatches.push(self.dispatch(Stage::Finish, whole, finish));
+        if dispatches.is_empty() {
+            let part = Part { chunk: 0, job: 0, window: 0 };
+            dispatches.push(self.dispatch(Stage::Totals, part, Workgroups::Direct([1; 3])));
+        }
         (0..self.plan.chunks()).for_each(|chunk| self.expand(chunk, &mut dispatches));
         dispatches
     }
