@@ -1,4 +1,5 @@
 // One workgroup per tile of primitives: each thread makes pairs of them, from their numbers alone.
+// How a pair is stored is in indices_u32.wgsl and indices_u16.wgsl.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> topologies: array<vec2<u32>>;
@@ -6,7 +7,6 @@
 @group(0) @binding(3) var<storage, read> offsets: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read> status: Status;
 @group(0) @binding(5) var<storage, read> tiles: array<u32>;
-@group(0) @binding(6) var<storage, read_write> indices_out: array<vec2<u32>>;
 
 // The patch that elements are taken from.
 struct Source {
@@ -40,17 +40,6 @@ fn stitch_from(source: Source, spot: Spot) -> Stitch {
     return stitch_at(source.shape, spot, source.base);
 }
 
-// Writes one triangle of a pair, which begins at `at`.
-fn write_one(at: u32, is_second: bool, triangle: vec3<u32>) {
-    if is_second {
-        indices_out[at + 1u].y = triangle.x;
-        indices_out[at + 2u] = triangle.yz;
-    } else {
-        indices_out[at] = triangle.xy;
-        indices_out[at + 1u].x = triangle.z;
-    }
-}
-
 fn write_triangles(round: Round, thread: u32, out: u32) {
     var source: Source;
     source.number = NEVER;
@@ -66,16 +55,14 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
         let spot = spot_at(source, first - source.begin);
         let stitch = stitch_from(source, spot);
         let pair = stitch_triangles(stitch, spot.step);
-        let at = out + 3u * (element >> 1u);
+        let at = (out + element) >> 1u;
         let is_whole = first == element && element + 1u < round.end;
         if is_whole && spot.step + 1u < stitch.size {
-            indices_out[at] = pair.first.xy;
-            indices_out[at + 1u] = vec2<u32>(pair.first.z, pair.second.x);
-            indices_out[at + 2u] = pair.second.yz;
+            write_triangle_pair(at, pair.first, pair.second);
         } else {
-            write_one(at, first != element, pair.first);
+            write_triangle(at, first != element, pair.first);
             if is_whole {
-                write_one(at, true, first_triangle(round, source, spot, element + 1u));
+                write_triangle(at, true, first_triangle(round, source, spot, element + 1u));
             }
         }
     }
@@ -94,21 +81,21 @@ fn first_triangle(round: Round, before: Source, spot: Spot, element: u32) -> vec
 }
 
 fn write_sequences(round: Round, thread: u32, out: u32) {
-    for (var element = thread; element < TILE; element += WORKGROUP) {
-        if element < round.begin || element >= round.end {
-            continue;
-        }
-        let number = find_patch(round, element);
-        let patch_index = round.first + number;
-        let base = select(0u, patch_offset(patch_index).x, NUMBERING == PER_BATCH);
-        let t = element - u32(begins[number]);
-        let index = sequence_first(round_topologies[number], t, base);
-        if INDICES == 2u {
-            indices_out[out + element] = vec2<u32>(index, index + 1u);
-        } else if (element & 1u) == 0u {
-            indices_out[out + (element >> 1u)].x = index;
-        } else {
-            indices_out[out + (element >> 1u)].y = index;
+    for (var pair = 2u * thread; pair < TILE; pair += 2u * WORKGROUP) {
+        for (var element = pair; element < pair + 2u; element++) {
+            if element < round.begin || element >= round.end {
+                continue;
+            }
+            let number = find_patch(round, element);
+            let base =
+                select(0u, patch_offset(round.first + number).x, NUMBERING == PER_BATCH);
+            let t = element - u32(begins[number]);
+            let index = sequence_first(round_topologies[number], t, base);
+            if INDICES == 2u {
+                write_line(out + element, index);
+            } else {
+                write_single(out + element, index);
+            }
         }
     }
 }
@@ -126,7 +113,7 @@ fn expand_primitives(
     if tile.end == 0u {
         return;
     }
-    let out = (tile.base - job.window_first * TILE) / 2u * INDICES;
+    let out = tile.base - job.window_first * TILE;
     for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
         let count = min(ROUND, tile.last_patch - first + 1u);
         workgroupBarrier();

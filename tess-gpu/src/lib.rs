@@ -38,6 +38,6 @@ pub mod sizes;
 pub mod tables;
 
 pub use bindings::{Access, Binding, Resource};
-pub use setup::{Numbering, PointFormat, Setup};
+pub use setup::{IndexType, Numbering, PointFormat, Setup};
 pub use shaders::{Probe, Pull, Stage};
 pub use sizes::{Capacity, Limits, Plan};

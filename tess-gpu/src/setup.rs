@@ -23,6 +23,28 @@ pub enum Numbering {
     PerPatch,
 }
 
+/// Width of the indices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum IndexType {
+    /// 16 bits, two indices in a little-endian word: enough for any one patch, and for batches of
+    /// up to 65536 points. A larger batch numbered [`Numbering::PerBatch`] does not fit.
+    U16,
+    /// 32 bits.
+    #[default]
+    U32,
+}
+
+impl IndexType {
+    /// Bytes of an index.
+    #[must_use]
+    pub const fn bytes(self) -> u32 {
+        match self {
+            Self::U16 => 2,
+            Self::U32 => 4,
+        }
+    }
+}
+
 /// Everything that is fixed before the patches of a batch arrive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Setup {
@@ -34,14 +56,16 @@ pub struct Setup {
     pub point_format: PointFormat,
     /// What indices count from.
     pub numbering: Numbering,
+    /// Width of the indices.
+    pub index_type: IndexType,
 }
 
 impl Setup {
-    /// Packed points and indices for the whole batch.
+    /// Packed points and 32-bit indices for the whole batch.
     #[must_use]
     pub const fn new(domain: Domain, config: Config) -> Self {
         let (point_format, numbering) = (PointFormat::Packed, Numbering::PerBatch);
-        Self { domain, config, point_format, numbering }
+        Self { domain, config, point_format, numbering, index_type: IndexType::U32 }
     }
 
     /// Factors of one patch: each a binary32 in the buffer of factors, in the specification's
@@ -63,6 +87,12 @@ impl Setup {
             (OutputPrimitive::Line, _) | (_, Domain::Isoline) => 2,
             _ => 3,
         }
+    }
+
+    /// Bytes of one primitive's indices.
+    #[must_use]
+    pub const fn primitive_bytes(&self) -> u32 {
+        self.index_type.bytes() * self.indices_per_primitive()
     }
 
     /// Whether factors are rounded to integers: then no contexts are stored, as a number of points

@@ -1,7 +1,7 @@
 //! The WGSL of each stage: constants, then the parts that the stage is made of.
 
 use crate::bindings::{Access, Binding, Resource};
-use crate::setup::{Numbering, PointFormat, Setup};
+use crate::setup::{IndexType, Numbering, PointFormat, Setup};
 use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
 /// A part of a shader: one file of `shaders/`.
@@ -108,7 +108,14 @@ impl Stage {
     /// Its WGSL, a whole module.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        setup.prelude() + &self.parts(setup).concat()
+        let mut source = setup.prelude() + &self.parts(setup).concat();
+        if self == Self::ExpandPrimitives {
+            source += match setup.index_type {
+                IndexType::U16 => part!("indices_u16"),
+                IndexType::U32 => part!("indices_u32"),
+            };
+        }
+        source
     }
 
     const fn parts(self, setup: Setup) -> &'static [&'static str] {
@@ -170,8 +177,12 @@ impl Stage {
     /// pipelines can be shared.
     #[must_use]
     pub fn relevant(self, setup: Setup) -> Setup {
-        let plain =
-            Setup { point_format: PointFormat::Packed, numbering: Numbering::PerBatch, ..setup };
+        let plain = Setup {
+            point_format: PointFormat::Packed,
+            numbering: Numbering::PerBatch,
+            index_type: IndexType::U32,
+            ..setup
+        };
         match self {
             Self::Factors => plain,
             Self::Scan | Self::Totals | Self::Partition => any_factors(plain),
@@ -183,7 +194,10 @@ impl Stage {
                 }
                 own
             }
-            Self::ExpandPrimitives => any_factors(Setup { numbering: setup.numbering, ..plain }),
+            Self::ExpandPrimitives => {
+                let Setup { numbering, index_type, .. } = setup;
+                any_factors(Setup { numbering, index_type, ..plain })
+            }
         }
     }
 }

@@ -72,7 +72,7 @@ impl Plan {
         let context_bytes = 8 * u64::from(setup.factors());
         let bound = limits.storage_binding.max(Limits::WEBGPU.storage_binding);
         let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / GROUP * GROUP;
-        let primitive_bytes = 4 * u64::from(setup.indices_per_primitive());
+        let primitive_bytes = u64::from(setup.primitive_bytes());
         Self {
             setup,
             patches,
@@ -249,7 +249,7 @@ impl Plan {
     /// The bytes of a window of the indices.
     #[must_use]
     pub fn primitive_window(&self, window: u32) -> Span {
-        let each = 4 * self.setup.indices_per_primitive();
+        let each = self.setup.primitive_bytes();
         window_span(self.capacity.primitives, each, self.primitive_window_tiles, window)
     }
 

@@ -3,7 +3,7 @@
 use crate::bindings::Resource;
 use crate::layout::{Job, Status};
 use crate::runner::{Tessellator, gpu};
-use crate::setup::Setup;
+use crate::setup::{IndexType, Numbering, Setup};
 use crate::shaders::Stage;
 use crate::sizes::{ALIGNMENT, Capacity, Limits, Plan, Span};
 use std::fmt;
@@ -17,7 +17,7 @@ pub enum Outputs<'a> {
     Buffers {
         /// The domain points, 8 bytes each.
         points: &'a wgpu::Buffer,
-        /// The indices, 4 bytes each.
+        /// The indices, 2 or 4 bytes each; whole 8 bytes of the buffer are used.
         indices: &'a wgpu::Buffer,
     },
 }
@@ -188,9 +188,14 @@ fn check(
 fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
     let Outputs::Buffers { points, indices } = outputs else { return Capacity::default() };
     let elements = |size: u64, each: u32| u32::try_from(size / u64::from(each)).unwrap_or(u32::MAX);
+    let points = elements(points.size(), 8);
+    let numbered = match (setup.index_type, setup.numbering) {
+        (IndexType::U16, Numbering::PerBatch) => points.min(1 << 16),
+        _ => points,
+    };
     Capacity {
-        points: elements(points.size(), 8),
-        primitives: elements(indices.size() / 8 * 8, 4 * setup.indices_per_primitive()),
+        points: numbered,
+        primitives: elements(indices.size() / 8 * 8, setup.primitive_bytes()),
     }
 }
 
