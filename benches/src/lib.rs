@@ -3,16 +3,20 @@
 //! ```text
 //! cargo bench -p tess-benches --bench core -- --save-baseline before
 //! cargo bench -p tess-benches --bench core -- --baseline before
+//! cargo bench -p tess-benches --bench simd -- terrain
 //! ```
 //!
 //! A [`Case`] is a workload's first batch of the working set `cache` with buffers for its output.
 //! The digest of its output is compared with the random-access formulation before it is timed, and by
-//! `cargo test`.
+//! `cargo test`. The bench `simd` fills the same bytes beside each workload.
 
 use std::ops::Range;
 use tess_check::digest::Fnv1a;
 use tess_check::workloads::{IndexType, Totals, Workload, all};
-use tess_core::{BufferTooSmall, DomainPoint, Patch};
+use tess_core::{
+    BufferTooSmall, DomainPoint, IsolineFactors, Patch, PatchFactors, QuadFactors, TriangleFactors,
+};
+use tess_simd::{Batch, Buffers, Level, Numbering, PatchRange, Tessellator};
 
 /// Patches to tessellate and buffers of the right size.
 #[derive(Debug)]
@@ -25,6 +29,51 @@ pub struct Case {
     pub totals: Totals,
     points: Vec<DomainPoint>,
     indices: Vec<u32>,
+    simd: Simd,
+}
+
+/// The SIMD backend and the patches as it takes them.
+#[derive(Debug)]
+struct Simd {
+    tessellator: Tessellator,
+    patches: Patches,
+    ranges: Vec<PatchRange>,
+}
+
+/// Patches of one domain.
+#[derive(Debug)]
+enum Patches {
+    Isolines(Vec<IsolineFactors>),
+    Triangles(Vec<TriangleFactors>),
+    Quads(Vec<QuadFactors>),
+}
+
+impl Patches {
+    fn new(patches: &[PatchFactors]) -> Self {
+        let (mut isolines, mut triangles, mut quads) = (Vec::new(), Vec::new(), Vec::new());
+        for &patch in patches {
+            match patch {
+                PatchFactors::Isoline(factors) => isolines.push(factors),
+                PatchFactors::Triangle(factors) => triangles.push(factors),
+                PatchFactors::Quad(factors) => quads.push(factors),
+            }
+        }
+        if !isolines.is_empty() {
+            Self::Isolines(isolines)
+        } else if !triangles.is_empty() {
+            Self::Triangles(triangles)
+        } else {
+            Self::Quads(quads)
+        }
+    }
+
+    fn batch(&self) -> Batch<'_> {
+        match self {
+            Self::Isolines(patches) => patches[..].into(),
+            Self::Triangles(patches) => patches[..].into(),
+            Self::Quads(patches) => patches[..].into(),
+        }
+    }
 }
 
 /// Every workload's first batch.
@@ -41,7 +90,13 @@ impl Case {
         let totals = part.totals();
         let points = part.counts().map(|counts| counts.points as usize).sum();
         let indices = part.counts().map(|counts| counts.indices as usize).sum();
+        let simd = Simd {
+            tessellator: Tessellator::new(workload.config),
+            patches: Patches::new(&part.patches),
+            ranges: vec![PatchRange::default(); part.patches.len()],
+        };
         Self {
+            simd,
             workload,
             batch,
             totals,
@@ -62,6 +117,36 @@ impl Case {
             indices = &mut indices[counts.indices as usize..];
         }
         Ok(())
+    }
+
+    /// Tessellates the batch by the SIMD backend, at the best CPU level.
+    ///
+    /// # Errors
+    /// The buffers are too small, which their sizes rule out.
+    pub fn run_simd(&mut self) -> Result<(), tess_simd::Error> {
+        let Self { points, indices, simd, .. } = self;
+        let Simd { tessellator, patches, ranges } = simd;
+        let buffers = Buffers { points, indices, ranges };
+        tessellator.write(patches.batch(), Numbering::PerPatch, buffers)?;
+        Ok(())
+    }
+
+    /// The CPU level that [`Self::run_simd`] runs at.
+    #[must_use]
+    pub const fn level(&self) -> Level {
+        self.simd.tessellator.level()
+    }
+
+    /// Fills the same bytes with zeros.
+    pub fn fill(&mut self) {
+        self.points.fill(DomainPoint::default());
+        self.indices.fill(0);
+    }
+
+    /// Bytes that a run writes, the ranges of patches left out.
+    #[must_use]
+    pub const fn bytes(&self) -> u64 {
+        self.totals.bytes(IndexType::U32)
     }
 
     /// The digest of what the buffers hold: all points, then all indices.
@@ -103,7 +188,11 @@ mod tests {
         for mut case in cases {
             case.run_core().expect("the buffers fit");
             let (digest, expected) = (case.digest(), case.expected_digest());
-            assert_eq!(digest, expected, "{}: {digest:016x}", case.workload.name);
+            assert_eq!(digest, expected, "core, {}: {digest:016x}", case.workload.name);
+            case.fill();
+            case.run_simd().expect("the buffers fit");
+            let digest = case.digest();
+            assert_eq!(digest, expected, "simd, {}: {digest:016x}", case.workload.name);
         }
     }
 

@@ -62,7 +62,7 @@ fn run(
     patches: &[PatchFactors],
 ) -> Result<(Vec<DomainPoint>, Vec<u32>), String> {
     let (point_format, numbering) = (PointFormat::Packed, Numbering::PerPatch);
-    let setup = Setup { domain, config, point_format, numbering };
+    let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };
     let output = tessellator.tessellate(gpu, setup, patches)?;
     let points = output.points.iter().map(|&[low, high]| unpack(low, high)).collect();
     Ok((points, output.indices))

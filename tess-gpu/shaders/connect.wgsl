@@ -1,132 +1,115 @@
-// The primitives of a patch as segments (spec sections 7.1 and 8), in output order: the stitches
-// of each ring edge by edge, then the centre; or sequences of points or lines.
+// Which stitch a triangle belongs to, and that stitch's rows (spec sections 7.1 and 8); what lines
+// and points are made of. Everything in closed form.
 
-fn primitive_segments(topology: vec2<u32>) -> u32 {
-    let state = state_of(topology);
-    if state == CULLED {
-        return 0u;
+// Where triangle t of a regular patch is.
+fn triangle_spot(shape: Shape, t: u32) -> Spot {
+    let transitions = shape.boundary + shape.along - 3u * EDGES;
+    if t < transitions {
+        return spot_on_edges(
+            1u, t, shape.before_1 + shape.v - 4u, shape.before_2 + shape.sides - 8u,
+            outer_of(shape, 2u) + shape.v - 4u);
     }
-    if DOMAIN == ISOLINE && OUTPUT != OUTPUT_POINT {
-        return outer_points(topology, 0u) - 1u;
+    let end = stitch_ring_end(shape) - 2u;
+    let form = 2u * shape.along - 6u * EDGES;
+    let k = last_before(t - transitions, end, form, 2u * EDGES);
+    let rest = t - transitions - k * (form - 2u * EDGES * k);
+    if k == end {
+        return Spot(k + 2u, 0u, rest);
     }
-    if !IS_TRIANGLES || state == MINIMUM {
-        return 1u;
-    }
-    return EDGES * (stitch_ring_end(topology) - 1u) + 1u;
+    return spot_on_ring(
+        k + 2u, rest, 2u * shape.v - 4u * (k + 2u), 2u * shape.u - 4u * (k + 2u));
 }
 
-// Quads of the centre strip of a quad patch; 0 if its shorter axis is even.
-fn centre_quads(topology: vec2<u32>) -> u32 {
-    let long = max(inside_u(topology), inside_v(topology));
-    let short = min(inside_u(topology), inside_v(topology));
-    let long_is_odd = 1u - (long & 1u);
-    return select(2u * ((long >> 1u) - (short >> 1u)) + 2u - long_is_odd, 0u, (short & 1u) == 1u);
+// The stitch of a spot; `base` is the index of the patch's first vertex.
+fn stitch_at(shape: Shape, spot: Spot, base: u32) -> Stitch {
+    if spot.ring == 1u {
+        return transition_stitch(shape, spot.edge, base);
+    }
+    if spot.ring == stitch_ring_end(shape) {
+        return centre_stitch(shape, base);
+    }
+    return ring_stitch(shape, spot, base);
 }
 
-fn centre_triangles(topology: vec2<u32>) -> u32 {
+// Between an edge of the patch and ring 1.
+fn transition_stitch(shape: Shape, edge: u32, base: u32) -> Stitch {
+    let outer_points = outer_of(shape, edge);
+    let inner_points = along_of(shape, edge) - 2u;
+    let ring = base + shape.boundary;
+    return rows(
+        shape, 1u, edge,
+        outer_points + inner_points - 2u,
+        64u * outer_points + inner_points - 128u,
+        base, base + outer_sum(shape, edge) - edge,
+        ring, ring + along_sum(shape, edge) - 3u * edge);
+}
+
+// Between two interior rings.
+fn ring_stitch(shape: Shape, spot: Spot, base: u32) -> Stitch {
+    let ring = spot.ring;
+    let inner_points = along_of(shape, spot.edge) - 2u * ring;
+    let inner_ring = base + first_of_ring(shape, ring);
+    let outer_ring = inner_ring - ring_points(shape, ring - 1u);
+    let skip = along_sum(shape, spot.edge) - 2u * ring * spot.edge;
+    return rows(
+        shape, ring, spot.edge,
+        2u * inner_points, RING_BLOCK + inner_points,
+        outer_ring, outer_ring + skip + spot.edge,
+        inner_ring, inner_ring + skip - spot.edge);
+}
+
+// A stitch between two rings that begin at these vertices, and on them from others on.
+fn rows(
+    shape: Shape, ring: u32, edge: u32, size: u32, block: u32,
+    outer_ring: u32, outer: u32, inner_ring: u32, inner: u32,
+) -> Stitch {
+    let points = ring_points(shape, ring);
+    // A ring that is a row of points: the walk around it comes back over it.
+    let walks_back = shape.short == 2u * ring + 1u;
+    return Stitch(
+        size, steps_of(block), outer, inner,
+        edge == EDGES - 1u || walks_back,
+        inner_ring, inner_ring + outer_ring,
+        inner_ring + select(points, points >> 1u, walks_back), 2u * inner_ring + points);
+}
+
+// A stitch whose rows don't turn.
+fn straight(size: u32, block: u32, outer: u32, inner: u32) -> Stitch {
+    return Stitch(size, steps_of(block), outer, inner, false, 0u, 0u, 0u, 0u);
+}
+
+// Two triangles of a quad, or one, around their last vertex.
+fn minimum_stitch(base: u32) -> Stitch {
+    return straight(EDGES - 2u, FAN_BLOCK, base, base + EDGES - 1u);
+}
+
+// Inside the innermost ring: a triangle, or a strip between two of the ring's sides.
+fn centre_stitch(shape: Shape, base: u32) -> Stitch {
+    let first = base + first_of_ring(shape, stitch_ring_end(shape) - 1u);
     if DOMAIN == TRIANGLE {
-        return 1u - (inside_u(topology) & 1u);
+        return straight(1u, FAN_BLOCK, first, first + 2u);
     }
-    return 2u * centre_quads(topology);
+    let quads = max(shape.u, shape.v) - shape.short + 1u;
+    let along_u = select(0u, 1u, shape.u > shape.v);
+    let is_mirrored = shape.u <= shape.v && (shape.v & 1u) == 0u;
+    return Stitch(
+        2u * quads,
+        steps_of(select(STRIP_BLOCK, MIRRORED_BLOCK + quads, is_mirrored)),
+        first + along_u, first,
+        true,
+        NEVER, 0u,
+        first + along_u, 2u * first + 2u * quads + 1u + along_u);
 }
 
-fn transition_triangles(topology: vec2<u32>) -> u32 {
-    return boundary(topology) + along_before(topology, EDGES) - 3u * EDGES;
+// Where the steps of a block begin.
+fn steps_of(block: u32) -> u32 {
+    return STEPS_AT + 128u * block;
 }
 
-fn primitive_segment(topology: vec2<u32>, segment: u32) -> Segment {
+// The first index of primitive t, for lines and points: they join the points in order.
+fn sequence_first(topology: vec2<u32>, t: u32, base: u32) -> u32 {
     if DOMAIN == ISOLINE && OUTPUT != OUTPUT_POINT {
-        let along = outer_points(topology, 1u) - 1u;
-        return Segment(segment * along, along);
+        return base + t + t / (outer_points(topology, 1u) - 1u);
     }
-    if !IS_TRIANGLES || state_of(topology) == MINIMUM {
-        return Segment(0u, counts(topology).y);
-    }
-    let ring = segment / EDGES + 1u;
-    let edge = segment % EDGES;
-    let along = along_points(topology, edge);
-    let before = along_before(topology, edge);
-    if ring == stitch_ring_end(topology) {
-        return Segment(
-            transition_triangles(topology) + triangles_before_ring(topology, ring),
-            centre_triangles(topology));
-    }
-    if ring == 1u {
-        return Segment(
-            outer_before(topology, edge) + before - 4u * edge,
-            outer_points(topology, edge) + along - 4u);
-    }
-    return Segment(
-        transition_triangles(topology) + triangles_before_ring(topology, ring)
-            + 2u * before - 4u * ring * edge,
-        2u * along - 4u * ring);
-}
-
-// The first vertex of a ring; ring 0 is the outer one.
-fn first_of_ring(topology: vec2<u32>, ring: u32) -> u32 {
-    if ring == 0u {
-        return 0u;
-    }
-    return boundary(topology) + points_before_ring(topology, ring);
-}
-
-// Describes a segment of a patch whose first vertex has the index `base`: for triangles a stitch
-// (stitch.wgsl), else the index that its first primitive begins with.
-fn describe_segment(topology: vec2<u32>, segment: u32, base: u32) -> vec3<u32> {
-    if DOMAIN == ISOLINE && OUTPUT != OUTPUT_POINT {
-        return vec3<u32>(base + segment * outer_points(topology, 1u), 0u, 0u);
-    }
-    if !IS_TRIANGLES {
-        return vec3<u32>(base, 0u, 0u);
-    }
-    if state_of(topology) == MINIMUM {
-        return make_centre(base, select(CENTRE_TRIANGLE, CENTRE_MINIMUM_QUAD, DOMAIN == QUAD), 1u);
-    }
-    let ring = segment / EDGES + 1u;
-    if ring == stitch_ring_end(topology) {
-        return describe_centre(topology, base + first_of_ring(topology, ring - 1u));
-    }
-    return describe_stitch(topology, ring, segment % EDGES, base);
-}
-
-fn make_centre(first: u32, form: u32, quads: u32) -> vec3<u32> {
-    return vec3<u32>(first, quads | (form << 7u) | (KIND_CENTRE << 28u), 0u);
-}
-
-fn describe_centre(topology: vec2<u32>, first: u32) -> vec3<u32> {
-    let u = inside_u(topology);
-    let v = inside_v(topology);
-    var form = CENTRE_TRIANGLE;
-    if DOMAIN == QUAD {
-        let along_v = select(CENTRE_ALONG_V, CENTRE_ALONG_V_MIRRORED, (v & 1u) == 0u);
-        form = select(along_v, CENTRE_ALONG_U, u > v);
-    }
-    return make_centre(first, form, centre_quads(topology));
-}
-
-fn describe_stitch(topology: vec2<u32>, ring: u32, edge: u32, base: u32) -> vec3<u32> {
-    let is_transition = ring == 1u;
-    let before = along_before(topology, edge);
-    let inner_points = along_points(topology, edge) - 2u * ring;
-    let outer_row = select(inner_points + 2u, outer_points(topology, edge), is_transition);
-    // From the first vertex of each ring to the first of this edge.
-    let inner_skip = before - edge * (2u * ring + 1u);
-    let outer_skip = select(
-        before - edge * (2u * ring - 1u), outer_before(topology, edge) - edge, is_transition);
-    let outer_first = first_of_ring(topology, ring - 1u) + outer_skip;
-    let inner_first = first_of_ring(topology, ring) + inner_skip;
-    // The inner ring is a row of points that this edge walks back over.
-    let across = along_points(topology, edge + 1u);
-    let walks_back = DOMAIN == QUAD && edge >= 2u && across == 2u * ring + 1u;
-    let closes = edge == EDGES - 1u;
-    let outer_close = select(CLOSES_NOTHING, outer_row - 1u, closes);
-    let inner_close = select(CLOSES_NOTHING, inner_points - 1u, closes && !walks_back);
-    let kind = select(KIND_RING, KIND_TRANSITION, is_transition);
-    return vec3<u32>(
-        base + outer_first,
-        outer_row | (inner_points << 7u) | (outer_close << 14u) | (inner_close << 21u)
-            | (kind << 28u) | (select(0u, 1u, walks_back) << 30u),
-        (inner_first - outer_first) | ((outer_skip + outer_row - 1u) << 10u)
-            | ((inner_skip + inner_points - 1u) << 19u),
-    );
+    return base + t;
 }

@@ -17,8 +17,9 @@ fn clamp_factor(bits: u32, low: u32, high: u32) -> u32 {
     return select(clamp(bits, low, high), low, bits > INFINITY);
 }
 
-// The ceiling of a number in [1, 64].
+// The ceiling of a number in [1, 64], an integer.
 fn ceil_factor(bits: u32) -> u32 {
-    let fraction = 0x7fffffu >> ((bits >> 23u) - 127u);
-    return (bits + fraction) & ~fraction;
+    let shift = 150u - (bits >> 23u);
+    let mantissa = (bits & 0x7fffffu) | 0x800000u;
+    return (mantissa + (1u << shift) - 1u) >> shift;
 }

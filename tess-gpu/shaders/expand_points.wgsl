@@ -1,41 +1,94 @@
-// One workgroup per tile of points: the tile's runs first, then every point of it.
+// One workgroup per tile of points: each thread makes pairs of them, from their numbers alone.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> topologies: array<vec2<u32>>;
 @group(0) @binding(2) var<storage, read> contexts: array<vec2<u32>>;
-@group(0) @binding(3) var<storage, read> offsets: array<vec2<u32>>;
-@group(0) @binding(4) var<storage, read> status: Status;
-@group(0) @binding(5) var<storage, read> tiles: array<u32>;
-@group(0) @binding(6) var<storage, read_write> points_out: array<vec2<u32>>;
+@group(0) @binding(3) var<storage, read> tables: array<u32>;
+@group(0) @binding(4) var<storage, read> offsets: array<vec2<u32>>;
+@group(0) @binding(5) var<storage, read> status: Status;
+@group(0) @binding(6) var<storage, read> tiles: array<u32>;
+@group(0) @binding(7) var<storage, read_write> points_out: array<vec2<u32>>;
 
-var<workgroup> runs: array<u32, TILE>;
-var<workgroup> run_patches: array<u32, TILE>;
-
-fn context_of(patch_index: u32, context: u32) -> vec2<u32> {
-    return contexts[context * job.stride + patch_index];
+// The patch that points are taken from.
+struct Source {
+    // Within the round.
+    number: u32,
+    begin: u32,
+    topology: vec2<u32>,
+    domain: Domain,
 }
 
-fn lay_down_runs(tile: Tile, patch_index: u32, lane: u32, lanes: u32) {
-    let topology = topologies[patch_index];
-    let offset = patch_offset(patch_index).x;
-    let count = point_runs(topology);
-    for (var run = lane; run < count; run += lanes) {
-        let own = point_run(topology, run);
-        let begin = offset + own.start;
-        let position = lay_down(tile, begin, begin + own.size);
-        if position < TILE {
-            runs[position] = describe_run(patch_index, topology, run);
-            run_patches[position] = patch_index;
+fn load_source(round: Round, number: u32) -> Source {
+    let patch_index = round.first + number;
+    let topology = round_topologies[number];
+    if DOMAIN == ISOLINE || state_of(topology) != REGULAR {
+        var plain: Source;
+        plain.number = number;
+        plain.begin = u32(begins[number]);
+        plain.topology = topology;
+        return plain;
+    }
+    return Source(number, u32(begins[number]), topology, domain_of(patch_index, topology));
+}
+
+fn spot_at(source: Source, i: u32) -> Spot {
+    if DOMAIN != ISOLINE && state_of(source.topology) == REGULAR {
+        return point_spot(source.domain.shape, i);
+    }
+    return Spot(0u, 0u, i);
+}
+
+fn run_at(round: Round, source: Source, spot: Spot) -> Run {
+    if DOMAIN == ISOLINE {
+        return line_run(round.first + source.number, source.topology, spot.step);
+    }
+    if state_of(source.topology) == MINIMUM {
+        return minimum_run(spot.step);
+    }
+    return run_of(source.domain, spot);
+}
+
+fn write_points(round: Round, thread: u32, out: u32) {
+    var source: Source;
+    source.number = NEVER;
+    let patch_number = job.first_patch + round.first;
+    for (var element = 2u * thread; element < TILE; element += 2u * WORKGROUP) {
+        if element + 1u < round.begin || element >= round.end {
+            continue;
+        }
+        let first = max(element, round.begin);
+        let number = find_patch(round, first);
+        if number != source.number {
+            source = load_source(round, number);
+        }
+        let spot = spot_at(source, first - source.begin);
+        var run = run_at(round, source, spot);
+        points_out[out + first] = format_point(point_of_run(run, run.step), patch_number + number);
+        if first == element && element + 1u < round.end {
+            run.step++;
+            if run.step == run.size {
+                let next = next_patch(round, number, element + 1u);
+                if next != number {
+                    source = load_source(round, next);
+                }
+                run = first_run(round, source, spot, next != number, element + 1u);
+            }
+            points_out[out + element + 1u] =
+                format_point(point_of_run(run, run.step), patch_number + source.number);
         }
     }
 }
 
-fn write_point(tile: Tile, element: u32) {
-    let found = find_segment(element);
-    let patch_index = run_patches[found.position];
-    let point = point_of_run(patch_index, runs[found.position], found.step);
-    let at = tile.base + element - job.window_first * TILE;
-    points_out[at] = format_point(point, job.first_patch + patch_index);
+// The run that an element begins, the one behind a spot or the first of a patch.
+fn first_run(round: Round, source: Source, spot: Spot, is_next_patch: bool, element: u32) -> Run {
+    if DOMAIN == ISOLINE {
+        return run_at(round, source, Spot(0u, 0u, element - source.begin));
+    }
+    var next = next_edge(spot);
+    if is_next_patch {
+        next = Spot(0u, 0u, 0u);
+    }
+    return run_at(round, source, next);
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -50,21 +103,20 @@ fn expand_points(
     if tile.end == 0u {
         return;
     }
-    clear_segments(thread);
-    workgroupBarrier();
-    let share = share_patches(tile);
-    let lanes = WORKGROUP >> share;
-    let first = tile.first_patch + thread / lanes;
-    for (var patch_index = first; patch_index <= tile.last_patch; patch_index += 1u << share) {
-        lay_down_runs(tile, patch_index, thread % lanes, lanes);
-    }
-    workgroupBarrier();
-    link_segments(thread);
-    workgroupBarrier();
-    for (var element = thread; element < TILE; element += WORKGROUP) {
-        let at = tile.base + element;
-        if at >= tile.begin && at < tile.end {
-            write_point(tile, element);
+    let out = tile.base - job.window_first * TILE;
+    for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
+        let count = min(ROUND, tile.last_patch - first + 1u);
+        workgroupBarrier();
+        for (var i = thread; i < count; i += WORKGROUP) {
+            begins[i] = i32(patch_offset(first + i).x - tile.base);
+            round_topologies[i] = topologies[first + i];
         }
+        workgroupBarrier();
+        let begin = u32(max(begins[0], i32(tile.begin - tile.base)));
+        var end = tile.end - tile.base;
+        if first + count <= tile.last_patch {
+            end = patch_offset(first + count).x - tile.base;
+        }
+        write_points(Round(first, count, begin, end), thread, out);
     }
 }

@@ -1,4 +1,5 @@
-// One workgroup per tile of primitives: the tile's segments first, then every primitive of it.
+// One workgroup per tile of primitives: each thread makes pairs of them, from their numbers alone.
+// How a pair is stored is in indices_u32.wgsl and indices_u16.wgsl.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> topologies: array<vec2<u32>>;
@@ -6,44 +7,95 @@
 @group(0) @binding(3) var<storage, read> offsets: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read> status: Status;
 @group(0) @binding(5) var<storage, read> tiles: array<u32>;
-@group(0) @binding(6) var<storage, read_write> indices_out: array<u32>;
 
-var<workgroup> stitches_x: array<u32, TILE>;
-var<workgroup> stitches_y: array<u32, TILE>;
-var<workgroup> stitches_z: array<u32, TILE>;
+// The patch that elements are taken from.
+struct Source {
+    // Within the round.
+    number: u32,
+    begin: u32,
+    base: u32,
+    is_regular: bool,
+    shape: Shape,
+}
 
-fn lay_down_segments(tile: Tile, patch_index: u32, lane: u32, lanes: u32) {
-    let topology = topologies[patch_index];
-    let offset = patch_offset(patch_index);
-    let base = select(0u, offset.x, NUMBERING == PER_BATCH);
-    let count = primitive_segments(topology);
-    for (var segment = lane; segment < count; segment += lanes) {
-        let own = primitive_segment(topology, segment);
-        let begin = offset.y + own.start;
-        let position = lay_down(tile, begin, begin + own.size);
-        if position < TILE {
-            let stitch = describe_segment(topology, segment, base);
-            stitches_x[position] = stitch.x;
-            stitches_y[position] = stitch.y;
-            stitches_z[position] = stitch.z;
+fn load_source(round: Round, number: u32) -> Source {
+    let patch_index = round.first + number;
+    let topology = round_topologies[number];
+    let base = select(0u, patch_offset(patch_index).x, NUMBERING == PER_BATCH);
+    return Source(
+        number, u32(begins[number]), base, state_of(topology) == REGULAR, shape_of(topology));
+}
+
+fn spot_at(source: Source, t: u32) -> Spot {
+    if source.is_regular {
+        return triangle_spot(source.shape, t);
+    }
+    return Spot(1u, 0u, t);
+}
+
+fn stitch_from(source: Source, spot: Spot) -> Stitch {
+    if !source.is_regular {
+        return minimum_stitch(source.base);
+    }
+    return stitch_at(source.shape, spot, source.base);
+}
+
+fn write_triangles(round: Round, thread: u32, out: u32) {
+    var source: Source;
+    source.number = NEVER;
+    for (var element = 2u * thread; element < TILE; element += 2u * WORKGROUP) {
+        if element + 1u < round.begin || element >= round.end {
+            continue;
+        }
+        let first = max(element, round.begin);
+        let number = find_patch(round, first);
+        if number != source.number {
+            source = load_source(round, number);
+        }
+        let spot = spot_at(source, first - source.begin);
+        let stitch = stitch_from(source, spot);
+        let pair = stitch_triangles(stitch, spot.step);
+        let at = (out + element) >> 1u;
+        let is_whole = first == element && element + 1u < round.end;
+        if is_whole && spot.step + 1u < stitch.size {
+            write_triangle_pair(at, pair.first, pair.second);
+        } else {
+            write_triangle(at, first != element, pair.first);
+            if is_whole {
+                write_triangle(at, true, first_triangle(round, source, spot, element + 1u));
+            }
         }
     }
 }
 
-fn write_primitive(tile: Tile, element: u32) {
-    let found = find_segment(element);
-    let at = (tile.base + element - job.window_first * TILE) * INDICES;
-    let first = stitches_x[found.position];
-    if IS_TRIANGLES {
-        let stitch = vec3<u32>(first, stitches_y[found.position], stitches_z[found.position]);
-        let triangle = stitch_triangle(stitch, found.step);
-        indices_out[at] = triangle.x;
-        indices_out[at + 1u] = triangle.y;
-        indices_out[at + 2u] = triangle.z;
-    } else {
-        indices_out[at] = first + found.step;
-        if INDICES == 2u {
-            indices_out[at + 1u] = first + found.step + 1u;
+// The triangle of an element that begins a stitch, the one behind a spot or the first of a patch.
+fn first_triangle(round: Round, before: Source, spot: Spot, element: u32) -> vec3<u32> {
+    var source = before;
+    var next = next_edge(spot);
+    let number = next_patch(round, before.number, element);
+    if number != before.number {
+        source = load_source(round, number);
+        next = Spot(1u, 0u, 0u);
+    }
+    return stitch_triangles(stitch_from(source, next), 0u).first;
+}
+
+fn write_sequences(round: Round, thread: u32, out: u32) {
+    for (var pair = 2u * thread; pair < TILE; pair += 2u * WORKGROUP) {
+        for (var element = pair; element < pair + 2u; element++) {
+            if element < round.begin || element >= round.end {
+                continue;
+            }
+            let number = find_patch(round, element);
+            let base =
+                select(0u, patch_offset(round.first + number).x, NUMBERING == PER_BATCH);
+            let t = element - u32(begins[number]);
+            let index = sequence_first(round_topologies[number], t, base);
+            if INDICES == 2u {
+                write_line(out + element, index);
+            } else {
+                write_single(out + element, index);
+            }
         }
     }
 }
@@ -61,21 +113,25 @@ fn expand_primitives(
     if tile.end == 0u {
         return;
     }
-    clear_segments(thread);
-    workgroupBarrier();
-    let share = share_patches(tile);
-    let lanes = WORKGROUP >> share;
-    let first = tile.first_patch + thread / lanes;
-    for (var patch_index = first; patch_index <= tile.last_patch; patch_index += 1u << share) {
-        lay_down_segments(tile, patch_index, thread % lanes, lanes);
-    }
-    workgroupBarrier();
-    link_segments(thread);
-    workgroupBarrier();
-    for (var element = thread; element < TILE; element += WORKGROUP) {
-        let at = tile.base + element;
-        if at >= tile.begin && at < tile.end {
-            write_primitive(tile, element);
+    let out = tile.base - job.window_first * TILE;
+    for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
+        let count = min(ROUND, tile.last_patch - first + 1u);
+        workgroupBarrier();
+        for (var i = thread; i < count; i += WORKGROUP) {
+            begins[i] = i32(patch_offset(first + i).y - tile.base);
+            round_topologies[i] = topologies[first + i];
+        }
+        workgroupBarrier();
+        let begin = u32(max(begins[0], i32(tile.begin - tile.base)));
+        var end = tile.end - tile.base;
+        if first + count <= tile.last_patch {
+            end = patch_offset(first + count).y - tile.base;
+        }
+        let round = Round(first, count, begin, end);
+        if IS_TRIANGLES {
+            write_triangles(round, thread, out);
+        } else {
+            write_sequences(round, thread, out);
         }
     }
 }

@@ -21,7 +21,8 @@ fn process(patch_index: u32) -> Processed {
     return process_quad(outer, raw_factors[at + 2u]);
 }
 
-// Only what later stages read: contexts of regular patches, as many as the domain has factors.
+// Only what later stages read: contexts of regular patches, as many as the domain has factors, and
+// none of integers (see place_evenly.wgsl).
 fn write_contexts(patch_index: u32, processed: Processed) {
     let at = patch_index;
     let step = job.stride;
@@ -53,15 +54,15 @@ fn factors(
         let processed = process(patch_index);
         topologies[patch_index] = processed.topology;
         own = counts(processed.topology);
-        if state_of(processed.topology) == REGULAR {
+        if !IS_INTEGER && state_of(processed.topology) == REGULAR {
             write_contexts(patch_index, processed);
         }
     }
-    let through = inclusive_scan(thread, own);
+    let sums = prefix_sums(thread, own);
     if patch_index < job.patches {
-        offsets[patch_index] = through - own;
+        offsets[patch_index] = sums.before;
     }
-    if thread == 255u && block * 256u < job.patches {
-        offsets[job.blocks_at + block] = through;
+    if thread == 0u && block * 256u < job.patches {
+        offsets[job.blocks_at + block] = sums.all;
     }
 }

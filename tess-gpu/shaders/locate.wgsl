@@ -1,23 +1,18 @@
-// Random access: any point or primitive of a patch from its number alone, in constant time. Which
-// run or segment it belongs to is a binary search over at most 129 of them, each from closed forms.
+// Random access: any point or primitive of a patch from its number alone, in constant time.
 
-fn context_of(patch_index: u32, context: u32) -> vec2<u32> {
-    return contexts[context * (arrayLength(&contexts) / FACTORS) + patch_index];
-}
-
-// Point `i` of a patch, which has that many: u and v, 16.16.
+// Point i of a patch, which has that many: u and v, 16.16.
 fn tess_point(patch_index: u32, i: u32) -> vec2<u32> {
     let topology = topologies[patch_index];
-    let count = point_runs(topology);
-    var run = 0u;
-    for (var reach = 128u; reach > 0u; reach >>= 1u) {
-        let next = run + reach;
-        if next < count && point_run(topology, next).start <= i {
-            run = next;
-        }
+    if DOMAIN == ISOLINE {
+        let run = line_run(patch_index, topology, i);
+        return point_of_run(run, run.step);
     }
-    let described = describe_run(patch_index, topology, run);
-    return point_of_run(patch_index, described, i - point_run(topology, run).start);
+    if state_of(topology) == MINIMUM {
+        return point_of_run(minimum_run(i), i);
+    }
+    let shape = shape_of(topology);
+    let spot = point_spot(shape, i);
+    return point_of_run(run_of(domain_of(patch_index, topology), spot), spot.step);
 }
 
 // The same as binary32, exactly: the bits are made of integers.
@@ -29,22 +24,17 @@ fn tess_location(patch_index: u32, i: u32) -> vec2<f32> {
     );
 }
 
-// Primitive `t` of a patch, which has that many: its 1, 2 or 3 indices.
+// Primitive t of a patch, which has that many: its 1, 2 or 3 indices.
 fn tess_primitive(patch_index: u32, t: u32) -> vec3<u32> {
     let topology = topologies[patch_index];
-    let count = primitive_segments(topology);
-    var segment = 0u;
-    for (var reach = 128u; reach > 0u; reach >>= 1u) {
-        let next = segment + reach;
-        if next < count && primitive_segment(topology, next).start <= t {
-            segment = next;
-        }
+    if !IS_TRIANGLES {
+        let first = sequence_first(topology, t, 0u);
+        return vec3<u32>(first, first + 1u, 0u);
     }
-    let step = t - primitive_segment(topology, segment).start;
-    let described = describe_segment(topology, segment, 0u);
-    if IS_TRIANGLES {
-        return stitch_triangle(described, step);
+    if state_of(topology) == MINIMUM {
+        return stitch_triangles(minimum_stitch(0u), t).first;
     }
-    let first = described.x + step;
-    return vec3<u32>(first, first + 1u, 0u);
+    let shape = shape_of(topology);
+    let spot = triangle_spot(shape, t);
+    return stitch_triangles(stitch_at(shape, spot, 0u), spot.step).first;
 }

@@ -13,13 +13,24 @@ fn offset_at(index: u32, kind: u32) -> u32 {
 // The last of `count` (1..=256) ascending entries, from `first` on, that is at most `target`; the first entry is.
 fn last_at_or_before(first: u32, count: u32, kind: u32, goal: u32) -> u32 {
     var found = 0u;
-    for (var step = 128u; step > 0u; step >>= 1u) {
-        let next = found + step;
-        if next < count && offset_at(first + next, kind) <= goal {
-            found = next;
-        }
+    if count > 16u {
+        found = nearer(found, 128u, first, count, kind, goal);
+        found = nearer(found, 64u, first, count, kind, goal);
+        found = nearer(found, 32u, first, count, kind, goal);
+        found = nearer(found, 16u, first, count, kind, goal);
+    }
+    if count > 1u {
+        found = nearer(found, 8u, first, count, kind, goal);
+        found = nearer(found, 4u, first, count, kind, goal);
+        found = nearer(found, 2u, first, count, kind, goal);
+        found = nearer(found, 1u, first, count, kind, goal);
     }
     return found;
+}
+
+fn nearer(found: u32, reach: u32, first: u32, count: u32, kind: u32, goal: u32) -> u32 {
+    let next = min(found + reach, count - 1u);
+    return select(found, next, offset_at(first + next, kind) <= goal);
 }
 
 // The patch that an element of this chunk's output belongs to; `kind` is 0 for points, 1 for

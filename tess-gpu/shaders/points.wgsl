@@ -1,6 +1,7 @@
-// The domain points of a patch as runs (spec section 6): along each run one coordinate is placed
-// point by point while the other is constant. Runs are numbered in output order: lines of an
-// isoline patch; outer edges, then the edges of each interior ring, then the centre.
+// The domain points of a patch as runs (spec section 6): along a run one coordinate is placed
+// point by point while the other is constant. Which run a point belongs to follows from closed
+// forms; runs come in output order: lines of an isoline patch; outer edges, then the edges of each
+// interior ring, then the centre.
 
 // How a run's two numbers become a point: `fixed` is its constant, `q` the placed location.
 const FORM_FIXED_Q = 0u;
@@ -8,100 +9,105 @@ const FORM_Q_FIXED = 1u;
 const FORM_Q_REST = 2u; // the third coordinate of the triangle is the constant one
 const FORM_CORNER = 3u; // corner by number; with a constant that is not 0, the constant twice
 
-fn point_runs(topology: vec2<u32>) -> u32 {
-    let state = state_of(topology);
-    if state == CULLED {
-        return 0u;
-    }
-    if DOMAIN == ISOLINE {
-        return outer_points(topology, 0u) - 1u;
-    }
-    return select(EDGES * point_ring_end(topology) + 1u, 1u, state == MINIMUM);
+struct Run {
+    // Its points, and the one that is meant.
+    size: u32,
+    step: u32,
+    fixed: u32,
+    form: u32,
+    // The context that its points are placed with, the position of the first, and 1 or -1
+    // (modulo 2^32).
+    context: vec2<u32>,
+    first: u32,
+    sign: u32,
 }
 
-// Points at the centre: one of a triangle, a row of a quad, or none.
-fn centre_points(topology: vec2<u32>) -> u32 {
-    let long = max(inside_u(topology), inside_v(topology));
-    // If both axes are equally long but only one is even, their counts differ: no tie to break.
-    let short_is_even = (min(inside_u(topology), inside_v(topology)) & 1u) == 1u;
-    return select(0u, long - 2u * point_ring_end(topology), short_is_even);
+const DOWN = 0xffffffffu;
+
+// A patch, its shape and the contexts of its inside axes u and v.
+struct Domain {
+    patch_index: u32,
+    shape: Shape,
+    along_u: vec2<u32>,
+    along_v: vec2<u32>,
 }
 
-fn point_run(topology: vec2<u32>, run: u32) -> Segment {
-    if DOMAIN == ISOLINE {
-        let along = outer_points(topology, 1u);
-        return Segment(run * along, along);
-    }
-    if state_of(topology) == MINIMUM {
-        return Segment(0u, EDGES);
-    }
-    let ring = run / EDGES;
-    let edge = run % EDGES;
-    if ring == 0u {
-        return Segment(outer_before(topology, edge) - edge, outer_points(topology, edge) - 1u);
-    }
-    let start = boundary(topology) + points_before_ring(topology, ring);
-    if ring == point_ring_end(topology) {
-        return Segment(start, centre_points(topology));
-    }
-    let before = along_before(topology, edge) - edge * (2u * ring + 1u);
-    return Segment(start + before, along_points(topology, edge) - 1u - 2u * ring);
-}
-
-// A run in a word: constant in bits 0..16, position of its first point 17..23, 24 set if positions
-// descend, form 25..26, number of its context 27..29.
-fn make_run(fixed: u32, first: u32, descends: bool, form: u32, context: u32) -> u32 {
-    return fixed | (first << 17u) | (select(0u, 1u, descends) << 24u) | (form << 25u)
-        | (context << 27u);
-}
-
-fn describe_run(patch_index: u32, topology: vec2<u32>, run: u32) -> u32 {
-    if DOMAIN == ISOLINE {
-        return make_run(place(context_of(patch_index, 0u), run), 0u, false, FORM_Q_FIXED, 1u);
-    }
-    if state_of(topology) == MINIMUM {
-        return make_run(0u, 0u, false, FORM_CORNER, 0u);
-    }
+fn domain_of(patch_index: u32, topology: vec2<u32>) -> Domain {
+    let shape = shape_of(topology);
+    let along_u = context_of(patch_index, EDGES, shape.u);
     if DOMAIN == TRIANGLE {
-        return describe_triangle_run(patch_index, topology, run / 3u, run % 3u);
+        return Domain(patch_index, shape, along_u, along_u);
     }
-    return describe_quad_run(patch_index, topology, run / 4u, run % 4u);
+    return Domain(patch_index, shape, along_u, context_of(patch_index, EDGES + 1u, shape.v));
 }
 
-fn describe_triangle_run(patch_index: u32, topology: vec2<u32>, ring: u32, edge: u32) -> u32 {
-    let is_outer = ring == 0u;
-    if ring == point_ring_end(topology) {
-        return make_run(ONE_THIRD, 0u, false, FORM_CORNER, 0u);
-    }
-    var fixed = 0u;
+// Of the inside axis that an edge runs along.
+fn inside_context(domain: Domain, edge: u32) -> vec2<u32> {
+    return select(domain.along_v, domain.along_u, (edge & 1u) == 1u);
+}
+
+// Where point i of a regular patch is; the outer ring is ring 0.
+fn point_spot(shape: Shape, i: u32) -> Spot {
+    let is_outer = i < shape.boundary;
+    let end = point_ring_end(shape) - 1u;
+    var ring = 0u;
+    var rest = i;
+    var begin_1 = shape.before_1 - 1u;
+    var begin_2 = shape.before_2 - 2u;
+    var size_2 = outer_of(shape, 2u) - 1u;
     if !is_outer {
-        fixed = (place(context_of(patch_index, 3u), ring) * TWO_THIRDS + HALF) >> 16u;
+        let form = shape.along - 2u * EDGES;
+        let k = last_before(i - shape.boundary, end, form, EDGES);
+        ring = k + 1u;
+        rest = i - shape.boundary - k * (form - EDGES * k);
+        size_2 = shape.v - 1u - 2u * ring;
+        begin_1 = select(size_2, NEVER, k == end); // the centre has one edge
+        begin_2 = select(shape.sides - 2u - 4u * ring, NEVER, k == end);
     }
-    let points = select(inside_u(topology), outer_points(topology, edge), is_outer);
-    let first = select(points - 1u - ring, ring, edge == 1u);
-    return make_run(fixed, first, edge != 1u, edge, select(3u, edge, is_outer));
+    return spot_on_edges(ring, rest, begin_1, begin_2, size_2);
 }
 
-fn describe_quad_run(patch_index: u32, topology: vec2<u32>, ring: u32, edge: u32) -> u32 {
-    let descends = edge == 0u || edge == 3u;
-    let form = edge & 1u; // edges 0 and 2 run along v at a constant u
-    if ring == 0u {
-        let last = outer_points(topology, edge) - 1u;
-        return make_run(
-            select(0u, ONE, edge >= 2u), select(0u, last, descends), descends, form, edge);
+// The run of a spot.
+fn run_of(domain: Domain, spot: Spot) -> Run {
+    let shape = domain.shape;
+    let ring = spot.ring;
+    let is_outer = ring == 0u;
+    let is_centre = ring == point_ring_end(shape);
+    // A row in the centre lies along the longer axis, as edge 0 or 1 do.
+    let edge = select(spot.edge, select(0u, 1u, shape.u > shape.v), is_centre);
+    let along = along_of(shape, edge);
+    let points = select(along, outer_of(shape, edge), is_outer);
+    let last = points - 1u - ring;
+    var fixed = place_before_middle(inside_context(domain, edge + 1u), ring);
+    var form = edge & 1u; // edges 0 and 2 of quads run along v at a constant u
+    var descends = edge == 0u || edge == 3u;
+    if DOMAIN == TRIANGLE {
+        fixed = select((fixed * TWO_THIRDS + HALF) >> 16u, ONE_THIRD, is_centre);
+        form = select(edge, FORM_CORNER, is_centre);
+        descends = edge != 1u;
+    } else {
+        fixed = select(fixed, ONE - fixed, edge >= 2u);
+        fixed = select(fixed, HALF, is_centre);
     }
-    if ring == point_ring_end(topology) {
-        let is_along_u = inside_u(topology) > inside_v(topology);
-        if is_along_u {
-            return make_run(HALF, ring, false, FORM_Q_FIXED, 4u);
-        }
-        return make_run(HALF, inside_v(topology) - 1u - ring, true, FORM_FIXED_Q, 5u);
+    var context = inside_context(domain, edge);
+    if is_outer {
+        context = context_of(domain.patch_index, edge, points);
     }
-    let across = select(inside_u(topology), inside_v(topology), form == 1u);
-    let position = select(ring, across - 1u - ring, edge >= 2u);
-    let fixed = place(context_of(patch_index, 4u + form), position);
-    let last = along_points(topology, edge) - 1u - ring;
-    return make_run(fixed, select(ring, last, descends), descends, form, 5u - form);
+    return Run(
+        last - ring + select(0u, 1u, is_centre), spot.step, fixed, form, context,
+        select(ring, last, descends), select(1u, DOWN, descends));
+}
+
+fn minimum_run(i: u32) -> Run {
+    return Run(EDGES, i, 0u, FORM_CORNER, vec2<u32>(0u), 0u, 1u);
+}
+
+fn line_run(patch_index: u32, topology: vec2<u32>, i: u32) -> Run {
+    let along = outer_points(topology, 1u);
+    let line = i / along;
+    let v = place(context_of(patch_index, 0u, outer_points(topology, 0u)), line);
+    return Run(
+        along, i - line * along, v, FORM_Q_FIXED, context_of(patch_index, 1u, along), 0u, 1u);
 }
 
 // The corners of a minimum patch, and the centre of a triangle (spec sections 3 and 6).
@@ -118,20 +124,17 @@ fn corner(fixed: u32, number: u32) -> vec2<u32> {
 // Point `step` of a run: u and v, 16.16.
 //
 // On triangles locations along a ring's edge move back by half of its distance from the edge.
-fn point_of_run(patch_index: u32, run: u32, step: u32) -> vec2<u32> {
-    let fixed = run & 0x1ffffu;
-    let form = (run >> 25u) & 3u;
-    if form == FORM_CORNER {
+fn point_of_run(run: Run, step: u32) -> vec2<u32> {
+    let fixed = run.fixed;
+    if run.form == FORM_CORNER {
         return corner(fixed, step);
     }
-    let first = (run >> 17u) & 127u;
-    let position = select(first + step, first - step, ((run >> 24u) & 1u) == 1u);
-    var q = place(context_of(patch_index, run >> 27u), position);
+    var q = place(run.context, run.first + run.sign * step);
     if DOMAIN == TRIANGLE {
         q -= (fixed + 1u) >> 1u;
-        if form == FORM_Q_REST {
+        if run.form == FORM_Q_REST {
             return vec2<u32>(q, ONE - q - fixed);
         }
     }
-    return select(vec2<u32>(fixed, q), vec2<u32>(q, fixed), form == FORM_Q_FIXED);
+    return select(vec2<u32>(fixed, q), vec2<u32>(q, fixed), run.form == FORM_Q_FIXED);
 }

@@ -1,19 +1,54 @@
-// Prefix sums within a workgroup of 256 threads.
+// Prefix sums within a workgroup of 256 threads, in a tree of fours.
 
-var<workgroup> sums: array<vec2<u32>, 512>;
+// The threads' numbers, then sums of 4, 16 and 64 of them, then their whole sum.
+var<workgroup> sums: array<vec2<u32>, 341>;
 
-// The sum of `own` over threads 0..=thread. Called in uniform control flow by all 256 threads.
-fn inclusive_scan(thread: u32, own: vec2<u32>) -> vec2<u32> {
-    var through = own;
-    var half = 0u; // two halves take turns, so one barrier a step is enough
-    for (var reach = 1u; reach < 256u; reach <<= 1u) {
-        sums[half + thread] = through;
-        workgroupBarrier();
-        if thread >= reach {
-            through += sums[half + thread - reach];
-        }
-        half ^= 256u;
+const FOURS = 256u;
+const SIXTEENS = 320u;
+const SIXTY_FOURS = 336u;
+const WHOLE = 340u;
+
+struct Sums {
+    // Over the threads before this one, and over all threads.
+    before: vec2<u32>,
+    all: vec2<u32>,
+}
+
+// Four numbers to the sums before each, and their whole sum.
+fn add_four(from_at: u32, to_at: u32) {
+    let first = sums[from_at];
+    let second = first + sums[from_at + 1u];
+    let third = second + sums[from_at + 2u];
+    sums[to_at] = third + sums[from_at + 3u];
+    sums[from_at] = vec2<u32>(0u);
+    sums[from_at + 1u] = first;
+    sums[from_at + 2u] = second;
+    sums[from_at + 3u] = third;
+}
+
+// The sums of `own`. Called in uniform control flow by all 256 threads.
+fn prefix_sums(thread: u32, own: vec2<u32>) -> Sums {
+    sums[thread] = own;
+    workgroupBarrier();
+    if thread < 64u {
+        add_four(4u * thread, FOURS + thread);
     }
     workgroupBarrier();
-    return through;
+    if thread < 16u {
+        add_four(FOURS + 4u * thread, SIXTEENS + thread);
+    }
+    workgroupBarrier();
+    if thread < 4u {
+        add_four(SIXTEENS + 4u * thread, SIXTY_FOURS + thread);
+    }
+    workgroupBarrier();
+    if thread == 0u {
+        add_four(SIXTY_FOURS, WHOLE);
+    }
+    workgroupBarrier();
+    let before = sums[thread] + sums[FOURS + (thread >> 2u)]
+        + sums[SIXTEENS + (thread >> 4u)] + sums[SIXTY_FOURS + (thread >> 6u)];
+    let all = sums[WHOLE];
+    workgroupBarrier();
+    return Sums(before, all);
 }

@@ -7,7 +7,6 @@ const BITS_64 = 0x42800000u;
 const BITS_1_PLUS_2_POW_MINUS_17 = 0x3f800040u;
 const BITS_1_PLUS_2_POW_MINUS_16 = 0x3f800080u;
 
-const IS_INTEGER = PARTITIONING == INTEGER || PARTITIONING == POW2;
 const LOW = select(BITS_1, BITS_2, PARTITIONING == FRACTIONAL_EVEN);
 const HIGH = select(BITS_64, BITS_63, PARTITIONING == FRACTIONAL_ODD);
 
@@ -24,7 +23,10 @@ struct Processed {
 // Steps 2, 3 and 7: clamped, rounded and converted.
 fn fixed_factor(bits: u32, low: u32, high: u32, rounds: bool) -> u32 {
     let clamped = clamp_factor(bits, low, high);
-    return fixed_from_bits(select(clamped, ceil_factor(clamped), rounds));
+    if rounds {
+        return ceil_factor(clamped) << 16u;
+    }
+    return fixed_from_bits(clamped);
 }
 
 // Step 6 for an outer factor.

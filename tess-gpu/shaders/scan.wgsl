@@ -4,7 +4,6 @@
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read_write> offsets: array<vec2<u32>>;
-@group(0) @binding(2) var<storage, read_write> status: Status;
 
 fn blocks() -> u32 {
     return (job.patches + 255u) / 256u;
@@ -22,51 +21,11 @@ fn scan(
     if block < blocks() {
         own = offsets[job.blocks_at + block];
     }
-    let through = inclusive_scan(thread, own);
+    let sums = prefix_sums(thread, own);
     if block < blocks() {
-        offsets[job.blocks_at + block] = through - own;
+        offsets[job.blocks_at + block] = sums.before;
     }
-    if thread == 255u {
-        offsets[job.groups_at + workgroup.x] = through;
-    }
-}
-
-// The sum of a.x + 2^16 * a.y and b, as low and high word. Both parts of `a` are below 2^24.
-fn add_wide(a: vec2<u32>, b: vec2<u32>) -> vec2<u32> {
-    let shifted = a.y << 16u;
-    let sum = a.x + shifted;
-    let low = sum + b.x;
-    let carries = select(0u, 1u, sum < shifted) + select(0u, 1u, low < sum);
-    return vec2<u32>(low, (a.y >> 16u) + b.y + carries);
-}
-
-// One workgroup: sums of groups become offsets in the output, behind the chunks before; the
-// totals grow by this chunk's. Offsets wrap where the output could not fit anyway; the totals, summed in halves of 16 bits,
-// do not.
-@compute @workgroup_size(256)
-fn totals(@builtin(local_invocation_index) thread: u32) {
-    let groups = (blocks() + 255u) / 256u;
-    var own = vec2<u32>(0u, 0u);
-    if thread < groups {
-        own = offsets[job.groups_at + thread];
-    }
-    let through = inclusive_scan(thread, own);
-    let points = inclusive_scan(thread, vec2<u32>(own.x & 0xffffu, own.x >> 16u));
-    let primitives = inclusive_scan(thread, vec2<u32>(own.y & 0xffffu, own.y >> 16u));
-    let begin = vec2<u32>(status.points, status.primitives);
-    storageBarrier();
-    if thread < groups {
-        offsets[job.groups_at + thread] = begin + through - own;
-    }
-    if thread == 255u {
-        let end = begin + through;
-        status.ranges[job.chunk] = Range(begin.x, end.x, begin.y, end.y);
-        let all_points = add_wide(points, vec2<u32>(status.points, status.points_high));
-        let all_primitives =
-            add_wide(primitives, vec2<u32>(status.primitives, status.primitives_high));
-        status.points = all_points.x;
-        status.points_high = all_points.y;
-        status.primitives = all_primitives.x;
-        status.primitives_high = all_primitives.y;
+    if thread == 0u {
+        offsets[job.groups_at + workgroup.x] = sums.all;
     }
 }

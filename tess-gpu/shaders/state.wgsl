@@ -24,6 +24,10 @@ const FLOAT = 1u;
 const PER_BATCH = 0u;
 const PER_PATCH = 1u;
 
+const NEVER = 0xffffffffu;
+
+const IS_INTEGER = PARTITIONING == INTEGER || PARTITIONING == POW2;
+
 // Edges of a triangle or quad.
 const EDGES = select(3u, 4u, DOMAIN == QUAD);
 

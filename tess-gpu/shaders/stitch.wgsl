@@ -1,159 +1,67 @@
-// Stitches between two rows of vertices (spec sections 7.2 and 7.3), and the triangles inside the
-// innermost ring (7.4): the n-th triangle from closed forms, clockwise or counter-clockwise.
-//
-// A stitch is three words:
-// x: index of the outer row's first vertex; of a centre, of the innermost ring's first
-// y: points on the outer row in bits 0..6, on the inner 7..13, the entry that closes the outer
-//    ring 14..20, the inner 21..27 (127: none does), kind 28..29, 30 set if the inner row descends
-// z: from the outer row's first vertex to the inner's in bits 0..9, vertices of the outer ring
-//    10..18, of the inner 19..27
+// The triangles between two rows of vertices (spec sections 7.2 to 7.4). Every triangle of a patch
+// is one: transitions, ring stitches and the strips in the centre differ in their rows and in
+// their steps, which a table has (src/tables.rs).
 
-const KIND_SEQUENCE = 0u;
-const KIND_TRANSITION = 1u;
-const KIND_RING = 2u;
-const KIND_CENTRE = 3u;
-
-const CLOSES_NOTHING = 127u;
-
-// A centre has the number of its quads in place of the outer points, and this in place of the inner.
-const CENTRE_TRIANGLE = 0u;
-const CENTRE_ALONG_U = 1u;
-const CENTRE_ALONG_V = 2u;
-const CENTRE_ALONG_V_MIRRORED = 3u;
-const CENTRE_MINIMUM_QUAD = 4u;
-
-// One step of a stitch: it advances along one row, from vertex `outer` or `inner` of the two rows
-// that it stands on. In `is_rotated` steps the triangle begins with the vertex across.
-struct Step {
-    advances_outer: bool,
-    is_rotated: bool,
+struct Stitch {
+    // Its triangles.
+    size: u32,
+    // Where its steps are in the tables.
+    steps_at: u32,
+    // The first vertex of each row; vertex k is k further, unless a row turns.
     outer: u32,
     inner: u32,
+    // Whether a row closes its ring or walks back over it. Then its vertices from `turn` on are
+    // taken from `mirror`.
+    turns: bool,
+    outer_turn: u32,
+    outer_mirror: u32,
+    inner_turn: u32,
+    inner_mirror: u32,
 }
 
-// Of a ring stitch, whose diagonals are mirrored about the middle.
-fn ring_step(inner_points: u32, step: u32) -> Step {
-    let second_half = select(0u, 1u, step > (inner_points & 126u));
-    let advances_outer = (step & 1u) == second_half;
-    let is_last = step == 2u * inner_points - 1u;
-    return Step(
-        advances_outer,
-        advances_outer == (second_half == 1u) && !is_last,
-        (step + 1u + second_half) >> 1u,
-        (step - second_half) >> 1u,
-    );
+fn outer_vertex(stitch: Stitch, at: u32) -> u32 {
+    return select(at, stitch.outer_mirror - at, at >= stitch.outer_turn);
 }
 
-// Of the transition between an outer edge and ring 1: its first half merges two half edges in
-// split order, which a table has as bits (set: advance outer); its second half is the mirror image.
-fn transition_step(outer_points: u32, inner_points: u32, step: u32) -> Step {
-    let outer_half = (outer_points - 1u) >> 1u;
-    let inner_half = (inner_points + 1u) >> 1u;
-    let half = outer_half + inner_half - 1u;
-    let mirror = outer_points + inner_points - 3u - step;
-    let is_second = step > mirror;
-    let near = min(step, mirror);
-    if near >= half {
-        return middle_step(outer_half, inner_half - 1u, inner_points, step - half);
-    }
-    let at = STEPS_AT + 2u * (33u * outer_half + inner_half);
-    let low = tables[at];
-    let high = tables[at + 1u];
-    let below = (1u << (near & 31u)) - 1u;
-    let is_high = near >= 32u;
-    let advances_outer = ((select(low, high, is_high) >> (near & 31u)) & 1u) == 1u;
-    let outer = select(
-        countOneBits(low & below), countOneBits(low) + countOneBits(high & below), is_high);
-    let inner = near - outer;
-    let advance = select(0u, 1u, advances_outer);
-    return Step(
-        advances_outer,
-        false,
-        select(outer, outer_points - 1u - outer - advance, is_second),
-        select(inner, inner_points - 2u - inner + advance, is_second),
-    );
+fn inner_vertex(stitch: Stitch, at: u32) -> u32 {
+    return select(at, stitch.inner_mirror - at, at >= stitch.inner_turn);
 }
 
-// Where an odd side's segment lies across the middle.
-fn middle_step(outer: u32, inner: u32, inner_points: u32, step: u32) -> Step {
-    let inside_is_odd = (inner_points & 1u) == 0u;
-    if inside_is_odd && step == 0u {
-        return Step(false, false, outer, inner);
+// A triangle from vertex `a` of the outer row, `b` of the inner and the next, `c`, of either.
+fn oriented(a: u32, b: u32, c: u32, begins_inner: bool) -> vec3<u32> {
+    let first = select(a, b, begins_inner);
+    let second = select(c, a, begins_inner);
+    let third = select(b, c, begins_inner);
+    if OUTPUT == OUTPUT_TRIANGLE_CCW {
+        return vec3<u32>(first, third, second);
     }
-    return Step(true, true, outer, inner + select(0u, 1u, inside_is_odd));
+    return vec3<u32>(first, second, third);
 }
 
-fn wound(a: u32, b: u32, c: u32, is_swapped: bool) -> vec3<u32> {
-    let swaps = is_swapped != (OUTPUT == OUTPUT_TRIANGLE_CCW);
-    return vec3<u32>(a, select(b, c, swaps), select(c, b, swaps));
+// Two triangles in a row.
+struct Pair {
+    first: vec3<u32>,
+    second: vec3<u32>,
 }
 
-// Triangle `step` of a stitch.
-fn stitch_triangle(stitch: vec3<u32>, step: u32) -> vec3<u32> {
-    let kind = (stitch.y >> 28u) & 3u;
-    if kind == KIND_CENTRE {
-        return centre_triangle(stitch, step);
+// Triangles `number` and `number` + 1 of a stitch; of its last one only the first is meant. A step
+// stands on one vertex of each row, `a` and `b`, and advances along one of them.
+fn stitch_triangles(stitch: Stitch, number: u32) -> Pair {
+    let steps = tables[stitch.steps_at + number];
+    let first_inner = (steps & 0x80u) != 0u;
+    let second_inner = (steps & 0x800000u) != 0u;
+    var a = stitch.outer + (steps & 127u);
+    var b = stitch.inner + number - (steps & 127u);
+    var c = select(a, b, first_inner) + 1u;
+    var d = select(select(c, a, first_inner), select(b, c, first_inner), second_inner) + 1u;
+    if stitch.turns {
+        c = select(outer_vertex(stitch, c), inner_vertex(stitch, c), first_inner);
+        d = select(outer_vertex(stitch, d), inner_vertex(stitch, d), second_inner);
+        a = outer_vertex(stitch, a);
+        b = inner_vertex(stitch, b);
     }
-    let outer_points = stitch.y & 127u;
-    let inner_points = (stitch.y >> 7u) & 127u;
-    var at: Step;
-    if kind == KIND_RING {
-        at = ring_step(inner_points, step);
-    } else {
-        at = transition_step(outer_points, inner_points, step);
-    }
-    return step_triangle(stitch, at);
-}
-
-// Rows run from a to b on the side that advances, c lies across: outer steps are (a, b, c),
-// inner ones (a, c, b), and rotated ones begin with c. Only b and c can close their ring.
-fn step_triangle(stitch: vec3<u32>, at: Step) -> vec3<u32> {
-    let inner_first = stitch.x + (stitch.z & 1023u);
-    let inner_sign = 1u - ((stitch.y >> 29u) & 2u); // 1, or -1 modulo 2^32
-    let a = select(
-        inner_first + inner_sign * at.inner, stitch.x + at.outer, at.advances_outer);
-    let outer = at.outer + select(0u, 1u, at.advances_outer);
-    let inner = at.inner + select(1u, 0u, at.advances_outer);
-    let outer_perimeter = (stitch.z >> 10u) & 511u;
-    let inner_perimeter = stitch.z >> 19u;
-    let outer_vertex = stitch.x + outer
-        - select(0u, outer_perimeter, outer == ((stitch.y >> 14u) & 127u));
-    let inner_vertex = inner_first + inner_sign * inner
-        - select(0u, inner_perimeter, inner == ((stitch.y >> 21u) & 127u));
-    let b = select(inner_vertex, outer_vertex, at.advances_outer);
-    let c = select(outer_vertex, inner_vertex, at.advances_outer);
-    return wound(
-        select(a, c, at.is_rotated),
-        select(b, a, at.is_rotated),
-        select(c, b, at.is_rotated),
-        !at.advances_outer,
-    );
-}
-
-// A strip of quads, each two triangles, between two sides of the innermost ring; or what small
-// patches have instead.
-fn centre_triangle(stitch: vec3<u32>, step: u32) -> vec3<u32> {
-    let first = stitch.x;
-    let form = (stitch.y >> 7u) & 127u;
-    if form == CENTRE_TRIANGLE {
-        return wound(first, first + 1u, first + 2u, false);
-    }
-    if form == CENTRE_MINIMUM_QUAD {
-        return wound(first + step, first + 1u + step, first + 3u, false);
-    }
-    let quads = stitch.y & 127u;
-    let k = step >> 1u;
-    let is_first = (step & 1u) == 0u;
-    let is_along_u = form == CENTRE_ALONG_U;
-    let a = first + k + select(0u, 1u, is_along_u);
-    let b_end = first + 2u * quads + select(1u, 2u, is_along_u);
-    let b = select(b_end - k, first, is_along_u && k == 0u);
-    let b_next = b_end - 1u - k;
-    if form == CENTRE_ALONG_V_MIRRORED {
-        if k == quads >> 1u {
-            return wound(a, select(a + 1u, b_next, is_first), select(b_next, b, is_first), false);
-        }
-        return wound(select(b, a, is_first), a + 1u, select(b_next, b, is_first), false);
-    }
-    return wound(b, select(a + 1u, a, is_first), select(b_next, a + 1u, is_first), false);
+    return Pair(
+        oriented(a, b, c, (steps & 0x100u) != 0u),
+        oriented(
+            select(c, a, first_inner), select(b, c, first_inner), d, (steps & 0x1000000u) != 0u));
 }

@@ -1,15 +1,4 @@
-// A tile: TILE consecutive elements of the output, expanded by one workgroup. Its segments (runs
-// of elements that share their arithmetic) are laid down at the tile position where they begin;
-// an element finds its segment as the last one that begins at or before it.
-
-const TILE_WORDS = TILE / 32u;
-
-// Bit e of the tile: a segment begins at element e.
-var<workgroup> starts: array<atomic<u32>, TILE_WORDS>;
-// For each word of `starts`, the last begin in the words before it.
-var<workgroup> start_before: array<u32, TILE_WORDS>;
-// How many elements of the segment at position 0 lie in the tiles before.
-var<workgroup> cut_off: u32;
+// A tile: TILE consecutive elements of the output, expanded by one workgroup, and its patches.
 
 struct Tile {
     // Its first element and the elements begin..end that are to be written.
@@ -21,11 +10,18 @@ struct Tile {
     last_patch: u32,
 }
 
-// An element's segment, by the tile position where it begins, and the element's place in it.
-struct Found {
-    position: u32,
-    step: u32,
+// Patches of the tile that are expanded together: `count` of them from `first`, and the elements
+// begin..end of the tile, counted from its base, that they have.
+struct Round {
+    first: u32,
+    count: u32,
+    begin: u32,
+    end: u32,
 }
+
+// Where each patch of a round begins, counted from the tile's base.
+var<workgroup> begins: array<i32, ROUND>;
+var<workgroup> round_topologies: array<vec2<u32>, ROUND>;
 
 // The tile of a workgroup; `end` is 0 if there is none for it. `begin..end` is the chunk's range,
 // whose table of tiles begins at `table_at`.
@@ -42,55 +38,41 @@ fn tile_of(workgroup: u32, begin: u32, end: u32, table_at: u32) -> Tile {
     return Tile(base, max(base, begin), min(base + TILE, end), tiles[at], tiles[at + 1u]);
 }
 
-fn clear_segments(thread: u32) {
-    if thread < TILE_WORDS {
-        atomicStore(&starts[thread], 0u);
+// The last of a round's patches that begins at or before an element.
+fn find_patch(round: Round, element: u32) -> u32 {
+    var found = 0u;
+    if round.count == 1u {
+        return found;
     }
-    if thread == 0u {
-        cut_off = 0u;
+    let last = round.count - 1u;
+    if round.count > 32u {
+        if round.count > 128u {
+            found = nearer_patch(found, 128u, last, element);
+        }
+        found = nearer_patch(found, 64u, last, element);
+        found = nearer_patch(found, 32u, last, element);
     }
+    if round.count > 8u {
+        found = nearer_patch(found, 16u, last, element);
+        found = nearer_patch(found, 8u, last, element);
+    }
+    if round.count > 4u {
+        found = nearer_patch(found, 4u, last, element);
+    }
+    found = nearer_patch(found, 2u, last, element);
+    return nearer_patch(found, 1u, last, element);
 }
 
-// Marks where a segment begins that has elements begin..end of the output, if the tile has any of
-// them. Returns the position to lay it down at, or TILE.
-fn lay_down(tile: Tile, begin: u32, end: u32) -> u32 {
-    if end <= begin || begin >= tile.end || end <= tile.base {
-        return TILE;
-    }
-    var position = begin - tile.base;
-    if begin < tile.base {
-        position = 0u;
-        cut_off = tile.base - begin;
-    }
-    atomicOr(&starts[position >> 5u], 1u << (position & 31u));
-    return position;
+fn nearer_patch(found: u32, reach: u32, last: u32, element: u32) -> u32 {
+    let next = min(found + reach, last);
+    return select(found, next, begins[next] <= i32(element));
 }
 
-// Between two barriers after all segments are laid down.
-fn link_segments(thread: u32) {
-    if thread >= TILE_WORDS {
-        return;
+// The same for an element that belongs to patch `number` or to one behind it.
+fn next_patch(round: Round, number: u32, element: u32) -> u32 {
+    var found = number;
+    while found + 1u < round.count && begins[found + 1u] <= i32(element) {
+        found++;
     }
-    var word = thread;
-    var bits = 0u;
-    while word > 0u && bits == 0u {
-        word -= 1u;
-        bits = atomicLoad(&starts[word]);
-    }
-    start_before[thread] = select(32u * word + firstLeadingBit(bits), 0u, bits == 0u);
-}
-
-fn find_segment(element: u32) -> Found {
-    let word = element >> 5u;
-    let bits = atomicLoad(&starts[word]) & (0xffffffffu >> (31u - (element & 31u)));
-    let own = 32u * word + firstLeadingBit(bits);
-    let position = select(own, start_before[word], bits == 0u);
-    return Found(position, element - position + select(0u, cut_off, position == 0u));
-}
-
-// How the workgroup's threads are shared out among the tile's patches, as the binary logarithm of
-// how many patches are worked on at a time: as many as there are, rounded up, at most WORKGROUP.
-fn share_patches(tile: Tile) -> u32 {
-    let more = tile.last_patch - tile.first_patch; // one less than the number of patches
-    return min(select(0u, firstLeadingBit(more) + 1u, more != 0u), firstLeadingBit(WORKGROUP));
+    return found;
 }

@@ -46,35 +46,3 @@ fn along_before(topology: vec2<u32>, edge: u32) -> u32 {
 fn boundary(topology: vec2<u32>) -> u32 {
     return outer_before(topology, EDGES - 1u) + outer_points(topology, EDGES - 1u) - EDGES;
 }
-
-// A sum over the edges that both closed forms below are a multiple of.
-fn ring_form(topology: vec2<u32>, ring: u32) -> u32 {
-    return along_before(topology, EDGES) - EDGES - EDGES * ring;
-}
-
-// Points on the interior rings 1..ring, for ring >= 1.
-fn points_before_ring(topology: vec2<u32>, ring: u32) -> u32 {
-    return (ring - 1u) * ring_form(topology, ring);
-}
-
-// Triangles of the ring stitches 2..ring, for ring >= 2.
-fn triangles_before_ring(topology: vec2<u32>, ring: u32) -> u32 {
-    return 2u * (ring - 2u) * ring_form(topology, ring);
-}
-
-// One more than the number of interior rings of points that go round.
-fn point_ring_end(topology: vec2<u32>) -> u32 {
-    return min(inside_u(topology), inside_v(topology)) >> 1u;
-}
-
-// One more than the number of rings that are stitched to the ring outside of them.
-fn stitch_ring_end(topology: vec2<u32>) -> u32 {
-    return (min(inside_u(topology), inside_v(topology)) + 1u) >> 1u;
-}
-
-// A run of a patch's elements.
-struct Segment {
-    // Its first element, counted within the patch, and how many it has.
-    start: u32,
-    size: u32,
-}

@@ -11,9 +11,9 @@
 //! feature `wgpu` adds a ready-made `runner`.
 //!
 //! The stages, in the order in which they run: `factors` (one thread per patch), `scan` and
-//! `totals` (prefix sums over the patches), `finish` (draw arguments, dispatch sizes, whether
-//! everything fits), `partition` (which patches a tile of the output belongs to),
-//! `expand_points` and `expand_primitives` (one workgroup per tile).
+//! `totals` (prefix sums over the patches; draw arguments, dispatch sizes, whether everything
+//! fits), `partition` (which patches a tile of the output belongs to), `expand_points` and
+//! `expand_primitives` (one workgroup per tile).
 //!
 //! ```
 //! use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
@@ -38,6 +38,6 @@ pub mod sizes;
 pub mod tables;
 
 pub use bindings::{Access, Binding, Resource};
-pub use setup::{Numbering, PointFormat, Setup};
+pub use setup::{IndexType, Numbering, PointFormat, Setup};
 pub use shaders::{Probe, Pull, Stage};
 pub use sizes::{Capacity, Limits, Plan};

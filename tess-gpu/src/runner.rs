@@ -16,13 +16,13 @@ use crate::setup::Setup;
 use crate::shaders::Stage;
 use crate::tables::tables;
 use std::collections::HashMap;
+use std::fmt;
 use tess_core::SplitOrder;
 
 /// Makes and keeps the pipelines of one device.
-#[derive(Debug)]
 pub struct Tessellator {
     device: wgpu::Device,
-    edit: fn(Stage, String) -> String,
+    edit: Box<dyn Fn(Stage, String) -> String + Send + Sync>,
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
     tables: HashMap<SplitOrder, wgpu::Buffer>,
 }
@@ -37,8 +37,12 @@ impl Tessellator {
     /// The same, with every shader edited before it is compiled: for tests that plant faults and
     /// for experiments.
     #[must_use]
-    pub fn with_edit(device: &wgpu::Device, edit: fn(Stage, String) -> String) -> Self {
-        Self { device: device.clone(), edit, pipelines: HashMap::new(), tables: HashMap::new() }
+    pub fn with_edit(
+        device: &wgpu::Device,
+        edit: impl Fn(Stage, String) -> String + Send + Sync + 'static,
+    ) -> Self {
+        let (pipelines, tables) = (HashMap::new(), HashMap::new());
+        Self { device: device.clone(), edit: Box::new(edit), pipelines, tables }
     }
 
     /// Prepares `patches` patches of the caller's buffers: see [`Batch`].
@@ -62,7 +66,7 @@ impl Tessellator {
     /// The pipeline of a stage, made when it is first asked for.
     pub(crate) fn pipeline(&mut self, stage: Stage, setup: Setup) -> wgpu::ComputePipeline {
         let key = (stage, stage.relevant(setup));
-        let (device, edit) = (&self.device, self.edit);
+        let (device, edit) = (&self.device, &self.edit);
         let make = || make_pipeline(device, stage, &edit(stage, stage.source(key.1)));
         self.pipelines.entry(key).or_insert_with(make).clone()
     }
@@ -75,6 +79,15 @@ impl Tessellator {
             gpu::filled(device, "tables", bytemuck::cast_slice(&words), wgpu::BufferUsages::STORAGE)
         };
         self.tables.entry(split).or_insert_with(make).clone()
+    }
+}
+
+impl fmt::Debug for Tessellator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { device, pipelines, tables, .. } = self;
+        let mut all = f.debug_struct("Tessellator");
+        all.field("device", device).field("pipelines", pipelines).field("tables", tables);
+        all.finish_non_exhaustive()
     }
 }
 

@@ -23,6 +23,28 @@ pub enum Numbering {
     PerPatch,
 }
 
+/// Width of the indices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum IndexType {
+    /// 16 bits, two indices in a little-endian word: enough for any one patch, and for batches of
+    /// up to 65536 points. A larger batch numbered [`Numbering::PerBatch`] does not fit.
+    U16,
+    /// 32 bits.
+    #[default]
+    U32,
+}
+
+impl IndexType {
+    /// Bytes of an index.
+    #[must_use]
+    pub const fn bytes(self) -> u32 {
+        match self {
+            Self::U16 => 2,
+            Self::U32 => 4,
+        }
+    }
+}
+
 /// Everything that is fixed before the patches of a batch arrive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Setup {
@@ -34,14 +56,16 @@ pub struct Setup {
     pub point_format: PointFormat,
     /// What indices count from.
     pub numbering: Numbering,
+    /// Width of the indices.
+    pub index_type: IndexType,
 }
 
 impl Setup {
-    /// Packed points and indices for the whole batch.
+    /// Packed points and 32-bit indices for the whole batch.
     #[must_use]
     pub const fn new(domain: Domain, config: Config) -> Self {
         let (point_format, numbering) = (PointFormat::Packed, Numbering::PerBatch);
-        Self { domain, config, point_format, numbering }
+        Self { domain, config, point_format, numbering, index_type: IndexType::U32 }
     }
 
     /// Factors of one patch: each a binary32 in the buffer of factors, in the specification's
@@ -65,6 +89,19 @@ impl Setup {
         }
     }
 
+    /// Bytes of one primitive's indices.
+    #[must_use]
+    pub const fn primitive_bytes(&self) -> u32 {
+        self.index_type.bytes() * self.indices_per_primitive()
+    }
+
+    /// Whether factors are rounded to integers: then no contexts are stored, as a number of points
+    /// says it all.
+    #[must_use]
+    pub const fn has_integer_factors(&self) -> bool {
+        matches!(self.config.partitioning, Partitioning::Integer | Partitioning::Pow2)
+    }
+
     /// The constants that stand in front of every shader.
     pub(crate) fn prelude(&self) -> String {
         let Config { partitioning, output, split } = self.config;
@@ -77,8 +114,13 @@ impl Setup {
             ("NUMBERING", u32::from(self.numbering == Numbering::PerPatch)),
             ("WORKGROUP", crate::sizes::WORKGROUP),
             ("TILE", crate::sizes::TILE),
+            ("ROUND", crate::sizes::ROUND),
             ("RECIPROCALS_AT", crate::tables::RECIPROCALS_AT),
             ("STEPS_AT", crate::tables::STEPS_AT),
+            ("FAN_BLOCK", crate::tables::FAN_BLOCK),
+            ("RING_BLOCK", crate::tables::RING_BLOCK),
+            ("MIRRORED_BLOCK", crate::tables::MIRRORED_BLOCK),
+            ("STRIP_BLOCK", crate::tables::STRIP_BLOCK),
         ];
         constants.map(|(name, value)| format!("const {name} = {value}u;\n")).concat()
     }

@@ -1,7 +1,7 @@
 //! The WGSL of each stage: constants, then the parts that the stage is made of.
 
 use crate::bindings::{Access, Binding, Resource};
-use crate::setup::{Numbering, PointFormat, Setup};
+use crate::setup::{IndexType, Numbering, PointFormat, Setup};
 use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
 /// A part of a shader: one file of `shaders/`.
@@ -18,10 +18,9 @@ pub enum Stage {
     Factors,
     /// Offsets of blocks within groups of 256 blocks.
     Scan,
-    /// Offsets of groups in the output, and what the batch needs.
+    /// Offsets of groups in the output, and what the batch needs; behind the last chunk whether
+    /// the output fits, draw arguments and dispatch sizes.
     Totals,
-    /// Whether the output fits, draw arguments and dispatch sizes.
-    Finish,
     /// The patch that each tile of the output begins with.
     Partition,
     /// Tiles of points.
@@ -32,11 +31,10 @@ pub enum Stage {
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 6] = [
         Self::Factors,
         Self::Scan,
         Self::Totals,
-        Self::Finish,
         Self::Partition,
         Self::ExpandPoints,
         Self::ExpandPrimitives,
@@ -49,7 +47,6 @@ impl Stage {
             Self::Factors => "factors",
             Self::Scan => "scan",
             Self::Totals => "totals",
-            Self::Finish => "finish",
             Self::Partition => "partition_tiles",
             Self::ExpandPoints => "expand_points",
             Self::ExpandPrimitives => "expand_primitives",
@@ -73,12 +70,13 @@ impl Stage {
                 Binding(Contexts, ReadWrite),
                 Binding(Offsets, ReadWrite),
             ],
-            Self::Scan | Self::Totals => {
-                &[Binding(Job, Read), Binding(Offsets, ReadWrite), Binding(Status, ReadWrite)]
-            }
-            Self::Finish => {
-                &[Binding(Job, Read), Binding(Status, ReadWrite), Binding(Arguments, ReadWrite)]
-            }
+            Self::Scan => &[Binding(Job, Read), Binding(Offsets, ReadWrite)],
+            Self::Totals => &[
+                Binding(Job, Read),
+                Binding(Offsets, ReadWrite),
+                Binding(Status, ReadWrite),
+                Binding(Arguments, ReadWrite),
+            ],
             Self::Partition => &[
                 Binding(Job, Read),
                 Binding(Offsets, Read),
@@ -89,6 +87,7 @@ impl Stage {
                 Binding(Job, Read),
                 Binding(Topologies, Read),
                 Binding(Contexts, Read),
+                Binding(Tables, Read),
                 Binding(Offsets, Read),
                 Binding(Status, Read),
                 Binding(Tiles, Read),
@@ -109,10 +108,17 @@ impl Stage {
     /// Its WGSL, a whole module.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        setup.prelude() + &self.parts().concat()
+        let mut source = setup.prelude() + &self.parts(setup).concat();
+        if self == Self::ExpandPrimitives {
+            source += match setup.index_type {
+                IndexType::U16 => part!("indices_u16"),
+                IndexType::U32 => part!("indices_u32"),
+            };
+        }
+        source
     }
 
-    const fn parts(self) -> &'static [&'static str] {
+    const fn parts(self, setup: Setup) -> &'static [&'static str] {
         match self {
             Self::Factors => &[
                 part!("state"),
@@ -125,15 +131,29 @@ impl Stage {
                 part!("prefix_sum"),
                 part!("factors"),
             ],
-            Self::Scan | Self::Totals => &[part!("state"), part!("prefix_sum"), part!("scan")],
-            Self::Finish => &[part!("state"), part!("finish")],
+            Self::Scan => &[part!("state"), part!("prefix_sum"), part!("scan")],
+            Self::Totals => &[part!("state"), part!("prefix_sum"), part!("totals")],
             Self::Partition => &[part!("state"), part!("partition")],
+            Self::ExpandPoints if setup.has_integer_factors() => &[
+                part!("state"),
+                part!("fixed_point"),
+                part!("place_evenly"),
+                part!("topology"),
+                part!("shape"),
+                part!("points"),
+                part!("point_format"),
+                part!("offsets"),
+                part!("tile"),
+                part!("expand_points"),
+            ],
             Self::ExpandPoints => &[
                 part!("state"),
                 part!("fixed_point"),
                 part!("factor_context"),
                 part!("place"),
+                part!("stored_contexts"),
                 part!("topology"),
+                part!("shape"),
                 part!("points"),
                 part!("point_format"),
                 part!("offsets"),
@@ -143,9 +163,9 @@ impl Stage {
             Self::ExpandPrimitives => &[
                 part!("state"),
                 part!("topology"),
-                part!("counts"),
-                part!("connect"),
+                part!("shape"),
                 part!("stitch"),
+                part!("connect"),
                 part!("offsets"),
                 part!("tile"),
                 part!("expand_primitives"),
@@ -157,17 +177,27 @@ impl Stage {
     /// pipelines can be shared.
     #[must_use]
     pub fn relevant(self, setup: Setup) -> Setup {
-        let plain =
-            Setup { point_format: PointFormat::Packed, numbering: Numbering::PerBatch, ..setup };
+        let plain = Setup {
+            point_format: PointFormat::Packed,
+            numbering: Numbering::PerBatch,
+            index_type: IndexType::U32,
+            ..setup
+        };
         match self {
             Self::Factors => plain,
-            Self::Scan | Self::Totals | Self::Finish | Self::Partition => any_factors(plain),
+            Self::Scan | Self::Totals | Self::Partition => any_factors(plain),
             Self::ExpandPoints => {
                 let mut own = any_factors(Setup { point_format: setup.point_format, ..plain });
                 own.config.output = OutputPrimitive::Point;
+                if !setup.has_integer_factors() {
+                    own.config.partitioning = Partitioning::FractionalOdd;
+                }
                 own
             }
-            Self::ExpandPrimitives => any_factors(Setup { numbering: setup.numbering, ..plain }),
+            Self::ExpandPrimitives => {
+                let Setup { numbering, index_type, .. } = setup;
+                any_factors(Setup { numbering, index_type, ..plain })
+            }
         }
     }
 }
@@ -239,17 +269,17 @@ impl Probe {
 /// WGSL that a user's own shader includes to compute any point or primitive of a patch from its
 /// number alone, in constant time, so that nothing needs to be written out for drawing.
 ///
-/// It declares `topologies`, `contexts` (as a batch of one chunk leaves them) and `tables` as
-/// read-only storage buffers, and offers
+/// It declares `topologies` (as a batch of one chunk leaves them), `tables` and, unless
+/// [`Setup::has_integer_factors`], `contexts` as read-only storage buffers, and offers
 /// - `tess_point(patch_index, i) -> vec2<u32>`: u and v as 16.16 numbers,
 /// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
 /// - `tess_primitive(patch_index, t) -> vec3<u32>`: the patch's own indices, as many as a
 ///   primitive has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Pull {
-    /// Bind group of the three buffers.
+    /// Bind group of the buffers.
     pub group: u32,
-    /// Binding of `topologies`; `contexts` and `tables` follow.
+    /// Binding of `topologies`; `tables` and `contexts` follow.
     pub first_binding: u32,
 }
 
@@ -261,22 +291,26 @@ impl Pull {
             let (group, binding) = (self.group, self.first_binding + offset);
             format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
         };
-        let bindings = declare(0, "topologies", "vec2<u32>")
-            + &declare(1, "contexts", "vec2<u32>")
-            + &declare(2, "tables", "u32")
-            + &format!("const FACTORS = {}u;\n", setup.factors());
+        let mut head = setup.prelude()
+            + &declare(0, "topologies", "vec2<u32>")
+            + &declare(1, "tables", "u32")
+            + part!("state")
+            + part!("fixed_point");
+        if setup.has_integer_factors() {
+            head += part!("place_evenly");
+        } else {
+            head += &declare(2, "contexts", "vec2<u32>");
+            head += &format!("const FACTORS = {}u;\n", setup.factors());
+            head += &[part!("factor_context"), part!("place"), part!("pulled_contexts")].concat();
+        }
         let parts = [
-            part!("state"),
-            part!("fixed_point"),
-            part!("factor_context"),
-            part!("place"),
             part!("topology"),
-            part!("counts"),
+            part!("shape"),
             part!("points"),
-            part!("connect"),
             part!("stitch"),
+            part!("connect"),
             part!("locate"),
         ];
-        setup.prelude() + &bindings + &parts.concat()
+        head + &parts.concat()
     }
 }

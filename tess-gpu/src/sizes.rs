@@ -7,9 +7,11 @@ use crate::layout::{DrawIndexed, Job, Range, Status, Topology};
 use crate::setup::Setup;
 
 /// Threads of the workgroups that expand a tile.
-pub const WORKGROUP: u32 = 128;
+pub const WORKGROUP: u32 = 64;
 /// Elements of a tile: points or primitives.
-pub const TILE: u32 = 512;
+pub const TILE: u32 = 2048;
+/// Patches of a tile that are expanded at a time.
+pub const ROUND: u32 = 256;
 /// Patches of a block, whose offsets one workgroup sums.
 pub const BLOCK: u32 = 256;
 /// Patches of a group, 256 blocks.
@@ -70,7 +72,7 @@ impl Plan {
         let context_bytes = 8 * u64::from(setup.factors());
         let bound = limits.storage_binding.max(Limits::WEBGPU.storage_binding);
         let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / GROUP * GROUP;
-        let primitive_bytes = 4 * u64::from(setup.indices_per_primitive());
+        let primitive_bytes = u64::from(setup.primitive_bytes());
         Self {
             setup,
             patches,
@@ -123,9 +125,9 @@ impl Plan {
         }
     }
 
-    /// The job of the stage `finish`: what holds for the whole batch.
+    /// The job of the stage `totals` in a batch of no patches, which has no chunks.
     #[must_use]
-    pub fn finish_job(&self) -> Job {
+    pub fn empty_job(&self) -> Job {
         self.batch_job(0, self.chunk_patches)
     }
 
@@ -247,7 +249,7 @@ impl Plan {
     /// The bytes of a window of the indices.
     #[must_use]
     pub fn primitive_window(&self, window: u32) -> Span {
-        let each = 4 * self.setup.indices_per_primitive();
+        let each = self.setup.primitive_bytes();
         window_span(self.capacity.primitives, each, self.primitive_window_tiles, window)
     }
 
@@ -264,19 +266,14 @@ impl Plan {
     pub fn scan_workgroups(&self, chunk: u32) -> [u32; 3] {
         [self.patches_in(chunk).div_ceil(GROUP), 1, 1]
     }
-
-    /// Workgroups of the stage `finish`.
-    #[must_use]
-    pub fn finish_workgroups(&self) -> [u32; 3] {
-        [(self.chunks() * self.slots()).div_ceil(64).max(1), 1, 1]
-    }
 }
 
 /// `capacity` elements of `each` bytes, cut into windows.
 fn window_span(capacity: u32, each: u32, window_tiles: u32, window: u32) -> Span {
     let first = u64::from(window) * u64::from(window_tiles) * u64::from(TILE);
     let elements = (u64::from(capacity) - first).min(u64::from(window_tiles) * u64::from(TILE));
-    Span { offset: first * u64::from(each), size: elements * u64::from(each) }
+    let size = (elements * u64::from(each)).next_multiple_of(8);
+    Span { offset: first * u64::from(each), size }
 }
 
 const fn size<T>() -> u64 {

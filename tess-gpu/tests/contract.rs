@@ -7,9 +7,9 @@ use common::expected::Expected;
 use tess_check::generate::patch_of;
 use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_gpu::layout::unpack_context;
+use tess_gpu::layout::{Topology, unpack_context};
 use tess_gpu::runner::{Outputs, Tessellator};
-use tess_gpu::{Numbering, PointFormat, Setup, Stage};
+use tess_gpu::{IndexType, Numbering, PointFormat, Setup, Stage};
 
 fn quads(partitioning: Partitioning) -> Setup {
     Setup::new(Domain::Quad, Config::new(partitioning, OutputPrimitive::TriangleCw))
@@ -28,9 +28,46 @@ fn formats_and_numberings() {
         for point_format in [PointFormat::Packed, PointFormat::Float] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
-                machine.assert_equal(Setup { domain, config, point_format, numbering }, &patches);
+                let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };
+                machine.assert_equal(setup, &patches);
             }
         }
+    }
+}
+
+/// Two indices share a word, also where one patch ends and the next begins.
+#[test]
+fn indices_of_16_bits() {
+    let mut machine = Machine::open();
+    let mut random = SplitMix64::new(8);
+    for domain in Domain::ALL {
+        for output in OutputPrimitive::ALL {
+            let config = Config::new(Partitioning::FractionalEven, output);
+            let numbering = Numbering::PerPatch;
+            let index_type = IndexType::U16;
+            let setup = Setup { numbering, index_type, ..Setup::new(domain, config) };
+            for count in [1, 2, 7, 500] {
+                let patches = common::patches::random(domain, count, &mut random);
+                machine.assert_equal(setup, &patches);
+            }
+            let batch = Setup { numbering: Numbering::PerBatch, ..setup };
+            machine.assert_equal(batch, &common::patches::random(domain, 30, &mut random));
+        }
+    }
+}
+
+/// Indices of the whole batch, of 16 bits, reach 65536 points.
+#[test]
+fn a_batch_that_16_bits_cannot_number_does_not_fit() {
+    let mut machine = Machine::open();
+    let setup = Setup { index_type: IndexType::U16, ..quads(Partitioning::Integer) };
+    for (count, fits) in [(1 << 14, true), ((1 << 14) + 1, false)] {
+        let patches = uniform(1.0, count); // of four points each
+        let expected = Expected::new(setup, &patches);
+        let (points, indices) = expected.words();
+        let written = machine.write(setup, &patches, points, indices);
+        assert_eq!(written.status.points_overflow(), !fits, "{count} patches");
+        assert_eq!(written.status.points(), 4 * count as u64, "points needed");
     }
 }
 
@@ -163,6 +200,14 @@ fn intermediate_buffers() {
                 tess_core::ProcessedPatch::Regular(_) => unreachable!("all are quads"),
             };
             assert_eq!(state, 2, "{raw:?} is regular");
+            let topology = Topology([topologies[2 * number], topologies[2 * number + 1]]);
+            let outer = [0, 1, 2, 3].map(|edge| topology.outer_points(edge));
+            assert_eq!(outer, factors.outer().map(|f| f.context.points), "edges of {raw:?}");
+            let inside = factors.inside().map(|f| f.context.points);
+            assert_eq!(topology.inside_points(), inside, "inside of {raw:?}");
+            if setup.has_integer_factors() {
+                continue; // no contexts are stored
+            }
             let all = factors.outer().into_iter().chain(factors.inside());
             for (factor, expected) in all.enumerate() {
                 let at = 2 * (factor * stride + number);
@@ -176,24 +221,95 @@ fn intermediate_buffers() {
 /// A comparison counts only after it has been seen to fail: damaged shaders are noticed.
 #[test]
 fn planted_faults_are_seen() {
-    let faults: [fn(Stage, String) -> String; 5] = [
-        |_, source| source.replace("const HALF = 0x8000u;", "const HALF = 0x8001u;"),
-        |_, source| source.replace("(step + 1u + second_half) >> 1u", "(step + second_half) >> 1u"),
-        |_, source| source.replace("k == quads >> 1u", "k == 0u"),
-        |_, source| source.replace("through - own;", "through;"),
-        |_, source| {
-            source.replace("points + inner_points - 3u - step", "points + inner_points - 2u - step")
-        },
-    ];
     let mut machine = Machine::open();
-    let setup = quads(Partitioning::FractionalOdd);
-    let patches = common::patches::random(Domain::Quad, 200, &mut SplitMix64::new(5));
-    machine.assert_equal(setup, &patches);
-    let expected = Expected::new(setup, &patches);
-    let (points, indices) = expected.words();
-    for (number, fault) in faults.into_iter().enumerate() {
-        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, fault);
+    for (domain, partitioning, faults) in FAULTS {
+        let config = Config::new(*partitioning, OutputPrimitive::TriangleCw);
+        let setup = Setup::new(*domain, config);
+        let patches = common::patches::random(*domain, 200, &mut SplitMix64::new(5));
+        machine.tessellator = Tessellator::new(&machine.gpu.device);
+        let expected = Expected::new(setup, &patches);
+        let (points, indices) = expected.words();
         let written = machine.write(setup, &patches, points, indices);
-        assert!(expected.compare(&written).is_err(), "fault {number} went unnoticed");
+        assert_eq!(expected.compare(&written), Ok(()), "without a fault");
+        for &(right, wrong) in *faults {
+            let sources = Stage::ALL.map(|stage| stage.source(setup));
+            let places: usize = sources.iter().map(|source| source.matches(right).count()).sum();
+            assert!(places > 0, "{right} is in no shader");
+            let edit = move |_, source: String| source.replace(right, wrong);
+            machine.tessellator = Tessellator::with_edit(&machine.gpu.device, edit);
+            let written = machine.write(setup, &patches, points, indices);
+            assert!(expected.compare(&written).is_err(), "{setup:?}: {wrong} went unnoticed");
+        }
     }
 }
+
+/// Text of a shader and what to put there.
+type Fault = (&'static str, &'static str);
+
+const FAULTS: &[(Domain, Partitioning, &[Fault])] = &[
+    (
+        Domain::Quad,
+        Partitioning::FractionalOdd,
+        &[
+            ("const HALF = 0x8000u;", "const HALF = 0x8001u;"),
+            (
+                "(fine - coarse) * fraction_of(context)",
+                "(fine - coarse) * (fraction_of(context) | 1u)",
+            ),
+            ("position > split_of(context)", "position >= split_of(context)"),
+            ("u <= shape.v && (shape.v & 1u) == 0u", "u <= shape.v && (shape.v & 1u) == 1u"),
+            ("2u * first + 2u * quads + 1u", "2u * first + 2u * quads + 2u"),
+            ("(steps & 0x100u) != 0u", "(steps & 0x200u) != 0u"),
+            (
+                "64u * outer_points + inner_points - 128u",
+                "64u * outer_points + inner_points - 127u",
+            ),
+            ("next * (form - scale * next) <= goal", "next * (form - scale * next) < goal"),
+            ("begins[next] <= i32(element)", "begins[next] < i32(element)"),
+            ("sums[SIXTEENS + (thread >> 4u)]", "sums[SIXTEENS + (thread >> 5u)]"),
+            ("return patch_of(clamp(element, begin, end - 1u), kind);", "return 0u;"),
+        ],
+    ),
+    (
+        Domain::Triangle,
+        Partitioning::FractionalEven,
+        &[
+            ("const TWO_THIRDS = 0xaaaau;", "const TWO_THIRDS = 0xaaabu;"),
+            ("begins[found + 1u] <= i32(element)", "begins[found + 1u] < i32(element)"),
+            ("q -= (fixed + 1u) >> 1u;", "q -= fixed >> 1u;"),
+            ("descends = edge != 1u;", "descends = edge != 2u;"),
+            ("p == half_points", "p == half_points + 1u"),
+        ],
+    ),
+    (
+        Domain::Triangle,
+        Partitioning::Integer,
+        &[
+            ("const ONE_THIRD = 0x5555u;", "const ONE_THIRD = 0x5556u;"),
+            (
+                "return straight(1u, FAN_BLOCK, first, first + 2u);",
+                "return straight(1u, FAN_BLOCK, first, first + 1u);",
+            ),
+            ("is_last = spot.edge + 1u == EDGES", "is_last = spot.edge == EDGES"),
+            ("factor == ONE && odd == 0u", "factor == ONE && odd == 1u"),
+        ],
+    ),
+    (
+        Domain::Quad,
+        Partitioning::Pow2,
+        &[
+            ("edge == EDGES - 1u || walks_back", "edge == EDGES - 1u"),
+            ("points >> 1u, walks_back", "points, walks_back"),
+            ("select(x, ONE - x, position > mirror)", "x"),
+            ("select(location, HALF, position == mirror)", "location"),
+            ("k == end);", "k > end);"),
+            ("select(0u, 1u, shape.u > shape.v)", "select(0u, 1u, shape.u < shape.v)"),
+            ("number == 1u || number == 2u", "number == 1u || number == 3u"),
+        ],
+    ),
+    (
+        Domain::Isoline,
+        Partitioning::FractionalOdd,
+        &[("t / (outer_points(topology, 1u) - 1u)", "t / outer_points(topology, 1u)")],
+    ),
+];

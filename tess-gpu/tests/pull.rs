@@ -99,8 +99,11 @@ fn ask(
     let tables = tables(setup.config.split);
     let upload =
         |words: &[u32]| machine.gpu.upload("words", bytemuck::cast_slice(words), Usage::STORAGE);
-    let buffers =
-        [&upload(asked), &answers, batch.topologies(), batch.contexts(), &upload(&tables)];
+    let (asked, tables) = (upload(asked), upload(&tables));
+    let mut buffers = vec![&asked, &answers, batch.topologies(), &tables];
+    if !setup.has_integer_factors() {
+        buffers.push(batch.contexts());
+    }
     let entries: Vec<_> = (0..)
         .zip(buffers)
         .map(|(binding, buffer)| wgpu::BindGroupEntry {

@@ -121,3 +121,27 @@ impl From<&Context> for FactorContext {
         Self { parity, inv_floor, inv_ceil, fraction, half_points, split, points }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn most_significant_bits() {
+        assert_eq!(drop_most_significant_bit(0), 0, "no bit");
+        for x in 1..=32u32 {
+            assert_eq!(drop_most_significant_bit(x), x - (1 << x.ilog2()), "{x}");
+        }
+    }
+
+    /// Half a factor, rounded up, and one half more where the parity is odd; an even 1 acts as 2.
+    #[test]
+    fn halves() {
+        for fixed in ONE..=64 * ONE {
+            let rounded = fixed / 2 + fixed % 2;
+            assert_eq!(half(fixed, 1), rounded + HALF, "{fixed:#x}, odd");
+            let even = if fixed == ONE { ONE } else { rounded };
+            assert_eq!(half(fixed, 0), even, "{fixed:#x}, even");
+        }
+    }
+}

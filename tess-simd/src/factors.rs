@@ -158,3 +158,49 @@ fn minimum<const ALL: usize>(fixed: &Column) -> Lanes {
     }
     minimum
 }
+
+#[cfg(all(test, feature = "std"))]
+#[expect(
+    clippy::float_arithmetic,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the same operations in other arithmetic, on numbers in 0..=64"
+)]
+mod tests {
+    use super::*;
+
+    /// Numbers of every sign and exponent, NaNs and infinities included.
+    fn any_numbers() -> impl Iterator<Item = f32> {
+        let few = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -0.0, 1.0, 64.0];
+        (0..=u32::MAX).step_by(65_521).map(f32::from_bits).chain(few)
+    }
+
+    /// Every multiple of 2^-18 in 0..=64, and its neighbours.
+    fn factors() -> impl Iterator<Item = f32> {
+        let multiples = (0..=1u32 << 24).map(|i| f64::from(i) / f64::from(1 << 18));
+        multiples.flat_map(|x| [(x as f32).next_down().max(0.0), x as f32, (x as f32).next_up()])
+    }
+
+    #[test]
+    fn clamping() {
+        for x in any_numbers() {
+            let expected = if x.is_nan() { 2.0 } else { x.clamp(2.0, 64.0) };
+            assert_eq!(clamp(x, 2.0, 64.0).to_bits(), expected.to_bits(), "{x:e}");
+        }
+    }
+
+    #[test]
+    fn ceilings() {
+        for x in factors() {
+            assert_eq!(ceil(x), x.ceil() as u32, "{x:e}");
+        }
+    }
+
+    #[test]
+    fn conversions() {
+        for x in factors().filter(|&x| x <= 64.0) {
+            let expected = (f64::from(x) * 65536.0).round_ties_even() as u32;
+            assert_eq!(to_fixed(x), expected, "{x:e}");
+        }
+    }
+}

@@ -3,7 +3,7 @@
 use crate::bindings::Resource;
 use crate::layout::{Job, Status};
 use crate::runner::{Tessellator, gpu};
-use crate::setup::Setup;
+use crate::setup::{IndexType, Numbering, Setup};
 use crate::shaders::Stage;
 use crate::sizes::{ALIGNMENT, Capacity, Limits, Plan, Span};
 use std::fmt;
@@ -17,7 +17,7 @@ pub enum Outputs<'a> {
     Buffers {
         /// The domain points, 8 bytes each.
         points: &'a wgpu::Buffer,
-        /// The indices, 4 bytes each.
+        /// The indices, 2 or 4 bytes each; whole 8 bytes of the buffer are used.
         indices: &'a wgpu::Buffer,
     },
 }
@@ -188,9 +188,14 @@ fn check(
 fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
     let Outputs::Buffers { points, indices } = outputs else { return Capacity::default() };
     let elements = |size: u64, each: u32| u32::try_from(size / u64::from(each)).unwrap_or(u32::MAX);
+    let points = elements(points.size(), 8);
+    let numbered = match (setup.index_type, setup.numbering) {
+        (IndexType::U16, Numbering::PerBatch) => points.min(1 << 16),
+        _ => points,
+    };
     Capacity {
-        points: elements(points.size(), 8),
-        primitives: elements(indices.size(), 4 * setup.indices_per_primitive()),
+        points: numbered,
+        primitives: elements(indices.size() / 8 * 8, setup.primitive_bytes()),
     }
 }
 
@@ -229,7 +234,7 @@ impl Buffers {
         let device = tessellator.device();
         let storage = Usage::STORAGE | Usage::COPY_SRC;
         let make = |label, size, more| gpu::empty(device, label, size, storage | more);
-        let all = |region: fn(&Plan, u32) -> Span| region(plan, plan.chunks()).offset;
+        let all = |region: fn(&Plan, u32) -> Span| region(plan, plan.chunks().max(1)).offset;
         let jobs = all_jobs(plan);
         // Without outputs there are no windows, so nothing binds what stands for them here.
         let (points, indices) = match outputs {
@@ -252,9 +257,9 @@ impl Buffers {
     }
 }
 
-/// The job of `finish`, then for each chunk its own and those of its windows.
+/// A job of no patches, then for each chunk its own and those of its windows.
 fn all_jobs(plan: &Plan) -> Vec<u8> {
-    let mut jobs = vec![plan.finish_job()];
+    let mut jobs = vec![plan.empty_job()];
     for chunk in 0..plan.chunks() {
         jobs.push(plan.job(chunk));
         jobs.extend((0..plan.point_windows()).map(|window| plan.point_job(chunk, window)));
@@ -296,9 +301,10 @@ impl Encoding<'_> {
             dispatches.push(self.dispatch(Stage::Scan, part, scan));
             dispatches.push(self.dispatch(Stage::Totals, part, Workgroups::Direct([1; 3])));
         }
-        let finish = Workgroups::Direct(self.plan.finish_workgroups());
-        let whole = Part { chunk: 0, job: 0, window: 0 };
-        dispatches.push(self.dispatch(Stage::Finish, whole, finish));
+        if dispatches.is_empty() {
+            let part = Part { chunk: 0, job: 0, window: 0 };
+            dispatches.push(self.dispatch(Stage::Totals, part, Workgroups::Direct([1; 3])));
+        }
         (0..self.plan.chunks()).for_each(|chunk| self.expand(chunk, &mut dispatches));
         dispatches
     }

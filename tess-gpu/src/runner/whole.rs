@@ -2,7 +2,7 @@
 
 use crate::layout::{DrawIndexed, Status, factor_words};
 use crate::runner::{Batch, Gpu, Outputs, Tessellator};
-use crate::setup::Setup;
+use crate::setup::{IndexType, Setup};
 use crate::shaders::Probe;
 use tess_core::PatchFactors;
 
@@ -17,7 +17,7 @@ pub struct Output {
     pub begins: Vec<[u32; 2]>,
     /// The points, two words each: see [`crate::PointFormat`].
     pub points: Vec<[u32; 2]>,
-    /// The indices.
+    /// The indices, of 32 bits whatever they were on the device.
     pub indices: Vec<u32>,
 }
 
@@ -43,7 +43,8 @@ impl Tessellator {
         let indices = needed.primitives() * u64::from(setup.indices_per_primitive());
         let usage = Usage::STORAGE | Usage::COPY_SRC;
         let point_buffer = gpu.buffer("points", 8 * needed.points(), usage);
-        let index_buffer = gpu.buffer("indices", 4 * indices, usage);
+        let index_bytes = u64::from(setup.index_type.bytes()) * indices;
+        let index_buffer = gpu.buffer("indices", index_bytes.next_multiple_of(8), usage);
         let outputs = Outputs::Buffers { points: &point_buffer, indices: &index_buffer };
         let batch = prepare(self, outputs)?;
         let status = run(gpu, &batch)?;
@@ -56,7 +57,11 @@ impl Tessellator {
             draw: bytemuck::pod_read_unaligned(&draw),
             begins: begins(gpu, &batch)?,
             points: bytemuck::pod_collect_to_vec(&gpu.read(&point_buffer, 8 * needed.points())?),
-            indices: bytemuck::pod_collect_to_vec(&gpu.read(&index_buffer, 4 * indices)?),
+            indices: widened(
+                setup,
+                &gpu.read(&index_buffer, index_bytes.next_multiple_of(4))?,
+                indices,
+            ),
         })
     }
 }
@@ -98,6 +103,18 @@ impl Tessellator {
         gpu.run(encoder)?;
         Ok(bytemuck::pod_collect_to_vec(&gpu.read(&output, size)?))
     }
+}
+
+/// The first `count` indices of these bytes.
+fn widened(setup: Setup, bytes: &[u8], count: u64) -> Vec<u32> {
+    let mut indices: Vec<u32> = match setup.index_type {
+        IndexType::U16 => {
+            bytes.as_chunks().0.iter().map(|&two| u16::from_le_bytes(two).into()).collect()
+        }
+        IndexType::U32 => bytemuck::pod_collect_to_vec(bytes),
+    };
+    indices.truncate(usize::try_from(count).unwrap_or(usize::MAX));
+    indices
 }
 
 /// Where each patch's output begins.

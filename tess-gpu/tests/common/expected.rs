@@ -2,7 +2,7 @@
 
 use super::device::{POISON, Written};
 use tess_core::{DomainPoint, Patch, PatchFactors};
-use tess_gpu::{Numbering, PointFormat, Setup};
+use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 
 /// The words of both buffers, and where each patch's begin.
 #[derive(Debug)]
@@ -31,8 +31,14 @@ impl<'a> Expected<'a> {
         own
     }
 
-    /// Words of points and of indices.
+    /// Words of points and of indices, these a whole number of 8 bytes.
     pub(crate) fn words(&self) -> (u32, u32) {
+        let (points, indices) = self.counts();
+        (points, (indices * self.setup.index_type.bytes()).next_multiple_of(8) / 4)
+    }
+
+    /// Words of points, and indices.
+    fn counts(&self) -> (u32, u32) {
         let count = |words: &[u32]| u32::try_from(words.len()).expect("a test's output");
         (count(&self.points), count(&self.indices))
     }
@@ -40,7 +46,15 @@ impl<'a> Expected<'a> {
     /// The first difference, guards included.
     pub(crate) fn compare(&self, written: &Written) -> Result<(), String> {
         let Written { status, draw, points, indices } = written;
-        let (point_words, index_words) = self.words();
+        let (point_words, index_words) = self.counts();
+        let halves: Vec<u32>;
+        let (indices, poison) = match self.setup.index_type {
+            IndexType::U32 => (indices, POISON),
+            IndexType::U16 => {
+                halves = indices.iter().flat_map(|word| [word & 0xFFFF, word >> 16]).collect();
+                (&halves, POISON & 0xFFFF)
+            }
+        };
         let per_primitive = self.setup.indices_per_primitive();
         let counts = (status.points(), status.primitives(), draw.index_count);
         let expected =
@@ -48,18 +62,18 @@ impl<'a> Expected<'a> {
         if counts != expected || !status.fits() || draw.instance_count != 1 {
             return Err(format!("status {status:?}, {draw:?}, expected counts {expected:?}"));
         }
-        self.first_difference("point", &self.points, points, |begins| begins.0)?;
-        self.first_difference("index", &self.indices, indices, |begins| begins.1)
+        self.first_difference("point", (&self.points, POISON), points, |begins| begins.0)?;
+        self.first_difference("index", (&self.indices, poison), indices, |begins| begins.1)
     }
 
     fn first_difference(
         &self,
         what: &str,
-        expected: &[u32],
+        (expected, poison): (&[u32], u32),
         observed: &[u32],
         begin: impl Fn(&(usize, usize)) -> usize,
     ) -> Result<(), String> {
-        let expected_then_guard = expected.iter().chain(std::iter::repeat(&POISON));
+        let expected_then_guard = expected.iter().chain(std::iter::repeat(&poison));
         let mut pairs = observed.iter().zip(expected_then_guard);
         let Some(at) = pairs.position(|(observed, expected)| observed != expected) else {
             return Ok(());
@@ -72,7 +86,7 @@ impl<'a> Expected<'a> {
             self.patches.get(patch),
             expected.len(),
             observed[at],
-            expected.get(at).unwrap_or(&POISON),
+            expected.get(at).unwrap_or(&poison),
         ))
     }
 }

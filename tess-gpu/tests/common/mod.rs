@@ -11,7 +11,7 @@ pub(crate) mod patches;
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
-use tess_gpu::{Numbering, PointFormat, Setup};
+use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 
 /// Every configuration there is.
 pub(crate) fn all_configs() -> Vec<(Domain, Config)> {
@@ -28,15 +28,17 @@ pub(crate) fn all_configs() -> Vec<(Domain, Config)> {
     all
 }
 
-/// Every configuration in every point format and numbering.
+/// Every configuration in every point format and numbering, and with 16-bit indices.
 pub(crate) fn all_setups() -> Vec<Setup> {
     let mut all = Vec::new();
     for (domain, config) in all_configs() {
         for point_format in [PointFormat::Packed, PointFormat::Float] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
-                all.push(Setup { domain, config, point_format, numbering });
+                all.push(Setup { point_format, numbering, ..Setup::new(domain, config) });
             }
         }
+        let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
+        all.push(Setup { numbering, index_type, ..Setup::new(domain, config) });
     }
     all
 }

@@ -11,14 +11,14 @@ use crate::failure::Failure;
 use clap::ValueEnum;
 use tess_check::backend::Backend;
 use tess_check::core_backend::CoreBackend;
-use tess_simd::Level;
+use tess_simd::{Level, LevelUnavailable};
 
 /// The names that `--backend` takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum BackendName {
     /// The golden model
     Core,
-    /// Batches on the CPU, 8 patches per vector
+    /// Batches on the CPU, a patch in each lane
     Simd,
     /// Compute shaders
     Gpu,
@@ -68,6 +68,19 @@ impl BackendArgs {
 }
 
 impl BackendOptions {
+    /// The CPU level to run a backend at: only the simd backend has any.
+    ///
+    /// # Errors
+    /// Exit code 2 if a level was asked of another backend, 3 if this machine cannot run it.
+    pub fn level_of(self, name: BackendName) -> Result<Level, Failure> {
+        match (self.cpu_level, name) {
+            (None, _) => Ok(Level::detect()),
+            (Some(level), BackendName::Simd) if level.is_available() => Ok(level),
+            (Some(level), BackendName::Simd) => Err(unavailable(LevelUnavailable(level))),
+            (Some(_), _) => Err(Failure::bad_input("--cpu-level goes with --backend simd")),
+        }
+    }
+
     /// Makes a backend ready as these options say.
     ///
     /// # Errors
@@ -77,10 +90,7 @@ impl BackendOptions {
             BackendName::Core => Ok(Box::new(CoreBackend)),
             BackendName::Simd => {
                 let level = self.cpu_level.unwrap_or_else(Level::detect);
-                let simd = simd::Simd::with_level(level).map_err(|error| {
-                    Failure::unavailable(format!("{error}; leave out --cpu-level for the best"))
-                })?;
-                Ok(Box::new(simd))
+                Ok(Box::new(simd::Simd::with_level(level).map_err(unavailable)?))
             }
             #[cfg(feature = "gpu")]
             BackendName::Gpu => Ok(Box::new(gpu::GpuBackend::open()?)),
@@ -88,6 +98,10 @@ impl BackendOptions {
             BackendName::Gpu => Err(not_built_in("gpu")),
         }
     }
+}
+
+fn unavailable(error: LevelUnavailable) -> Failure {
+    Failure::unavailable(format!("{error}; leave out --cpu-level for the best"))
 }
 
 /// The failure of asking for a backend that this build does not have.

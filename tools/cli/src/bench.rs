@@ -17,6 +17,7 @@ use serde::Serialize;
 use std::time::Duration;
 use tess_check::backend::BackendError;
 use tess_check::workloads::{IndexType, Workload};
+use tess_simd::Level;
 
 pub use measure::{Plan, measure};
 pub use table::table;
@@ -24,7 +25,7 @@ pub use table::table;
 /// Where a runner's output goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum WorkingSet {
-    /// Batches of about 1 MiB into the same buffers again and again
+    /// Batches of about 1 MiB for each thread into the same buffers again and again
     Cache,
     /// 1 GiB of output, each byte written once
     Stream,
@@ -105,6 +106,8 @@ pub trait Runner {
 /// What a runner is made for.
 #[derive(Clone, Copy, Debug)]
 pub struct RunnerOptions {
+    /// CPU level of the simd backend, one that this machine has.
+    pub level: Level,
     /// Threads, at least 1.
     pub threads: u32,
     /// Width of the indices.

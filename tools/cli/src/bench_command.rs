@@ -1,6 +1,6 @@
 //! `tess bench`: how fast the backends are on this machine.
 
-use crate::backends::BackendName;
+use crate::backends::{BackendName, BackendOptions};
 use crate::bench::{self, Plan, Row, RunnerOptions, WorkingSet};
 use crate::failure::{Exit, Failure};
 use crate::output;
@@ -13,6 +13,7 @@ use tess_check::workloads::{self, IndexType, Workload};
 Examples:
   tess bench --workload uniform-16 --workload uniform-64
   tess bench --backend simd --working-set cache --json > simd.json
+  tess bench --backend simd --cpu-level avx2 --workload terrain
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
 a part's time is the median of its samples, a workload's the sum over its parts. Workloads: uniform-1
@@ -24,6 +25,8 @@ pub struct Args {
     /// Implementation to time
     #[arg(long, value_name = "NAME", default_value = "core")]
     backend: BackendName,
+    #[command(flatten)]
+    options: BackendOptions,
     /// Where the output goes; may be repeated [default: both]
     #[arg(long, value_name = "NAME")]
     working_set: Vec<WorkingSet>,
@@ -61,7 +64,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         [] => &[WorkingSet::Cache, WorkingSet::Stream],
         chosen => chosen,
     };
-    let options = RunnerOptions { threads: args.threads, index_type: args.index_type };
+    let level = args.options.level_of(args.backend)?;
+    let options = RunnerOptions { level, threads: args.threads, index_type: args.index_type };
     let mut runner = bench::runner(args.backend, options)?;
     if cfg!(debug_assertions) {
         // A closed stderr does not change the result.

@@ -42,14 +42,19 @@ impl CoreRunner {
                 "backend core runs on one thread (--threads 1) with --index-type u32",
             ));
         }
-        Ok(Self {
+        Ok(Self::single())
+    }
+
+    /// The core as it is: one thread, 32-bit indices.
+    pub(super) const fn single() -> Self {
+        Self {
             config: None,
             patches: Vec::new(),
             batches: Vec::new(),
             parts: Vec::new(),
             points: Vec::new(),
             indices: Vec::new(),
-        })
+        }
     }
 
     /// Tessellates one batch; `each` sees the output of every patch.

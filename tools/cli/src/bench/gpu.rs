@@ -32,6 +32,7 @@ pub(super) struct GpuRunner {
     stopwatch: Stopwatch,
     tessellator: Tessellator,
     fill: Fill,
+    index_type: IndexType,
     workload: Option<(Setup, Vec<PatchFactors>)>,
     batches: Vec<Timed>,
     last_use: Option<Instant>,
@@ -47,10 +48,8 @@ struct Timed {
 
 impl GpuRunner {
     pub(super) fn new(options: RunnerOptions) -> Result<Self, Failure> {
-        if options.threads != 1 || options.index_type != IndexType::U32 {
-            return Err(Failure::bad_input(
-                "backend gpu is run by one thread (--threads 1) with --index-type u32",
-            ));
+        if options.threads != 1 {
+            return Err(Failure::bad_input("backend gpu is run by one thread (--threads 1)"));
         }
         let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
             .map_err(|error| Failure::unavailable(error.to_string()))?;
@@ -64,6 +63,7 @@ impl GpuRunner {
             stopwatch,
             tessellator,
             fill,
+            index_type: options.index_type,
             workload: None,
             batches: Vec::new(),
             last_use: None,
@@ -88,13 +88,16 @@ impl GpuRunner {
             .tessellator
             .batch(setup, count, &factors, Outputs::Buffers { points, indices })
             .map_err(|error| BackendError::new(error.to_string()))?;
-        let spans = [(points, 8 * totals.points), (indices, 4 * totals.indices)];
+        let spans = [
+            (points, 8 * totals.points),
+            (indices, u64::from(setup.index_type.bytes()) * totals.indices),
+        ];
         Ok(Timed {
             batch,
             amount: Amount {
                 patches: totals.patches * repeats,
                 triangles: totals.primitives * repeats,
-                bytes: totals.bytes(IndexType::U32) * repeats,
+                bytes: totals.bytes(self.index_type) * repeats,
             },
             fills: spans
                 .into_iter()
@@ -106,7 +109,11 @@ impl GpuRunner {
     fn outputs(&self, points: u64, indices: u64) -> (wgpu::Buffer, wgpu::Buffer) {
         let usage = wgpu::BufferUsages::STORAGE;
         let buffer = |label, bytes: u64| self.gpu.buffer(label, bytes.next_multiple_of(16), usage);
-        (buffer("points", 8 * points), buffer("indices", 4 * indices))
+        let index_bytes = match self.index_type {
+            IndexType::U16 => 2 * indices,
+            IndexType::U32 => 4 * indices,
+        };
+        (buffer("points", 8 * points), buffer("indices", index_bytes))
     }
 
     /// Runs a part until the device has left its idle state.
@@ -148,7 +155,7 @@ impl Runner for GpuRunner {
     }
 
     fn index_type(&self) -> IndexType {
-        IndexType::U32
+        self.index_type
     }
 
     fn prepare(
@@ -158,13 +165,17 @@ impl Runner for GpuRunner {
     ) -> Result<Vec<Amount>, BackendError> {
         let first = workload.patches.first().ok_or_else(|| BackendError::new("no patches"))?;
         let numbering = Numbering::PerPatch;
-        let setup = Setup { numbering, ..Setup::new(first.domain(), workload.config) };
+        let index_type = match self.index_type {
+            IndexType::U16 => tess_gpu::IndexType::U16,
+            IndexType::U32 => tess_gpu::IndexType::U32,
+        };
+        let setup = Setup { numbering, index_type, ..Setup::new(first.domain(), workload.config) };
         let counts: Vec<_> = workload.counts().collect();
         let (ranges, repeats) = match working_set {
-            WorkingSet::Cache => (workload.cache_batches(IndexType::U32), 1),
+            WorkingSet::Cache => (workload.cache_batches(self.index_type), 1),
             WorkingSet::Stream => {
                 let whole = std::iter::once(0..workload.patches.len()).collect();
-                (whole, workload.stream_repeats(IndexType::U32))
+                (whole, workload.stream_repeats(self.index_type))
             }
         };
         let totals: Vec<_> = ranges.iter().map(|range| totals(&counts, range)).collect();

@@ -6,7 +6,7 @@
 )]
 
 use super::core::CoreRunner;
-use super::{Amount, Row, Runner, RunnerOptions, WorkingSet};
+use super::{Amount, Row, Runner, WorkingSet};
 use crate::failure::Failure;
 use std::time::Duration;
 use tess_check::backend::BackendError;
@@ -38,9 +38,10 @@ pub fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Failure> 
     let mut core_run = Times::new(core_parts.len());
     for _ in 0..plan.samples {
         for part in 0..parts.len().max(core_parts.len()) {
-            run.take(part, || runner.run(part))?;
-            fill.take(part, || runner.fill(part))?;
-            core_run.take(part, || core.run(part))?;
+            let threads = runner.threads();
+            run.take(part, threads, || runner.run(part))?;
+            fill.take(part, threads, || runner.fill(part))?;
+            core_run.take(part, 1, || core.run(part))?;
         }
     }
     let (amount, seconds) = (total(parts), run.seconds());
@@ -83,8 +84,7 @@ fn prepared_core(
     runner: &dyn Runner,
     plan: Plan<'_>,
 ) -> Result<(CoreRunner, Vec<Amount>), Failure> {
-    let options = RunnerOptions { threads: 1, index_type: IndexType::U32 };
-    let mut core = CoreRunner::new(options)?;
+    let mut core = CoreRunner::single();
     let parts = match runner.backend() {
         "core" => Vec::new(),
         _ => core.prepare(plan.workload, plan.working_set)?,
@@ -115,10 +115,11 @@ impl Times {
     fn take(
         &mut self,
         part: usize,
+        threads: u32,
         mut run: impl FnMut() -> Result<Duration, BackendError>,
     ) -> Result<(), BackendError> {
         if let Some(samples) = self.parts.get_mut(part) {
-            samples.push(sample(&mut run)?);
+            samples.push(sample(threads, &mut run)?);
         }
         Ok(())
     }
@@ -129,11 +130,14 @@ impl Times {
     }
 }
 
-/// The mean time of as many runs as take a fifth of a millisecond, in seconds.
-fn sample(run: &mut impl FnMut() -> Result<Duration, BackendError>) -> Result<f64, BackendError> {
-    const LONG_ENOUGH: Duration = Duration::from_micros(200);
+/// The mean time of as many runs as take a fifth of a millisecond for each thread, in seconds.
+fn sample(
+    threads: u32,
+    run: &mut impl FnMut() -> Result<Duration, BackendError>,
+) -> Result<f64, BackendError> {
+    let long_enough = Duration::from_micros(200) * threads;
     let (mut time, mut runs) = (Duration::ZERO, 0u32);
-    while time < LONG_ENOUGH && runs < 10_000 {
+    while time < long_enough && runs < 10_000 {
         time += run()?;
         runs += 1;
     }

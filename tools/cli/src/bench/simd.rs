@@ -14,7 +14,7 @@ use tess_check::digest::Fnv1a;
 use tess_check::workloads::{IndexType, Totals, Workload};
 use tess_core::DomainPoint;
 use tess_core::fixed::types::U16F16;
-use tess_simd::{BatchCounts, Buffers, IndexFormat, Level, Numbering, PatchRange, Tessellator};
+use tess_simd::{BatchCounts, Buffers, IndexFormat, Numbering, PatchRange, Tessellator};
 
 /// The runner for these options.
 ///
@@ -137,7 +137,7 @@ impl<I: Index> Runner for SimdRunner<I> {
     }
 
     fn level(&self) -> String {
-        Level::detect().to_string()
+        self.options.level.to_string()
     }
 
     fn threads(&self) -> u32 {
@@ -154,12 +154,16 @@ impl<I: Index> Runner for SimdRunner<I> {
         working_set: WorkingSet,
     ) -> Result<Vec<Amount>, BackendError> {
         let threads = self.options.threads as usize;
-        let mut tessellator = Tessellator::new(workload.config).threads(threads);
+        let mut tessellator = Tessellator::with_level(workload.config, self.options.level)
+            .map_err(|error| BackendError::new(error.to_string()))?
+            .threads(threads);
         let patches = Patches::new(&workload.patches)?;
         let totals = workload.totals();
         let indices_each = totals.indices / totals.primitives.max(1);
         let mut batches = Vec::new();
-        for range in workload.cache_batches(I::TYPE) {
+        for ranges in workload.cache_batches(I::TYPE).chunks(threads) {
+            let (Some(first), Some(last)) = (ranges.first(), ranges.last()) else { continue };
+            let range = first.start..last.end;
             batches.push(counted_batch::<I>(&mut tessellator, &patches, range, indices_each)?);
         }
         let parts = match working_set {
@@ -217,12 +221,28 @@ impl<I: Index> Runner for SimdRunner<I> {
         };
         let start = Instant::now();
         for Batch { start, counts, .. } in &batches[parts[part].clone()] {
-            // Zeros, so that the compiler makes `memset` of both.
-            self.points[start.0..][..counts.points].fill([0.0; 2]);
-            self.indices[start.1..][..counts.indices].fill(I::default());
+            let points = &mut self.points[start.0..][..counts.points];
+            let indices = &mut self.indices[start.1..][..counts.indices];
+            self.pool.install(|| fill(points, indices, self.options.threads));
             black_box((&mut self.points[..], &mut self.indices[..]));
         }
         Ok(start.elapsed())
+    }
+}
+
+/// Fills both, each thread a part of each: about what it writes of a batch.
+fn fill<I: Index>(points: &mut [[f32; 2]], indices: &mut [I], threads: u32) {
+    if threads > 1 {
+        let (first, second) = points.split_at_mut(points.len() / 2);
+        let (one, other) = indices.split_at_mut(indices.len() / 2);
+        rayon::join(
+            || fill(first, one, threads / 2),
+            || fill(second, other, threads - threads / 2),
+        );
+    } else {
+        // Zeros, so that the compiler makes `memset` of both.
+        points.fill([0.0; 2]);
+        indices.fill(I::default());
     }
 }
 

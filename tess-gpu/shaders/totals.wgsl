@@ -1,11 +1,14 @@
-// What depends on the totals: whether the output fits, the draw arguments, and how many
-// workgroups each chunk needs in each window of the output.
+// One workgroup: sums of groups become offsets in the output, behind the chunks before; the totals
+// grow by this chunk's. Offsets wrap where the output could not fit anyway; the totals have a
+// second word for that. Behind the last chunk follows what depends on the totals: whether
+// the output fits, the draw arguments and the sizes of the dispatches.
 
 @group(0) @binding(0) var<uniform> job: Job;
-@group(0) @binding(1) var<storage, read_write> status: Status;
+@group(0) @binding(1) var<storage, read_write> offsets: array<vec2<u32>>;
+@group(0) @binding(2) var<storage, read_write> status: Status;
 // draw_indexed_indirect's five numbers, three reserved, then dispatch sizes of three numbers:
 // for each chunk its partition, its windows of points, its windows of primitives.
-@group(0) @binding(2) var<storage, read_write> arguments: array<u32>;
+@group(0) @binding(3) var<storage, read_write> arguments: array<u32>;
 
 const DISPATCHES_AT = 8u;
 const MAX_WORKGROUPS = 65535u; // along one dimension
@@ -51,21 +54,58 @@ fn overflow() -> u32 {
     return select(0u, 1u, points) | select(0u, 2u, primitives);
 }
 
-@compute @workgroup_size(64)
-fn finish(@builtin(global_invocation_id) id: vec3<u32>) {
+// For the whole batch: the draw arguments, and the workgroups of every chunk in every window.
+fn finish(thread: u32) {
     let slots = 1u + job.point_windows + job.primitive_windows;
     let is_overflow = overflow();
-    if id.x < job.chunks * slots {
-        let range = status.ranges[id.x / slots];
-        let workgroups = workgroups_of(id.x % slots, range);
-        write_dispatch(id.x, select(workgroups, 0u, is_overflow != 0u));
+    for (var slot = thread; slot < job.chunks * slots; slot += 256u) {
+        let workgroups = workgroups_of(slot % slots, status.ranges[slot / slots]);
+        write_dispatch(slot, select(workgroups, 0u, is_overflow != 0u));
     }
-    if id.x == 0u {
+    if thread == 0u {
         status.overflow = is_overflow;
         arguments[0] = select(status.primitives * INDICES, 0u, is_overflow != 0u);
         arguments[1] = 1u; // instances
         arguments[2] = 0u; // first index
         arguments[3] = 0u; // base vertex
         arguments[4] = 0u; // first instance
+    }
+}
+
+// How often the sums over the groups pass 2^32.
+var<workgroup> carries: array<atomic<u32>, 2>;
+
+@compute @workgroup_size(256)
+fn totals(@builtin(local_invocation_index) thread: u32) {
+    let groups = (job.patches + 65535u) / 65536u;
+    var own = vec2<u32>(0u, 0u);
+    if thread < groups {
+        own = offsets[job.groups_at + thread];
+    }
+    if thread < 2u {
+        atomicStore(&carries[thread], 0u);
+    }
+    let sums = prefix_sums(thread, own);
+    let begin = vec2<u32>(status.points, status.primitives);
+    let own_begin = begin + sums.before;
+    let carry = vec2<u32>(own_begin + own < own_begin);
+    atomicAdd(&carries[0], carry.x);
+    atomicAdd(&carries[1], carry.y);
+    workgroupBarrier();
+    storageBarrier();
+    if thread < groups {
+        offsets[job.groups_at + thread] = own_begin;
+    }
+    if thread == 0u {
+        let end = begin + sums.all;
+        status.ranges[job.chunk] = Range(begin.x, end.x, begin.y, end.y);
+        status.points = end.x;
+        status.points_high += atomicLoad(&carries[0]);
+        status.primitives = end.y;
+        status.primitives_high += atomicLoad(&carries[1]);
+    }
+    storageBarrier();
+    if job.chunk + 1u >= job.chunks {
+        finish(thread);
     }
 }

@@ -1,0 +1,45 @@
+//! Edited shaders, read from files.
+
+use std::path::Path;
+
+/// Replacements in the shaders' text.
+#[derive(Clone)]
+pub(crate) struct Variant {
+    /// The file's name.
+    pub(crate) name: String,
+    edits: Vec<(String, String)>,
+}
+
+impl Variant {
+    /// All variants of a folder by name, behind the unedited shaders.
+    pub(crate) fn read_all(folder: &Path) -> Result<Vec<Self>, Box<dyn std::error::Error>> {
+        let mut all = vec![Self { name: "as they are".to_owned(), edits: Vec::new() }];
+        let mut paths: Vec<_> = std::fs::read_dir(folder)?
+            .map(|entry| Ok(entry?.path()))
+            .collect::<std::io::Result<_>>()?;
+        paths.sort();
+        for path in paths.iter().filter(|path| path.extension().is_some_and(|ext| ext == "edit")) {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            let text = std::fs::read_to_string(path)?;
+            let edits = parse(&text).ok_or_else(|| format!("{}: not edits", path.display()))?;
+            all.push(Self { name, edits });
+        }
+        Ok(all)
+    }
+
+    /// A shader's text after all replacements that apply to it.
+    pub(crate) fn edit(&self, source: String) -> String {
+        self.edits.iter().fold(source, |source, (from, to)| source.replace(from, to))
+    }
+}
+
+/// Blocks of a line `<<<`, what to find, a line `===`, what to put there, a line `>>>`.
+fn parse(text: &str) -> Option<Vec<(String, String)>> {
+    let mut edits = Vec::new();
+    for block in text.split("<<<\n").skip(1) {
+        let (from, rest) = block.split_once("\n===\n")?;
+        let (to, _) = rest.split_once("\n>>>").or_else(|| Some(("", rest.strip_prefix(">>>")?)))?;
+        edits.push((from.to_owned(), to.to_owned()));
+    }
+    Some(edits)
+}
