@@ -1,9 +1,10 @@
-//! Every stage at the baseline level, in one pair of formats: a small test program that sees a fault
-//! anywhere soon. The other tests have every level, format and numbering.
+//! Every stage at the baseline level: a small test program that sees a fault anywhere soon. The other
+//! tests have every level and combination of formats and numberings.
 
 #[path = "common/patches.rs"]
 mod patches;
 
+use allocation_counter::measure;
 use patches::{Patches, compare, configs};
 use tess_check::backend::Backend;
 use tess_check::case::{factor_names, factors_from_list};
@@ -20,6 +21,8 @@ use tess_simd::{contexts, fixed_factors, locations};
 #[test]
 fn every_stage() {
     messages();
+    memory();
+    picture_frames();
     levels_that_are_missing();
     batches_know_their_size();
     factors();
@@ -30,7 +33,7 @@ fn every_stage() {
     many_patches();
 }
 
-/// Compares patches in both layouts and numberings with the core's.
+/// Compares patches in both layouts, numberings and kinds of points and indices with the core's.
 fn check(config: Config, domain: Domain, patches: &Patches) {
     let mut tessellator =
         Tessellator::with_level(config, Level::Baseline).expect("always available");
@@ -42,6 +45,9 @@ fn check(config: Config, domain: Domain, patches: &Patches) {
         let same = |point| point;
         compare::<DomainPoint, u32>(&mut tessellator, (patches, batch), &expected, numbering, same);
     }
+    let batch = (patches, patches.structures(domain));
+    let to_f32 = DomainPoint::to_f32;
+    compare::<[f32; 2], u16>(&mut tessellator, batch, &expected, Numbering::PerPatch, to_f32);
 }
 
 fn random_patches_in_every_configuration() {
@@ -103,6 +109,16 @@ fn messages() {
     assert_eq!(LevelUnavailable(Level::Avx512).to_string(), message, "a level");
 }
 
+/// What a tessellator says it takes is what it allocates, and little of its own.
+fn memory() {
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let mut made = None;
+    let allocated = measure(|| made = Tessellator::with_level(config, Level::Baseline).ok());
+    let memory = made.map_or(0, |tessellator| tessellator.memory());
+    let own = memory.checked_sub(usize::try_from(allocated.bytes_current).unwrap_or(0));
+    assert!(own.is_some_and(|own| (0..1024).contains(&own)), "{memory} bytes, {own:?} its own");
+}
+
 /// Levels that this machine lacks are refused.
 fn levels_that_are_missing() {
     for level in Level::ALL {
@@ -144,6 +160,22 @@ fn factors() {
         let different = observed.iter().zip(&expected).position(|(a, b)| a != b);
         assert_eq!(different.map(|at| values[at].to_bits()), None, "{partitioning:?}");
         assert_eq!(observed.len(), expected.len(), "every value");
+    }
+}
+
+/// Patches whose factors lie at the least one that needs a picture frame, and below and above it.
+fn picture_frames() {
+    let near_one = [0x3F80_0000, 0x3F80_003F, 0x3F80_0040, 0x3F80_0041].map(f32::from_bits);
+    for domain in [Domain::Triangle, Domain::Quad] {
+        let count = factor_names(domain).len();
+        let patch = |n: usize| {
+            let factor = |position: usize| near_one[n >> (2 * position) & 3];
+            let factors: Vec<f32> = (0..count).map(factor).collect();
+            factors_from_list(domain, &factors).expect("as many as the domain has")
+        };
+        let patches = Patches::new((0..1 << (2 * count)).map(patch).collect());
+        let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+        check(config, domain, &patches);
     }
 }
 
