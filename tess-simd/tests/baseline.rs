@@ -88,9 +88,9 @@ fn interiors() {
     let pairs = (1..=64u8).flat_map(|u| (1..=64u8).map(move |v| (u, v)));
     let some = pairs.filter(|(u, v)| u.max(v) <= &12 || (u % 7 * 3 + v) % 7 == 0);
     let quad = |(u, v): (u8, u8)| {
-        let [u, v] = [u, v].map(f32::from);
-        let [u0, v0, u1, v1] = [v, u, 65.0 - v, 65.0 - u];
-        PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u: u, inside_v: v })
+        let [u0, v0, u1, v1] = [v, u, 65 - v, 65 - u].map(f32::from);
+        let [inside_u, inside_v] = [u, v].map(f32::from);
+        PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
     };
     let patches = Patches::new(some.map(quad).collect());
     for split in SplitOrder::ALL {
