@@ -1,4 +1,5 @@
-// Factor processing alone: the fixed-point u = 0 and inside factors of triangle patches.
+// Factor processing alone: of (x, y, z; w) the fixed-point u = 0 factor of the triangle patch
+// (x, y, z; y), 0 if it is culled, and the inside factor of (y, y, z; w).
 
 @group(0) @binding(0) var<storage, read> probe_in: array<vec4<u32>>;
 @group(0) @binding(1) var<storage, read_write> probe_out: array<vec2<u32>>;
@@ -6,9 +7,10 @@
 
 fn probe(number: u32) {
     if number < arrayLength(&probe_in) {
-        let processed = process_triangle(probe_in[number]);
-        let is_culled = state_of(processed.topology) == CULLED;
-        let both = vec2<u32>(processed.outer.x, processed.inside.x);
-        probe_out[number] = select(both, vec2<u32>(0u, 0u), is_culled);
+        let given = probe_in[number];
+        let outer = process_triangle(given.xyzy);
+        let inside = process_triangle(given.yyzw);
+        let is_culled = state_of(outer.topology) == CULLED;
+        probe_out[number] = vec2<u32>(select(outer.outer.x, 0u, is_culled), inside.inside.x);
     }
 }

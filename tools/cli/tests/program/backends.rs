@@ -69,10 +69,21 @@ fn verify_compares_what_it_says() {
     let row = |name: &str, n: &str| Some([name, "simd", n, "0"].map(str::to_owned).to_vec());
     assert_eq!(words("transitions"), row("transitions", "24576"), "{}", run.stdout);
     assert_eq!(words("interiors"), row("interiors", "8256"), "{}", run.stdout);
-    // One part in 16384 of all binary32 in all partitionings: NaNs and negatives among them.
+    factors_are_equal("simd");
+}
+
+/// One part in 16384 of all binary32 in all partitionings: zero, NaNs and negatives among them.
+fn factors_are_equal(backend: &str) {
     for part in [1, 3000, 8191, 8193, 16384] {
-        let run = tess(&format!("verify --backend simd --subject factors --shard {part}/16384"));
+        let words = format!("verify --backend {backend} --subject factors --shard {part}/16384");
+        let run = tess(&words);
         assert_eq!(run.code, Some(0), "part {part}: {}{}", run.stdout, run.stderr);
         assert!(run.stdout.contains(" 1048576 "), "a unit was compared: {}", run.stdout);
     }
+}
+
+#[cfg(feature = "gpu")]
+#[test]
+fn gpu_factors_are_equal() {
+    factors_are_equal("gpu");
 }

@@ -43,6 +43,8 @@ fn bad_options_say_what_would_be_right() {
         ("bench --workload uniform-3", "uniform-64"),
         ("bench --threads 0", "1..=1024"),
         ("bench --threads 2", "one thread"),
+        ("bench --cpu-level avx2", "--backend simd"),
+        ("bench --backend simd --cpu-level avx1024", "avx512"),
         ("bench --index-type u8", "u16 or u32"),
         ("bench --working-set ram", "stream"),
     ];
