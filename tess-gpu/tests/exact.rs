@@ -52,7 +52,8 @@ fn is_simd(setup: Setup, patches: &[PatchFactors], written: &Written) -> bool {
     };
     let mut output = Output::<DomainPoint, u32>::new();
     let mut tessellator = Tessellator::new(setup.config);
-    tessellator.tessellate(batch, Numbering::PerBatch, &mut output).expect("it fits");
+    let numbering = Numbering::Batch { base_vertex: 0 };
+    tessellator.tessellate(batch, numbering, &mut output).expect("it fits");
     let mut points = Vec::new();
     for (number, range) in (0..).zip(output.ranges()) {
         let own = &output.points()[range.first_point as usize..][..range.points as usize];
