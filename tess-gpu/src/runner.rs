@@ -14,6 +14,7 @@ pub use whole::Output;
 use crate::bindings::{Access, Binding, Resource};
 use crate::setup::Setup;
 use crate::shaders::Stage;
+use crate::sizes::Limits;
 use crate::tables::tables;
 use std::collections::HashMap;
 use std::fmt;
@@ -23,6 +24,7 @@ use tess_core::SplitOrder;
 pub struct Tessellator {
     device: wgpu::Device,
     edit: Box<dyn Fn(Stage, String) -> String + Send + Sync>,
+    limits: Limits,
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
     tables: HashMap<SplitOrder, wgpu::Buffer>,
 }
@@ -42,7 +44,19 @@ impl Tessellator {
         edit: impl Fn(Stage, String) -> String + Send + Sync + 'static,
     ) -> Self {
         let (pipelines, tables) = (HashMap::new(), HashMap::new());
-        Self { device: device.clone(), edit: Box::new(edit), pipelines, tables }
+        let of_device = device.limits();
+        let limits = Limits {
+            storage_binding: of_device.max_storage_buffer_binding_size,
+            workgroups: of_device.max_compute_workgroups_per_dimension,
+        };
+        Self { device: device.clone(), edit: Box::new(edit), limits, pipelines, tables }
+    }
+
+    /// The same, keeping to these limits instead of the device's, which are higher.
+    #[must_use]
+    pub const fn limited(mut self, limits: Limits) -> Self {
+        self.limits = limits;
+        self
     }
 
     /// Prepares `patches` patches of the caller's buffers: see [`Batch`].
@@ -57,6 +71,10 @@ impl Tessellator {
         outputs: Outputs<'_>,
     ) -> Result<Batch, Error> {
         Batch::new(self, setup, patches, factors, outputs)
+    }
+
+    pub(crate) const fn limits(&self) -> Limits {
+        self.limits
     }
 
     pub(crate) const fn device(&self) -> &wgpu::Device {

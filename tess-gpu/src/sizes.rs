@@ -24,9 +24,9 @@ pub const ALIGNMENT: u64 = 256;
 /// What a device can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
-    /// Bytes of one storage binding.
+    /// Bytes of one storage binding, at least 4 MiB.
     pub storage_binding: u64,
-    /// Workgroups along one dimension of a dispatch, at least 65535.
+    /// Workgroups along one dimension of a dispatch, at least 1.
     pub workgroups: u32,
 }
 
@@ -66,11 +66,11 @@ pub struct Span {
 }
 
 impl Plan {
-    /// Cuts a batch so that no binding exceeds the limits, which are at least WebGPU's.
+    /// Cuts a batch so that no binding exceeds the limits.
     #[must_use]
     pub fn new(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         let context_bytes = 8 * u64::from(setup.factors());
-        let bound = limits.storage_binding.max(Limits::WEBGPU.storage_binding);
+        let bound = limits.storage_binding.max(4 << 20);
         let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / GROUP * GROUP;
         let primitive_bytes = u64::from(setup.primitive_bytes());
         Self {

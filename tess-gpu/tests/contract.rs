@@ -225,7 +225,8 @@ fn planted_faults_are_seen() {
     for (domain, partitioning, faults) in FAULTS {
         let config = Config::new(*partitioning, OutputPrimitive::TriangleCw);
         let setup = Setup::new(*domain, config);
-        let patches = common::patches::random(*domain, 200, &mut SplitMix64::new(5));
+        let mut patches = common::patches::random(*domain, 200, &mut SplitMix64::new(5));
+        patches.push(patch_of(*domain, |_| 1.0));
         machine.tessellator = Tessellator::new(&machine.gpu.device);
         let expected = Expected::new(setup, &patches);
         let (points, indices) = expected.words();

@@ -30,7 +30,7 @@ fn main() -> Result<()> {
         let bench = Bench::new(&gpu, &workload)?;
         println!("{}, {} triangles", workload.name, bench.totals.primitives * bench.repeats);
         for variant in &variants {
-            println!("{:<24} {}", variant.name, bench.line(&gpu, &stopwatch, variant)?);
+            println!("{:<26} {}", variant.name, bench.line(&gpu, &stopwatch, variant)?);
         }
     }
     Ok(())
@@ -78,6 +78,10 @@ impl<'a> Bench<'a> {
 
     /// Triangles a second, the time of each stage in microseconds, and whether the bits are right.
     fn line(&self, gpu: &Gpu, stopwatch: &Stopwatch, variant: &Variant) -> Result<String> {
+        let sources = Stage::ALL.map(|stage| stage.source(self.setup));
+        if let Some(missing) = variant.missing(&sources) {
+            return Err(format!("{}: no shader has the text\n{missing}", variant.name).into());
+        }
         let edited = variant.clone();
         let mut tessellator =
             Tessellator::with_edit(&gpu.device, move |_, source| edited.edit(source));

@@ -27,6 +27,12 @@ impl Variant {
         Ok(all)
     }
 
+    /// The first text to find that none of these shaders has.
+    pub(crate) fn missing(&self, sources: &[String]) -> Option<&str> {
+        let has = |from: &str| sources.iter().any(|source| source.contains(from));
+        self.edits.iter().map(|(from, _)| from.as_str()).find(|from| !has(from))
+    }
+
     /// A shader's text after all replacements that apply to it.
     pub(crate) fn edit(&self, source: String) -> String {
         self.edits.iter().fold(source, |source, (from, to)| source.replace(from, to))

@@ -5,7 +5,7 @@ use crate::layout::{Job, Status};
 use crate::runner::{Tessellator, gpu};
 use crate::setup::{IndexType, Numbering, Setup};
 use crate::shaders::Stage;
-use crate::sizes::{ALIGNMENT, Capacity, Limits, Plan, Span};
+use crate::sizes::{ALIGNMENT, Capacity, Plan, Span};
 use std::fmt;
 
 /// Where the output goes.
@@ -88,12 +88,7 @@ impl Batch {
         outputs: Outputs<'_>,
     ) -> Result<Self, Error> {
         check(setup, patches, factors, outputs)?;
-        let plan = Plan::new(
-            setup,
-            patches,
-            capacity(setup, outputs),
-            limits(&tessellator.device().limits()),
-        );
+        let plan = Plan::new(setup, patches, capacity(setup, outputs), tessellator.limits());
         let buffers = Buffers::new(tessellator, &plan, setup, factors, outputs);
         let dispatches = Encoding { tessellator, setup, plan: &plan, buffers: &buffers }.all();
         let Buffers { status, arguments, topologies, contexts, offsets, .. } = buffers;
@@ -196,13 +191,6 @@ fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
     Capacity {
         points: numbered,
         primitives: elements(indices.size() / 8 * 8, setup.primitive_bytes()),
-    }
-}
-
-fn limits(limits: &wgpu::Limits) -> Limits {
-    Limits {
-        storage_binding: limits.max_storage_buffer_binding_size,
-        workgroups: limits.max_compute_workgroups_per_dimension,
     }
 }
 

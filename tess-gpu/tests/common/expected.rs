@@ -91,7 +91,8 @@ impl<'a> Expected<'a> {
     }
 }
 
-fn point_words(format: PointFormat, point: DomainPoint, patch: u32) -> [u32; 2] {
+/// A point as the shaders store it.
+pub(crate) fn point_words(format: PointFormat, point: DomainPoint, patch: u32) -> [u32; 2] {
     match format {
         PointFormat::Float => point.to_f32().map(f32::to_bits),
         PointFormat::Packed => {
