@@ -193,7 +193,9 @@ pub(crate) fn difference<P: PointFormat + Bits, I: IndexFormat + Bits>(
         if starts != (first_point, first_index) {
             return Some(format!("patch {i} starts at {starts:?}"));
         }
-        let (points, indices) = output.patch(i)?;
+        let Some((points, indices)) = output.patch(i) else {
+            return Some(format!("patch {i} is not there"));
+        };
         let base = match numbering {
             Numbering::PerPatch => 0,
             Numbering::Batch { base_vertex } => {
