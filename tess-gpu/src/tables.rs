@@ -87,7 +87,8 @@ fn transition(split: SplitOrder, outer_points: u32, inner_points: u32) -> Vec<u3
             walk.advance_outer(0);
         }
     }
-    let (inside_is_odd, outer_is_odd) = (inner_points % 2 == 0, outer_points % 2 == 0);
+    let (inside_is_odd, outer_is_odd) =
+        (inner_points.is_multiple_of(2), outer_points.is_multiple_of(2));
     if inside_is_odd {
         walk.advance_inner(BEGINS_INNER);
     }
