@@ -42,7 +42,8 @@ fn simd_at_every_cpu_level() {
 #[cfg(feature = "gpu")]
 #[test]
 fn gpu_equals_recorded_patches() {
-    for file in ["cases.txt", "patches.csv", "corners.csv", "hlsl.csv", "sweep.csv", "uniform.csv"] {
+    let files = ["cases.txt", "patches.csv", "corners.csv", "hlsl.csv", "sweep.csv", "uniform.csv"];
+    for file in files {
         equals(file, "gpu");
     }
 }
