@@ -133,7 +133,8 @@ impl Chunk {
     pub(crate) const PATCHES: usize = 4 * LANES;
     pub(crate) const EMPTY: Self = Self([[0.0; Self::PATCHES]; MAX_FACTORS]);
 
-    /// Loads patches from `first` on, as many as there is room for; zero where the last block has no patch.
+    /// Loads patches from `first` on, as many as there is room for; zero where the last block has
+    /// no patch.
     #[inline(always)]
     pub(crate) fn load(&mut self, batch: &Batch<'_>, first: usize) {
         match batch {

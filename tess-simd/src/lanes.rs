@@ -1,9 +1,9 @@
 //! Sixteen patches side by side.
 //!
 //! A *lane* is a patch of a block of sixteen, which fill one vector of AVX-512, two of AVX2 or
-//! four of SSE; a *column* is one quantity of all factors of a block, factor by factor. Stages are branch-free functions of one element, mapped
-//! over a column: plain loops over arrays of a fixed size, which the compiler turns into vectors
-//! of whatever width the CPU level has.
+//! four of SSE; a *column* is one quantity of all factors of a block, factor by factor. Stages are
+//! branch-free functions of one element, mapped over a column: plain loops over arrays of a fixed
+//! size, which the compiler turns into vectors of whatever width the CPU level has.
 
 use tess_core::Domain;
 

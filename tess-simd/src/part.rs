@@ -9,7 +9,7 @@ use crate::format::{Call, IndexFormat, PointFormat};
 use crate::lanes::LANES;
 use crate::level::Level;
 use crate::output::{Buffers, Numbering, PatchRange};
-use crate::points::{self, GROUP, LocationTables};
+use crate::points::{self, LocationTables};
 use crate::stitch::Stitches;
 use crate::template::Templates;
 use alloc::boxed::Box;
@@ -147,9 +147,6 @@ pub(crate) fn emit_blocks<P: PointFormat, I: IndexFormat>(
     let mut indices = Writer::new(buffers.indices);
     for (block, ranges) in blocks.iter().zip(buffers.ranges.chunks_mut(LANES)) {
         for (lane, range) in ranges.iter_mut().enumerate() {
-            if !block.integer() && lane.is_multiple_of(GROUP) {
-                tables.prepare_group(block, lane);
-            }
             *range = PatchRange {
                 first_point,
                 points: block.counts.points[lane],
@@ -183,9 +180,6 @@ fn emit_patch<P: PointFormat, I: IndexFormat>(
     let counts = (block.counts.points[lane], block.counts.indices[lane] as usize);
     let Some(template) = templates.get((config, stitches), (block, lane), tables) else {
         let edges = block.edges(lane);
-        if block.integer() {
-            tables.prepare(block, lane);
-        }
         points::emit((block, lane), &edges, tables, points);
         let kind = (block.domain(), config.output);
         connect::emit(kind, &edges, stitches, (base, counts.0), indices);

@@ -19,16 +19,13 @@ const STEP: usize = 8;
 
 /// Point counts of edges are below this.
 const COUNTS: usize = 66;
-/// Patches whose tables are computed together where factors are fractional: long before they are
-/// read, as vectors read across what was just written would wait for it.
-pub(crate) const GROUP: usize = 4;
-/// A table for each point count, then one for each factor of a group of patches.
-const SLOTS: usize = COUNTS + GROUP * MAX_FACTORS;
+/// A table for each point count, then one for each factor.
+const SLOTS: usize = COUNTS + MAX_FACTORS;
 
 /// Tables of locations that points are read from, kept from patch to patch.
 ///
 /// Where factors are integers there is a table for each point count; otherwise one for each factor
-/// of a group of patches, computed again only where that factor changed. 40 KiB.
+/// of a patch, computed again only where that factor differs from the patch before. 32 KiB.
 #[derive(Clone, Debug)]
 pub(crate) struct LocationTables {
     /// What each table was computed for: a point count or [`Block::key`]; 0 at first.
@@ -40,20 +37,12 @@ pub(crate) struct LocationTables {
 type Tables<'a> = [&'a Locations; MAX_FACTORS];
 
 impl LocationTables {
-    #[expect(clippy::large_stack_arrays, reason = "40 KiB, moved to its place once")]
+    #[expect(clippy::large_stack_arrays, reason = "32 KiB, moved to its place once")]
     pub(crate) const EMPTY: Self = Self { keys: [0; SLOTS], tables: [Locations::EMPTY; SLOTS] };
-
-    /// Computes the tables of a group of patches, of which `first` is the first.
-    #[inline(always)]
-    pub(crate) fn prepare_group(&mut self, block: &Block, first: usize) {
-        for lane in first..first + GROUP {
-            self.prepare(block, lane);
-        }
-    }
 
     /// Computes those tables of a patch that are not there yet.
     #[inline(always)]
-    pub(crate) fn prepare(&mut self, block: &Block, lane: usize) {
+    fn prepare(&mut self, block: &Block, lane: usize) {
         for factor in 0..factors(block.domain()) {
             let slot = slot(block, factor, lane);
             let key = if block.integer() {
@@ -75,18 +64,19 @@ fn slot(block: &Block, factor: usize, lane: usize) -> usize {
     if block.integer() {
         block.edge_points(factor, lane) as usize % COUNTS
     } else {
-        COUNTS + lane % GROUP * MAX_FACTORS + factor
+        COUNTS + factor
     }
 }
 
-/// Emits the points of a regular patch of a block whose tables are prepared.
+/// Emits the points of a regular patch of a block.
 #[inline(always)]
 pub(crate) fn emit<P: PointFormat>(
     (block, lane): (&Block, usize),
     edges: &EdgePoints,
-    tables: &LocationTables,
+    tables: &mut LocationTables,
     out: &mut Writer<'_, P>,
 ) {
+    tables.prepare(block, lane);
     let table = |factor: usize| &tables.tables[slot(block, factor, lane)];
     let tables = [table(0), table(1), table(2), table(3), table(4), table(5)];
     match block.domain() {

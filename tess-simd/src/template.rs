@@ -145,7 +145,6 @@ impl Templates {
             let mut writer = Writer::new(index_room);
             connect::emit((domain, config.output), edges, stitches, (0, points), &mut writer);
             if block.integer() {
-                tables.prepare(block, lane);
                 points::emit((block, lane), edges, tables, &mut Writer::new(point_room));
             }
         }
