@@ -188,10 +188,7 @@ fn process_inside(config: Config, raw: f32, low: f32) -> ProcessedFactor {
 }
 
 fn process_factor(config: Config, role: Role, clamped: f32) -> ProcessedFactor {
-    let rounded = match config.partitioning {
-        Partitioning::Integer | Partitioning::Pow2 => ceil(clamped),
-        Partitioning::FractionalOdd | Partitioning::FractionalEven => clamped,
-    };
+    let rounded = if config.partitioning.has_integer_factors() { ceil(clamped) } else { clamped };
     let fixed = FixedFactor::from_f32(rounded);
     let parity = parity(config.partitioning, role, fixed);
     ProcessedFactor {

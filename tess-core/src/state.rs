@@ -106,6 +106,12 @@ impl Partitioning {
             Self::FractionalEven => (2.0, 64.0),
         }
     }
+
+    /// Whether every factor is rounded up to an integer (spec section 3, step 3).
+    #[must_use]
+    pub const fn has_integer_factors(self) -> bool {
+        matches!(self, Self::Integer | Self::Pow2)
+    }
 }
 
 impl OutputPrimitive {

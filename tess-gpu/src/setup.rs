@@ -99,7 +99,7 @@ impl Setup {
     /// says it all.
     #[must_use]
     pub const fn has_integer_factors(&self) -> bool {
-        matches!(self.config.partitioning, Partitioning::Integer | Partitioning::Pow2)
+        self.config.partitioning.has_integer_factors()
     }
 
     /// The constants that stand in front of every shader.

@@ -72,7 +72,7 @@ impl Block {
         let processed = process(config, domain, raw);
         let points = point_counts::<ALL>(&processed.fixed, &processed.odd);
         // Where factors are integers, few spacings are ever needed: see `Block::spacing`.
-        let spacings = if is_integer(config) {
+        let spacings = if config.partitioning.has_integer_factors() {
             Spacings::NONE
         } else {
             Spacings::new::<ALL>(&processed.fixed, &processed.odd, config.split)
@@ -92,7 +92,7 @@ impl Block {
     /// Whether all factors are integers, so that a point count says all about a factor.
     #[inline(always)]
     pub(crate) const fn integer(&self) -> bool {
-        is_integer(self.config)
+        self.config.partitioning.has_integer_factors()
     }
 
     /// Whether a patch is a minimum patch.
@@ -138,10 +138,6 @@ impl Block {
             self.spacings.get(i, self.points[i])
         }
     }
-}
-
-const fn is_integer(config: Config) -> bool {
-    matches!(config.partitioning, Partitioning::Integer | Partitioning::Pow2)
 }
 
 /// A number for each topology: the point counts of all factors, after a leading 1, and whether it

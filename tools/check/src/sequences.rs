@@ -16,10 +16,11 @@ use tess_core::{Domain, FixedFactor, Parity, Partitioning, PatchFactors};
 /// lie 0.25 and 0.625 below the integers.
 #[must_use]
 pub fn sweep(domain: Domain, partitioning: Partitioning, row: u8) -> Vec<PatchFactors> {
-    let below = match (domain, partitioning) {
-        (Domain::Isoline, _) | (_, Partitioning::Integer | Partitioning::Pow2) => 0.0,
-        (Domain::Triangle, _) => 0.25,
-        (Domain::Quad, _) => 0.625,
+    let below = match domain {
+        _ if partitioning.has_integer_factors() => 0.0,
+        Domain::Isoline => 0.0,
+        Domain::Triangle => 0.25,
+        Domain::Quad => 0.625,
     };
     let a = u32::from(row);
     let patch = |b: u32| {

@@ -76,7 +76,7 @@ fn clamping_and_rounding(
     };
     let partitioning_name = partitioning.name();
     hit(format!("clamp/{partitioning_name}/{role}/{clamp}"));
-    if matches!(partitioning, Partitioning::Integer | Partitioning::Pow2) {
+    if partitioning.has_integer_factors() {
         let how = if factor.rounded == factor.clamped { "exact" } else { "up" };
         hit(format!("round/{partitioning_name}/{role}/{how}"));
     }

@@ -3,7 +3,7 @@
 use super::{Conversion, Denormals};
 use crate::case::{Case, factor_list, factors_from_list, outer_count};
 use crate::generate::from_fixed;
-use tess_core::{Domain, FixedFactor, Partitioning, PatchFactors, ProcessedFactor, ProcessedPatch};
+use tess_core::{Domain, FixedFactor, PatchFactors, ProcessedFactor, ProcessedPatch};
 
 /// The cases whose exact outputs are all legal for `case`; the first is the case itself.
 ///
@@ -44,8 +44,7 @@ fn other_neighbours(case: &Case) -> Vec<Option<f32>> {
     };
     let is_fractional = |position| {
         let density = case.domain() == Domain::Isoline && position == 0;
-        let p = case.config.partitioning;
-        !density && matches!(p, Partitioning::FractionalOdd | Partitioning::FractionalEven)
+        !density && !case.config.partitioning.has_integer_factors()
     };
     processed_list(factors)
         .enumerate()
