@@ -19,16 +19,19 @@ struct Source {
 }
 
 fn load_source(round: Round, number: u32) -> Source {
-    let patch_index = round.first + number;
-    let topology = round_topologies[number];
-    if DOMAIN == ISOLINE || state_of(topology) != REGULAR {
-        var plain: Source;
-        plain.number = number;
-        plain.begin = u32(begins[number]);
-        plain.topology = topology;
-        return plain;
+    var source = source_of(round.first + number, round_topologies[number]);
+    source.number = number;
+    source.begin = u32(begins[number]);
+    return source;
+}
+
+fn source_of(patch_index: u32, topology: vec2<u32>) -> Source {
+    var source: Source;
+    source.topology = topology;
+    if DOMAIN != ISOLINE && state_of(topology) == REGULAR {
+        source.domain = domain_of(patch_index, topology);
     }
-    return Source(number, u32(begins[number]), topology, domain_of(patch_index, topology));
+    return source;
 }
 
 fn spot_at(source: Source, i: u32) -> Spot {
@@ -91,6 +94,29 @@ fn first_run(round: Round, source: Source, spot: Spot, is_next_patch: bool, elem
     return run_at(round, source, next);
 }
 
+// Whether patches of one topology have the same points.
+fn has_same_points(topology: vec2<u32>) -> bool {
+    return IS_INTEGER || state_of(topology) == MINIMUM;
+}
+
+fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
+    let source = source_of(tile.first_patch, repeat.topology);
+    let round = Round(tile.first_patch, 1u, 0u, 0u);
+    for (var i = thread; i < repeat.size; i += WORKGROUP) {
+        let run = run_at(round, source, spot_at(source, i));
+        round_topologies[i] = format_point(point_of_run(run, run.step), 0u);
+    }
+    workgroupBarrier();
+    let end = tile.end - tile.base;
+    for (var element = tile.begin - tile.base + thread; element < end; element += WORKGROUP) {
+        let position = element + repeat.before;
+        let number = patch_at(repeat, position);
+        points_out[out + element] = numbered(
+            round_topologies[position - number * repeat.size],
+            job.first_patch + tile.first_patch + number);
+    }
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn expand_points(
     @builtin(workgroup_id) workgroup: vec3<u32>,
@@ -104,6 +130,11 @@ fn expand_points(
         return;
     }
     let out = tile.base - job.window_first * TILE;
+    let repeat = repeat_of(tile, 0u, KEPT);
+    if repeat.size > 0u && has_same_points(repeat.topology) {
+        copy_points(tile, repeat, thread, out);
+        return;
+    }
     for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
         let count = min(ROUND, tile.last_patch - first + 1u);
         workgroupBarrier();

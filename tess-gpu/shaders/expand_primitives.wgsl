@@ -100,6 +100,56 @@ fn write_sequences(round: Round, thread: u32, out: u32) {
     }
 }
 
+// Keeps the triangles of one patch, two in an element, each of three vertices of 10 bits.
+fn keep_triangles(repeat: Repeat, thread: u32) {
+    let is_regular = state_of(repeat.topology) == REGULAR;
+    let source = Source(0u, 0u, 0u, is_regular, shape_of(repeat.topology));
+    for (var i = thread; i < repeat.size; i += WORKGROUP) {
+        let spot = spot_at(source, i);
+        let triangle = stitch_triangles(stitch_from(source, spot), spot.step).first;
+        let packed = triangle.x | (triangle.y << 10u) | (triangle.z << 20u);
+        if i < KEPT {
+            round_topologies[i].x = packed;
+        } else {
+            round_topologies[i - KEPT].y = packed;
+        }
+    }
+}
+
+fn kept_triangle(repeat: Repeat, number: u32, i: u32) -> vec3<u32> {
+    let is_low = i < KEPT;
+    let two = round_topologies[select(i - KEPT, i, is_low)];
+    let packed = select(two.y, two.x, is_low);
+    let triangle = vec3<u32>(packed & 1023u, (packed >> 10u) & 1023u, packed >> 20u);
+    return triangle + select(0u, repeat.base + number * repeat.points, NUMBERING == PER_BATCH);
+}
+
+fn copy_triangles(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
+    keep_triangles(repeat, thread);
+    workgroupBarrier();
+    let begin = tile.begin - tile.base;
+    let end = tile.end - tile.base;
+    for (var element = 2u * thread; element < TILE; element += 2u * WORKGROUP) {
+        if element + 1u < begin || element >= end {
+            continue;
+        }
+        let first = max(element, begin);
+        let position = first + repeat.before;
+        let number = patch_at(repeat, position);
+        let i = position - number * repeat.size;
+        let triangle = kept_triangle(repeat, number, i);
+        let at = (out + element) >> 1u;
+        if first == element && element + 1u < end {
+            let is_last = i + 1u == repeat.size;
+            let second = kept_triangle(
+                repeat, number + select(0u, 1u, is_last), select(i + 1u, 0u, is_last));
+            write_triangle_pair(at, triangle, second);
+        } else {
+            write_triangle(at, first != element, triangle);
+        }
+    }
+}
+
 @compute @workgroup_size(WORKGROUP)
 fn expand_primitives(
     @builtin(workgroup_id) workgroup: vec3<u32>,
@@ -114,6 +164,13 @@ fn expand_primitives(
         return;
     }
     let out = tile.base - job.window_first * TILE;
+    if IS_TRIANGLES {
+        let repeat = repeat_of(tile, 1u, 2u * KEPT);
+        if repeat.size > 0u {
+            copy_triangles(tile, repeat, thread, out);
+            return;
+        }
+    }
     for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
         let count = min(ROUND, tile.last_patch - first + 1u);
         workgroupBarrier();

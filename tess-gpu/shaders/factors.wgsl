@@ -1,5 +1,6 @@
 // Factor processing (spec section 3): one thread per patch, from the bits of its raw factors to
-// its topology, contexts and counts, and the sums of the counts over blocks of 256 patches.
+// its topology, contexts and counts, and for each block of 256 patches the sums of the counts and
+// whether all have the same topology.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> raw_factors: array<vec2<u32>>;
@@ -41,6 +42,10 @@ fn write_contexts(patch_index: u32, processed: Processed) {
     contexts[at + 5u * step] = make_context(processed.inside.y, processed.inside_odd.y);
 }
 
+// The topology of a block's first patch, and whether any other patch has another.
+var<workgroup> first_topology: vec2<u32>;
+var<workgroup> differs: atomic<u32>;
+
 @compute @workgroup_size(256)
 fn factors(
     @builtin(workgroup_id) workgroup: vec3<u32>,
@@ -50,19 +55,30 @@ fn factors(
     let block = workgroup.x + workgroup.y * workgroups.x;
     let patch_index = block * 256u + thread;
     var own = vec2<u32>(0u, 0u);
+    var topology = vec2<u32>(0u, 0u);
     if patch_index < job.patches {
         let processed = process(patch_index);
-        topologies[patch_index] = processed.topology;
-        own = counts(processed.topology);
+        topology = processed.topology;
+        topologies[patch_index] = topology;
+        own = counts(topology);
         if !IS_INTEGER && state_of(processed.topology) == REGULAR {
             write_contexts(patch_index, processed);
         }
     }
+    if thread == 0u {
+        first_topology = topology;
+        atomicStore(&differs, 0u);
+    }
     let sums = prefix_sums(thread, own);
     if patch_index < job.patches {
         offsets[patch_index] = sums.before;
+        if any(topology != first_topology) {
+            atomicStore(&differs, 1u);
+        }
     }
+    workgroupBarrier();
     if thread == 0u && block * 256u < job.patches {
         offsets[job.blocks_at + block] = sums.all;
+        offsets[job.alike_at + block] = topology * (1u - atomicLoad(&differs));
     }
 }

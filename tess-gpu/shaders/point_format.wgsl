@@ -4,8 +4,15 @@
 // Float: u and v as binary32.
 fn format_point(point: vec2<u32>, patch_number: u32) -> vec2<u32> {
     if POINT_FORMAT == PACKED {
-        return vec2<u32>(
-            point.x | (point.y << 17u), (point.y >> 15u) | (patch_number << 2u));
+        return numbered(vec2<u32>(point.x | (point.y << 17u), point.y >> 15u), patch_number);
     }
     return vec2<u32>(float_bits_from_coordinate(point.x), float_bits_from_coordinate(point.y));
+}
+
+// A stored point of patch 0 as that of another patch.
+fn numbered(stored: vec2<u32>, patch_number: u32) -> vec2<u32> {
+    if POINT_FORMAT == PACKED {
+        return vec2<u32>(stored.x, stored.y | (patch_number << 2u));
+    }
+    return stored;
 }

@@ -44,8 +44,10 @@ struct Job {
     chunk: u32,
     // Distance between the contexts of one factor and of the next.
     stride: u32,
-    // Where in `offsets` the blocks of 256 patches begin, and the groups of 256 blocks.
+    // Where in `offsets` the blocks of 256 patches begin, the topologies that all patches of a block
+    // have (0 if they differ), and the groups of 256 blocks.
     blocks_at: u32,
+    alike_at: u32,
     groups_at: u32,
     // Where in `tiles` the primitives' tiles begin.
     primitive_tiles_at: u32,

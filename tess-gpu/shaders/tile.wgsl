@@ -21,7 +21,9 @@ struct Round {
 
 // Where each patch of a round begins, counted from the tile's base.
 var<workgroup> begins: array<i32, ROUND>;
-var<workgroup> round_topologies: array<vec2<u32>, ROUND>;
+// The topologies of its patches. Tiles without rounds keep there what they copy (alike.wgsl).
+var<workgroup> round_topologies: array<vec2<u32>, KEPT>;
+const KEPT = 320u;
 
 // The tile of a workgroup; `end` is 0 if there is none for it. `begin..end` is the chunk's range,
 // whose table of tiles begins at `table_at`.

@@ -14,6 +14,7 @@ pub struct Job {
     pub chunk: u32,
     pub stride: u32,
     pub blocks_at: u32,
+    pub alike_at: u32,
     pub groups_at: u32,
     pub primitive_tiles_at: u32,
     pub window_first: u32,

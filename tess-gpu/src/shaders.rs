@@ -144,6 +144,7 @@ impl Stage {
                 part!("point_format"),
                 part!("offsets"),
                 part!("tile"),
+                part!("alike"),
                 part!("expand_points"),
             ],
             Self::ExpandPoints => &[
@@ -158,6 +159,7 @@ impl Stage {
                 part!("point_format"),
                 part!("offsets"),
                 part!("tile"),
+                part!("alike"),
                 part!("expand_points"),
             ],
             Self::ExpandPrimitives => &[
@@ -168,6 +170,7 @@ impl Stage {
                 part!("connect"),
                 part!("offsets"),
                 part!("tile"),
+                part!("alike"),
                 part!("expand_primitives"),
             ],
         }

@@ -136,7 +136,8 @@ impl Plan {
             chunk,
             stride,
             blocks_at: stride,
-            groups_at: stride + stride / BLOCK,
+            alike_at: stride + stride / BLOCK,
+            groups_at: stride + 2 * (stride / BLOCK),
             primitive_tiles_at: self.capacity.points.div_ceil(TILE) + 2,
             chunks: self.chunks(),
             point_capacity: self.capacity.points,
@@ -189,7 +190,7 @@ impl Plan {
     #[must_use]
     pub fn offsets(&self, chunk: u32) -> Span {
         let blocks = self.chunk_patches / BLOCK;
-        let entries = self.chunk_patches + blocks + blocks.div_ceil(256);
+        let entries = self.chunk_patches + 2 * blocks + blocks.div_ceil(256);
         self.region(chunk, 8 * u64::from(entries))
     }
 

@@ -121,6 +121,7 @@ fn layouts_are_those_of_the_shaders() {
         "chunk",
         "stride",
         "blocks_at",
+        "alike_at",
         "groups_at",
         "primitive_tiles_at",
         "window_first",
@@ -139,20 +140,21 @@ fn layouts_are_those_of_the_shaders() {
         chunk: 2,
         stride: 3,
         blocks_at: 4,
-        groups_at: 5,
-        primitive_tiles_at: 6,
-        window_first: 7,
-        window_tiles: 8,
-        chunks: 9,
-        point_capacity: 10,
-        primitive_capacity: 11,
-        point_windows: 12,
-        primitive_windows: 13,
-        point_window_tiles: 14,
-        primitive_window_tiles: 15,
+        alike_at: 5,
+        groups_at: 6,
+        primitive_tiles_at: 7,
+        window_first: 8,
+        window_tiles: 9,
+        chunks: 10,
+        point_capacity: 11,
+        primitive_capacity: 12,
+        point_windows: 13,
+        primitive_windows: 14,
+        point_window_tiles: 15,
+        primitive_window_tiles: 16,
     };
     let words: &[u32] = bytemuck::cast_slice(bytemuck::bytes_of(&fields));
-    assert_eq!(words, (0..16).collect::<Vec<_>>(), "the host's members are in this order");
+    assert_eq!(words, (0..17).collect::<Vec<_>>(), "the host's members are in this order");
     assert_eq!(members(&module, "Job"), (0..).map(|n| 4 * n).zip(expected).collect::<Vec<_>>());
     let ranges = members(&module, "Status").into_iter().find(|&(_, name)| name == "ranges");
     assert_eq!(ranges, Some((size_of::<layout::Status>(), "ranges")));

@@ -1,0 +1,53 @@
+// Tiles whose patches all have the same topology: the elements of one patch are made once, kept in
+// workgroup memory and copied.
+
+struct Repeat {
+    topology: vec2<u32>,
+    // Elements of each patch; 0 if the tile has to be expanded patch by patch.
+    size: u32,
+    // Elements of the first patch that lie before the tile (modulo 2^32).
+    before: u32,
+    // 2^21 / size, rounded up.
+    inverse: u32,
+    // The first point of the first patch, and points of each.
+    base: u32,
+    points: u32,
+}
+
+// How the points (kind 0) or primitives (kind 1) of a tile repeat, if no patch has more of them than
+// `most`, at most 640.
+fn repeat_of(tile: Tile, kind: u32, most: u32) -> Repeat {
+    var none: Repeat;
+    none.size = 0u;
+    let topology = common_topology(tile);
+    if tile.first_patch == tile.last_patch || state_of(topology) == CULLED {
+        return none;
+    }
+    let begin = patch_offset(tile.first_patch);
+    let size = patch_offset(tile.first_patch + 1u) - begin;
+    if size[kind] > most {
+        return none;
+    }
+    return Repeat(
+        topology, size[kind], tile.base - begin[kind],
+        (0x1fffffu + size[kind]) / size[kind], begin.x, size.x);
+}
+
+// The topology of all patches of the blocks in which a tile's patches are, or a culled one.
+fn common_topology(tile: Tile) -> vec2<u32> {
+    let first = job.alike_at + (tile.first_patch >> 8u);
+    let last = job.alike_at + (tile.last_patch >> 8u);
+    let topology = offsets[first];
+    for (var block = first + 1u; block <= last; block++) {
+        if any(offsets[block] != topology) {
+            return vec2<u32>(0u, 0u);
+        }
+    }
+    return topology;
+}
+
+// Which of the tile's patches an element belongs to. Exact, and without overflow, for a position of
+// at most 2046 + size and a size of at most 640.
+fn patch_at(repeat: Repeat, position: u32) -> u32 {
+    return (position * repeat.inverse) >> 21u;
+}
