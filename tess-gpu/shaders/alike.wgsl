@@ -1,5 +1,5 @@
 // Tiles whose patches all have the same topology: the elements of one patch are made once, kept in
-// workgroup memory and copied.
+// workgroup memory and copied, if there are not so many that making them takes longer than it saves.
 
 struct Repeat {
     topology: vec2<u32>,
@@ -14,8 +14,8 @@ struct Repeat {
     points: u32,
 }
 
-// How the points (kind 0) or primitives (kind 1) of a tile repeat, if no patch has more of them than
-// `most`, at most 640.
+// How the points (kind 0) or primitives (kind 1) of a tile repeat, if a patch has at most `most` of
+// them, which is at most 640.
 fn repeat_of(tile: Tile, kind: u32, most: u32) -> Repeat {
     var none: Repeat;
     none.size = 0u;

@@ -9,6 +9,9 @@
 @group(0) @binding(6) var<storage, read> tiles: array<u32>;
 @group(0) @binding(7) var<storage, read_write> points_out: array<vec2<u32>>;
 
+// Points that are kept of a patch that is copied: as many as a quad of factor 16 has fit.
+const KEPT = 320u;
+
 // The patch that points are taken from.
 struct Source {
     // Within the round.

@@ -8,6 +8,9 @@
 @group(0) @binding(4) var<storage, read> status: Status;
 @group(0) @binding(5) var<storage, read> tiles: array<u32>;
 
+// Half of the triangles that are kept of a patch that is copied.
+const KEPT = ROUND;
+
 // The patch that elements are taken from.
 struct Source {
     // Within the round.
@@ -92,7 +95,7 @@ fn write_sequences(round: Round, thread: u32, out: u32) {
             let t = element - u32(begins[number]);
             let index = sequence_first(round_topologies[number], t, base);
             if INDICES == 2u {
-                write_line(out + element, index);
+                write_two(out + element, index, index + 1u);
             } else {
                 write_single(out + element, index);
             }
@@ -116,36 +119,55 @@ fn keep_triangles(repeat: Repeat, thread: u32) {
     }
 }
 
-fn kept_triangle(repeat: Repeat, number: u32, i: u32) -> vec3<u32> {
-    let is_low = i < KEPT;
-    let two = round_topologies[select(i - KEPT, i, is_low)];
-    let packed = select(two.y, two.x, is_low);
-    let triangle = vec3<u32>(packed & 1023u, (packed >> 10u) & 1023u, packed >> 20u);
-    return triangle + select(0u, repeat.base + number * repeat.points, NUMBERING == PER_BATCH);
+// Vertex `corner` of triangle `i` of one of the tile's patches.
+struct Corner {
+    number: u32,
+    i: u32,
+    corner: u32,
 }
 
+// The corner that index `at` of the tile stands for.
+fn corner_at(repeat: Repeat, at: u32) -> Corner {
+    let element = (at * 43691u) >> 17u; // a third
+    let position = element + repeat.before;
+    let number = patch_at(repeat, position);
+    return Corner(number, position - number * repeat.size, at - 3u * element);
+}
+
+fn next_corner(repeat: Repeat, it: Corner) -> Corner {
+    let is_last_corner = it.corner == 2u;
+    let is_last = is_last_corner && it.i + 1u == repeat.size;
+    return Corner(
+        it.number + select(0u, 1u, is_last),
+        select(it.i + select(0u, 1u, is_last_corner), 0u, is_last),
+        select(it.corner + 1u, 0u, is_last_corner));
+}
+
+fn kept_index(repeat: Repeat, it: Corner) -> u32 {
+    let is_low = it.i < KEPT;
+    let two = round_topologies[select(it.i - KEPT, it.i, is_low)];
+    let vertex = (select(two.y, two.x, is_low) >> (10u * it.corner)) & 1023u;
+    return vertex + select(0u, repeat.base + it.number * repeat.points, NUMBERING == PER_BATCH);
+}
+
+// Two indices at a time, whichever triangles they are of.
 fn copy_triangles(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
     keep_triangles(repeat, thread);
     workgroupBarrier();
-    let begin = tile.begin - tile.base;
-    let end = tile.end - tile.base;
-    for (var element = 2u * thread; element < TILE; element += 2u * WORKGROUP) {
-        if element + 1u < begin || element >= end {
+    let begin = 3u * (tile.begin - tile.base);
+    let end = 3u * (tile.end - tile.base);
+    for (var at = 2u * thread; at < end; at += 2u * WORKGROUP) {
+        if at + 1u < begin {
             continue;
         }
-        let first = max(element, begin);
-        let position = first + repeat.before;
-        let number = patch_at(repeat, position);
-        let i = position - number * repeat.size;
-        let triangle = kept_triangle(repeat, number, i);
-        let at = (out + element) >> 1u;
-        if first == element && element + 1u < end {
-            let is_last = i + 1u == repeat.size;
-            let second = kept_triangle(
-                repeat, number + select(0u, 1u, is_last), select(i + 1u, 0u, is_last));
-            write_triangle_pair(at, triangle, second);
+        let first = max(at, begin);
+        let corner = corner_at(repeat, first);
+        let index = kept_index(repeat, corner);
+        if first == at && at + 1u < end {
+            let second = kept_index(repeat, next_corner(repeat, corner));
+            write_two((3u * out + at) >> 1u, index, second);
         } else {
-            write_triangle(at, first != element, triangle);
+            write_single(3u * out + first, index);
         }
     }
 }

@@ -14,8 +14,9 @@ fn write_single(at: u32, index: u32) {
     indices_out[at >> 1u] = select(halves(index, word >> 16u), halves(word, index), is_high);
 }
 
-fn write_line(at: u32, first: u32) {
-    indices_out[at] = halves(first, first + 1u);
+// Indices 2 * `at` and the next.
+fn write_two(at: u32, first: u32, second: u32) {
+    indices_out[at] = halves(first, second);
 }
 
 // Pair `at` of triangles.

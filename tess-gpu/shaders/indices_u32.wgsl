@@ -20,8 +20,9 @@ fn write_triangle(at: u32, is_second: bool, triangle: vec3<u32>) {
     }
 }
 
-fn write_line(at: u32, first: u32) {
-    indices_out[at] = vec2<u32>(first, first + 1u);
+// Indices 2 * `at` and the next.
+fn write_two(at: u32, first: u32, second: u32) {
+    indices_out[at] = vec2<u32>(first, second);
 }
 
 fn write_single(at: u32, index: u32) {

@@ -21,9 +21,9 @@ struct Round {
 
 // Where each patch of a round begins, counted from the tile's base.
 var<workgroup> begins: array<i32, ROUND>;
-// The topologies of its patches. Tiles without rounds keep there what they copy (alike.wgsl).
+// The topologies of its patches. Tiles without rounds keep there what they copy (alike.wgsl). How
+// many tiles run at once depends on the size of this.
 var<workgroup> round_topologies: array<vec2<u32>, KEPT>;
-const KEPT = 320u;
 
 // The tile of a workgroup; `end` is 0 if there is none for it. `begin..end` is the chunk's range,
 // whose table of tiles begins at `table_at`.
@@ -48,9 +48,6 @@ fn find_patch(round: Round, element: u32) -> u32 {
     }
     let last = round.count - 1u;
     if round.count > 32u {
-        if round.count > 128u {
-            found = nearer_patch(found, 128u, last, element);
-        }
         found = nearer_patch(found, 64u, last, element);
         found = nearer_patch(found, 32u, last, element);
     }

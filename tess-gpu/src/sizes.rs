@@ -11,7 +11,7 @@ pub const WORKGROUP: u32 = 64;
 /// Elements of a tile: points or primitives.
 pub const TILE: u32 = 2048;
 /// Patches of a tile that are expanded at a time.
-pub const ROUND: u32 = 256;
+pub const ROUND: u32 = 128;
 /// Patches of a block, whose offsets one workgroup sums.
 pub const BLOCK: u32 = 256;
 /// Patches of a group, 256 blocks.

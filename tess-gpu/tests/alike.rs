@@ -11,15 +11,16 @@ use tess_gpu::runner::{Outputs, Tessellator};
 use tess_gpu::sizes::BLOCK;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 
-/// Runs of like patches that begin and end within, at and between blocks; the copies of a tile
-/// begin at every element of a patch.
+/// Runs of like patches that begin and end within blocks, each long enough for tiles within whole
+/// blocks; the copies of these begin at various elements of a patch.
 fn runs(domain: Domain, factors: &[f32]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(31);
     let mut all = Vec::new();
     for (number, &factor) in factors.iter().enumerate() {
         let outer = if number % 3 == 2 { factor + 3.0 } else { factor };
         let like = patch_of(domain, |position| if position == 1 { outer } else { factor });
-        all.extend(std::iter::repeat_n(like, 300 + 256 * (number % 3)));
+        let tile = 3000 / (factor * factor).max(1.0) as usize;
+        all.extend(std::iter::repeat_n(like, 560 + 40 * number + tile));
         let other = [1.0, 2.5, 7.0][random.below(3) as usize];
         all.extend(std::iter::repeat_n(patch_of(domain, |_| other), number % 2));
     }
@@ -118,7 +119,7 @@ fn planted_faults_are_seen() {
     };
     let integer = setup(Partitioning::Integer);
     let fractional = setup(Partitioning::FractionalOdd);
-    let alike = runs(Domain::Quad, &[2.0, 1.0, 13.0, 5.0]);
+    let alike = runs(Domain::Quad, &[2.0, 1.0, 10.0, 5.0]);
     let similar: Vec<_> =
         (0_u8..200).map(|n| patch_of(Domain::Quad, |_| 3.25 + f32::from(n) / 512.0)).collect();
     for (setup, patches, right, wrong) in [
@@ -126,8 +127,10 @@ fn planted_faults_are_seen() {
         (integer, &alike, "any(offsets[block] != topology)", "false"),
         (integer, &alike, "(0x1fffffu + size[kind]) / size[kind]", "0x1fffffu / size[kind]"),
         (integer, &alike, "tile.base - begin[kind],", "0u,"),
-        (integer, &alike, "repeat.base + number * repeat.points", "number * repeat.points"),
+        (integer, &alike, "repeat.base + it.number * repeat.points", "it.number * repeat.points"),
         (integer, &alike, "(triangle.z << 20u)", "(triangle.z << 21u)"),
+        (integer, &alike, "(at * 43691u) >> 17u", "(at * 43690u) >> 17u"),
+        (integer, &alike, "it.i + 1u == repeat.size", "it.i == repeat.size"),
         (integer, &alike, "job.first_patch + tile.first_patch + number", "number"),
         (integer, &alike, "i - KEPT].y = packed", "i - KEPT].x = packed"),
         (

@@ -22,7 +22,9 @@ fn main() -> Result<()> {
     let mut arguments = std::env::args().skip(1);
     let folder = arguments.next().ok_or("name a folder of variants, then workloads")?;
     let names: Vec<String> = arguments.collect();
-    let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
+    // For variants that use them.
+    let features = Stopwatch::FEATURES | wgpu::Features::SUBGROUP;
+    let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, features))?;
     let stopwatch = Stopwatch::new(&gpu).ok_or("the device has no timestamps")?;
     let variants = Variant::read_all(folder.as_ref())?;
     println!("{}", gpu.name());
