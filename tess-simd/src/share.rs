@@ -106,3 +106,65 @@ fn cut(batch: Batch<'_>, patch: usize) -> (Batch<'_>, Batch<'_>) {
     let patch = patch.min(batch.len());
     (batch.slice(&(0..patch)), batch.slice(&(patch..batch.len())))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slices_are_whole_blocks_and_several_a_thread() {
+        assert_eq!(slices(0, 1), (1, 0), "nothing");
+        assert_eq!(slices(5, 1), (5, 1), "one thread takes all");
+        assert_eq!(slices(1000, 1), (1008, 1), "rounded up to blocks");
+        assert_eq!(slices(1000, 2), (128, 8), "four slices for each thread");
+        assert_eq!(slices(96, 2), (12, 8), "fewer than a block each");
+        assert_eq!(slices(128, 2), (16, 8), "a block each");
+        assert_eq!(slices(3, 4), (1, 3), "a patch each");
+    }
+
+    /// Slices of these points and indices, cut in two: how many are in the first half.
+    #[cfg(feature = "rayon")]
+    fn halved(counts: &[(u64, u64)]) -> usize {
+        use crate::output::PatchRange;
+        use tess_core::{DomainPoint, OutputPrimitive, Partitioning, QuadFactors};
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+        let stitches = &Stitches::new(config);
+        let (level, numbering) = (Level::Baseline, Numbering::PerPatch);
+        let plan = Plan { level, config, stitches, numbering, slice: 2 };
+        let part = |&(points, indices)| PartCounts { points, indices, largest: 0 };
+        let counts: Vec<PartCounts> = counts.iter().map(part).collect();
+        let all = counts.iter().copied().fold(PartCounts::default(), PartCounts::and);
+        let one = QuadFactors { u0: 1.0, v0: 1.0, u1: 1.0, v1: 1.0, inside_u: 1.0, inside_v: 1.0 };
+        let quads = alloc::vec![one; 2 * counts.len()];
+        let mut points = alloc::vec![DomainPoint::default(); all.points as usize];
+        let mut indices = alloc::vec![0_u32; all.indices as usize];
+        let mut ranges = alloc::vec![PatchRange::default(); quads.len()];
+        let buffers =
+            Buffers { points: &mut points[..], indices: &mut indices[..], ranges: &mut ranges[..] };
+        let share = Share { batch: Batch::Quads(&quads), counts: &counts, buffers, first: (7, 9) };
+        let (one, other) = halve(plan, share);
+        let sizes = |share: &Share<'_, DomainPoint, u32>| {
+            let Buffers { points, indices, ranges } = &share.buffers;
+            let sum = share.counts.iter().copied().fold(PartCounts::default(), PartCounts::and);
+            assert_eq!((points.len() as u64, indices.len() as u64), (sum.points, sum.indices));
+            assert_eq!((ranges.len(), share.batch.len()), (2 * share.counts.len(), ranges.len()));
+            (points.len() as u32, indices.len() as u32)
+        };
+        let of_one = sizes(&one);
+        sizes(&other);
+        assert_eq!((one.first, other.first), ((7, 9), (7 + of_one.0, 9 + of_one.1)), "begins");
+        assert_eq!(one.counts.len() + other.counts.len(), counts.len(), "every slice");
+        one.counts.len()
+    }
+
+    #[cfg(feature = "rayon")]
+    #[test]
+    fn halves_have_about_the_same_output() {
+        assert_eq!(halved(&[(10, 10); 8]), 4, "equal slices");
+        assert_eq!(halved(&[(0, 100), (0, 100), (100, 0)]), 2, "a point is 8 bytes, an index 4");
+        assert_eq!(halved(&[(0, 300), (100, 0), (50, 0)]), 1, "as many bytes as the others");
+        assert_eq!(halved(&[(900, 0), (1, 1), (1, 1), (1, 1)]), 1, "a large one");
+        assert_eq!(halved(&[(1, 1), (1, 1), (1, 1), (900, 0)]), 3, "and behind the others");
+        assert_eq!(halved(&[(0, 0), (0, 0)]), 1, "no output");
+    }
+}

@@ -28,6 +28,7 @@ fn every_stage() {
     factors();
     factor_contexts_and_locations();
     random_patches_in_every_configuration();
+    factors_that_differ_in_one_bit();
     topologies_that_differ_in_one_factor();
     interiors();
     many_patches();
@@ -62,6 +63,20 @@ fn many_patches() {
     for domain in Domain::ALL {
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
         check(config, domain, &Patches::random(300, domain, 600));
+    }
+}
+
+/// Patch after patch with the same numbers of points and other locations.
+fn factors_that_differ_in_one_bit() {
+    let fixed = |bits: u16| 5.5 + f32::from(bits) / 65536.0;
+    for partitioning in [Partitioning::FractionalOdd, Partitioning::FractionalEven] {
+        let config = Config::new(partitioning, OutputPrimitive::Point);
+        for domain in Domain::ALL {
+            let count = factor_names(domain).len();
+            let patch = |bits: u16| factors_from_list(domain, &[fixed(bits); 6][..count]);
+            let bits = (0..12).flat_map(|bit| [0, 1 << bit]).filter_map(patch);
+            check(config, domain, &Patches::new(bits.collect()));
+        }
     }
 }
 
@@ -119,8 +134,12 @@ fn memory() {
     assert!(own.is_some_and(|own| (0..1024).contains(&own)), "{memory} bytes, {own:?} its own");
 }
 
-/// Levels that this machine lacks are refused.
+/// Levels that this machine lacks are refused; without `std` it cannot be asked.
 fn levels_that_are_missing() {
+    if cfg!(not(feature = "std")) {
+        let available = Level::ALL.map(Level::is_available);
+        assert_eq!(available, [true, false, false], "the baseline alone");
+    }
     for level in Level::ALL {
         let answers = [
             fixed_factors(level, Partitioning::Integer, &[2.0]).is_ok(),

@@ -162,15 +162,3 @@ fn planted_faults_are_seen() {
         assert!(seen(&wrong).is_some(), "count of patch {patch}");
     }
 }
-
-#[cfg(feature = "rayon")]
-#[test]
-fn any_number_of_threads() {
-    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
-    for threads in [1, 2, 3, 5, 8] {
-        let mut tessellator = Tessellator::new(config).threads(threads);
-        for (count, domain) in [(0, Domain::Quad), (7, Domain::Triangle), (1001, Domain::Quad)] {
-            compare_all(&mut tessellator, domain, &Patches::random(31, domain, count));
-        }
-    }
-}

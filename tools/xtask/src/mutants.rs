@@ -8,20 +8,32 @@ use std::path::Path;
 /// one before it missed.
 struct Subject {
     package: &'static str,
-    passes: &'static [&'static str],
+    passes: &'static [Pass],
+}
+
+/// Tests, and the files whose faults they can see; none are all files.
+struct Pass {
+    tests: &'static str,
+    files: &'static [&'static str],
 }
 
 const SUBJECTS: &[Subject] = &[
     Subject {
         package: "tess-core",
-        passes: &["-C=--lib -C=--test=golden", "-C=--lib -C=--test=output"],
+        passes: &[
+            Pass { tests: "-C=--lib -C=--test=golden", files: &[] },
+            Pass { tests: "-C=--lib -C=--test=output", files: &[] },
+        ],
     },
     Subject {
         package: "tess-simd",
-        // Without `std` the kernels are compiled for one CPU level alone.
         passes: &[
-            "-C=--no-default-features -C=--test=baseline",
-            "-C=--features=rayon -C=--lib -C=--test=buffers -C=--test=exact",
+            // Without `std` the kernels are compiled for one CPU level alone.
+            Pass { tests: "-C=--no-default-features -C=--test=baseline", files: &[] },
+            Pass {
+                tests: "-C=--features=rayon -C=--lib -C=--test=buffers -C=--test=threads",
+                files: &["level", "part", "share", "tessellator", "threads/pool"],
+            },
         ],
     },
 ];
@@ -39,10 +51,14 @@ pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
     let subject = subject.ok_or_else(|| format!("no faults are planted in `{package}`"))?;
     let output = workspace().join("target/mutants").join(package);
     fs::create_dir_all(&output).map_err(|error| format!("{}: {error}", output.display()))?;
-    for (pass, tests) in subject.passes.iter().enumerate() {
-        let mut mutants = cargo(&format!("mutants --package {package} {tests} --output"));
+    let mut missed = Missed::default();
+    for (number, pass) in subject.passes.iter().enumerate() {
+        let mut mutants = cargo(&format!("mutants --package {package} {} --output", pass.tests));
         mutants.arg(&output).args(rest);
-        if pass > 0 && !rest.contains(&"--iterate") {
+        for file in pass.files {
+            mutants.arg(format!("--file={package}/src/{file}.rs"));
+        }
+        if number > 0 && !rest.contains(&"--iterate") {
             mutants.arg("--iterate");
         }
         println!("\n$ {}", shown(&mutants));
@@ -51,14 +67,29 @@ pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
         if !matches!(status.code(), Some(0 | 2 | 3)) {
             return Err(format!("`{}` ended with {status}", shown(&mutants)));
         }
+        let list = |name: &str| read(&output.join("mutants.out").join(name));
+        missed.add(&list("missed.txt")?, &(list("caught.txt")? + &list("timeout.txt")?));
     }
-    let missed = read(&output.join("mutants.out/missed.txt"))?;
-    let unlisted = unlisted(&missed, &read(&workspace().join(EQUIVALENT))?);
+    let unlisted = unlisted(&missed.0, &read(&workspace().join(EQUIVALENT))?);
     if unlisted.is_empty() {
-        println!("\n{} survivors, all listed in {EQUIVALENT}", missed.lines().count());
+        println!("\n{} survivors, all listed in {EQUIVALENT}", missed.0.len());
         return Ok(());
     }
     Err(format!("survivors that {EQUIVALENT} does not list:\n{}", unlisted.join("\n")))
+}
+
+/// The faults that no pass saw.
+#[derive(Default)]
+struct Missed(Vec<String>);
+
+impl Missed {
+    /// What one more pass missed and what it saw, line by line.
+    fn add(&mut self, missed: &str, seen: &str) {
+        self.0.retain(|fault| seen.lines().all(|line| line != fault));
+        let new: Vec<_> =
+            missed.lines().filter(|line| !self.0.iter().any(|old| old == line)).collect();
+        self.0.extend(new.into_iter().map(str::to_owned));
+    }
 }
 
 fn read(path: &Path) -> Result<String, String> {
@@ -66,7 +97,7 @@ fn read(path: &Path) -> Result<String, String> {
 }
 
 /// The missed faults that `list` has too few times, whichever lines they are on.
-fn unlisted<'a>(missed: &'a str, list: &str) -> Vec<&'a str> {
+fn unlisted<'a>(missed: &'a [String], list: &str) -> Vec<&'a str> {
     let mut left: Vec<String> = list.lines().filter_map(listed).collect();
     let is_unlisted = |line: &&str| match left.iter().position(|name| *name == name_of(line)) {
         Some(at) => {
@@ -75,7 +106,7 @@ fn unlisted<'a>(missed: &'a str, list: &str) -> Vec<&'a str> {
         }
         None => true,
     };
-    missed.lines().filter(is_unlisted).collect()
+    missed.iter().map(String::as_str).filter(is_unlisted).collect()
 }
 
 /// The fault of a row of the list: what its first column has in backquotes.
@@ -100,11 +131,21 @@ mod tests {
         let list = "# Survivors\n\n| fault | reason |\n| --- | --- |\n\
                     | `a.rs: replace * with + in f` | the factor is 2 |\n\
                     | `a.rs: replace \\| with ^ in f` | no bit is shared |\n";
-        let one = "a.rs:3:9: replace * with + in f\na.rs:3:9: replace | with ^ in f\n";
-        assert!(unlisted(one, list).is_empty(), "it is listed");
-        let two = "a.rs:3:9: replace * with + in f\na.rs:8:9: replace * with + in f\n";
-        assert_eq!(unlisted(two, list), ["a.rs:8:9: replace * with + in f"], "listed once");
-        let other = "a.rs:3:9: replace * with / in f\nb.rs:3:9: replace * with + in f\n";
-        assert_eq!(unlisted(other, list).len(), 2, "another fault, another file");
+        let faults =
+            |faults: &[&str]| faults.iter().map(|&fault| fault.to_owned()).collect::<Vec<_>>();
+        let one = faults(&["a.rs:3:9: replace * with + in f", "a.rs:3:9: replace | with ^ in f"]);
+        assert!(unlisted(&one, list).is_empty(), "it is listed");
+        let two = faults(&["a.rs:3:9: replace * with + in f", "a.rs:8:9: replace * with + in f"]);
+        assert_eq!(unlisted(&two, list), ["a.rs:8:9: replace * with + in f"], "listed once");
+        let other = faults(&["a.rs:3:9: replace * with / in f", "b.rs:3:9: replace * with + in f"]);
+        assert_eq!(unlisted(&other, list).len(), 2, "another fault, another file");
+    }
+
+    #[test]
+    fn a_fault_is_missed_if_no_pass_sees_it() {
+        let mut missed = Missed::default();
+        missed.add("a.rs: one\na.rs: two\nb.rs: three\n", "a.rs: four\n");
+        missed.add("a.rs: two\n", "a.rs: one\n");
+        assert_eq!(missed.0, ["a.rs: two", "b.rs: three"], "b.rs is no file of the second pass");
     }
 }

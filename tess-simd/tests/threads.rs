@@ -1,0 +1,60 @@
+//! Batches on several threads: the same output as on one, whatever their number.
+
+#![cfg(feature = "rayon")]
+
+#[path = "common/patches.rs"]
+mod patches;
+
+use patches::{Patches, compare, configs};
+use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, PatchFactors};
+use tess_simd::{Numbering, Tessellator};
+
+const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+
+fn assert_same(tessellator: &mut Tessellator, domain: Domain, patches: &Patches) {
+    let expected = patches.expected(tessellator.config());
+    let numbering = Numbering::Batch { base_vertex: 77 };
+    let structures = (patches, patches.structures(domain));
+    compare::<DomainPoint, u32>(tessellator, structures, &expected, numbering, |point| point);
+    let columns = (patches, patches.columns(domain));
+    let to_f32 = DomainPoint::to_f32;
+    compare::<[f32; 2], u16>(tessellator, columns, &expected, Numbering::PerPatch, to_f32);
+}
+
+#[test]
+fn any_number_of_threads() {
+    for (threads, config) in [0, 1, 2, 3, 5, 8].into_iter().zip(configs().step_by(5)) {
+        let mut tessellator = Tessellator::new(config).threads(threads);
+        for (count, domain) in [(0, Domain::Quad), (7, Domain::Triangle), (150, Domain::Quad)] {
+            assert_same(&mut tessellator, domain, &Patches::random(31, domain, count));
+        }
+    }
+}
+
+/// So many patches that several threads count them.
+#[test]
+fn counted_on_several_threads() {
+    let isolines = Patches::random(5, Domain::Isoline, 3001);
+    let cheap = |patch: &PatchFactors| match patch {
+        PatchFactors::Isoline(factors) => !(factors.density > 4.0),
+        _ => true,
+    };
+    let patches = Patches::new(isolines.all.into_iter().filter(cheap).collect());
+    assert!(patches.all.len() > 1100, "{} patches", patches.all.len());
+    for threads in [2, 3] {
+        let mut tessellator = Tessellator::new(CONFIG).threads(threads);
+        assert_same(&mut tessellator, Domain::Isoline, &patches);
+    }
+}
+
+/// Each thread has a workspace of its own, in a copy too.
+#[test]
+fn workspaces_are_counted() {
+    let of = |threads| Tessellator::new(CONFIG).threads(threads).memory();
+    let workspace = of(2) - of(1);
+    assert!(workspace > 100_000, "{workspace} bytes");
+    assert_eq!(of(4), of(1) + 3 * workspace, "four threads");
+    assert_eq!(of(0), of(1), "at least one");
+    let copy = |threads| Tessellator::new(CONFIG).threads(threads).clone().memory();
+    assert_eq!(copy(3), copy(1) + 2 * workspace, "a copy");
+}
