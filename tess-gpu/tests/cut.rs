@@ -3,11 +3,12 @@
 mod common;
 
 use common::device::Machine;
+use common::expected::by_simd;
 use tess_check::generate::patch_of;
 use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
-use tess_gpu::runner::{Outputs, Tessellator};
-use tess_gpu::sizes::{BLOCK, GROUP};
+use tess_gpu::runner::{Gpu, Outputs, Tessellator, Wanted};
+use tess_gpu::sizes::{BLOCK, GROUP, TILE};
 use tess_gpu::{Capacity, IndexType, Limits, Numbering, Plan, Setup};
 
 /// Limits that cut after 65536 patches, a few hundred tiles and 5 workgroups.
@@ -19,8 +20,11 @@ fn setup(domain: Domain) -> Setup {
 
 /// Small patches, culled ones among them, with odd numbers of triangles.
 fn small(domain: Domain, count: u32) -> Vec<PatchFactors> {
+    of_these(domain, count, [0.0, 1.0, 1.0, 1.5, 2.0, 3.0])
+}
+
+fn of_these(domain: Domain, count: u32, factors: [f32; 6]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(12);
-    let factors = [0.0, 1.0, 1.0, 1.5, 2.0, 3.0];
     let all = (0..count).map(|_| patch_of(domain, |_| factors[random.below(6) as usize]));
     all.collect()
 }
@@ -64,6 +68,49 @@ fn a_wrong_window_is_seen() {
     let (points, indices) = expected.words();
     let written = machine.write(setup, &patches, points, indices);
     assert!(expected.compare(&written).is_err(), "went unnoticed");
+}
+
+/// WebGPU's limits: chunks and windows end before a dispatch has as many workgroups in a row.
+#[test]
+fn default_limits_need_no_rows() {
+    let all = Capacity { points: u32::MAX, primitives: u32::MAX };
+    for setup in common::all_setups() {
+        let plan = Plan::new(setup, u32::MAX, all, Limits::WEBGPU);
+        let [_, rows, _] = plan.factors_workgroups(0);
+        let tiles = [plan.point_job(0, 0).window_tiles, plan.primitive_job(0, 0).window_tiles];
+        assert!(rows == 1 && tiles.into_iter().all(|tiles| tiles < 65536), "{setup:?}: {plan:?}");
+    }
+}
+
+/// Rows of 65535 workgroups where a device binds gigabytes: 16 million patches in one chunk and one
+/// window, compared with tess-simd.
+#[test]
+#[ignore = "6 GiB on a device that binds 3 at once: cargo test --release -p tess-gpu \
+            --features wgpu --test cut -- --ignored"]
+fn more_workgroups_than_a_row_has() {
+    let everything = Gpu::open_with(Wanted::Everything, wgpu::Features::empty());
+    let gpu = pollster::block_on(everything).unwrap_or_else(|error| panic!("{error}"));
+    let tessellator = Tessellator::new(&gpu.device);
+    let mut machine = Machine { gpu, tessellator };
+    let count = 1 << 24;
+    let patches = of_these(Domain::Quad, count, [0.0, 1.0, 2.0, 3.0, 3.0, 4.0]);
+    let setup = Setup { numbering: Numbering::PerPatch, ..setup(Domain::Quad) };
+    let (points, indices) = by_simd(setup, &patches);
+    let words = |words: &[u32]| u32::try_from(words.len()).expect("a test's output");
+    let room = Capacity { points: words(&points) / 2, primitives: words(&indices) / 3 };
+    let device = machine.gpu.device.limits();
+    let limits = Limits {
+        storage_binding: device.max_storage_buffer_binding_size,
+        workgroups: device.max_compute_workgroups_per_dimension,
+    };
+    let plan = Plan::new(setup, count, room, limits);
+    assert!(plan.factors_workgroups(0)[1] > 1, "{plan:?}");
+    let tiles = room.primitives.div_ceil(TILE);
+    assert!(plan.primitive_windows() == 1 && tiles > 65535, "{tiles} tiles, {plan:?}");
+    let written = machine.write(setup, &patches, words(&points), words(&indices));
+    assert!(written.status.fits(), "{:?}", written.status);
+    assert!(written.points == points, "points");
+    assert!(written.indices == indices, "indices");
 }
 
 /// Each level of the prefix sums against a scalar scan.
