@@ -11,7 +11,7 @@ use tess_check::backend::Backend;
 use tess_check::generate::Shard;
 use tess_check::names::Named;
 use tess_check::second::SecondFormulation;
-use tess_check::verify::{Plan, Row, Subject, verify};
+use tess_check::verify::{Plan, Random, Row, Subject, verify};
 
 /// Compare every backend with the model, over generated levels or over everything there is
 #[derive(Debug, clap::Args)]
@@ -39,6 +39,13 @@ pub struct Args {
     /// One subject only: level-1, level-2, transitions, interiors, locations or factors
     #[arg(long, value_name = "NAME", value_parser = crate::args::name_of::<Subject>())]
     subject: Vec<Subject>,
+    /// Instead, N random patches of each of the 96 configurations: domain, partitioning, output, split
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(conflicts_with_all = ["exhaustive", "subject"])]
+    random: Option<u64>,
+    /// Seed of the random patches
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "random")]
+    seed: u64,
     /// One of N disjoint parts, counted from 1
     #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
     shard: Shard,
@@ -68,7 +75,11 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
 
 impl Args {
     fn plan(&self) -> Plan {
-        let plan = if self.exhaustive { Plan::exhaustive() } else { Plan::levels() };
+        let plan = match self.random {
+            Some(patches) => Plan::random(Random { patches, seed: self.seed }),
+            None if self.exhaustive => Plan::exhaustive(),
+            None => Plan::levels(),
+        };
         let subjects = if self.subject.is_empty() { plan.subjects } else { self.subject.clone() };
         Plan { subjects, shard: self.shard }
     }

@@ -97,6 +97,7 @@ type Compared = (u64, Option<String>);
 fn compare_unit(backend: &mut dyn Backend, unit: &Unit) -> Result<Compared, BackendError> {
     match unit {
         Unit::Patches(cases) => compare_patches(backend, cases),
+        Unit::Random(unit) => compare_patches(backend, &unit.cases()),
         Unit::Values { partitioning, first } => compare_values(backend, *partitioning, *first),
         Unit::Bucket { split, parity, bucket } => compare_bucket(backend, *split, *parity, *bucket),
     }
