@@ -21,12 +21,17 @@ it, also all 2^32 factors in every partitioning, all fixed-point factors with th
 locations, all transitions and all interiors. Shards are disjoint, and together they are everything,
 so any batch system can spread the work.
 
+--random N compares N patches of each configuration (domain, partitioning, output, split order: 96)
+instead, all kinds of factors in every position and most of the patches small. The same seed gives the
+same patches, of which more begin with the same ones.
+
 Exit code 0: all equal; 1: differences; 3: a backend is not available here.
 
 Examples:
   tess verify
   tess verify --backend simd --exhaustive
-  tess verify --exhaustive --shard 3/64")]
+  tess verify --exhaustive --shard 3/64
+  tess verify --backend gpu --random 100000")]
 pub struct Args {
     /// Backend to compare; simd and gpu unless said. core is the model's second formulation
     #[arg(long, value_name = "NAME")]
@@ -39,7 +44,7 @@ pub struct Args {
     /// One subject only: level-1, level-2, transitions, interiors, locations or factors
     #[arg(long, value_name = "NAME", value_parser = crate::args::name_of::<Subject>())]
     subject: Vec<Subject>,
-    /// Instead, N random patches of each of the 96 configurations: domain, partitioning, output, split
+    /// Instead, N random patches of each configuration
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     #[arg(conflicts_with_all = ["exhaustive", "subject"])]
     random: Option<u64>,

@@ -82,6 +82,43 @@ fn verify_compares_what_it_says() {
     factors_are_equal("simd");
 }
 
+/// 100000 random patches of each of 96 configurations.
+fn random_patches_are_equal(backend: &str) {
+    let run = tess(&format!("verify --backend {backend} --random 100000"));
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    let row: Vec<_> =
+        run.stdout.lines().nth(1).into_iter().flat_map(str::split_whitespace).collect();
+    assert_eq!(row, ["random", backend, "9600000", "0"], "{}", run.stdout);
+}
+
+#[test]
+fn simd_random_patches_are_equal() {
+    random_patches_are_equal("simd");
+}
+
+/// Two or three minutes of processor time on a software driver.
+#[cfg(feature = "gpu")]
+#[test]
+fn gpu_random_patches_are_equal() {
+    random_patches_are_equal("gpu");
+}
+
+/// What `verify` cannot do with these words: exit code 2 and why.
+#[test]
+fn verify_refuses_what_does_not_go_together() {
+    for (words, why) in [
+        ("--random 0", "0 is not in 1.."),
+        ("--random 10 --exhaustive", "cannot be used with"),
+        ("--random 10 --subject level-1", "cannot be used with"),
+        ("--subject random", "invalid value 'random'"),
+        ("--seed 7", "--random <N>"),
+    ] {
+        let run = tess(&format!("verify --backend simd {words}"));
+        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+    }
+}
+
 /// One part in 16384 of all binary32 in all partitionings: zero, NaNs and negatives among them.
 fn factors_are_equal(backend: &str) {
     for part in [1, 3000, 8191, 8193, 16384] {
