@@ -19,7 +19,8 @@ use tess_check::verify::{Plan, Random, Row, Subject, verify};
 Without --exhaustive: levels 1 and 2 of `tess gen`; level-2 is what level 2 has beyond level 1. With
 it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and
 locations, all transitions and all interiors. Shards are disjoint, and together they are everything,
-so any batch system can spread the work.
+so any batch system can spread the work. A shard that has nothing of a subject, as there are fewer units
+than shards, says so on stderr; nothing differs then.
 
 --random N compares N patches of each configuration (domain, partitioning, output, split order: 96)
 instead, all kinds of factors in every position and most of the patches small. The same seed gives the
@@ -72,6 +73,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     });
     bar.finish_and_clear();
     let table = table?;
+    report_empty(&table, args.shard);
     show(&table, started.elapsed())
         .map_err(|error| Failure::file("write", Path::new("-"), &error))?;
     let equal = table.iter().all(|row| row.mismatches == 0);
@@ -100,12 +102,30 @@ impl Args {
         };
         let backend = |&name: &BackendName| -> Result<Box<dyn Backend>, Failure> {
             match name {
-                BackendName::Core => Ok(Box::new(SecondFormulation)),
+                BackendName::Core => {
+                    self.options.only_32_bits()?;
+                    Ok(Box::new(SecondFormulation))
+                }
                 _ => self.options.select(name),
             }
         };
         let backends = || names.iter().map(backend).collect();
         (0..threads).map(|_| backends()).collect()
+    }
+}
+
+/// Says of which subjects the shard has nothing: they have fewer units than shards were asked for.
+fn report_empty(table: &[Row], shard: Shard) {
+    let mut empty: Vec<&str> =
+        table.iter().filter(|row| row.compared == 0).map(|row| row.subject.name()).collect();
+    empty.dedup();
+    for subject in empty {
+        let (part, of) = (shard.part + 1, shard.of);
+        // A closed stderr does not change the result.
+        _ = writeln!(
+            io::stderr(),
+            "tess: nothing to compare in shard {part}/{of}: {subject} has fewer than {part} units"
+        );
     }
 }
 
