@@ -83,17 +83,3 @@ fn another_output_is_not_that_of_tess_simd() {
         assert!(!is_simd(setup, &patches, &other), "one bit differs");
     }
 }
-
-/// As many patches per configuration as a night has time for.
-#[test]
-#[ignore = "hours in software: cargo test -p tess-gpu --features wgpu --test exact -- --ignored"]
-fn a_hundred_thousand_patches_in_every_configuration() {
-    let mut machine = Machine::open();
-    let mut numbers = SplitMix64::new(6);
-    for (domain, config) in all_configs() {
-        for _ in 0..50 {
-            let patches = random(domain, 2000, &mut numbers);
-            assert_both_equal(&mut machine, Setup::new(domain, config), &patches);
-        }
-    }
-}

@@ -6,8 +6,10 @@
 
 mod boundaries;
 mod levels;
+mod patches;
 
 pub use boundaries::{boundary_factors, exceptional_factors, special_factors};
+pub use patches::{random_factor, random_patch};
 
 use crate::case::Case;
 use crate::random::SplitMix64;
@@ -125,28 +127,17 @@ pub fn patch_of(domain: Domain, mut factor: impl FnMut(usize) -> f32) -> PatchFa
     }
 }
 
-fn pick<T: Copy>(random: &mut SplitMix64, from: &[T]) -> T {
-    from[random.below(u32::try_from(from.len()).unwrap_or(u32::MAX)) as usize]
+/// Every domain with every configuration, in the order of spec section 1.
+pub fn configurations() -> impl Iterator<Item = (Domain, Config)> {
+    let outputs = |partitioning| OutputPrimitive::ALL.map(|output| (partitioning, output));
+    let configs = Partitioning::ALL.into_iter().flat_map(outputs).flat_map(|(p, output)| {
+        SplitOrder::ALL.map(|split| Config { partitioning: p, output, split })
+    });
+    Domain::ALL.into_iter().flat_map(move |domain| configs.clone().map(move |c| (domain, c)))
 }
 
-/// A factor drawn from what finds faults: anywhere in range, small, at and near integers and
-/// halves, special, and any bits at all.
-#[must_use]
-pub fn random_factor(random: &mut SplitMix64) -> f32 {
-    match random.below(20) {
-        0..8 => from_fixed(random.below(0x40_0000 - 0x1_0000) + 0x1_0000),
-        8..12 => from_fixed(random.below(0x7_0000) + 0x1_0000),
-        12..15 => from_fixed((random.below(64) + 1) << 16),
-        15..17 => {
-            let near = from_fixed((random.below(128) + 1) << 15);
-            let reach = 1 << random.below(12);
-            let ulps = random.below(reach);
-            f32::from_bits(near.to_bits().wrapping_add(ulps).wrapping_sub(ulps / 2))
-        }
-        17 => pick(random, &exceptional_factors()),
-        18 => pick(random, &special_factors()),
-        _ => f32::from_bits(random.next_u32()),
-    }
+fn pick<T: Copy>(random: &mut SplitMix64, from: &[T]) -> T {
+    from[random.below(u32::try_from(from.len()).unwrap_or(u32::MAX)) as usize]
 }
 
 /// The binary32 with this 15.16 value, exact for values below 2^24.

@@ -7,7 +7,7 @@ mod run;
 mod units;
 
 pub use run::{Row, verify};
-pub use units::{Subject, Unit, units};
+pub use units::{Random, RandomUnit, Subject, Unit, units};
 
 use crate::generate::Shard;
 
@@ -25,6 +25,12 @@ impl Plan {
     #[must_use]
     pub fn levels() -> Self {
         Self { subjects: vec![Subject::Level1, Subject::Level2], shard: Shard::WHOLE }
+    }
+
+    /// Random patches of every configuration, and nothing else.
+    #[must_use]
+    pub fn random(random: Random) -> Self {
+        Self { subjects: vec![Subject::Random(random)], shard: Shard::WHOLE }
     }
 
     /// Everything that is finite.

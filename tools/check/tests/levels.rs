@@ -2,7 +2,8 @@
 
 use tess_check::case::Case;
 use tess_check::coverage::Coverage;
-use tess_check::generate::{Level, Selection, Shard};
+use tess_check::generate::{Level, Selection, Shard, configurations, random_patch};
+use tess_check::random::SplitMix64;
 
 fn level(level: Level) -> Vec<Case> {
     Selection::level(level, 1).cases().collect()
@@ -14,6 +15,27 @@ fn level_1_hits_every_bin() {
     level(Level::One).iter().for_each(|case| coverage.record(case));
     let missed: Vec<_> = coverage.missed().collect();
     assert!(missed.is_empty(), "{} bins missed: {missed:#?}", missed.len());
+}
+
+/// Random patches reach every bin too, but for some of the transitions; and they stay small.
+#[test]
+fn random_patches_reach_what_there_is() {
+    let (mut coverage, mut points, mut cases) = (Coverage::new(), 0, 0);
+    let mut random = SplitMix64::new(1);
+    for (domain, config) in configurations() {
+        for _ in 0..4000 {
+            let case = Case { config, factors: random_patch(domain, &mut random) };
+            coverage.record(&case);
+            points += u64::from(case.patch().counts().points);
+            cases += 1;
+        }
+    }
+    let (transitions, others): (Vec<_>, Vec<_>) =
+        coverage.missed().partition(|bin| bin.starts_with("transition/"));
+    assert!(others.is_empty(), "{others:?}");
+    assert!(transitions.len() < 1000, "{} transitions missed", transitions.len());
+    let mean = points / cases;
+    assert!((20..120).contains(&mean), "{mean} points in the mean");
 }
 
 #[test]

@@ -1,13 +1,14 @@
 //! Verification of backends: it compares what it says, in any number of shards, and sees faults.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::sync::atomic::Ordering;
 use tess_check::backend::Backend;
+use tess_check::case::{Case, factor_bits};
 use tess_check::core_backend::CoreBackend;
 use tess_check::faults::{Fault, Faulty};
 use tess_check::generate::{Level, Selection, Shard};
 use tess_check::second::SecondFormulation;
-use tess_check::verify::{Plan, Row, Subject, Unit, units, verify};
+use tess_check::verify::{Plan, Random, Row, Subject, Unit, units, verify};
 
 /// One part in 61 of every subject (and far less of the largest).
 fn small_plan() -> Plan {
@@ -60,7 +61,8 @@ fn faulty_plan(subject: Subject) -> (Vec<Fault>, Plan) {
 
 #[test]
 fn every_subject_sees_every_fault() {
-    for subject in Subject::ALL {
+    let random = Subject::Random(Random { patches: 300, seed: 1 });
+    for subject in Subject::ALL.into_iter().chain([random]) {
         let (faults, plan) = faulty_plan(subject);
         for fault in faults {
             let faulty = Faulty::new(CoreBackend, fault, 0);
@@ -86,6 +88,57 @@ fn differences_are_told_apart_by_backend() {
     let rows = run(&mut [vec![Box::new(CoreBackend), Box::new(faulty)]], &plan);
     let mismatches: Vec<u64> = rows.iter().map(|row| row.mismatches).collect();
     assert_eq!(mismatches, [0, 1], "{rows:?}");
+}
+
+/// A single bit of a single random patch, somewhere in the middle.
+#[test]
+fn one_bit_of_one_random_patch() {
+    let plan = Plan::random(Random { patches: 5000, seed: 3 });
+    for fault in [Fault::PointU, Fault::LastPoint] {
+        let rows = run(&mut [vec![Box::new(Faulty::new(CoreBackend, fault, 101))]], &plan);
+        let [row] = &rows[..] else { panic!("one row: {rows:?}") };
+        assert_eq!((row.compared, row.mismatches), (96 * 5000, 1), "{row:?}");
+        let first = row.first.as_deref().unwrap_or_default();
+        assert!(first.contains("point "), "the element is named: {first}");
+        assert!(first.contains("\n  tess patch "), "it can be run again: {first}");
+    }
+}
+
+fn random_cases(patches: u64, seed: u64) -> Vec<Vec<Case>> {
+    let units = units(Subject::Random(Random { patches, seed })).into_iter();
+    let cases = units.map(|unit| match unit {
+        Unit::Random(unit) => unit.cases(),
+        other => panic!("random patches: {other:?}"),
+    });
+    cases.collect()
+}
+
+#[test]
+fn as_many_random_patches_of_each_configuration_as_asked_for() {
+    let mut counts = HashMap::<_, u64>::new();
+    for case in random_cases(5000, 1).into_iter().flatten() {
+        *counts.entry((case.domain(), case.config)).or_default() += 1;
+    }
+    assert_eq!(counts.len(), 96, "configurations");
+    assert!(counts.values().all(|&count| count == 5000), "{counts:?}");
+}
+
+/// Seeds tell apart, and so do the units of one seed; a longer run begins with a shorter one's.
+#[test]
+fn random_patches_depend_on_the_seed_alone() {
+    let factors = |cases: &[Case]| cases.iter().map(|case| factor_bits(&case.factors)).collect();
+    let short: Vec<Vec<_>> = random_cases(20, 1).iter().map(|cases| factors(cases)).collect();
+    let distinct: HashSet<_> = short.iter().collect();
+    assert_eq!(distinct.len(), 96, "every configuration has patches of its own");
+    for (longer, short) in random_cases(30, 1).iter().zip(&short) {
+        let longer: Vec<_> = factors(longer);
+        assert_eq!(&longer[..20], &short[..], "a longer run");
+    }
+    let two_units = random_cases(5000, 1);
+    let [first, second] = [&two_units[0], &two_units[1]].map(|cases| factors(&cases[..20]));
+    assert_eq!((first == short[0], second == short[0]), (true, false), "of two units");
+    let other: Vec<Vec<_>> = random_cases(20, 2).iter().map(|cases| factors(cases)).collect();
+    assert!(other.iter().zip(&short).all(|(other, short)| other != short), "another seed");
 }
 
 #[test]

@@ -9,8 +9,10 @@ pub mod simd;
 
 use crate::failure::Failure;
 use clap::ValueEnum;
+use simd::Simd;
 use tess_check::backend::Backend;
 use tess_check::core_backend::CoreBackend;
+use tess_check::workloads::IndexType;
 use tess_simd::{Level, LevelUnavailable};
 
 /// The names that `--backend` takes.
@@ -42,6 +44,17 @@ pub struct BackendOptions {
     /// said
     #[arg(long, value_name = "NAME", value_parser = cpu_level)]
     pub cpu_level: Option<Level>,
+    /// Width of the indices that simd and gpu write: u16 or u32
+    #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = index_type)]
+    pub index_type: IndexType,
+}
+
+fn index_type(name: &str) -> Result<IndexType, String> {
+    match name {
+        "u16" => Ok(IndexType::U16),
+        "u32" => Ok(IndexType::U32),
+        _ => Err("an index type is u16 or u32".to_owned()),
+    }
 }
 
 fn cpu_level(name: &str) -> Result<Level, String> {
@@ -84,19 +97,52 @@ impl BackendOptions {
     /// Makes a backend ready as these options say.
     ///
     /// # Errors
-    /// Exit code 3 if this build or this machine does not have it, with the next step.
+    /// Exit code 2 if the backend has no indices of that width, 3 if this build or this machine does
+    /// not have it, with the next step.
     pub fn select(self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
         match name {
-            BackendName::Core => Ok(Box::new(CoreBackend)),
-            BackendName::Simd => {
-                let level = self.cpu_level.unwrap_or_else(Level::detect);
-                Ok(Box::new(simd::Simd::with_level(level).map_err(unavailable)?))
+            BackendName::Core => {
+                self.only_32_bits()?;
+                Ok(Box::new(CoreBackend))
             }
+            BackendName::Simd => self.simd(),
             #[cfg(feature = "gpu")]
-            BackendName::Gpu => Ok(Box::new(gpu::GpuBackend::open()?)),
+            BackendName::Gpu => Ok(Box::new(gpu::GpuBackend::open(self.index_type)?)),
             #[cfg(not(feature = "gpu"))]
             BackendName::Gpu => Err(not_built_in("gpu")),
         }
+    }
+}
+
+impl BackendOptions {
+    /// Refuses 16-bit indices on behalf of the model, which has none.
+    ///
+    /// # Errors
+    /// Exit code 2 if they are asked for.
+    pub fn only_32_bits(self) -> Result<(), Failure> {
+        match self.index_type {
+            IndexType::U32 => Ok(()),
+            IndexType::U16 => Err(Failure::bad_input(
+                "--index-type u16 goes with --backend simd or gpu; core has indices of 32 bits alone",
+            )),
+        }
+    }
+
+    /// The words on a command line that choose this backend in this way.
+    #[must_use]
+    pub fn words(self, backend: &str) -> String {
+        match self.index_type {
+            IndexType::U16 => format!("{backend} --index-type u16"),
+            IndexType::U32 => backend.to_owned(),
+        }
+    }
+
+    fn simd(self) -> Result<Box<dyn Backend>, Failure> {
+        let level = self.cpu_level.unwrap_or_else(Level::detect);
+        Ok(match self.index_type {
+            IndexType::U16 => Box::new(Simd::<u16>::with_level(level).map_err(unavailable)?),
+            IndexType::U32 => Box::new(Simd::<u32>::with_level(level).map_err(unavailable)?),
+        })
     }
 }
 

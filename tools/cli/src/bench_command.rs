@@ -5,7 +5,7 @@ use crate::bench::{self, Plan, Row, RunnerOptions, WorkingSet};
 use crate::failure::{Exit, Failure};
 use crate::output;
 use std::io::Write;
-use tess_check::workloads::{self, IndexType, Workload};
+use tess_check::workloads::{self, Workload};
 
 /// Time the named workloads against filling the same bytes and against the core
 #[derive(Debug, clap::Args)]
@@ -34,9 +34,6 @@ pub struct Args {
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
-    /// Width of the indices: u16 or u32
-    #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = index_type)]
-    index_type: IndexType,
     /// Interleaved runs that each median is taken of
     #[arg(long, value_name = "N", default_value_t = 9)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -44,14 +41,6 @@ pub struct Args {
     /// Print one JSON array of objects
     #[arg(long)]
     json: bool,
-}
-
-fn index_type(name: &str) -> Result<IndexType, String> {
-    match name {
-        "u16" => Ok(IndexType::U16),
-        "u32" => Ok(IndexType::U32),
-        _ => Err("an index type is u16 or u32".to_owned()),
-    }
 }
 
 /// Runs the command.
@@ -65,7 +54,8 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         chosen => chosen,
     };
     let level = args.options.level_of(args.backend)?;
-    let options = RunnerOptions { level, threads: args.threads, index_type: args.index_type };
+    let index_type = args.options.index_type;
+    let options = RunnerOptions { level, threads: args.threads, index_type };
     let mut runner = bench::runner(args.backend, options)?;
     if cfg!(debug_assertions) {
         // A closed stderr does not change the result.

@@ -12,7 +12,8 @@ use std::thread::available_parallelism;
 use tess_check::backend::Backend;
 use tess_check::checker::{self, CheckError, Difference, Report};
 use tess_check::compare::Element;
-use tess_check::vectors::VectorFile;
+use tess_check::vectors::{Kind, VectorFile};
+use tess_check::workloads::IndexType;
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
@@ -32,6 +33,7 @@ Exit code 0: all equal; 1: differences; 2: malformed, truncated or empty file; 3
 Examples:
   tess check golden/cases.txt
   tess check golden/place.csv --backend simd
+  tess check golden/cases.txt --backend gpu --index-type u16
   tess patch tri --outer 3,4,5 --inner 4 | tess check -
   ./my-device | tess check - --order any --conversion 0.6ulp")]
 pub struct Args {
@@ -54,12 +56,16 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
     let file = VectorFile::new(name, open(&args.file)?).map_err(|e| failure(e.into()))?;
     let strength = args.strength.of(file.header())?;
+    if file.header().kind == Kind::Listings && file.header().is_from_device() {
+        device_has_no_index_type(args)?;
+    }
     let bar = progress(file.header().count, "records");
     let report = checker::check(file, &mut backends, strength, &|records| bar.inc(records));
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
     let backend = backends.first().map_or("core", |backend| backend.name());
-    show(&report, backend).map_err(|error| Failure::file("write", Path::new("-"), &error))?;
+    let backend = args.backend.options.words(backend);
+    show(&report, &backend).map_err(|error| Failure::file("write", Path::new("-"), &error))?;
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
 }
 
@@ -70,6 +76,16 @@ fn backends(args: &BackendArgs) -> Result<Vec<Box<dyn Backend>>, Failure> {
         BackendName::Simd | BackendName::Gpu => 1,
     };
     (0..threads).map(|_| args.select()).collect()
+}
+
+/// What a device gave is tested then, not the backend that it is compared with.
+fn device_has_no_index_type(args: &Args) -> Result<(), Failure> {
+    match args.backend.options.index_type {
+        IndexType::U32 => Ok(()),
+        IndexType::U16 => Err(Failure::bad_input(
+            "--index-type is for a backend under test; in this file a device's listings are tested",
+        )),
+    }
 }
 
 fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {

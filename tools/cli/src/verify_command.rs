@@ -11,7 +11,7 @@ use tess_check::backend::Backend;
 use tess_check::generate::Shard;
 use tess_check::names::Named;
 use tess_check::second::SecondFormulation;
-use tess_check::verify::{Plan, Row, Subject, verify};
+use tess_check::verify::{Plan, Random, Row, Subject, verify};
 
 /// Compare every backend with the model, over generated levels or over everything there is
 #[derive(Debug, clap::Args)]
@@ -19,14 +19,20 @@ use tess_check::verify::{Plan, Row, Subject, verify};
 Without --exhaustive: levels 1 and 2 of `tess gen`; level-2 is what level 2 has beyond level 1. With
 it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and
 locations, all transitions and all interiors. Shards are disjoint, and together they are everything,
-so any batch system can spread the work.
+so any batch system can spread the work. A shard that has nothing of a subject, as there are fewer units
+than shards, says so on stderr; nothing differs then.
+
+--random N compares N patches of each configuration (domain, partitioning, output, split order: 96)
+instead, all kinds of factors in every position and most of the patches small. The same seed gives the
+same patches, of which more begin with the same ones.
 
 Exit code 0: all equal; 1: differences; 3: a backend is not available here.
 
 Examples:
   tess verify
   tess verify --backend simd --exhaustive
-  tess verify --exhaustive --shard 3/64")]
+  tess verify --exhaustive --shard 3/64
+  tess verify --backend gpu --random 100000")]
 pub struct Args {
     /// Backend to compare; simd and gpu unless said. core is the model's second formulation
     #[arg(long, value_name = "NAME")]
@@ -39,6 +45,13 @@ pub struct Args {
     /// One subject only: level-1, level-2, transitions, interiors, locations or factors
     #[arg(long, value_name = "NAME", value_parser = crate::args::name_of::<Subject>())]
     subject: Vec<Subject>,
+    /// Instead, N random patches of each configuration
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(conflicts_with_all = ["exhaustive", "subject"])]
+    random: Option<u64>,
+    /// Seed of the random patches
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "random")]
+    seed: u64,
     /// One of N disjoint parts, counted from 1
     #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
     shard: Shard,
@@ -60,6 +73,7 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
     });
     bar.finish_and_clear();
     let table = table?;
+    report_empty(&table, args.shard);
     show(&table, started.elapsed())
         .map_err(|error| Failure::file("write", Path::new("-"), &error))?;
     let equal = table.iter().all(|row| row.mismatches == 0);
@@ -68,7 +82,11 @@ pub fn run(args: &Args) -> Result<Exit, Failure> {
 
 impl Args {
     fn plan(&self) -> Plan {
-        let plan = if self.exhaustive { Plan::exhaustive() } else { Plan::levels() };
+        let plan = match self.random {
+            Some(patches) => Plan::random(Random { patches, seed: self.seed }),
+            None if self.exhaustive => Plan::exhaustive(),
+            None => Plan::levels(),
+        };
         let subjects = if self.subject.is_empty() { plan.subjects } else { self.subject.clone() };
         Plan { subjects, shard: self.shard }
     }
@@ -84,12 +102,30 @@ impl Args {
         };
         let backend = |&name: &BackendName| -> Result<Box<dyn Backend>, Failure> {
             match name {
-                BackendName::Core => Ok(Box::new(SecondFormulation)),
+                BackendName::Core => {
+                    self.options.only_32_bits()?;
+                    Ok(Box::new(SecondFormulation))
+                }
                 _ => self.options.select(name),
             }
         };
         let backends = || names.iter().map(backend).collect();
         (0..threads).map(|_| backends()).collect()
+    }
+}
+
+/// Says of which subjects the shard has nothing: they have fewer units than shards were asked for.
+fn report_empty(table: &[Row], shard: Shard) {
+    let mut empty: Vec<&str> =
+        table.iter().filter(|row| row.compared == 0).map(|row| row.subject.name()).collect();
+    empty.dedup();
+    for subject in empty {
+        let (part, of) = (shard.part + 1, shard.of);
+        // A closed stderr does not change the result.
+        _ = writeln!(
+            io::stderr(),
+            "tess: nothing to compare in shard {part}/{of}: {subject} has fewer than {part} units"
+        );
     }
 }
 

@@ -1,6 +1,6 @@
 //! The systematic parts of levels 1 and 2.
 
-use super::{boundary_factors, exceptional_factors, patch_of, special_factors};
+use super::{boundary_factors, configurations, exceptional_factors, patch_of, special_factors};
 use crate::case::{Case, factor_names};
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, SplitOrder,
@@ -148,12 +148,8 @@ fn triangles(partitioning: Partitioning, split: SplitOrder, factors: PatchFactor
 
 /// Each configuration of each domain, on one ordinary patch.
 fn every_configuration(cases: &mut Vec<Case>) {
-    for (domain, partitioning) in combinations() {
-        for output in OutputPrimitive::ALL {
-            for split in SplitOrder::ALL {
-                let factors = patch_of(domain, |p| PLAIN[p]);
-                cases.push(Case { config: Config { partitioning, output, split }, factors });
-            }
-        }
-    }
+    cases.extend(configurations().map(|(domain, config)| {
+        let factors = patch_of(domain, |p| PLAIN[p]);
+        Case { config, factors }
+    }));
 }

@@ -11,7 +11,7 @@ use crate::names::Named;
 use crate::sequences::bucket;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder};
+use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder, Tessellation};
 
 /// What was compared of one subject in one backend.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -97,6 +97,7 @@ type Compared = (u64, Option<String>);
 fn compare_unit(backend: &mut dyn Backend, unit: &Unit) -> Result<Compared, BackendError> {
     match unit {
         Unit::Patches(cases) => compare_patches(backend, cases),
+        Unit::Random(unit) => compare_patches(backend, &unit.cases()),
         Unit::Values { partitioning, first } => compare_values(backend, *partitioning, *first),
         Unit::Bucket { split, parity, bucket } => compare_bucket(backend, *split, *parity, *bucket),
     }
@@ -104,8 +105,11 @@ fn compare_unit(backend: &mut dyn Backend, unit: &Unit) -> Result<Compared, Back
 
 fn compare_patches(backend: &mut dyn Backend, cases: &[Case]) -> Result<Compared, BackendError> {
     let observed = tessellate(backend, cases)?;
+    let mut expected = Tessellation::default();
     let mut differences = cases.iter().zip(&observed).filter_map(|(case, observed)| {
-        let expected = case.patch().tessellate();
+        expected.points.clear();
+        expected.indices.clear();
+        case.patch().emit(&mut expected);
         let mismatch = compare::tessellations(case, observed, &expected)?;
         Some(format!("{case}\n  {mismatch}\n  {}", case.command()))
     });

@@ -1,12 +1,13 @@
 //! What there is to compare, cut into units.
 
 use crate::case::{Case, factor_bits, factors_from_list};
-use crate::generate::{Level, Selection};
+use crate::generate::{Level, Selection, configurations, random_patch};
 use crate::names::Named;
+use crate::random::SplitMix64;
 use std::collections::HashSet;
 use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
 
-/// Something that can be compared completely.
+/// Something that can be compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Subject {
     /// The generated level 1.
@@ -21,10 +22,12 @@ pub enum Subject {
     Transitions,
     /// All pairs of inside factors, and all isolines.
     Interiors,
+    /// Random patches.
+    Random(Random),
 }
 
 impl Subject {
-    /// Every subject, the fastest first.
+    /// Every subject that is finite, the fastest first.
     pub const ALL: [Self; 6] = [
         Self::Level1,
         Self::Transitions,
@@ -45,6 +48,42 @@ impl Named for Subject {
         ("transitions", Self::Transitions),
         ("interiors", Self::Interiors),
     ];
+
+    fn name(self) -> &'static str {
+        let finite = Self::NAMES.iter().find(|(_, subject)| *subject == self);
+        finite.map_or("random", |(name, _)| name)
+    }
+}
+
+/// Random patches of every configuration: every domain, partitioning, output and split order.
+///
+/// Each unit is drawn from a seed of its own, so that more patches begin with the same ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Random {
+    /// How many patches of each configuration.
+    pub patches: u64,
+    /// Seed of all of them.
+    pub seed: u64,
+}
+
+/// Random patches of one configuration, from a seed of their own.
+#[derive(Clone, Copy, Debug)]
+pub struct RandomUnit {
+    domain: Domain,
+    config: Config,
+    seed: u64,
+    patches: u64,
+}
+
+impl RandomUnit {
+    /// The patches, always the same.
+    #[must_use]
+    pub fn cases(&self) -> Vec<Case> {
+        let &Self { domain, config, seed, patches } = self;
+        let mut random = SplitMix64::new(seed);
+        let case = |_| Case { config, factors: random_patch(domain, &mut random) };
+        (0..patches).map(case).collect()
+    }
 }
 
 /// A part of a subject.
@@ -52,6 +91,8 @@ impl Named for Subject {
 pub enum Unit {
     /// Whole patches.
     Patches(Vec<Case>),
+    /// Random patches of one configuration.
+    Random(RandomUnit),
     /// Factor processing of the binary32 numbers with 2^20 consecutive bit patterns.
     Values {
         /// The partitioning.
@@ -74,6 +115,8 @@ pub enum Unit {
 pub(super) const VALUES: u32 = 1 << 20;
 /// How many patches a unit has at most.
 const PATCHES: usize = 1024;
+/// How many random patches a unit has at most: large batches, as each is one configuration's.
+const RANDOM_PATCHES: u64 = 4096;
 
 /// The units of a subject, always the same in the same order.
 #[must_use]
@@ -85,6 +128,7 @@ pub fn units(subject: Subject) -> Vec<Unit> {
         Subject::Locations => buckets().collect(),
         Subject::Transitions => patches(transitions()),
         Subject::Interiors => patches(interiors()),
+        Subject::Random(random) => random_units(random).collect(),
     }
 }
 
@@ -99,6 +143,18 @@ fn beyond_level_one() -> impl Iterator<Item = Case> {
     let known: HashSet<_> =
         Selection::level(Level::One, 1).cases().map(|case| key(&case)).collect();
     Selection::level(Level::Two, 1).cases().filter(move |case| !known.contains(&key(case)))
+}
+
+/// Configuration by configuration.
+fn random_units(random: Random) -> impl Iterator<Item = Unit> {
+    let mut seeds = SplitMix64::new(random.seed);
+    configurations().flat_map(move |(domain, config)| {
+        let mut seeds = SplitMix64::new(seeds.next_u64());
+        (0..random.patches.div_ceil(RANDOM_PATCHES)).map(move |number| {
+            let patches = RANDOM_PATCHES.min(random.patches - number * RANDOM_PATCHES);
+            Unit::Random(RandomUnit { domain, config, seed: seeds.next_u64(), patches })
+        })
+    })
 }
 
 fn values() -> impl Iterator<Item = Unit> {

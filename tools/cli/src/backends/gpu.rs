@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use tess_check::backend::{Backend, BackendError};
+use tess_check::workloads::IndexType;
 use tess_core::state::{Parity, SplitOrder};
 use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Partitioning,
@@ -16,18 +17,23 @@ use tess_gpu::{Numbering, Probe, Setup};
 pub struct GpuBackend {
     gpu: Gpu,
     tessellator: Tessellator,
+    index_type: tess_gpu::IndexType,
 }
 
 impl GpuBackend {
-    /// Opens the adapter.
+    /// Opens the adapter, for indices of 16 or 32 bits.
     ///
     /// # Errors
     /// Exit code 3 if there is none.
-    pub fn open() -> Result<Self, Failure> {
+    pub fn open(index_type: IndexType) -> Result<Self, Failure> {
         let gpu = pollster::block_on(Gpu::open())
             .map_err(|error| Failure::unavailable(error.to_string()))?;
         let tessellator = Tessellator::new(&gpu.device);
-        Ok(Self { gpu, tessellator })
+        let index_type = match index_type {
+            IndexType::U16 => tess_gpu::IndexType::U16,
+            IndexType::U32 => tess_gpu::IndexType::U32,
+        };
+        Ok(Self { gpu, tessellator, index_type })
     }
 
     fn probe(
@@ -58,7 +64,8 @@ impl Backend for GpuBackend {
         patches: &[PatchFactors],
     ) -> Result<Vec<Tessellation>, BackendError> {
         let Some(first) = patches.first() else { return Ok(Vec::new()) };
-        let setup = Setup { numbering: Numbering::PerPatch, ..Setup::new(first.domain(), config) };
+        let (numbering, index_type) = (Numbering::PerPatch, self.index_type);
+        let setup = Setup { numbering, index_type, ..Setup::new(first.domain(), config) };
         let output = self.tessellator.tessellate(&self.gpu, setup, patches);
         split_by_patch(&output.map_err(BackendError::new)?, setup)
     }

@@ -7,18 +7,18 @@ use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, IsolineFactors, Parity, Partitioning,
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
-use tess_simd::{Batch, Level, LevelUnavailable, Numbering, Output, Tessellator};
+use tess_simd::{Batch, IndexFormat, Level, LevelUnavailable, Numbering, Output, Tessellator};
 
-/// `tess-simd` at one CPU level.
+/// `tess-simd` at one CPU level, with indices of 16 or 32 bits.
 #[derive(Debug)]
-pub struct Simd {
+pub struct Simd<I> {
     level: Level,
     /// One for each configuration that was asked for.
     tessellators: HashMap<Config, Tessellator>,
-    output: Output<DomainPoint, u32>,
+    output: Output<DomainPoint, I>,
 }
 
-impl Simd {
+impl<I: IndexFormat> Simd<I> {
     /// A backend that runs at `level`.
     ///
     /// # Errors
@@ -31,7 +31,7 @@ impl Simd {
     }
 }
 
-impl Backend for Simd {
+impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
     fn name(&self) -> &'static str {
         "simd"
     }
@@ -64,7 +64,7 @@ impl Backend for Simd {
             let whole = (0..output.ranges().len()).filter_map(|patch| output.patch(patch));
             all.extend(whole.map(|(points, indices)| Tessellation {
                 points: points.to_vec(),
-                indices: indices.to_vec(),
+                indices: indices.iter().map(|&index| index.into()).collect(),
             }));
         }
         Ok(all)

@@ -1,9 +1,17 @@
 //! The backends behind the program: exact on the recorded results, and told when they are not there.
 
-use crate::support::tess;
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 use crate::support::tess_with_environment;
+use crate::support::{tess, tess_with_input};
+use tess_check::backend::Backend;
+use tess_check::checker;
+use tess_check::faults::{Fault, Faulty};
+use tess_check::strength::Strength;
+use tess_check::vectors::VectorFile;
+use tess_cli::backends::simd::Simd;
 use tess_simd::Level;
+#[cfg(feature = "gpu")]
+use {tess_check::workloads::IndexType, tess_cli::backends::gpu::GpuBackend};
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden");
 
@@ -48,6 +56,84 @@ fn gpu_equals_recorded_patches() {
     }
 }
 
+/// With 16-bit indices, numbered patch by patch.
+#[test]
+fn narrow_indices_equal_recorded_patches() {
+    for backend in narrow() {
+        for file in ["cases.txt", "patches.csv"] {
+            equals(file, &format!("{backend} --index-type u16"));
+        }
+    }
+}
+
+/// The backends that have 16-bit indices.
+fn narrow() -> &'static [&'static str] {
+    if cfg!(feature = "gpu") { &["simd", "gpu"] } else { &["simd"] }
+}
+
+/// A recorded index that is one too high, and a backend whose last index is.
+#[test]
+fn narrow_indices_that_differ() {
+    let recorded = std::fs::read_to_string(format!("{GOLDEN}/cases.txt")).expect("recorded");
+    let changed = recorded.replacen("\n3 4 12\n", "\n3 4 13\n", 1);
+    assert_ne!(recorded, changed, "a fault is planted in the file");
+    for backend in narrow() {
+        let run =
+            tess_with_input(&format!("check - --backend {backend} --index-type u16"), &changed);
+        assert_eq!(run.code, Some(1), "{backend}: {}{}", run.stdout, run.stderr);
+        assert!(run.stdout.ends_with(" cases, 1 mismatches\n"), "{backend}: {}", run.stdout);
+        let again = format!("--backend {backend} --index-type u16\n");
+        assert!(run.stdout.contains(&again), "{backend}, to see it again: {}", run.stdout);
+    }
+    for backend in &mut faulty() {
+        let file = VectorFile::new("cases.txt", recorded.as_bytes()).expect("a vector file");
+        let one = std::slice::from_mut(backend);
+        let report = checker::check(file, one, Strength::default(), &|_| {}).expect("a verdict");
+        assert_eq!((report.cases, report.mismatches), (51, 1), "{}", backend.device());
+    }
+}
+
+/// Backends with 16-bit indices, the last of which is wrong in one patch.
+fn faulty() -> Vec<Box<dyn Backend>> {
+    let simd = Simd::<u16>::with_level(Level::Baseline).expect("every machine has it");
+    let mut all: Vec<Box<dyn Backend>> = vec![Box::new(Faulty::new(simd, Fault::LastIndex, 0))];
+    #[cfg(feature = "gpu")]
+    {
+        let gpu = GpuBackend::open(IndexType::U16).expect("an adapter");
+        all.push(Box::new(Faulty::new(gpu, Fault::LastIndex, 0)));
+    }
+    all
+}
+
+/// The model has no such choice, and a device's listings are what they are.
+#[test]
+fn narrow_indices_where_there_are_none() {
+    let patch = tess("patch quad --outer 3,4,5,6 --inner 4,7").stdout;
+    let device = patch.replacen("source=tess-core", "source=rtl", 1);
+    for (words, input, why) in [
+        ("check - --index-type u16", &patch, "--backend simd or gpu"),
+        ("verify --backend core --index-type u16", &patch, "--backend simd or gpu"),
+        ("check - --backend simd --index-type u16", &device, "a device's listings"),
+        ("check - --backend simd --index-type u8", &patch, "u16 or u32"),
+    ] {
+        let run = tess_with_input(words, input);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+    }
+}
+
+/// More shards than units: done, and said.
+#[test]
+fn a_shard_without_units() {
+    let subjects = "--subject transitions --subject interiors";
+    let run = tess(&format!("verify --backend simd {subjects} --shard 10/40"));
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    let line = "tess: nothing to compare in shard 10/40: interiors has fewer than 10 units\n";
+    assert_eq!(run.stderr, line, "{}", run.stdout);
+    let run = tess(&format!("verify --backend simd {subjects} --shard 3/40"));
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+}
+
 /// 561 million locations and 336 million factors: a minute or two on a software driver.
 #[cfg(feature = "gpu")]
 #[test]
@@ -80,6 +166,43 @@ fn verify_compares_what_it_says() {
     assert_eq!(words("transitions"), row("transitions", "24576"), "{}", run.stdout);
     assert_eq!(words("interiors"), row("interiors", "8256"), "{}", run.stdout);
     factors_are_equal("simd");
+}
+
+/// 100000 random patches of each of 96 configurations.
+fn random_patches_are_equal(backend: &str) {
+    let run = tess(&format!("verify --backend {backend} --random 100000"));
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    let row: Vec<_> =
+        run.stdout.lines().nth(1).into_iter().flat_map(str::split_whitespace).collect();
+    assert_eq!(row, ["random", backend, "9600000", "0"], "{}", run.stdout);
+}
+
+#[test]
+fn simd_random_patches_are_equal() {
+    random_patches_are_equal("simd");
+}
+
+/// Two or three minutes of processor time on a software driver.
+#[cfg(feature = "gpu")]
+#[test]
+fn gpu_random_patches_are_equal() {
+    random_patches_are_equal("gpu");
+}
+
+/// What `verify` cannot do with these words: exit code 2 and why.
+#[test]
+fn verify_refuses_what_does_not_go_together() {
+    for (words, why) in [
+        ("--random 0", "0 is not in 1.."),
+        ("--random 10 --exhaustive", "cannot be used with"),
+        ("--random 10 --subject level-1", "cannot be used with"),
+        ("--subject random", "invalid value 'random'"),
+        ("--seed 7", "--random <N>"),
+    ] {
+        let run = tess(&format!("verify --backend simd {words}"));
+        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+    }
 }
 
 /// One part in 16384 of all binary32 in all partitionings: zero, NaNs and negatives among them.

@@ -1,0 +1,62 @@
+//! Random factors and patches.
+
+use super::{exceptional_factors, from_fixed, patch_of, pick, special_factors};
+use crate::case::factor_names;
+use crate::random::SplitMix64;
+use tess_core::{Domain, PatchFactors};
+
+/// The largest factor there is.
+const MAXIMUM: u16 = 64;
+/// Where most factors of [`random_patch`] end.
+const SMALL: u16 = 6;
+/// Factors that clamp to 1 in every partitioning that has it: 1, just below it, a half, the smallest
+/// normal number and the smallest of all.
+const UP_TO_ONE: [f32; 5] =
+    [1.0, f32::from_bits(0x3F7F_FFFF), 0.5, f32::MIN_POSITIVE, f32::from_bits(1)];
+
+/// A factor drawn from what finds faults: anywhere in range, small, at and near integers and
+/// halves, special, and any bits at all.
+#[must_use]
+pub fn random_factor(random: &mut SplitMix64) -> f32 {
+    factor_up_to(MAXIMUM, random)
+}
+
+/// A random patch whose output is small in the mean, for comparing many of them.
+///
+/// Every kind of [`random_factor`] in every position. Those in range are at most 6, except for one
+/// position of every eighth patch and all of every 64th, which take them from the whole range.
+/// Another 64th has nothing above 1, as minimum patches do.
+#[must_use]
+pub fn random_patch(domain: Domain, random: &mut SplitMix64) -> PatchFactors {
+    let positions = u32::try_from(factor_names(domain).len()).unwrap_or(u32::MAX);
+    let (kind, one) = (random.below(128), random.below(positions) as usize);
+    patch_of(domain, |position| match kind {
+        0..2 => factor_up_to(MAXIMUM, random),
+        2..4 => pick(random, &UP_TO_ONE),
+        4..20 if position == one => factor_up_to(MAXIMUM, random),
+        _ => factor_up_to(SMALL, random),
+    })
+}
+
+/// The kinds of [`random_factor`], those in range from 1 to `top`, which is 3 to 64.
+fn factor_up_to(top: u16, random: &mut SplitMix64) -> f32 {
+    let top = u32::from(top);
+    match random.below(20) {
+        0..8 => from_fixed(random.below((top - 1) << 16) + 0x1_0000),
+        8..12 => from_fixed(random.below((top - 1).min(7) << 16) + 0x1_0000),
+        12..15 => from_fixed((random.below(top) + 1) << 16),
+        15..17 => {
+            let near = from_fixed((random.below(2 * top) + 1) << 15);
+            let reach = 1 << random.below(12);
+            let ulps = random.below(reach);
+            f32::from_bits(near.to_bits().wrapping_add(ulps).wrapping_sub(ulps / 2))
+        }
+        17 => {
+            let mut factors = exceptional_factors();
+            factors.retain(|&factor| factor < from_fixed(top << 16));
+            pick(random, &factors)
+        }
+        18 => pick(random, &special_factors()),
+        _ => f32::from_bits(random.next_u32()),
+    }
+}
