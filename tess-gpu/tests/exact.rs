@@ -3,12 +3,11 @@
 mod common;
 
 use common::device::{Machine, Written};
-use common::expected::{Expected, point_words};
+use common::expected::{Expected, by_simd};
 use common::{all_configs, patches::random};
 use tess_check::random::SplitMix64;
-use tess_core::{DomainPoint, PatchFactors};
+use tess_core::PatchFactors;
 use tess_gpu::Setup;
-use tess_simd::{Batch, Numbering, Output, Tessellator};
 
 /// Random patches of each configuration, through the whole pipeline.
 #[test]
@@ -37,30 +36,7 @@ fn assert_both_equal(machine: &mut Machine, setup: Setup, patches: &[PatchFactor
 
 /// Whether tess-simd tessellates the patches to this.
 fn is_simd(setup: Setup, patches: &[PatchFactors], written: &Written) -> bool {
-    let (mut isolines, mut triangles, mut quads) = (Vec::new(), Vec::new(), Vec::new());
-    for patch in patches {
-        match *patch {
-            PatchFactors::Isoline(factors) => isolines.push(factors),
-            PatchFactors::Triangle(factors) => triangles.push(factors),
-            PatchFactors::Quad(factors) => quads.push(factors),
-        }
-    }
-    let batch = match patches.first() {
-        Some(PatchFactors::Isoline(_)) => Batch::Isolines(&isolines),
-        Some(PatchFactors::Triangle(_)) => Batch::Triangles(&triangles),
-        _ => Batch::Quads(&quads),
-    };
-    let mut output = Output::<DomainPoint, u32>::new();
-    let mut tessellator = Tessellator::new(setup.config);
-    let numbering = Numbering::Batch { base_vertex: 0 };
-    tessellator.tessellate(batch, numbering, &mut output).expect("it fits");
-    let mut points = Vec::new();
-    for (number, range) in (0..).zip(output.ranges()) {
-        let own = &output.points()[range.first_point as usize..][..range.points as usize];
-        let words = |&point: &DomainPoint| point_words(setup.point_format, point, number);
-        points.extend(own.iter().flat_map(words));
-    }
-    let indices = output.indices();
+    let (points, indices) = by_simd(setup, patches);
     let (all, rest) = written.indices.split_at(indices.len().min(written.indices.len()));
     points == written.points && indices == all && rest.len() < 2
 }
