@@ -96,13 +96,15 @@ fn narrow_indices_that_differ() {
 /// Backends with 16-bit indices, the last of which is wrong in one patch.
 fn faulty() -> Vec<Box<dyn Backend>> {
     let simd = Simd::<u16>::with_level(Level::Baseline).expect("every machine has it");
-    let mut all: Vec<Box<dyn Backend>> = vec![Box::new(Faulty::new(simd, Fault::LastIndex, 0))];
-    #[cfg(feature = "gpu")]
-    {
-        let gpu = GpuBackend::open(IndexType::U16).expect("an adapter");
-        all.push(Box::new(Faulty::new(gpu, Fault::LastIndex, 0)));
-    }
-    all
+    Vec::from([
+        Box::new(Faulty::new(simd, Fault::LastIndex, 0)) as Box<dyn Backend>,
+        #[cfg(feature = "gpu")]
+        Box::new(Faulty::new(
+            GpuBackend::open(IndexType::U16).expect("an adapter"),
+            Fault::LastIndex,
+            0,
+        )),
+    ])
 }
 
 /// The model has no such choice, and a device's listings are what they are.
