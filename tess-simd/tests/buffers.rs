@@ -2,10 +2,10 @@
 //! not touched, and nothing is allocated once a tessellator is warm.
 
 use allocation_counter::measure;
-use tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
+use tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors, TriangleFactors};
 use tess_simd::{
-    Batch, Buffer, Buffers, Error, Level, LevelUnavailable, Numbering, Output, PatchRange,
-    Tessellator,
+    Batch, BatchCounts, Buffer, Buffers, Error, Level, LevelUnavailable, Numbering, Output,
+    PatchRange, Tessellator,
 };
 
 const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
@@ -93,15 +93,37 @@ fn indices_that_do_not_fit() {
     assert!(matches!(result, Err(Error::IndexTooLarge { .. })), "beyond 32 bits: {result:?}");
 }
 
+/// A batch without points has no largest index, whatever its numbering begins with.
+#[test]
+fn no_points_fit_any_numbering() {
+    let mut output = Output::<[f32; 2], u16>::new();
+    let numbering = Numbering::Batch { base_vertex: u32::MAX };
+    let result = Tessellator::new(CONFIG).tessellate(&[quad(0.0)][..], numbering, &mut output);
+    assert_eq!(result, Ok(BatchCounts { patches: 1, points: 0, indices: 0 }));
+}
+
+/// The largest batch has 2^32 - 1 indices.
+#[test]
+fn batches_of_2_pow_32_indices_are_too_large() {
+    let all = |f: f32| TriangleFactors { u0: f, v0: f, w0: f, inside: f };
+    // 18432 indices each, and 3.
+    let mut patches = vec![all(64.0); 233_016];
+    patches.resize(233_016 + 5461, all(1.0));
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let mut tessellator = Tessellator::new(config);
+    let counts = tessellator.count(&patches[..]).expect("just countable");
+    assert_eq!(counts.indices, 0xFFFF_FFFF, "indices");
+    patches.push(all(1.0));
+    let points = counts.points as u64 + 3;
+    let error = Error::BatchTooLarge { points, indices: 0x1_0000_0002 };
+    assert_eq!(tessellator.count(&patches[..]), Err(error), "one triangle more");
+}
+
 #[test]
 fn uneven_columns() {
     let (long, short) = ([2.0; 9], [2.0; 8]);
-    let columns = tess_core::TriangleFactors {
-        u0: &long[..],
-        v0: &long[..],
-        w0: &short[..],
-        inside: &long[..],
-    };
+    let columns =
+        TriangleFactors { u0: &long[..], v0: &long[..], w0: &short[..], inside: &long[..] };
     let result = Tessellator::new(CONFIG).count(Batch::TriangleColumns(columns));
     assert_eq!(result, Err(Error::UnevenColumns));
 }

@@ -47,6 +47,19 @@ fn counted_on_several_threads() {
     }
 }
 
+/// Threads of a pool that is larger than there are workspaces.
+#[test]
+fn within_a_larger_pool() {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(5).build().expect("five threads");
+    let patches = Patches::random(9, Domain::Triangle, 60);
+    pool.broadcast(|_| {
+        for threads in [1, 3] {
+            let mut tessellator = Tessellator::new(CONFIG).threads(threads);
+            assert_same(&mut tessellator, Domain::Triangle, &patches);
+        }
+    });
+}
+
 /// Each thread has a workspace of its own, in a copy too.
 #[test]
 fn workspaces_are_counted() {
