@@ -1,0 +1,61 @@
+//! Every shader through Tint, the WGSL compiler of browsers built on Chromium. Unlike naga it
+//! refuses barriers in control flow that may not be uniform.
+
+mod common;
+
+use common::all_setups;
+use std::collections::BTreeSet;
+use std::io::Write;
+use std::process::{Command, Stdio};
+use tess_gpu::{Probe, Pull, Stage};
+
+/// What Tint says of a shader that it refuses.
+fn refusal(source: &str) -> Option<String> {
+    let mut child = Command::new("tint")
+        .args(["--input-format", "wgsl", "--format", "wgsl", "-"])
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap_or_else(|error| panic!("tint, a part of Dawn, has to be on the PATH: {error}"));
+    child.stdin.take().expect("it is piped").write_all(source.as_bytes()).expect("tint reads");
+    let output = child.wait_with_output().expect("tint ends");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    (!output.status.success()).then_some(said)
+}
+
+/// The functions that [`Pull`] offers, called as a user's shader does.
+const USER: &str = "
+@group(0) @binding(3) var<storage, read_write> out: array<vec2<f32>>;
+@compute @workgroup_size(64)
+fn user(@builtin(global_invocation_id) id: vec3<u32>) {
+    let corner = tess_primitive(id.x, id.y).x;
+    out[id.x] = tess_location(id.x, corner) + vec2<f32>(tess_point(id.x, corner));
+}
+";
+
+#[test]
+#[ignore = "needs tint, a part of Dawn: cargo test -p tess-gpu --test tint -- --ignored"]
+fn browsers_take_every_shader() {
+    let mut sources = BTreeSet::new();
+    for setup in all_setups() {
+        sources.extend(Stage::ALL.map(|stage| stage.source(stage.relevant(setup))));
+        sources.extend(Probe::ALL.map(|probe| probe.source(setup)));
+        sources.insert(Pull { group: 0, first_binding: 0 }.source(setup) + USER);
+    }
+    assert!(sources.len() > 100, "{} different shaders", sources.len());
+    for source in &sources {
+        assert_eq!(refusal(source), None, "{source}");
+    }
+}
+
+#[test]
+#[ignore = "needs tint, a part of Dawn: cargo test -p tess-gpu --test tint -- --ignored"]
+fn a_barrier_that_some_threads_miss_is_refused() {
+    let source = Stage::ExpandPoints.source(all_setups()[0]);
+    assert_eq!(refusal(&source), None, "as it is");
+    let barrier = "        workgroupBarrier();\n";
+    let planted = source.replacen(barrier, "if thread > 3u { workgroupBarrier(); }\n", 1);
+    let said = refusal(&planted).expect("it is refused");
+    assert!(said.contains("uniform control flow"), "{said}");
+}
