@@ -66,8 +66,10 @@ impl BackendArgs {
     /// Makes the chosen backend ready.
     ///
     /// # Errors
-    /// Exit code 3 if this build or this machine does not have it, with the next step.
+    /// Exit code 2 if it is told what it does not know, 3 if this build or this machine does not have it,
+    /// with the next step.
     pub fn select(&self) -> Result<Box<dyn Backend>, Failure> {
+        self.options.level_of(self.backend)?;
         self.select_named(self.backend)
     }
 

@@ -42,6 +42,19 @@ fn vector_formats_can_be_checked() {
     assert_eq!(tess_with_input("check -", &faulty).code, Some(1), "the fault is seen");
 }
 
+/// A CPU level is of the simd backend alone; the others don't ignore it.
+#[test]
+fn a_level_goes_with_simd() {
+    let patch = "quad --outer 1 --inner 1 --cpu-level baseline --backend";
+    for command in ["patch", "draw"] {
+        for (backend, code) in [("simd", 0), ("core", 2)] {
+            let run = tess(&format!("{command} {patch} {backend}"));
+            assert_eq!(run.code, Some(code), "{command} {backend}: {}", run.stderr);
+            assert_eq!(run.stderr.contains("--backend simd"), code == 2, "{}", run.stderr);
+        }
+    }
+}
+
 #[test]
 fn json_has_exact_points_and_floats() {
     let run = tess("patch tri --outer 3,0x40800000,5 --inner nan --format json");
