@@ -66,17 +66,15 @@ fn many_patches() {
     }
 }
 
-/// Patch after patch with the same numbers of points and other locations.
+/// Line after line with the same number of points and other locations: factors that differ in
+/// one of their lowest bits.
 fn factors_that_differ_in_one_bit() {
-    let fixed = |bits: u16| 5.5 + f32::from(bits) / 65536.0;
     for partitioning in [Partitioning::FractionalOdd, Partitioning::FractionalEven] {
         let config = Config::new(partitioning, OutputPrimitive::Point);
-        for domain in Domain::ALL {
-            let count = factor_names(domain).len();
-            let patch = |bits: u16| factors_from_list(domain, &[fixed(bits); 6][..count]);
-            let bits = (0..12).flat_map(|bit| [0, 1 << bit]).filter_map(patch);
-            check(config, domain, &Patches::new(bits.collect()));
-        }
+        let line = |detail| PatchFactors::Isoline(IsolineFactors { density: 1.0, detail });
+        let factors = (8..100_u8).map(|n| f32::from(n) * 0.625);
+        let pair = |f: f32| (0..7).flat_map(move |bit| [f, f + f32::from(1_u8 << bit) / 65536.0]);
+        check(config, Domain::Isoline, &Patches::new(factors.flat_map(pair).map(line).collect()));
     }
 }
 
