@@ -2,6 +2,8 @@
 //! once per batch, and encoding it into the caller's command encoder is all that is left per frame.
 
 mod batch;
+mod buffers;
+mod dispatches;
 mod gpu;
 mod stopwatch;
 mod whole;

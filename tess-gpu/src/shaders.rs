@@ -7,9 +7,15 @@ use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 /// A part of a shader: one file of `shaders/`.
 macro_rules! part {
     ($name:literal) => {
-        include_str!(concat!("../shaders/", $name, ".wgsl"))
+        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $name, ".wgsl"))
     };
 }
+
+mod probe;
+mod pull;
+
+pub use probe::Probe;
+pub use pull::Pull;
 
 /// One compute shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -210,110 +216,4 @@ fn any_factors(mut setup: Setup) -> Setup {
     setup.config.partitioning = Partitioning::Integer;
     setup.config.split = SplitOrder::Ruler;
     setup
-}
-
-/// A shader that runs one step alone, for comparing it with the golden model's. Binding 0 is what
-/// goes in, 1 what comes out, 2 the [`crate::tables`]; the entry point is `probes`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Probe {
-    /// Four words of a triangle patch's factors to its fixed-point u = 0 and inside factors.
-    Factors,
-    /// A 15.16 factor and its parity (1 is odd) to its packed context.
-    Contexts,
-    /// A packed context to 65 words of locations, as many of them written as it has points.
-    Locations,
-}
-
-impl Probe {
-    /// Every probe.
-    pub const ALL: [Self; 3] = [Self::Factors, Self::Contexts, Self::Locations];
-
-    /// Words of input and of output of one probe.
-    #[must_use]
-    pub const fn words(self) -> (u32, u32) {
-        match self {
-            Self::Factors => (4, 2),
-            Self::Contexts => (2, 2),
-            Self::Locations => (2, 65),
-        }
-    }
-
-    /// Its WGSL, a whole module.
-    #[must_use]
-    pub fn source(self, setup: Setup) -> String {
-        let parts: &[&str] = match self {
-            Self::Factors => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("d3d_float"),
-                part!("process"),
-                part!("make_context"),
-                part!("topology"),
-                part!("probe_factors"),
-            ],
-            Self::Contexts => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("make_context"),
-                part!("probe_contexts"),
-            ],
-            Self::Locations => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("factor_context"),
-                part!("place"),
-                part!("probe_locations"),
-            ],
-        };
-        setup.prelude() + &parts.concat() + part!("probe")
-    }
-}
-
-/// WGSL that a user's own shader includes to compute any point or primitive of a patch from its
-/// number alone, in constant time, so that nothing needs to be written out for drawing.
-///
-/// It declares `topologies` (as a batch of one chunk leaves them), `tables` and, unless
-/// [`Setup::has_integer_factors`], `contexts` as read-only storage buffers, and offers
-/// - `tess_point(patch_index, i) -> vec2<u32>`: u and v as 16.16 numbers,
-/// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
-/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the patch's own indices, as many as a
-///   primitive has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Pull {
-    /// Bind group of the buffers.
-    pub group: u32,
-    /// Binding of `topologies`; `tables` and `contexts` follow.
-    pub first_binding: u32,
-}
-
-impl Pull {
-    /// The WGSL, to stand in front of the user's.
-    #[must_use]
-    pub fn source(self, setup: Setup) -> String {
-        let declare = |offset: u32, name: &str, of: &str| {
-            let (group, binding) = (self.group, self.first_binding + offset);
-            format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
-        };
-        let mut head = setup.prelude()
-            + &declare(0, "topologies", "vec2<u32>")
-            + &declare(1, "tables", "u32")
-            + part!("state")
-            + part!("fixed_point");
-        if setup.has_integer_factors() {
-            head += part!("place_evenly");
-        } else {
-            head += &declare(2, "contexts", "vec2<u32>");
-            head += &format!("const FACTORS = {}u;\n", setup.factors());
-            head += &[part!("factor_context"), part!("place"), part!("pulled_contexts")].concat();
-        }
-        let parts = [
-            part!("topology"),
-            part!("shape"),
-            part!("points"),
-            part!("stitch"),
-            part!("connect"),
-            part!("locate"),
-        ];
-        head + &parts.concat()
-    }
 }

@@ -1,18 +1,23 @@
 //! Many patches of one domain and configuration, through the batch backend.
 
+mod output;
+mod run;
+
+pub use output::{
+    TESS_INDICES_16, TESS_INDICES_32, TESS_NUMBERING_BATCH, TESS_NUMBERING_PATCH,
+    TESS_POINTS_FIXED, TESS_POINTS_FLOAT, TessBatchCounts, TessBatchOutput, TessRange,
+};
+
 use crate::boundary;
 use crate::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_INTERNAL, TESS_LEVEL_UNAVAILABLE,
     TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus, answer,
 };
 use crate::types::{TessConfig, factors_of, listed};
-use std::ffi::c_void;
-use std::mem::{align_of, offset_of, size_of};
+use run::run;
+use std::mem::size_of;
 use tess_core::{Domain, DomainPoint, IsolineFactors, QuadFactors, TriangleFactors};
-use tess_simd::{
-    Batch, BatchCounts, Buffers, Error, IndexFormat, Level, Numbering, PatchRange, PointFormat,
-    Tessellator,
-};
+use tess_simd::{Batch, Error, Level, Tessellator};
 
 /// CPU level: the most capable one of this machine.
 pub const TESS_LEVEL_DETECT: u32 = 0;
@@ -23,94 +28,12 @@ pub const TESS_LEVEL_AVX2: u32 = 2;
 /// CPU level: AVX-512 (F, BW, CD, DQ, VL) on x86-64.
 pub const TESS_LEVEL_AVX512: u32 = 3;
 
-/// Point format: `TessPoint`, a pair of unsigned 16.16 numbers.
-pub const TESS_POINTS_FIXED: u32 = 0;
-/// Point format: two floats, exactly the 16.16 numbers.
-pub const TESS_POINTS_FLOAT: u32 = 1;
-
-/// Index format: `uint32_t`.
-pub const TESS_INDICES_32: u32 = 0;
-/// Index format: `uint16_t`; always enough when each patch is numbered on its own.
-pub const TESS_INDICES_16: u32 = 1;
-
-/// Numbering: indices count from the first point of their patch.
-pub const TESS_NUMBERING_PATCH: u32 = 0;
-/// Numbering: indices count from the first point of the batch, which has number `base_vertex`.
-pub const TESS_NUMBERING_BATCH: u32 = 1;
-
 /// Tessellates batches. Made by `tess_batch_create`, given back to `tess_batch_free`.
 #[derive(Debug)]
 pub struct TessBatch {
     tessellator: Tessellator,
     domain: Domain,
 }
-
-/// Sizes of a batch's output.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TessBatchCounts {
-    /// Patches, culled ones included: elements of `ranges`.
-    pub patches: usize,
-    /// Elements of `points`.
-    pub points: usize,
-    /// Elements of `indices`.
-    pub indices: usize,
-}
-
-/// Where one patch's output lies. A culled patch has no points and no indices.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TessRange {
-    /// Number of its first point in the batch's points.
-    pub first_point: u32,
-    /// Number of its points.
-    pub points: u32,
-    /// Number of its first index in the batch's indices.
-    pub first_index: u32,
-    /// Number of its indices.
-    pub indices: u32,
-}
-
-/// Where and in what form a batch is written. Capacities count elements; a buffer of capacity 0
-/// may be null.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct TessBatchOutput {
-    /// Points of all patches, one patch after another.
-    pub points: *mut c_void,
-    /// Room in `points`.
-    pub point_capacity: usize,
-    /// Indices of all patches, one patch after another.
-    pub indices: *mut c_void,
-    /// Room in `indices`.
-    pub index_capacity: usize,
-    /// One range for each patch.
-    pub ranges: *mut TessRange,
-    /// Room in `ranges`.
-    pub range_capacity: usize,
-    /// `TESS_POINTS_...`
-    pub point_format: u32,
-    /// `TESS_INDICES_...`
-    pub index_format: u32,
-    /// `TESS_NUMBERING_...`
-    pub numbering: u32,
-    /// Number of the batch's first point under `TESS_NUMBERING_BATCH`, else without effect.
-    pub base_vertex: u32,
-}
-
-// The structures here have the layout of those that the batch backend writes and reads.
-const _: () = {
-    assert!(size_of::<TessRange>() == size_of::<PatchRange>(), "ranges have the same size");
-    assert!(align_of::<TessRange>() == align_of::<PatchRange>(), "ranges have the same alignment");
-    assert!(offset_of!(TessRange, first_point) == offset_of!(PatchRange, first_point), "field 1");
-    assert!(offset_of!(TessRange, points) == offset_of!(PatchRange, points), "field 2");
-    assert!(offset_of!(TessRange, first_index) == offset_of!(PatchRange, first_index), "field 3");
-    assert!(offset_of!(TessRange, indices) == offset_of!(PatchRange, indices), "field 4");
-    assert!(size_of::<DomainPoint>() == 8 && align_of::<DomainPoint>() == 4, "a pair of words");
-    assert!(size_of::<IsolineFactors>() == 2 * size_of::<f32>(), "two factors");
-    assert!(size_of::<TriangleFactors>() == 4 * size_of::<f32>(), "four factors");
-    assert!(size_of::<QuadFactors>() == 6 * size_of::<f32>(), "six factors");
-};
 
 /// Makes a tessellator for batches of one domain in one configuration.
 ///
@@ -253,63 +176,12 @@ pub unsafe extern "C" fn tess_batch_run(
     })
 }
 
-/// Tessellates a batch in one pair of formats.
-///
-/// # Safety
-/// - As for [`tess_batch_run`], the buffers' elements being `P` and `I`.
-unsafe fn run<P: PointFormat, I: IndexFormat>(
-    batch: &mut TessBatch,
-    (factors, factor_count): (*const f32, usize),
-    output: &TessBatchOutput,
-    counts: *mut TessBatchCounts,
-) -> Result<(), TessStatus> {
-    let numbering = match output.numbering {
-        TESS_NUMBERING_PATCH => Numbering::PerPatch,
-        TESS_NUMBERING_BATCH => Numbering::Batch { base_vertex: output.base_vertex },
-        _ => return Err(TESS_UNKNOWN_VALUE),
-    };
-    let points = (output.points.cast::<P>(), output.point_capacity);
-    let indices = (output.indices.cast::<I>(), output.index_capacity);
-    let ranges = (output.ranges.cast::<PatchRange>(), output.range_capacity);
-    check_all_apart(&[
-        boundary::bytes(factors, factor_count)?,
-        boundary::bytes(points.0, points.1)?,
-        boundary::bytes(indices.0, indices.1)?,
-        boundary::bytes(ranges.0, ranges.1)?,
-    ])?;
-    // SAFETY: `factor_count` readable floats, as the caller promises.
-    let patches = unsafe { patches(batch.domain, factors, factor_count) }?;
-    let buffers = Buffers {
-        // SAFETY: readable and writable, as the caller promises, and apart, as was just checked.
-        points: unsafe { boundary::list_mut(points.0, points.1) }?,
-        // SAFETY: as above.
-        indices: unsafe { boundary::list_mut(indices.0, indices.1) }?,
-        // SAFETY: as above; any bits are a range, and the layouts are the same.
-        ranges: unsafe { boundary::list_mut(ranges.0, ranges.1) }?,
-    };
-    let written = match batch.tessellator.write(patches, numbering, buffers) {
-        Err(Error::BufferTooSmall { .. }) => {
-            let needed = batch.tessellator.count(patches).map_err(|error| status_of(&error))?;
-            // SAFETY: `counts` is writable, as the caller promises.
-            unsafe { boundary::write(counts, needed.into()) }?;
-            return Err(TESS_BUFFER_TOO_SMALL);
-        }
-        Err(error) => return Err(status_of(&error)),
-        Ok(written) => written,
-    };
-    // SAFETY: `counts` is writable, as the caller promises.
-    unsafe { boundary::write(counts, written.into()) }
-}
-
-/// Refuses buffers of which any two share memory.
-fn check_all_apart(buffers: &[boundary::Bytes]) -> Result<(), TessStatus> {
-    for (i, a) in buffers.iter().enumerate() {
-        for b in buffers.iter().skip(i + 1) {
-            boundary::check_apart(a, b)?;
-        }
-    }
-    Ok(())
-}
+// The structures that the batch backend reads are as many floats as a patch has factors.
+const _: () = {
+    assert!(size_of::<IsolineFactors>() == 2 * size_of::<f32>(), "two factors");
+    assert!(size_of::<TriangleFactors>() == 4 * size_of::<f32>(), "four factors");
+    assert!(size_of::<QuadFactors>() == 6 * size_of::<f32>(), "six factors");
+};
 
 /// The patches whose factors lie in a caller's array.
 ///
@@ -343,12 +215,5 @@ fn status_of(error: &Error) -> TessStatus {
         Error::BatchTooLarge { .. } => TESS_TOO_LARGE,
         // Batches from C have no columns, and the list of errors may grow.
         _ => TESS_INTERNAL,
-    }
-}
-
-impl From<BatchCounts> for TessBatchCounts {
-    fn from(counts: BatchCounts) -> Self {
-        let BatchCounts { patches, points, indices } = counts;
-        Self { patches, points, indices }
     }
 }

@@ -3,8 +3,17 @@
 use std::path::Path;
 
 /// The sources with an interface for C, in the order in which the header is best read.
-const SOURCES: &[&str] =
-    &["version", "status", "types", "patch", "process", "probe", "prepare", "batch"];
+const SOURCES: &[&str] = &[
+    "version",
+    "status",
+    "types",
+    "patch",
+    "process",
+    "probe",
+    "prepare",
+    "batch",
+    "batch/output",
+];
 
 /// With `TESS_BLESS` set, writes the header instead of comparing it.
 #[test]

@@ -1,11 +1,11 @@
 //! A batch of patches, ready to be encoded again and again.
 
-use crate::bindings::Resource;
-use crate::layout::{Job, Status};
-use crate::runner::{Tessellator, gpu};
+use crate::runner::Tessellator;
+use crate::runner::buffers::Buffers;
+use crate::runner::dispatches::{Dispatch, Encoding, Workgroups};
 use crate::setup::{IndexType, Numbering, Setup};
 use crate::shaders::Stage;
-use crate::sizes::{ALIGNMENT, Capacity, Plan, Span};
+use crate::sizes::{Capacity, Plan};
 use std::fmt;
 
 /// Where the output goes.
@@ -62,21 +62,6 @@ pub struct Batch {
     contexts: wgpu::Buffer,
     offsets: wgpu::Buffer,
     dispatches: Vec<Dispatch>,
-}
-
-#[derive(Debug)]
-struct Dispatch {
-    stage: Stage,
-    pipeline: wgpu::ComputePipeline,
-    group: wgpu::BindGroup,
-    workgroups: Workgroups,
-}
-
-#[derive(Debug)]
-enum Workgroups {
-    Direct([u32; 3]),
-    /// At this offset of the arguments.
-    Indirect(u64),
 }
 
 impl Batch {
@@ -193,179 +178,3 @@ fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
         primitives: elements(indices.size() / 8 * 8, setup.primitive_bytes()),
     }
 }
-
-/// Everything that the stages bind.
-struct Buffers {
-    jobs: wgpu::Buffer,
-    factors: wgpu::Buffer,
-    tables: wgpu::Buffer,
-    topologies: wgpu::Buffer,
-    contexts: wgpu::Buffer,
-    offsets: wgpu::Buffer,
-    status: wgpu::Buffer,
-    tiles: wgpu::Buffer,
-    arguments: wgpu::Buffer,
-    points: wgpu::Buffer,
-    indices: wgpu::Buffer,
-}
-
-impl Buffers {
-    fn new(
-        tessellator: &mut Tessellator,
-        plan: &Plan,
-        setup: Setup,
-        factors: &wgpu::Buffer,
-        outputs: Outputs<'_>,
-    ) -> Self {
-        use wgpu::BufferUsages as Usage;
-        let tables = tessellator.tables(setup.config.split);
-        let device = tessellator.device();
-        let storage = Usage::STORAGE | Usage::COPY_SRC;
-        let make = |label, size, more| gpu::empty(device, label, size, storage | more);
-        let all = |region: fn(&Plan, u32) -> Span| region(plan, plan.chunks().max(1)).offset;
-        let jobs = all_jobs(plan);
-        // Without outputs there are no windows, so nothing binds what stands for them here.
-        let (points, indices) = match outputs {
-            Outputs::CountOnly => (factors, factors),
-            Outputs::Buffers { points, indices } => (points, indices),
-        };
-        Self {
-            jobs: gpu::filled(device, "jobs", &jobs, Usage::UNIFORM),
-            factors: factors.clone(),
-            tables,
-            topologies: make("topologies", all(Plan::topologies), Usage::empty()),
-            contexts: make("contexts", all(Plan::contexts), Usage::empty()),
-            offsets: make("offsets", all(Plan::offsets), Usage::empty()),
-            status: make("status", plan.status_size(), Usage::COPY_DST),
-            tiles: make("tiles", plan.tiles_size(), Usage::empty()),
-            arguments: make("arguments", plan.arguments_size(), Usage::INDIRECT),
-            points: points.clone(),
-            indices: indices.clone(),
-        }
-    }
-}
-
-/// A job of no patches, then for each chunk its own and those of its windows.
-fn all_jobs(plan: &Plan) -> Vec<u8> {
-    let mut jobs = vec![plan.empty_job()];
-    for chunk in 0..plan.chunks() {
-        jobs.push(plan.job(chunk));
-        jobs.extend((0..plan.point_windows()).map(|window| plan.point_job(chunk, window)));
-        jobs.extend((0..plan.primitive_windows()).map(|window| plan.primitive_job(chunk, window)));
-    }
-    let mut bytes = Vec::new();
-    for job in &jobs {
-        bytes.extend_from_slice(bytemuck::bytes_of(job));
-        bytes.extend_from_slice(&[0; PADDING]);
-    }
-    bytes
-}
-
-/// Turns a plan into dispatches.
-struct Encoding<'a> {
-    tessellator: &'a mut Tessellator,
-    setup: Setup,
-    plan: &'a Plan,
-    buffers: &'a Buffers,
-}
-
-/// Which chunk, job and window a dispatch is about.
-#[derive(Clone, Copy)]
-struct Part {
-    chunk: u32,
-    job: u32,
-    window: u32,
-}
-
-impl Encoding<'_> {
-    /// All chunks are counted before any is expanded, so that nothing is written if not all fits.
-    fn all(mut self) -> Vec<Dispatch> {
-        let mut dispatches = Vec::new();
-        for chunk in 0..self.plan.chunks() {
-            let part = Part { chunk, job: self.first_job(chunk), window: 0 };
-            let factors = Workgroups::Direct(self.plan.factors_workgroups(chunk));
-            let scan = Workgroups::Direct(self.plan.scan_workgroups(chunk));
-            dispatches.push(self.dispatch(Stage::Factors, part, factors));
-            dispatches.push(self.dispatch(Stage::Scan, part, scan));
-            dispatches.push(self.dispatch(Stage::Totals, part, Workgroups::Direct([1; 3])));
-        }
-        if dispatches.is_empty() {
-            let part = Part { chunk: 0, job: 0, window: 0 };
-            dispatches.push(self.dispatch(Stage::Totals, part, Workgroups::Direct([1; 3])));
-        }
-        (0..self.plan.chunks()).for_each(|chunk| self.expand(chunk, &mut dispatches));
-        dispatches
-    }
-
-    fn expand(&mut self, chunk: u32, dispatches: &mut Vec<Dispatch>) {
-        let plan = self.plan;
-        if plan.point_windows() + plan.primitive_windows() == 0 {
-            return;
-        }
-        let job = self.first_job(chunk);
-        let mut slot = 0;
-        let mut push = |stage, window| {
-            let part = Part { chunk, job: job + slot, window };
-            let at = Workgroups::Indirect(plan.arguments_at(chunk, slot));
-            dispatches.push(self.dispatch(stage, part, at));
-            slot += 1;
-        };
-        push(Stage::Partition, 0);
-        (0..plan.point_windows()).for_each(|window| push(Stage::ExpandPoints, window));
-        (0..plan.primitive_windows()).for_each(|window| push(Stage::ExpandPrimitives, window));
-    }
-
-    /// The number of a chunk's own job.
-    fn first_job(&self, chunk: u32) -> u32 {
-        1 + chunk * (1 + self.plan.point_windows() + self.plan.primitive_windows())
-    }
-
-    fn dispatch(&mut self, stage: Stage, part: Part, workgroups: Workgroups) -> Dispatch {
-        let pipeline = self.tessellator.pipeline(stage, self.setup);
-        let entries: Vec<_> = (0..)
-            .zip(stage.bindings())
-            .map(|(binding, &crate::Binding(resource, _))| wgpu::BindGroupEntry {
-                binding,
-                resource: self.resource(resource, part),
-            })
-            .collect();
-        let group = self.tessellator.device().create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some(stage.entry_point()),
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        });
-        Dispatch { stage, pipeline, group, workgroups }
-    }
-
-    fn resource(&self, resource: Resource, part: Part) -> wgpu::BindingResource<'_> {
-        let Part { chunk, job, window } = part;
-        let (plan, buffers) = (self.plan, self.buffers);
-        let all = |buffer: &wgpu::Buffer| Span { offset: 0, size: buffer.size() };
-        let (buffer, span) = match resource {
-            Resource::Job => (&buffers.jobs, job_span(job)),
-            Resource::Factors => (&buffers.factors, plan.factors(chunk)),
-            Resource::Tables => (&buffers.tables, all(&buffers.tables)),
-            Resource::Topologies => (&buffers.topologies, plan.topologies(chunk)),
-            Resource::Contexts => (&buffers.contexts, plan.contexts(chunk)),
-            Resource::Offsets => (&buffers.offsets, plan.offsets(chunk)),
-            Resource::Status => (&buffers.status, all(&buffers.status)),
-            Resource::Tiles => (&buffers.tiles, all(&buffers.tiles)),
-            Resource::Arguments => (&buffers.arguments, all(&buffers.arguments)),
-            Resource::Points => (&buffers.points, plan.point_window(window)),
-            Resource::Indices => (&buffers.indices, plan.primitive_window(window)),
-        };
-        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer,
-            offset: span.offset,
-            size: std::num::NonZeroU64::new(span.size),
-        })
-    }
-}
-
-fn job_span(job: u32) -> Span {
-    Span { offset: ALIGNMENT * u64::from(job), size: size_of::<Job>() as u64 }
-}
-
-/// Bytes between two jobs.
-const PADDING: usize = ALIGNMENT as usize - size_of::<Job>();
-const _: () = assert!(size_of::<Status>() == 32, "ranges follow the status at once");

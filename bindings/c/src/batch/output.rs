@@ -1,0 +1,92 @@
+//! Where and in what form the output of a batch is written.
+
+use std::ffi::c_void;
+use std::mem::{align_of, offset_of, size_of};
+use tess_core::DomainPoint;
+use tess_simd::{BatchCounts, PatchRange};
+
+/// Point format: `TessPoint`, a pair of unsigned 16.16 numbers.
+pub const TESS_POINTS_FIXED: u32 = 0;
+/// Point format: two floats, exactly the 16.16 numbers.
+pub const TESS_POINTS_FLOAT: u32 = 1;
+
+/// Index format: `uint32_t`.
+pub const TESS_INDICES_32: u32 = 0;
+/// Index format: `uint16_t`; always enough when each patch is numbered on its own.
+pub const TESS_INDICES_16: u32 = 1;
+
+/// Numbering: indices count from the first point of their patch.
+pub const TESS_NUMBERING_PATCH: u32 = 0;
+/// Numbering: indices count from the first point of the batch, which has number `base_vertex`.
+pub const TESS_NUMBERING_BATCH: u32 = 1;
+
+/// Sizes of a batch's output.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TessBatchCounts {
+    /// Patches, culled ones included: elements of `ranges`.
+    pub patches: usize,
+    /// Elements of `points`.
+    pub points: usize,
+    /// Elements of `indices`.
+    pub indices: usize,
+}
+
+/// Where one patch's output lies. A culled patch has no points and no indices.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TessRange {
+    /// Number of its first point in the batch's points.
+    pub first_point: u32,
+    /// Number of its points.
+    pub points: u32,
+    /// Number of its first index in the batch's indices.
+    pub first_index: u32,
+    /// Number of its indices.
+    pub indices: u32,
+}
+
+/// Where and in what form a batch is written. Capacities count elements; a buffer of capacity 0
+/// may be null.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct TessBatchOutput {
+    /// Points of all patches, one patch after another.
+    pub points: *mut c_void,
+    /// Room in `points`.
+    pub point_capacity: usize,
+    /// Indices of all patches, one patch after another.
+    pub indices: *mut c_void,
+    /// Room in `indices`.
+    pub index_capacity: usize,
+    /// One range for each patch.
+    pub ranges: *mut TessRange,
+    /// Room in `ranges`.
+    pub range_capacity: usize,
+    /// `TESS_POINTS_...`
+    pub point_format: u32,
+    /// `TESS_INDICES_...`
+    pub index_format: u32,
+    /// `TESS_NUMBERING_...`
+    pub numbering: u32,
+    /// Number of the batch's first point under `TESS_NUMBERING_BATCH`, else without effect.
+    pub base_vertex: u32,
+}
+
+// The structures that the batch backend writes have the layout of those here.
+const _: () = {
+    assert!(size_of::<TessRange>() == size_of::<PatchRange>(), "ranges have the same size");
+    assert!(align_of::<TessRange>() == align_of::<PatchRange>(), "ranges have the same alignment");
+    assert!(offset_of!(TessRange, first_point) == offset_of!(PatchRange, first_point), "field 1");
+    assert!(offset_of!(TessRange, points) == offset_of!(PatchRange, points), "field 2");
+    assert!(offset_of!(TessRange, first_index) == offset_of!(PatchRange, first_index), "field 3");
+    assert!(offset_of!(TessRange, indices) == offset_of!(PatchRange, indices), "field 4");
+    assert!(size_of::<DomainPoint>() == 8 && align_of::<DomainPoint>() == 4, "a pair of words");
+};
+
+impl From<BatchCounts> for TessBatchCounts {
+    fn from(counts: BatchCounts) -> Self {
+        let BatchCounts { patches, points, indices } = counts;
+        Self { patches, points, indices }
+    }
+}

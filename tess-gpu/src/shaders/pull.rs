@@ -1,0 +1,52 @@
+//! WGSL for shaders that compute points and primitives where they need them.
+
+use crate::setup::Setup;
+
+/// WGSL that a user's own shader includes to compute any point or primitive of a patch from its
+/// number alone, in constant time, so that nothing needs to be written out for drawing.
+///
+/// It declares `topologies` (as a batch of one chunk leaves them), `tables` and, unless
+/// [`Setup::has_integer_factors`], `contexts` as read-only storage buffers, and offers
+/// - `tess_point(patch_index, i) -> vec2<u32>`: u and v as 16.16 numbers,
+/// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
+/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the patch's own indices, as many as a
+///   primitive has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Pull {
+    /// Bind group of the buffers.
+    pub group: u32,
+    /// Binding of `topologies`; `tables` and `contexts` follow.
+    pub first_binding: u32,
+}
+
+impl Pull {
+    /// The WGSL, to stand in front of the user's.
+    #[must_use]
+    pub fn source(self, setup: Setup) -> String {
+        let declare = |offset: u32, name: &str, of: &str| {
+            let (group, binding) = (self.group, self.first_binding + offset);
+            format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
+        };
+        let mut head = setup.prelude()
+            + &declare(0, "topologies", "vec2<u32>")
+            + &declare(1, "tables", "u32")
+            + part!("state")
+            + part!("fixed_point");
+        if setup.has_integer_factors() {
+            head += part!("place_evenly");
+        } else {
+            head += &declare(2, "contexts", "vec2<u32>");
+            head += &format!("const FACTORS = {}u;\n", setup.factors());
+            head += &[part!("factor_context"), part!("place"), part!("pulled_contexts")].concat();
+        }
+        let parts = [
+            part!("topology"),
+            part!("shape"),
+            part!("points"),
+            part!("stitch"),
+            part!("connect"),
+            part!("locate"),
+        ];
+        head + &parts.concat()
+    }
+}
