@@ -79,5 +79,6 @@ pub(crate) fn job_span(job: u32) -> Span {
 }
 
 /// Bytes between two jobs.
+#[expect(clippy::cast_possible_truncation, reason = "an alignment of 256")]
 const PADDING: usize = ALIGNMENT as usize - size_of::<Job>();
 const _: () = assert!(size_of::<Status>() == 32, "ranges follow the status at once");

@@ -1,27 +1,15 @@
 //! The named workloads that benches and reports time, as data.
 //!
-//! Built from integers and correctly rounded operations alone, so that every machine times the
-//! same patches; a bench compares [`Workload::digest`] before it times anything.
-#![expect(
-    clippy::float_arithmetic,
-    clippy::cast_possible_truncation,
-    reason = "scenes are built from additions, multiplications, divisions and square roots in \
-              binary64, each correctly rounded, and rounded to binary32 at the end"
-)]
+//! Every machine times the same patches; a bench compares [`Workload::digest`] before it times
+//! anything.
+
+mod scenes;
+
+pub use scenes::{SEED, UNIFORM_FACTORS, character, seed_table, terrain, uniform, worst};
 
 use crate::digest::Fnv1a;
-use crate::random::SplitMix64;
 use std::ops::Range;
-use tess_core::{
-    Config, Counts, IsolineFactors, OutputPrimitive, Partitioning, Patch, PatchFactors,
-    QuadFactors, TriangleFactors,
-};
-
-/// The factors K of the workloads `uniform-K`.
-pub const UNIFORM_FACTORS: [u8; 7] = [1, 2, 4, 8, 16, 32, 64];
-
-/// The seed of the workloads that are drawn at random.
-pub const SEED: u64 = 11;
+use tess_core::{Config, Counts, Patch, PatchFactors};
 
 /// Patches of one domain and configuration, with the name that `tess bench --workload` takes.
 #[derive(Clone, Debug)]
@@ -182,128 +170,6 @@ pub fn named(name: &str) -> Vec<Workload> {
         rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['-', '/']))
     };
     all().into_iter().filter(family).collect()
-}
-
-/// `uniform-K`: 4096 quads, all factors `factor`, integer.
-#[must_use]
-pub fn uniform(factor: u8) -> Workload {
-    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-    let patch = quad([factor.into(); 6]);
-    Workload::batch(format!("uniform-{factor}"), config, vec![patch; 4096])
-}
-
-/// `seed-table`: single quads of several sizes, and every integer isoline, one patch at a time.
-#[must_use]
-pub fn seed_table() -> Vec<Workload> {
-    let quads = [
-        ("16", [16; 6]),
-        ("32", [32; 6]),
-        ("48", [48; 6]),
-        ("64", [64; 6]),
-        ("32-16-8-6-4-2", [32, 16, 8, 6, 4, 2]),
-        ("64-15-23-14-13-46", [64, 15, 23, 14, 13, 46]),
-    ];
-    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-    let mut workloads = Vec::new();
-    for (name, factors) in quads {
-        let patch = quad(factors.map(|factor: u8| f32::from(factor)));
-        workloads.push(Workload::single(format!("seed-table/quad-{name}"), config, vec![patch]));
-    }
-    workloads.push(isolines());
-    workloads
-}
-
-/// `seed-table/isolines`: every integer isoline, density by density.
-fn isolines() -> Workload {
-    let factors = (1..=64u8).flat_map(|density| (1..=64u8).map(move |detail| (density, detail)));
-    let patches = factors
-        .map(|(density, detail)| {
-            PatchFactors::Isoline(IsolineFactors { density: density.into(), detail: detail.into() })
-        })
-        .collect();
-    let config = Config::new(Partitioning::Integer, OutputPrimitive::Line);
-    Workload::single("seed-table/isolines", config, patches)
-}
-
-/// `terrain`: a flat ground of 64 x 64 quads seen by a camera, `fractional_even`.
-///
-/// Patch (x, z) covers the unit square from (x, z), u along x and v along z. The camera stands at
-/// (32, 0), 3 units above the ground: the middle of the border z = 0. An edge's factor is 192
-/// divided by the distance from the camera to the edge's midpoint, so from 63 under the camera to
-/// 2.7 in the far corners; patches on both sides of an edge see the same midpoint and so agree.
-/// Both inside factors are the mean of the four edges.
-#[must_use]
-pub fn terrain() -> Workload {
-    /// Coordinates in half units, so that midpoints are whole numbers.
-    fn edge_factor(x_halves: i32, z_halves: i32) -> f64 {
-        let (x, z) = (f64::from(x_halves) / 2.0 - 32.0, f64::from(z_halves) / 2.0);
-        192.0 / (x * x + z * z + 9.0).sqrt()
-    }
-    let mut patches = Vec::new();
-    for z in (0..128).step_by(2) {
-        for x in (0..128).step_by(2) {
-            let midpoints = [(x, z + 1), (x + 1, z), (x + 2, z + 1), (x + 1, z + 2)];
-            let [u0, v0, u1, v1] = midpoints.map(|(x, z)| edge_factor(x, z));
-            let mean = (u0 + v0 + u1 + v1) / 4.0;
-            patches.push(quad([u0, v0, u1, v1, mean, mean].map(|factor| factor as f32)));
-        }
-    }
-    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
-    Workload::batch("terrain", config, patches)
-}
-
-/// `character`: 20000 triangles with edge factors log-uniform in 1..8, `fractional_odd`.
-///
-/// The inside factor is the mean of the three edges.
-#[must_use]
-pub fn character() -> Workload {
-    let mut random = SplitMix64::new(SEED);
-    let patches = (0..20_000)
-        .map(|_| {
-            let [u0, v0, w0] = std::array::from_fn(|_| power_of_two(3.0 * random.unit()));
-            let mean = (u0 + v0 + w0) / 3.0;
-            let [u0, v0, w0, inside] = [u0, v0, w0, mean].map(|factor| factor as f32);
-            PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside })
-        })
-        .collect();
-    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
-    Workload::batch("character", config, patches)
-}
-
-/// `worst`: 1024 quads, every factor uniform in 1..64 on its own, `fractional_odd`.
-#[must_use]
-pub fn worst() -> Workload {
-    let mut random = SplitMix64::new(SEED);
-    let patches = (0..1024)
-        .map(|_| quad(std::array::from_fn(|_| (1.0 + 63.0 * random.unit()) as f32)))
-        .collect();
-    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
-    Workload::batch("worst", config, patches)
-}
-
-fn quad([u0, v0, u1, v1, inside_u, inside_v]: [f32; 6]) -> PatchFactors {
-    PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
-}
-
-/// 2^x for x >= 0, out of square roots, as library powers differ between machines.
-///
-/// Uses the first 24 bits of x's fraction: bit -k contributes the 2^k-th root of two.
-fn power_of_two(mut x: f64) -> f64 {
-    let mut power = 1.0;
-    while x >= 1.0 {
-        power *= 2.0;
-        x -= 1.0;
-    }
-    let mut root: f64 = 2.0;
-    for _ in 0..24 {
-        root = root.sqrt();
-        x *= 2.0;
-        if x >= 1.0 {
-            power *= root;
-            x -= 1.0;
-        }
-    }
-    power
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The workloads are what their descriptions say, and the same everywhere.
 
 use super::*;
+use tess_core::QuadFactors;
 
 fn quads(workload: &Workload) -> Vec<QuadFactors> {
     let quad = |patch: &PatchFactors| match patch {
