@@ -11,16 +11,15 @@ use tess_gpu::runner::{Outputs, Tessellator};
 use tess_gpu::sizes::BLOCK;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 
-/// Runs of like patches that begin and end within blocks, each long enough for tiles within whole
+/// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole
 /// blocks; the copies of these begin at various elements of a patch.
-fn runs(domain: Domain, factors: &[f32]) -> Vec<PatchFactors> {
+fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(31);
     let mut all = Vec::new();
-    for (number, &factor) in factors.iter().enumerate() {
-        let outer = if number % 3 == 2 { factor + 3.0 } else { factor };
+    for (number, &(factor, length)) in runs.iter().enumerate() {
+        let outer = if number % 3 == 2 { 13.0 } else { factor };
         let like = patch_of(domain, |position| if position == 1 { outer } else { factor });
-        let tile = 3000 / (factor * factor).max(1.0) as usize;
-        all.extend(std::iter::repeat_n(like, 560 + 40 * number + tile));
+        all.extend(std::iter::repeat_n(like, length));
         let other = [1.0, 2.5, 7.0][random.below(3) as usize];
         all.extend(std::iter::repeat_n(patch_of(domain, |_| other), number % 2));
     }
@@ -31,7 +30,19 @@ fn runs(domain: Domain, factors: &[f32]) -> Vec<PatchFactors> {
 fn like_patches_in_every_domain_partitioning_and_output() {
     let mut machine = Machine::open();
     for domain in Domain::ALL {
-        let patches = runs(domain, &[1.0, 2.0, 0.0, 3.0, 1.0, 4.75, 1.0, 9.0]);
+        let patches = runs(
+            domain,
+            &[
+                (1.0, 3560),
+                (2.0, 1390),
+                (0.0, 3680),
+                (3.0, 1053),
+                (1.0, 3720),
+                (4.75, 1030),
+                (1.0, 3800),
+                (9.0, 1157),
+            ],
+        );
         for partitioning in Partitioning::ALL {
             for output in OutputPrimitive::ALL {
                 let config = Config::new(partitioning, output);
@@ -52,7 +63,7 @@ fn like_patches_of_every_size_and_format() {
             let count = if factor > 4.0 { 40 } else { 3000 };
             machine.assert_equal(setup, &vec![patch_of(domain, |_| factor); count]);
         }
-        let patches = runs(domain, &[1.0, 6.0, 2.0]);
+        let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
         for point_format in [PointFormat::Packed, PointFormat::Float] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 machine.assert_equal(Setup { point_format, numbering, ..setup }, &patches);
@@ -119,9 +130,10 @@ fn planted_faults_are_seen() {
     };
     let integer = setup(Partitioning::Integer);
     let fractional = setup(Partitioning::FractionalOdd);
-    let alike = runs(Domain::Quad, &[2.0, 1.0, 10.0, 5.0]);
-    let similar: Vec<_> =
-        (0_u8..200).map(|n| patch_of(Domain::Quad, |_| 3.25 + f32::from(n) / 512.0)).collect();
+    let alike = runs(Domain::Quad, &[(2.0, 1350), (1.0, 3600), (10.0, 750), (5.0, 920)]);
+    let similar: Vec<_> = (0..200)
+        .map(|n| patch_of(Domain::Quad, |_| f32::from_bits(0x4050_0000 + 4096 * n)))
+        .collect();
     for (setup, patches, right, wrong) in [
         (integer, &alike, "atomicStore(&differs, 1u);", ""),
         (integer, &alike, "any(offsets[block] != topology)", "false"),

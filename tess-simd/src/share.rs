@@ -124,6 +124,7 @@ mod tests {
 
     /// Slices of these points and indices, cut in two: how many are in the first half.
     #[cfg(feature = "rayon")]
+    #[expect(clippy::cast_possible_truncation, reason = "at most hundreds")]
     fn halved(counts: &[(u64, u64)]) -> usize {
         use crate::output::PatchRange;
         use tess_core::{DomainPoint, OutputPrimitive, Partitioning, QuadFactors};

@@ -68,6 +68,7 @@ fn many_patches() {
 
 /// Line after line with the same number of points and other locations: factors that differ in
 /// one of their lowest bits.
+#[expect(clippy::float_arithmetic, reason = "exact: multiples of 2^-16 below 64")]
 fn factors_that_differ_in_one_bit() {
     for partitioning in [Partitioning::FractionalOdd, Partitioning::FractionalEven] {
         let config = Config::new(partitioning, OutputPrimitive::Point);

@@ -36,7 +36,7 @@ fn any_number_of_threads() {
 fn counted_on_several_threads() {
     let isolines = Patches::random(5, Domain::Isoline, 3001);
     let cheap = |patch: &PatchFactors| match patch {
-        PatchFactors::Isoline(factors) => !(factors.density > 4.0),
+        PatchFactors::Isoline(factors) => factors.density <= 4.0,
         _ => true,
     };
     let patches = Patches::new(isolines.all.into_iter().filter(cheap).collect());
