@@ -115,7 +115,7 @@ impl Batch {
         &self.plan
     }
 
-    /// A [`Status`] after the batch has run.
+    /// A [`Status`](crate::layout::Status) after the batch has run.
     #[must_use]
     pub const fn status(&self) -> &wgpu::Buffer {
         &self.status
