@@ -5,6 +5,7 @@ mod bench;
 mod check;
 mod draw;
 mod explain;
+mod generate;
 mod help;
 mod mesh;
 mod patch;

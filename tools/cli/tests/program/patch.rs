@@ -45,7 +45,7 @@ fn vector_formats_can_be_checked() {
 /// A CPU level is of the simd backend alone; the others don't ignore it.
 #[test]
 fn a_level_goes_with_simd() {
-    let patch = "quad --outer 1 --inner 1 --cpu-level baseline --backend";
+    let patch = "quad --outer 1,1,1,1 --inner 1,1 --cpu-level baseline --backend";
     for command in ["patch", "draw"] {
         for (backend, code) in [("simd", 0), ("core", 2)] {
             let run = tess(&format!("{command} {patch} {backend}"));

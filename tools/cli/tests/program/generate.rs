@@ -1,0 +1,62 @@
+//! `tess gen`: its formats are what `tess check` and Verilog read, its shards the whole.
+
+use crate::support::{directory, tess, tess_with_input};
+use std::fs;
+
+/// Both text formats go back in, and a changed number does not pass.
+#[test]
+fn vectors_can_be_checked() {
+    for format in ["csv", "listing"] {
+        let vectors = tess(&format!("gen --level 3 --seed 7 --count 60 --format {format}"));
+        assert_eq!(vectors.code, Some(0), "{format}: {}", vectors.stderr);
+        let run = tess_with_input("check -", &vectors.stdout);
+        assert_eq!(run.code, Some(0), "{format}: {}{}", run.stdout, run.stderr);
+        let again = tess(&format!("gen --level 3 --seed 7 --count 60 --format {format}"));
+        assert_eq!(vectors.stdout, again.stdout, "the same arguments, the same bytes");
+        let other = tess(&format!("gen --level 3 --seed 8 --count 60 --format {format}"));
+        assert_ne!(vectors.stdout, other.stdout, "another seed");
+    }
+}
+
+#[test]
+fn shards_are_the_whole() {
+    let cases = |words: &str| {
+        let run = tess(&format!("gen --level 3 --count 50 --domain tri {words}"));
+        assert_eq!(run.code, Some(0), "{words}: {}", run.stderr);
+        let lines =
+            run.stdout.lines().filter(|line| !line.starts_with('#') && !line.starts_with("case"));
+        let mut lines: Vec<String> = lines.map(str::to_owned).collect();
+        lines.sort();
+        lines
+    };
+    let mut parts = [1, 2, 3].map(|part| cases(&format!("--shard {part}/3"))).concat();
+    parts.sort();
+    let whole = cases("");
+    assert!(whole.len() >= 50, "{} lines", whole.len());
+    // A header line is in each part.
+    let of_part = |line: &&String| !whole.contains(line);
+    assert_eq!(parts.iter().filter(of_part).count(), 0, "nothing else");
+    assert!(whole.iter().all(|line| parts.contains(line)), "nothing is left out");
+}
+
+#[test]
+fn memory_images_and_coverage() {
+    let folder = directory("memh");
+    let out = folder.join("vectors");
+    let images = format!("gen --level 3 --count 30 --format readmemh -o {}", out.display());
+    let run = tess(&images);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    for (file, words) in [("cases.memh", 30), ("factors.memh", 30)] {
+        let text = fs::read_to_string(out.join(file)).expect("an image");
+        let lines = text.lines().filter(|line| !line.starts_with("//") && !line.is_empty());
+        assert_eq!(lines.count(), words, "{file}");
+    }
+    let sizes = fs::read_to_string(out.join("sizes.svh")).expect("sizes");
+    assert!(sizes.contains("TESS_CASES 30"), "{sizes}");
+    let run = tess("gen --level 3 --count 30 --coverage");
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stdout.contains("transition"), "{}", run.stdout);
+    assert_eq!(tess("gen --shard 9/3").code, Some(2), "no such part");
+    assert_eq!(tess("gen --level 4").code, Some(2), "no such level");
+    assert_eq!(tess("gen --format readmemh").code, Some(2), "images need a folder");
+}
