@@ -3,7 +3,7 @@
 mod common;
 
 use common::device::Machine;
-use common::expected::by_simd;
+use common::expected::{Expected, by_simd};
 use tess_check::generate::patch_of;
 use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
@@ -29,14 +29,22 @@ fn of_these(domain: Domain, count: u32, factors: [f32; 6]) -> Vec<PatchFactors> 
     all.collect()
 }
 
+/// A device with [`LOW`] limits, and shaders in which something is replaced.
+fn low_machine(right: &'static str, wrong: &'static str) -> Machine {
+    let mut machine = Machine::open();
+    let edit = move |_, source: String| {
+        source
+            .replace("const MAX_WORKGROUPS = 65535u;", "const MAX_WORKGROUPS = 5u;")
+            .replace(right, wrong)
+    };
+    machine.tessellator = Tessellator::with_edit(&machine.gpu.device, edit).limited(LOW);
+    machine
+}
+
 /// Everything is written once and in its place wherever the batch is cut.
 #[test]
 fn chunks_windows_and_rows() {
-    let mut machine = Machine::open();
-    machine.tessellator = Tessellator::with_edit(&machine.gpu.device, |_, source| {
-        source.replace("const MAX_WORKGROUPS = 65535u;", "const MAX_WORKGROUPS = 5u;")
-    })
-    .limited(LOW);
+    let mut machine = low_machine("", "");
     let patches = small(Domain::Triangle, 150_000);
     let setup = setup(Domain::Triangle);
     let factors = machine.factors(&patches);
@@ -54,20 +62,21 @@ fn chunks_windows_and_rows() {
     machine.assert_equal(Setup { numbering, index_type, ..setup }, &patches);
 }
 
-/// A window that begins one tile late is noticed.
+/// A window that begins at another tile and workgroups that take each row for the first are noticed.
 #[test]
-fn a_wrong_window_is_seen() {
-    let mut machine = Machine::open();
-    machine.tessellator = Tessellator::with_edit(&machine.gpu.device, |_, source| {
-        source.replace("tile.base - job.window_first * TILE;", "tile.base;")
-    })
-    .limited(LOW);
+fn wrong_windows_and_rows_are_seen() {
     let patches = small(Domain::Triangle, 150_000);
     let setup = setup(Domain::Triangle);
-    let expected = common::expected::Expected::new(setup, &patches);
+    let expected = Expected::new(setup, &patches);
     let (points, indices) = expected.words();
-    let written = machine.write(setup, &patches, points, indices);
-    assert!(expected.compare(&written).is_err(), "went unnoticed");
+    for (right, wrong) in [
+        ("tile.base - job.window_first * TILE;", "tile.base;"),
+        ("let number = workgroup.x + workgroup.y * workgroups.x;", "let number = workgroup.x;"),
+        ("let block = workgroup.x + workgroup.y * workgroups.x;", "let block = workgroup.x;"),
+    ] {
+        let written = low_machine(right, wrong).write(setup, &patches, points, indices);
+        assert!(expected.compare(&written).is_err(), "{wrong} went unnoticed");
+    }
 }
 
 /// WebGPU's limits: chunks and windows end before a dispatch has as many workgroups in a row.

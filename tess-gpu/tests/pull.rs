@@ -2,7 +2,8 @@
 
 mod common;
 
-use common::{all_configs, device::Machine, validated};
+use common::{device::Machine, validated};
+use tess_check::generate::configurations;
 use tess_check::random::SplitMix64;
 use tess_core::Patch;
 use tess_gpu::runner::Outputs;
@@ -37,7 +38,7 @@ fn ask(@builtin(global_invocation_id) id: vec3<u32>) {
 fn any_element_in_every_configuration() {
     let mut machine = Machine::open();
     let mut random = SplitMix64::new(7);
-    for (domain, config) in all_configs() {
+    for (domain, config) in configurations() {
         let setup = Setup::new(domain, config);
         let patches = common::patches::random(domain, 100, &mut random);
         let factors = machine.factors(&patches);

@@ -134,7 +134,10 @@ mod tests {
         let plan = Plan { level, config, stitches, numbering, slice: 2 };
         let part = |&(points, indices)| PartCounts { points, indices, largest: 0 };
         let counts: Vec<PartCounts> = counts.iter().map(part).collect();
-        let all = counts.iter().copied().fold(PartCounts::default(), PartCounts::and);
+        let sum = |counts: &[PartCounts]| {
+            counts.iter().copied().fold(PartCounts::default(), PartCounts::and)
+        };
+        let all = sum(&counts);
         let one = QuadFactors { u0: 1.0, v0: 1.0, u1: 1.0, v1: 1.0, inside_u: 1.0, inside_v: 1.0 };
         let quads = alloc::vec![one; 2 * counts.len()];
         let mut points = alloc::vec![DomainPoint::default(); all.points as usize];
@@ -146,7 +149,7 @@ mod tests {
         let (one, other) = halve(plan, share);
         let sizes = |share: &Share<'_, DomainPoint, u32>| {
             let Buffers { points, indices, ranges } = &share.buffers;
-            let sum = share.counts.iter().copied().fold(PartCounts::default(), PartCounts::and);
+            let sum = sum(share.counts);
             assert_eq!((points.len() as u64, indices.len() as u64), (sum.points, sum.indices));
             assert_eq!((ranges.len(), share.batch.len()), (2 * share.counts.len(), ranges.len()));
             (points.len() as u32, indices.len() as u32)

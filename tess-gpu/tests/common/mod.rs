@@ -10,28 +10,13 @@ pub(crate) mod patches;
 
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_check::generate::configurations;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
-
-/// Every configuration there is.
-pub(crate) fn all_configs() -> Vec<(Domain, Config)> {
-    let mut all = Vec::new();
-    for domain in Domain::ALL {
-        for partitioning in Partitioning::ALL {
-            for output in OutputPrimitive::ALL {
-                for split in SplitOrder::ALL {
-                    all.push((domain, Config { partitioning, output, split }));
-                }
-            }
-        }
-    }
-    all
-}
 
 /// Every configuration in every point format and numbering, and with 16-bit indices.
 pub(crate) fn all_setups() -> Vec<Setup> {
     let mut all = Vec::new();
-    for (domain, config) in all_configs() {
+    for (domain, config) in configurations() {
         for point_format in [PointFormat::Packed, PointFormat::Float] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 all.push(Setup { point_format, numbering, ..Setup::new(domain, config) });

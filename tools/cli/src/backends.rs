@@ -114,9 +114,7 @@ impl BackendOptions {
             BackendName::Gpu => Err(not_built_in("gpu")),
         }
     }
-}
 
-impl BackendOptions {
     /// Refuses 16-bit indices on behalf of the model, which has none.
     ///
     /// # Errors
