@@ -16,8 +16,8 @@ Examples:
   tess bench --backend simd --cpu-level avx2 --workload terrain
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
-a part's time is the median of its samples, a workload's the sum over its parts. Workloads: uniform-1
-to uniform-64, seed-table, terrain, character, worst.")]
+a part's time is the median of its samples, a workload's the sum over its parts. Workloads:
+uniform-1 to uniform-64, seed-table, terrain, character, worst.")]
 pub struct Args {
     /// Workload or family of workloads; may be repeated [default: all]
     #[arg(long, value_name = "NAME")]

@@ -18,13 +18,13 @@ use tess_check::verify::{Plan, Random, Row, Subject, verify};
 #[command(after_help = "\
 Without --exhaustive: levels 1 and 2 of `tess gen`; level-2 is what level 2 has beyond level 1. With
 it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and
-locations, all transitions and all interiors. Shards are disjoint, and together they are everything,
-so any batch system can spread the work. A shard that has nothing of a subject, as there are fewer units
-than shards, says so on stderr; nothing differs then.
+locations, all transitions and all interiors. Shards are disjoint, and together they are
+everything, so any batch system can spread the work. A shard that has nothing of a subject, as
+there are fewer units than shards, says so on stderr; nothing differs then.
 
---random N compares N patches of each configuration (domain, partitioning, output, split order: 96)
-instead, all kinds of factors in every position and most of the patches small. The same seed gives the
-same patches, of which more begin with the same ones.
+--random N compares N patches of each configuration (domain, partitioning, output, split order:
+96) instead, all kinds of factors in every position and most of the patches small. The same seed
+gives the same patches; a larger N begins with those of a smaller one.
 
 Exit code 0: all equal; 1: differences; 3: a backend is not available here.
 
