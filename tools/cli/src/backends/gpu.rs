@@ -17,7 +17,7 @@ use tess_gpu::{Numbering, Probe, Setup};
 pub struct GpuBackend {
     gpu: Gpu,
     tessellator: Tessellator,
-    index_type: tess_gpu::IndexType,
+    index_type: IndexType,
 }
 
 impl GpuBackend {
@@ -29,10 +29,6 @@ impl GpuBackend {
         let gpu = pollster::block_on(Gpu::open())
             .map_err(|error| Failure::unavailable(error.to_string()))?;
         let tessellator = Tessellator::new(&gpu.device);
-        let index_type = match index_type {
-            IndexType::U16 => tess_gpu::IndexType::U16,
-            IndexType::U32 => tess_gpu::IndexType::U32,
-        };
         Ok(Self { gpu, tessellator, index_type })
     }
 
@@ -47,6 +43,15 @@ impl GpuBackend {
         let setup = Setup::new(Domain::Triangle, config);
         self.tessellator.probe(&self.gpu, probe, setup, input).map_err(BackendError::new)
     }
+}
+
+/// What the program runs: indices of each patch's own points, as in the model.
+pub fn setup_of(domain: Domain, config: Config, index_type: IndexType) -> Setup {
+    let index_type = match index_type {
+        IndexType::U16 => tess_gpu::IndexType::U16,
+        IndexType::U32 => tess_gpu::IndexType::U32,
+    };
+    Setup { numbering: Numbering::PerPatch, index_type, ..Setup::new(domain, config) }
 }
 
 impl Backend for GpuBackend {
@@ -64,8 +69,7 @@ impl Backend for GpuBackend {
         patches: &[PatchFactors],
     ) -> Result<Vec<Tessellation>, BackendError> {
         let Some(first) = patches.first() else { return Ok(Vec::new()) };
-        let (numbering, index_type) = (Numbering::PerPatch, self.index_type);
-        let setup = Setup { numbering, index_type, ..Setup::new(first.domain(), config) };
+        let setup = setup_of(first.domain(), config, self.index_type);
         let output = self.tessellator.tessellate(&self.gpu, setup, patches);
         split_by_patch(&output.map_err(BackendError::new)?, setup)
     }

@@ -1,7 +1,7 @@
 //! The compute shaders under the clock of their device.
 
 use super::{Amount, Runner, RunnerOptions, WorkingSet};
-use crate::backends::gpu::split_by_patch;
+use crate::backends::gpu::{setup_of, split_by_patch};
 use crate::bench::measure::total;
 use crate::failure::Failure;
 use fill::Fill;
@@ -11,9 +11,9 @@ use tess_check::backend::BackendError;
 use tess_check::digest::Fnv1a;
 use tess_check::workloads::{IndexType, Totals, Workload};
 use tess_core::{Counts, PatchFactors};
+use tess_gpu::Setup;
 use tess_gpu::layout::factor_words;
 use tess_gpu::runner::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
-use tess_gpu::{Numbering, Setup};
 
 mod fill;
 
@@ -164,12 +164,7 @@ impl Runner for GpuRunner {
         working_set: WorkingSet,
     ) -> Result<Vec<Amount>, BackendError> {
         let first = workload.patches.first().ok_or_else(|| BackendError::new("no patches"))?;
-        let numbering = Numbering::PerPatch;
-        let index_type = match self.index_type {
-            IndexType::U16 => tess_gpu::IndexType::U16,
-            IndexType::U32 => tess_gpu::IndexType::U32,
-        };
-        let setup = Setup { numbering, index_type, ..Setup::new(first.domain(), workload.config) };
+        let setup = setup_of(first.domain(), workload.config, self.index_type);
         let counts: Vec<_> = workload.counts().collect();
         let (ranges, repeats) = match working_set {
             WorkingSet::Cache => (workload.cache_batches(self.index_type), 1),
