@@ -282,15 +282,18 @@ pub fn process(config: Config, raw: PatchFactors) -> ProcessedPatch {
     let low = inside_low(config.partitioning, raw.iter());
     let edges = raw.domain().outer_factors();
     let mut number = 0;
+    let mut is_minimum = true; // step 8
     let factors = raw.map(|factor| {
         number += 1;
-        if number <= edges {
+        let processed = if number <= edges {
             process_edge(config, factor)
         } else {
             process_inside(config, factor, low)
-        }
+        };
+        is_minimum &= processed.fixed == FixedFactor::ONE;
+        processed
     });
-    minimum_or_regular(factors)
+    if is_minimum { ProcessedPatch::Minimum(factors) } else { ProcessedPatch::Regular(factors) }
 }
 
 /// The density is always processed as integer.
@@ -344,14 +347,5 @@ fn parity(partitioning: Partitioning, role: Role, fixed: FixedFactor) -> Parity 
             let inside_one = role == Role::Inside && fixed == FixedFactor::ONE;
             if odd && !inside_one { Parity::Odd } else { Parity::Even }
         }
-    }
-}
-
-/// Step 8.
-fn minimum_or_regular(factors: PatchFactors<ProcessedFactor>) -> ProcessedPatch {
-    if factors.iter().all(|factor| factor.fixed == FixedFactor::ONE) {
-        ProcessedPatch::Minimum(factors)
-    } else {
-        ProcessedPatch::Regular(factors)
     }
 }

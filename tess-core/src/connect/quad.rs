@@ -1,6 +1,6 @@
 //! The triangles of a quad patch (spec section 7).
 
-use crate::connect::rings::{Rings, row_ring};
+use crate::connect::rings::{OnRows, Rings, row_ring};
 use crate::factors::{ProcessedFactor, QuadFactors};
 use crate::points::quad::Inside;
 use crate::row::Row;
@@ -24,10 +24,9 @@ pub(crate) fn emit(
     mut emit: impl FnMut(Triangle),
 ) {
     let innermost = rings(factors).emit(config.split, &mut emit);
-    if let Some(CentreStrip { a, b, quads, diagonals }) =
-        CentreStrip::new(&Inside::new(factors), innermost)
-    {
-        stitch::strip(quads, diagonals).for_each(|step| emit(step.triangle(&a, &b)));
+    let strip = CentreStrip::new(&Inside::new(factors), innermost);
+    if let Some(CentreStrip { a, b, quads, diagonals }) = strip {
+        stitch::strip(quads, diagonals, OnRows { outer: a, inner: b, emit });
     }
 }
 

@@ -4,7 +4,7 @@
 use crate::factor_context::FactorContext;
 use crate::row::Row;
 use crate::state::{Parity, SplitOrder};
-use crate::stitch::{self, Step, Triangle};
+use crate::stitch::{self, Step, Steps, Triangle};
 
 /// What the rings of a patch with `EDGES` edges depend on.
 #[derive(Clone, Copy, Debug)]
@@ -64,19 +64,32 @@ impl<const EDGES: usize> Rings<EDGES> {
                         inner = inner.with(inner_points - 1, inner_start);
                     }
                 }
-                let mut emit_step = |step: Step| emit(step.triangle(&outer, &inner));
+                let triangles = OnRows { outer, inner, emit: &mut emit };
                 if ring == 1 {
-                    let (outer_points, inside_points) =
-                        (self.outer[edge].points, self.along[edge].points);
-                    stitch::transition(split, outer_points, inside_points).for_each(&mut emit_step);
+                    let inside_points = self.along[edge].points;
+                    stitch::transition(split, outer_points, inside_points, triangles);
                 } else {
-                    stitch::ring(inner_points).for_each(&mut emit_step);
+                    stitch::ring(inner_points, triangles);
                 }
                 outer_base += outer_points - 1;
                 inner_base += inner_points - 1;
             }
         }
         outer_base
+    }
+}
+
+/// Emits the triangle of each step on two rows.
+pub(crate) struct OnRows<F> {
+    pub(crate) outer: Row,
+    pub(crate) inner: Row,
+    pub(crate) emit: F,
+}
+
+impl<F: FnMut(Triangle)> Steps for OnRows<F> {
+    #[inline(always)] // a step's kind is a constant where it is made
+    fn step(&mut self, step: Step) {
+        (self.emit)(step.triangle(&self.outer, &self.inner));
     }
 }
 
