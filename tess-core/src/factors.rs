@@ -82,6 +82,13 @@ macro_rules! factor_order {
             }
         }
 
+        impl<T> $factors<T> {
+            /// The factors with `f` applied to each, in the specification's order.
+            pub fn map<U>(self, mut f: impl FnMut(T) -> U) -> $factors<U> {
+                $factors { $($field: f(self.$field)),* }
+            }
+        }
+
         impl<T: Copy> $factors<T> {
             /// The names of the fields, in the specification's order.
             pub const NAMES: [&'static str; $count] = [$(stringify!($field)),*];
@@ -174,11 +181,9 @@ impl<T> PatchFactors<T> {
     /// The factors with `f` applied to each, in the specification's order.
     pub fn map<U>(self, f: impl FnMut(T) -> U) -> PatchFactors<U> {
         match self {
-            Self::Isoline(factors) => PatchFactors::Isoline(<[T; 2]>::from(factors).map(f).into()),
-            Self::Triangle(factors) => {
-                PatchFactors::Triangle(<[T; 4]>::from(factors).map(f).into())
-            }
-            Self::Quad(factors) => PatchFactors::Quad(<[T; 6]>::from(factors).map(f).into()),
+            Self::Isoline(factors) => PatchFactors::Isoline(factors.map(f)),
+            Self::Triangle(factors) => PatchFactors::Triangle(factors.map(f)),
+            Self::Quad(factors) => PatchFactors::Quad(factors.map(f)),
         }
     }
 }
