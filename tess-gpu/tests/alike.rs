@@ -4,12 +4,12 @@ mod common;
 
 use common::device::Machine;
 use common::expected::Expected;
-use tess_check::generate::patch_of;
-use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::runner::{Outputs, Tessellator};
 use tess_gpu::sizes::BLOCK;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
 
 /// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole
 /// blocks; the copies of these begin at various elements of a patch.

@@ -4,11 +4,11 @@ mod common;
 
 use common::device::Machine;
 use common::expected::Expected;
-use tess_check::generate::patch_of;
-use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::runner::Tessellator;
 use tess_gpu::{Setup, Stage};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
 
 #[test]
 fn planted_faults_are_seen() {

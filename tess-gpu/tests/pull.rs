@@ -3,12 +3,12 @@
 mod common;
 
 use common::{device::Machine, validated};
-use tess_check::generate::configurations;
-use tess_check::random::SplitMix64;
 use tess_core::Patch;
 use tess_gpu::runner::Outputs;
 use tess_gpu::tables::tables;
 use tess_gpu::{Pull, Setup};
+use tess_verify::generate::configurations;
+use tess_verify::random::SplitMix64;
 use wgpu::BufferUsages as Usage;
 
 /// A user's shader: asks for one point and one primitive of a patch.

@@ -5,12 +5,12 @@ mod variant;
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
-use tess_check::digest::Fnv1a;
-use tess_check::workloads::{self, IndexType, Totals, Workload};
 use tess_core::{DomainPoint, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::runner::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 use tess_gpu::{Numbering, Setup, Stage};
+use tess_verify::digest::Fnv1a;
+use tess_verify::workloads::{self, IndexType, Totals, Workload};
 use variant::Variant;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;

@@ -2,11 +2,11 @@
 #![expect(clippy::print_stdout, reason = "an example that prints what it measured")]
 
 use std::time::{Duration, Instant};
-use tess_check::workloads::{Workload, character, uniform};
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
 use tess_gpu::layout::factor_words;
 use tess_gpu::runner::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 use tess_gpu::{Numbering, Setup};
+use tess_verify::workloads::{Workload, character, uniform};
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 

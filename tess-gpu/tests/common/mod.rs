@@ -10,8 +10,8 @@ pub(crate) mod patches;
 
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use tess_check::generate::configurations;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::configurations;
 
 /// Every configuration in every point format and numbering, and with 16-bit indices.
 pub(crate) fn all_setups() -> Vec<Setup> {
