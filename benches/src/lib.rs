@@ -11,12 +11,12 @@
 //! `cargo test`. The bench `simd` fills the same bytes beside each workload.
 
 use std::ops::Range;
-use tess_check::digest::Fnv1a;
-use tess_check::workloads::{IndexType, Totals, Workload, all};
 use tess_core::{
     BufferTooSmall, DomainPoint, IsolineFactors, Patch, PatchFactors, QuadFactors, TriangleFactors,
 };
 use tess_simd::{Batch, Buffers, Level, Numbering, PatchRange, Tessellator};
+use tess_verify::digest::Fnv1a;
+use tess_verify::workloads::{IndexType, Totals, Workload, all};
 
 /// Patches to tessellate and buffers of the right size.
 #[derive(Debug)]

@@ -4,11 +4,11 @@ use crate::compare_with_model;
 use crate::input::Bytes;
 use std::cell::RefCell;
 use std::collections::HashMap;
-use tess_check::case::Case;
 use tess_core::{
     Config, DomainPoint, IsolineFactors, PatchFactors, QuadFactors, Tessellation, TriangleFactors,
 };
 use tess_simd::{Batch, ExactOutput, Level, Numbering, Output, Tessellator};
+use tess_verify::case::Case;
 
 /// Patches in a batch: more than two blocks of eight, and not a multiple of them.
 const MOST: usize = 19;

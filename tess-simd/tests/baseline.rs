@@ -6,9 +6,6 @@ mod patches;
 
 use allocation_counter::measure;
 use patches::{Patches, compare, configs};
-use tess_check::backend::Backend;
-use tess_check::case::{factor_names, factors_from_list};
-use tess_check::core_backend::CoreBackend;
 use tess_core::fixed_point::ONE;
 use tess_core::{
     Config, Domain, DomainPoint, FixedFactor, IsolineFactors, OutputPrimitive, Parity,
@@ -16,6 +13,9 @@ use tess_core::{
 };
 use tess_simd::{Batch, Buffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
 use tess_simd::{contexts, fixed_factors, locations};
+use tess_verify::backend::Backend;
+use tess_verify::case::{factor_names, factors_from_list};
+use tess_verify::core_backend::CoreBackend;
 
 /// One test, the fastest parts first, so that it ends at the first difference.
 #[test]

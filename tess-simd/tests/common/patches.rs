@@ -1,11 +1,11 @@
 //! What the comparisons share: seeded patches, the core's answer, and the first difference.
 
-use tess_check::random::SplitMix64;
 use tess_core::{
     Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch,
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
 use tess_simd::{Batch, Error, IndexFormat, Numbering, Output, PointFormat, Tessellator};
+use tess_verify::random::SplitMix64;
 
 /// Every configuration there is.
 pub(crate) fn configs() -> impl Iterator<Item = Config> {
