@@ -1,10 +1,10 @@
 //! The triangles of a quad patch (spec section 7).
 
 use super::rings::Rings;
-use crate::emit::Writer;
 use crate::format::IndexFormat;
 use crate::lanes::{EdgePoints, is_odd};
-use crate::stitch::{self, Rows, Stitches, Strip};
+use crate::stitch::{Codes, Replaced, Rows, Stitches, Strip};
+use crate::writer::Writer;
 
 /// Edges u = 0 and u = 1 run along v, the others along u.
 #[inline(always)]
@@ -23,12 +23,8 @@ pub(super) fn emit<I: IndexFormat>(
     let innermost = rings.emit(stitches, base, out);
     if n_u > n_v {
         if is_odd(n_v) {
-            strip_along_u(
-                stitches,
-                2 * (n_u / 2 - n_v / 2) + 2 - u32::from(is_odd(n_u)),
-                innermost,
-                out,
-            );
+            let quads = 2 * (n_u / 2 - n_v / 2) + 2 - u32::from(is_odd(n_u));
+            strip_along_u(stitches, quads, innermost, out);
         }
     } else if is_odd(n_u) {
         let quads = 2 * (n_v / 2 - n_u / 2) + 2 - u32::from(is_odd(n_v));
@@ -51,13 +47,13 @@ fn strip_along_u<I: IndexFormat>(
     out: &mut Writer<'_, I>,
 ) {
     let rows = Rows {
-        outer: innermost + 1,
-        inner: innermost + 2 * quads + 2,
+        outer: innermost.wrapping_add(1),
+        inner: innermost.wrapping_add(2 * quads + 2),
         descending: true,
         outer_replaced: None,
-        inner_replaced: Some((0, innermost)),
+        inner_replaced: Some(Replaced { at: 0, index: innermost }),
     };
-    stitch::general(out, 6 * quads as usize, stitches.strip(Strip::Forward), &rows);
+    stitches.strip(Strip::Forward, 0..quads).emit(&rows, out);
 }
 
 /// The strip inside a ring that is not: where both factors are odd, the diagonals are mirrored but
@@ -72,21 +68,18 @@ fn strip_along_v<I: IndexFormat>(
 ) {
     let rows = Rows {
         outer: innermost,
-        inner: innermost + 2 * quads + 1,
+        inner: innermost.wrapping_add(2 * quads + 1),
         descending: true,
         outer_replaced: None,
         inner_replaced: None,
     };
-    let mut quads_of = |strip, first: u32, end: u32| {
-        let codes = stitches.strip(strip).get(6 * first as usize..).unwrap_or_default();
-        stitch::general(out, 6 * (end - first) as usize, codes, &rows);
-    };
+    let mut emit = |quads: Codes<'_>| quads.emit(&rows, out);
     if mirrored {
         let middle = quads / 2;
-        quads_of(Strip::Mirrored, 0, middle);
-        quads_of(Strip::Middle, middle, middle + 1);
-        quads_of(Strip::Mirrored, middle + 1, quads);
+        emit(stitches.strip(Strip::Mirrored, 0..middle));
+        emit(stitches.strip(Strip::Middle, middle..middle + 1));
+        emit(stitches.strip(Strip::Mirrored, middle + 1..quads));
     } else {
-        quads_of(Strip::Forward, 0, quads);
+        emit(stitches.strip(Strip::Forward, 0..quads));
     }
 }

@@ -1,7 +1,9 @@
 //! The tables of stitches, read off patches that the core tessellated.
 
-use super::{INNER, STEP};
+use super::code::{INNER, STEP};
+use super::rows::Codes;
 use alloc::vec::Vec;
+use core::ops::Range;
 use tess_core::{
     Config, OutputPrimitive, Partitioning, Patch, PatchFactors, ProcessedFactor, ProcessedPatch,
     QuadFactors, Tessellation,
@@ -70,30 +72,36 @@ impl Stitches {
         self.codes.capacity() + self.transitions.capacity() * size_of::<Table>() + size_of::<Self>()
     }
 
-    /// The stitch between neighbouring rings whose inner row has `inner_points` points: the number
-    /// of its indices, and its codes.
+    /// The stitch between neighbouring rings whose inner row has `inner_points` points.
     #[inline(always)]
-    pub(crate) fn ring(&self, inner_points: u32) -> (usize, &[i8]) {
+    pub(crate) fn ring(&self, inner_points: u32) -> Codes<'_> {
         self.get(self.rings[inner_points as usize % COUNTS])
     }
 
     /// The stitch between an outer edge and the first ring, by the point counts of the outer and
     /// of the inside factor.
     #[inline(always)]
-    pub(crate) fn transition(&self, outer: u32, inside: u32) -> (usize, &[i8]) {
+    pub(crate) fn transition(&self, outer: u32, inside: u32) -> Codes<'_> {
         let at = outer as usize * COUNTS + inside as usize;
         self.get(self.transitions.get(at).copied().unwrap_or_default())
     }
 
-    /// The codes of a strip of any number of quads.
+    /// Some quads of a strip.
     #[inline(always)]
-    pub(crate) fn strip(&self, strip: Strip) -> &[i8] {
-        self.get(self.strips[strip as usize]).1
+    pub(crate) fn strip(&self, strip: Strip, quads: Range<u32>) -> Codes<'_> {
+        let Codes { codes, .. } = self.get(self.strips[strip as usize]);
+        Codes {
+            codes: codes.get(6 * quads.start as usize..).unwrap_or_default(),
+            length: 6 * (quads.end - quads.start) as usize,
+        }
     }
 
     #[inline(always)]
-    fn get(&self, table: Table) -> (usize, &[i8]) {
-        (table.length as usize, self.codes.get(table.first as usize..).unwrap_or_default())
+    fn get(&self, table: Table) -> Codes<'_> {
+        Codes {
+            codes: self.codes.get(table.first as usize..).unwrap_or_default(),
+            length: table.length as usize,
+        }
     }
 
     /// Adds a table, padded so that reading it in whole blocks stays within it.
