@@ -7,7 +7,8 @@ pub(crate) mod triangle;
 
 use crate::counts::counts;
 use crate::factors::{PatchFactors, ProcessedFactor, ProcessedPatch};
-use crate::sink::{Primitive, Sink};
+use crate::output::Primitive;
+use crate::sink::Sink;
 use crate::state::{Config, Domain, OutputPrimitive};
 use crate::stitch::Triangle;
 
@@ -57,7 +58,7 @@ fn emit_regular(
 }
 
 /// The triangles of a minimum patch (spec section 3, step 8). Isolines have none.
-pub(crate) const fn minimum_triangles(domain: Domain) -> &'static [Triangle] {
+const fn minimum_triangles(domain: Domain) -> &'static [Triangle] {
     match domain {
         Domain::Isoline => &[],
         Domain::Triangle => &[[0, 1, 2]],

@@ -4,8 +4,8 @@
 
 /// Whether a patch with these outer factors is culled: one is zero, negative or NaN.
 /// Positive denormals are greater than zero.
-pub(crate) fn is_culled(outer: &[f32]) -> bool {
-    !outer.iter().all(|&factor| factor > 0.0)
+pub(crate) fn is_culled(mut outer: impl Iterator<Item = f32>) -> bool {
+    !outer.all(|factor| factor > 0.0)
 }
 
 /// Clamps to `low..=high`; NaN gives `low`.

@@ -37,8 +37,8 @@ impl FactorContext {
         let ceil_points = ceil(half) >> 16;
         Self {
             parity,
-            inv_floor: reciprocal(2 * floor_points - odd),
-            inv_ceil: reciprocal(2 * ceil_points - odd),
+            inv_floor: segment_length(2 * floor_points - odd),
+            inv_ceil: segment_length(2 * ceil_points - odd),
             fraction: half - floor(half),
             half_points: ceil_points,
             split: split_position(floor_points, ceil_points, parity, split_order),
@@ -50,6 +50,14 @@ impl FactorContext {
     #[must_use]
     pub const fn half_steps(&self) -> u32 {
         self.half_points - self.parity.odd()
+    }
+}
+
+/// The length of each of `segments` equal segments, which a factor in range has 1 to 64 of.
+const fn segment_length(segments: u32) -> u32 {
+    match reciprocal(segments) {
+        Some(length) => length,
+        None => 0, // not reached: a factor in range has 1 to 64 segments
     }
 }
 

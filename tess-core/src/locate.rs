@@ -3,6 +3,7 @@
 //! It is written from closed forms, not from the sequential walks, and a test compares the two on
 //! every topology. Everything parallel is built on it.
 
+mod centre_strip;
 pub(crate) mod point;
 pub(crate) mod primitive;
 mod rings;

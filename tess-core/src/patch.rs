@@ -5,8 +5,9 @@ use crate::error::{Buffer, BufferTooSmall};
 use crate::factors::{PatchFactors, ProcessedPatch, process};
 use crate::locate::point::PointLocation;
 use crate::locate::primitive::PrimitiveLocation;
-use crate::points::DomainPoint;
-use crate::sink::{Primitive, Sink, Slices};
+use crate::output::DomainPoint;
+use crate::output::Primitive;
+use crate::sink::{Sink, Slices};
 use crate::state::Config;
 use crate::{connect, locate, points};
 
@@ -24,8 +25,8 @@ pub struct Patch {
 impl Patch {
     /// Processes the raw factors of a patch (spec sections 3 and 4).
     #[must_use]
-    pub fn new(config: Config, factors: PatchFactors) -> Self {
-        let processed = process(config, factors);
+    pub fn new(config: Config, factors: impl Into<PatchFactors>) -> Self {
+        let processed = process(config, factors.into());
         Self { config, processed, counts: counts(config, &processed) }
     }
 

@@ -5,34 +5,10 @@ pub(crate) mod quad;
 pub(crate) mod triangle;
 
 use crate::factors::{PatchFactors, ProcessedPatch};
-use crate::fixed_point::{ONE, coordinate_to_f32};
+use crate::fixed_point::ONE;
+use crate::output::DomainPoint;
 use crate::sink::Sink;
 use crate::state::Domain;
-use fixed::types::U16F16;
-
-/// A point of a patch's domain, each coordinate in 0..=1. On triangles w = 1 - u - v.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-#[repr(C)]
-pub struct DomainPoint {
-    /// First coordinate.
-    pub u: U16F16,
-    /// Second coordinate.
-    pub v: U16F16,
-}
-
-impl DomainPoint {
-    /// A point from the bits of its 16.16 coordinates.
-    #[must_use]
-    pub const fn from_bits(u: u32, v: u32) -> Self {
-        Self { u: U16F16::from_bits(u), v: U16F16::from_bits(v) }
-    }
-
-    /// The coordinates as binary32, exactly.
-    #[must_use]
-    pub const fn to_f32(self) -> [f32; 2] {
-        [coordinate_to_f32(self.u), coordinate_to_f32(self.v)]
-    }
-}
 
 /// Sends all points of a patch to `sink`.
 pub(crate) fn emit(patch: &ProcessedPatch, sink: &mut impl Sink) {
@@ -48,7 +24,7 @@ pub(crate) fn emit(patch: &ProcessedPatch, sink: &mut impl Sink) {
 }
 
 /// The corners of a minimum patch (spec section 3, step 8). Isolines have none.
-pub(crate) const fn minimum_corners(domain: Domain) -> &'static [DomainPoint] {
+const fn minimum_corners(domain: Domain) -> &'static [DomainPoint] {
     const TRIANGLE: [DomainPoint; 3] = [
         DomainPoint::from_bits(0, ONE),
         DomainPoint::from_bits(0, 0),

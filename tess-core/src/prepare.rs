@@ -66,7 +66,7 @@ pub fn prepare(partitioning: Partitioning, reduction: Reduction, request: Reques
 }
 
 fn prepare_isoline(partitioning: Partitioning, factors: IsolineFactors) -> Prepared {
-    if is_culled(&[factors.density, factors.detail]) {
+    if is_culled([factors.density, factors.detail].into_iter()) {
         return Prepared {
             unrounded: PatchFactors::Isoline(factors),
             rounded: PatchFactors::Isoline(IsolineFactors { density: 0.0, detail: 0.0 }),
@@ -91,7 +91,7 @@ fn prepare_triangle(
     reduction: Reduction,
     factors: TriangleFactors,
 ) -> Prepared {
-    if is_culled(&factors.outer()) {
+    if is_culled(factors.outer().into_iter()) {
         return Prepared {
             unrounded: PatchFactors::Triangle(TriangleFactors { inside: 0.0, ..factors }),
             rounded: PatchFactors::Triangle(TriangleFactors {
@@ -119,7 +119,7 @@ fn prepare_quad(
     factors: QuadFactors,
     axes: QuadAxes,
 ) -> Prepared {
-    if is_culled(&factors.outer()) {
+    if is_culled(factors.outer().into_iter()) {
         let unrounded = QuadFactors { inside_u: 0.0, inside_v: 0.0, ..factors };
         let [u0, v0, u1, v1, inside_u, inside_v] = [0.0; 6];
         return Prepared {

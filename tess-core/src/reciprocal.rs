@@ -13,11 +13,9 @@ const TABLE: [u32; 64] = {
     table
 };
 
-/// 1/n with 16 fraction bits, rounded half up, for `n` in 1..=64.
-///
-/// # Panics
-/// For `n` outside 1..=64; no factor context asks for such an `n`.
+/// 1/n with 16 fraction bits, rounded half up, for `n` in 1..=64; `None` for any other `n`, of
+/// which the hardware's table has none.
 #[must_use]
-pub const fn reciprocal(n: u32) -> u32 {
-    TABLE[n as usize - 1]
+pub const fn reciprocal(n: u32) -> Option<u32> {
+    if n >= 1 && n <= 64 { Some(TABLE[n as usize - 1]) } else { None }
 }

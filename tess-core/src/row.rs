@@ -29,13 +29,13 @@ impl Row {
         Self { replaced: Some((k, index)), ..self }
     }
 
-    /// Entry `k`. On a descending row `k` is at most its first entry.
+    /// Entry `k`, modulo 2^32: on a descending row, entries beyond 0 wrap around.
     #[must_use]
     pub const fn index(&self, k: u32) -> u32 {
         match self.replaced {
             Some((at, index)) if at == k => index,
-            _ if self.descending => self.first - k,
-            _ => self.first + k,
+            _ if self.descending => self.first.wrapping_sub(k),
+            _ => self.first.wrapping_add(k),
         }
     }
 }

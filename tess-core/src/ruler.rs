@@ -8,22 +8,26 @@ const RULER: [u8; 33] = [
     1, 24, 12, 25, 6, 26, 13, 27, 3, 28, 14, 29, 7, 30, 15, 31,
 ];
 
-/// The rank at which position `k` (0..=32) of a half edge receives its point.
-///
-/// # Panics
-/// For `k` above 32; stitches ask for 1..=32.
+/// The rank at which position `k` (0..=32) of a half edge receives its point; `None` beyond, where
+/// no half edge has a position.
 #[must_use]
-pub const fn rank(split: SplitOrder, k: u32) -> u32 {
-    match split {
+pub const fn rank(split: SplitOrder, k: u32) -> Option<u32> {
+    if k > 32 {
+        return None;
+    }
+    Some(match split {
         SplitOrder::Ruler => RULER[k as usize] as u32,
         SplitOrder::Center => k,
-    }
+    })
 }
 
-/// Whether a half edge of `half` points has a point at position `k` in 1..=32.
+/// Whether a half edge of `half` points has a point at position `k`, in 1..=32 for any that has.
 #[must_use]
 pub const fn has_point(split: SplitOrder, k: u32, half: u32) -> bool {
-    rank(split, k) < half
+    match rank(split, k) {
+        Some(rank) => rank < half,
+        None => false,
+    }
 }
 
 #[cfg(test)]
@@ -44,7 +48,17 @@ mod tests {
         }
         expected[1] = 32;
         for (k, &rank_expected) in (0..).zip(&expected) {
-            assert_eq!(rank(SplitOrder::Ruler, k), rank_expected, "position {k}");
+            assert_eq!(rank(SplitOrder::Ruler, k), Some(rank_expected), "position {k}");
+        }
+    }
+
+    #[test]
+    fn no_half_edge_has_a_position_beyond_32() {
+        for split in SplitOrder::ALL {
+            for k in [33, 34, u32::MAX] {
+                assert_eq!(rank(split, k), None, "rank of {k}");
+                assert!(!has_point(split, k, u32::MAX), "position {k}");
+            }
         }
     }
 }

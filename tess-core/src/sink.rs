@@ -1,39 +1,6 @@
 //! Where the sequential formulation puts its output.
 
-use crate::points::DomainPoint;
-
-/// One primitive: indices into the patch's domain points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Primitive {
-    /// A point.
-    Point([u32; 1]),
-    /// A line segment.
-    Line([u32; 2]),
-    /// A triangle.
-    Triangle([u32; 3]),
-}
-
-impl Primitive {
-    /// How many indices the primitive has: 1, 2 or 3.
-    #[must_use]
-    pub const fn size(&self) -> u32 {
-        match self {
-            Self::Point(_) => 1,
-            Self::Line(_) => 2,
-            Self::Triangle(_) => 3,
-        }
-    }
-
-    /// The 1, 2 or 3 indices.
-    #[must_use]
-    pub const fn indices(&self) -> &[u32] {
-        match self {
-            Self::Point(indices) => indices,
-            Self::Line(indices) => indices,
-            Self::Triangle(indices) => indices,
-        }
-    }
-}
+use crate::output::{DomainPoint, Primitive};
 
 /// Receives a patch: every domain point in order, then every primitive in order.
 pub trait Sink {

@@ -30,7 +30,7 @@ pub const WORDS: u32 = STEPS_AT + BLOCK_WORDS * (STRIP_BLOCK + 1);
 /// All tables of a split order, [`WORDS`] words.
 #[must_use]
 pub fn tables(split: SplitOrder) -> Vec<u32> {
-    let mut words: Vec<u32> = (1..=64).map(reciprocal).collect();
+    let mut words: Vec<u32> = (1..=64).filter_map(reciprocal).collect();
     for outer in 2..=65 {
         add_block(&mut words, &[]);
         (1..=63).for_each(|inner| add_block(&mut words, &transition(split, outer, inner)));

@@ -44,7 +44,7 @@ mod tests {
     #[test]
     fn every_reciprocal() {
         for n in 1..=64 {
-            assert_eq!(reciprocal(n), tess_core::reciprocal::reciprocal(n), "1/{n}");
+            assert_eq!(Some(reciprocal(n)), tess_core::reciprocal::reciprocal(n), "1/{n}");
         }
     }
 }

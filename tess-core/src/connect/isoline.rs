@@ -1,8 +1,9 @@
 //! The segments of isolines (spec section 8).
 
 use crate::factors::{IsolineFactors, ProcessedFactor};
+use crate::output::Primitive;
 use crate::points::isoline::line_count;
-use crate::sink::{Primitive, Sink};
+use crate::sink::Sink;
 
 pub(crate) fn emit(factors: &IsolineFactors<ProcessedFactor>, sink: &mut impl Sink) {
     let points = factors.detail.context.points;

@@ -5,7 +5,7 @@ use crate::factors::{ProcessedFactor, QuadFactors};
 use crate::points::quad::Inside;
 use crate::row::Row;
 use crate::state::{Config, Parity};
-use crate::stitch::Triangle;
+use crate::stitch::{self, Diagonals, Triangle};
 
 /// The rings of a quad patch: edges u = 0 and u = 1 run along v, the others along u.
 pub(crate) fn rings(factors: &QuadFactors<ProcessedFactor>) -> Rings<4> {
@@ -24,26 +24,24 @@ pub(crate) fn emit(
     mut emit: impl FnMut(Triangle),
 ) {
     let innermost = rings(factors).emit(config.split, &mut emit);
-    if let Some(strip) = CentreStrip::new(&Inside::new(factors), innermost) {
-        for k in 0..strip.quads {
-            strip.quad(k).into_iter().for_each(&mut emit);
-        }
+    if let Some(CentreStrip { a, b, quads, diagonals }) =
+        CentreStrip::new(&Inside::new(factors), innermost)
+    {
+        stitch::strip(quads, diagonals).for_each(|step| emit(step.triangle(&a, &b)));
     }
 }
 
 /// The strip of quads between the two long sides of an innermost ring. Spec section 7.4.
-pub(crate) struct CentreStrip {
+struct CentreStrip {
     a: Row,
     b: Row,
-    /// Number of quads, each two triangles.
-    pub(crate) quads: u32,
-    /// The quad whose diagonal alone runs from `a` to `b`, if one does.
-    mirrored_at: Option<u32>,
+    quads: u32,
+    diagonals: Diagonals,
 }
 
 impl CentreStrip {
     /// The strip, if the shorter axis is odd; `innermost` is the first index of the ring around it.
-    pub(crate) fn new(inside: &Inside, innermost: u32) -> Option<Self> {
+    fn new(inside: &Inside, innermost: u32) -> Option<Self> {
         let (u, v) = (inside.u, inside.v);
         let along_u = u.points > v.points;
         let (long, short) = if along_u { (u, v) } else { (v, u) };
@@ -56,26 +54,18 @@ impl CentreStrip {
                 a: Row::ascending(innermost + 1),
                 b: Row::descending(innermost + 2 * quads + 2).with(0, innermost),
                 quads,
-                mirrored_at: None,
+                diagonals: Diagonals::Forward,
             }
         } else {
             Self {
                 a: Row::ascending(innermost),
                 b: Row::descending(innermost + 2 * quads + 1),
                 quads,
-                mirrored_at: (long.parity == Parity::Odd).then_some(quads / 2),
+                diagonals: match long.parity {
+                    Parity::Even => Diagonals::Forward,
+                    Parity::Odd => Diagonals::ForwardExceptMiddle,
+                },
             }
         })
-    }
-
-    /// The two triangles of quad `k`.
-    pub(crate) fn quad(&self, k: u32) -> [Triangle; 2] {
-        let [a0, a1] = [self.a.index(k), self.a.index(k + 1)];
-        let [b0, b1] = [self.b.index(k), self.b.index(k + 1)];
-        match self.mirrored_at {
-            None => [[b0, a0, a1], [b0, a1, b1]],
-            Some(middle) if k == middle => [[a0, b1, b0], [a0, a1, b1]],
-            Some(_) => [[a0, a1, b0], [b0, a1, b1]],
-        }
     }
 }

@@ -4,7 +4,7 @@
 use crate::factor_context::FactorContext;
 use crate::row::Row;
 use crate::state::{Parity, SplitOrder};
-use crate::stitch::{self, Triangle};
+use crate::stitch::{self, Step, Triangle};
 
 /// What the rings of a patch with `EDGES` edges depend on.
 #[derive(Clone, Copy, Debug)]
@@ -64,11 +64,13 @@ impl<const EDGES: usize> Rings<EDGES> {
                         inner = inner.with(inner_points - 1, inner_start);
                     }
                 }
+                let mut emit_step = |step: Step| emit(step.triangle(&outer, &inner));
                 if ring == 1 {
-                    let (edge, inside) = (&self.outer[edge], &self.along[edge]);
-                    stitch::transition((&outer, &inner), edge, inside, split, &mut emit);
+                    let (outer_points, inside_points) =
+                        (self.outer[edge].points, self.along[edge].points);
+                    stitch::transition(split, outer_points, inside_points).for_each(&mut emit_step);
                 } else {
-                    stitch::ring((&outer, &inner), inner_points, &mut emit);
+                    stitch::ring(inner_points).for_each(&mut emit_step);
                 }
                 outer_base += outer_points - 1;
                 inner_base += inner_points - 1;

@@ -22,11 +22,6 @@ pub(crate) fn emit(
 ) {
     let innermost = rings(factors).emit(config.split, &mut emit);
     if factors.inside.context.parity == Parity::Odd {
-        emit(centre(innermost));
+        emit([innermost, innermost + 1, innermost + 2]);
     }
-}
-
-/// The one triangle inside an innermost ring of three points.
-pub(crate) const fn centre(innermost: u32) -> Triangle {
-    [innermost, innermost + 1, innermost + 2]
 }

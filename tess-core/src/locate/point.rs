@@ -4,9 +4,12 @@ use crate::connect::rings::Rings;
 use crate::connect::{quad as quad_rings, triangle as triangle_rings};
 use crate::factor_context::FactorContext;
 use crate::factors::{PatchFactors, ProcessedFactor, ProcessedPatch, QuadFactors, TriangleFactors};
+use crate::fixed_point::ONE;
 use crate::locate::{last_ring_at_or_before, slot_of};
+use crate::output::DomainPoint;
 use crate::points::quad::Inside;
-use crate::points::{DomainPoint, isoline, minimum_corners, quad, triangle};
+use crate::points::{isoline, quad, triangle};
+use crate::state::Domain;
 
 /// Where a domain point comes from in the walk of spec section 6.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -112,10 +115,22 @@ pub(crate) const fn quad_points_before(inside: &Inside, ring: u32) -> u32 {
 pub(crate) fn point(patch: &ProcessedPatch, location: PointLocation) -> Option<DomainPoint> {
     match (patch, location) {
         (ProcessedPatch::Minimum(factors), PointLocation::Corner { corner }) => {
-            minimum_corners(factors.domain()).get(corner as usize).copied()
+            minimum_corner(factors.domain(), corner)
         }
         (ProcessedPatch::Regular(factors), location) => regular_point(factors, location),
         _ => None,
+    }
+}
+
+/// Corner `corner` of a minimum patch (spec section 3, step 8).
+fn minimum_corner(domain: Domain, corner: u32) -> Option<DomainPoint> {
+    let at = |u_is_one, v_is_one| {
+        DomainPoint::from_bits(ONE * u32::from(u_is_one), ONE * u32::from(v_is_one))
+    };
+    match domain {
+        Domain::Triangle if corner < 3 => Some(at(corner == 2, corner == 0)),
+        Domain::Quad if corner < 4 => Some(at(corner == 1 || corner == 2, corner >= 2)),
+        Domain::Isoline | Domain::Triangle | Domain::Quad => None,
     }
 }
 

@@ -1,10 +1,9 @@
 //! Which line, stitch or centre the t-th primitive of a patch belongs to, and its indices.
 
-use crate::connect::minimum_triangles;
 use crate::factors::{IsolineFactors, PatchFactors, ProcessedFactor, ProcessedPatch};
 use crate::locate::rings;
-use crate::sink::Primitive;
-use crate::state::{Config, OutputPrimitive};
+use crate::output::Primitive;
+use crate::state::{Config, Domain, OutputPrimitive};
 
 /// Where a primitive comes from in the walk of spec sections 7 and 8.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -111,7 +110,11 @@ fn triangle(
 ) -> Option<[u32; 3]> {
     match (patch, location) {
         (ProcessedPatch::Minimum(factors), PrimitiveLocation::Minimum { step }) => {
-            minimum_triangles(factors.domain()).get(step as usize).copied()
+            match factors.domain() {
+                Domain::Triangle if step < 1 => Some([0, 1, 2]),
+                Domain::Quad if step < 2 => Some([step, step + 1, 3]),
+                Domain::Isoline | Domain::Triangle | Domain::Quad => None,
+            }
         }
         (ProcessedPatch::Regular(PatchFactors::Triangle(factors)), location) => {
             rings::triangle(factors, config.split, location)

@@ -1,12 +1,11 @@
 //! The t-th triangle of the rings of a triangle or quad patch.
 
-use crate::connect::quad::CentreStrip;
 use crate::connect::rings::Rings;
 use crate::connect::{quad, triangle};
 use crate::factors::{ProcessedFactor, QuadFactors, TriangleFactors};
 use crate::locate::point::{quad_points_before, triangle_points_before};
 use crate::locate::primitive::PrimitiveLocation;
-use crate::locate::{last_ring_at_or_before, slot_of, stitch};
+use crate::locate::{centre_strip, last_ring_at_or_before, slot_of, stitch};
 use crate::points::quad::Inside;
 use crate::row::Row;
 use crate::state::{Parity, SplitOrder};
@@ -39,7 +38,7 @@ impl ClosedForms<3> for TriangleFactors<ProcessedFactor> {
 
     fn centre_triangle(&self, innermost: u32, step: u32) -> Option<Triangle> {
         let has_centre = self.inside.context.parity == Parity::Odd && step == 0;
-        has_centre.then_some(triangle::centre(innermost))
+        has_centre.then_some([0, 1, 2].map(|corner| innermost + corner))
     }
 }
 
@@ -59,9 +58,7 @@ impl ClosedForms<4> for QuadFactors<ProcessedFactor> {
     }
 
     fn centre_triangle(&self, innermost: u32, step: u32) -> Option<Triangle> {
-        let strip = CentreStrip::new(&Inside::new(self), innermost)?;
-        let [first, second] = strip.quad(step / 2);
-        Some(if step.is_multiple_of(2) { first } else { second })
+        centre_strip::triangle(&Inside::new(self), innermost, step)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Isoline points: line by line, from v = 0 (spec section 6).
 
 use crate::factors::{IsolineFactors, ProcessedFactor};
+use crate::output::DomainPoint;
 use crate::place::place;
-use crate::points::DomainPoint;
 use crate::sink::Sink;
 
 pub(crate) fn emit(factors: &IsolineFactors<ProcessedFactor>, sink: &mut impl Sink) {

@@ -4,8 +4,8 @@
 use crate::factor_context::FactorContext;
 use crate::factors::{ProcessedFactor, QuadFactors};
 use crate::fixed_point::{HALF, ONE};
+use crate::output::DomainPoint;
 use crate::place::place;
-use crate::points::DomainPoint;
 use crate::sink::Sink;
 use crate::state::Parity;
 use fixed::types::U16F16;

@@ -3,8 +3,8 @@
 use crate::factor_context::FactorContext;
 use crate::factors::{ProcessedFactor, TriangleFactors};
 use crate::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
+use crate::output::DomainPoint;
 use crate::place::place;
-use crate::points::DomainPoint;
 use crate::sink::Sink;
 use crate::state::Parity;
 
