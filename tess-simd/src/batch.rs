@@ -31,12 +31,8 @@ pub enum Batch<'a> {
     Quads(&'a [QuadFactors]),
     /// Patches of any one domain, patch by patch.
     Patches(&'a [PatchFactors]),
-    /// Isolines, factor by factor.
-    IsolineColumns(IsolineFactors<&'a [f32]>),
-    /// Triangles, factor by factor.
-    TriangleColumns(TriangleFactors<&'a [f32]>),
-    /// Quads, factor by factor.
-    QuadColumns(QuadFactors<&'a [f32]>),
+    /// Patches, factor by factor: a column for each factor.
+    Columns(PatchFactors<&'a [f32]>),
 }
 
 /// Conversions from a slice of structures, and from what is borrowed as one.
@@ -66,19 +62,20 @@ from_structures!(TriangleFactors, Triangles);
 from_structures!(QuadFactors, Quads);
 from_structures!(PatchFactors, Patches);
 
-/// A conversion from a slice for each factor.
+/// A conversion from a column for each factor.
 macro_rules! from_columns {
-    ($factors:ident, $layout:ident) => {
-        impl<'a> From<$factors<&'a [f32]>> for Batch<'a> {
-            fn from(columns: $factors<&'a [f32]>) -> Self {
-                Self::$layout(columns)
+    ($columns:ty) => {
+        impl<'a> From<$columns> for Batch<'a> {
+            fn from(columns: $columns) -> Self {
+                Self::Columns(columns.into())
             }
         }
     };
 }
-from_columns!(IsolineFactors, IsolineColumns);
-from_columns!(TriangleFactors, TriangleColumns);
-from_columns!(QuadFactors, QuadColumns);
+from_columns!(IsolineFactors<&'a [f32]>);
+from_columns!(TriangleFactors<&'a [f32]>);
+from_columns!(QuadFactors<&'a [f32]>);
+from_columns!(PatchFactors<&'a [f32]>);
 
 impl Batch<'_> {
     /// The domain of its patches: that of the first if it is made of [`PatchFactors`], a quad if
@@ -86,10 +83,11 @@ impl Batch<'_> {
     #[must_use]
     pub fn domain(&self) -> Domain {
         match self {
-            Self::Isolines(_) | Self::IsolineColumns(_) => Domain::Isoline,
-            Self::Triangles(_) | Self::TriangleColumns(_) => Domain::Triangle,
-            Self::Quads(_) | Self::QuadColumns(_) => Domain::Quad,
+            Self::Isolines(_) => Domain::Isoline,
+            Self::Triangles(_) => Domain::Triangle,
+            Self::Quads(_) => Domain::Quad,
             Self::Patches(patches) => patches.first().map_or(Domain::Quad, PatchFactors::domain),
+            Self::Columns(columns) => columns.domain(),
         }
     }
 
@@ -101,9 +99,7 @@ impl Batch<'_> {
             Self::Triangles(patches) => patches.len(),
             Self::Quads(patches) => patches.len(),
             Self::Patches(patches) => patches.len(),
-            Self::IsolineColumns(columns) => shortest(&isoline(columns)),
-            Self::TriangleColumns(columns) => shortest(&triangle(columns)),
-            Self::QuadColumns(columns) => shortest(&quad(columns)),
+            Self::Columns(columns) => shortest(columns),
         }
     }
 
@@ -113,17 +109,15 @@ impl Batch<'_> {
         self.len() == 0
     }
 
-    /// Whether its columns have one length and its patches one domain.
+    /// Whether its patches have one domain and its columns one length.
     ///
     /// # Errors
-    /// [`Error::UnevenColumns`], [`Error::MixedDomains`].
+    /// [`Error::MixedDomains`], [`Error::UnevenColumns`].
     pub(crate) fn check(&self) -> Result<(), Error> {
         match self {
             Self::Isolines(_) | Self::Triangles(_) | Self::Quads(_) => Ok(()),
             Self::Patches(patches) => one_domain(self.domain(), patches),
-            Self::IsolineColumns(columns) => one_length(&isoline(columns)),
-            Self::TriangleColumns(columns) => one_length(&triangle(columns)),
-            Self::QuadColumns(columns) => one_length(&quad(columns)),
+            Self::Columns(columns) => one_length(columns),
         }
     }
 
@@ -134,41 +128,18 @@ impl Batch<'_> {
             Self::Triangles(patches) => Self::Triangles(part(patches, range)),
             Self::Quads(patches) => Self::Quads(part(patches, range)),
             Self::Patches(patches) => Self::Patches(part(patches, range)),
-            Self::IsolineColumns(columns) => {
-                let [density, detail] = isoline(&columns).map(|c| part(c, range));
-                Self::IsolineColumns(IsolineFactors { density, detail })
-            }
-            Self::TriangleColumns(columns) => {
-                let [u0, v0, w0, inside] = triangle(&columns).map(|c| part(c, range));
-                Self::TriangleColumns(TriangleFactors { u0, v0, w0, inside })
-            }
-            Self::QuadColumns(columns) => {
-                let [u0, v0, u1, v1, inside_u, inside_v] = quad(&columns).map(|c| part(c, range));
-                Self::QuadColumns(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
-            }
+            Self::Columns(columns) => Self::Columns(columns.map(|column| part(column, range))),
         }
     }
 }
 
-pub(crate) const fn isoline<T: Copy>(f: &IsolineFactors<T>) -> [T; 2] {
-    [f.density, f.detail]
+fn shortest(columns: &PatchFactors<&[f32]>) -> usize {
+    columns.iter().map(<[f32]>::len).min().unwrap_or(0)
 }
 
-pub(crate) const fn triangle<T: Copy>(f: &TriangleFactors<T>) -> [T; 4] {
-    [f.u0, f.v0, f.w0, f.inside]
-}
-
-pub(crate) const fn quad<T: Copy>(f: &QuadFactors<T>) -> [T; 6] {
-    [f.u0, f.v0, f.u1, f.v1, f.inside_u, f.inside_v]
-}
-
-fn shortest(columns: &[&[f32]]) -> usize {
-    columns.iter().map(|column| column.len()).min().unwrap_or(0)
-}
-
-fn one_length(columns: &[&[f32]]) -> Result<(), Error> {
+fn one_length(columns: &PatchFactors<&[f32]>) -> Result<(), Error> {
     let length = shortest(columns);
-    match columns.iter().map(|column| column.len()).find(|&other| other != length) {
+    match columns.iter().map(<[f32]>::len).find(|&other| other != length) {
         None => Ok(()),
         Some(longer) => Err(Error::UnevenColumns { lengths: [length, longer] }),
     }
@@ -177,9 +148,7 @@ fn one_length(columns: &[&[f32]]) -> Result<(), Error> {
 fn one_domain(expected: Domain, patches: &[PatchFactors]) -> Result<(), Error> {
     match patches.iter().position(|patch| patch.domain() != expected) {
         None => Ok(()),
-        Some(patch) => {
-            Err(Error::MixedDomains { patch, found: patches[patch].domain(), expected })
-        }
+        Some(patch) => Err(Error::MixedDomains { patch, found: patches[patch].domain(), expected }),
     }
 }
 

@@ -37,9 +37,15 @@ impl Block {
     #[inline(always)]
     pub(crate) fn new(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
         match domain {
-            Domain::Isoline => Self::of_factors::<{ 2 * LANES }>(config, domain, raw),
-            Domain::Triangle => Self::of_factors::<{ 4 * LANES }>(config, domain, raw),
-            Domain::Quad => Self::of_factors::<{ 6 * LANES }>(config, domain, raw),
+            Domain::Isoline => {
+                Self::of_factors::<{ Domain::Isoline.factors() * LANES }>(config, domain, raw)
+            }
+            Domain::Triangle => {
+                Self::of_factors::<{ Domain::Triangle.factors() * LANES }>(config, domain, raw)
+            }
+            Domain::Quad => {
+                Self::of_factors::<{ Domain::Quad.factors() * LANES }>(config, domain, raw)
+            }
         }
     }
 

@@ -1,6 +1,6 @@
 //! The raw factors of several blocks, factor by factor.
 
-use crate::batch::{Batch, isoline, quad, triangle};
+use crate::batch::Batch;
 use crate::lanes::{Column, LANES, MAX_FACTORS};
 use tess_core::{Domain, PatchFactors};
 
@@ -21,29 +21,27 @@ impl Chunk {
     #[inline(always)]
     pub(crate) fn load(&mut self, batch: &Batch<'_>, first: usize) {
         match batch {
-            Batch::Isolines(patches) => self.load_structures(patches, first, isoline),
-            Batch::Triangles(patches) => self.load_structures(patches, first, triangle),
-            Batch::Quads(patches) => self.load_structures(patches, first, quad),
+            Batch::Isolines(patches) => self.load_structures(patches, first, |&f| f.into()),
+            Batch::Triangles(patches) => self.load_structures(patches, first, |&f| f.into()),
+            Batch::Quads(patches) => self.load_structures(patches, first, |&f| f.into()),
             Batch::Patches(patches) => self.load_patches(batch.domain(), patches, first),
-            Batch::IsolineColumns(columns) => self.load_columns(isoline(columns), first),
-            Batch::TriangleColumns(columns) => self.load_columns(triangle(columns), first),
-            Batch::QuadColumns(columns) => self.load_columns(quad(columns), first),
+            Batch::Columns(columns) => self.load_columns(columns, batch.len(), first),
         }
     }
 
     #[inline(always)]
     fn load_patches(&mut self, domain: Domain, patches: &[PatchFactors], first: usize) {
         match domain {
-            Domain::Isoline => self.load_structures(patches, first, |patch| match patch {
-                PatchFactors::Isoline(factors) => isoline(factors),
+            Domain::Isoline => self.load_structures(patches, first, |patch| match *patch {
+                PatchFactors::Isoline(factors) => factors.into(),
                 _ => [0.0; 2],
             }),
-            Domain::Triangle => self.load_structures(patches, first, |patch| match patch {
-                PatchFactors::Triangle(factors) => triangle(factors),
+            Domain::Triangle => self.load_structures(patches, first, |patch| match *patch {
+                PatchFactors::Triangle(factors) => factors.into(),
                 _ => [0.0; 4],
             }),
-            Domain::Quad => self.load_structures(patches, first, |patch| match patch {
-                PatchFactors::Quad(factors) => quad(factors),
+            Domain::Quad => self.load_structures(patches, first, |patch| match *patch {
+                PatchFactors::Quad(factors) => factors.into(),
                 _ => [0.0; 6],
             }),
         }
@@ -67,15 +65,13 @@ impl Chunk {
     }
 
     #[inline(always)]
-    fn load_columns<const N: usize>(&mut self, columns: [&[f32]; N], first: usize) {
-        let count = columns.iter().map(|c| c.len()).min().unwrap_or(0);
-        let mut loaded = 0;
-        for (values, source) in self.0.iter_mut().zip(columns) {
-            let source = source.get(first..count.min(first + Self::PATCHES)).unwrap_or_default();
+    fn load_columns(&mut self, columns: &PatchFactors<&[f32]>, patches: usize, first: usize) {
+        let end = patches.min(first + Self::PATCHES);
+        for (values, column) in self.0.iter_mut().zip(columns.iter()) {
+            let source = column.get(first..end).unwrap_or_default();
             values[..source.len()].copy_from_slice(source);
-            loaded = source.len();
         }
-        self.clear(loaded);
+        self.clear(end.saturating_sub(first));
     }
 
     /// Zeros from a patch to the end of its block.

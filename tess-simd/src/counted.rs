@@ -69,9 +69,7 @@ impl<'a> Counted<'a> {
         let end = match numbering {
             Numbering::PerPatch => u64::from(self.count.total.largest),
             Numbering::PerBatch { .. } if self.count.total.points == 0 => 0,
-            Numbering::PerBatch { base_vertex } => {
-                u64::from(base_vertex) + self.count.total.points
-            }
+            Numbering::PerBatch { base_vertex } => u64::from(base_vertex) + self.count.total.points,
         };
         end.checked_sub(1)
     }

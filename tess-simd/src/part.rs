@@ -91,7 +91,8 @@ fn emit_as<P: PointFormat, I: IndexFormat>(
         let blocks = &blocks[..patches.div_ceil(LANES)];
         let blocks = Blocks { blocks, patches, first, numbering };
         let chunk_ranges = ranges.as_deref_mut().map(|ranges| &mut ranges[start..start + patches]);
-        let buffers = Buffers { points: &mut *points, indices: &mut *indices, ranges: chunk_ranges };
+        let buffers =
+            Buffers { points: &mut *points, indices: &mut *indices, ranges: chunk_ranges };
         let end = dispatch::emit(setup.level, setup, blocks, buffers, &mut workspace.caches);
         points = points.split_at_mut((end.points - first.points) as usize).1;
         indices = indices.split_at_mut((end.indices - first.indices) as usize).1;

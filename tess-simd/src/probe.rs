@@ -3,8 +3,7 @@
 //! Each goes through the same code as whole patches do, at a CPU level.
 
 use crate::dispatch;
-use crate::error::LevelUnavailable;
-use crate::level::Level;
+use crate::level::{Level, LevelUnavailable};
 use alloc::vec::Vec;
 use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 

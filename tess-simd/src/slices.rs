@@ -60,10 +60,7 @@ impl CountShare<'_> {
         let Self { batch, slice, counts } = self;
         let (left, right) = counts.split_at_mut(counts.len() / 2);
         let (first, second) = cut(batch, left.len() * slice);
-        (
-            Self { batch: first, slice, counts: left },
-            Self { batch: second, slice, counts: right },
-        )
+        (Self { batch: first, slice, counts: left }, Self { batch: second, slice, counts: right })
     }
 }
 
@@ -157,7 +154,8 @@ mod halves {
 
     /// The lengths of points, indices and ranges.
     fn lengths(target: &Target<'_>) -> (usize, usize, usize) {
-        let (AnyPoints::Fixed(points), AnyIndices::U32(indices)) = (&target.points, &target.indices)
+        let (AnyPoints::Fixed(points), AnyIndices::U32(indices)) =
+            (&target.points, &target.indices)
         else {
             panic!("other formats than there were");
         };
@@ -177,11 +175,8 @@ mod halves {
         let mut indices = alloc::vec![0_u32; all.indices as usize];
         let mut ranges = alloc::vec![PatchRange::default(); quads.len()];
         let target = Buffers::new(&mut points, &mut indices).with_ranges(&mut ranges).into();
-        let part = Part {
-            batch: Batch::Quads(&quads),
-            target,
-            first: Offsets { points: 7, indices: 9 },
-        };
+        let part =
+            Part { batch: Batch::Quads(&quads), target, first: Offsets { points: 7, indices: 9 } };
         let (one, other) = Share { part, slice: 2, counts: &counts }.halve();
         for share in [&one, &other] {
             let sum = PartCounts::sum(share.counts);

@@ -8,5 +8,5 @@ mod code;
 mod rows;
 mod tables;
 
-pub(crate) use rows::{Codes, Replaced, Rows};
-pub(crate) use tables::{Stitches, Strip};
+pub(crate) use rows::{Replaced, Rows};
+pub(crate) use tables::Stitches;

@@ -12,9 +12,7 @@ use crate::setup::Setup;
 use crate::writer::Writer;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use tess_core::{
-    Config, Domain, DomainPoint, IsolineFactors, Patch, PatchFactors, QuadFactors, TriangleFactors,
-};
+use tess_core::{Config, Domain, DomainPoint, Patch, PatchFactors};
 
 /// Points of a small patch: as many as a quad of factor 16 has.
 const SMALL: usize = 17 * 17;
@@ -148,34 +146,11 @@ const fn slot(topology: u64) -> usize {
 
 /// Writes the minimum patch of a domain, as the core makes it.
 #[expect(clippy::cast_possible_truncation, reason = "indices of at most 4 points")]
-fn write_minimum(
-    config: Config,
-    domain: Domain,
-    points: &mut [DomainPoint],
-    indices: &mut [u16],
-) {
+fn write_minimum(config: Config, domain: Domain, points: &mut [DomainPoint], indices: &mut [u16]) {
     let mut wide = [0; 8];
-    let written = Patch::new(config, ones(domain)).write(points, &mut wide);
+    let written = Patch::new(config, PatchFactors::uniform(domain, 1.0)).write(points, &mut wide);
     debug_assert!(written.is_ok(), "a minimum patch has at most 4 points and 6 indices");
     for (narrow, wide) in indices.iter_mut().zip(wide) {
         *narrow = wide as u16;
-    }
-}
-
-/// Factors that are all one.
-fn ones(domain: Domain) -> PatchFactors {
-    match domain {
-        Domain::Isoline => PatchFactors::Isoline(IsolineFactors { density: 1.0, detail: 1.0 }),
-        Domain::Triangle => {
-            PatchFactors::Triangle(TriangleFactors { u0: 1.0, v0: 1.0, w0: 1.0, inside: 1.0 })
-        }
-        Domain::Quad => PatchFactors::Quad(QuadFactors {
-            u0: 1.0,
-            v0: 1.0,
-            u1: 1.0,
-            v1: 1.0,
-            inside_u: 1.0,
-            inside_v: 1.0,
-        }),
     }
 }

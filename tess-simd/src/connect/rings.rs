@@ -27,8 +27,7 @@ impl<const EDGES: usize> Rings<EDGES> {
         out: &mut Writer<'_, I>,
     ) -> u32 {
         let mut outer = base;
-        let mut inner =
-            base.wrapping_add(self.outer.iter().map(|points| points - 1).sum::<u32>());
+        let mut inner = base.wrapping_add(self.outer.iter().map(|points| points - 1).sum::<u32>());
         let end = self.along.iter().map(|points| points.div_ceil(2)).min().unwrap_or(0);
         for ring in 1..end {
             let (outer_start, inner_start) = (outer, inner);

@@ -18,7 +18,7 @@ pub(crate) fn fixed_factors(
     factors: &mut [[FixedFactor; 2]],
 ) {
     const PLAIN: Column<f32> = [3.0; LANES * MAX_FACTORS];
-    const INSIDE: usize = 3 * LANES;
+    const INSIDE: usize = Domain::Triangle.outer_factors() * LANES;
     let config = Config::new(partitioning, OutputPrimitive::Point);
     for (values, factors) in values.chunks(LANES).zip(factors.chunks_mut(LANES)) {
         let (mut outer, mut inside) = (PLAIN, PLAIN);

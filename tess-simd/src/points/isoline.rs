@@ -9,7 +9,7 @@ use crate::writer::Writer;
 #[inline(always)]
 pub(super) fn emit<P: PointFormat>(
     &[density, detail, ..]: &EdgePoints,
-    [density_locations, detail_locations, ..]: Tables<'_>,
+    [density_locations, detail_locations, ..]: FactorLocations<'_>,
     out: &mut Writer<'_, P>,
 ) {
     for line in 0..density - 1 {

@@ -11,7 +11,7 @@ use tess_core::fixed_point::{HALF, ONE};
 #[inline(always)]
 pub(super) fn emit<P: PointFormat>(
     &[u0, v0, u1, v1, n_u, n_v]: &EdgePoints,
-    [u0_locations, v0_locations, u1_locations, v1_locations, u_locations, v_locations]: Tables<'_>,
+    [u0_locations, v0_locations, u1_locations, v1_locations, u_locations, v_locations]: FactorLocations<'_>,
     out: &mut Writer<'_, P>,
 ) {
     let mirror = |x| ONE.wrapping_sub(x);

@@ -1,7 +1,7 @@
 //! Tables of locations, kept from patch to patch.
 
 use crate::block::BlockPatch;
-use crate::lanes::{MAX_FACTORS, factors};
+use crate::lanes::MAX_FACTORS;
 use crate::place::Locations;
 
 /// Point counts of edges are below this.
@@ -30,10 +30,9 @@ impl LocationTables {
     /// The locations of a patch, computed where they are not there yet.
     #[inline(always)]
     pub(super) fn of(&mut self, patch: BlockPatch<'_>) -> FactorLocations<'_> {
-        for factor in 0..factors(patch.domain()) {
+        for factor in 0..patch.domain().factors() {
             let slot = slot(patch, factor);
-            let key =
-                if patch.integer() { patch.edge_points(factor) } else { patch.key(factor) };
+            let key = if patch.integer() { patch.edge_points(factor) } else { patch.key(factor) };
             if self.keys[slot] != key {
                 self.keys[slot] = key;
                 self.tables[slot].fill(&patch.spacing(factor));

@@ -10,7 +10,7 @@ use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
 #[inline(always)]
 pub(super) fn emit<P: PointFormat>(
     &[u0, v0, w0, inside, ..]: &EdgePoints,
-    [u0_locations, v0_locations, w0_locations, inside_locations, ..]: Tables<'_>,
+    [u0_locations, v0_locations, w0_locations, inside_locations, ..]: FactorLocations<'_>,
     out: &mut Writer<'_, P>,
 ) {
     let mirror = |x| ONE.wrapping_sub(x);

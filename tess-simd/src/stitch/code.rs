@@ -7,7 +7,7 @@
 pub(crate) const STEP: usize = 32;
 
 /// What a row position gains as inner row.
-pub(crate) const INNER: i8 = i8::MIN;
+const INNER: i8 = i8::MIN;
 
 /// No position of any row.
 pub(crate) const NOWHERE: i8 = i8::MAX;
