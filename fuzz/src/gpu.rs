@@ -5,7 +5,7 @@ use crate::input::Bytes;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use tess_check::case::Case;
 use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
-use tess_gpu::runner::{Gpu, Tessellator};
+use tess_wgpu::{Gpu, Tessellator};
 use tess_gpu::{Numbering, PointFormat, Setup};
 
 /// Patches in a batch: small, as a software adapter runs them.

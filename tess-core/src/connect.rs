@@ -6,8 +6,9 @@ pub(crate) mod rings;
 pub(crate) mod triangle;
 
 use crate::counts::counts;
-use crate::factors::{PatchFactors, ProcessedFactor, ProcessedPatch};
+use crate::factors::{ProcessedFactor, ProcessedPatch};
 use crate::output::Primitive;
+use crate::patch_factors::PatchFactors;
 use crate::sink::Sink;
 use crate::state::{Config, Domain, OutputPrimitive};
 use crate::stitch::Triangle;

@@ -2,11 +2,12 @@
 
 use crate::counts::{Counts, counts};
 use crate::error::{Buffer, BufferTooSmall};
-use crate::factors::{PatchFactors, ProcessedPatch, process};
+use crate::factors::{ProcessedPatch, process};
 use crate::locate::point::PointLocation;
 use crate::locate::primitive::PrimitiveLocation;
 use crate::output::DomainPoint;
 use crate::output::Primitive;
+use crate::patch_factors::PatchFactors;
 use crate::sink::{Sink, Slices};
 use crate::state::Config;
 use crate::{connect, locate, points};

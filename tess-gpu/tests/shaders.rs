@@ -2,12 +2,12 @@
 
 mod common;
 
-use common::{all_setups, parse};
+use common::{PULLING, all_setups, parse};
 use naga::{AddressSpace, Module, ScalarKind, TypeInner};
-use tess_gpu::{Access, Binding, Resource, Stage, layout};
+use tess_gpu::{Access, Binding, Probe, Pull, Resource, Stage, layout};
 
 #[test]
-fn every_stage_is_valid_in_every_setup() {
+fn every_shader_is_valid_in_every_setup() {
     let setups = all_setups();
     assert_eq!(
         setups.len(),
@@ -18,6 +18,10 @@ fn every_stage_is_valid_in_every_setup() {
         for stage in Stage::ALL {
             common::validated(&stage.source(setup));
         }
+        for probe in Probe::ALL {
+            common::validated(&probe.source(setup));
+        }
+        common::validated(&(Pull { group: 0, first_binding: 0 }.source(setup) + PULLING));
     }
 }
 

@@ -1,7 +1,8 @@
 //! The triangles of a quad patch (spec section 7).
 
 use crate::connect::rings::{OnRows, Rings, row_ring};
-use crate::factors::{ProcessedFactor, QuadFactors};
+use crate::factors::ProcessedFactor;
+use crate::patch_factors::QuadFactors;
 use crate::points::quad::Inside;
 use crate::row::Row;
 use crate::state::{Config, Parity};

@@ -1,7 +1,8 @@
 //! The triangles of a triangle patch (spec section 7).
 
 use crate::connect::rings::Rings;
-use crate::factors::{ProcessedFactor, TriangleFactors};
+use crate::factors::ProcessedFactor;
+use crate::patch_factors::TriangleFactors;
 use crate::state::{Config, Parity};
 use crate::stitch::Triangle;
 

@@ -3,10 +3,11 @@
 use crate::connect::rings::Rings;
 use crate::connect::{quad as quad_rings, triangle as triangle_rings};
 use crate::factor_context::FactorContext;
-use crate::factors::{PatchFactors, ProcessedFactor, ProcessedPatch, QuadFactors, TriangleFactors};
+use crate::factors::{ProcessedFactor, ProcessedPatch};
 use crate::fixed_point::ONE;
 use crate::locate::{last_ring_at_or_before, slot_of};
 use crate::output::DomainPoint;
+use crate::patch_factors::{PatchFactors, QuadFactors, TriangleFactors};
 use crate::points::quad::Inside;
 use crate::points::{isoline, quad, triangle};
 use crate::state::Domain;

@@ -1,8 +1,9 @@
 //! Which line, stitch or centre the t-th primitive of a patch belongs to, and its indices.
 
-use crate::factors::{IsolineFactors, PatchFactors, ProcessedFactor, ProcessedPatch};
+use crate::factors::{ProcessedFactor, ProcessedPatch};
 use crate::locate::rings;
 use crate::output::Primitive;
+use crate::patch_factors::{IsolineFactors, PatchFactors};
 use crate::state::{Config, Domain, OutputPrimitive};
 
 /// Where a primitive comes from in the walk of spec sections 7 and 8.

@@ -2,10 +2,11 @@
 
 use crate::connect::rings::Rings;
 use crate::connect::{quad, triangle};
-use crate::factors::{ProcessedFactor, QuadFactors, TriangleFactors};
+use crate::factors::ProcessedFactor;
 use crate::locate::point::{quad_points_before, triangle_points_before};
 use crate::locate::primitive::PrimitiveLocation;
 use crate::locate::{centre_strip, last_ring_at_or_before, slot_of, stitch};
+use crate::patch_factors::{QuadFactors, TriangleFactors};
 use crate::points::quad::Inside;
 use crate::row::Row;
 use crate::state::{Parity, SplitOrder};

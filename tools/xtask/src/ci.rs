@@ -31,5 +31,4 @@ pub(crate) fn run() -> Result<(), String> {
 const FEATURE_SETS: &[&str] = &[
     "check --package tess-core --no-default-features",
     "check --package tess-simd --no-default-features",
-    "check --package tess-gpu",
 ];

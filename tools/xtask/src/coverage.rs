@@ -10,6 +10,7 @@ const CRATES: &[&str] = &[
     "tess-simd/",
     "tess-gpu/",
     "tess-surface/",
+    "tess-wgpu/",
     "bindings/c/",
     "tools/check/",
     "tools/cli/",

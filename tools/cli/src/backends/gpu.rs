@@ -9,8 +9,8 @@ use tess_core::{
     PatchFactors, Tessellation,
 };
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
-use tess_gpu::runner::{Gpu, Output, Tessellator};
 use tess_gpu::{Numbering, Probe, Setup};
+use tess_wgpu::{Gpu, Output, Tessellator};
 
 /// `tess-gpu` on the first adapter that there is, with WebGPU's default limits.
 #[derive(Debug)]

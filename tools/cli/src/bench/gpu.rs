@@ -13,7 +13,7 @@ use tess_check::workloads::{IndexType, Totals, Workload};
 use tess_core::{Counts, PatchFactors};
 use tess_gpu::Setup;
 use tess_gpu::layout::factor_words;
-use tess_gpu::runner::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 
 mod fill;
 

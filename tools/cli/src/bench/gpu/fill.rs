@@ -1,6 +1,6 @@
 //! Plain stores of as many bytes, for comparison.
 
-use tess_gpu::runner::Gpu;
+use tess_wgpu::Gpu;
 
 const SHADER: &str = "
 @group(0) @binding(0) var<storage, read_write> words: array<vec4<u32>>;
