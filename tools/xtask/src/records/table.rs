@@ -92,12 +92,16 @@ fn text(row: &Row, key: &str) -> String {
     }
 }
 
-/// Three significant digits, never fewer than those before the point.
+/// Three significant digits, never fewer than those before the point, without zeros at the end.
 pub(super) fn digits(value: f64) -> String {
     let decimals = [(100.0, 0), (10.0, 1), (1.0, 2), (0.1, 3), (0.01, 4)]
         .into_iter()
         .find_map(|(from, decimals)| (value >= from).then_some(decimals));
-    format!("{value:.*}", decimals.unwrap_or(5))
+    let text = format!("{value:.*}", decimals.unwrap_or(5));
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
 }
 
 #[cfg(test)]
@@ -107,8 +111,9 @@ mod tests {
 
     #[test]
     fn three_digits_count() {
-        let shown = [27434.4, 173.1, 14.85, 4.0749, 0.5661, 0.0571, 0.00123].map(digits);
-        assert_eq!(shown, ["27434", "173", "14.8", "4.07", "0.566", "0.0571", "0.00123"], "digits");
+        let shown = [27430.4, 173.1, 14.85, 4.0749, 9.8, 0.5661, 0.0571, 0.00123].map(digits);
+        let expected = ["27430", "173", "14.8", "4.07", "9.8", "0.566", "0.0571", "0.00123"];
+        assert_eq!(shown, expected, "digits");
     }
 
     fn row(workload: &str, working_set: &str, fill_ratio: f64) -> Row {
@@ -137,8 +142,8 @@ mod tests {
         let block = block(&record, &[target("cache", 0.45), target("stream", 1.3)]);
         let expected = "    tess bench\n\na machine; 2026-01-02, commit abc.\n\n\
             | workload | M patches/s | of fill | target |\n| --- | --- | --- | --- |\n\
-            | worst, cache | 4.07 | 0.500 | 0.450 of fill: reached |\n\
-            | worst, stream | 4.07 | 1.25 | 1.30 of fill: missed |\n";
+            | worst, cache | 4.07 | 0.5 | 0.45 of fill: reached |\n\
+            | worst, stream | 4.07 | 1.25 | 1.3 of fill: missed |\n";
         assert_eq!(block, expected, "a table");
     }
 }
