@@ -64,7 +64,7 @@ fn like_patches_of_every_size_and_format() {
             machine.assert_equal(setup, &vec![patch_of(domain, |_| factor); count]);
         }
         let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
-        for point_format in [PointFormat::Packed, PointFormat::Float] {
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 machine.assert_equal(Setup { point_format, numbering, ..setup }, &patches);
             }

@@ -125,7 +125,7 @@ pub(crate) fn by_simd(setup: Setup, patches: &[PatchFactors]) -> (Vec<u32>, Vec<
 /// A point as the shaders store it.
 pub(crate) fn point_words(format: PointFormat, point: DomainPoint, patch: u32) -> [u32; 2] {
     match format {
-        PointFormat::Float => point.to_f32().map(f32::to_bits),
+        PointFormat::F32 => point.to_f32().map(f32::to_bits),
         PointFormat::Packed => {
             let [u, v] = [point.u, point.v].map(|bits| u64::from(bits.to_bits()));
             let packed = u | v << 17 | u64::from(patch) << 34;
