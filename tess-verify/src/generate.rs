@@ -47,6 +47,12 @@ impl Shard {
     pub const fn has(&self, i: u64) -> bool {
         i % self.of == self.part
     }
+
+    /// How many of `count` items belong to this part.
+    #[must_use]
+    pub const fn share(self, count: u64) -> u64 {
+        count / self.of + (self.part < count % self.of) as u64
+    }
 }
 
 /// What to generate.
@@ -81,12 +87,23 @@ impl Selection {
         systematic.into_iter().filter(move |case| self.selects(case)).chain(self.random_cases())
     }
 
-    fn random_cases(self) -> impl Iterator<Item = Case> {
-        let count = self.random.unwrap_or(match self.level {
+    /// How many cases there are. Takes no longer for more random ones.
+    #[must_use]
+    pub fn count(self) -> u64 {
+        let systematic = Self { random: Some(0), ..self }.cases().count() as u64;
+        systematic.saturating_add(self.random_count())
+    }
+
+    fn random_count(self) -> u64 {
+        self.random.unwrap_or(match self.level {
             Level::One => 500,
             Level::Two => 20_000,
             Level::Three => 1_000_000,
-        });
+        })
+    }
+
+    fn random_cases(self) -> impl Iterator<Item = Case> {
+        let count = self.random_count();
         let mut random = SplitMix64::new(self.seed);
         let domains = self.domain.map_or(Domain::ALL.to_vec(), |domain| vec![domain]);
         let partitionings =

@@ -5,7 +5,7 @@ mod strength;
 use crate::backends::{BackendArgs, BackendName};
 use crate::explanation::{PointReport, PrimitiveReport};
 use crate::failure::{Exit, Failure};
-use crate::output::{progress, stdout};
+use crate::output::{progress, stdout, stop_when_reader_leaves};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -53,7 +53,7 @@ pub(crate) struct Args {
 /// # Errors
 /// Malformed, short or empty input; a backend that is not available.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
-    let mut backends = backends(&args.backend)?;
+    let mut backends = backends(args.backend)?;
     let name =
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
     let file = VectorFile::new(name, open(&args.file)?).map_err(|e| failure(e.into()))?;
@@ -61,18 +61,19 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     if file.header().kind == Kind::Listings && file.header().is_from_device() {
         device_has_no_index_type(args)?;
     }
+    stop_when_reader_leaves();
     let bar = progress(file.header().count, "records");
     let report = checker::check(file, &mut backends, strength, &|records| bar.inc(records));
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
     let backend = backends.first().map_or("core", |backend| backend.name());
     let backend = args.backend.options.words(backend);
-    show(&report, &backend).map_err(|error| Failure::file("write", Path::new("-"), &error))?;
+    show(&report, &backend).map_err(|error| Failure::write(Path::new("-"), error))?;
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
 }
 
 /// One backend for each thread: the model runs on every core, the others use them by themselves.
-fn backends(args: &BackendArgs) -> Result<Vec<Box<dyn Backend>>, Failure> {
+fn backends(args: BackendArgs) -> Result<Vec<Box<dyn Backend>>, Failure> {
     let threads = match args.backend {
         BackendName::Core => available_parallelism().map_or(1, usize::from),
         BackendName::Simd | BackendName::Gpu => 1,
@@ -99,7 +100,7 @@ fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
 }
 
 fn show(report: &Report, backend: &str) -> io::Result<()> {
-    let mut out = stdout();
+    let mut out = stdout()?;
     for difference in &report.differences {
         writeln!(out, "{difference}")?;
         for line in model_values(difference).lines() {

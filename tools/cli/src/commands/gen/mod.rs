@@ -2,10 +2,11 @@
 
 use crate::args::{name_of, shard};
 use crate::failure::{Exit, Failure};
-use crate::output::OutputArgs;
+use crate::output::{NewFolder, OutputArgs, progress, stop_when_reader_leaves};
 use clap::ValueEnum;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use indicatif::ProgressBar;
+use std::fs::File;
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 use tess_core::{Domain, Partitioning};
 use tess_verify::case::Case;
@@ -49,7 +50,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", default_value = "csv")]
     format: Format,
     /// Instead of vectors, report which coverage bins they hit
-    #[arg(long)]
+    #[arg(long, conflicts_with = "format")]
     coverage: bool,
     #[command(flatten)]
     output: OutputArgs,
@@ -70,25 +71,28 @@ enum Format {
 /// # Errors
 /// A selection without any case; an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
-    let count = args.cases().count() as u64;
+    let count = args.count();
     if count == 0 {
         return Err(Failure::bad_input(
             "these arguments select no case; give --level 1 or 2, a --count, or a larger shard",
         ));
     }
     let header = args.header(count);
-    match args.format {
-        _ if args.coverage => args.output.stream(|out| report(out, args.cases()))?,
-        Format::Csv => args.output.stream(|out| write_patches(out, &header, args.cases()))?,
-        Format::Listing => args.output.stream(|out| write_listings(out, &header, args.cases()))?,
-        Format::Readmemh => images(&args.output.file, args.cases())?,
-    }
-    Ok(Exit::Done)
+    let bar = args.progress(count);
+    let cases = bar.wrap_iter(args.cases());
+    let written = match args.format {
+        _ if args.coverage => args.output.stream(|out| report(out, cases)),
+        Format::Csv => args.output.stream(|out| write_patches(out, &header, cases)),
+        Format::Listing => args.output.stream(|out| write_listings(out, &header, cases)),
+        Format::Readmemh => images(&args.output.file, cases),
+    };
+    bar.finish_and_clear();
+    written.map(|()| Exit::Done)
 }
 
 impl Args {
-    fn cases(&self) -> impl Iterator<Item = Case> {
-        let selection = Selection {
+    fn selection(&self) -> Selection {
+        Selection {
             level: match self.level {
                 1 => Level::One,
                 2 => Level::Two,
@@ -98,10 +102,29 @@ impl Args {
             random: self.count,
             domain: self.domain,
             partitioning: self.partitioning,
-        };
+        }
+    }
+
+    fn cases(&self) -> impl Iterator<Item = Case> {
         let shard = self.shard;
-        let numbered = (0..).zip(selection.cases());
+        let numbered = (0..).zip(self.selection().cases());
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
+    }
+
+    /// How many cases there are.
+    fn count(&self) -> u64 {
+        self.shard.share(self.selection().count())
+    }
+
+    /// A bar for this many cases, out of the way of vectors that go to the same terminal.
+    fn progress(&self, count: u64) -> ProgressBar {
+        if self.output.is_stdout() {
+            stop_when_reader_leaves();
+            if io::stdout().is_terminal() {
+                return ProgressBar::hidden();
+            }
+        }
+        progress(count, "cases")
     }
 
     /// The arguments that the cases depend on are noted, so that a file says how it was made.
@@ -133,28 +156,20 @@ fn report(out: &mut dyn Write, cases: impl Iterator<Item = Case>) -> io::Result<
     Ok(())
 }
 
-/// Writes the memory images into a folder that is made beside `folder` first, then renamed.
+/// Writes the memory images into a new folder.
 fn images(folder: &Path, cases: impl Iterator<Item = Case>) -> Result<(), Failure> {
     if folder.as_os_str() == "-" {
         return Err(Failure::bad_input("readmemh writes several files: give a folder with -o"));
     }
-    if folder.exists() {
-        let name = folder.display();
-        return Err(Failure::bad_input(format!("{name} exists already; give a new folder")));
-    }
-    let mut name = folder.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.partial", std::process::id()));
-    let partial = folder.with_file_name(name);
-    let written = write_images(&partial, cases).and_then(|()| fs::rename(&partial, folder));
-    written.map_err(|error| {
-        // It may never have been made; the first error is the one to report.
-        _ = fs::remove_dir_all(&partial);
-        Failure::file("write", folder, &error)
-    })
+    let write = || {
+        let new = NewFolder::create(folder)?;
+        write_images(new.path(), cases)?;
+        new.finish()
+    };
+    write().map_err(|error| Failure::write(folder, error))
 }
 
 fn write_images(folder: &Path, cases: impl Iterator<Item = Case>) -> io::Result<()> {
-    fs::create_dir(folder)?;
     let create = |name| File::create(folder.join(name)).map(BufWriter::new);
     let [a, b, c, d, e] = readmemh::FILES;
     let mut files = [create(a)?, create(b)?, create(c)?, create(d)?, create(e)?];

@@ -1,6 +1,7 @@
 //! glTF and GLB files, read by the `gltf` crate: the triangles of all meshes of the scene.
 
 use super::refused;
+use crate::commands::mesh::uri;
 use crate::failure::Failure;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
@@ -64,7 +65,7 @@ fn load_buffer(
                 decoded.map_err(|error| format!("buffer {index}: {error}"))?
             }
             None => {
-                let beside = path.with_file_name(uri.replace("%20", " "));
+                let beside = path.with_file_name(uri::decode(uri));
                 let read = std::fs::read(&beside);
                 read.map_err(|error| format!("cannot read buffer {}: {error}", beside.display()))?
             }
