@@ -4,11 +4,11 @@ mod common;
 
 use common::device::Machine;
 use common::expected::Expected;
-use tess_check::generate::patch_of;
-use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::BLOCK;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
 use tess_wgpu::{Outputs, Tessellator};
 
 /// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole
@@ -64,7 +64,7 @@ fn like_patches_of_every_size_and_format() {
             machine.assert_equal(setup, &vec![patch_of(domain, |_| factor); count]);
         }
         let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
-        for point_format in [PointFormat::Packed, PointFormat::Float] {
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 machine.assert_equal(Setup { point_format, numbering, ..setup }, &patches);
             }

@@ -4,11 +4,11 @@ mod common;
 
 use common::device::{Machine, POISON};
 use common::expected::Expected;
-use tess_check::generate::patch_of;
-use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::layout::{Topology, unpack_context};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
 use tess_wgpu::Outputs;
 
 fn quads(partitioning: Partitioning) -> Setup {
@@ -25,7 +25,7 @@ fn formats_and_numberings() {
     let mut random = SplitMix64::new(3);
     for domain in Domain::ALL {
         let patches = common::patches::random(domain, 200, &mut random);
-        for point_format in [PointFormat::Packed, PointFormat::Float] {
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
                 let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };
