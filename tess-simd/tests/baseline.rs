@@ -14,7 +14,6 @@ use tess_core::{
 use tess_simd::{Batch, Buffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
 use tess_simd::{contexts, fixed_factors, locations};
 use tess_verify::backend::Backend;
-use tess_verify::case::{factor_names, factors_from_list};
 use tess_verify::core_backend::CoreBackend;
 
 /// One test, the fastest parts first, so that it ends at the first difference.

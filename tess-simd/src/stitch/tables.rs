@@ -63,24 +63,24 @@ impl Stitches {
         let possible = |&points: &u32| can_have(config.partitioning, points);
         for outer in (2..=MAX_POINTS).filter(possible) {
             for inside in (3..=MAX_POINTS).filter(possible) {
-                let steps = stitch::transition(config.split, outer, inside);
-                self.transitions[transition(outer, inside)] = self.add(output, steps);
+                self.transitions[transition(outer, inside)] =
+                    self.add(output, |to| stitch::transition(config.split, outer, inside, to));
             }
         }
         for (inner_points, table) in (1..).zip(1..RINGS) {
-            self.rings[table] = self.add(output, stitch::ring(inner_points));
+            self.rings[table] = self.add(output, |to| stitch::ring(inner_points, to));
         }
         for (quads, table) in (1..).zip(1..STRIPS) {
-            let steps = stitch::strip(quads, Diagonals::ForwardExceptMiddle);
-            self.except_middle[table] = self.add(output, steps);
+            self.except_middle[table] =
+                self.add(output, |to| stitch::strip(quads, Diagonals::ForwardExceptMiddle, to));
         }
-        self.forward = self.add(output, stitch::strip(MAX_STRIP, Diagonals::Forward));
+        self.forward = self.add(output, |to| stitch::strip(MAX_STRIP, Diagonals::Forward, to));
     }
 
-    /// Adds the codes of a stitch, padded so that reading it in whole blocks stays within it.
-    fn add(&mut self, output: OutputPrimitive, steps: impl Iterator<Item = Step>) -> Table {
+    /// Adds the codes of the stitch whose steps `stitch` sends, padded so that reading it in whole blocks stays within it.
+    fn add(&mut self, output: OutputPrimitive, stitch: impl FnOnce(&mut dyn FnMut(Step))) -> Table {
         let first = self.codes.len();
-        self.codes.extend(steps.flat_map(|step| codes(step, output)));
+        stitch(&mut |step| self.codes.extend(codes(step, output)));
         let length = self.codes.len() - first;
         self.codes.resize(first + length.next_multiple_of(STEP), 0);
         let in_u32 = |n| u32::try_from(n).unwrap_or(u32::MAX); // below 2^20
