@@ -9,7 +9,7 @@
 )]
 
 use crate::d3d_float::{ceil, clamp, is_culled, next_power_of_two};
-use crate::factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
+use crate::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
 use crate::state::{Domain, Partitioning};
 
 /// How several outer factors become one inside factor.

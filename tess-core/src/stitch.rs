@@ -78,6 +78,73 @@ impl<F: FnMut(Step)> Steps for F {
     }
 }
 
+/// A stitch of a patch: two rows, and what is between them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stitch {
+    /// Where it is, and by which rule its steps are made.
+    pub kind: StitchKind,
+    /// The row nearer to the patch's edge; row A of a centre strip.
+    pub outer: Row,
+    /// Points on the outer row, both ends included.
+    pub outer_points: u32,
+    /// The row nearer to the patch's centre; row B of a centre strip.
+    pub inner: Row,
+    /// Points on the inner row, both ends included.
+    pub inner_points: u32,
+}
+
+/// Where a stitch is, and by which rule its steps are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StitchKind {
+    /// Between an outer edge and ring 1: [`transition`].
+    Transition {
+        /// Number of the edge: u = 0, v = 0, then w = 0 or u = 1, v = 1.
+        edge: u32,
+    },
+    /// Between an edge of ring `ring - 1` and ring `ring`: [`ring`].
+    Ring {
+        /// Number of the inner ring, from 2.
+        ring: u32,
+        /// Number of the edge.
+        edge: u32,
+    },
+    /// Between the two long sides of a quad's innermost ring: [`strip`].
+    Centre(Diagonals),
+}
+
+impl Stitch {
+    /// Sends the steps to `to`, in order.
+    pub fn steps(&self, split: SplitOrder, to: impl Steps) {
+        match self.kind {
+            // Ring 1 has two points less than its inside factor.
+            StitchKind::Transition { .. } => {
+                transition(split, self.outer_points, self.inner_points + 2, to);
+            }
+            StitchKind::Ring { .. } => ring(self.inner_points, to),
+            StitchKind::Centre(diagonals) => strip(self.outer_points - 1, diagonals, to),
+        }
+    }
+
+    /// Sends the triangles, clockwise, to `emit`, in order.
+    pub(crate) fn triangles(&self, split: SplitOrder, emit: impl FnMut(Triangle)) {
+        self.steps(split, OnRows { outer: self.outer, inner: self.inner, emit });
+    }
+}
+
+/// Emits the triangle of each step on two rows.
+struct OnRows<F> {
+    outer: Row,
+    inner: Row,
+    emit: F,
+}
+
+impl<F: FnMut(Triangle)> Steps for OnRows<F> {
+    #[inline(always)] // a step's kind is a constant where it is made
+    fn step(&mut self, step: Step) {
+        (self.emit)(step.triangle(&self.outer, &self.inner));
+    }
+}
+
 /// How far a stitch has come along its two rows, and where its steps go.
 struct Walk<S> {
     outer: u32,

@@ -1,4 +1,4 @@
-//! Bit-exact tessellation in WGSL compute shaders, for wgpu and WebGPU.
+//! Bit-exact tessellation in WGSL compute shaders, for WebGPU.
 //!
 //! From a buffer of tessellation factors to domain points, indices and indirect draw arguments,
 //! all on the GPU, with no read-back and no worst-case buffers: every bit, and the order of
@@ -7,8 +7,8 @@
 //! The library itself depends on no graphics interface. It gives what any of them needs: the
 //! WGSL of each [`Stage`] for a [`Setup`] ([`shaders`]), its bindings ([`bindings`]), the layouts
 //! of the structures that host and shaders share ([`layout`]), the constant tables
-//! ([`tables`]), and the sizes of buffers and dispatches as pure functions ([`sizes`]). The
-//! feature `wgpu` adds a ready-made `runner`.
+//! ([`tables`]), and the buffers and dispatches of a batch as pure functions ([`plan`], [`sizes`]). The crate
+//! `tess-wgpu` runs them on wgpu.
 //!
 //! The stages, in the order in which they run: `factors` (one thread per patch), `scan` and
 //! `totals` (prefix sums over the patches; draw arguments, dispatch sizes, whether everything
@@ -30,14 +30,14 @@
 
 pub mod bindings;
 pub mod layout;
-#[cfg(feature = "wgpu")]
-pub mod runner;
+pub mod plan;
 pub mod setup;
 pub mod shaders;
 pub mod sizes;
 pub mod tables;
 
 pub use bindings::{Access, Binding, Resource};
+pub use plan::{Dispatch, Plan, Workgroups};
 pub use setup::{IndexType, Numbering, PointFormat, Setup};
 pub use shaders::{Probe, Pull, Stage};
-pub use sizes::{Capacity, Limits, Plan};
+pub use sizes::{Capacity, Limits, Span};

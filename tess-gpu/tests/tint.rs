@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::all_setups;
+use common::{PULLING, all_setups};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::process::{Command, Stdio};
@@ -24,16 +24,6 @@ fn refusal(source: &str) -> Option<String> {
     (!output.status.success()).then_some(said)
 }
 
-/// The functions that [`Pull`] offers, called as a user's shader does.
-const USER: &str = "
-@group(0) @binding(3) var<storage, read_write> out: array<vec2<f32>>;
-@compute @workgroup_size(64)
-fn user(@builtin(global_invocation_id) id: vec3<u32>) {
-    let corner = tess_primitive(id.x, id.y).x;
-    out[id.x] = tess_location(id.x, corner) + vec2<f32>(tess_point(id.x, corner));
-}
-";
-
 #[test]
 #[ignore = "needs tint, a part of Dawn: cargo test -p tess-gpu --test tint -- --ignored"]
 fn browsers_take_every_shader() {
@@ -41,7 +31,7 @@ fn browsers_take_every_shader() {
     for setup in all_setups() {
         sources.extend(Stage::ALL.map(|stage| stage.source(stage.relevant(setup))));
         sources.extend(Probe::ALL.map(|probe| probe.source(setup)));
-        sources.insert(Pull { group: 0, first_binding: 0 }.source(setup) + USER);
+        sources.insert(Pull { group: 0, first_binding: 0 }.source(setup) + PULLING);
     }
     assert!(sources.len() > 100, "{} different shaders", sources.len());
     for source in &sources {

@@ -2,22 +2,26 @@
 
 #![allow(dead_code, reason = "each test crate uses its part")]
 
-#[cfg(feature = "wgpu")]
-pub(crate) mod device;
-#[cfg(feature = "wgpu")]
-pub(crate) mod expected;
-pub(crate) mod patches;
-
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use tess_check::generate::configurations;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::configurations;
+
+/// The functions that [`tess_gpu::Pull`] offers, called as a user's shader does.
+pub(crate) const PULLING: &str = "
+@group(0) @binding(3) var<storage, read_write> out: array<vec2<f32>>;
+@compute @workgroup_size(64)
+fn user(@builtin(global_invocation_id) id: vec3<u32>) {
+    let corner = tess_primitive(id.x, id.y).x;
+    out[id.x] = tess_location(id.x, corner) + vec2<f32>(tess_point(id.x, corner));
+}
+";
 
 /// Every configuration in every point format and numbering, and with 16-bit indices.
 pub(crate) fn all_setups() -> Vec<Setup> {
     let mut all = Vec::new();
     for (domain, config) in configurations() {
-        for point_format in [PointFormat::Packed, PointFormat::Float] {
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 all.push(Setup { point_format, numbering, ..Setup::new(domain, config) });
             }

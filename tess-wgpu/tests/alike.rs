@@ -1,0 +1,167 @@
+//! Patches of equal topology in a row, whose elements are copied; and what is not copied.
+
+mod common;
+
+use common::device::Machine;
+use common::expected::Expected;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::sizes::BLOCK;
+use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
+use tess_wgpu::{Outputs, Tessellator};
+
+/// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole
+/// blocks; the copies of these begin at various elements of a patch.
+fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
+    let mut random = SplitMix64::new(31);
+    let mut all = Vec::new();
+    for (number, &(factor, length)) in runs.iter().enumerate() {
+        let outer = if number % 3 == 2 { 13.0 } else { factor };
+        let like = patch_of(domain, |position| if position == 1 { outer } else { factor });
+        all.extend(std::iter::repeat_n(like, length));
+        let other = [1.0, 2.5, 7.0][random.below(3) as usize];
+        all.extend(std::iter::repeat_n(patch_of(domain, |_| other), number % 2));
+    }
+    all
+}
+
+#[test]
+fn like_patches_in_every_domain_partitioning_and_output() {
+    let mut machine = Machine::open();
+    for domain in Domain::ALL {
+        let patches = runs(
+            domain,
+            &[
+                (1.0, 3560),
+                (2.0, 1390),
+                (0.0, 3680),
+                (3.0, 1053),
+                (1.0, 3720),
+                (4.75, 1030),
+                (1.0, 3800),
+                (9.0, 1157),
+            ],
+        );
+        for partitioning in Partitioning::ALL {
+            for output in OutputPrimitive::ALL {
+                let config = Config::new(partitioning, output);
+                machine.assert_equal(Setup::new(domain, config), &patches);
+            }
+        }
+    }
+}
+
+/// In every format, and with patches just below and above the largest that are copied.
+#[test]
+fn like_patches_of_every_size_and_format() {
+    let mut machine = Machine::open();
+    for domain in [Domain::Triangle, Domain::Quad] {
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCcw);
+        let setup = Setup::new(domain, config);
+        for factor in (1_u8..=26).map(f32::from) {
+            let count = if factor > 4.0 { 40 } else { 3000 };
+            machine.assert_equal(setup, &vec![patch_of(domain, |_| factor); count]);
+        }
+        let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
+            for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
+                machine.assert_equal(Setup { point_format, numbering, ..setup }, &patches);
+            }
+        }
+        let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
+        machine.assert_equal(Setup { numbering, index_type, ..setup }, &patches);
+    }
+}
+
+/// The same topology, and other points: factors that round up to the same number of segments.
+#[test]
+fn equal_topologies_with_different_points() {
+    let mut machine = Machine::open();
+    let mut random = SplitMix64::new(6);
+    for domain in Domain::ALL {
+        for partitioning in [Partitioning::FractionalOdd, Partitioning::FractionalEven] {
+            let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+            let factors = [3.25, 3.5, 3.625, 3.75];
+            let mut similar = |_| factors[random.below(4) as usize];
+            let patches: Vec<_> = (0..1000).map(|_| patch_of(domain, &mut similar)).collect();
+            machine.assert_equal(Setup::new(domain, config), &patches);
+        }
+    }
+}
+
+/// What `factors` says of each block.
+#[test]
+fn blocks_know_whether_their_patches_are_alike() {
+    let mut machine = Machine::open();
+    let setup =
+        Setup::new(Domain::Quad, Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw));
+    let of = |factor: f32, count: usize| vec![patch_of(Domain::Quad, |_| factor); count];
+    let patches = [
+        of(2.0, 256),
+        of(5.0, 255),
+        of(6.0, 1),
+        of(7.0, 1),
+        of(8.0, 255),
+        of(0.0, 256),
+        of(9.0, 7),
+    ]
+    .concat();
+    let count = u32::try_from(patches.len()).expect("a test's patches");
+    let factors = machine.factors(&patches);
+    let batch = machine.tessellator.batch(setup, count, &factors, Outputs::CountOnly);
+    let batch = batch.expect("valid");
+    machine.run(&batch);
+    let (offsets, topologies) = (machine.words(batch.offsets()), machine.words(batch.topologies()));
+    let words = |words: &[u32], at: u32| words[2 * at as usize..][..2].to_vec();
+    let block = |number: u32| words(&offsets, batch.plan().job(0).alike_at + number);
+    for (number, alike) in [(0, true), (1, false), (2, false), (4, true)] {
+        let first = words(&topologies, number * BLOCK);
+        assert_eq!(block(number), if alike { first } else { vec![0, 0] }, "block {number}");
+    }
+    assert_eq!(block(3)[0] >> 28, 0, "culled patches are alike, and culled");
+}
+
+#[test]
+fn planted_faults_are_seen() {
+    let mut machine = Machine::open();
+    let setup = |partitioning| {
+        Setup::new(Domain::Quad, Config::new(partitioning, OutputPrimitive::TriangleCw))
+    };
+    let integer = setup(Partitioning::Integer);
+    let fractional = setup(Partitioning::FractionalOdd);
+    let alike = runs(Domain::Quad, &[(2.0, 1350), (1.0, 3600), (10.0, 750), (5.0, 920)]);
+    let similar: Vec<_> = (0..200)
+        .map(|n| patch_of(Domain::Quad, |_| f32::from_bits(0x4050_0000 + 4096 * n)))
+        .collect();
+    for (setup, patches, right, wrong) in [
+        (integer, &alike, "atomicStore(&differs, 1u);", ""),
+        (integer, &alike, "any(offsets[block] != topology)", "false"),
+        (integer, &alike, "(0x1fffffu + size[kind]) / size[kind]", "0x1fffffu / size[kind]"),
+        (integer, &alike, "tile.base - begin[kind],", "0u,"),
+        (integer, &alike, "repeat.base + it.number * repeat.points", "it.number * repeat.points"),
+        (integer, &alike, "(triangle.z << 20u)", "(triangle.z << 21u)"),
+        (integer, &alike, "(at * 43691u) >> 17u", "(at * 43690u) >> 17u"),
+        (integer, &alike, "it.i + 1u == repeat.size", "it.i == repeat.size"),
+        (integer, &alike, "job.first_patch + tile.first_patch + number", "number"),
+        (integer, &alike, "i - KEPT].y = packed", "i - KEPT].x = packed"),
+        (
+            fractional,
+            &similar,
+            "return IS_INTEGER || state_of(topology) == MINIMUM;",
+            "return true;",
+        ),
+    ] {
+        let expected = Expected::new(setup, patches);
+        let (points, indices) = expected.words();
+        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, |_, source| source);
+        let written = machine.write(setup, patches, points, indices);
+        assert_eq!(expected.compare(&written), Ok(()), "without a fault");
+        let sources = tess_gpu::Stage::ALL.map(|stage| stage.source(setup)).concat();
+        assert!(sources.contains(right), "{right} is in no shader");
+        let edit = move |_, source: String| source.replace(right, wrong);
+        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, edit);
+        let written = machine.write(setup, patches, points, indices);
+        assert!(expected.compare(&written).is_err(), "{right} to {wrong} went unnoticed");
+    }
+}

@@ -1,0 +1,98 @@
+//! Running batches into poisoned, guarded buffers, and comparing with the golden model.
+
+use super::expected::Expected;
+use tess_core::PatchFactors;
+use tess_gpu::Setup;
+use tess_gpu::layout::{DrawIndexed, Status, factor_words};
+use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
+use wgpu::BufferUsages as Usage;
+
+/// No point and no index has these bits, so "not written" differs from anything written.
+pub(crate) const POISON: u32 = 0xFFFF_FFFF;
+/// Words behind the output that must stay as they are; a whole number of points and primitives.
+const GUARD: u32 = 6 * 128;
+
+/// The device that the tests run on.
+#[derive(Debug)]
+pub(crate) struct Machine {
+    pub(crate) gpu: Gpu,
+    pub(crate) tessellator: Tessellator,
+}
+
+/// What a batch left in its buffers.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Written {
+    pub(crate) status: Status,
+    pub(crate) draw: DrawIndexed,
+    pub(crate) points: Vec<u32>,
+    pub(crate) indices: Vec<u32>,
+}
+
+impl Machine {
+    /// An adapter with WebGPU's default limits. None is a failure, not a reason to skip.
+    pub(crate) fn open() -> Self {
+        let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+        let tessellator = Tessellator::new(&gpu.device);
+        Self { gpu, tessellator }
+    }
+
+    /// A buffer of factors.
+    pub(crate) fn factors(&self, patches: &[PatchFactors]) -> wgpu::Buffer {
+        let words = factor_words(patches);
+        self.gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)
+    }
+
+    /// Submits a batch and waits.
+    pub(crate) fn run(&self, batch: &Batch) {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        batch.encode(&mut encoder);
+        self.gpu.run(encoder).expect("the device finishes");
+    }
+
+    /// The words of a whole buffer.
+    pub(crate) fn words(&self, buffer: &wgpu::Buffer) -> Vec<u32> {
+        let bytes = self.gpu.read(buffer, buffer.size()).expect("the device answers");
+        bytemuck::pod_collect_to_vec(&bytes)
+    }
+
+    /// The status and draw arguments that a batch left.
+    pub(crate) fn status(&self, batch: &Batch) -> (Status, DrawIndexed) {
+        let status = self.gpu.read(batch.status(), 32).expect("the device answers");
+        let draw = self.gpu.read(batch.draw_arguments(), 20).expect("the device answers");
+        (bytemuck::pod_read_unaligned(&status), bytemuck::pod_read_unaligned(&draw))
+    }
+
+    /// Tessellates into poisoned buffers of these many words.
+    pub(crate) fn write(
+        &mut self,
+        setup: Setup,
+        patches: &[PatchFactors],
+        point_words: u32,
+        index_words: u32,
+    ) -> Written {
+        let factors = self.factors(patches);
+        let usage = Usage::STORAGE | Usage::COPY_SRC;
+        let poisoned = |label, words: u32| {
+            let poison = vec![POISON; words as usize];
+            self.gpu.upload(label, bytemuck::cast_slice(&poison), usage)
+        };
+        let points = poisoned("points", point_words);
+        let indices = poisoned("indices", index_words);
+        let outputs = Outputs::Buffers { points: &points, indices: &indices };
+        let count = u32::try_from(patches.len()).expect("a test's patches");
+        let batch = self.tessellator.batch(setup, count, &factors, outputs).expect("buffers fit");
+        self.run(&batch);
+        let (status, draw) = self.status(&batch);
+        Written { status, draw, points: self.words(&points), indices: self.words(&indices) }
+    }
+
+    /// Compares everything that a batch writes with the golden model, and that nothing else is.
+    pub(crate) fn assert_equal(&mut self, setup: Setup, patches: &[PatchFactors]) {
+        let expected = Expected::new(setup, patches);
+        let (point_words, index_words) = expected.words();
+        let written = self.write(setup, patches, point_words + GUARD, index_words + GUARD);
+        if let Err(difference) = expected.compare(&written) {
+            panic!("{setup:?}: {difference}");
+        }
+    }
+}

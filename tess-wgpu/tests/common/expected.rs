@@ -1,0 +1,135 @@
+//! What the golden model says the buffers of a batch must hold.
+
+use super::device::{POISON, Written};
+use tess_core::{Domain, DomainPoint, Patch, PatchFactors};
+use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_simd::{Batch, Output, Tessellator};
+
+/// The words of both buffers, and where each patch's begin.
+#[derive(Debug)]
+pub(crate) struct Expected<'a> {
+    setup: Setup,
+    patches: &'a [PatchFactors],
+    points: Vec<u32>,
+    indices: Vec<u32>,
+    /// First point word and first index word of each patch.
+    begins: Vec<(usize, usize)>,
+}
+
+impl<'a> Expected<'a> {
+    pub(crate) fn new(setup: Setup, patches: &'a [PatchFactors]) -> Self {
+        let mut own =
+            Self { setup, patches, points: Vec::new(), indices: Vec::new(), begins: Vec::new() };
+        for (number, &factors) in (0..).zip(patches) {
+            own.begins.push((own.points.len(), own.indices.len()));
+            let base = u32::try_from(own.points.len() / 2).expect("a test's points");
+            let base = if setup.numbering == Numbering::PerBatch { base } else { 0 };
+            let whole = Patch::new(setup.config, factors).tessellate();
+            let words = |&point: &DomainPoint| point_words(setup.point_format, point, number);
+            own.points.extend(whole.points.iter().flat_map(words));
+            own.indices.extend(whole.indices.iter().map(|index| base + index));
+        }
+        own
+    }
+
+    /// Words of points and of indices, these a whole number of 8 bytes.
+    pub(crate) fn words(&self) -> (u32, u32) {
+        let (points, indices) = self.counts();
+        (points, (indices * self.setup.index_type.bytes()).next_multiple_of(8) / 4)
+    }
+
+    /// Words of points, and indices.
+    fn counts(&self) -> (u32, u32) {
+        let count = |words: &[u32]| u32::try_from(words.len()).expect("a test's output");
+        (count(&self.points), count(&self.indices))
+    }
+
+    /// The first difference, guards included.
+    pub(crate) fn compare(&self, written: &Written) -> Result<(), String> {
+        let Written { status, draw, points, indices } = written;
+        let (point_words, index_words) = self.counts();
+        let halves: Vec<u32>;
+        let (indices, poison) = match self.setup.index_type {
+            IndexType::U32 => (indices, POISON),
+            IndexType::U16 => {
+                halves = indices.iter().flat_map(|word| [word & 0xFFFF, word >> 16]).collect();
+                (&halves, POISON & 0xFFFF)
+            }
+        };
+        let per_primitive = self.setup.indices_per_primitive();
+        let counts = (status.points(), status.primitives(), draw.index_count);
+        let expected =
+            (u64::from(point_words / 2), u64::from(index_words / per_primitive), index_words);
+        if counts != expected || !status.fits() || draw.instance_count != 1 {
+            return Err(format!("status {status:?}, {draw:?}, expected counts {expected:?}"));
+        }
+        self.first_difference("point", (&self.points, POISON), points, |begins| begins.0)?;
+        self.first_difference("index", (&self.indices, poison), indices, |begins| begins.1)
+    }
+
+    fn first_difference(
+        &self,
+        what: &str,
+        (expected, poison): (&[u32], u32),
+        observed: &[u32],
+        begin: impl Fn(&(usize, usize)) -> usize,
+    ) -> Result<(), String> {
+        let expected_then_guard = expected.iter().chain(std::iter::repeat(&poison));
+        let mut pairs = observed.iter().zip(expected_then_guard);
+        let Some(at) = pairs.position(|(observed, expected)| observed != expected) else {
+            return Ok(());
+        };
+        let patch = self.begins.partition_point(|begins| begin(begins) <= at).saturating_sub(1);
+        let word = at - self.begins.get(patch).map_or(0, begin);
+        Err(format!(
+            "{what} word {word} of patch {patch} {:?} (word {at} of {}): observed {:#010x}, \
+             expected {:#010x}",
+            self.patches.get(patch),
+            expected.len(),
+            observed[at],
+            expected.get(at).unwrap_or(&poison),
+        ))
+    }
+}
+
+/// The words of points and the indices of patches of one domain as tess-simd makes them.
+pub(crate) fn by_simd(setup: Setup, patches: &[PatchFactors]) -> (Vec<u32>, Vec<u32>) {
+    let (mut isolines, mut triangles, mut quads) = (Vec::new(), Vec::new(), Vec::new());
+    for patch in patches {
+        match *patch {
+            PatchFactors::Isoline(factors) => isolines.push(factors),
+            PatchFactors::Triangle(factors) => triangles.push(factors),
+            PatchFactors::Quad(factors) => quads.push(factors),
+        }
+    }
+    let batch = match setup.domain {
+        Domain::Isoline => Batch::Isolines(&isolines),
+        Domain::Triangle => Batch::Triangles(&triangles),
+        Domain::Quad => Batch::Quads(&quads),
+    };
+    let numbering = match setup.numbering {
+        Numbering::PerPatch => tess_simd::Numbering::PerPatch,
+        Numbering::PerBatch => tess_simd::Numbering::PerBatch { base_vertex: 0 },
+    };
+    let mut output = Output::<DomainPoint, u32>::new();
+    let mut tessellator = Tessellator::new(setup.config);
+    tessellator.tessellate(batch, numbering, &mut output).expect("it fits");
+    let mut points = Vec::with_capacity(2 * output.points().len());
+    for (number, range) in (0..).zip(output.ranges()) {
+        let own = &output.points()[range.first_point as usize..][..range.points as usize];
+        points.extend(own.iter().flat_map(|&point| point_words(setup.point_format, point, number)));
+    }
+    (points, output.indices().to_vec())
+}
+
+/// A point as the shaders store it.
+pub(crate) fn point_words(format: PointFormat, point: DomainPoint, patch: u32) -> [u32; 2] {
+    match format {
+        PointFormat::F32 => point.to_f32().map(f32::to_bits),
+        PointFormat::Packed => {
+            let [u, v] = [point.u, point.v].map(|bits| u64::from(bits.to_bits()));
+            let packed = u | v << 17 | u64::from(patch) << 34;
+            [packed & 0xFFFF_FFFF, packed >> 32].map(|word| u32::try_from(word).unwrap_or(0))
+        }
+    }
+}

@@ -1,0 +1,7 @@
+//! What the tests share.
+
+#![allow(dead_code, reason = "each test crate uses its part")]
+
+pub(crate) mod device;
+pub(crate) mod expected;
+pub(crate) mod patches;

@@ -1,0 +1,219 @@
+//! What holds beyond equal bits: sizes, overflow, nothing silent.
+
+mod common;
+
+use common::device::{Machine, POISON};
+use common::expected::Expected;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::layout::{Topology, unpack_context};
+use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
+use tess_wgpu::Outputs;
+
+fn quads(partitioning: Partitioning) -> Setup {
+    Setup::new(Domain::Quad, Config::new(partitioning, OutputPrimitive::TriangleCw))
+}
+
+fn uniform(factor: f32, count: usize) -> Vec<PatchFactors> {
+    vec![patch_of(Domain::Quad, |_| factor); count]
+}
+
+#[test]
+fn formats_and_numberings() {
+    let mut machine = Machine::open();
+    let mut random = SplitMix64::new(3);
+    for domain in Domain::ALL {
+        let patches = common::patches::random(domain, 200, &mut random);
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
+            for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
+                let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
+                let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };
+                machine.assert_equal(setup, &patches);
+            }
+        }
+    }
+}
+
+/// Two indices share a word, also where one patch ends and the next begins.
+#[test]
+fn indices_of_16_bits() {
+    let mut machine = Machine::open();
+    let mut random = SplitMix64::new(8);
+    for domain in Domain::ALL {
+        for output in OutputPrimitive::ALL {
+            let config = Config::new(Partitioning::FractionalEven, output);
+            let numbering = Numbering::PerPatch;
+            let index_type = IndexType::U16;
+            let setup = Setup { numbering, index_type, ..Setup::new(domain, config) };
+            for count in [1, 2, 7, 500] {
+                let patches = common::patches::random(domain, count, &mut random);
+                machine.assert_equal(setup, &patches);
+            }
+            let batch = Setup { numbering: Numbering::PerBatch, ..setup };
+            machine.assert_equal(batch, &common::patches::random(domain, 30, &mut random));
+        }
+    }
+}
+
+/// Indices of the whole batch, of 16 bits, reach 65536 points.
+#[test]
+fn a_batch_that_16_bits_cannot_number_does_not_fit() {
+    let mut machine = Machine::open();
+    let setup = Setup { index_type: IndexType::U16, ..quads(Partitioning::Integer) };
+    for (count, fits) in [(1 << 14, true), ((1 << 14) + 1, false)] {
+        let patches = uniform(1.0, count); // of four points each
+        let expected = Expected::new(setup, &patches);
+        let (points, indices) = expected.words();
+        let written = machine.write(setup, &patches, points, indices);
+        assert_eq!(written.status.points_overflow(), !fits, "{count} patches");
+        assert_eq!(written.status.points(), 4 * count as u64, "points needed");
+    }
+}
+
+#[test]
+fn no_patches_and_culled_patches() {
+    let mut machine = Machine::open();
+    let setup = quads(Partitioning::FractionalEven);
+    machine.assert_equal(setup, &[]);
+    machine.assert_equal(setup, &uniform(0.0, 5000));
+    // Long runs of culled patches between others, at tile boundaries too.
+    let mut mixed = uniform(-1.0, 3000);
+    for (number, patch) in mixed.iter_mut().enumerate() {
+        if number % 997 == 500 || number > 2990 {
+            *patch = patch_of(Domain::Quad, |_| 17.5);
+        }
+    }
+    machine.assert_equal(setup, &mixed);
+}
+
+/// Counts that are hard on prefix sums: nothing, everything at the ends, alternation, and numbers
+/// of patches around the sizes of blocks and groups.
+#[test]
+fn adversarial_counts() {
+    let mut machine = Machine::open();
+    let setup = quads(Partitioning::Integer);
+    let large = |number: usize, count: usize| number == 0 || number + 1 == count;
+    for count in [1, 2, 255, 256, 257, 511, 512, 513, 65535, 65536, 65537] {
+        let patches: Vec<PatchFactors> = (0..count)
+            .map(|number| {
+                let factor = if large(number, count) { 64.0 } else { [0.0, 1.0, 2.0][number % 3] };
+                patch_of(Domain::Quad, |_| factor)
+            })
+            .collect();
+        machine.assert_equal(setup, &patches);
+    }
+}
+
+/// Output that does not fit is not written, and the status says what it needs.
+#[test]
+fn overflow_is_reported_and_nothing_is_written() {
+    let mut machine = Machine::open();
+    let setup = quads(Partitioning::Integer);
+    let patches = uniform(16.0, 100);
+    let expected = Expected::new(setup, &patches);
+    let (points, indices) = expected.words();
+    for (point_words, index_words, overflows) in [
+        (points, indices, [false, false]),
+        (points - 2, indices, [true, false]),
+        (points, indices - 3, [false, true]),
+        (2, 3, [true, true]),
+    ] {
+        let written = machine.write(setup, &patches, point_words, index_words);
+        let status = written.status;
+        assert_eq!([status.points_overflow(), status.indices_overflow()], overflows);
+        assert_eq!(status.points(), u64::from(points / 2), "points needed");
+        assert_eq!(status.primitives(), u64::from(indices / 3), "primitives needed");
+        if overflows == [false, false] {
+            expected.compare(&written).expect("what fits exactly is written");
+        } else {
+            assert_eq!(written.draw.index_count, 0, "nothing is drawn");
+            let all = written.points.iter().chain(&written.indices);
+            assert!(all.copied().all(|word| word == POISON), "nothing is written");
+        }
+    }
+}
+
+/// Counting alone, where the output would have more than 2^32 indices.
+#[test]
+fn counting_2_pow_20_patches() {
+    let mut machine = Machine::open();
+    let setup = quads(Partitioning::Integer);
+    let factors = machine.factors(&uniform(64.0, 1 << 20));
+    let batch = machine
+        .tessellator
+        .batch(setup, 1 << 20, &factors, Outputs::CountOnly)
+        .expect("the factors are there");
+    machine.run(&batch);
+    let (status, _) = machine.status(&batch);
+    assert_eq!(status.points(), 4225 << 20, "points");
+    assert_eq!(status.primitives(), 8192 << 20, "triangles");
+}
+
+/// More patches than one chunk has with default limits.
+#[test]
+fn counting_in_several_chunks() {
+    let mut machine = Machine::open();
+    let setup = quads(Partitioning::Integer);
+    let factors = machine.factors(&uniform(2.0, 1 << 22));
+    let batch = machine
+        .tessellator
+        .batch(setup, 1 << 22, &factors, Outputs::CountOnly)
+        .expect("the factors are there");
+    assert!(batch.plan().chunks() > 1, "{:?}", batch.plan());
+    machine.run(&batch);
+    let (status, _) = machine.status(&batch);
+    assert_eq!(status.points(), 9 << 22, "points");
+    assert_eq!(status.primitives(), 8 << 22, "triangles");
+}
+
+/// Every stage's intermediate values: topologies, contexts and counts of each patch.
+#[test]
+fn intermediate_buffers() {
+    let mut machine = Machine::open();
+    let mut random = SplitMix64::new(4);
+    for partitioning in Partitioning::ALL {
+        let setup = quads(partitioning);
+        let patches = common::patches::random(Domain::Quad, 1000, &mut random);
+        let factors = machine.factors(&patches);
+        let batch = machine
+            .tessellator
+            .batch(setup, 1000, &factors, Outputs::CountOnly)
+            .expect("the factors are there");
+        machine.run(&batch);
+        let contexts = machine.words(batch.contexts());
+        let topologies = machine.words(batch.topologies());
+        let stride = contexts.len() / 12;
+        for (number, &raw) in patches.iter().enumerate() {
+            let patch = tess_core::Patch::new(setup.config, raw);
+            let state = topologies[2 * number] >> 28;
+            let factors = match patch.processed() {
+                tess_core::ProcessedPatch::Culled => {
+                    assert_eq!(state, 0, "{raw:?} is culled");
+                    continue;
+                }
+                tess_core::ProcessedPatch::Minimum(_) => {
+                    assert_eq!(state, 1, "{raw:?} is a minimum patch");
+                    continue;
+                }
+                tess_core::ProcessedPatch::Regular(PatchFactors::Quad(factors)) => factors,
+                tess_core::ProcessedPatch::Regular(_) => unreachable!("all are quads"),
+            };
+            assert_eq!(state, 2, "{raw:?} is regular");
+            let topology = Topology([topologies[2 * number], topologies[2 * number + 1]]);
+            let outer = [0, 1, 2, 3].map(|edge| topology.outer_points(edge));
+            assert_eq!(outer, factors.outer().map(|f| f.context.points), "edges of {raw:?}");
+            let inside = factors.inside().map(|f| f.context.points);
+            assert_eq!(topology.inside_points(), inside, "inside of {raw:?}");
+            if setup.has_integer_factors() {
+                continue; // no contexts are stored
+            }
+            let all = factors.outer().into_iter().chain(factors.inside());
+            for (factor, expected) in all.enumerate() {
+                let at = 2 * (factor * stride + number);
+                let observed = unpack_context([contexts[at], contexts[at + 1]]);
+                assert_eq!(observed, expected.context, "factor {factor} of {raw:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Everything that the shaders write against the golden model, on whatever adapter there is.
+
+mod common;
+
+use common::device::{Machine, Written};
+use common::expected::{Expected, by_simd};
+use common::patches::random;
+use tess_core::PatchFactors;
+use tess_gpu::Setup;
+use tess_verify::generate::configurations;
+use tess_verify::random::SplitMix64;
+
+/// Random patches of each configuration, through the whole pipeline.
+#[test]
+fn random_patches_in_every_configuration() {
+    let mut machine = Machine::open();
+    let mut numbers = SplitMix64::new(1);
+    for (domain, config) in configurations() {
+        assert_both_equal(
+            &mut machine,
+            Setup::new(domain, config),
+            &random(domain, 300, &mut numbers),
+        );
+    }
+}
+
+/// Compares with the golden model and, on its own, with the CPU backend.
+fn assert_both_equal(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) {
+    let expected = Expected::new(setup, patches);
+    let (point_words, index_words) = expected.words();
+    let written = machine.write(setup, patches, point_words, index_words);
+    if let Err(difference) = expected.compare(&written) {
+        panic!("{setup:?}, model: {difference}");
+    }
+    assert!(is_simd(setup, patches, &written), "{setup:?}: differs from tess-simd");
+}
+
+/// Whether tess-simd tessellates the patches to this.
+fn is_simd(setup: Setup, patches: &[PatchFactors], written: &Written) -> bool {
+    let (points, indices) = by_simd(setup, patches);
+    let (all, rest) = written.indices.split_at(indices.len().min(written.indices.len()));
+    points == written.points && indices == all && rest.len() < 2
+}
+
+#[test]
+fn another_output_is_not_that_of_tess_simd() {
+    let mut machine = Machine::open();
+    let (domain, config) = configurations().nth(90).expect("there are 96");
+    let setup = Setup::new(domain, config);
+    let patches = random(domain, 20, &mut SplitMix64::new(9));
+    let (point_words, index_words) = Expected::new(setup, &patches).words();
+    let written = machine.write(setup, &patches, point_words, index_words);
+    assert!(is_simd(setup, &patches, &written), "equal");
+    for change in [
+        |written: &mut Written| written.points[40] ^= 1,
+        |written: &mut Written| written.indices[30] ^= 1,
+    ] {
+        let mut other = machine.write(setup, &patches, point_words, index_words);
+        change(&mut other);
+        assert!(!is_simd(setup, &patches, &other), "one bit differs");
+    }
+}

@@ -1,0 +1,123 @@
+//! The module for a user's own shaders: any element from its number alone.
+
+mod common;
+
+use common::device::Machine;
+use tess_core::Patch;
+use tess_gpu::tables::tables;
+use tess_gpu::{Pull, Setup};
+use tess_verify::generate::configurations;
+use tess_verify::random::SplitMix64;
+use tess_wgpu::Outputs;
+use wgpu::BufferUsages as Usage;
+
+/// A user's shader: asks for one point and one primitive of a patch.
+const USER: &str = "
+@group(0) @binding(0) var<storage, read> asked: array<vec4<u32>>;
+@group(0) @binding(1) var<storage, read_write> answers: array<u32>;
+
+@compute @workgroup_size(64)
+fn ask(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x < arrayLength(&asked) {
+        let question = asked[id.x];
+        let point = tess_point(question.x, question.y);
+        let location = bitcast<vec2<u32>>(tess_location(question.x, question.y));
+        let primitive = tess_primitive(question.x, question.z);
+        answers[7u * id.x] = point.x;
+        answers[7u * id.x + 1u] = point.y;
+        answers[7u * id.x + 2u] = location.x;
+        answers[7u * id.x + 3u] = location.y;
+        answers[7u * id.x + 4u] = primitive.x;
+        answers[7u * id.x + 5u] = primitive.y;
+        answers[7u * id.x + 6u] = primitive.z;
+    }
+}
+";
+
+#[test]
+fn any_element_in_every_configuration() {
+    let mut machine = Machine::open();
+    let mut random = SplitMix64::new(7);
+    for (domain, config) in configurations() {
+        let setup = Setup::new(domain, config);
+        let patches = common::patches::random(domain, 100, &mut random);
+        let factors = machine.factors(&patches);
+        let batch = machine
+            .tessellator
+            .batch(setup, 100, &factors, Outputs::CountOnly)
+            .expect("the factors are there");
+        machine.run(&batch);
+        let mut asked = Vec::new();
+        let mut expected = Vec::new();
+        for (number, &raw) in (0..).zip(&patches) {
+            let patch = Patch::new(config, raw);
+            let counts = patch.counts();
+            for _ in 0..20 {
+                let (i, t) = (random.below(counts.points), random.below(counts.primitives));
+                let (Some(point), Some(primitive)) = (patch.point(i), patch.primitive(t)) else {
+                    continue;
+                };
+                asked.extend([number, i, t, 0]);
+                let [u, v] = point.to_f32().map(f32::to_bits);
+                let mut indices = [0; 3];
+                let own = primitive.indices();
+                indices[..own.len()].copy_from_slice(own);
+                expected.push(([point.u.to_bits(), point.v.to_bits(), u, v], indices, own.len()));
+            }
+        }
+        let answers = ask(&machine, setup, &batch, &asked);
+        assert_eq!(answers.len(), 7 * expected.len(), "one answer each");
+        for (answer, (point, indices, size)) in answers.chunks(7).zip(&expected) {
+            assert_eq!(answer[..4], point[..], "{setup:?}");
+            assert_eq!(answer[4..4 + size], indices[..*size], "{setup:?}");
+        }
+    }
+}
+
+fn ask(machine: &Machine, setup: Setup, batch: &tess_wgpu::Batch, asked: &[u32]) -> Vec<u32> {
+    let source = Pull { group: 0, first_binding: 2 }.source(setup) + USER;
+    let device = &machine.gpu.device;
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("user"),
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    });
+    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label: Some("user"),
+        layout: None,
+        module: &module,
+        entry_point: Some("ask"),
+        compilation_options: Default::default(),
+        cache: None,
+    });
+    let count = asked.len() as u64 / 4;
+    let answers = machine.gpu.buffer("answers", 28 * count, Usage::STORAGE | Usage::COPY_SRC);
+    let tables = tables(setup.config.split);
+    let upload =
+        |words: &[u32]| machine.gpu.upload("words", bytemuck::cast_slice(words), Usage::STORAGE);
+    let (asked, tables) = (upload(asked), upload(&tables));
+    let mut buffers = vec![&asked, &answers, batch.topologies(), &tables];
+    if !setup.has_integer_factors() {
+        buffers.push(batch.contexts());
+    }
+    let entries: Vec<_> = (0..)
+        .zip(buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &entries,
+    });
+    let mut encoder = device.create_command_encoder(&Default::default());
+    {
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(&pipeline);
+        pass.set_bind_group(0, &group, &[]);
+        pass.dispatch_workgroups(u32::try_from(count.div_ceil(64)).expect("few"), 1, 1);
+    }
+    machine.gpu.run(encoder).expect("the device finishes");
+    machine.words(&answers)
+}

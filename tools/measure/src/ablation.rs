@@ -1,0 +1,168 @@
+//! Times workloads with edited shaders, stage by stage.
+
+mod variant;
+
+use crate::Result;
+use clap::Args;
+use std::fmt::Write;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+use tess_core::{DomainPoint, Tessellation};
+use tess_gpu::layout::{PackedPoint, factor_words};
+use tess_gpu::{Numbering, Setup, Stage};
+use tess_verify::digest::Fnv1a;
+use tess_verify::workloads::{self, IndexType, Totals, Workload};
+use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+use variant::Variant;
+
+/// Runs whose median is taken.
+const SAMPLES: usize = 7;
+
+/// What to measure.
+#[derive(Args, Debug)]
+pub(crate) struct Arguments {
+    /// Folder of edits, one `*.edit` file for each variant of the shaders
+    folder: PathBuf,
+    /// Workloads of `tess bench`, for example uniform-16
+    #[arg(required = true, value_name = "WORKLOAD")]
+    workloads: Vec<String>,
+    /// How often the patches of a workload are repeated [default: as often as 1 GiB of output needs]
+    #[arg(long, value_name = "N")]
+    repeats: Option<u64>,
+}
+
+/// Prints a line for each workload and variant.
+pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+    // For variants that use them.
+    let features = Stopwatch::FEATURES | wgpu::Features::SUBGROUP;
+    let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, features))?;
+    let stopwatch = Stopwatch::new(&gpu).ok_or("the device has no timestamps")?;
+    let variants = Variant::read_all(&arguments.folder)?;
+    println!("{}", gpu.name());
+    let mut selected = Vec::new();
+    for name in &arguments.workloads {
+        let named = workloads::named(name);
+        if named.is_empty() {
+            return Err(
+                format!("no workload is called {name}; `tess bench --help` lists them").into()
+            );
+        }
+        selected.extend(named);
+    }
+    for workload in &selected {
+        let bench = Bench::new(&gpu, workload, arguments.repeats)?;
+        println!("{}, {} triangles", workload.name, bench.totals.primitives * bench.repeats);
+        for variant in &variants {
+            println!("{:<26} {}", variant.name, bench.line(&gpu, &stopwatch, variant)?);
+        }
+    }
+    Ok(())
+}
+
+/// A workload with the buffers of its working set `stream`.
+struct Bench<'a> {
+    workload: &'a Workload,
+    setup: Setup,
+    totals: Totals,
+    repeats: u64,
+    digest: u64,
+    factors: wgpu::Buffer,
+    points: wgpu::Buffer,
+    indices: wgpu::Buffer,
+}
+
+impl<'a> Bench<'a> {
+    fn new(gpu: &Gpu, workload: &'a Workload, repeats: Option<u64>) -> Result<Self> {
+        let first = workload.patches.first().ok_or("no patches")?;
+        let numbering = Numbering::PerPatch;
+        let setup = Setup { numbering, ..Setup::new(first.domain(), workload.config) };
+        let totals = workload.totals();
+        let repeats = repeats.unwrap_or_else(|| workload.stream_repeats(IndexType::U32));
+        let words = factor_words(&workload.patches).repeat(usize::try_from(repeats)?);
+        let usage = wgpu::BufferUsages::STORAGE;
+        Ok(Self {
+            workload,
+            setup,
+            totals,
+            repeats,
+            digest: workload.digest(),
+            factors: gpu.upload("factors", bytemuck::cast_slice(&words), usage),
+            points: gpu.buffer("points", 8 * totals.points * repeats, usage),
+            indices: gpu.buffer(
+                "indices",
+                (4 * totals.indices * repeats).next_multiple_of(8),
+                usage,
+            ),
+        })
+    }
+
+    /// Triangles a second, the time of each stage in microseconds, and whether the bits are right.
+    fn line(&self, gpu: &Gpu, stopwatch: &Stopwatch, variant: &Variant) -> Result<String> {
+        let sources = Stage::ALL.map(|stage| stage.source(self.setup));
+        if let Some(missing) = variant.missing(&sources) {
+            return Err(format!("{}: no shader has the text\n{missing}", variant.name).into());
+        }
+        let edited = variant.clone();
+        let mut tessellator =
+            Tessellator::with_edit(&gpu.device, move |_, source| edited.edit(source));
+        let outputs = Outputs::Buffers { points: &self.points, indices: &self.indices };
+        let patches = u32::try_from(self.totals.patches * self.repeats)?;
+        let batch = tessellator.batch(self.setup, patches, &self.factors, outputs)?;
+        warm_up(gpu, &batch)?;
+        let mut whole = Vec::new();
+        let mut stages = Vec::new();
+        for _ in 0..SAMPLES {
+            whole.push(stopwatch.time(gpu, |encoder| batch.encode(encoder))?);
+            stages.push(stopwatch.time_stages(gpu, &batch)?);
+        }
+        let time = median(whole);
+        let triangles = self.totals.primitives * self.repeats * 1000 / time.max(1);
+        let mut line =
+            format!("{:>4}.{} G/s {:>6}", triangles / 1000, triangles / 100 % 10, time / 1000);
+        for stage in Stage::ALL {
+            let own = |sample: &Vec<(Stage, u64)>| {
+                sample.iter().filter(|(other, _)| *other == stage).map(|(_, time)| time).sum()
+            };
+            let time: u64 = median(stages.iter().map(own).collect());
+            write!(line, " {} {}", stage.entry_point(), time / 1000)?;
+        }
+        let observed = self.observed(gpu, &mut tessellator);
+        line += if observed == Some(self.digest) { "" } else { " (wrong results)" };
+        Ok(line)
+    }
+
+    /// The digest of the workload's output, if there is any that hangs together.
+    fn observed(&self, gpu: &Gpu, tessellator: &mut Tessellator) -> Option<u64> {
+        let output = tessellator.tessellate(gpu, self.setup, &self.workload.patches).ok()?;
+        let each = self.setup.indices_per_primitive() as usize;
+        let mut ends = output.begins.iter().skip(1).map(|begin| begin.map(|at| at as usize));
+        let mut digest = Fnv1a::new();
+        for begin in &output.begins {
+            let begin = begin.map(|at| at as usize);
+            let end = ends.next().unwrap_or([output.points.len(), output.indices.len() / each]);
+            let points = output.points.get(begin[0]..end[0])?;
+            let points: Vec<DomainPoint> = points.iter().map(|&p| PackedPoint(p).point()).collect();
+            let indices = output.indices.get(begin[1] * each..end[1] * each)?.to_vec();
+            digest.patch(&Tessellation { points, indices });
+        }
+        Some(digest.finish())
+    }
+}
+
+/// Works until the device has reached its clock.
+fn warm_up(gpu: &Gpu, batch: &Batch) -> Result<()> {
+    let start = Instant::now();
+    while start.elapsed() < Duration::from_millis(400) {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        for _ in 0..8 {
+            batch.encode(&mut encoder);
+        }
+        gpu.run(encoder)?;
+    }
+    Ok(())
+}
+
+fn median(mut values: Vec<u64>) -> u64 {
+    values.sort_unstable();
+    values.get(values.len() / 2).copied().unwrap_or_default()
+}

@@ -1,0 +1,103 @@
+//! Finds the batch size from which the GPU is faster than one thread of `tess-simd`.
+
+use crate::Result;
+use std::time::{Duration, Instant};
+use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
+use tess_gpu::layout::factor_words;
+use tess_gpu::{Numbering, Setup};
+use tess_verify::workloads::{Workload, character, uniform};
+use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+
+/// Runs whose median is taken.
+const SAMPLES: usize = 15;
+
+pub(crate) fn run() -> Result<()> {
+    let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
+    let stopwatch = Stopwatch::new(&gpu).ok_or("the device has no timestamps")?;
+    println!("{}; CPU level {}", gpu.name(), tess_simd::Level::detect());
+    for workload in [uniform(1), uniform(4), uniform(16), uniform(64), character()] {
+        println!("{}: patches, microseconds: CPU, device, device and host", workload.name);
+        for exponent in 0..=12 {
+            let count = 1usize << exponent;
+            let cpu = on_cpu(&workload, count)?;
+            let (device, both) = on_gpu(&gpu, &stopwatch, &workload, count)?;
+            println!("{count:>6} {cpu:>9.1} {device:>9.1} {both:>9.1}");
+        }
+    }
+    Ok(())
+}
+
+/// The median time of one call, in microseconds.
+fn on_cpu(workload: &Workload, count: usize) -> Result<f64> {
+    let mut tessellator = tess_simd::Tessellator::new(workload.config);
+    let mut output = tess_simd::Output::<[f32; 2], u32>::new();
+    let (mut quads, mut triangles) = (Vec::<QuadFactors>::new(), Vec::<TriangleFactors>::new());
+    for patch in workload.patches.iter().take(count) {
+        match *patch {
+            PatchFactors::Quad(factors) => quads.push(factors),
+            PatchFactors::Triangle(factors) => triangles.push(factors),
+            PatchFactors::Isoline(_) => return Err("no isolines here".into()),
+        }
+    }
+    let batch = match quads.is_empty() {
+        true => tess_simd::Batch::Triangles(&triangles),
+        false => tess_simd::Batch::Quads(&quads),
+    };
+    let mut times = Vec::new();
+    for _ in 0..SAMPLES {
+        let start = Instant::now();
+        tessellator.tessellate(batch, tess_simd::Numbering::PerPatch, &mut output)?;
+        times.push(start.elapsed());
+    }
+    Ok(median(times))
+}
+
+/// The median times of a batch on the device, and from encoding until the host knows it is done.
+fn on_gpu(
+    gpu: &Gpu,
+    stopwatch: &Stopwatch,
+    workload: &Workload,
+    count: usize,
+) -> Result<(f64, f64)> {
+    let patches = &workload.patches[..count.min(workload.patches.len())];
+    let first = patches.first().ok_or("no patches")?;
+    let numbering = Numbering::PerPatch;
+    let setup = Setup { numbering, ..Setup::new(first.domain(), workload.config) };
+    let counts = patches.iter().map(|&raw| tess_core::Patch::new(workload.config, raw).counts());
+    let (points, indices) = counts.fold((0, 0), |(points, indices), counts| {
+        (points + u64::from(counts.points), indices + u64::from(counts.indices))
+    });
+    let usage = wgpu::BufferUsages::STORAGE;
+    let words = factor_words(patches);
+    let factors = gpu.upload("factors", bytemuck::cast_slice(&words), usage);
+    let points = gpu.buffer("points", 8 * points, usage);
+    let indices = gpu.buffer("indices", (4 * indices).next_multiple_of(8), usage);
+    let outputs = Outputs::Buffers { points: &points, indices: &indices };
+    let mut tessellator = Tessellator::new(&gpu.device);
+    let batch = tessellator.batch(setup, u32::try_from(count)?, &factors, outputs)?;
+    let mut device = Vec::new();
+    let mut both = Vec::new();
+    let start = Instant::now();
+    while device.len() < SAMPLES || start.elapsed() < Duration::from_millis(300) {
+        let nanoseconds = stopwatch.time(gpu, |encoder| batch.encode(encoder))?;
+        device.push(Duration::from_nanos(nanoseconds));
+        both.push(on_both(gpu, &batch)?);
+    }
+    // The later half: by then the device has reached its clock.
+    let later = device.len() / 2;
+    Ok((median(device.split_off(later)), median(both.split_off(later))))
+}
+
+fn on_both(gpu: &Gpu, batch: &Batch) -> Result<Duration> {
+    let start = Instant::now();
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    batch.encode(&mut encoder);
+    gpu.run(encoder)?;
+    Ok(start.elapsed())
+}
+
+#[expect(clippy::float_arithmetic, reason = "a unit of time")]
+fn median(mut times: Vec<Duration>) -> f64 {
+    times.sort_unstable();
+    times.get(times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6)
+}
