@@ -1,7 +1,7 @@
 //! Cases from the bytes that libFuzzer makes.
 
-use tess_check::case::{Case, factor_bits, factors_from_list};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+use tess_verify::case::{Case, factor_bits, factors_from_list};
 
 /// Bytes, taken from the front. Where none are left, zeros come.
 #[derive(Clone, Copy, Debug)]

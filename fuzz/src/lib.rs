@@ -17,9 +17,9 @@ pub mod vectors;
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
-use tess_check::case::Case;
-use tess_check::compare;
 use tess_core::Tessellation;
+use tess_verify::case::Case;
+use tess_verify::compare;
 
 /// Ends the run with the message of an oracle, which libFuzzer takes as a finding.
 pub fn fail_if(result: Result<(), String>) {

@@ -5,9 +5,9 @@
 
 use crate::fault_is_planted;
 use crate::input::Bytes;
-use tess_check::case::{Case, factor_bits, factor_list, factor_names};
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{Domain, Partitioning, PatchFactors};
+use tess_verify::case::{Case, factor_bits, factor_list, factor_names};
 
 /// Compares the unrounded and the rounded factors of one request.
 ///

@@ -2,8 +2,8 @@
 
 use crate::input::Bytes;
 use crate::{compare_with_model, repeatable};
-use tess_check::invariants;
 use tess_core::Tessellation;
+use tess_testkit::invariants;
 
 /// Compares every point and primitive of one patch.
 ///

@@ -3,9 +3,9 @@
 use crate::input::{batch_bytes, factor_count};
 use std::io;
 use std::path::Path;
-use tess_check::case::factors_from_list;
-use tess_check::generate::{boundary_factors, exceptional_factors, special_factors};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+use tess_verify::case::factors_from_list;
+use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
 
 /// Every target.
 pub const TARGETS: [&str; 6] = ["random_access", "simd", "prepare", "vectors", "capi", "gpu"];

@@ -1,8 +1,8 @@
 //! The reader of vector files, on any bytes.
 
 use crate::fault_is_planted;
-use tess_check::case::Case;
-use tess_check::vectors::{Listing, Record, VectorFile};
+use tess_verify::case::Case;
+use tess_verify::vectors::{Listing, Record, VectorFile};
 
 /// Reads a file to its end. It never panics; it gives as many records as its header says, or an
 /// error that names a line of the file; and what it read says the same when written and read again.

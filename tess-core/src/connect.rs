@@ -6,11 +6,12 @@ pub(crate) mod rings;
 pub(crate) mod triangle;
 
 use crate::counts::counts;
-use crate::factors::{PatchFactors, ProcessedFactor, ProcessedPatch};
+use crate::factors::{ProcessedFactor, ProcessedPatch};
 use crate::output::Primitive;
+use crate::patch_factors::PatchFactors;
 use crate::sink::Sink;
 use crate::state::{Config, Domain, OutputPrimitive};
-use crate::stitch::Triangle;
+use crate::stitch::{Stitch, Triangle};
 
 /// Sends all primitives of a patch to `sink`.
 pub(crate) fn emit(config: Config, patch: &ProcessedPatch, sink: &mut impl Sink) {
@@ -48,12 +49,27 @@ fn emit_triangles(config: Config, patch: &ProcessedPatch, emit: impl FnMut(Trian
 fn emit_regular(
     config: Config,
     factors: &PatchFactors<ProcessedFactor>,
-    emit: impl FnMut(Triangle),
+    mut emit: impl FnMut(Triangle),
 ) {
+    let stitch = |stitch: Stitch| stitch.triangles(config.split, &mut emit);
     match factors {
         PatchFactors::Isoline(_) => {} // drawn as lines
-        PatchFactors::Triangle(factors) => triangle::emit(config, factors, emit),
-        PatchFactors::Quad(factors) => quad::emit(config, factors, emit),
+        PatchFactors::Triangle(factors) => {
+            let centre = triangle::emit(factors, stitch);
+            centre.into_iter().for_each(emit);
+        }
+        PatchFactors::Quad(factors) => quad::emit(factors, stitch),
+    }
+}
+
+/// Sends the stitches of a patch to `emit`, in order.
+pub(crate) fn stitches(patch: &ProcessedPatch, emit: impl FnMut(Stitch)) {
+    match patch {
+        ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => {
+            triangle::emit(factors, emit);
+        }
+        ProcessedPatch::Regular(PatchFactors::Quad(factors)) => quad::emit(factors, emit),
+        _ => {}
     }
 }
 

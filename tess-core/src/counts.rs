@@ -1,7 +1,8 @@
 //! How many points, primitives and indices a patch has, by formula (spec section 12.6).
 
-use crate::factors::{IsolineFactors, PatchFactors, ProcessedFactor, ProcessedPatch};
-use crate::factors::{QuadFactors, TriangleFactors};
+use crate::factors::{ProcessedFactor, ProcessedPatch};
+use crate::patch_factors::{IsolineFactors, PatchFactors};
+use crate::patch_factors::{QuadFactors, TriangleFactors};
 use crate::points::isoline::line_count;
 use crate::state::{Config, Domain, OutputPrimitive, Parity};
 

@@ -4,6 +4,7 @@
 //! every topology. Everything parallel is built on it.
 
 mod centre_strip;
+pub(crate) mod origin;
 pub(crate) mod point;
 pub(crate) mod primitive;
 mod rings;

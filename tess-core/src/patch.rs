@@ -2,13 +2,15 @@
 
 use crate::counts::{Counts, counts};
 use crate::error::{Buffer, BufferTooSmall};
-use crate::factors::{PatchFactors, ProcessedPatch, process};
-use crate::locate::point::PointLocation;
-use crate::locate::primitive::PrimitiveLocation;
+use crate::factors::{ProcessedPatch, process};
+use crate::locate::origin::PointOrigin;
+use crate::locate::origin::PrimitiveOrigin;
 use crate::output::DomainPoint;
 use crate::output::Primitive;
+use crate::patch_factors::PatchFactors;
 use crate::sink::{Sink, Slices};
 use crate::state::Config;
+use crate::stitch::Stitch;
 use crate::{connect, locate, points};
 
 /// A patch whose factors have been processed, ready to be tessellated or probed.
@@ -54,6 +56,13 @@ impl Patch {
         connect::emit(self.config, &self.processed, sink);
     }
 
+    /// Sends the stitches of a triangle or quad patch to `emit`, in order: the two rows of each, and
+    /// the rule of its steps. A minimum patch and an isoline patch have none; neither is the single
+    /// triangle inside a triangle patch's innermost ring one.
+    pub fn stitches(&self, emit: impl FnMut(Stitch)) {
+        connect::stitches(&self.processed, emit);
+    }
+
     /// Writes points and indices to the start of the caller's buffers.
     ///
     /// # Errors
@@ -84,7 +93,7 @@ impl Patch {
 
     /// Where point `i` comes from; `None` if the patch has no such point. Constant time.
     #[must_use]
-    pub fn locate_point(&self, i: u32) -> Option<PointLocation> {
+    pub fn locate_point(&self, i: u32) -> Option<PointOrigin> {
         (i < self.counts.points).then(|| locate::point::locate(&self.processed, i))
     }
 
@@ -96,7 +105,7 @@ impl Patch {
 
     /// Where primitive `t` comes from; `None` if the patch has no such primitive. Constant time.
     #[must_use]
-    pub fn locate_primitive(&self, t: u32) -> Option<PrimitiveLocation> {
+    pub fn locate_primitive(&self, t: u32) -> Option<PrimitiveOrigin> {
         (t < self.counts.primitives)
             .then(|| locate::primitive::locate(self.config, &self.processed, t))
     }

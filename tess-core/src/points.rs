@@ -4,9 +4,10 @@ pub(crate) mod isoline;
 pub(crate) mod quad;
 pub(crate) mod triangle;
 
-use crate::factors::{PatchFactors, ProcessedPatch};
+use crate::factors::ProcessedPatch;
 use crate::fixed_point::ONE;
 use crate::output::DomainPoint;
+use crate::patch_factors::PatchFactors;
 use crate::sink::Sink;
 use crate::state::Domain;
 

@@ -9,8 +9,8 @@
 )]
 
 use crate::d3d_float::{ceil, clamp, is_culled, next_power_of_two};
-use crate::factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
-use crate::state::Partitioning;
+use crate::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
+use crate::state::{Domain, Partitioning};
 
 /// How several outer factors become one inside factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -69,7 +69,7 @@ fn prepare_isoline(partitioning: Partitioning, factors: IsolineFactors) -> Prepa
     if is_culled([factors.density, factors.detail].into_iter()) {
         return Prepared {
             unrounded: PatchFactors::Isoline(factors),
-            rounded: PatchFactors::Isoline(IsolineFactors { density: 0.0, detail: 0.0 }),
+            rounded: PatchFactors::uniform(Domain::Isoline, 0.0),
         };
     }
     let unrounded = IsolineFactors {
@@ -94,12 +94,7 @@ fn prepare_triangle(
     if is_culled(factors.outer().into_iter()) {
         return Prepared {
             unrounded: PatchFactors::Triangle(TriangleFactors { inside: 0.0, ..factors }),
-            rounded: PatchFactors::Triangle(TriangleFactors {
-                u0: 0.0,
-                v0: 0.0,
-                w0: 0.0,
-                inside: 0.0,
-            }),
+            rounded: PatchFactors::uniform(Domain::Triangle, 0.0),
         };
     }
     let [u0, v0, w0] = factors.outer().map(clean);
@@ -120,11 +115,9 @@ fn prepare_quad(
     axes: QuadAxes,
 ) -> Prepared {
     if is_culled(factors.outer().into_iter()) {
-        let unrounded = QuadFactors { inside_u: 0.0, inside_v: 0.0, ..factors };
-        let [u0, v0, u1, v1, inside_u, inside_v] = [0.0; 6];
         return Prepared {
-            unrounded: PatchFactors::Quad(unrounded),
-            rounded: PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }),
+            unrounded: PatchFactors::Quad(QuadFactors { inside_u: 0.0, inside_v: 0.0, ..factors }),
+            rounded: PatchFactors::uniform(Domain::Quad, 0.0),
         };
     }
     let [u0, v0, u1, v1] = factors.outer().map(clean);

@@ -6,36 +6,41 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Row {
     first: u32,
-    descending: bool,
-    replaced: Option<(u32, u32)>,
+    /// From each entry to the next, modulo 2^32.
+    step: u32,
+    replaced_at: u32,
+    replaced: u32,
 }
+
+/// No row is this long.
+const NOWHERE: u32 = u32::MAX;
 
 impl Row {
     /// `first, first + 1, ...`
     #[must_use]
     pub const fn ascending(first: u32) -> Self {
-        Self { first, descending: false, replaced: None }
+        Self { first, step: 1, replaced_at: NOWHERE, replaced: 0 }
     }
 
     /// `first, first - 1, ...`
     #[must_use]
     pub const fn descending(first: u32) -> Self {
-        Self { first, descending: true, replaced: None }
+        Self { step: 1u32.wrapping_neg(), ..Self::ascending(first) }
     }
 
     /// The same row with entry `k` replaced by `index`.
     #[must_use]
     pub const fn with(self, k: u32, index: u32) -> Self {
-        Self { replaced: Some((k, index)), ..self }
+        Self { replaced_at: k, replaced: index, ..self }
     }
 
-    /// Entry `k`, modulo 2^32: on a descending row, entries beyond 0 wrap around.
+    /// Entry `k`, modulo 2^32.
     #[must_use]
     pub const fn index(&self, k: u32) -> u32 {
-        match self.replaced {
-            Some((at, index)) if at == k => index,
-            _ if self.descending => self.first.wrapping_sub(k),
-            _ => self.first.wrapping_add(k),
+        if k == self.replaced_at {
+            self.replaced
+        } else {
+            self.first.wrapping_add(self.step.wrapping_mul(k))
         }
     }
 }

@@ -24,10 +24,11 @@ pub const fn rank(split: SplitOrder, k: u32) -> Option<u32> {
 /// Whether a half edge of `half` points has a point at position `k`, in 1..=32 for any that has.
 #[must_use]
 pub const fn has_point(split: SplitOrder, k: u32, half: u32) -> bool {
-    match rank(split, k) {
-        Some(rank) => rank < half,
-        None => false,
-    }
+    k <= 32
+        && match split {
+            SplitOrder::Ruler => (RULER[k as usize] as u32) < half,
+            SplitOrder::Center => k < half,
+        }
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Stitching two rows with triangles (spec sections 7.2 to 7.4).
 //!
-//! A stitch is a list of steps. Each step is one triangle, clockwise, and moves on by one entry of
-//! one of the two rows; which triangle a step is depends on point counts alone, never on the rows.
+//! A stitch is a sequence of steps. Each step is one triangle, clockwise, and moves on by one entry
+//! of one of the two rows; it depends on point counts alone, never on what the rows hold.
 
 use crate::row::Row;
 use crate::ruler::has_point;
@@ -34,6 +34,7 @@ pub struct Step {
 
 impl Step {
     /// The three vertices, clockwise: the row that each lies on, and its entry there.
+    #[inline(always)]
     #[must_use]
     pub const fn vertices(self) -> [(Side, u32); 3] {
         let outer = (Side::Outer, self.outer);
@@ -49,6 +50,7 @@ impl Step {
     }
 
     /// The triangle on two rows.
+    #[inline(always)] // as a step's kind is a constant where it is made
     #[must_use]
     pub const fn triangle(self, outer: &Row, inner: &Row) -> [u32; 3] {
         let [a, b, c] = self.vertices();
@@ -56,6 +58,7 @@ impl Step {
     }
 }
 
+#[inline(always)]
 const fn index((outer, inner): (&Row, &Row), (side, entry): (Side, u32)) -> u32 {
     match side {
         Side::Outer => outer.index(entry),
@@ -63,29 +66,110 @@ const fn index((outer, inner): (&Row, &Row), (side, entry): (Side, u32)) -> u32 
     }
 }
 
-/// What a step does, wherever the stitch has come to: the row that it advances along and the row
-/// that its triangle begins on.
-type Move = (Side, Side);
+/// Receives the steps of a stitch in order; closures do.
+pub trait Steps {
+    /// The next step.
+    fn step(&mut self, step: Step);
+}
 
-/// (O\[o\], O\[o + 1\], I\[i\]), then o += 1: "advance outer" of spec section 7.2.
-const ADVANCE_OUTER: Move = (Side::Outer, Side::Outer);
-/// (I\[i\], O\[o\], I\[i + 1\]), then i += 1: "advance inner" of spec section 7.2.
-const ADVANCE_INNER: Move = (Side::Inner, Side::Inner);
-/// (I\[i\], O\[o\], O\[o + 1\]), then o += 1.
-const ADVANCE_OUTER_FROM_INNER: Move = (Side::Outer, Side::Inner);
-/// (O\[o\], I\[i + 1\], I\[i\]), then i += 1.
-const ADVANCE_INNER_FROM_OUTER: Move = (Side::Inner, Side::Outer);
+impl<F: FnMut(Step)> Steps for F {
+    fn step(&mut self, step: Step) {
+        self(step);
+    }
+}
 
-/// The steps of these moves, from the first entries of both rows.
-fn steps(moves: impl Iterator<Item = Move>) -> impl Iterator<Item = Step> {
-    moves.scan((0, 0), |(outer, inner), (advances, begins)| {
-        let step = Step { outer: *outer, inner: *inner, advances, begins };
-        match advances {
-            Side::Outer => *outer += 1,
-            Side::Inner => *inner += 1,
+/// A stitch of a patch: two rows, and what is between them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stitch {
+    /// Where it is, and by which rule its steps are made.
+    pub kind: StitchKind,
+    /// The row nearer to the patch's edge; row A of a centre strip.
+    pub outer: Row,
+    /// Points on the outer row, both ends included.
+    pub outer_points: u32,
+    /// The row nearer to the patch's centre; row B of a centre strip.
+    pub inner: Row,
+    /// Points on the inner row, both ends included.
+    pub inner_points: u32,
+}
+
+/// Where a stitch is, and by which rule its steps are made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum StitchKind {
+    /// Between an outer edge and ring 1: [`transition`].
+    Transition {
+        /// Number of the edge: u = 0, v = 0, then w = 0 or u = 1, v = 1.
+        edge: u32,
+    },
+    /// Between an edge of ring `ring - 1` and ring `ring`: [`ring`].
+    Ring {
+        /// Number of the inner ring, from 2.
+        ring: u32,
+        /// Number of the edge.
+        edge: u32,
+    },
+    /// Between the two long sides of a quad's innermost ring: [`strip`].
+    Centre(Diagonals),
+}
+
+impl Stitch {
+    /// Sends the steps to `to`, in order.
+    pub fn steps(&self, split: SplitOrder, to: impl Steps) {
+        match self.kind {
+            // Ring 1 has two points less than its inside factor.
+            StitchKind::Transition { .. } => {
+                transition(split, self.outer_points, self.inner_points + 2, to);
+            }
+            StitchKind::Ring { .. } => ring(self.inner_points, to),
+            StitchKind::Centre(diagonals) => strip(self.outer_points - 1, diagonals, to),
         }
-        Some(step)
-    })
+    }
+
+    /// Sends the triangles, clockwise, to `emit`, in order.
+    pub(crate) fn triangles(&self, split: SplitOrder, emit: impl FnMut(Triangle)) {
+        self.steps(split, OnRows { outer: self.outer, inner: self.inner, emit });
+    }
+}
+
+/// Emits the triangle of each step on two rows.
+struct OnRows<F> {
+    outer: Row,
+    inner: Row,
+    emit: F,
+}
+
+impl<F: FnMut(Triangle)> Steps for OnRows<F> {
+    #[inline(always)] // a step's kind is a constant where it is made
+    fn step(&mut self, step: Step) {
+        (self.emit)(step.triangle(&self.outer, &self.inner));
+    }
+}
+
+/// How far a stitch has come along its two rows, and where its steps go.
+struct Walk<S> {
+    outer: u32,
+    inner: u32,
+    to: S,
+}
+
+impl<S: Steps> Walk<S> {
+    const fn new(to: S) -> Self {
+        Self { outer: 0, inner: 0, to }
+    }
+
+    #[inline(always)]
+    fn advance_outer(&mut self, begins: Side) {
+        let Self { outer, inner, .. } = *self;
+        self.to.step(Step { outer, inner, advances: Side::Outer, begins });
+        self.outer += 1;
+    }
+
+    #[inline(always)]
+    fn advance_inner(&mut self, begins: Side) {
+        let Self { outer, inner, .. } = *self;
+        self.to.step(Step { outer, inner, advances: Side::Inner, begins });
+        self.inner += 1;
+    }
 }
 
 /// The transition between an outer edge and the first interior ring, whose factors are unrelated:
@@ -94,49 +178,66 @@ fn steps(moves: impl Iterator<Item = Move>) -> impl Iterator<Item = Step> {
 /// `outer_points` and `inside_points` are the `points` of the outer factor's context (2..=65) and
 /// of the inside factor's along the same axis (3..=65), whose ring has two points less. There are
 /// `outer_points + inside_points - 4` steps.
-pub fn transition(
-    split: SplitOrder,
-    outer_points: u32,
-    inside_points: u32,
-) -> impl Iterator<Item = Step> {
+pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: impl Steps) {
     let outer_half = outer_points.saturating_sub(1) / 2;
     let inner_half = inside_points.saturating_sub(1) / 2;
-    // A factor of odd parity has an even number of points.
-    let outer_is_odd = outer_points.is_multiple_of(2);
-    let inside_is_odd = inside_points.is_multiple_of(2);
-    let outer_at = move |k| has_point(split, k, outer_half).then_some(ADVANCE_OUTER);
-    let inner_at = move |k| has_point(split, k, inner_half).then_some(ADVANCE_INNER);
-
-    let corner = (outer_half > 0).then_some(ADVANCE_OUTER);
-    let first_half = (1..=32).flat_map(move |k| [inner_at(k), outer_at(k)]);
-    let middle =
-        [inside_is_odd.then_some(ADVANCE_INNER), outer_is_odd.then_some(ADVANCE_OUTER_FROM_INNER)];
-    let second_half = (1..=32).rev().flat_map(move |k| [outer_at(k), inner_at(k)]);
-    let moves = [corner].into_iter().chain(first_half).chain(middle);
-    steps(moves.chain(second_half).chain([corner]).flatten())
+    let mut walk = Walk::new(to);
+    if outer_half > 0 {
+        walk.advance_outer(Side::Outer);
+    }
+    for k in 1..=32 {
+        if has_point(split, k, inner_half) {
+            walk.advance_inner(Side::Inner);
+        }
+        if has_point(split, k, outer_half) {
+            walk.advance_outer(Side::Outer);
+        }
+    }
+    // The middle. A factor of odd parity has an even number of points.
+    if inside_points.is_multiple_of(2) {
+        walk.advance_inner(Side::Inner);
+    }
+    if outer_points.is_multiple_of(2) {
+        walk.advance_outer(Side::Inner);
+    }
+    for k in (1..=32).rev() {
+        if has_point(split, k, outer_half) {
+            walk.advance_outer(Side::Outer);
+        }
+        if has_point(split, k, inner_half) {
+            walk.advance_inner(Side::Inner);
+        }
+    }
+    if outer_half > 0 {
+        walk.advance_outer(Side::Outer);
+    }
 }
 
 /// Two neighbouring interior rings: the outer row has two points more than the inner, which has
 /// `inner_points` (1..=61), and the diagonals are mirrored about the middle. Spec section 7.3.
 ///
 /// There are `2 * inner_points` steps.
-pub fn ring(inner_points: u32) -> impl Iterator<Item = Step> {
-    let pairs = (0..inner_points.saturating_sub(1)).flat_map(move |p| {
+pub fn ring(inner_points: u32, to: impl Steps) {
+    let mut walk = Walk::new(to);
+    walk.advance_outer(Side::Outer);
+    for p in 0..inner_points.saturating_sub(1) {
         if p < inner_points / 2 {
-            [ADVANCE_INNER_FROM_OUTER, ADVANCE_OUTER]
+            walk.advance_inner(Side::Outer);
+            walk.advance_outer(Side::Outer);
         } else {
-            [ADVANCE_OUTER_FROM_INNER, ADVANCE_INNER]
+            walk.advance_outer(Side::Inner);
+            walk.advance_inner(Side::Inner);
         }
-    });
-    steps([ADVANCE_OUTER].into_iter().chain(pairs).chain([ADVANCE_OUTER]))
+    }
+    walk.advance_outer(Side::Outer);
 }
 
 /// The diagonals of a centre strip (spec section 7.4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Diagonals {
-    /// Every quad's runs from row B to row A.
+    /// All forward.
     Forward,
-    /// Every quad's runs from row B to row A but that of quad `quads / 2`.
+    /// Forward except middle: that of quad `quads / 2` runs the other way.
     ForwardExceptMiddle,
 }
 
@@ -144,12 +245,22 @@ pub enum Diagonals {
 /// of `quads + 1` points (`quads` in 1..=63). Spec section 7.4.
 ///
 /// There are `2 * quads` steps.
-pub fn strip(quads: u32, diagonals: Diagonals) -> impl Iterator<Item = Step> {
-    steps((0..quads).flat_map(move |k| match diagonals {
-        Diagonals::Forward => [ADVANCE_OUTER_FROM_INNER, ADVANCE_INNER],
-        Diagonals::ForwardExceptMiddle if k == quads / 2 => {
-            [ADVANCE_INNER_FROM_OUTER, ADVANCE_OUTER]
+pub fn strip(quads: u32, diagonals: Diagonals, to: impl Steps) {
+    let mut walk = Walk::new(to);
+    for k in 0..quads {
+        match diagonals {
+            Diagonals::Forward => {
+                walk.advance_outer(Side::Inner);
+                walk.advance_inner(Side::Inner);
+            }
+            Diagonals::ForwardExceptMiddle if k == quads / 2 => {
+                walk.advance_inner(Side::Outer);
+                walk.advance_outer(Side::Outer);
+            }
+            Diagonals::ForwardExceptMiddle => {
+                walk.advance_outer(Side::Outer);
+                walk.advance_inner(Side::Inner);
+            }
         }
-        Diagonals::ForwardExceptMiddle => [ADVANCE_OUTER, ADVANCE_INNER],
-    }))
+    }
 }

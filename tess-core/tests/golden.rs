@@ -1,5 +1,5 @@
 //! Recorded results of the reference model, in both formulations: enough of `golden/` for the core's
-//! tests to stand alone. All of it goes through `tools/check`.
+//! tests to stand alone. All of it goes through `tess-verify`.
 
 mod recorded;
 

@@ -34,20 +34,24 @@ pub const WORDS: u32 = STITCHES_AT + STITCH_WORDS * (PLAIN_STRIP + 1);
 pub fn tables(split: SplitOrder) -> Vec<u32> {
     let mut words: Vec<u32> = (1..=64).filter_map(reciprocal).collect();
     for outer_points in 2..=65 {
-        add_stitch(&mut words, [].into_iter());
+        add_stitch(&mut words, |_| {});
         for inner_points in 1..=63 {
-            add_stitch(&mut words, transition(split, outer_points, inner_points + 2));
+            add_stitch(&mut words, |to| transition(split, outer_points, inner_points + 2, to));
         }
     }
-    add_stitch(&mut words, [].into_iter());
-    (1..=63).for_each(|inner_points| add_stitch(&mut words, ring(inner_points)));
-    (0..=63).for_each(|quads| add_stitch(&mut words, strip(quads, Diagonals::ForwardExceptMiddle)));
-    add_stitch(&mut words, strip(63, Diagonals::Forward));
+    add_stitch(&mut words, |_| {});
+    (1..=63).for_each(|inner_points| add_stitch(&mut words, |to| ring(inner_points, to)));
+    for quads in 0..=63 {
+        add_stitch(&mut words, |to| strip(quads, Diagonals::ForwardExceptMiddle, to));
+    }
+    add_stitch(&mut words, |to| strip(63, Diagonals::Forward, to));
     words
 }
 
-fn add_stitch(words: &mut Vec<u32>, steps: impl Iterator<Item = Step>) {
-    let mut steps: Vec<u32> = steps.map(step_bits).collect();
+/// Adds the words of the stitch whose steps `stitch` sends.
+fn add_stitch(words: &mut Vec<u32>, stitch: impl FnOnce(&mut dyn FnMut(Step))) {
+    let mut steps = Vec::new();
+    stitch(&mut |step| steps.push(step_bits(step)));
     steps.resize(STITCH_WORDS as usize + 1, 0);
     words.extend(steps.windows(2).map(|pair| pair[0] | pair[1] << 16));
 }

@@ -6,10 +6,10 @@
 mod levels;
 
 use levels::levels;
-use tess_check::backend::Backend;
-use tess_check::core_backend::CoreBackend;
 use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 use tess_simd::{Level, contexts, fixed_factors, locations};
+use tess_verify::backend::Backend;
+use tess_verify::core_backend::CoreBackend;
 
 /// Values compared at a time.
 const BATCH: usize = 1 << 16;

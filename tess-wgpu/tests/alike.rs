@@ -4,11 +4,11 @@ mod common;
 
 use common::device::Machine;
 use common::expected::Expected;
-use tess_check::generate::patch_of;
-use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::BLOCK;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
 use tess_wgpu::{Outputs, Tessellator};
 
 /// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole

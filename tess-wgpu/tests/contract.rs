@@ -4,11 +4,11 @@ mod common;
 
 use common::device::{Machine, POISON};
 use common::expected::Expected;
-use tess_check::generate::patch_of;
-use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::layout::{Topology, unpack_context};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
 use tess_wgpu::Outputs;
 
 fn quads(partitioning: Partitioning) -> Setup {

@@ -4,11 +4,11 @@ mod common;
 
 use common::device::Machine;
 use common::expected::{Expected, by_simd};
-use tess_check::generate::patch_of;
-use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::sizes::{BLOCK, GROUP, TILE};
 use tess_gpu::{Capacity, Dispatch, IndexType, Limits, Numbering, Plan, Setup, Stage, Workgroups};
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
 use tess_wgpu::{Gpu, Outputs, Tessellator, Wanted};
 use wgpu::BufferUsages;
 

@@ -5,10 +5,10 @@ mod common;
 use common::device::{Machine, Written};
 use common::expected::{Expected, by_simd};
 use common::patches::random;
-use tess_check::generate::configurations;
-use tess_check::random::SplitMix64;
 use tess_core::PatchFactors;
 use tess_gpu::Setup;
+use tess_verify::generate::configurations;
+use tess_verify::random::SplitMix64;
 
 /// Random patches of each configuration, through the whole pipeline.
 #[test]

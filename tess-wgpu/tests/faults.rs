@@ -4,10 +4,10 @@ mod common;
 
 use common::device::Machine;
 use common::expected::Expected;
-use tess_check::generate::patch_of;
-use tess_check::random::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::Setup;
+use tess_verify::generate::patch_of;
+use tess_verify::random::SplitMix64;
 use tess_wgpu::Tessellator;
 
 #[test]

@@ -3,11 +3,11 @@
 mod common;
 
 use common::device::Machine;
-use tess_check::generate::configurations;
-use tess_check::random::SplitMix64;
 use tess_core::Patch;
 use tess_gpu::tables::tables;
 use tess_gpu::{Pull, Setup};
+use tess_verify::generate::configurations;
+use tess_verify::random::SplitMix64;
 use tess_wgpu::Outputs;
 use wgpu::BufferUsages as Usage;
 

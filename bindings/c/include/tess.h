@@ -417,7 +417,7 @@ typedef struct TessPrimitive {
 /**
  * Where a point comes from (specification, section 6). Fields without meaning are 0.
  */
-typedef struct TessPointLocation {
+typedef struct TessPointOrigin {
   /**
    * `TESS_POINT_...`
    */
@@ -438,12 +438,12 @@ typedef struct TessPointLocation {
    * Number of the point in the direction of the walk.
    */
   uint32_t p;
-} TessPointLocation;
+} TessPointOrigin;
 
 /**
  * Where a primitive comes from (specification, sections 7, 8). Fields without meaning are 0.
  */
-typedef struct TessPrimitiveLocation {
+typedef struct TessPrimitiveOrigin {
   /**
    * `TESS_PRIMITIVE_...`
    */
@@ -464,7 +464,7 @@ typedef struct TessPrimitiveLocation {
    * Number of the primitive along its line, stitch, centre or sequence.
    */
   uint32_t step;
-} TessPrimitiveLocation;
+} TessPrimitiveOrigin;
 
 /**
  * How the factors of a patch are prepared, in the numbers `TESS_DOMAIN_...` and so on.
@@ -799,7 +799,7 @@ TessStatus tess_locate_point(const struct TessConfig *config,
                              const float *factors,
                              size_t factor_count,
                              uint32_t i,
-                             struct TessPointLocation *location);
+                             struct TessPointOrigin *location);
 
 /**
  * Where primitive `t` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer primitives.
@@ -814,7 +814,7 @@ TessStatus tess_locate_primitive(const struct TessConfig *config,
                                  const float *factors,
                                  size_t factor_count,
                                  uint32_t t,
-                                 struct TessPrimitiveLocation *location);
+                                 struct TessPrimitiveOrigin *location);
 
 /**
  * Prepares the factors of one patch.

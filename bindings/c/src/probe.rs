@@ -4,7 +4,7 @@ use crate::boundary;
 use crate::context;
 use crate::status::{TESS_OUT_OF_RANGE, TessStatus, answer};
 use crate::types::{self, TessConfig, TessContext, TessPoint, parity};
-use tess_core::{FactorContext, FixedFactor, PointLocation, PrimitiveLocation, SplitOrder, place};
+use tess_core::{FactorContext, FixedFactor, PointOrigin, PrimitiveOrigin, SplitOrder, place};
 
 /// One primitive: `size` indices into the patch's points.
 #[repr(C)]
@@ -30,7 +30,7 @@ pub const TESS_POINT_CENTRE: u32 = 4;
 /// Where a point comes from (specification, section 6). Fields without meaning are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TessPointLocation {
+pub struct TessPointOrigin {
     /// `TESS_POINT_...`
     pub kind: u32,
     /// Number of the isoline, from v = 0.
@@ -59,7 +59,7 @@ pub const TESS_PRIMITIVE_CENTRE: u32 = 5;
 /// Where a primitive comes from (specification, sections 7, 8). Fields without meaning are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct TessPrimitiveLocation {
+pub struct TessPrimitiveOrigin {
     /// `TESS_PRIMITIVE_...`
     pub kind: u32,
     /// Number of the isoline, from v = 0.
@@ -190,7 +190,7 @@ pub unsafe extern "C" fn tess_locate_point(
     factors: *const f32,
     factor_count: usize,
     i: u32,
-    location: *mut TessPointLocation,
+    location: *mut TessPointOrigin,
 ) -> TessStatus {
     answer(|| {
         // SAFETY: `config` and `factors` are readable, as the caller promises.
@@ -214,7 +214,7 @@ pub unsafe extern "C" fn tess_locate_primitive(
     factors: *const f32,
     factor_count: usize,
     t: u32,
-    location: *mut TessPrimitiveLocation,
+    location: *mut TessPrimitiveOrigin,
 ) -> TessStatus {
     answer(|| {
         // SAFETY: `config` and `factors` are readable, as the caller promises.
@@ -235,45 +235,43 @@ impl From<tess_core::Primitive> for TessPrimitive {
     }
 }
 
-impl From<PointLocation> for TessPointLocation {
-    fn from(location: PointLocation) -> Self {
+impl From<PointOrigin> for TessPointOrigin {
+    fn from(location: PointOrigin) -> Self {
         let none = Self::default();
         match location {
-            PointLocation::Corner { corner } => Self { kind: TESS_POINT_CORNER, p: corner, ..none },
-            PointLocation::Line { line, p } => Self { kind: TESS_POINT_LINE, line, p, ..none },
-            PointLocation::OuterEdge { edge, p } => {
+            PointOrigin::Corner { corner } => Self { kind: TESS_POINT_CORNER, p: corner, ..none },
+            PointOrigin::Line { line, p } => Self { kind: TESS_POINT_LINE, line, p, ..none },
+            PointOrigin::OuterEdge { edge, p } => {
                 Self { kind: TESS_POINT_OUTER_EDGE, edge, p, ..none }
             }
-            PointLocation::Ring { ring, edge, p } => {
+            PointOrigin::Ring { ring, edge, p } => {
                 Self { kind: TESS_POINT_RING, ring, edge, p, ..none }
             }
-            PointLocation::Centre { p } => Self { kind: TESS_POINT_CENTRE, p, ..none },
+            PointOrigin::Centre { p } => Self { kind: TESS_POINT_CENTRE, p, ..none },
         }
     }
 }
 
-impl From<PrimitiveLocation> for TessPrimitiveLocation {
-    fn from(location: PrimitiveLocation) -> Self {
+impl From<PrimitiveOrigin> for TessPrimitiveOrigin {
+    fn from(location: PrimitiveOrigin) -> Self {
         let none = Self::default();
         match location {
-            PrimitiveLocation::Sequence { step } => {
+            PrimitiveOrigin::Sequence { step } => {
                 Self { kind: TESS_PRIMITIVE_SEQUENCE, step, ..none }
             }
-            PrimitiveLocation::Line { line, segment } => {
+            PrimitiveOrigin::Line { line, segment } => {
                 Self { kind: TESS_PRIMITIVE_LINE, line, step: segment, ..none }
             }
-            PrimitiveLocation::Minimum { step } => {
+            PrimitiveOrigin::Minimum { step } => {
                 Self { kind: TESS_PRIMITIVE_MINIMUM, step, ..none }
             }
-            PrimitiveLocation::Transition { edge, step } => {
+            PrimitiveOrigin::Transition { edge, step } => {
                 Self { kind: TESS_PRIMITIVE_TRANSITION, edge, step, ..none }
             }
-            PrimitiveLocation::Ring { ring, edge, step } => {
+            PrimitiveOrigin::Ring { ring, edge, step } => {
                 Self { kind: TESS_PRIMITIVE_RING, ring, edge, step, ..none }
             }
-            PrimitiveLocation::Centre { step } => {
-                Self { kind: TESS_PRIMITIVE_CENTRE, step, ..none }
-            }
+            PrimitiveOrigin::Centre { step } => Self { kind: TESS_PRIMITIVE_CENTRE, step, ..none },
         }
     }
 }

@@ -7,7 +7,7 @@ use tess_capi::status::{
     TessStatus,
 };
 use tess_capi::types::TessConfig;
-use tess_check::case::{Case, factor_list};
+use tess_verify::case::{Case, factor_list};
 
 /// The words that buffers hold before a call.
 pub(super) const CANARY: u32 = 0xC0DE_C0DE;
@@ -114,7 +114,7 @@ fn expected_case(case: Case, config: TessConfig) -> Case {
     use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
     let domain = Domain::ALL[config.domain as usize];
     let three = [3.0; 6];
-    let others = tess_check::case::factors_from_list(domain, &three[..factor_count(domain)]);
+    let others = tess_verify::case::factors_from_list(domain, &three[..factor_count(domain)]);
     let factors = if domain == case.domain() { case.factors } else { others.expect("a patch") };
     let config = Config {
         partitioning: Partitioning::ALL[config.partitioning as usize],

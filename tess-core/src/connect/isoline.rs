@@ -1,7 +1,8 @@
 //! The segments of isolines (spec section 8).
 
-use crate::factors::{IsolineFactors, ProcessedFactor};
+use crate::factors::ProcessedFactor;
 use crate::output::Primitive;
+use crate::patch_factors::IsolineFactors;
 use crate::points::isoline::line_count;
 use crate::sink::Sink;
 

@@ -1,11 +1,12 @@
 //! The triangles of a quad patch (spec section 7).
 
 use crate::connect::rings::{Rings, row_ring};
-use crate::factors::{ProcessedFactor, QuadFactors};
+use crate::factors::ProcessedFactor;
+use crate::patch_factors::QuadFactors;
 use crate::points::quad::Inside;
 use crate::row::Row;
-use crate::state::{Config, Parity};
-use crate::stitch::{self, Diagonals, Triangle};
+use crate::state::Parity;
+use crate::stitch::{Diagonals, Stitch, StitchKind};
 
 /// The rings of a quad patch: edges u = 0 and u = 1 run along v, the others along u.
 pub(crate) fn rings(factors: &QuadFactors<ProcessedFactor>) -> Rings<4> {
@@ -18,54 +19,34 @@ pub(crate) fn rings(factors: &QuadFactors<ProcessedFactor>) -> Rings<4> {
     }
 }
 
-pub(crate) fn emit(
-    config: Config,
-    factors: &QuadFactors<ProcessedFactor>,
-    mut emit: impl FnMut(Triangle),
-) {
-    let innermost = rings(factors).emit(config.split, &mut emit);
-    if let Some(CentreStrip { a, b, quads, diagonals }) =
-        CentreStrip::new(&Inside::new(factors), innermost)
-    {
-        stitch::strip(quads, diagonals).for_each(|step| emit(step.triangle(&a, &b)));
+/// Sends the stitches of a quad patch to `emit`, in order.
+pub(crate) fn emit(factors: &QuadFactors<ProcessedFactor>, mut emit: impl FnMut(Stitch)) {
+    let innermost = rings(factors).emit(&mut emit);
+    if let Some(strip) = centre_strip(&Inside::new(factors), innermost) {
+        emit(strip);
     }
 }
 
-/// The strip of quads between the two long sides of an innermost ring. Spec section 7.4.
-struct CentreStrip {
-    a: Row,
-    b: Row,
-    quads: u32,
-    diagonals: Diagonals,
-}
-
-impl CentreStrip {
-    /// The strip, if the shorter axis is odd; `innermost` is the first index of the ring around it.
-    fn new(inside: &Inside, innermost: u32) -> Option<Self> {
-        let (u, v) = (inside.u, inside.v);
-        let along_u = u.points > v.points;
-        let (long, short) = if along_u { (u, v) } else { (v, u) };
-        if short.parity == Parity::Even {
-            return None;
-        }
-        let quads = 2 * (long.points / 2 - short.points / 2) + 2 - long.parity.odd();
-        Some(if along_u {
-            Self {
-                a: Row::ascending(innermost + 1),
-                b: Row::descending(innermost + 2 * quads + 2).with(0, innermost),
-                quads,
-                diagonals: Diagonals::Forward,
-            }
-        } else {
-            Self {
-                a: Row::ascending(innermost),
-                b: Row::descending(innermost + 2 * quads + 1),
-                quads,
-                diagonals: match long.parity {
-                    Parity::Even => Diagonals::Forward,
-                    Parity::Odd => Diagonals::ForwardExceptMiddle,
-                },
-            }
-        })
+/// The strip of quads between the two long sides of an innermost ring, if the shorter axis is odd;
+/// `innermost` is the ring's first index. Spec section 7.4.
+fn centre_strip(inside: &Inside, innermost: u32) -> Option<Stitch> {
+    let (u, v) = (inside.u, inside.v);
+    let along_u = u.points > v.points;
+    let (long, short) = if along_u { (u, v) } else { (v, u) };
+    if short.parity == Parity::Even {
+        return None;
     }
+    let quads = 2 * (long.points / 2 - short.points / 2) + 2 - long.parity.odd();
+    let (outer, inner, diagonals) = if along_u {
+        let b = Row::descending(innermost + 2 * quads + 2).with(0, innermost);
+        (Row::ascending(innermost + 1), b, Diagonals::Forward)
+    } else {
+        let diagonals = match long.parity {
+            Parity::Even => Diagonals::Forward,
+            Parity::Odd => Diagonals::ForwardExceptMiddle,
+        };
+        (Row::ascending(innermost), Row::descending(innermost + 2 * quads + 1), diagonals)
+    };
+    let (kind, points) = (StitchKind::Centre(diagonals), quads + 1);
+    Some(Stitch { kind, outer, outer_points: points, inner, inner_points: points })
 }

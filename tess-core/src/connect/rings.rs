@@ -3,8 +3,8 @@
 
 use crate::factor_context::FactorContext;
 use crate::row::Row;
-use crate::state::{Parity, SplitOrder};
-use crate::stitch::{self, Step, Triangle};
+use crate::state::Parity;
+use crate::stitch::{Stitch, StitchKind};
 
 /// What the rings of a patch with `EDGES` edges depend on.
 #[derive(Clone, Copy, Debug)]
@@ -44,13 +44,14 @@ impl<const EDGES: usize> Rings<EDGES> {
         edge >= 2 && self.row_at[edge] == Some(ring)
     }
 
-    /// Emits the triangles of all rings; returns the first index of the innermost.
-    pub(crate) fn emit(&self, split: SplitOrder, mut emit: impl FnMut(Triangle)) -> u32 {
+    /// Sends the stitches of all rings to `emit`, in order; returns the first index of the
+    /// innermost ring.
+    pub(crate) fn emit(&self, mut emit: impl FnMut(Stitch)) -> u32 {
         let mut outer_base = 0;
         let mut inner_base = self.outer_points();
         for ring in 1..self.end() {
             let (outer_start, inner_start) = (outer_base, inner_base);
-            for edge in 0..EDGES {
+            for (number, edge) in (0..).zip(0..EDGES) {
                 let outer_points = self.outer_row_points(ring, edge);
                 let inner_points = self.inner_row_points(ring, edge);
                 let mut outer = Row::ascending(outer_base);
@@ -64,14 +65,11 @@ impl<const EDGES: usize> Rings<EDGES> {
                         inner = inner.with(inner_points - 1, inner_start);
                     }
                 }
-                let mut emit_step = |step: Step| emit(step.triangle(&outer, &inner));
-                if ring == 1 {
-                    let (outer_points, inside_points) =
-                        (self.outer[edge].points, self.along[edge].points);
-                    stitch::transition(split, outer_points, inside_points).for_each(&mut emit_step);
-                } else {
-                    stitch::ring(inner_points).for_each(&mut emit_step);
-                }
+                let kind = match ring {
+                    1 => StitchKind::Transition { edge: number },
+                    _ => StitchKind::Ring { ring, edge: number },
+                };
+                emit(Stitch { kind, outer, outer_points, inner, inner_points });
                 outer_base += outer_points - 1;
                 inner_base += inner_points - 1;
             }

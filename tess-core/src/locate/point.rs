@@ -3,66 +3,30 @@
 use crate::connect::rings::Rings;
 use crate::connect::{quad as quad_rings, triangle as triangle_rings};
 use crate::factor_context::FactorContext;
-use crate::factors::{PatchFactors, ProcessedFactor, ProcessedPatch, QuadFactors, TriangleFactors};
+use crate::factors::{ProcessedFactor, ProcessedPatch};
 use crate::fixed_point::ONE;
+use crate::locate::origin::PointOrigin;
 use crate::locate::{last_ring_at_or_before, slot_of};
 use crate::output::DomainPoint;
+use crate::patch_factors::{PatchFactors, QuadFactors, TriangleFactors};
 use crate::points::quad::Inside;
 use crate::points::{isoline, quad, triangle};
 use crate::state::Domain;
 
-/// Where a domain point comes from in the walk of spec section 6.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum PointLocation {
-    /// Corner `corner` of a minimum patch.
-    Corner {
-        /// Number of the corner.
-        corner: u32,
-    },
-    /// Point `p` of an isoline.
-    Line {
-        /// Number of the line, from v = 0.
-        line: u32,
-        /// Number of the point on it, from u = 0.
-        p: u32,
-    },
-    /// Point `p` of an outer edge.
-    OuterEdge {
-        /// Number of the edge: u = 0, v = 0, then w = 0 or u = 1, v = 1.
-        edge: u32,
-        /// Number of the point in the direction of the walk.
-        p: u32,
-    },
-    /// Point `p` of an edge of an interior ring.
-    Ring {
-        /// Number of the ring, from 1.
-        ring: u32,
-        /// Number of the edge.
-        edge: u32,
-        /// Number of the point in the direction of the walk.
-        p: u32,
-    },
-    /// Point `p` of the single point or row of points that ends an even interior.
-    Centre {
-        /// Number of the point.
-        p: u32,
-    },
-}
-
 /// Locates point `i`, which is less than the patch's point count.
-pub(crate) fn locate(patch: &ProcessedPatch, i: u32) -> PointLocation {
+pub(crate) fn locate(patch: &ProcessedPatch, i: u32) -> PointOrigin {
     match patch {
-        ProcessedPatch::Culled | ProcessedPatch::Minimum(_) => PointLocation::Corner { corner: i },
+        ProcessedPatch::Culled | ProcessedPatch::Minimum(_) => PointOrigin::Corner { corner: i },
         ProcessedPatch::Regular(PatchFactors::Isoline(factors)) => {
             let points = factors.detail.context.points;
-            PointLocation::Line { line: i / points, p: i % points }
+            PointOrigin::Line { line: i / points, p: i % points }
         }
         ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => locate_in_triangle(factors, i),
         ProcessedPatch::Regular(PatchFactors::Quad(factors)) => locate_in_quad(factors, i),
     }
 }
 
-fn locate_in_triangle(factors: &TriangleFactors<ProcessedFactor>, i: u32) -> PointLocation {
+fn locate_in_triangle(factors: &TriangleFactors<ProcessedFactor>, i: u32) -> PointOrigin {
     let outer = triangle_rings::rings(factors);
     let Some(interior) = i.checked_sub(outer.outer_points()) else {
         return locate_on_outer_edge(&outer, i);
@@ -70,15 +34,15 @@ fn locate_in_triangle(factors: &TriangleFactors<ProcessedFactor>, i: u32) -> Poi
     let inside = &factors.inside.context;
     let end = inside.points / 2;
     if interior >= triangle_points_before(inside, end) {
-        return PointLocation::Centre { p: 0 };
+        return PointOrigin::Centre { p: 0 };
     }
     let ring = last_ring_at_or_before(interior, end, |r| triangle_points_before(inside, r));
     let in_ring = interior - triangle_points_before(inside, ring);
     let size = triangle::ring_edge_points(inside, ring);
-    PointLocation::Ring { ring, edge: in_ring / size, p: in_ring % size }
+    PointOrigin::Ring { ring, edge: in_ring / size, p: in_ring % size }
 }
 
-fn locate_in_quad(factors: &QuadFactors<ProcessedFactor>, i: u32) -> PointLocation {
+fn locate_in_quad(factors: &QuadFactors<ProcessedFactor>, i: u32) -> PointOrigin {
     let outer = quad_rings::rings(factors);
     let Some(interior) = i.checked_sub(outer.outer_points()) else {
         return locate_on_outer_edge(&outer, i);
@@ -87,18 +51,18 @@ fn locate_in_quad(factors: &QuadFactors<ProcessedFactor>, i: u32) -> PointLocati
     let end = inside.ring_end();
     let rings_total = quad_points_before(&inside, end);
     if interior >= rings_total {
-        return PointLocation::Centre { p: interior - rings_total };
+        return PointOrigin::Centre { p: interior - rings_total };
     }
     let ring = last_ring_at_or_before(interior, end, |r| quad_points_before(&inside, r));
     let in_ring = interior - quad_points_before(&inside, ring);
     let sizes = [0, 1, 2, 3].map(|edge| inside.ring_edge_points(ring, edge));
     let (edge, p) = slot_of(in_ring, sizes);
-    PointLocation::Ring { ring, edge, p }
+    PointOrigin::Ring { ring, edge, p }
 }
 
-fn locate_on_outer_edge<const EDGES: usize>(rings: &Rings<EDGES>, i: u32) -> PointLocation {
+fn locate_on_outer_edge<const EDGES: usize>(rings: &Rings<EDGES>, i: u32) -> PointOrigin {
     let (edge, p) = slot_of(i, rings.outer.map(|context| context.points - 1));
-    PointLocation::OuterEdge { edge, p }
+    PointOrigin::OuterEdge { edge, p }
 }
 
 /// Interior points on the rings `1..ring`: the sum of 3 (n - 1 - 2 k).
@@ -112,9 +76,9 @@ pub(crate) const fn quad_points_before(inside: &Inside, ring: u32) -> u32 {
 }
 
 /// The point at a location that [`locate`] gave for this patch; `None` for one it never gives.
-pub(crate) fn point(patch: &ProcessedPatch, location: PointLocation) -> Option<DomainPoint> {
+pub(crate) fn point(patch: &ProcessedPatch, location: PointOrigin) -> Option<DomainPoint> {
     match (patch, location) {
-        (ProcessedPatch::Minimum(factors), PointLocation::Corner { corner }) => {
+        (ProcessedPatch::Minimum(factors), PointOrigin::Corner { corner }) => {
             minimum_corner(factors.domain(), corner)
         }
         (ProcessedPatch::Regular(factors), location) => regular_point(factors, location),
@@ -136,10 +100,10 @@ fn minimum_corner(domain: Domain, corner: u32) -> Option<DomainPoint> {
 
 fn regular_point(
     factors: &PatchFactors<ProcessedFactor>,
-    location: PointLocation,
+    location: PointOrigin,
 ) -> Option<DomainPoint> {
     match (factors, location) {
-        (PatchFactors::Isoline(factors), PointLocation::Line { line, p }) => {
+        (PatchFactors::Isoline(factors), PointOrigin::Line { line, p }) => {
             Some(isoline::point(factors, line, p))
         }
         (PatchFactors::Triangle(factors), location) => triangle_point(factors, location),
@@ -150,33 +114,33 @@ fn regular_point(
 
 fn triangle_point(
     factors: &TriangleFactors<ProcessedFactor>,
-    location: PointLocation,
+    location: PointOrigin,
 ) -> Option<DomainPoint> {
     match location {
-        PointLocation::OuterEdge { edge, p } => {
+        PointOrigin::OuterEdge { edge, p } => {
             let factor = factors.outer().get(edge as usize).copied()?;
             Some(triangle::outer_point(&factor.context, edge, p))
         }
-        PointLocation::Ring { ring, edge, p } => {
+        PointOrigin::Ring { ring, edge, p } => {
             Some(triangle::ring_point(&factors.inside.context, ring, edge, p))
         }
-        PointLocation::Centre { .. } => Some(triangle::CENTRE),
-        PointLocation::Corner { .. } | PointLocation::Line { .. } => None,
+        PointOrigin::Centre { .. } => Some(triangle::CENTRE),
+        PointOrigin::Corner { .. } | PointOrigin::Line { .. } => None,
     }
 }
 
 fn quad_point(
     factors: &QuadFactors<ProcessedFactor>,
-    location: PointLocation,
+    location: PointOrigin,
 ) -> Option<DomainPoint> {
     let inside = Inside::new(factors);
     match location {
-        PointLocation::OuterEdge { edge, p } => {
+        PointOrigin::OuterEdge { edge, p } => {
             let factor = factors.outer().get(edge as usize).copied()?;
             Some(quad::outer_point(&factor.context, edge, p))
         }
-        PointLocation::Ring { ring, edge, p } => Some(inside.ring_point(ring, edge, p)),
-        PointLocation::Centre { p } => Some(inside.centre_row_point(inside.centre_row()?, p)),
-        PointLocation::Corner { .. } | PointLocation::Line { .. } => None,
+        PointOrigin::Ring { ring, edge, p } => Some(inside.ring_point(ring, edge, p)),
+        PointOrigin::Centre { p } => Some(inside.centre_row_point(inside.centre_row()?, p)),
+        PointOrigin::Corner { .. } | PointOrigin::Line { .. } => None,
     }
 }

@@ -2,10 +2,11 @@
 
 use crate::connect::rings::Rings;
 use crate::connect::{quad, triangle};
-use crate::factors::{ProcessedFactor, QuadFactors, TriangleFactors};
+use crate::factors::ProcessedFactor;
+use crate::locate::origin::PrimitiveOrigin;
 use crate::locate::point::{quad_points_before, triangle_points_before};
-use crate::locate::primitive::PrimitiveLocation;
 use crate::locate::{centre_strip, last_ring_at_or_before, slot_of, stitch};
+use crate::patch_factors::{QuadFactors, TriangleFactors};
 use crate::points::quad::Inside;
 use crate::row::Row;
 use crate::state::{Parity, SplitOrder};
@@ -66,52 +67,52 @@ impl ClosedForms<4> for QuadFactors<ProcessedFactor> {
 pub(crate) fn locate<const EDGES: usize>(
     patch: &impl ClosedForms<EDGES>,
     t: u32,
-) -> PrimitiveLocation {
+) -> PrimitiveOrigin {
     let rings = patch.rings();
     let transitions: [u32; EDGES] =
         core::array::from_fn(|e| rings.outer[e].points + rings.along[e].points - 4);
     let Some(t) = t.checked_sub(transitions.iter().sum()) else {
         let (edge, step) = slot_of(t, transitions);
-        return PrimitiveLocation::Transition { edge, step };
+        return PrimitiveOrigin::Transition { edge, step };
     };
     let end = rings.end();
     let in_rings = patch.triangles_before(end);
     if t >= in_rings {
-        return PrimitiveLocation::Centre { step: t - in_rings };
+        return PrimitiveOrigin::Centre { step: t - in_rings };
     }
     let ring = 1 + last_ring_at_or_before(t, end - 1, |r| patch.triangles_before(r + 1));
     let stitches: [u32; EDGES] = core::array::from_fn(|e| 2 * rings.inner_row_points(ring, e));
     let (edge, step) = slot_of(t - patch.triangles_before(ring), stitches);
-    PrimitiveLocation::Ring { ring, edge, step }
+    PrimitiveOrigin::Ring { ring, edge, step }
 }
 
 /// The triangle at a location that [`locate`] gave, clockwise; `None` for one it never gives.
 pub(crate) fn triangle<const EDGES: usize>(
     patch: &impl ClosedForms<EDGES>,
     split: SplitOrder,
-    location: PrimitiveLocation,
+    location: PrimitiveOrigin,
 ) -> Option<Triangle> {
     let rings = patch.rings();
     match location {
-        PrimitiveLocation::Transition { edge, step } => {
+        PrimitiveOrigin::Transition { edge, step } => {
             let edge = edge as usize;
             let (outer, inner) = rows(patch, &rings, 1, edge);
             let (edge, inside) = (rings.outer.get(edge)?, rings.along.get(edge)?);
             Some(stitch::transition_triangle((&outer, &inner), edge, inside, split, step))
         }
-        PrimitiveLocation::Ring { ring, edge, step } => {
+        PrimitiveOrigin::Ring { ring, edge, step } => {
             let edge = edge as usize;
             let (outer, inner) = rows(patch, &rings, ring, edge);
             let inner_points = rings.inner_row_points(ring, edge);
             Some(stitch::ring_triangle((&outer, &inner), inner_points, step))
         }
-        PrimitiveLocation::Centre { step } => {
+        PrimitiveOrigin::Centre { step } => {
             let innermost = first_of_ring(patch, &rings, rings.end() - 1);
             patch.centre_triangle(innermost, step)
         }
-        PrimitiveLocation::Sequence { .. }
-        | PrimitiveLocation::Line { .. }
-        | PrimitiveLocation::Minimum { .. } => None,
+        PrimitiveOrigin::Sequence { .. }
+        | PrimitiveOrigin::Line { .. }
+        | PrimitiveOrigin::Minimum { .. } => None,
     }
 }
 

@@ -1,7 +1,8 @@
 //! Isoline points: line by line, from v = 0 (spec section 6).
 
-use crate::factors::{IsolineFactors, ProcessedFactor};
+use crate::factors::ProcessedFactor;
 use crate::output::DomainPoint;
+use crate::patch_factors::IsolineFactors;
 use crate::place::place;
 use crate::sink::Sink;
 

@@ -2,9 +2,10 @@
 //! is even (spec section 6).
 
 use crate::factor_context::FactorContext;
-use crate::factors::{ProcessedFactor, QuadFactors};
+use crate::factors::ProcessedFactor;
 use crate::fixed_point::{HALF, ONE};
 use crate::output::DomainPoint;
+use crate::patch_factors::QuadFactors;
 use crate::place::place;
 use crate::sink::Sink;
 use crate::state::Parity;

@@ -1,9 +1,10 @@
 //! Triangle points: the outer ring, then the interior rings, then the centre (spec section 6).
 
 use crate::factor_context::FactorContext;
-use crate::factors::{ProcessedFactor, TriangleFactors};
+use crate::factors::ProcessedFactor;
 use crate::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
 use crate::output::DomainPoint;
+use crate::patch_factors::TriangleFactors;
 use crate::place::place;
 use crate::sink::Sink;
 use crate::state::Parity;

@@ -4,8 +4,8 @@
 
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
-use tess_check::generate::configurations;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_verify::generate::configurations;
 
 /// The functions that [`tess_gpu::Pull`] offers, called as a user's shader does.
 pub(crate) const PULLING: &str = "

@@ -109,7 +109,7 @@ pub(crate) fn by_simd(setup: Setup, patches: &[PatchFactors]) -> (Vec<u32>, Vec<
     };
     let numbering = match setup.numbering {
         Numbering::PerPatch => tess_simd::Numbering::PerPatch,
-        Numbering::PerBatch => tess_simd::Numbering::Batch { base_vertex: 0 },
+        Numbering::PerBatch => tess_simd::Numbering::PerBatch { base_vertex: 0 },
     };
     let mut output = Output::<DomainPoint, u32>::new();
     let mut tessellator = Tessellator::new(setup.config);

@@ -1,8 +1,8 @@
 //! Patches to test with.
 
-use tess_check::generate::{patch_of, random_factor};
-use tess_check::random::SplitMix64;
 use tess_core::{Domain, PatchFactors};
+use tess_verify::generate::{patch_of, random_factor};
+use tess_verify::random::SplitMix64;
 
 /// Random patches, boundary values, culled and degenerate ones included.
 pub(crate) fn random(domain: Domain, count: u32, random: &mut SplitMix64) -> Vec<PatchFactors> {

@@ -1,39 +1,40 @@
-//! A patch on the command line: domain, factors and configuration.
+//! What several commands take: a patch (domain, factors and configuration), names, a shard.
 
 use crate::failure::Failure;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use tess_check::case::{Case, factors_from_list, outer_count};
-use tess_check::names::Named;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_verify::case::{Case, factors_from_list, outer_count};
+use tess_verify::generate::Shard;
+use tess_verify::names::Named;
 
 /// The arguments that describe one patch.
 #[derive(Clone, Debug, clap::Args)]
-pub struct PatchArgs {
+pub(crate) struct PatchArgs {
     /// Domain of the patch
     #[arg(value_parser = name_of::<Domain>())]
-    pub domain: Domain,
+    pub(crate) domain: Domain,
     /// Outer factors: density,detail (isoline); U=0,V=0,W=0 (tri); U=0,V=0,U=1,V=1 (quad)
     ///
     /// Each decimal (nan, inf and -0 too), or the bits of a binary32 such as 0x40490fdb.
     #[arg(long, value_name = "F,F,..", value_delimiter = ',', allow_hyphen_values = true)]
     #[arg(required = true, value_parser = factor)]
-    pub outer: Vec<f32>,
+    pub(crate) outer: Vec<f32>,
     /// Inside factors: one (tri); along U, along V (quad); none (isoline)
     #[arg(long, value_name = "F,F,..", value_delimiter = ',', allow_hyphen_values = true)]
     #[arg(value_parser = factor)]
-    pub inner: Vec<f32>,
+    pub(crate) inner: Vec<f32>,
     /// Spacing of the cuts
     #[arg(long, value_name = "NAME", default_value = "integer")]
     #[arg(value_parser = name_of::<Partitioning>())]
-    pub partitioning: Partitioning,
+    pub(crate) partitioning: Partitioning,
     /// What the indices describe
     #[arg(long, value_name = "NAME", default_value = "triangle_cw")]
     #[arg(value_parser = name_of::<OutputPrimitive>())]
-    pub output: OutputPrimitive,
+    pub(crate) output: OutputPrimitive,
     /// Order in which points join an edge
     #[arg(long, value_name = "NAME", default_value = "ruler")]
     #[arg(value_parser = name_of::<SplitOrder>())]
-    pub split: SplitOrder,
+    pub(crate) split: SplitOrder,
 }
 
 impl PatchArgs {
@@ -41,7 +42,7 @@ impl PatchArgs {
     ///
     /// # Errors
     /// The numbers of outer and inside factors are not those of the domain.
-    pub fn case(&self) -> Result<Case, Failure> {
+    pub(crate) fn case(&self) -> Result<Case, Failure> {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };
         if self.outer.len() != outer_count(self.domain) {
@@ -85,6 +86,16 @@ fn factor(text: &str) -> Result<f32, String> {
     parsed.ok_or_else(|| {
         "a factor is a decimal number, nan, inf, or up to 8 hex digits after 0x".to_owned()
     })
+}
+
+/// `I/N`, with I in 1..=N.
+pub(crate) fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text.split_once('/');
+    let numbers = parts.and_then(|(i, n)| Some((i.parse::<u64>().ok()?, n.parse::<u64>().ok()?)));
+    match numbers {
+        Some((i, n)) if (1..=n).contains(&i) => Ok(Shard { part: i - 1, of: n }),
+        _ => Err("a shard is I/N with I from 1 to N, such as 3/8".to_owned()),
+    }
 }
 
 #[cfg(test)]

@@ -4,11 +4,11 @@ use std::error::Error;
 use std::fmt;
 use std::path::Path;
 use std::process::ExitCode;
-use tess_check::backend::BackendError;
+use tess_verify::backend::BackendError;
 
 /// The exit codes of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Exit {
+pub(crate) enum Exit {
     /// Done, or everything compared equal.
     Done = 0,
     /// Something compared different.
@@ -29,35 +29,35 @@ impl From<Exit> for ExitCode {
 ///
 /// The message says what was wrong, where, and what would be right.
 #[derive(Debug)]
-pub struct Failure {
+pub(crate) struct Failure {
     /// The code to exit with.
-    pub exit: Exit,
+    pub(crate) exit: Exit,
     /// The message, without a trailing newline.
-    pub message: String,
+    pub(crate) message: String,
 }
 
 impl Failure {
     /// Bad usage or bad input: exit code 2.
     #[must_use]
-    pub fn bad_input(message: impl Into<String>) -> Self {
+    pub(crate) fn bad_input(message: impl Into<String>) -> Self {
         Self { exit: Exit::BadInput, message: message.into() }
     }
 
     /// A result that is not what it must be: exit code 1.
     #[must_use]
-    pub fn different(message: impl Into<String>) -> Self {
+    pub(crate) fn different(message: impl Into<String>) -> Self {
         Self { exit: Exit::Different, message: message.into() }
     }
 
     /// A backend that is not built in or cannot run here: exit code 3.
     #[must_use]
-    pub fn unavailable(message: impl Into<String>) -> Self {
+    pub(crate) fn unavailable(message: impl Into<String>) -> Self {
         Self { exit: Exit::Unavailable, message: message.into() }
     }
 
     /// A file that could not be read or written: exit code 2.
     #[must_use]
-    pub fn file(action: &str, path: &Path, error: &dyn Error) -> Self {
+    pub(crate) fn file(action: &str, path: &Path, error: &dyn Error) -> Self {
         Self::bad_input(format!("cannot {action} {}: {error}", path.display()))
     }
 }

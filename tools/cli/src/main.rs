@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    tess_cli::main()
+    tess_program::main()
 }

@@ -9,10 +9,10 @@ use std::time::Duration;
 
 /// The `-o` option.
 #[derive(Clone, Debug, clap::Args)]
-pub struct OutputArgs {
+pub(crate) struct OutputArgs {
     /// File to write; - is stdout
     #[arg(short = 'o', long = "out", value_name = "FILE", default_value = "-")]
-    pub file: PathBuf,
+    pub(crate) file: PathBuf,
 }
 
 impl OutputArgs {
@@ -20,7 +20,7 @@ impl OutputArgs {
     ///
     /// # Errors
     /// The place cannot be written; a file that was there is then as it was.
-    pub fn write(&self, content: &[u8]) -> Result<(), Failure> {
+    pub(crate) fn write(&self, content: &[u8]) -> Result<(), Failure> {
         self.stream(|out| out.write_all(content))
     }
 
@@ -28,7 +28,7 @@ impl OutputArgs {
     ///
     /// # Errors
     /// The place cannot be written; a file that was there is then as it was.
-    pub fn stream(
+    pub(crate) fn stream(
         &self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
     ) -> Result<(), Failure> {
@@ -75,24 +75,19 @@ fn write_directly(
 
 /// Stdout, buffered, that stays quiet when its reader leaves.
 #[must_use]
-pub fn stdout() -> BufWriter<UntilClosed<io::StdoutLock<'static>>> {
+pub(crate) fn stdout() -> BufWriter<UntilClosed<io::StdoutLock<'static>>> {
     BufWriter::new(UntilClosed { inner: io::stdout().lock(), closed: false })
 }
 
 /// A writer that drops what comes after its reader has closed the pipe, so that a command still
 /// ends with the exit code that it came to.
 #[derive(Debug)]
-pub struct UntilClosed<W> {
+pub(crate) struct UntilClosed<W> {
     inner: W,
     closed: bool,
 }
 
 impl<W> UntilClosed<W> {
-    /// Whether the reader has left; a command with much still to say may stop then.
-    pub const fn is_closed(&self) -> bool {
-        self.closed
-    }
-
     fn note<T>(&mut self, result: io::Result<T>, if_closed: T) -> io::Result<T> {
         match result {
             Err(error) if error.kind() == ErrorKind::BrokenPipe => {
@@ -125,7 +120,7 @@ impl<W: Write> Write for UntilClosed<W> {
 /// A progress bar over `length` of what `unit` names, on stderr if that is a terminal. Its message,
 /// if one is set, says what is being done.
 #[must_use]
-pub fn progress(length: u64, unit: &str) -> ProgressBar {
+pub(crate) fn progress(length: u64, unit: &str) -> ProgressBar {
     let template = format!("{{bar:30}} {{human_pos}}/{{human_len}} {unit}, {{eta}} left  {{msg}}");
     let style = ProgressStyle::with_template(&template);
     let bar = ProgressBar::new(length);
@@ -138,7 +133,7 @@ pub fn progress(length: u64, unit: &str) -> ProgressBar {
 ///
 /// # Panics
 /// If the document has a map whose keys are not text; none of this program's has.
-pub fn json(document: &impl serde::Serialize) -> String {
+pub(crate) fn json(document: &impl serde::Serialize) -> String {
     let mut text = serde_json::to_string_pretty(document).expect("keys are text");
     text.push('\n');
     text

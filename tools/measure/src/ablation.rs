@@ -7,11 +7,11 @@ use clap::Args;
 use std::fmt::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
-use tess_check::digest::Fnv1a;
-use tess_check::workloads::{self, IndexType, Totals, Workload};
 use tess_core::{DomainPoint, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::{Numbering, Setup, Stage};
+use tess_verify::digest::Fnv1a;
+use tess_verify::workloads::{self, IndexType, Totals, Workload};
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 use variant::Variant;
 

@@ -2,10 +2,10 @@
 
 use crate::Result;
 use std::time::{Duration, Instant};
-use tess_check::workloads::{Workload, character, uniform};
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup};
+use tess_verify::workloads::{Workload, character, uniform};
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 
 /// Runs whose median is taken.

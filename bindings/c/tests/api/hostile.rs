@@ -4,7 +4,7 @@ use std::ptr::{null, null_mut};
 use tess_capi::patch::{tess_count, tess_patch};
 use tess_capi::prepare::{TessPreparation, tess_prepare};
 use tess_capi::probe::{
-    TessPointLocation, TessPrimitive, TessPrimitiveLocation, tess_context, tess_locate_point,
+    TessPointOrigin, TessPrimitive, TessPrimitiveOrigin, tess_context, tess_locate_point,
     tess_locate_primitive, tess_place, tess_point, tess_primitive,
 };
 use tess_capi::process::{TessProcessedPatch, tess_process};
@@ -35,7 +35,7 @@ fn patch_functions(
         TessPrimitive::default(),
         TessProcessedPatch::default(),
     );
-    let (mut at, mut of) = (TessPointLocation::default(), TessPrimitiveLocation::default());
+    let (mut at, mut of) = (TessPointOrigin::default(), TessPrimitiveOrigin::default());
     let mut points = vec![TessPoint::default(); 100];
     let mut indices = vec![0; 1000];
     let (p, i) = (points.as_mut_ptr(), indices.as_mut_ptr());

@@ -7,9 +7,9 @@ use tess_capi::prepare::{TessPreparation, tess_prepare};
 use tess_capi::probe::{
     TESS_POINT_CENTRE, TESS_POINT_CORNER, TESS_POINT_LINE, TESS_POINT_OUTER_EDGE, TESS_POINT_RING,
     TESS_PRIMITIVE_CENTRE, TESS_PRIMITIVE_LINE, TESS_PRIMITIVE_MINIMUM, TESS_PRIMITIVE_RING,
-    TESS_PRIMITIVE_SEQUENCE, TESS_PRIMITIVE_TRANSITION, TessPointLocation, TessPrimitive,
-    TessPrimitiveLocation, tess_context, tess_fixed_factor, tess_locate_point,
-    tess_locate_primitive, tess_place, tess_point, tess_primitive,
+    TESS_PRIMITIVE_SEQUENCE, TESS_PRIMITIVE_TRANSITION, TessPointOrigin, TessPrimitive,
+    TessPrimitiveOrigin, tess_context, tess_fixed_factor, tess_locate_point, tess_locate_primitive,
+    tess_place, tess_point, tess_primitive,
 };
 use tess_capi::process::{
     TESS_OUTCOME_CULLED, TESS_OUTCOME_MINIMUM, TESS_OUTCOME_REGULAR, TessProcessedPatch,
@@ -19,8 +19,7 @@ use tess_capi::status::{TESS_OK, TESS_OUT_OF_RANGE, tess_status_message};
 use tess_capi::types::{TESS_MAX_INDICES, TESS_MAX_POINTS, TessContext, TessCounts, TessPoint};
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{
-    Domain, FixedFactor, Partitioning, PatchFactors, PointLocation, PrimitiveLocation,
-    ProcessedPatch,
+    Domain, FixedFactor, Partitioning, PatchFactors, PointOrigin, PrimitiveOrigin, ProcessedPatch,
 };
 
 #[test]
@@ -60,7 +59,7 @@ fn elements_and_their_locations() {
         let (factors, n, counts) = (s.factors.as_ptr(), s.factors.len(), s.patch.counts());
         let step = |count: u32| (count / 50).max(1) as usize;
         for i in (0..counts.points).step_by(step(counts.points)) {
-            let (mut point, mut location) = (TessPoint::default(), TessPointLocation::default());
+            let (mut point, mut location) = (TessPoint::default(), TessPointOrigin::default());
             let status = unsafe { tess_point(&s.config, factors, n, i, &mut point) };
             assert_eq!((status, Some(point)), (TESS_OK, s.patch.point(i).map(samples::point)));
             let status = unsafe { tess_locate_point(&s.config, factors, n, i, &mut location) };
@@ -70,7 +69,7 @@ fn elements_and_their_locations() {
         }
         for t in (0..counts.primitives).step_by(step(counts.primitives)) {
             let mut primitive = TessPrimitive::default();
-            let mut location = TessPrimitiveLocation::default();
+            let mut location = TessPrimitiveOrigin::default();
             let status = unsafe { tess_primitive(&s.config, factors, n, t, &mut primitive) };
             assert_eq!(status, TESS_OK, "primitive {t}");
             let expected = s.patch.primitive(t).expect("a primitive of the patch");
@@ -98,27 +97,27 @@ fn elements_and_their_locations() {
 }
 
 /// Back to the model's type, by the names of the kinds.
-fn point_location(location: TessPointLocation) -> PointLocation {
-    let TessPointLocation { kind, line, ring, edge, p } = location;
+fn point_location(location: TessPointOrigin) -> PointOrigin {
+    let TessPointOrigin { kind, line, ring, edge, p } = location;
     match kind {
-        TESS_POINT_CORNER => PointLocation::Corner { corner: p },
-        TESS_POINT_LINE => PointLocation::Line { line, p },
-        TESS_POINT_OUTER_EDGE => PointLocation::OuterEdge { edge, p },
-        TESS_POINT_RING => PointLocation::Ring { ring, edge, p },
-        TESS_POINT_CENTRE => PointLocation::Centre { p },
+        TESS_POINT_CORNER => PointOrigin::Corner { corner: p },
+        TESS_POINT_LINE => PointOrigin::Line { line, p },
+        TESS_POINT_OUTER_EDGE => PointOrigin::OuterEdge { edge, p },
+        TESS_POINT_RING => PointOrigin::Ring { ring, edge, p },
+        TESS_POINT_CENTRE => PointOrigin::Centre { p },
         _ => panic!("no such kind: {location:?}"),
     }
 }
 
-fn primitive_location(location: TessPrimitiveLocation) -> PrimitiveLocation {
-    let TessPrimitiveLocation { kind, line, ring, edge, step } = location;
+fn primitive_location(location: TessPrimitiveOrigin) -> PrimitiveOrigin {
+    let TessPrimitiveOrigin { kind, line, ring, edge, step } = location;
     match kind {
-        TESS_PRIMITIVE_SEQUENCE => PrimitiveLocation::Sequence { step },
-        TESS_PRIMITIVE_LINE => PrimitiveLocation::Line { line, segment: step },
-        TESS_PRIMITIVE_MINIMUM => PrimitiveLocation::Minimum { step },
-        TESS_PRIMITIVE_TRANSITION => PrimitiveLocation::Transition { edge, step },
-        TESS_PRIMITIVE_RING => PrimitiveLocation::Ring { ring, edge, step },
-        TESS_PRIMITIVE_CENTRE => PrimitiveLocation::Centre { step },
+        TESS_PRIMITIVE_SEQUENCE => PrimitiveOrigin::Sequence { step },
+        TESS_PRIMITIVE_LINE => PrimitiveOrigin::Line { line, segment: step },
+        TESS_PRIMITIVE_MINIMUM => PrimitiveOrigin::Minimum { step },
+        TESS_PRIMITIVE_TRANSITION => PrimitiveOrigin::Transition { edge, step },
+        TESS_PRIMITIVE_RING => PrimitiveOrigin::Ring { ring, edge, step },
+        TESS_PRIMITIVE_CENTRE => PrimitiveOrigin::Centre { step },
         _ => panic!("no such kind: {location:?}"),
     }
 }

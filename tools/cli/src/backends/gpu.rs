@@ -1,8 +1,6 @@
 //! The compute shaders as a backend.
 
 use crate::failure::Failure;
-use tess_check::backend::{Backend, BackendError};
-use tess_check::workloads::IndexType;
 use tess_core::state::{Parity, SplitOrder};
 use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Partitioning,
@@ -10,11 +8,13 @@ use tess_core::{
 };
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
 use tess_gpu::{Numbering, Probe, Setup};
+use tess_verify::backend::{Backend, BackendError};
+use tess_verify::workloads::IndexType;
 use tess_wgpu::{Gpu, Output, Tessellator};
 
 /// `tess-gpu` on the first adapter that there is, with WebGPU's default limits.
 #[derive(Debug)]
-pub struct GpuBackend {
+pub(crate) struct GpuBackend {
     gpu: Gpu,
     tessellator: Tessellator,
     index_type: IndexType,
@@ -25,7 +25,7 @@ impl GpuBackend {
     ///
     /// # Errors
     /// Exit code 3 if there is none.
-    pub fn open(index_type: IndexType) -> Result<Self, Failure> {
+    pub(crate) fn open(index_type: IndexType) -> Result<Self, Failure> {
         let gpu = pollster::block_on(Gpu::open())
             .map_err(|error| Failure::unavailable(error.to_string()))?;
         let tessellator = Tessellator::new(&gpu.device);
@@ -46,7 +46,7 @@ impl GpuBackend {
 }
 
 /// What the program runs: indices of each patch's own points, as in the model.
-pub fn setup_of(domain: Domain, config: Config, index_type: IndexType) -> Setup {
+pub(crate) fn setup_of(domain: Domain, config: Config, index_type: IndexType) -> Setup {
     let index_type = match index_type {
         IndexType::U16 => tess_gpu::IndexType::U16,
         IndexType::U32 => tess_gpu::IndexType::U32,

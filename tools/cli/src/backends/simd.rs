@@ -2,16 +2,16 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use tess_check::backend::{Backend, BackendError};
 use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, IsolineFactors, Parity, Partitioning,
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
 use tess_simd::{Batch, IndexFormat, Level, LevelUnavailable, Numbering, Output, Tessellator};
+use tess_verify::backend::{Backend, BackendError};
 
 /// `tess-simd` at one CPU level, with indices of 16 or 32 bits.
 #[derive(Debug)]
-pub struct Simd<I> {
+pub(crate) struct Simd<I> {
     level: Level,
     /// One for each configuration that was asked for.
     tessellators: HashMap<Config, Tessellator>,
@@ -23,7 +23,7 @@ impl<I: IndexFormat> Simd<I> {
     ///
     /// # Errors
     /// This machine cannot run that level.
-    pub fn with_level(level: Level) -> Result<Self, LevelUnavailable> {
+    pub(crate) fn with_level(level: Level) -> Result<Self, LevelUnavailable> {
         if !level.is_available() {
             return Err(LevelUnavailable(level));
         }

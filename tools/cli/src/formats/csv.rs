@@ -1,7 +1,7 @@
 //! A row of `golden/patches.csv`: counts and digests.
 
 use super::OnePatch;
-use tess_check::vectors::{Kind, PatchRow, Sizes};
+use tess_verify::vectors::{Kind, PatchRow, Sizes};
 
 pub(super) fn render(patch: &OnePatch) -> String {
     let header = patch.header(Kind::Patches);

@@ -2,8 +2,8 @@
 
 use super::OnePatch;
 use serde::Serialize;
-use tess_check::case::{factor_list, factor_names};
-use tess_check::names::Named;
+use tess_verify::case::{factor_list, factor_names};
+use tess_verify::names::Named;
 
 #[derive(Serialize)]
 struct Document<'a> {

@@ -2,7 +2,7 @@
 
 use super::OnePatch;
 use std::fmt::Write;
-use tess_check::vectors::primitive_size;
+use tess_verify::vectors::primitive_size;
 
 pub(super) fn render(patch: &OnePatch) -> String {
     let mut text = format!("# {}\n", patch.case().command());

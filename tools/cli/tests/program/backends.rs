@@ -3,15 +3,7 @@
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 use crate::support::tess_with_environment;
 use crate::support::{tess, tess_with_input};
-use tess_check::backend::Backend;
-use tess_check::checker;
-use tess_check::faults::{Fault, Faulty};
-use tess_check::strength::Strength;
-use tess_check::vectors::VectorFile;
-use tess_cli::backends::simd::Simd;
 use tess_simd::Level;
-#[cfg(feature = "gpu")]
-use {tess_check::workloads::IndexType, tess_cli::backends::gpu::GpuBackend};
 
 const GOLDEN: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden");
 
@@ -71,7 +63,7 @@ fn narrow() -> &'static [&'static str] {
     if cfg!(feature = "gpu") { &["simd", "gpu"] } else { &["simd"] }
 }
 
-/// A recorded index that is one too high, and a backend whose last index is.
+/// A recorded index that is one too high.
 #[test]
 fn narrow_indices_that_differ() {
     let recorded = std::fs::read_to_string(format!("{GOLDEN}/cases.txt")).expect("recorded");
@@ -85,26 +77,6 @@ fn narrow_indices_that_differ() {
         let again = format!("--backend {backend} --index-type u16\n");
         assert!(run.stdout.contains(&again), "{backend}, to see it again: {}", run.stdout);
     }
-    for backend in &mut faulty() {
-        let file = VectorFile::new("cases.txt", recorded.as_bytes()).expect("a vector file");
-        let one = std::slice::from_mut(backend);
-        let report = checker::check(file, one, Strength::default(), &|_| {}).expect("a verdict");
-        assert_eq!((report.cases, report.mismatches), (51, 1), "{}", backend.device());
-    }
-}
-
-/// Backends with 16-bit indices, the last of which is wrong in one patch.
-fn faulty() -> Vec<Box<dyn Backend>> {
-    let simd = Simd::<u16>::with_level(Level::Baseline).expect("every machine has it");
-    Vec::from([
-        Box::new(Faulty::new(simd, Fault::LastIndex, 0)) as Box<dyn Backend>,
-        #[cfg(feature = "gpu")]
-        Box::new(Faulty::new(
-            GpuBackend::open(IndexType::U16).expect("an adapter"),
-            Fault::LastIndex,
-            0,
-        )),
-    ])
 }
 
 /// The model has no such choice, and a device's listings are what they are.

@@ -3,7 +3,7 @@
 use crate::support::{directory, tess, tess_with_input};
 use serde_json::Value;
 use std::fs;
-use tess_check::vectors::{Record, VectorFile};
+use tess_verify::vectors::{Record, VectorFile};
 
 const CASES: &str = include_str!("../../../../golden/cases.txt");
 

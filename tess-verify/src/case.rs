@@ -1,0 +1,279 @@
+//! One patch with its configuration, as a line of text.
+
+use crate::names::Named;
+use std::fmt;
+use tess_core::{
+    Config, Domain, IsolineFactors, OutputPrimitive, Partitioning, Patch, PatchFactors,
+    QuadFactors, SplitOrder, TriangleFactors,
+};
+
+/// A configuration and raw factors: everything that a tessellation depends on.
+///
+/// Its text is the first line of a listing, `case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...`, each
+/// factor as the 8 hex digits of its binary32 bits, so that no factor is lost in print.
+///
+/// ```
+/// use tess_verify::case::Case;
+///
+/// let line = "case tri fractional_odd triangle_cw ruler 40200000 40400000 3f800000 7fc00000";
+/// let case: Case = line.parse()?;
+/// assert_eq!(case.to_string(), line);
+/// assert_eq!(
+///     case.command(),
+///     "tess patch tri --outer 0x40200000,0x40400000,0x3f800000 --inner 0x7fc00000 \
+///      --partitioning fractional_odd --output triangle_cw --split ruler"
+/// );
+/// # Ok::<(), tess_verify::case::CaseError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// How the patch is tessellated.
+    pub config: Config,
+    /// Its raw factors.
+    pub factors: PatchFactors,
+}
+
+/// Equal bits, so that a NaN equals itself and -0 is not 0.
+impl PartialEq for Case {
+    fn eq(&self, other: &Self) -> bool {
+        self.config == other.config
+            && self.domain() == other.domain()
+            && factor_bits(&self.factors) == factor_bits(&other.factors)
+    }
+}
+
+impl Eq for Case {}
+
+impl Case {
+    /// The domain of the patch.
+    #[must_use]
+    pub const fn domain(&self) -> Domain {
+        self.factors.domain()
+    }
+
+    /// The patch, processed by the model.
+    #[must_use]
+    pub fn patch(&self) -> Patch {
+        Patch::new(self.config, self.factors)
+    }
+
+    /// The command line that tessellates the same patch.
+    #[must_use]
+    pub fn command(&self) -> String {
+        let bits = factor_bits(&self.factors);
+        let (outer, inner) = bits.split_at(outer_count(self.domain()));
+        let list = |bits: &[u32]| {
+            let factors: Vec<_> = bits.iter().map(|bits| format!("0x{bits:08x}")).collect();
+            factors.join(",")
+        };
+        let inner =
+            if inner.is_empty() { String::new() } else { format!(" --inner {}", list(inner)) };
+        let Config { partitioning, output, split } = self.config;
+        format!(
+            "tess patch {} --outer {}{inner} --partitioning {} --output {} --split {}",
+            self.domain().name(),
+            list(outer),
+            partitioning.name(),
+            output.name(),
+            split.name()
+        )
+    }
+}
+
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Config { partitioning, output, split } = self.config;
+        let domain = self.domain().name();
+        write!(f, "case {domain} {} {} {}", partitioning.name(), output.name(), split.name())?;
+        factor_bits(&self.factors).iter().try_for_each(|bits| write!(f, " {bits:08x}"))
+    }
+}
+
+impl std::str::FromStr for Case {
+    type Err = CaseError;
+
+    fn from_str(line: &str) -> Result<Self, CaseError> {
+        let words: Vec<_> = line.split_whitespace().collect();
+        let ["case", domain, partitioning, output, split, factors @ ..] = &words[..] else {
+            let form = "a case is: case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...";
+            return Err(CaseError { field: "case", message: format!("{form}, not `{line}`") });
+        };
+        let domain = named::<Domain>("domain", domain)?;
+        let config = Config {
+            partitioning: named::<Partitioning>("partitioning", partitioning)?,
+            output: named::<OutputPrimitive>("output", output)?,
+            split: named::<SplitOrder>("split", split)?,
+        };
+        Ok(Self { config, factors: parse_factors(domain, factors)? })
+    }
+}
+
+fn named<T: Named>(field: &'static str, name: &str) -> Result<T, CaseError> {
+    T::from_name(name).map_err(|error| CaseError { field, message: error.to_string() })
+}
+
+/// A text is no case.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CaseError {
+    /// The part that is wrong.
+    pub field: &'static str,
+    /// How it is wrong and what would be right.
+    pub message: String,
+}
+
+impl fmt::Display for CaseError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.field, self.message)
+    }
+}
+
+impl std::error::Error for CaseError {}
+
+/// The names of a domain's factors, in their order (spec section 1).
+#[must_use]
+pub const fn factor_names(domain: Domain) -> &'static [&'static str] {
+    match domain {
+        Domain::Isoline => &["density", "detail"],
+        Domain::Triangle => &["u0", "v0", "w0", "inside"],
+        Domain::Quad => &["u0", "v0", "u1", "v1", "inside_u", "inside_v"],
+    }
+}
+
+/// How many of a domain's factors are outer factors (for isolines: both).
+#[must_use]
+pub const fn outer_count(domain: Domain) -> usize {
+    match domain {
+        Domain::Isoline => 2,
+        Domain::Triangle => 3,
+        Domain::Quad => 4,
+    }
+}
+
+/// Factors as a list, in the order of [`factor_names`].
+#[must_use]
+pub fn factor_list<T: Copy>(factors: &PatchFactors<T>) -> Vec<T> {
+    match factors {
+        PatchFactors::Isoline(f) => vec![f.density, f.detail],
+        PatchFactors::Triangle(f) => vec![f.u0, f.v0, f.w0, f.inside],
+        PatchFactors::Quad(f) => vec![f.u0, f.v0, f.u1, f.v1, f.inside_u, f.inside_v],
+    }
+}
+
+/// The bit patterns of raw factors, in the order of [`factor_names`].
+#[must_use]
+pub fn factor_bits(factors: &PatchFactors) -> Vec<u32> {
+    factor_list(factors).into_iter().map(f32::to_bits).collect()
+}
+
+/// The factors of a list in the order of [`factor_names`]; `None` if it has another length.
+#[must_use]
+pub const fn factors_from_list<T: Copy>(domain: Domain, list: &[T]) -> Option<PatchFactors<T>> {
+    match (domain, list) {
+        (Domain::Isoline, &[density, detail]) => {
+            Some(PatchFactors::Isoline(IsolineFactors { density, detail }))
+        }
+        (Domain::Triangle, &[u0, v0, w0, inside]) => {
+            Some(PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside }))
+        }
+        (Domain::Quad, &[u0, v0, u1, v1, inside_u, inside_v]) => {
+            Some(PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }))
+        }
+        _ => None,
+    }
+}
+
+/// Factors from their hex bit patterns.
+///
+/// # Errors
+/// A pattern that is not 8 hex digits, or a number of factors that the domain does not have.
+pub fn parse_factors(domain: Domain, words: &[&str]) -> Result<PatchFactors, CaseError> {
+    let values = parse_bits(words)?;
+    factors_from_list(domain, &values).ok_or_else(|| {
+        let names = factor_names(domain);
+        let (name, count) = (domain.name(), names.len());
+        let message = format!(
+            "{name} patches have {count} factors ({}), these are {}",
+            names.join(", "),
+            values.len()
+        );
+        CaseError { field: "factors", message }
+    })
+}
+
+/// Binary32 numbers from their hex bit patterns.
+///
+/// # Errors
+/// A pattern that is not 8 hex digits.
+pub fn parse_bits(words: &[&str]) -> Result<Vec<f32>, CaseError> {
+    let parse = |word: &&str| {
+        let bits = parse_hex(word, 8).and_then(|bits| u32::try_from(bits).ok());
+        bits.map(f32::from_bits).ok_or_else(|| CaseError {
+            field: "factors",
+            message: format!("`{word}` is not the 8 hex digits of a binary32 number's bits"),
+        })
+    };
+    words.iter().map(parse).collect()
+}
+
+/// A number of exactly `digits` hex digits, at most 16.
+pub(crate) fn parse_hex(word: &str, digits: usize) -> Option<u64> {
+    let hex = word.len() == digits && word.bytes().all(|byte| byte.is_ascii_hexdigit());
+    hex.then(|| u64::from_str_radix(word, 16).ok()).flatten()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const QUAD: &str = "case quad pow2 line center 3f800000 80000000 7fc00001 ff800000 00000001 42";
+
+    #[test]
+    fn text_round_trips() {
+        for domain in Domain::ALL {
+            let factors: String =
+                factor_names(domain).iter().map(|_| " ffc12345".to_owned()).collect();
+            let line = format!("case {} integer point ruler{factors}", domain.name());
+            let case: Case = line.parse().unwrap_or_else(|error| panic!("{line}: {error}"));
+            assert_eq!(case.to_string(), line, "the same line");
+            assert_eq!(case, case.to_string().parse().expect("parses"), "NaN equals itself");
+        }
+    }
+
+    #[test]
+    fn errors_name_the_field_and_the_remedy() {
+        let parse = |line: String| line.parse::<Case>().expect_err(&line).to_string();
+        assert_eq!(
+            parse(QUAD.into()),
+            "factors: `42` is not the 8 hex digits of a binary32 number's bits"
+        );
+        assert_eq!(
+            parse(QUAD.replace(" 42", "")),
+            "factors: quad patches have 6 factors (u0, v0, u1, v1, inside_u, inside_v), these are 5"
+        );
+        assert_eq!(
+            parse(QUAD.replace("line", "lines")),
+            "output: unknown output primitive `lines`, \
+             expected one of: point, line, triangle_cw, triangle_ccw"
+        );
+        assert!(parse("case quad".into()).contains("DOMAIN PARTITIONING"), "the form is shown");
+        assert!(parse(String::new()).contains("DOMAIN PARTITIONING"), "the form is shown");
+    }
+
+    #[test]
+    fn minus_zero_is_not_zero() {
+        let line = "case isoline integer line ruler 00000000 3f800000";
+        let minus = line.replace("00000000", "80000000");
+        assert_ne!(line.parse::<Case>(), minus.parse::<Case>(), "different bits");
+    }
+
+    #[test]
+    fn isolines_have_no_inner_factors() {
+        let case: Case =
+            "case isoline integer line ruler 40000000 3f800000".parse().expect("valid");
+        assert_eq!(
+            case.command(),
+            "tess patch isoline --outer 0x40000000,0x3f800000 \
+             --partitioning integer --output line --split ruler"
+        );
+    }
+}

@@ -1,0 +1,140 @@
+//! The workloads are what their descriptions say, and the same everywhere.
+
+use super::*;
+use tess_core::QuadFactors;
+
+fn quads(workload: &Workload) -> Vec<QuadFactors> {
+    let quad = |patch: &PatchFactors| match patch {
+        PatchFactors::Quad(factors) => *factors,
+        _ => panic!("{} has quads alone", workload.name),
+    };
+    workload.patches.iter().map(quad).collect()
+}
+
+#[test]
+fn sizes() {
+    let expected = [
+        ("uniform-1", 4096, 4096 * 4, 4096 * 2),
+        ("uniform-16", 4096, 4096 * 17 * 17, 4096 * 2 * 16 * 16),
+        ("uniform-64", 4096, 4096 * 65 * 65, 4096 * 2 * 64 * 64),
+        ("seed-table/quad-48", 1, 49 * 49, 2 * 48 * 48),
+        // The sums over density and detail: lines * (segments + 1), lines * segments.
+        ("seed-table/isolines", 4096, 2080 * (2080 + 64), 2080 * 2080),
+    ];
+    for (name, patches, points, primitives) in expected {
+        let [workload] = &named(name)[..] else { panic!("{name} is one workload") };
+        let totals = workload.totals();
+        let sizes = (totals.patches, totals.points, totals.primitives);
+        assert_eq!(sizes, (patches, points, primitives), "{name}");
+    }
+}
+
+/// Recorded from the model: a change here makes measurements incomparable.
+#[test]
+fn patches_are_the_recorded_ones() {
+    let digest_of_factors = |workload: &Workload| {
+        let mut digest = Fnv1a::new();
+        for patch in &workload.patches {
+            match patch {
+                PatchFactors::Triangle(t) => {
+                    digest.words([t.u0, t.v0, t.w0, t.inside].map(f32::to_bits));
+                }
+                PatchFactors::Quad(q) => {
+                    digest.words(q.outer().map(f32::to_bits));
+                    digest.words(q.inside().map(f32::to_bits));
+                }
+                PatchFactors::Isoline(i) => digest.words([i.density, i.detail].map(f32::to_bits)),
+            }
+        }
+        digest.finish()
+    };
+    let digests =
+        [terrain(), character(), worst()].map(|w| format!("{:016x}", digest_of_factors(&w)));
+    assert_eq!(
+        digests,
+        ["7882a688b5a89231", "4a0aa6c8d93bdb91", "c9fbe51766e01c87"],
+        "terrain, character, worst"
+    );
+}
+
+#[test]
+fn terrain_neighbours_agree() {
+    let patches = quads(&terrain());
+    for z in 0..64 {
+        for x in 0..64 {
+            let patch = patches[64 * z + x];
+            if x < 63 {
+                let right = patches[64 * z + x + 1];
+                assert_eq!(patch.u1.to_bits(), right.u0.to_bits(), "edge right of ({x}, {z})");
+            }
+            if z < 63 {
+                let below = patches[64 * (z + 1) + x];
+                assert_eq!(patch.v1.to_bits(), below.v0.to_bits(), "edge below ({x}, {z})");
+            }
+        }
+    }
+    let factors = patches.iter().flat_map(QuadFactors::outer);
+    let (low, high) = factors.fold((f32::MAX, 0.0f32), |(l, h), f| (l.min(f), h.max(f)));
+    assert!((2.6..2.8).contains(&low) && (62.0..64.0).contains(&high), "range {low}..{high}");
+}
+
+/// A quarter of log-uniform factors in 1..8 lies in each of four ratios of 8^(1/4).
+#[test]
+fn character_is_log_uniform() {
+    let mut quarters = [0u32; 4];
+    for patch in character().patches {
+        let PatchFactors::Triangle(factors) = patch else { panic!("triangles alone") };
+        for factor in factors.outer() {
+            assert!((1.0..8.0).contains(&factor), "factor {factor}");
+            let boundaries = [8.0, 64.0, 512.0].map(|power: f64| power.sqrt().sqrt());
+            let quarter = boundaries.partition_point(|&boundary| boundary <= f64::from(factor));
+            quarters[quarter] += 1;
+        }
+    }
+    assert!(quarters.iter().all(|&n| (14_500..15_500).contains(&n)), "of 60000: {quarters:?}");
+}
+
+#[test]
+fn cache_batches_cover_every_patch_once() {
+    for workload in all() {
+        for index_type in [IndexType::U16, IndexType::U32] {
+            let batches = workload.cache_batches(index_type);
+            let mut next = 0;
+            for batch in &batches {
+                assert_eq!(batch.start, next, "{}: batches follow each other", workload.name);
+                next = batch.end;
+                let part = Workload {
+                    patches: workload.patches[batch.clone()].to_vec(),
+                    ..workload.clone()
+                };
+                let bytes = part.totals().bytes(index_type);
+                let expected = match workload.calls {
+                    Calls::SinglePatch => batch.len() == 1,
+                    Calls::Batch if batches.len() == 1 => true,
+                    Calls::Batch => {
+                        bytes >= CACHE_BATCH_BYTES && batch.len() >= CACHE_BATCH_PATCHES
+                    }
+                };
+                assert!(expected, "{}: batch {batch:?} of {bytes} bytes", workload.name);
+            }
+            assert_eq!(next, workload.patches.len(), "{}: all patches", workload.name);
+        }
+    }
+}
+
+#[test]
+fn streams_reach_a_gibibyte() {
+    let workload = uniform(64);
+    let bytes = workload.totals().bytes(IndexType::U32);
+    let repeats = workload.stream_repeats(IndexType::U32);
+    assert!(repeats * bytes >= STREAM_BYTES && (repeats - 1) * bytes < STREAM_BYTES, "{repeats}");
+}
+
+#[test]
+fn families_and_unknown_names() {
+    assert_eq!(named("uniform").len(), 7, "uniform is a family");
+    assert_eq!(named("seed-table").len(), 7, "seed-table is a family");
+    assert_eq!(named("uniform-6").len(), 0, "not a prefix of uniform-64");
+    assert_eq!(named("nothing").len(), 0, "unknown");
+    assert_eq!(all().len(), 17, "all");
+}

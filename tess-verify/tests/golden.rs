@@ -1,0 +1,93 @@
+//! The model reproduces every recorded result of `golden/`, bit for bit.
+
+use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::BufReader;
+use std::path::PathBuf;
+use tess_verify::backend::Backend;
+use tess_verify::checker::check;
+use tess_verify::core_backend::CoreBackend;
+use tess_verify::strength::Strength;
+use tess_verify::vectors::{Kind, VectorFile};
+
+/// Every vector file there is.
+const FILES: [(&str, Kind, u64); 8] = [
+    ("cases.txt", Kind::Listings, 51),
+    ("patches.csv", Kind::Patches, 4000),
+    ("corners.csv", Kind::Patches, 1552),
+    ("sweep.csv", Kind::Sweep, 640),
+    ("uniform.csv", Kind::Uniform, 792),
+    ("place.csv", Kind::Locations, 252),
+    ("factor.csv", Kind::Factors, 40),
+    ("hlsl.csv", Kind::Preparation, 3000),
+];
+
+fn folder() -> PathBuf {
+    PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../golden"))
+}
+
+/// Checks the file of this name against its line in [`FILES`].
+fn check_file(name: &str) {
+    let (_, kind, count) = FILES.into_iter().find(|(file, ..)| *file == name).expect("listed");
+    let reader = BufReader::new(File::open(folder().join(name)).expect("the file is there"));
+    let file = VectorFile::new(name, reader).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((file.header().kind, file.header().count), (kind, count), "{name}");
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut backends: Vec<Box<dyn Backend>> = Vec::new();
+    backends.resize_with(threads, || Box::new(CoreBackend));
+    let report = check(file, &mut backends, Strength::default(), &|_| ())
+        .unwrap_or_else(|error| panic!("{error}"));
+    let differences: Vec<_> = report.differences.iter().map(|d| format!("{d}\n")).collect();
+    assert_eq!(report.mismatches, 0, "{name}: {report}\n{}", differences.concat());
+    assert_eq!(report.cases, count, "{name}: all cases were checked");
+}
+
+#[test]
+fn the_folder_holds_these_files_alone() {
+    let entries = std::fs::read_dir(folder()).expect("golden/ is there");
+    let found: BTreeSet<String> = entries
+        .map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned())
+        .collect();
+    let expected = FILES.iter().map(|(name, ..)| (*name).to_owned()).chain(["README.md".into()]);
+    assert_eq!(found, expected.collect(), "files of golden/");
+}
+
+#[test]
+fn cases() {
+    check_file("cases.txt");
+}
+
+#[test]
+fn patches() {
+    check_file("patches.csv");
+}
+
+#[test]
+fn corners() {
+    check_file("corners.csv");
+}
+
+#[test]
+fn sweep() {
+    check_file("sweep.csv");
+}
+
+#[test]
+fn uniform() {
+    check_file("uniform.csv");
+}
+
+#[test]
+fn place() {
+    check_file("place.csv");
+}
+
+#[test]
+fn factor() {
+    check_file("factor.csv");
+}
+
+#[test]
+fn hlsl() {
+    check_file("hlsl.csv");
+}

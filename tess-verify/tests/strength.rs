@@ -1,0 +1,115 @@
+//! What each strength of comparison accepts, and what it must not.
+
+use tess_core::{DomainPoint, Tessellation};
+use tess_verify::case::Case;
+use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength, candidates};
+
+const QUAD: &str = "case quad fractional_odd triangle_cw ruler \
+                    40600000 40200000 40a00000 40400000 40900000 40d00000";
+
+fn case(line: &str) -> Case {
+    line.parse().unwrap_or_else(|error| panic!("{line}: {error}"))
+}
+
+fn output(case: &Case) -> Tessellation {
+    case.patch().tessellate()
+}
+
+fn any_order() -> Strength {
+    Strength { order: Order::Any, ..Strength::default() }
+}
+
+/// The same mesh with its points reversed, its triangles reversed and each turned.
+fn shuffled(tessellation: &Tessellation) -> Tessellation {
+    let last = u32::try_from(tessellation.points.len()).expect("small") - 1;
+    let mut points = tessellation.points.clone();
+    points.reverse();
+    let triangles = tessellation.indices.chunks(3).rev();
+    let indices = triangles.flat_map(|t| [last - t[1], last - t[2], last - t[0]]).collect();
+    Tessellation { points, indices }
+}
+
+#[test]
+fn every_strength_accepts_the_model() {
+    let case = case(QUAD);
+    for order in [Order::Exact, Order::Any] {
+        for elements in [Elements::Primitives, Elements::Points] {
+            let strength = Strength { order, elements, ..Strength::default() };
+            assert!(strength.accepts(&case, &output(&case)), "{strength:?}");
+        }
+    }
+}
+
+#[test]
+fn order_is_free_only_where_asked() {
+    let case = case(QUAD);
+    let shuffled = shuffled(&output(&case));
+    assert!(!Strength::default().accepts(&case, &shuffled), "the sequence differs");
+    assert!(any_order().accepts(&case, &shuffled), "the mesh is the same");
+}
+
+#[test]
+fn free_order_still_sees_faults() {
+    let case = case(QUAD);
+    let good = output(&case);
+    let mut flipped = good.clone();
+    flipped.indices.swap(4, 5);
+    assert!(!any_order().accepts(&case, &flipped), "a triangle's orientation");
+    let mut moved = good.clone();
+    moved.points[9] = DomainPoint::from_bits(moved.points[9].u.to_bits() ^ 1, 0);
+    assert!(!any_order().accepts(&case, &moved), "a point's place");
+    let mut short = good.clone();
+    short.indices.truncate(short.indices.len() - 3);
+    assert!(!any_order().accepts(&case, &short), "a triangle less");
+    let mut twice = good.clone();
+    twice.indices.extend_from_slice(&good.indices[..3]);
+    assert!(!any_order().accepts(&case, &twice), "a triangle more");
+    let mut outside = good;
+    outside.indices[0] = 9999;
+    assert!(!any_order().accepts(&case, &outside), "an index out of range");
+}
+
+#[test]
+fn points_alone() {
+    let case = case(QUAD);
+    let strength = Strength { elements: Elements::Points, ..any_order() };
+    let mut other = shuffled(&output(&case));
+    other.indices.clear();
+    other.points.push(other.points[0]);
+    assert!(strength.accepts(&case, &other), "indices and repetitions do not count");
+    other.points[3] = DomainPoint::from_bits(1, 2);
+    assert!(!strength.accepts(&case, &other), "a point's place does");
+}
+
+/// The factor 3 + 2^-17 lies halfway between 0x30000 and 0x30001.
+#[test]
+fn both_neighbours_of_a_tie_are_legal_where_asked() {
+    let tie = case(&QUAD.replace("40600000", "40400020"));
+    let upper = case(&QUAD.replace("40600000", "40400040"));
+    assert_ne!(output(&tie), output(&upper), "the neighbours place points differently");
+    let lenient = Strength { conversion: Conversion::Within06Ulp, ..Strength::default() };
+    assert!(lenient.accepts(&tie, &output(&upper)), "the upper neighbour");
+    assert!(lenient.accepts(&tie, &output(&tie)), "the nearest");
+    assert!(!Strength::default().accepts(&tie, &output(&upper)), "the exact model rounds down");
+    let beyond = case(&QUAD.replace("40600000", "40400400"));
+    assert!(!lenient.accepts(&tie, &output(&beyond)), "sixteen units away");
+}
+
+/// A factor at 0.3125 of the way has one legal conversion.
+#[test]
+fn factors_near_a_fixed_point_number_have_one_conversion() {
+    let near = case(&QUAD.replace("40600000", "40400014"));
+    assert_eq!(candidates(&near, Conversion::Within06Ulp, Denormals::Keep).len(), 1, "exact");
+    let tie = case(&QUAD.replace("40600000", "40400020"));
+    assert_eq!(candidates(&tie, Conversion::Within06Ulp, Denormals::Keep).len(), 2, "tie");
+}
+
+#[test]
+fn denormals_may_be_flushed_where_asked() {
+    let case = case(&QUAD.replace("40600000", "00000001"));
+    let culled = Tessellation::default();
+    let flush = Strength { denormals: Denormals::Flush, ..Strength::default() };
+    assert!(!Strength::default().accepts(&case, &culled), "greater than zero");
+    assert!(flush.accepts(&case, &culled), "flushed");
+    assert!(flush.accepts(&case, &output(&case)), "kept");
+}

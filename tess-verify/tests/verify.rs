@@ -1,0 +1,112 @@
+//! Verification of backends: it compares what it says, in any number of shards and threads.
+
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use tess_verify::backend::Backend;
+use tess_verify::case::{Case, factor_bits};
+use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::second::SecondFormulation;
+use tess_verify::verify::{Plan, Random, Row, Subject, Unit, units, verify};
+
+/// One part in 61 of every subject (and far less of the largest).
+fn small_plan() -> Plan {
+    Plan { shard: Shard { part: 3, of: 61 }, ..Plan::exhaustive() }
+}
+
+fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &Plan) -> Vec<Row> {
+    verify(workers, plan, &|_, _, _| {}).expect("the backends run")
+}
+
+fn without_factors(mut plan: Plan) -> Plan {
+    plan.subjects.retain(|subject| *subject != Subject::Factors);
+    plan
+}
+
+#[test]
+fn both_formulations_agree_on_any_number_of_threads() {
+    let plan = without_factors(small_plan());
+    let one = run(&mut [vec![Box::new(SecondFormulation)]], &plan);
+    assert_eq!(one.len(), plan.subjects.len(), "a row for each subject");
+    for row in &one {
+        assert!(row.compared > 0, "{row:?} compared something");
+        assert_eq!(row.first, None, "{row:?}");
+    }
+    let two =
+        run(&mut [vec![Box::new(SecondFormulation)], vec![Box::new(SecondFormulation)]], &plan);
+    assert_eq!(one, two, "threads change nothing");
+}
+
+/// The 2^20 numbers from 1 on, in every partitioning.
+#[test]
+fn factors_agree_with_binary64() {
+    let shard = Shard { part: 1016, of: 4096 };
+    let rows = run(
+        &mut [vec![Box::new(SecondFormulation)]],
+        &Plan { subjects: vec![Subject::Factors], shard },
+    );
+    assert_eq!((rows[0].compared, rows[0].first.as_deref()), (4 << 20, None), "four units");
+}
+
+fn random_cases(patches: u64, seed: u64) -> Vec<Vec<Case>> {
+    let units = units(Subject::Random(Random { patches, seed })).into_iter();
+    let cases = units.map(|unit| match unit {
+        Unit::Random(unit) => unit.cases(),
+        other => panic!("random patches: {other:?}"),
+    });
+    cases.collect()
+}
+
+#[test]
+fn as_many_random_patches_of_each_configuration_as_asked_for() {
+    let mut counts = BTreeMap::<_, u64>::new();
+    for case in random_cases(5000, 1).into_iter().flatten() {
+        *counts.entry((case.domain(), case.config)).or_default() += 1;
+    }
+    assert_eq!(counts.len(), 96, "configurations");
+    assert!(counts.values().all(|&count| count == 5000), "{counts:?}");
+}
+
+/// Seeds tell apart, and so do the units of one seed; a longer run begins with a shorter one's.
+#[test]
+fn random_patches_depend_on_the_seed_alone() {
+    let factors = |cases: &[Case]| cases.iter().map(|case| factor_bits(&case.factors)).collect();
+    let short: Vec<Vec<_>> = random_cases(20, 1).iter().map(|cases| factors(cases)).collect();
+    let distinct: HashSet<_> = short.iter().collect();
+    assert_eq!(distinct.len(), 96, "every configuration has patches of its own");
+    for (longer, short) in random_cases(30, 1).iter().zip(&short) {
+        let longer: Vec<_> = factors(longer);
+        assert_eq!(&longer[..20], &short[..], "a longer run");
+    }
+    let two_units = random_cases(5000, 1);
+    let [first, second] = [&two_units[0], &two_units[1]].map(|cases| factors(&cases[..20]));
+    assert_eq!((first == short[0], second == short[0]), (true, false), "of two units");
+    let other: Vec<Vec<_>> = random_cases(20, 2).iter().map(|cases| factors(cases)).collect();
+    assert!(other.iter().zip(&short).all(|(other, short)| other != short), "another seed");
+}
+
+#[test]
+fn factors_cover_every_binary32() {
+    assert_eq!(units(Subject::Factors).len(), 4 * 4096, "2^20 each, four partitionings");
+    assert_eq!(units(Subject::Locations).len(), 252, "as many as golden/place.csv has rows");
+}
+
+/// Every case of level 2 is in one of the two subjects, and none is in both.
+#[test]
+fn levels_are_compared_once() {
+    let texts = |subject| -> BTreeSet<String> {
+        let cases = units(subject).into_iter().flat_map(|unit| match unit {
+            Unit::Patches(cases) => cases,
+            other => panic!("levels are patches: {other:?}"),
+        });
+        cases.map(|case| case.to_string()).collect()
+    };
+    let [one, two] = [Subject::Level1, Subject::Level2].map(texts);
+    assert!(one.is_disjoint(&two), "nothing is compared twice");
+    let whole = Selection::level(Level::Two, 1).cases().map(|case| case.to_string());
+    assert_eq!(&one | &two, whole.collect(), "level 2");
+}
+
+#[test]
+fn no_backend_is_an_error() {
+    assert!(verify(&mut [], &Plan::levels(), &|_, _, _| {}).is_err(), "no worker");
+    assert!(verify(&mut [vec![]], &Plan::levels(), &|_, _, _| {}).is_err(), "no backend");
+}

@@ -1,0 +1,241 @@
+//! The compute shaders under the clock of their device.
+
+use super::measure::total;
+use super::runner::{Amount, Runner, RunnerOptions, WorkingSet};
+use crate::backends::gpu::{device_error, setup_of, split_by_patch};
+use crate::failure::Failure;
+use fill::Fill;
+use std::ops::Range;
+use std::time::{Duration, Instant};
+use tess_core::{Counts, PatchFactors};
+use tess_gpu::Setup;
+use tess_gpu::layout::factor_words;
+use tess_verify::backend::BackendError;
+use tess_verify::digest::Fnv1a;
+use tess_verify::workloads::{IndexType, Totals, Workload};
+use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+
+mod fill;
+
+/// How long the device works before a measurement if it was idle, so that its clock is up.
+const WARM_UP: Duration = Duration::from_millis(700);
+/// How long a pause makes a device idle.
+const IDLE: Duration = Duration::from_millis(5);
+
+/// Batches that are submitted together, so that a part is long enough for a clock.
+const BATCHES_PER_PART: usize = 64;
+
+/// Everything from factors to draw arguments, on the device.
+#[derive(Debug)]
+pub(super) struct GpuRunner {
+    gpu: Gpu,
+    stopwatch: Stopwatch,
+    tessellator: Tessellator,
+    fill: Fill,
+    index_type: IndexType,
+    workload: Option<(Setup, Vec<PatchFactors>)>,
+    batches: Vec<Timed>,
+    last_use: Option<Instant>,
+}
+
+/// A batch, what it amounts to, and the bind groups that fill its bytes.
+#[derive(Debug)]
+struct Timed {
+    batch: Batch,
+    amount: Amount,
+    fills: Vec<fill::Span>,
+}
+
+impl GpuRunner {
+    pub(super) fn new(options: RunnerOptions) -> Result<Self, Failure> {
+        if options.threads != 1 {
+            return Err(Failure::bad_input("backend gpu is run by one thread (--threads 1)"));
+        }
+        let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
+            .map_err(|error| Failure::unavailable(error.to_string()))?;
+        let stopwatch = Stopwatch::new(&gpu).ok_or_else(|| {
+            Failure::unavailable(format!("{} has no timestamps to measure with", gpu.name()))
+        })?;
+        let tessellator = Tessellator::new(&gpu.device);
+        let fill = Fill::new(&gpu);
+        Ok(Self {
+            gpu,
+            stopwatch,
+            tessellator,
+            fill,
+            index_type: options.index_type,
+            workload: None,
+            batches: Vec::new(),
+            last_use: None,
+        })
+    }
+
+    fn timed(
+        &mut self,
+        setup: Setup,
+        patches: &[PatchFactors],
+        outputs: (&wgpu::Buffer, &wgpu::Buffer),
+        amount: (Totals, u64),
+    ) -> Result<Timed, BackendError> {
+        let (totals, repeats) = amount;
+        let words = factor_words(patches).repeat(usize::try_from(repeats).unwrap_or(1));
+        let usage = wgpu::BufferUsages::STORAGE;
+        let factors = self
+            .gpu
+            .upload("factors", words_as_bytes(&words).as_slice(), usage)
+            .map_err(device_error)?;
+        let (points, indices) = outputs;
+        let count = u32::try_from(totals.patches * repeats)
+            .map_err(|_| BackendError::new("more patches than 32 bits count"))?;
+        let batch = self
+            .tessellator
+            .batch(setup, count, &factors, Outputs::Buffers { points, indices })
+            .map_err(device_error)?;
+        let spans = [
+            (points, 8 * totals.points),
+            (indices, u64::from(setup.index_type.bytes()) * totals.indices),
+        ];
+        Ok(Timed {
+            batch,
+            amount: Amount {
+                patches: totals.patches * repeats,
+                triangles: totals.primitives * repeats,
+                bytes: totals.bytes(self.index_type) * repeats,
+            },
+            fills: spans
+                .into_iter()
+                .flat_map(|(buffer, bytes)| self.fill.spans(&self.gpu, buffer, bytes * repeats))
+                .collect(),
+        })
+    }
+
+    fn outputs(
+        &self,
+        points: u64,
+        indices: u64,
+    ) -> Result<(wgpu::Buffer, wgpu::Buffer), BackendError> {
+        let usage = wgpu::BufferUsages::STORAGE;
+        let buffer = |label, bytes: u64| {
+            self.gpu.buffer(label, bytes.next_multiple_of(16), usage).map_err(device_error)
+        };
+        let index_bytes = match self.index_type {
+            IndexType::U16 => 2 * indices,
+            IndexType::U32 => 4 * indices,
+        };
+        Ok((buffer("points", 8 * points)?, buffer("indices", index_bytes)?))
+    }
+
+    /// Runs a part until the device has left its idle state.
+    fn warm(&mut self, part: usize) -> Result<(), BackendError> {
+        if self.last_use.is_none_or(|last| last.elapsed() > IDLE) {
+            let start = Instant::now();
+            while start.elapsed() < WARM_UP {
+                self.time(|encoder| {
+                    self.part(part).iter().for_each(|timed| timed.batch.encode(encoder));
+                })?;
+            }
+        }
+        self.last_use = Some(Instant::now());
+        Ok(())
+    }
+
+    fn time(&self, work: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<Duration, BackendError> {
+        let time = self.stopwatch.time(&self.gpu, work);
+        time.map(Duration::from_nanos).map_err(device_error)
+    }
+
+    fn part(&self, part: usize) -> &[Timed] {
+        let first = part * BATCHES_PER_PART;
+        &self.batches[first..(first + BATCHES_PER_PART).min(self.batches.len())]
+    }
+}
+
+impl Runner for GpuRunner {
+    fn backend(&self) -> &'static str {
+        "gpu"
+    }
+
+    fn level(&self) -> String {
+        self.gpu.name()
+    }
+
+    fn threads(&self) -> u32 {
+        1
+    }
+
+    fn index_type(&self) -> IndexType {
+        self.index_type
+    }
+
+    fn prepare(
+        &mut self,
+        workload: &Workload,
+        working_set: WorkingSet,
+    ) -> Result<Vec<Amount>, BackendError> {
+        let first = workload.patches.first().ok_or_else(|| BackendError::new("no patches"))?;
+        let setup = setup_of(first.domain(), workload.config, self.index_type);
+        let counts: Vec<_> = workload.counts().collect();
+        let (ranges, repeats) = match working_set {
+            WorkingSet::Cache => (workload.cache_batches(self.index_type), 1),
+            WorkingSet::Stream => {
+                let whole = std::iter::once(0..workload.patches.len()).collect();
+                (whole, workload.stream_repeats(self.index_type))
+            }
+        };
+        let totals: Vec<_> = ranges.iter().map(|range| totals(&counts, range)).collect();
+        let most = |figure: fn(&Totals) -> u64| totals.iter().map(figure).max().unwrap_or(0);
+        let (points, indices) = self.outputs(
+            most(|totals| totals.points) * repeats,
+            most(|totals| totals.indices) * repeats,
+        )?;
+        self.batches.clear();
+        for (range, &totals) in ranges.iter().zip(&totals) {
+            let patches = &workload.patches[range.clone()];
+            let timed = self.timed(setup, patches, (&points, &indices), (totals, repeats))?;
+            self.batches.push(timed);
+        }
+        self.workload = Some((setup, workload.patches.clone()));
+        let parts = self.batches.chunks(BATCHES_PER_PART);
+        Ok(parts.map(|part| total(part.iter().map(|timed| timed.amount))).collect())
+    }
+
+    fn digest(&mut self) -> Result<u64, BackendError> {
+        let (setup, patches) =
+            self.workload.as_ref().ok_or_else(|| BackendError::new("nothing is prepared"))?;
+        let output = self.tessellator.tessellate(&self.gpu, *setup, patches);
+        let mut digest = Fnv1a::new();
+        for patch in split_by_patch(&output.map_err(device_error)?, *setup)? {
+            digest.patch(&patch);
+        }
+        Ok(digest.finish())
+    }
+
+    fn run(&mut self, part: usize) -> Result<Duration, BackendError> {
+        self.warm(part)?;
+        self.time(|encoder| {
+            self.part(part).iter().for_each(|timed| timed.batch.encode(encoder));
+        })
+    }
+
+    fn fill(&mut self, part: usize) -> Result<Duration, BackendError> {
+        self.warm(part)?;
+        self.time(|encoder| {
+            self.part(part).iter().for_each(|timed| self.fill.encode(encoder, &timed.fills));
+        })
+    }
+}
+
+fn totals(counts: &[Counts], range: &Range<usize>) -> Totals {
+    let counts = &counts[range.clone()];
+    let sum = |figure: fn(&Counts) -> u32| counts.iter().map(|c| u64::from(figure(c))).sum();
+    Totals {
+        patches: range.len() as u64,
+        points: sum(|counts| counts.points),
+        primitives: sum(|counts| counts.primitives),
+        indices: sum(|counts| counts.indices),
+    }
+}
+
+fn words_as_bytes(words: &[u32]) -> Vec<u8> {
+    words.iter().flat_map(|word| word.to_ne_bytes()).collect()
+}

@@ -1,0 +1,124 @@
+//! What a backend must offer to be timed, and which runner offers it.
+
+#[cfg(feature = "gpu")]
+use super::gpu;
+use super::{core, simd};
+use crate::backends::BackendName;
+#[cfg(not(feature = "gpu"))]
+use crate::backends::not_built_in;
+use crate::failure::Failure;
+use clap::ValueEnum;
+use std::time::Duration;
+use tess_simd::Level;
+use tess_verify::backend::BackendError;
+use tess_verify::workloads::{IndexType, Workload};
+
+/// Where a runner's output goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum WorkingSet {
+    /// Batches of about 1 MiB for each thread into the same buffers again and again
+    Cache,
+    /// 1 GiB of output, each byte written once
+    Stream,
+}
+
+impl WorkingSet {
+    /// Its name in reports.
+    #[must_use]
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Cache => "cache",
+            Self::Stream => "stream",
+        }
+    }
+}
+
+/// What one run of a part amounts to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Amount {
+    /// Patches tessellated.
+    pub(crate) patches: u64,
+    /// Primitives written: triangles, or segments on isolines.
+    pub(crate) triangles: u64,
+    /// Bytes of points and indices written.
+    pub(crate) bytes: u64,
+}
+
+/// An implementation that can be timed.
+///
+/// A workload runs in parts, so that runs which are compared lie close together in time: a part is
+/// about a mebibyte of output on a CPU, as much as a device likes in one go elsewhere.
+/// [`Runner::run`] and [`Runner::fill`] write the same bytes to the same buffers in the same order;
+/// neither allocates. Both give their own time, so that a device can use its clock.
+pub(crate) trait Runner {
+    /// Name of the backend.
+    fn backend(&self) -> &'static str;
+
+    /// CPU level or name of the adapter.
+    fn level(&self) -> String;
+
+    /// Threads it runs on.
+    fn threads(&self) -> u32;
+
+    /// Width of the indices it writes.
+    fn index_type(&self) -> IndexType;
+
+    /// Gets everything ready to run a workload in a working set, buffers included, and says what
+    /// each part amounts to.
+    ///
+    /// # Errors
+    /// The implementation cannot run it.
+    fn prepare(
+        &mut self,
+        workload: &Workload,
+        working_set: WorkingSet,
+    ) -> Result<Vec<Amount>, BackendError>;
+
+    /// Runs what is prepared, once over the workload's patches, and digests the output as
+    /// [`Workload::digest`] does.
+    ///
+    /// # Errors
+    /// The implementation failed.
+    fn digest(&mut self) -> Result<u64, BackendError>;
+
+    /// Runs a part and says how long it took.
+    ///
+    /// # Errors
+    /// The implementation failed.
+    fn run(&mut self, part: usize) -> Result<Duration, BackendError>;
+
+    /// Fills the bytes that a run of the part writes and says how long it took.
+    ///
+    /// # Errors
+    /// The device failed.
+    fn fill(&mut self, part: usize) -> Result<Duration, BackendError>;
+}
+
+/// What a runner is made for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct RunnerOptions {
+    /// CPU level of the simd backend, one that this machine has.
+    pub(crate) level: Level,
+    /// Threads, at least 1.
+    pub(crate) threads: u32,
+    /// Width of the indices.
+    pub(crate) index_type: IndexType,
+}
+
+/// The runner of a backend.
+///
+/// # Errors
+/// Exit code 3 if the backend is not available, 2 if it does not offer these options.
+pub(crate) fn runner(
+    name: BackendName,
+    options: RunnerOptions,
+) -> Result<Box<dyn Runner>, Failure> {
+    match name {
+        BackendName::Core => Ok(Box::new(core::CoreRunner::new(options)?)),
+        BackendName::Simd => simd::runner(options),
+        #[cfg(feature = "gpu")]
+        BackendName::Gpu => Ok(Box::new(gpu::GpuRunner::new(options)?)),
+        #[cfg(not(feature = "gpu"))]
+        BackendName::Gpu => Err(not_built_in("gpu")),
+    }
+}

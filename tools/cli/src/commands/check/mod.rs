@@ -1,0 +1,141 @@
+//! `tess check`: runs the cases of a vector file and compares.
+
+mod strength;
+
+use crate::backends::{BackendArgs, BackendName};
+use crate::explanation::{PointReport, PrimitiveReport};
+use crate::failure::{Exit, Failure};
+use crate::output::{progress, stdout};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Write};
+use std::path::{Path, PathBuf};
+use std::thread::available_parallelism;
+use strength::StrengthArgs;
+use tess_verify::backend::Backend;
+use tess_verify::checker::{self, CheckError, Difference, Report};
+use tess_verify::compare::Element;
+use tess_verify::vectors::{Kind, VectorFile};
+use tess_verify::workloads::IndexType;
+
+/// Compare a file of test vectors, or the listings of a device under test, with a backend
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The first differences and a summary line go to stdout. Each difference shows the case, the first
+wrong element, what was observed and what is right there in hex, the stage of the specification
+that it points to, and commands that show it again.
+
+In a file of listings whose source (in its first line) is neither d3d11-reference... nor tess...,
+the listings are what a device under test gave; everywhere else the file is right.
+
+A device's listings are compared in a strength: --order, --points, --conversion and --denormals say
+which freedom of the public specification counts as equal (docs/verification.md).
+
+Exit code 0: all equal; 1: differences; 2: malformed, truncated or empty file; 3: no such backend.
+
+Examples:
+  tess check golden/cases.txt
+  tess check golden/place.csv --backend simd
+  tess check golden/cases.txt --backend gpu --index-type u16
+  tess patch tri --outer 3,4,5 --inner 4 | tess check -
+  ./my-device | tess check - --order any --conversion 0.6ulp")]
+pub(crate) struct Args {
+    /// Vector file; - is stdin
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    #[command(flatten)]
+    backend: BackendArgs,
+    #[command(flatten)]
+    strength: StrengthArgs,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Malformed, short or empty input; a backend that is not available.
+pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    let mut backends = backends(&args.backend)?;
+    let name =
+        if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
+    let file = VectorFile::new(name, open(&args.file)?).map_err(|e| failure(e.into()))?;
+    let strength = args.strength.of(file.header())?;
+    if file.header().kind == Kind::Listings && file.header().is_from_device() {
+        device_has_no_index_type(args)?;
+    }
+    let bar = progress(file.header().count, "records");
+    let report = checker::check(file, &mut backends, strength, &|records| bar.inc(records));
+    bar.finish_and_clear();
+    let report = report.map_err(failure)?;
+    let backend = backends.first().map_or("core", |backend| backend.name());
+    let backend = args.backend.options.words(backend);
+    show(&report, &backend).map_err(|error| Failure::file("write", Path::new("-"), &error))?;
+    Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
+}
+
+/// One backend for each thread: the model runs on every core, the others use them by themselves.
+fn backends(args: &BackendArgs) -> Result<Vec<Box<dyn Backend>>, Failure> {
+    let threads = match args.backend {
+        BackendName::Core => available_parallelism().map_or(1, usize::from),
+        BackendName::Simd | BackendName::Gpu => 1,
+    };
+    (0..threads).map(|_| args.select()).collect()
+}
+
+/// What a device gave is tested then, not the backend that it is compared with.
+fn device_has_no_index_type(args: &Args) -> Result<(), Failure> {
+    match args.backend.options.index_type {
+        IndexType::U32 => Ok(()),
+        IndexType::U16 => Err(Failure::bad_input(
+            "--index-type is for a backend under test; in this file a device's listings are tested",
+        )),
+    }
+}
+
+fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
+    if path.as_os_str() == "-" {
+        return Ok(Box::new(BufReader::new(io::stdin())));
+    }
+    let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
+    Ok(Box::new(BufReader::new(file)))
+}
+
+fn show(report: &Report, backend: &str) -> io::Result<()> {
+    let mut out = stdout();
+    for difference in &report.differences {
+        writeln!(out, "{difference}")?;
+        for line in model_values(difference).lines() {
+            writeln!(out, "  model: {line}")?;
+        }
+        for command in difference.commands(backend) {
+            writeln!(out, "  again: {command}")?;
+        }
+    }
+    let hidden = report.mismatches - report.differences.len() as u64;
+    if hidden > 0 {
+        writeln!(out, "and {hidden} more")?;
+    }
+    writeln!(out, "{report}")?;
+    out.flush()
+}
+
+/// Where the first wrong element comes from in the model, with the values that went into it.
+fn model_values(difference: &Difference) -> String {
+    let Some(case) = &difference.case else { return String::new() };
+    let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
+    let report: Option<String> = match difference.mismatch.element {
+        Element::Point { index, .. } => {
+            PointReport::new(&case.patch(), number(index)).map(|report| report.to_string())
+        }
+        Element::Index { primitive, .. } => {
+            PrimitiveReport::new(&case.patch(), number(primitive)).map(|report| report.to_string())
+        }
+        _ => None,
+    };
+    report.unwrap_or_default()
+}
+
+fn failure(error: CheckError) -> Failure {
+    match error {
+        CheckError::Vectors(error) => Failure::bad_input(error.to_string()),
+        CheckError::Backend(error) => error.into(),
+    }
+}

@@ -1,0 +1,135 @@
+//! `tess draw`: a picture of one patch.
+
+use crate::args::PatchArgs;
+use crate::backends::{BackendArgs, BackendName};
+use crate::drawing::{self, DrawOptions, Drawing};
+use crate::failure::{Exit, Failure};
+use crate::formats::OnePatch;
+use crate::output::OutputArgs;
+use clap::ValueEnum;
+use std::fs::File;
+use std::io::{BufReader, Write};
+use std::path::{Path, PathBuf};
+use tess_verify::vectors::{Record, VectorFile};
+
+/// Draw one patch as SVG or PNG
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  tess draw quad --outer 3,4,5,6 --inner 4,7 --indices -o patch.svg
+  tess draw tri --outer 17,5,9 --inner 3 --rings -o fan.png
+  tess draw quad --outer 8,8,8,8 --inner 8,8 --backend simd --against core -o both.png
+  tess draw tri --outer 4,4,4 --inner 4 --overlay device.txt -o differences.png")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    patch: PatchArgs,
+    #[command(flatten)]
+    backend: BackendArgs,
+    #[command(flatten)]
+    options: DrawOptions,
+    /// Form of the picture [default: that of the file's name, else svg]
+    #[arg(long, value_name = "NAME")]
+    format: Option<PictureFormat>,
+    /// Draw this backend's result, with what differs from it in red; exit code 1 if anything does
+    #[arg(long, value_name = "NAME", conflicts_with = "overlay")]
+    against: Option<BackendName>,
+    /// Draw the model, with what differs in this listing of the same patch in red
+    #[arg(long, value_name = "FILE")]
+    overlay: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+/// The forms of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PictureFormat {
+    /// Scalable vector graphics
+    Svg,
+    /// Pixels
+    Png,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Wrong number of factors, a backend that is not available, a listing that cannot be read or has
+/// no such patch, an output that cannot be written.
+pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    let case = args.patch.case()?;
+    let patch = OnePatch::tessellate(args.backend.select()?.as_mut(), case)?;
+    let pair = match (args.against, &args.overlay) {
+        (Some(name), _) => {
+            let mut against = args.backend.select_named(name)?;
+            Some((OnePatch::tessellate(against.as_mut(), case)?, patch.clone()))
+        }
+        (None, Some(file)) => Some((patch.clone(), find_listing(file, &patch)?)),
+        (None, None) => None,
+    };
+    let (drawing, exit) = match pair {
+        Some((expected, observed)) => draw_overlay(&expected, &observed, &args.options),
+        None => (drawing::draw(&patch, &args.options), Exit::Done),
+    };
+    report_left_out(&drawing);
+    args.output.write(&render(args, &drawing)?)?;
+    Ok(exit)
+}
+
+fn draw_overlay(
+    expected: &OnePatch,
+    observed: &OnePatch,
+    options: &DrawOptions,
+) -> (Drawing, Exit) {
+    let (drawing, differences) = drawing::overlay(expected, observed, options);
+    let (points, primitives) = (differences.points, differences.primitives);
+    // A closed stderr does not change the result.
+    _ = writeln!(
+        std::io::stderr(),
+        "{points} points and {primitives} primitives differ between {} and {}",
+        expected.backend,
+        observed.backend
+    );
+    let equal = points == 0 && primitives == 0;
+    (drawing, if equal { Exit::Done } else { Exit::Different })
+}
+
+fn report_left_out(drawing: &Drawing) {
+    if drawing.labels_left_out > 0 {
+        // A closed stderr does not change the result.
+        _ = writeln!(
+            std::io::stderr(),
+            "{} numbers left out for lack of room; a larger --size shows more",
+            drawing.labels_left_out
+        );
+    }
+}
+
+fn render(args: &Args, drawing: &Drawing) -> Result<Vec<u8>, Failure> {
+    let is_png = args.output.file.extension().is_some_and(|name| name.eq_ignore_ascii_case("png"));
+    let by_name = if is_png { PictureFormat::Png } else { PictureFormat::Svg };
+    match args.format.unwrap_or(by_name) {
+        PictureFormat::Svg => Ok(drawing.picture.to_svg().into_bytes()),
+        PictureFormat::Png => drawing.picture.to_png(),
+    }
+}
+
+/// The listing of the same case in a file.
+fn find_listing(path: &Path, patch: &OnePatch) -> Result<OnePatch, Failure> {
+    let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
+    let bad = |error: tess_verify::vectors::VectorError| Failure::bad_input(error.to_string());
+    let name = path.display().to_string();
+    let mut found = None;
+    for record in VectorFile::new(name, BufReader::new(file)).map_err(bad)? {
+        match record.map_err(bad)? {
+            Record::Listing(listing) if listing.case == *patch.case() => found = Some(listing),
+            _ => {}
+        }
+    }
+    if let Some(listing) = found {
+        return Ok(OnePatch { listing, backend: "the listing" });
+    }
+    Err(Failure::bad_input(format!(
+        "{}: no listing of this patch; it would start with `{}`",
+        path.display(),
+        patch.case()
+    )))
+}

@@ -1,0 +1,163 @@
+//! `tess gen`: test vectors with expected results from the model.
+
+use crate::args::{name_of, shard};
+use crate::failure::{Exit, Failure};
+use crate::output::OutputArgs;
+use clap::ValueEnum;
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+use tess_core::{Domain, Partitioning};
+use tess_verify::case::Case;
+use tess_verify::coverage::Coverage;
+use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::readmemh;
+use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
+
+/// Generate test vectors with expected results; same arguments, same bytes
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Level 1 has every boundary once and hits every coverage bin; level 2 has every boundary in every
+position; level 3 is random. All end with --count random cases (500, 20000 and 1000000 unless said).
+
+Examples:
+  tess gen --level 1 | tess check - --backend simd
+  tess gen --level 1 --domain tri --format listing -o level1.txt
+  tess gen --level 3 --seed 7 --count 1000 --format readmemh -o vectors/
+  tess gen --level 1 --coverage")]
+pub(crate) struct Args {
+    /// How thorough: 1, 2 or 3
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u8).range(1..=3))]
+    level: u8,
+    /// Seed of everything random
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Number of random cases at the end
+    #[arg(long, value_name = "N")]
+    count: Option<u64>,
+    /// One domain only
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Domain>())]
+    domain: Option<Domain>,
+    /// One partitioning only
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Partitioning>())]
+    partitioning: Option<Partitioning>,
+    /// One of N disjoint parts, counted from 1
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
+    shard: Shard,
+    /// Form of the vectors
+    #[arg(long, value_name = "NAME", default_value = "csv")]
+    format: Format,
+    /// Instead of vectors, report which coverage bins they hit
+    #[arg(long)]
+    coverage: bool,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Counts and digests, as golden/patches.csv
+    Csv,
+    /// Whole outputs, as golden/cases.txt
+    Listing,
+    /// Images for Verilog's $readmemh, in a folder
+    Readmemh,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A selection without any case; an output that cannot be written.
+pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    let count = args.cases().count() as u64;
+    if count == 0 {
+        return Err(Failure::bad_input(
+            "these arguments select no case; give --level 1 or 2, a --count, or a larger shard",
+        ));
+    }
+    let header = args.header(count);
+    match args.format {
+        _ if args.coverage => args.output.stream(|out| report(out, args.cases()))?,
+        Format::Csv => args.output.stream(|out| write_patches(out, &header, args.cases()))?,
+        Format::Listing => args.output.stream(|out| write_listings(out, &header, args.cases()))?,
+        Format::Readmemh => images(&args.output.file, args.cases())?,
+    }
+    Ok(Exit::Done)
+}
+
+impl Args {
+    fn cases(&self) -> impl Iterator<Item = Case> {
+        let selection = Selection {
+            level: match self.level {
+                1 => Level::One,
+                2 => Level::Two,
+                _ => Level::Three,
+            },
+            seed: self.seed,
+            random: self.count,
+            domain: self.domain,
+            partitioning: self.partitioning,
+        };
+        let shard = self.shard;
+        let numbered = (0..).zip(selection.cases());
+        numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
+    }
+
+    /// The arguments that the cases depend on are noted, so that a file says how it was made.
+    fn header(&self, count: u64) -> Header {
+        let mut notes = vec![
+            ("level".to_owned(), self.level.to_string()),
+            ("seed".to_owned(), self.seed.to_string()),
+        ];
+        if self.shard != Shard::WHOLE {
+            notes.push(("shard".to_owned(), format!("{}/{}", self.shard.part + 1, self.shard.of)));
+        }
+        Header { kind: Kind::Patches, count, source: "tess-core".to_owned(), notes }
+    }
+}
+
+/// Prints the coverage of cases: a line for each group, then every bin that was missed.
+fn report(out: &mut dyn Write, cases: impl Iterator<Item = Case>) -> io::Result<()> {
+    let mut coverage = Coverage::new();
+    cases.for_each(|case| coverage.record(&case));
+    let groups = coverage.groups();
+    for group in &groups {
+        writeln!(out, "{:<16} {:>5} of {:>5}", group.name, group.hit, group.bins)?;
+    }
+    let (hit, bins) = groups.iter().fold((0, 0), |(h, b), group| (h + group.hit, b + group.bins));
+    writeln!(out, "{:<16} {hit:>5} of {bins:>5}", "all")?;
+    for bin in coverage.missed() {
+        writeln!(out, "missed {bin}")?;
+    }
+    Ok(())
+}
+
+/// Writes the memory images into a folder that is made beside `folder` first, then renamed.
+fn images(folder: &Path, cases: impl Iterator<Item = Case>) -> Result<(), Failure> {
+    if folder.as_os_str() == "-" {
+        return Err(Failure::bad_input("readmemh writes several files: give a folder with -o"));
+    }
+    if folder.exists() {
+        let name = folder.display();
+        return Err(Failure::bad_input(format!("{name} exists already; give a new folder")));
+    }
+    let mut name = folder.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.partial", std::process::id()));
+    let partial = folder.with_file_name(name);
+    let written = write_images(&partial, cases).and_then(|()| fs::rename(&partial, folder));
+    written.map_err(|error| {
+        // It may never have been made; the first error is the one to report.
+        _ = fs::remove_dir_all(&partial);
+        Failure::file("write", folder, &error)
+    })
+}
+
+fn write_images(folder: &Path, cases: impl Iterator<Item = Case>) -> io::Result<()> {
+    fs::create_dir(folder)?;
+    let create = |name| File::create(folder.join(name)).map(BufWriter::new);
+    let [a, b, c, d, e] = readmemh::FILES;
+    let mut files = [create(a)?, create(b)?, create(c)?, create(d)?, create(e)?];
+    readmemh::write_images(&mut files.each_mut().map(|file| file as &mut dyn Write), cases)?;
+    files.iter_mut().try_for_each(Write::flush)
+}

@@ -1,0 +1,155 @@
+//! `tess mesh`: from a model file to a tessellated mesh or a picture.
+//!
+//! [`input`] reads and checks the whole model; [`pipeline`] sends its patches through factors,
+//! tessellation and evaluation, a block at a time; [`output`] takes the blocks as they come.
+#![expect(clippy::float_arithmetic, reason = "surfaces and pictures are made of floats")]
+
+mod input;
+mod output;
+mod pipeline;
+mod statistics;
+mod view;
+
+use crate::args::name_of;
+use crate::failure::{Exit, Failure};
+use clap::builder::ValueParser;
+use input::{Input, height};
+use output::{IndexWidth, Options};
+use pipeline::Job;
+use statistics::{Stage, Statistics};
+use std::io::Write;
+use std::path::PathBuf;
+use tess_core::Partitioning;
+use tess_surface::height::{Anchors, Displacement};
+use tess_surface::{FactorRule, Style};
+use view::{View, ViewArgs};
+
+/// Tessellate a model into a mesh or a picture
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Neighbouring patches get the same factor on their common edge, and the same points to the bit, so
+no crack opens. Faces with more than four corners are refused, as are edges of more than two faces.
+Statistics go to stderr.
+
+Examples:
+  tess mesh -o teapot.png                          the teapot, 64 segments to the patch edge
+  tess mesh --factor 4 --wireframe -o teapot.png
+  tess mesh bunny.obj --pixels 8 --eye 0,0.1,0.5 -o bunny.glb
+  tess mesh rock.glb --displace height.png --height 0.1 --tolerance 0.01 -o rock.obj")]
+pub(crate) struct Args {
+    /// Model to read: .obj, .gltf, .glb or .bpt [default: the Newell teapot]
+    #[arg(value_name = "IN")]
+    input: Option<PathBuf>,
+    /// File to write: .obj, .gltf or .glb for a mesh, .png for a picture
+    #[arg(short = 'o', long = "out", value_name = "OUT", required = true)]
+    output: PathBuf,
+    /// Surface of triangles and quads [default: pn]
+    #[arg(long, value_name = "NAME")]
+    surface: Option<SurfaceName>,
+    #[command(flatten)]
+    rule: RuleArgs,
+    /// Spacing of the cuts
+    #[arg(long, value_name = "NAME", default_value = "integer")]
+    #[arg(value_parser = name_of::<Partitioning>())]
+    partitioning: Partitioning,
+    /// Height image to displace the surface by: a PNG, black 0, white 1
+    #[arg(long, value_name = "PNG")]
+    displace: Option<PathBuf>,
+    /// Displacement at height 1, in the model's units
+    #[arg(long, value_name = "LENGTH", default_value = "0.1", allow_hyphen_values = true)]
+    #[arg(value_parser = ValueParser::new(finite), requires = "displace")]
+    height: f32,
+    /// Width of the indices in glTF
+    #[arg(long, value_name = "BITS", default_value = "auto")]
+    indices: IndexWidth,
+    /// Show the triangles' edges in pictures
+    #[arg(long)]
+    wireframe: bool,
+    #[command(flatten)]
+    view: ViewArgs,
+}
+
+/// The surfaces of triangles and quads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum SurfaceName {
+    /// Planes and bilinear quads
+    Flat,
+    /// Point-normal triangles and quads, rounded by their corners' normals
+    Pn,
+}
+
+/// How finely edges are cut.
+#[derive(Clone, Copy, Debug, clap::Args)]
+#[group(multiple = false)]
+struct RuleArgs {
+    /// The same factor everywhere [default: 64]
+    #[arg(long, value_name = "F", value_parser = ValueParser::new(positive))]
+    factor: Option<f32>,
+    /// Factor at distance 1 from the eye, falling off with the distance
+    #[arg(long, value_name = "F", value_parser = ValueParser::new(positive))]
+    distance: Option<f32>,
+    /// Length of a segment in the picture, in pixels
+    #[arg(long, value_name = "PIXELS", value_parser = ValueParser::new(positive))]
+    pixels: Option<f32>,
+    /// Distance from the surface that triangles may have, in the model's units
+    #[arg(long, value_name = "LENGTH", value_parser = ValueParser::new(positive))]
+    tolerance: Option<f32>,
+}
+
+impl RuleArgs {
+    fn rule(self, view: &View) -> FactorRule {
+        let View { eye, pixels_per_unit, .. } = *view;
+        match self {
+            Self { distance: Some(scale), .. } => FactorRule::Distance { eye, scale },
+            Self { pixels: Some(segment), .. } => {
+                FactorRule::ScreenSpace { eye, pixels_per_unit, segment }
+            }
+            Self { tolerance: Some(tolerance), .. } => FactorRule::Flatness { tolerance },
+            Self { factor, .. } => FactorRule::Uniform(factor.unwrap_or(64.0)),
+        }
+    }
+}
+
+fn finite(text: &str) -> Result<f32, String> {
+    let number = text.parse().ok().filter(|number: &f32| number.is_finite());
+    number.ok_or_else(|| "a length is a finite number".to_owned())
+}
+
+fn positive(text: &str) -> Result<f32, String> {
+    let number = finite(text).ok().filter(|&number| number > 0.0);
+    number.ok_or_else(|| "a finite number greater than zero is needed".to_owned())
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A model that cannot be read or tessellated, an output that cannot be written.
+pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    let mut statistics = Statistics::default();
+    let style = args.surface.map(|surface| match surface {
+        SurfaceName::Flat => Style::Flat,
+        SurfaceName::Pn => Style::PointNormal,
+    });
+    let (Input { model, up }, displacement) = statistics.time(Stage::Load, || {
+        let map = args.displace.as_deref().map(height::load).transpose()?;
+        let input = input::load(args.input.as_deref(), style)?;
+        let displacement =
+            map.map(|map| (Displacement { map, scale: args.height }, Anchors::of(&input.model)));
+        Ok::<_, Failure>((input, displacement))
+    })?;
+    let up = args.view.up.unwrap_or(up);
+    let view = args.view.view(model.bounds(), up);
+    let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
+    let mut sink = output::open(&args.output, &options)?;
+    let job = Job {
+        model: &model,
+        rule: args.rule.rule(&view),
+        partitioning: args.partitioning,
+        displacement: displacement.as_ref().map(|(displacement, anchors)| (displacement, anchors)),
+    };
+    pipeline::run(&job, sink.as_mut(), &mut statistics)?;
+    statistics.time(Stage::Output, || sink.finish())?;
+    // Nobody may be listening; the output is there all the same.
+    _ = write!(std::io::stderr(), "{statistics}");
+    Ok(Exit::Done)
+}

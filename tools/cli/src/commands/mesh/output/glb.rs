@@ -1,0 +1,72 @@
+//! GLB: JSON and binary part in one file.
+
+use super::binary::Binary;
+use super::{Options, Sink, partial, persist};
+use crate::commands::mesh::pipeline::Block;
+use crate::failure::Failure;
+use std::io::{self, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// Room for the JSON, which is known last and stands first; the rest is filled with blanks, as
+/// the format has it.
+const JSON_ROOM: usize = 2048;
+
+/// Header, JSON chunk with its header, header of the binary chunk.
+const BEFORE_BINARY: usize = 12 + 8 + JSON_ROOM + 8;
+
+/// The file while it grows.
+pub(super) struct Glb {
+    path: PathBuf,
+    binary: Binary<NamedTempFile>,
+}
+
+impl Glb {
+    pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
+        let failure = |error: io::Error| Failure::file("write", path, &error);
+        let mut file = partial(path)?;
+        file.write_all(&[0; BEFORE_BINARY]).map_err(failure)?;
+        let binary = Binary::new(file, options).map_err(failure)?;
+        Ok(Self { path: path.to_owned(), binary })
+    }
+}
+
+/// All that stands before the binary part of `length` bytes.
+fn beginning(json: &str, length: u64) -> io::Result<Vec<u8>> {
+    let word = |value: u64| {
+        let too_large = || io::Error::other("more than 4 GiB, which GLB cannot hold; write .gltf");
+        u32::try_from(value).map(u32::to_le_bytes).map_err(|_| too_large())
+    };
+    let mut out = Vec::with_capacity(BEFORE_BINARY);
+    out.extend(b"glTF");
+    out.extend(2u32.to_le_bytes());
+    out.extend(word(BEFORE_BINARY as u64 + length)?);
+    out.extend(word(JSON_ROOM as u64)?);
+    out.extend(b"JSON");
+    out.extend(json.as_bytes());
+    if out.len() > BEFORE_BINARY - 8 {
+        return Err(io::Error::other("the JSON is larger than the room kept for it"));
+    }
+    out.resize(BEFORE_BINARY - 8, b' ');
+    out.extend(word(length)?);
+    out.extend(b"BIN\0");
+    Ok(out)
+}
+
+impl Sink for Glb {
+    fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
+        self.binary.block(block).map_err(|error| Failure::file("write", &self.path, &error))
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), Failure> {
+        let Self { path, binary } = *self;
+        let failure = |error: io::Error| Failure::file("write", &path, &error);
+        let layout = binary.layout();
+        let beginning =
+            beginning(&layout.document(None).to_string(), layout.length()).map_err(failure)?;
+        let mut file = binary.finish(&layout).map_err(failure)?;
+        file.seek(SeekFrom::Start(0)).map_err(failure)?;
+        file.write_all(&beginning).map_err(failure)?;
+        persist(file, &path)
+    }
+}

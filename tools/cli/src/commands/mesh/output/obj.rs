@@ -1,0 +1,46 @@
+//! OBJ: positions, texture coordinates, normals and triangles, block after block.
+
+use super::{Sink, partial, persist};
+use crate::commands::mesh::pipeline::Block;
+use crate::failure::Failure;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
+
+/// A text file that grows.
+pub(super) struct Obj {
+    path: PathBuf,
+    file: BufWriter<NamedTempFile>,
+}
+
+impl Obj {
+    pub(super) fn create(path: &Path) -> Result<Self, Failure> {
+        let file = BufWriter::with_capacity(1 << 20, partial(path)?);
+        Ok(Self { path: path.to_owned(), file })
+    }
+}
+
+fn write(file: &mut impl Write, block: &Block<'_>) -> io::Result<()> {
+    for vertex in block.vertices {
+        let ([x, y, z], [s, t]) = (vertex.position.to_array(), vertex.texcoord.to_array());
+        let [nx, ny, nz] = vertex.normal.to_array();
+        writeln!(file, "v {x} {y} {z}\nvt {s} {t}\nvn {nx} {ny} {nz}")?;
+    }
+    for triangle in block.indices.as_chunks::<3>().0 {
+        let [a, b, c] = triangle.map(|index| block.first_vertex + u64::from(index) + 1);
+        writeln!(file, "f {a}/{a}/{a} {b}/{b}/{b} {c}/{c}/{c}")?;
+    }
+    Ok(())
+}
+
+impl Sink for Obj {
+    fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
+        write(&mut self.file, block).map_err(|error| Failure::file("write", &self.path, &error))
+    }
+
+    fn finish(self: Box<Self>) -> Result<(), Failure> {
+        let file = self.file.into_inner();
+        let file = file.map_err(|error| Failure::file("write", &self.path, error.error()))?;
+        persist(file, &self.path)
+    }
+}

@@ -1,0 +1,218 @@
+//! Factors, tessellation and evaluation, a block of patches at a time.
+//!
+//! Memory beyond the model is that of one block, whatever the model's size and the factors.
+
+use super::output::Sink;
+use super::statistics::{Stage, Statistics};
+use crate::failure::Failure;
+use crate::output::progress;
+use rayon::prelude::*;
+use std::ops::Range;
+use tess_core::{
+    Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
+};
+use tess_simd::{Batch, Numbering, Output, Tessellator};
+use tess_surface::height::{Anchors, DisplacedPatch, Displacement};
+use tess_surface::patch::Sample;
+use tess_surface::{FactorRule, Model};
+
+/// Patches whose factors are held at a time.
+const FACTOR_BLOCK: usize = 8192;
+
+/// Largest number of vertices that are held at a time: 32 MiB of them and 24 MiB of indices.
+const VERTEX_BLOCK: f32 = 1_048_576.0;
+
+/// Patches that a thread takes at a time.
+const PATCHES_PER_TASK: usize = 32;
+
+/// What is done to a model.
+#[derive(Debug)]
+pub(crate) struct Job<'a> {
+    /// The patches.
+    pub(crate) model: &'a Model,
+    /// How finely they are cut.
+    pub(crate) rule: FactorRule,
+    /// Spacing of the cuts.
+    pub(crate) partitioning: Partitioning,
+    /// How their surface is displaced, with the model's anchors.
+    pub(crate) displacement: Option<(&'a Displacement, &'a Anchors)>,
+}
+
+/// Part of the result.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Block<'a> {
+    /// How many vertices came before.
+    pub(crate) first_vertex: u64,
+    /// The vertices.
+    pub(crate) vertices: &'a [Sample],
+    /// Three numbers for each triangle, counted from this block's first vertex.
+    pub(crate) indices: &'a [u32],
+}
+
+/// Patches of one domain, their factors ready.
+struct Group<F> {
+    patches: Vec<usize>,
+    factors: Vec<F>,
+}
+
+/// The state that is kept from block to block.
+struct Stream<'a> {
+    job: &'a Job<'a>,
+    tessellator: Tessellator,
+    domain_points: Output<[f32; 2], u32>,
+    vertices: Vec<Sample>,
+}
+
+/// Sends every patch of the model through all stages into `sink`.
+///
+/// # Errors
+/// What the sink reports.
+pub(crate) fn run(
+    job: &Job<'_>,
+    sink: &mut dyn Sink,
+    statistics: &mut Statistics,
+) -> Result<(), Failure> {
+    let config = Config::new(job.partitioning, OutputPrimitive::TriangleCw);
+    let mut stream = Stream {
+        job,
+        tessellator: Tessellator::new(config),
+        domain_points: Output::new(),
+        vertices: Vec::new(),
+    };
+    statistics.patches = job.model.len();
+    let bar = progress(job.model.len() as u64, "patches");
+    for start in (0..job.model.len()).step_by(FACTOR_BLOCK) {
+        let end = job.model.len().min(start + FACTOR_BLOCK);
+        stream.block_of_patches(start..end, sink, statistics)?;
+        bar.set_position(end as u64);
+    }
+    bar.finish_and_clear();
+    Ok(())
+}
+
+impl Stream<'_> {
+    fn block_of_patches(
+        &mut self,
+        patches: Range<usize>,
+        sink: &mut dyn Sink,
+        statistics: &mut Statistics,
+    ) -> Result<(), Failure> {
+        let (triangles, quads) = statistics.time(Stage::Factors, || self.factors(patches));
+        for part in triangles.parts(|f| f.outer().into_iter().fold(f.inside, f32::max)) {
+            self.group(part.0, Batch::from(part.1), sink, statistics)?;
+        }
+        for part in quads.parts(|f| f.outer().into_iter().chain(f.inside()).fold(1.0, f32::max)) {
+            self.group(part.0, Batch::from(part.1), sink, statistics)?;
+        }
+        Ok(())
+    }
+
+    /// The factors of a range of patches, by domain.
+    fn factors(&self, patches: Range<usize>) -> (Group<TriangleFactors>, Group<QuadFactors>) {
+        let Job { model, rule, partitioning, .. } = self.job;
+        let factors: Vec<PatchFactors> = patches
+            .clone()
+            .into_par_iter()
+            .with_min_len(PATCHES_PER_TASK)
+            .map(|number| rule.patch(model, number, *partitioning))
+            .collect();
+        let mut triangles = Group { patches: Vec::new(), factors: Vec::new() };
+        let mut quads = Group { patches: Vec::new(), factors: Vec::new() };
+        for (number, factors) in patches.zip(factors) {
+            match factors {
+                PatchFactors::Triangle(factors) => triangles.push(number, factors),
+                PatchFactors::Quad(factors) => quads.push(number, factors),
+                PatchFactors::Isoline(_) => {} // no surface has isolines
+            }
+        }
+        (triangles, quads)
+    }
+
+    /// Tessellates and evaluates patches of one domain.
+    fn group(
+        &mut self,
+        patches: &[usize],
+        batch: Batch<'_>,
+        sink: &mut dyn Sink,
+        statistics: &mut Statistics,
+    ) -> Result<(), Failure> {
+        if patches.is_empty() {
+            return Ok(());
+        }
+        let numbering = Numbering::PerBatch { base_vertex: 0 };
+        statistics
+            .time(Stage::Tessellation, || {
+                self.tessellator.tessellate(batch, numbering, &mut self.domain_points)
+            })
+            .map_err(|error| Failure::bad_input(error.to_string()))?;
+        statistics.time(Stage::Evaluation, || self.evaluate(patches));
+        let block = Block {
+            first_vertex: statistics.vertices,
+            vertices: &self.vertices,
+            indices: self.domain_points.indices(),
+        };
+        statistics.time(Stage::Output, || sink.block(&block))?;
+        statistics.vertices += block.vertices.len() as u64;
+        statistics.triangles += block.indices.len() as u64 / 3;
+        Ok(())
+    }
+
+    /// The vertices of the block: every patch's domain points on its surface.
+    fn evaluate(&mut self, patches: &[usize]) {
+        let (points, ranges) = (self.domain_points.points(), self.domain_points.ranges());
+        self.vertices.resize(points.len(), Sample::default());
+        let mut rest = &mut self.vertices[..];
+        let mut parts = Vec::with_capacity(patches.len());
+        for (&number, range) in patches.iter().zip(ranges) {
+            let (own, after) = rest.split_at_mut(range.points as usize);
+            let first = range.first_point as usize;
+            parts.push((number, &points[first..first + own.len()], own));
+            rest = after;
+        }
+        let job = self.job;
+        parts
+            .into_par_iter()
+            .with_min_len(PATCHES_PER_TASK)
+            .for_each(|(number, points, out)| evaluate_patch(job, number, points, out));
+    }
+}
+
+fn evaluate_patch(job: &Job<'_>, number: usize, points: &[[f32; 2]], out: &mut [Sample]) {
+    let pairs = out.iter_mut().zip(points);
+    match job.displacement {
+        None => {
+            let patch = job.model.patch(number);
+            pairs.for_each(|(vertex, &point)| *vertex = patch.sample(point));
+        }
+        Some((displacement, anchors)) => {
+            let patch = DisplacedPatch::new(job.model, anchors, number, displacement);
+            pairs.for_each(|(vertex, &point)| *vertex = patch.sample(point));
+        }
+    }
+}
+
+impl<F> Group<F> {
+    fn push(&mut self, patch: usize, factors: F) {
+        self.patches.push(patch);
+        self.factors.push(factors);
+    }
+
+    /// The group in parts of few enough vertices, by the largest factor of each patch.
+    fn parts(&self, largest: impl Fn(&F) -> f32) -> impl Iterator<Item = (&[usize], &[F])> {
+        // A patch of factors up to f has at most as many points as a grid of f + 2 by f + 2.
+        let mut room = VERTEX_BLOCK;
+        let parts = self.factors.chunk_by(move |a, b| {
+            let side = largest(a).max(largest(b)) + 3.0;
+            room -= side * side;
+            let fits = room > 0.0;
+            room = if fits { room } else { VERTEX_BLOCK };
+            fits
+        });
+        let mut first = 0;
+        parts.map(move |factors| {
+            let patches = &self.patches[first..first + factors.len()];
+            first += factors.len();
+            (patches, factors)
+        })
+    }
+}

@@ -1,0 +1,63 @@
+//! What was done and how long each stage took.
+
+use std::fmt;
+use std::time::{Duration, Instant};
+
+/// The stages, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Stage {
+    /// Reading the file, checking it and finding neighbours.
+    Load,
+    /// Factors by rule.
+    Factors,
+    /// Domain points and indices.
+    Tessellation,
+    /// Positions, normals and texture coordinates.
+    Evaluation,
+    /// Writing the file or drawing the picture.
+    Output,
+}
+
+const STAGES: [(Stage, &str); 5] = [
+    (Stage::Load, "load"),
+    (Stage::Factors, "factors"),
+    (Stage::Tessellation, "tessellation"),
+    (Stage::Evaluation, "evaluation"),
+    (Stage::Output, "output"),
+];
+
+/// Counts and times of one run.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Statistics {
+    /// Patches.
+    pub(crate) patches: usize,
+    /// Vertices of the result.
+    pub(crate) vertices: u64,
+    /// Triangles of the result.
+    pub(crate) triangles: u64,
+    times: [Duration; STAGES.len()],
+}
+
+impl Statistics {
+    /// Runs a part of a stage and adds the time that it takes.
+    pub(crate) fn time<T>(&mut self, stage: Stage, part: impl FnOnce() -> T) -> T {
+        let start = Instant::now();
+        let result = part();
+        self.times[stage as usize] += start.elapsed();
+        result
+    }
+}
+
+impl fmt::Display for Statistics {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { patches, vertices, triangles, times } = self;
+        writeln!(f, "{patches} patches, {vertices} vertices, {triangles} triangles")?;
+        let mut line = |name: &str, time: Duration| {
+            let seconds = time.as_secs_f64();
+            let rate = *triangles as f64 / seconds.max(1e-9) / 1e6;
+            writeln!(f, "{name:>12} {:>10.2} ms {rate:>10.2} M triangles/s", seconds * 1e3)
+        };
+        STAGES.iter().try_for_each(|&(stage, name)| line(name, times[stage as usize]))?;
+        line("all", times.iter().sum())
+    }
+}

@@ -1,0 +1,99 @@
+//! The camera: of pictures, and of the factor rules that look from somewhere.
+
+use super::input::Up;
+use clap::builder::ValueParser;
+use glam::{Mat4, Vec3};
+
+/// Where the model is seen from.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct ViewArgs {
+    /// Position of the eye, in the model's units [default: so that the model fills the picture]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    #[arg(value_parser = ValueParser::new(point))]
+    eye: Option<Vec3>,
+    /// What the eye looks at [default: the middle of the model]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    #[arg(value_parser = ValueParser::new(point))]
+    target: Option<Vec3>,
+    /// Field of view from top to bottom, in degrees
+    #[arg(long, value_name = "DEGREES", default_value = "30", value_parser = ValueParser::new(angle))]
+    fov: f32,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "800x600", value_parser = ValueParser::new(size))]
+    size: (u32, u32),
+    /// Which way is up [default: y for OBJ and glTF, z for Bezier patches]
+    #[arg(long, value_name = "AXIS")]
+    pub(crate) up: Option<Up>,
+}
+
+/// A camera at rest.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    /// Where the eye is.
+    pub(crate) eye: Vec3,
+    /// From the model's coordinates to clip space: x and y in -w..w on the picture, w the depth.
+    pub(crate) clip: Mat4,
+    /// Width and height of the picture in pixels.
+    pub(crate) size: (u32, u32),
+    /// Pixels that a length of 1 covers at distance 1.
+    pub(crate) pixels_per_unit: f32,
+}
+
+/// Largest width and height of a picture.
+const MAX_SIZE: u32 = 8192;
+
+impl ViewArgs {
+    /// The camera, for a model within these bounds.
+    #[must_use]
+    pub(crate) fn view(&self, (low, high): (Vec3, Vec3), up: Up) -> View {
+        let (width, height) = (self.size.0 as f32, self.size.1 as f32);
+        let radius = (0.5 * high.distance(low)).max(f32::MIN_POSITIVE);
+        let target = self.target.unwrap_or((low + high) * 0.5);
+        let half_height = (0.5 * self.fov).to_radians().tan();
+        // From where a ball around the model fits the narrower way.
+        let fit = radius / (half_height.atan().sin() * (width / height).min(1.0));
+        let (axis, from) = match up {
+            Up::Y => (Vec3::Y, Vec3::new(0.35, 0.45, 1.0)),
+            Up::Z => (Vec3::Z, Vec3::new(0.35, -1.0, 0.45)),
+        };
+        let eye = self.eye.unwrap_or(target + from.normalize() * (fit * 0.66));
+        let forward = (target - eye).normalize_or(Vec3::X);
+        // Straight up or down, any direction may be the picture's top.
+        let right = forward.cross(axis).normalize_or(forward.any_orthonormal_vector());
+        let top = right.cross(forward);
+        // Clip x, y, z, w of a point: z is 0 on the near plane, w the distance from the eye.
+        let row = |v: Vec3, offset: f32| v.extend(offset - v.dot(eye));
+        let near = radius * 1e-3;
+        let rows = Mat4::from_cols(
+            row(right * (height / (width * half_height)), 0.0),
+            row(top / half_height, 0.0),
+            row(forward, -near),
+            row(forward, 0.0),
+        );
+        View {
+            eye,
+            clip: rows.transpose(),
+            size: self.size,
+            pixels_per_unit: height / (2.0 * half_height),
+        }
+    }
+}
+
+fn point(text: &str) -> Result<Vec3, String> {
+    let numbers: Option<Vec<f32>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) if Vec3::new(x, y, z).is_finite() => Ok(Vec3::new(x, y, z)),
+        _ => Err("a point is three finite numbers, such as 4,-6,2.5".to_owned()),
+    }
+}
+
+fn angle(text: &str) -> Result<f32, String> {
+    let angle = text.parse().ok().filter(|angle: &f32| (1.0..=170.0).contains(angle));
+    angle.ok_or_else(|| "a field of view is 1 to 170 degrees".to_owned())
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let side = |text: &str| text.parse().ok().filter(|side: &u32| (1..=MAX_SIZE).contains(side));
+    let sides = text.split_once('x').and_then(|(w, h)| Some((side(w)?, side(h)?)));
+    sides.ok_or_else(|| format!("a size is such as 800x600, each side 1 to {MAX_SIZE}"))
+}

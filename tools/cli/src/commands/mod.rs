@@ -1,0 +1,43 @@
+//! The commands, a folder each.
+
+mod bench;
+mod check;
+mod draw;
+mod explain;
+mod r#gen;
+mod mesh;
+mod patch;
+mod verify;
+
+use crate::failure::{Exit, Failure};
+use clap::Subcommand;
+
+/// What the program can be asked for.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Patch(patch::Args),
+    Explain(explain::Args),
+    Draw(draw::Args),
+    Check(check::Args),
+    Bench(bench::Args),
+    Mesh(mesh::Args),
+    Gen(r#gen::Args),
+    Verify(verify::Args),
+}
+
+/// Runs a command.
+///
+/// # Errors
+/// As each command says.
+pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
+    match command {
+        Command::Patch(args) => patch::run(args),
+        Command::Explain(args) => explain::run(args),
+        Command::Draw(args) => draw::run(args),
+        Command::Check(args) => check::run(args),
+        Command::Bench(args) => bench::run(args),
+        Command::Mesh(args) => mesh::run(args),
+        Command::Gen(args) => r#gen::run(args),
+        Command::Verify(args) => verify::run(args),
+    }
+}

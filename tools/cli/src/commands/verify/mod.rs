@@ -1,0 +1,146 @@
+//! `tess verify`: every backend against the model.
+
+use crate::args::{name_of, shard};
+use crate::backends::{BackendName, BackendOptions};
+use crate::failure::{Exit, Failure};
+use crate::output::{progress, stdout};
+use std::io::{self, Write};
+use std::path::Path;
+use std::time::{Duration, Instant};
+use tess_verify::backend::Backend;
+use tess_verify::generate::Shard;
+use tess_verify::names::Named;
+use tess_verify::second::SecondFormulation;
+use tess_verify::verify::{Plan, Random, Row, Subject, verify};
+
+/// Compare every backend with the model, over generated levels or over everything there is
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Without --exhaustive: levels 1 and 2 of `tess gen`; level-2 is what level 2 has beyond level 1. With
+it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and
+locations, all transitions and all interiors. Shards are disjoint, and together they are
+everything, so any batch system can spread the work. A shard that has nothing of a subject, as
+there are fewer units than shards, says so on stderr; nothing differs then.
+
+--random N compares N patches of each configuration (domain, partitioning, output, split order:
+96) instead, all kinds of factors in every position and most of the patches small. The same seed
+gives the same patches; a larger N begins with those of a smaller one.
+
+Exit code 0: all equal; 1: differences; 3: a backend is not available here.
+
+Examples:
+  tess verify
+  tess verify --backend simd --exhaustive
+  tess verify --exhaustive --shard 3/64
+  tess verify --backend gpu --random 100000")]
+pub(crate) struct Args {
+    /// Backend to compare; simd and gpu unless said. core is the model's second formulation
+    #[arg(long, value_name = "NAME")]
+    backend: Vec<BackendName>,
+    #[command(flatten)]
+    options: BackendOptions,
+    /// Everything that is finite
+    #[arg(long)]
+    exhaustive: bool,
+    /// One subject only: level-1, level-2, transitions, interiors, locations or factors
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Subject>())]
+    subject: Vec<Subject>,
+    /// Instead, N random patches of each configuration
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(conflicts_with_all = ["exhaustive", "subject"])]
+    random: Option<u64>,
+    /// Seed of the random patches
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "random")]
+    seed: u64,
+    /// One of N disjoint parts, counted from 1
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
+    shard: Shard,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// A backend that is not available.
+pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    let mut workers = args.workers()?;
+    let plan = args.plan();
+    let bar = progress(0, "units");
+    let started = Instant::now();
+    let table = verify(&mut workers, &plan, &|subject, done, all| {
+        bar.set_length(all);
+        bar.set_message(subject.name());
+        bar.set_position(done);
+    });
+    bar.finish_and_clear();
+    let table = table?;
+    report_empty(&table, args.shard);
+    show(&table, started.elapsed())
+        .map_err(|error| Failure::file("write", Path::new("-"), &error))?;
+    let equal = table.iter().all(|row| row.mismatches == 0);
+    Ok(if equal { Exit::Done } else { Exit::Different })
+}
+
+impl Args {
+    fn plan(&self) -> Plan {
+        let plan = match self.random {
+            Some(patches) => Plan::random(Random { patches, seed: self.seed }),
+            None if self.exhaustive => Plan::exhaustive(),
+            None => Plan::levels(),
+        };
+        let subjects = if self.subject.is_empty() { plan.subjects } else { self.subject.clone() };
+        Plan { subjects, shard: self.shard }
+    }
+
+    /// One thread with every backend that was asked for; a GPU is not shared.
+    fn workers(&self) -> Result<Vec<Vec<Box<dyn Backend>>>, Failure> {
+        let all = [BackendName::Simd, BackendName::Gpu];
+        let names = if self.backend.is_empty() { &all[..] } else { &self.backend };
+        let threads = if names.contains(&BackendName::Gpu) {
+            1
+        } else {
+            std::thread::available_parallelism().map_or(1, usize::from)
+        };
+        let backend = |&name: &BackendName| -> Result<Box<dyn Backend>, Failure> {
+            match name {
+                BackendName::Core => {
+                    self.options.only_32_bits()?;
+                    Ok(Box::new(SecondFormulation))
+                }
+                _ => self.options.select(name),
+            }
+        };
+        let backends = || names.iter().map(backend).collect();
+        (0..threads).map(|_| backends()).collect()
+    }
+}
+
+/// Says of which subjects the shard has nothing: they have fewer units than shards were asked for.
+fn report_empty(table: &[Row], shard: Shard) {
+    let mut empty: Vec<&str> =
+        table.iter().filter(|row| row.compared == 0).map(|row| row.subject.name()).collect();
+    empty.dedup();
+    for subject in empty {
+        let (part, of) = (shard.part + 1, shard.of);
+        // A closed stderr does not change the result.
+        _ = writeln!(
+            io::stderr(),
+            "tess: nothing to compare in shard {part}/{of}: {subject} has fewer than {part} units"
+        );
+    }
+}
+
+fn show(table: &[Row], took: Duration) -> io::Result<()> {
+    let mut out = stdout();
+    writeln!(out, "{:<12} {:<8} {:>15} {:>10}", "subject", "backend", "compared", "mismatches")?;
+    for row in table {
+        let Row { subject, backend, compared, mismatches, .. } = row;
+        writeln!(out, "{:<12} {backend:<8} {compared:>15} {mismatches:>10}", subject.name())?;
+    }
+    for row in table {
+        if let Some(first) = &row.first {
+            writeln!(out, "first of {} in {}: {first}", row.subject.name(), row.backend)?;
+        }
+    }
+    writeln!(out, "in {} s", took.as_secs())?;
+    out.flush()
+}

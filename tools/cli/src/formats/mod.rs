@@ -1,0 +1,106 @@
+//! One tessellated patch in the forms that `--format` offers.
+
+mod csv;
+mod json;
+mod obj;
+
+use crate::drawing::DrawOptions;
+use crate::failure::Failure;
+use clap::ValueEnum;
+use tess_core::Tessellation;
+use tess_verify::backend::Backend;
+use tess_verify::case::Case;
+use tess_verify::vectors::{Header, Kind, Listing, primitive_size};
+
+/// The forms of a patch.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// A listing as in golden/cases.txt, which `tess check -` reads
+    Text,
+    /// A row of counts and digests as in golden/patches.csv, which `tess check -` reads
+    Csv,
+    /// Everything: factors, points (exact and as floats), primitives
+    Json,
+    /// A Wavefront mesh in the plane, (u, v) as (x, y)
+    Obj,
+    /// A picture of 800 x 800 pixels; `tess draw` can do more
+    Svg,
+    /// The same as pixels
+    Png,
+}
+
+/// A patch as some backend tessellated it.
+#[derive(Clone, Debug)]
+pub(crate) struct OnePatch {
+    /// The case and its result.
+    pub(crate) listing: Listing,
+    /// Who tessellated it.
+    pub(crate) backend: &'static str,
+}
+
+impl OnePatch {
+    /// Has a backend tessellate one patch.
+    ///
+    /// # Errors
+    /// The backend could not run, or returned another number of patches than one.
+    pub(crate) fn tessellate(backend: &mut dyn Backend, case: Case) -> Result<Self, Failure> {
+        let mut results = backend.tessellate(case.config, &[case.factors])?;
+        let name = backend.name();
+        match (results.pop(), results.is_empty()) {
+            (Some(output), true) => {
+                Ok(Self { listing: Listing { line: 0, case, output }, backend: name })
+            }
+            _ => Err(Failure::unavailable(format!("{name} did not return exactly one patch"))),
+        }
+    }
+
+    /// What was tessellated.
+    #[must_use]
+    pub(crate) const fn case(&self) -> &Case {
+        &self.listing.case
+    }
+
+    /// What came out.
+    #[must_use]
+    pub(crate) const fn output(&self) -> &Tessellation {
+        &self.listing.output
+    }
+
+    /// The first line of a vector file with this one record.
+    fn header(&self, kind: Kind) -> Header {
+        let source = format!("tess-{}", self.backend);
+        Header { kind, count: 1, source, notes: Vec::new() }
+    }
+
+    /// The patch as a file of one listing.
+    fn to_text(&self) -> String {
+        format!("{}\n{}", self.header(Kind::Listings), self.listing)
+    }
+
+    /// The index list, primitive by primitive.
+    pub(crate) fn primitives(&self) -> impl Iterator<Item = &[u32]> {
+        self.output().indices.chunks(primitive_size(self.case()))
+    }
+}
+
+impl Format {
+    /// The bytes of a file in this form.
+    ///
+    /// # Errors
+    /// The picture could not be made.
+    pub(crate) fn render(self, patch: &OnePatch) -> Result<Vec<u8>, Failure> {
+        Ok(match self {
+            Self::Text => patch.to_text().into_bytes(),
+            Self::Csv => csv::render(patch).into_bytes(),
+            Self::Json => json::render(patch).into_bytes(),
+            Self::Obj => obj::render(patch).into_bytes(),
+            Self::Svg => picture(patch).to_svg().into_bytes(),
+            Self::Png => picture(patch).to_png()?,
+        })
+    }
+}
+
+fn picture(patch: &OnePatch) -> crate::picture::Picture {
+    let options = DrawOptions { size: 800, ..DrawOptions::default() };
+    crate::drawing::draw(patch, &options).picture
+}

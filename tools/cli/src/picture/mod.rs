@@ -1,0 +1,87 @@
+//! A flat drawing, written as SVG or PNG from the same shapes.
+
+mod digits;
+mod png;
+mod svg;
+
+use crate::failure::Failure;
+
+/// A position in pixels, y down.
+pub(crate) type Position = [f64; 2];
+
+/// A colour, opaque red, green and blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Colour(pub(crate) u8, pub(crate) u8, pub(crate) u8);
+
+/// What is drawn, in painter's order.
+#[derive(Clone, Debug)]
+pub(crate) enum Shape {
+    /// A filled polygon.
+    Polygon {
+        /// Its corners.
+        corners: Vec<Position>,
+        /// Its colour.
+        fill: Colour,
+    },
+    /// A line of segments with round joins.
+    Line {
+        /// Its points.
+        points: Vec<Position>,
+        /// Width in pixels.
+        width: f64,
+        /// Its colour.
+        stroke: Colour,
+    },
+    /// A disc with a rim.
+    Disc {
+        /// Its centre.
+        centre: Position,
+        /// Radius in pixels.
+        radius: f64,
+        /// Colour of the inside.
+        fill: Colour,
+        /// Colour of the rim.
+        rim: Colour,
+    },
+}
+
+/// A square drawing.
+#[derive(Clone, Debug)]
+pub(crate) struct Picture {
+    /// Width and height in pixels.
+    pub(crate) size: u32,
+    /// What it shows, for people who cannot see it.
+    pub(crate) title: String,
+    /// The shapes, back to front.
+    pub(crate) shapes: Vec<Shape>,
+}
+
+impl Picture {
+    /// A number, centred at a position; `height` is that of its digits, in pixels.
+    pub(crate) fn number(&mut self, number: u32, centre: Position, height: f64, stroke: Colour) {
+        let strokes = digits::strokes(number, centre, height);
+        let width = digits::stroke_width(height);
+        let lines = strokes.into_iter().map(|points| Shape::Line { points, width, stroke });
+        self.shapes.extend(lines);
+    }
+
+    /// The picture as an SVG file.
+    #[must_use]
+    pub(crate) fn to_svg(&self) -> String {
+        svg::render(self)
+    }
+
+    /// The picture as a PNG file.
+    ///
+    /// # Errors
+    /// A size of 0, or one that memory does not hold.
+    pub(crate) fn to_png(&self) -> Result<Vec<u8>, Failure> {
+        png::render(self)
+    }
+}
+
+/// Width of a number's bounding box, for digits of this height.
+#[must_use]
+pub(crate) fn number_width(number: u32, height: f64) -> f64 {
+    digits::width(number, height)
+}

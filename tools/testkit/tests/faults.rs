@@ -1,0 +1,250 @@
+//! Every comparison is seen to fail: each planted fault is reported, with its element and stage.
+
+use std::fs::read_to_string;
+use std::sync::atomic::Ordering;
+use tess_testkit::faults::{Fault, Faulty};
+use tess_verify::backend::Backend;
+use tess_verify::checker::{CheckError, MAX_DIFFERENCES, Report, check};
+use tess_verify::compare::{Element, Stage};
+use tess_verify::core_backend::CoreBackend;
+use tess_verify::strength::Strength;
+use tess_verify::vectors::VectorFile;
+
+/// Rows of a golden file as a file of its own; of listings, all.
+fn excerpt(name: &str, keep: impl Fn(usize, &str) -> bool) -> String {
+    let path = format!("{}/../../golden/{name}", env!("CARGO_MANIFEST_DIR"));
+    let text = read_to_string(path).expect("readable");
+    let [header, columns, rows @ ..] = &text.lines().collect::<Vec<_>>()[..] else {
+        panic!("{name} has a header and columns")
+    };
+    let kind = header.split_whitespace().nth(3).expect("a kind");
+    if kind == "kind=listings" {
+        return text;
+    }
+    let kept = rows.iter().enumerate().filter(|(i, row)| keep(*i, row)).map(|(_, row)| *row);
+    let rows: Vec<_> = kept.collect();
+    let header = format!("# tess-vectors 1 {kind} count={} source=tess", rows.len());
+    format!("{header}\n{columns}\n{}\n", rows.join("\n"))
+}
+
+fn run(text: &str, backends: &mut [Box<dyn Backend>]) -> Result<Report, CheckError> {
+    check(VectorFile::new("excerpt", text.as_bytes())?, backends, Strength::default(), &|_| ())
+}
+
+/// Checks `text` with a faulty backend; fails if the fault was not committed.
+fn run_faulty(text: &str, fault: Fault, calls_before: u32) -> Result<Report, CheckError> {
+    let backend = Faulty::new(CoreBackend, fault, calls_before);
+    let committed = backend.committed();
+    let result = run(text, &mut [Box::new(backend)]);
+    assert!(committed.load(Ordering::Relaxed), "{fault:?} was committed");
+    result
+}
+
+fn run_core(text: &str) -> Report {
+    run(text, &mut [Box::new(CoreBackend)]).expect("a verdict")
+}
+
+/// Whether a difference in `element` and `stage` is what a fault of patches looks like.
+fn looks_like(fault: Fault, element: &Element, stage: Stage) -> bool {
+    let first = |wanted| matches!(element, Element::Point { index: 0, coordinate } if *coordinate == wanted);
+    match fault {
+        Fault::PointU => first("u") && stage == Stage::Location,
+        Fault::PointV => first("v") && stage == Stage::Location,
+        Fault::LastPoint => {
+            matches!(element, Element::Point { coordinate: "v", .. }) && stage == Stage::Location
+        }
+        Fault::SwappedPoints => (first("u") || first("v")) && stage == Stage::PointOrder,
+        Fault::DroppedPoint | Fault::ExtraPoint | Fault::EmptyPatch => {
+            *element == Element::Count("points") && stage == Stage::Counts
+        }
+        Fault::SwappedIndices => {
+            *element == Element::Index { primitive: 0, position: 0 } && stage == Stage::Stitch
+        }
+        Fault::LastIndex => matches!(element, Element::Index { .. }) && stage == Stage::Stitch,
+        Fault::DroppedIndex | Fault::ExtraIndex => {
+            *element == Element::Count("indices") && stage == Stage::Counts
+        }
+        _ => true,
+    }
+}
+
+#[test]
+fn faults_of_patches_in_every_kind_that_has_patches() {
+    let files = [
+        excerpt("cases.txt", |_, _| true),
+        excerpt("patches.csv", |i, _| i < 400),
+        excerpt("corners.csv", |i, _| i % 8 == 3),
+        excerpt("hlsl.csv", |i, _| i < 400),
+        excerpt("sweep.csv", |i, _| i % 100 == 40),
+        excerpt("uniform.csv", |i, _| i % 100 == 40),
+    ];
+    for text in &files {
+        let clean = run_core(text);
+        assert_eq!(clean.mismatches, 0, "without a fault");
+        for fault in Fault::OF_PATCHES {
+            for calls_before in [0, 3] {
+                let result = run_faulty(text, fault, calls_before);
+                if fault == Fault::ShortAnswer {
+                    assert!(matches!(result, Err(CheckError::Backend(_))), "{result:?}");
+                    continue;
+                }
+                let report = result.expect("a verdict");
+                assert_eq!((report.cases, report.mismatches), (clean.cases, 1), "{fault:?}");
+                let mismatch = &report.differences[0].mismatch;
+                let as_expected = looks_like(fault, &mismatch.element, mismatch.stage);
+                assert!(as_expected, "{fault:?} looks like {mismatch}");
+                assert!(report.differences[0].case.is_some(), "{fault:?}: the patch is named");
+            }
+        }
+    }
+}
+
+#[test]
+fn faults_of_contexts_and_locations() {
+    let text = excerpt("place.csv", |i, _| i % 60 == 2 || i == 63);
+    let rows = run_core(&text).cases;
+    assert_eq!(rows, 6, "rows of the excerpt");
+    for (faults, stage) in
+        [(&Fault::OF_CONTEXTS[..], Stage::Context), (&Fault::OF_LOCATIONS[..], Stage::Location)]
+    {
+        for &fault in faults {
+            let result = run_faulty(&text, fault, 4);
+            if fault == Fault::ShortAnswer {
+                assert!(matches!(result, Err(CheckError::Backend(_))), "{result:?}");
+                continue;
+            }
+            let report = result.expect("a verdict");
+            assert_eq!((report.cases, report.mismatches), (rows, rows - 4), "{fault:?}");
+            let mismatch = &report.differences[0].mismatch;
+            let counted = fault == Fault::DroppedLocation;
+            let stage = if counted { Stage::Counts } else { stage };
+            assert_eq!(mismatch.stage, stage, "{fault:?}: {mismatch}");
+            let found = matches!(
+                (fault, mismatch.element.clone()),
+                (Fault::Context(_), Element::Context { .. })
+                    | (Fault::LastLocation | Fault::SwappedLocations, Element::Location { .. })
+                    | (Fault::DroppedLocation, Element::Count("locations"))
+            );
+            assert!(found, "{fault:?} looks like {mismatch}");
+        }
+    }
+}
+
+#[test]
+fn faults_of_factors() {
+    let text = excerpt("factor.csv", |_, row| row.starts_with("fractional_odd,0,"));
+    assert_eq!(run_core(&text).cases, 1, "rows of the excerpt");
+    for (fault, expected) in [(Fault::OuterFactor, "outer"), (Fault::InsideFactor, "inside")] {
+        // In the last of the 128 batches, the last of which is the number below two.
+        let report = run_faulty(&text, fault, 127).expect("a verdict");
+        assert_eq!(report.mismatches, 1, "{fault:?}");
+        let mismatch = &report.differences[0].mismatch;
+        assert_eq!(mismatch.stage, Stage::Factors, "{fault:?}: {mismatch}");
+        let found = matches!(mismatch.element, Element::Factor { role, .. } if role == expected);
+        assert!(found, "{fault:?} looks like {mismatch}");
+    }
+    let result = run_faulty(&text, Fault::ShortAnswer, 127);
+    assert!(matches!(result, Err(CheckError::Backend(_))), "{result:?}");
+}
+
+/// A patch's difference is traced to the first stage that is wrong on its own.
+#[test]
+fn stages_are_told_apart() {
+    let text = excerpt("patches.csv", |i, _| i < 40);
+    for (fault, stage) in [
+        (Fault::OuterFactor, Stage::Factors),
+        (Fault::InsideFactor, Stage::Factors),
+        (Fault::OF_CONTEXTS[3], Stage::Context),
+        (Fault::LastLocation, Stage::Location),
+    ] {
+        let patch_fault = Faulty::new(CoreBackend, Fault::DroppedPoint, 0);
+        let backend = Faulty::new(patch_fault, fault, 0);
+        let report = run(&text, &mut [Box::new(backend)]).expect("a verdict");
+        let [difference] = &report.differences[..] else { panic!("one difference: {report}") };
+        assert_eq!(difference.mismatch.stage, stage, "{fault:?}: {difference}");
+    }
+}
+
+/// A wrong number in any result column of any kind is a difference.
+#[test]
+fn wrong_records() {
+    let files = [
+        (excerpt("patches.csv", |i, _| i == 8), &[5, 6, 7, 8][..]),
+        (excerpt("sweep.csv", |i, _| i == 8), &[5]),
+        (excerpt("uniform.csv", |i, _| i == 8), &[5]),
+        (excerpt("place.csv", |i, _| i == 62), &[3, 4, 5]),
+        (excerpt("factor.csv", |i, _| i == 0), &[2, 3]),
+        (excerpt("hlsl.csv", |i, _| i == 1), &[6, 7, 8, 9, 10, 11]),
+    ];
+    for (text, columns) in &files {
+        assert_eq!(run_core(text).mismatches, 0, "as recorded");
+        for &column in *columns {
+            let (start, row) = text.trim_end().rsplit_once('\n').expect("a row");
+            let mut fields: Vec<_> = row.split(',').map(str::to_owned).collect();
+            let digit = fields[column].pop().expect("a digit");
+            fields[column].push(if digit == '1' { '2' } else { '1' });
+            let report = run_core(&format!("{start}\n{}\n", fields.join(",")));
+            assert_eq!(report.mismatches, 1, "column {column} of {row}");
+            if text.contains("kind=factors") {
+                continue; // a binade takes a second
+            }
+            // The difference can be shown again from its own text.
+            let again = report.differences[0].file.as_deref().expect("a row");
+            let again = run_core(again);
+            let show = |report: &Report| report.differences[0].mismatch.to_string();
+            assert_eq!(show(&again), show(&report), "column {column} of {row}, again");
+        }
+    }
+}
+
+/// Listings of a device are what was observed; elsewhere the file is right.
+#[test]
+fn listings_of_a_device() {
+    let text = excerpt("cases.txt", |_, _| true);
+    let damaged = text.replacen("\n0 1 10\n", "\n0 1 11\n", 1);
+    let shown = |text: &str| run_core(text).differences[0].mismatch.to_string();
+    let index = "index 2 of primitive 0";
+    let expected = format!("{index}: observed 0xa, expected 0xb (stage: stitch)");
+    assert_eq!(shown(&damaged), expected, "a recording");
+    let device = damaged.replacen("source=d3d11-reference", "source=rtl", 1);
+    let expected = format!("{index}: observed 0xb, expected 0xa (stage: stitch)");
+    assert_eq!(shown(&device), expected, "a device");
+}
+
+/// The first differences are shown, all are counted, and the number of threads changes nothing.
+#[test]
+fn many_differences() {
+    let good = excerpt("patches.csv", |i, _| i < 2000);
+    let bad: Vec<_> = good
+        .lines()
+        .enumerate()
+        .map(|(i, line)| {
+            let digest = line.len() - 16;
+            if i > 100 && i % 3 == 0 {
+                line[..digest].to_owned() + "0123456789abcdef"
+            } else {
+                line.into()
+            }
+        })
+        .collect();
+    let bad = bad.join("\n");
+    let shown = |backends: usize| {
+        let mut backends: Vec<Box<dyn Backend>> =
+            (0..backends).map(|_| Box::new(CoreBackend) as Box<dyn Backend>).collect();
+        let report = run(&bad, &mut backends).expect("a verdict");
+        assert_eq!((report.cases, report.mismatches), (2000, 634), "{} backends", backends.len());
+        let shown: Vec<_> = report.differences.iter().map(ToString::to_string).collect();
+        assert_eq!(shown.len(), MAX_DIFFERENCES, "differences that are shown");
+        shown
+    };
+    assert_eq!(shown(1), shown(5), "1 and 5 threads");
+}
+
+#[test]
+fn no_verdict_without_a_backend_or_a_whole_file() {
+    let text = excerpt("patches.csv", |i, _| i < 1000);
+    assert!(matches!(run(&text, &mut []), Err(CheckError::Backend(_))), "no backend");
+    let cut = &text[..text.len() - 30];
+    let result = run(cut, &mut [Box::new(CoreBackend)]);
+    assert!(matches!(result, Err(CheckError::Vectors(_))), "cut in its last row: {result:?}");
+}

@@ -1,0 +1,67 @@
+//! Verification of backends sees every planted fault.
+
+use std::sync::atomic::Ordering;
+use tess_testkit::faults::{Fault, Faulty};
+use tess_verify::backend::Backend;
+use tess_verify::core_backend::CoreBackend;
+use tess_verify::generate::Shard;
+use tess_verify::verify::{Plan, Random, Row, Subject, verify};
+
+fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &Plan) -> Vec<Row> {
+    verify(workers, plan, &|_, _, _| {}).expect("the backends run")
+}
+
+/// The faults that a subject's units must see, and a plan of few of them.
+fn faulty_plan(subject: Subject) -> (Vec<Fault>, Plan) {
+    let (faults, of) = match subject {
+        Subject::Factors => (Fault::OF_FACTORS.to_vec(), 16384),
+        Subject::Locations => ([&Fault::OF_CONTEXTS[..], &Fault::OF_LOCATIONS].concat(), 252),
+        _ => (Fault::OF_PATCHES.to_vec(), 31),
+    };
+    (faults, Plan { subjects: vec![subject], shard: Shard { part: 1, of } })
+}
+
+#[test]
+fn every_subject_sees_every_fault() {
+    let random = Subject::Random(Random { patches: 300, seed: 1 });
+    for subject in Subject::ALL.into_iter().chain([random]) {
+        let (faults, plan) = faulty_plan(subject);
+        for fault in faults {
+            let faulty = Faulty::new(CoreBackend, fault, 0);
+            let committed = faulty.committed();
+            let result = verify(&mut [vec![Box::new(faulty)]], &plan, &|_, _, _| {});
+            assert!(committed.load(Ordering::Relaxed), "{fault:?} was committed");
+            if fault == Fault::ShortAnswer {
+                assert!(result.is_err(), "{subject:?}: an answer too few");
+                continue;
+            }
+            let rows = result.expect("the backend runs");
+            let [row] = &rows[..] else { panic!("one row: {rows:?}") };
+            assert!(row.mismatches > 0 && row.first.is_some(), "{fault:?}: {row:?}");
+        }
+    }
+}
+
+/// A difference is counted for the backend that has it, not for the one beside it.
+#[test]
+fn differences_are_told_apart_by_backend() {
+    let plan = Plan { subjects: vec![Subject::Transitions], shard: Shard { part: 1, of: 31 } };
+    let faulty = Faulty::new(CoreBackend, Fault::LastIndex, 0);
+    let rows = run(&mut [vec![Box::new(CoreBackend), Box::new(faulty)]], &plan);
+    let mismatches: Vec<u64> = rows.iter().map(|row| row.mismatches).collect();
+    assert_eq!(mismatches, [0, 1], "{rows:?}");
+}
+
+/// A single bit of a single random patch, somewhere in the middle.
+#[test]
+fn one_bit_of_one_random_patch() {
+    let plan = Plan::random(Random { patches: 5000, seed: 3 });
+    for fault in [Fault::PointU, Fault::LastPoint] {
+        let rows = run(&mut [vec![Box::new(Faulty::new(CoreBackend, fault, 101))]], &plan);
+        let [row] = &rows[..] else { panic!("one row: {rows:?}") };
+        assert_eq!((row.compared, row.mismatches), (96 * 5000, 1), "{row:?}");
+        let first = row.first.as_deref().unwrap_or_default();
+        assert!(first.contains("point "), "the element is named: {first}");
+        assert!(first.contains("\n  tess patch "), "it can be run again: {first}");
+    }
+}
