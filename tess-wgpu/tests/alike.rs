@@ -113,10 +113,11 @@ fn blocks_know_whether_their_patches_are_alike() {
     let batch = batch.expect("valid");
     machine.run(&batch);
     let (offsets, topologies) = (machine.words(batch.offsets()), machine.words(batch.topologies()));
-    let words = |words: &[u32], at: u32| words[2 * at as usize..][..2].to_vec();
-    let block = |number: u32| words(&offsets, batch.plan().job(0).alike_at + number);
+    let words =
+        |words: &[u32], at: u64| words[2 * usize::try_from(at).expect("in memory")..][..2].to_vec();
+    let block = |number: u32| words(&offsets, batch.plan().alike_entry(BLOCK * number));
     for (number, alike) in [(0, true), (1, false), (2, false), (4, true)] {
-        let first = words(&topologies, number * BLOCK);
+        let first = words(&topologies, u64::from(number * BLOCK));
         assert_eq!(block(number), if alike { first } else { vec![0, 0] }, "block {number}");
     }
     assert_eq!(block(3)[0] >> 28, 0, "culled patches are alike, and culled");
@@ -144,7 +145,7 @@ fn planted_faults_are_seen() {
         (integer, &alike, "(at * 43691u) >> 17u", "(at * 43690u) >> 17u"),
         (integer, &alike, "it.i + 1u == repeat.size", "it.i == repeat.size"),
         (integer, &alike, "job.first_patch + tile.first_patch + number", "number"),
-        (integer, &alike, "i - KEPT].y = packed", "i - KEPT].x = packed"),
+        (integer, &alike, "i - SCRATCH].y = packed", "i - SCRATCH].x = packed"),
         (
             fractional,
             &similar,
@@ -154,13 +155,10 @@ fn planted_faults_are_seen() {
     ] {
         let expected = Expected::new(setup, patches);
         let (points, indices) = expected.words();
-        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, |_, source| source);
+        machine.tessellator = Tessellator::new(&machine.gpu.device);
         let written = machine.write(setup, patches, points, indices);
         assert_eq!(expected.compare(&written), Ok(()), "without a fault");
-        let sources = tess_gpu::Stage::ALL.map(|stage| stage.source(setup)).concat();
-        assert!(sources.contains(right), "{right} is in no shader");
-        let edit = move |_, source: String| source.replace(right, wrong);
-        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, edit);
+        machine.plant(setup, right, wrong);
         let written = machine.write(setup, patches, points, indices);
         assert!(expected.compare(&written).is_err(), "{right} to {wrong} went unnoticed");
     }
