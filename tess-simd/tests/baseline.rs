@@ -14,7 +14,6 @@ use tess_core::{
 use tess_simd::{Batch, Buffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
 use tess_simd::{contexts, fixed_factors, locations};
 use tess_verify::backend::Backend;
-use tess_verify::case::{factor_names, factors_from_list};
 use tess_verify::core_backend::CoreBackend;
 
 /// One test, the fastest parts first, so that it ends at the first difference.
@@ -84,12 +83,12 @@ fn factors_that_differ_in_one_bit() {
 fn topologies_that_differ_in_one_factor() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     for domain in [Domain::Triangle, Domain::Quad] {
-        let count = factor_names(domain).len();
+        let count = domain.factors();
         for position in 0..count {
             let patch = |n: u8| {
                 let mut factors = [3.0, 5.0, 2.0, 4.0, 6.0, 3.0][..count].to_vec();
                 factors[position] = f32::from(n);
-                factors_from_list(domain, &factors).expect("as many as the domain has")
+                PatchFactors::from_slice(domain, &factors).expect("as many as the domain has")
             };
             let all = (1..=16).chain((1..=16).rev()).chain(1..=64).map(patch).collect();
             check(config, domain, &Patches::new(all));
@@ -185,11 +184,11 @@ fn factors() {
 fn picture_frames() {
     let near_one = [0x3F80_0000, 0x3F80_003F, 0x3F80_0040, 0x3F80_0041].map(f32::from_bits);
     for domain in [Domain::Triangle, Domain::Quad] {
-        let count = factor_names(domain).len();
+        let count = domain.factors();
         let patch = |n: usize| {
             let factor = |position: usize| near_one[n >> (2 * position) & 3];
             let factors: Vec<f32> = (0..count).map(factor).collect();
-            factors_from_list(domain, &factors).expect("as many as the domain has")
+            PatchFactors::from_slice(domain, &factors).expect("as many as the domain has")
         };
         let patches = Patches::new((0..1 << (2 * count)).map(patch).collect());
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
