@@ -11,10 +11,8 @@
 //! `cargo test`. The bench `simd` fills the same bytes beside each workload.
 
 use std::ops::Range;
-use tess_core::{
-    BufferTooSmall, DomainPoint, IsolineFactors, Patch, PatchFactors, QuadFactors, TriangleFactors,
-};
-use tess_simd::{Batch, Buffers, Level, Numbering, PatchRange, Tessellator};
+use tess_core::{BufferTooSmall, DomainPoint, Patch};
+use tess_simd::{Buffers, Level, Numbering, PatchRange, Tessellator};
 use tess_verify::digest::Fnv1a;
 use tess_verify::workloads::{IndexType, Totals, Workload, all};
 
@@ -32,48 +30,11 @@ pub struct Case {
     simd: Simd,
 }
 
-/// The SIMD backend and the patches as it takes them.
+/// The SIMD backend and its ranges.
 #[derive(Debug)]
 struct Simd {
     tessellator: Tessellator,
-    patches: Patches,
     ranges: Vec<PatchRange>,
-}
-
-/// Patches of one domain.
-#[derive(Debug)]
-enum Patches {
-    Isolines(Vec<IsolineFactors>),
-    Triangles(Vec<TriangleFactors>),
-    Quads(Vec<QuadFactors>),
-}
-
-impl Patches {
-    fn new(patches: &[PatchFactors]) -> Self {
-        let (mut isolines, mut triangles, mut quads) = (Vec::new(), Vec::new(), Vec::new());
-        for &patch in patches {
-            match patch {
-                PatchFactors::Isoline(factors) => isolines.push(factors),
-                PatchFactors::Triangle(factors) => triangles.push(factors),
-                PatchFactors::Quad(factors) => quads.push(factors),
-            }
-        }
-        if !isolines.is_empty() {
-            Self::Isolines(isolines)
-        } else if !triangles.is_empty() {
-            Self::Triangles(triangles)
-        } else {
-            Self::Quads(quads)
-        }
-    }
-
-    fn batch(&self) -> Batch<'_> {
-        match self {
-            Self::Isolines(patches) => patches[..].into(),
-            Self::Triangles(patches) => patches[..].into(),
-            Self::Quads(patches) => patches[..].into(),
-        }
-    }
 }
 
 /// Every workload's first batch.
@@ -92,7 +53,6 @@ impl Case {
         let indices = part.counts().map(|counts| counts.indices as usize).sum();
         let simd = Simd {
             tessellator: Tessellator::new(workload.config),
-            patches: Patches::new(&part.patches),
             ranges: vec![PatchRange::default(); part.patches.len()],
         };
         Self {
@@ -124,10 +84,10 @@ impl Case {
     /// # Errors
     /// The buffers are too small, which their sizes rule out.
     pub fn run_simd(&mut self) -> Result<(), tess_simd::Error> {
-        let Self { points, indices, simd, .. } = self;
-        let Simd { tessellator, patches, ranges } = simd;
-        let buffers = Buffers { points, indices, ranges };
-        tessellator.write(patches.batch(), Numbering::PerPatch, buffers)?;
+        let Self { workload, batch, points, indices, simd, .. } = self;
+        let buffers = Buffers::new(points, indices).with_ranges(&mut simd.ranges);
+        let patches = &workload.patches[batch.clone()];
+        simd.tessellator.write(patches, Numbering::PerPatch, buffers)?;
         Ok(())
     }
 

@@ -10,7 +10,7 @@ use tess_core::{
 use tess_simd::{Batch, ExactOutput, Level, Numbering, Output, Tessellator};
 use tess_verify::case::Case;
 
-/// Patches in a batch: more than two blocks of eight, and not a multiple of them.
+/// Patches in a batch: more than a block of sixteen, and not a multiple of it.
 const MOST: usize = 19;
 
 thread_local! {
@@ -46,7 +46,7 @@ fn check_level(
     let mut wide = ExactOutput::new();
     let mut narrow: Output<DomainPoint, u16> = Output::new();
     let mut numbered = ExactOutput::new();
-    let across = Numbering::Batch { base_vertex: BASE };
+    let across = Numbering::PerBatch { base_vertex: BASE };
     with_batch(patches, |batch| {
         tessellator.tessellate(batch, Numbering::PerPatch, &mut wide)?;
         tessellator.tessellate(batch, Numbering::PerPatch, &mut narrow)?;

@@ -40,4 +40,4 @@ pub use place::place;
 pub use sink::Tessellation;
 pub use sink::{Counter, Sink};
 pub use state::{Config, Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
-pub use stitch::{Side, Stitch, StitchKind};
+pub use stitch::{Side, Step, Stitch, StitchKind};

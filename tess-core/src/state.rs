@@ -1,7 +1,7 @@
 //! What a tessellator is set to before patches arrive (spec section 1).
 
 /// The shape of a patch's parameter space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Domain {
     /// Parallel lines along u, stacked in v.
     Isoline,
@@ -12,7 +12,7 @@ pub enum Domain {
 }
 
 /// How a factor's cuts are spaced along an edge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Partitioning {
     /// Equal segments, factor rounded up to an integer in 1..=64.
     Integer,
@@ -26,7 +26,7 @@ pub enum Partitioning {
 }
 
 /// What the index list is made of. Clockwise is seen with v pointing down (spec section 7).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum OutputPrimitive {
     /// One index per domain point.
     Point,
@@ -39,7 +39,7 @@ pub enum OutputPrimitive {
 }
 
 /// The order in which points join an edge as its factor grows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SplitOrder {
     /// Bit-reversed order, the standard.
     #[default]
@@ -49,7 +49,7 @@ pub enum SplitOrder {
 }
 
 /// Whether an edge has an odd or an even number of segments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Parity {
     /// Even number of segments: a point lies exactly in the middle.
     Even,
@@ -69,7 +69,7 @@ impl Parity {
 }
 
 /// The fixed state of the tessellator; the domain comes with the factors of each patch.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Config {
     /// Spacing of the cuts.
     pub partitioning: Partitioning,

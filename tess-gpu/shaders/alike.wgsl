@@ -1,3 +1,4 @@
+// needs: offsets, tile, topology; bindings: job, offsets
 // Tiles whose patches all have the same topology: the elements of one patch are made once, kept in
 // workgroup memory and copied, if there are not so many that making them takes longer than it saves.
 
@@ -14,8 +15,8 @@ struct Repeat {
     points: u32,
 }
 
-// How the points (kind 0) or primitives (kind 1) of a tile repeat, if a patch has at most `most` of
-// them, which is at most 640.
+// How the elements of a tile repeat, if a patch has at most `most` of them, which is at most 640.
+// `kind` is POINTS or PRIMITIVES.
 fn repeat_of(tile: Tile, kind: u32, most: u32) -> Repeat {
     var none: Repeat;
     none.size = 0u;
@@ -35,8 +36,8 @@ fn repeat_of(tile: Tile, kind: u32, most: u32) -> Repeat {
 
 // The topology of all patches of the blocks in which a tile's patches are, or a culled one.
 fn common_topology(tile: Tile) -> vec2<u32> {
-    let first = job.alike_at + (tile.first_patch >> 8u);
-    let last = job.alike_at + (tile.last_patch >> 8u);
+    let first = job.alike_at + (tile.first_patch >> BLOCK_BITS);
+    let last = job.alike_at + (tile.last_patch >> BLOCK_BITS);
     let topology = offsets[first];
     for (var block = first + 1u; block <= last; block++) {
         if any(offsets[block] != topology) {

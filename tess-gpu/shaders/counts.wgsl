@@ -1,3 +1,4 @@
+// needs: state, topology
 // How many points and primitives a patch has, by formula (spec section 12.6).
 
 fn interior_points(topology: vec2<u32>) -> u32 {

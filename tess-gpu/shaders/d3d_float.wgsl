@@ -1,3 +1,4 @@
+// needs: nothing
 // Comparison, clamping and rounding of binary32 factors by their bits alone. As unsigned numbers,
 // positive floats are in order, and NaN and everything with a sign bit lie above infinity.
 

@@ -1,3 +1,4 @@
+// needs: alike, expand, point_format, points, rings, state, tile, topology
 // One workgroup per tile of points: each thread makes pairs of them, from their numbers alone.
 
 @group(0) @binding(0) var<uniform> job: Job;
@@ -9,20 +10,17 @@
 @group(0) @binding(6) var<storage, read> tiles: array<u32>;
 @group(0) @binding(7) var<storage, read_write> points_out: array<vec2<u32>>;
 
-// Points that are kept of a patch that is copied: as many as a quad of factor 16 has fit.
-const KEPT = 320u;
-
 // The patch that points are taken from.
 struct Source {
     // Within the round.
     number: u32,
     begin: u32,
     topology: vec2<u32>,
-    domain: Domain,
+    axes: PatchAxes,
 }
 
 fn load_source(round: Round, number: u32) -> Source {
-    var source = source_of(round.first + number, round_topologies[number]);
+    var source = source_of(round.first + number, scratch[number]);
     source.number = number;
     source.begin = u32(begins[number]);
     return source;
@@ -32,26 +30,26 @@ fn source_of(patch_index: u32, topology: vec2<u32>) -> Source {
     var source: Source;
     source.topology = topology;
     if DOMAIN != ISOLINE && state_of(topology) == REGULAR {
-        source.domain = domain_of(patch_index, topology);
+        source.axes = axes_of(patch_index, topology);
     }
     return source;
 }
 
-fn spot_at(source: Source, i: u32) -> Spot {
+fn location_of(source: Source, i: u32) -> RingLocation {
     if DOMAIN != ISOLINE && state_of(source.topology) == REGULAR {
-        return point_spot(source.domain.shape, i);
+        return point_location(source.axes.rings, i);
     }
-    return Spot(0u, 0u, i);
+    return RingLocation(0u, 0u, i);
 }
 
-fn run_at(round: Round, source: Source, spot: Spot) -> Run {
+fn run_at(round: Round, source: Source, location: RingLocation) -> PointRun {
     if DOMAIN == ISOLINE {
-        return line_run(round.first + source.number, source.topology, spot.step);
+        return line_run(round.first + source.number, source.topology, location.step);
     }
     if state_of(source.topology) == MINIMUM {
-        return minimum_run(spot.step);
+        return minimum_run(location.step);
     }
-    return run_of(source.domain, spot);
+    return run_of(source.axes, location);
 }
 
 fn write_points(round: Round, thread: u32, out: u32) {
@@ -67,8 +65,8 @@ fn write_points(round: Round, thread: u32, out: u32) {
         if number != source.number {
             source = load_source(round, number);
         }
-        let spot = spot_at(source, first - source.begin);
-        var run = run_at(round, source, spot);
+        let location = location_of(source, first - source.begin);
+        var run = run_at(round, source, location);
         points_out[out + first] = format_point(point_of_run(run, run.step), patch_number + number);
         if first == element && element + 1u < round.end {
             run.step++;
@@ -77,7 +75,7 @@ fn write_points(round: Round, thread: u32, out: u32) {
                 if next != number {
                     source = load_source(round, next);
                 }
-                run = first_run(round, source, spot, next != number, element + 1u);
+                run = first_run(round, source, location, next != number, element + 1u);
             }
             points_out[out + element + 1u] =
                 format_point(point_of_run(run, run.step), patch_number + source.number);
@@ -85,14 +83,14 @@ fn write_points(round: Round, thread: u32, out: u32) {
     }
 }
 
-// The run that an element begins, the one behind a spot or the first of a patch.
-fn first_run(round: Round, source: Source, spot: Spot, is_next_patch: bool, element: u32) -> Run {
+// The run that an element begins, the one behind a location or the first of a patch.
+fn first_run(round: Round, source: Source, location: RingLocation, is_next_patch: bool, element: u32) -> PointRun {
     if DOMAIN == ISOLINE {
-        return run_at(round, source, Spot(0u, 0u, element - source.begin));
+        return run_at(round, source, RingLocation(0u, 0u, element - source.begin));
     }
-    var next = next_edge(spot);
+    var next = next_edge(location);
     if is_next_patch {
-        next = Spot(0u, 0u, 0u);
+        next = RingLocation(0u, 0u, 0u);
     }
     return run_at(round, source, next);
 }
@@ -106,8 +104,8 @@ fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
     let source = source_of(tile.first_patch, repeat.topology);
     let round = Round(tile.first_patch, 1u, 0u, 0u);
     for (var i = thread; i < repeat.size; i += WORKGROUP) {
-        let run = run_at(round, source, spot_at(source, i));
-        round_topologies[i] = format_point(point_of_run(run, run.step), 0u);
+        let run = run_at(round, source, location_of(source, i));
+        scratch[i] = format_point(point_of_run(run, run.step), 0u);
     }
     workgroupBarrier();
     let end = tile.end - tile.base;
@@ -115,7 +113,7 @@ fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
         let position = element + repeat.before;
         let number = patch_at(repeat, position);
         points_out[out + element] = numbered(
-            round_topologies[position - number * repeat.size],
+            scratch[position - number * repeat.size],
             job.first_patch + tile.first_patch + number);
     }
 }
@@ -133,24 +131,12 @@ fn expand_points(
         return;
     }
     let out = tile.base - job.window_first * TILE;
-    let repeat = repeat_of(tile, 0u, KEPT);
+    let repeat = repeat_of(tile, POINTS, SCRATCH);
     if repeat.size > 0u && has_same_points(repeat.topology) {
         copy_points(tile, repeat, thread, out);
         return;
     }
     for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
-        let count = min(ROUND, tile.last_patch - first + 1u);
-        workgroupBarrier();
-        for (var i = thread; i < count; i += WORKGROUP) {
-            begins[i] = i32(patch_offset(first + i).x - tile.base);
-            round_topologies[i] = topologies[first + i];
-        }
-        workgroupBarrier();
-        let begin = u32(max(begins[0], i32(tile.begin - tile.base)));
-        var end = tile.end - tile.base;
-        if first + count <= tile.last_patch {
-            end = patch_offset(first + count).x - tile.base;
-        }
-        write_points(Round(first, count, begin, end), thread, out);
+        write_points(load_round(tile, first, POINTS, thread), thread, out);
     }
 }

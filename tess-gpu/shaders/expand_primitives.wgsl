@@ -1,3 +1,4 @@
+// needs: alike, connect, expand, {indices}, offsets, rings, state, stitch, tile, topology
 // One workgroup per tile of primitives: each thread makes pairs of them, from their numbers alone.
 // How a pair is stored is in indices_u32.wgsl and indices_u16.wgsl.
 
@@ -8,9 +9,6 @@
 @group(0) @binding(4) var<storage, read> status: Status;
 @group(0) @binding(5) var<storage, read> tiles: array<u32>;
 
-// Half of the triangles that are kept of a patch that is copied.
-const KEPT = ROUND;
-
 // The patch that elements are taken from.
 struct Source {
     // Within the round.
@@ -18,29 +16,29 @@ struct Source {
     begin: u32,
     base: u32,
     is_regular: bool,
-    shape: Shape,
+    rings: Rings,
 }
 
 fn load_source(round: Round, number: u32) -> Source {
     let patch_index = round.first + number;
-    let topology = round_topologies[number];
+    let topology = scratch[number];
     let base = select(0u, patch_offset(patch_index).x, NUMBERING == PER_BATCH);
     return Source(
-        number, u32(begins[number]), base, state_of(topology) == REGULAR, shape_of(topology));
+        number, u32(begins[number]), base, state_of(topology) == REGULAR, rings_of(topology));
 }
 
-fn spot_at(source: Source, t: u32) -> Spot {
+fn location_of(source: Source, t: u32) -> RingLocation {
     if source.is_regular {
-        return triangle_spot(source.shape, t);
+        return triangle_location(source.rings, t);
     }
-    return Spot(1u, 0u, t);
+    return RingLocation(1u, 0u, t);
 }
 
-fn stitch_from(source: Source, spot: Spot) -> Stitch {
+fn stitch_from(source: Source, location: RingLocation) -> Stitch {
     if !source.is_regular {
         return minimum_stitch(source.base);
     }
-    return stitch_at(source.shape, spot, source.base);
+    return stitch_at(source.rings, location, source.base);
 }
 
 fn write_triangles(round: Round, thread: u32, out: u32) {
@@ -55,30 +53,30 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
         if number != source.number {
             source = load_source(round, number);
         }
-        let spot = spot_at(source, first - source.begin);
-        let stitch = stitch_from(source, spot);
-        let pair = stitch_triangles(stitch, spot.step);
+        let location = location_of(source, first - source.begin);
+        let stitch = stitch_from(source, location);
+        let pair = stitch_triangles(stitch, location.step);
         let at = (out + element) >> 1u;
         let is_whole = first == element && element + 1u < round.end;
-        if is_whole && spot.step + 1u < stitch.size {
+        if is_whole && location.step + 1u < stitch.size {
             write_triangle_pair(at, pair.first, pair.second);
         } else {
             write_triangle(at, first != element, pair.first);
             if is_whole {
-                write_triangle(at, true, first_triangle(round, source, spot, element + 1u));
+                write_triangle(at, true, first_triangle(round, source, location, element + 1u));
             }
         }
     }
 }
 
-// The triangle of an element that begins a stitch, the one behind a spot or the first of a patch.
-fn first_triangle(round: Round, before: Source, spot: Spot, element: u32) -> vec3<u32> {
+// The triangle of an element that begins a stitch, the one behind a location or the first of a patch.
+fn first_triangle(round: Round, before: Source, location: RingLocation, element: u32) -> vec3<u32> {
     var source = before;
-    var next = next_edge(spot);
+    var next = next_edge(location);
     let number = next_patch(round, before.number, element);
     if number != before.number {
         source = load_source(round, number);
-        next = Spot(1u, 0u, 0u);
+        next = RingLocation(1u, 0u, 0u);
     }
     return stitch_triangles(stitch_from(source, next), 0u).first;
 }
@@ -93,7 +91,7 @@ fn write_sequences(round: Round, thread: u32, out: u32) {
             let base =
                 select(0u, patch_offset(round.first + number).x, NUMBERING == PER_BATCH);
             let t = element - u32(begins[number]);
-            let index = sequence_first(round_topologies[number], t, base);
+            let index = sequence_first(scratch[number], t, base);
             if INDICES == 2u {
                 write_two(out + element, index, index + 1u);
             } else {
@@ -106,15 +104,15 @@ fn write_sequences(round: Round, thread: u32, out: u32) {
 // Keeps the triangles of one patch, two in an element, each of three vertices of 10 bits.
 fn keep_triangles(repeat: Repeat, thread: u32) {
     let is_regular = state_of(repeat.topology) == REGULAR;
-    let source = Source(0u, 0u, 0u, is_regular, shape_of(repeat.topology));
+    let source = Source(0u, 0u, 0u, is_regular, rings_of(repeat.topology));
     for (var i = thread; i < repeat.size; i += WORKGROUP) {
-        let spot = spot_at(source, i);
-        let triangle = stitch_triangles(stitch_from(source, spot), spot.step).first;
+        let location = location_of(source, i);
+        let triangle = stitch_triangles(stitch_from(source, location), location.step).first;
         let packed = triangle.x | (triangle.y << 10u) | (triangle.z << 20u);
-        if i < KEPT {
-            round_topologies[i].x = packed;
+        if i < SCRATCH {
+            scratch[i].x = packed;
         } else {
-            round_topologies[i - KEPT].y = packed;
+            scratch[i - SCRATCH].y = packed;
         }
     }
 }
@@ -144,8 +142,8 @@ fn next_corner(repeat: Repeat, it: Corner) -> Corner {
 }
 
 fn kept_index(repeat: Repeat, it: Corner) -> u32 {
-    let is_low = it.i < KEPT;
-    let two = round_topologies[select(it.i - KEPT, it.i, is_low)];
+    let is_low = it.i < SCRATCH;
+    let two = scratch[select(it.i - SCRATCH, it.i, is_low)];
     let vertex = (select(two.y, two.x, is_low) >> (10u * it.corner)) & 1023u;
     return vertex + select(0u, repeat.base + it.number * repeat.points, NUMBERING == PER_BATCH);
 }
@@ -187,26 +185,14 @@ fn expand_primitives(
     }
     let out = tile.base - job.window_first * TILE;
     if IS_TRIANGLES {
-        let repeat = repeat_of(tile, 1u, 2u * KEPT);
+        let repeat = repeat_of(tile, PRIMITIVES, 2u * SCRATCH);
         if repeat.size > 0u {
             copy_triangles(tile, repeat, thread, out);
             return;
         }
     }
     for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
-        let count = min(ROUND, tile.last_patch - first + 1u);
-        workgroupBarrier();
-        for (var i = thread; i < count; i += WORKGROUP) {
-            begins[i] = i32(patch_offset(first + i).y - tile.base);
-            round_topologies[i] = topologies[first + i];
-        }
-        workgroupBarrier();
-        let begin = u32(max(begins[0], i32(tile.begin - tile.base)));
-        var end = tile.end - tile.base;
-        if first + count <= tile.last_patch {
-            end = patch_offset(first + count).y - tile.base;
-        }
-        let round = Round(first, count, begin, end);
+        let round = load_round(tile, first, PRIMITIVES, thread);
         if IS_TRIANGLES {
             write_triangles(round, thread, out);
         } else {

@@ -1,3 +1,4 @@
+// needs: nothing
 // The six numbers that all of point placement uses (spec section 4), in 8 bytes.
 //
 // word 0: inv_floor in bits 0..16, half_points 17..22, split 23..28, odd 29, top bit of inv_ceil 30

@@ -1,5 +1,6 @@
+// needs: counts, make_context, prefix_sum, process, state, topology
 // Factor processing (spec section 3): one thread per patch, from the bits of its raw factors to
-// its topology, contexts and counts, and for each block of 256 patches the sums of the counts and
+// its topology, contexts and counts, and for each block of patches the sums of the counts and
 // whether all have the same topology.
 
 @group(0) @binding(0) var<uniform> job: Job;
@@ -46,14 +47,14 @@ fn write_contexts(patch_index: u32, processed: Processed) {
 var<workgroup> first_topology: vec2<u32>;
 var<workgroup> differs: atomic<u32>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(BLOCK)
 fn factors(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
     let block = workgroup.x + workgroup.y * workgroups.x;
-    let patch_index = block * 256u + thread;
+    let patch_index = block * BLOCK + thread;
     var own = vec2<u32>(0u, 0u);
     var topology = vec2<u32>(0u, 0u);
     if patch_index < job.patches {
@@ -77,7 +78,7 @@ fn factors(
         }
     }
     workgroupBarrier();
-    if thread == 0u && block * 256u < job.patches {
+    if thread == 0u && block * BLOCK < job.patches {
         offsets[job.blocks_at + block] = sums.all;
         offsets[job.alike_at + block] = topology * (1u - atomicLoad(&differs));
     }

@@ -1,3 +1,4 @@
+// needs: nothing
 // Fixed-point numbers and the conversion from binary32 (spec section 2).
 
 const ONE = 0x10000u;

@@ -1,3 +1,4 @@
+// needs: nothing
 // Indices of 16 bits, two in a word. The two elements of a pair, which can share a word, are written
 // by one thread, or by one dispatch behind another: so half a word can be replaced.
 

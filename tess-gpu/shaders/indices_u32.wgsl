@@ -1,3 +1,4 @@
+// needs: nothing
 // Indices of 32 bits, two at a time.
 
 @group(0) @binding(6) var<storage, read_write> indices_out: array<vec2<u32>>;

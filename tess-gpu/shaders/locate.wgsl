@@ -1,3 +1,4 @@
+// needs: connect, fixed_point, points, rings, state, stitch, topology; bindings: topologies
 // Random access: any point or primitive of a patch from its number alone, in constant time.
 
 // Point i of a patch, which has that many: u and v, 16.16.
@@ -10,9 +11,9 @@ fn tess_point(patch_index: u32, i: u32) -> vec2<u32> {
     if state_of(topology) == MINIMUM {
         return point_of_run(minimum_run(i), i);
     }
-    let shape = shape_of(topology);
-    let spot = point_spot(shape, i);
-    return point_of_run(run_of(domain_of(patch_index, topology), spot), spot.step);
+    let rings = rings_of(topology);
+    let location = point_location(rings, i);
+    return point_of_run(run_of(axes_of(patch_index, topology), location), location.step);
 }
 
 // The same as binary32, exactly: the bits are made of integers.
@@ -34,7 +35,7 @@ fn tess_primitive(patch_index: u32, t: u32) -> vec3<u32> {
     if state_of(topology) == MINIMUM {
         return stitch_triangles(minimum_stitch(0u), t).first;
     }
-    let shape = shape_of(topology);
-    let spot = triangle_spot(shape, t);
-    return stitch_triangles(stitch_at(shape, spot, 0u), spot.step).first;
+    let rings = rings_of(topology);
+    let location = triangle_location(rings, t);
+    return stitch_triangles(stitch_at(rings, location, 0u), location.step).first;
 }

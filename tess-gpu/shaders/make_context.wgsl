@@ -1,3 +1,4 @@
+// needs: fixed_point, state; bindings: tables
 // From a fixed-point factor to its context (spec sections 4 and 10).
 
 // 1/n with 16 fraction bits, for n in 1..=64.

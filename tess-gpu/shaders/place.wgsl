@@ -1,3 +1,4 @@
+// needs: factor_context, fixed_point
 // Where a point lies along one dimension (spec section 5).
 
 // The location of a position in the first half, or of an even edge's middle up to rounding.

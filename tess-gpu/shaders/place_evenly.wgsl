@@ -1,3 +1,4 @@
+// needs: fixed_point; bindings: tables
 // Where a point lies along one dimension (spec section 5) if factors are integers: then nothing
 // has to be stored, as a context is the number of segments and its reciprocal.
 

@@ -1,3 +1,4 @@
+// needs: fixed_point, {place}, {contexts}, rings, state, topology
 // The domain points of a patch as runs (spec section 6): along a run one coordinate is placed
 // point by point while the other is constant. Which run a point belongs to follows from closed
 // forms; runs come in output order: lines of an isoline patch; outer edges, then the edges of each
@@ -9,7 +10,7 @@ const FORM_Q_FIXED = 1u;
 const FORM_Q_REST = 2u; // the third coordinate of the triangle is the constant one
 const FORM_CORNER = 3u; // corner by number; with a constant that is not 0, the constant twice
 
-struct Run {
+struct PointRun {
     // Its points, and the one that is meant.
     size: u32,
     step: u32,
@@ -24,61 +25,61 @@ struct Run {
 
 const DOWN = 0xffffffffu;
 
-// A patch, its shape and the contexts of its inside axes u and v.
-struct Domain {
+// A patch, its rings and the contexts of its inside axes u and v.
+struct PatchAxes {
     patch_index: u32,
-    shape: Shape,
+    rings: Rings,
     along_u: vec2<u32>,
     along_v: vec2<u32>,
 }
 
-fn domain_of(patch_index: u32, topology: vec2<u32>) -> Domain {
-    let shape = shape_of(topology);
-    let along_u = context_of(patch_index, EDGES, shape.u);
+fn axes_of(patch_index: u32, topology: vec2<u32>) -> PatchAxes {
+    let rings = rings_of(topology);
+    let along_u = context_of(patch_index, EDGES, rings.u);
     if DOMAIN == TRIANGLE {
-        return Domain(patch_index, shape, along_u, along_u);
+        return PatchAxes(patch_index, rings, along_u, along_u);
     }
-    return Domain(patch_index, shape, along_u, context_of(patch_index, EDGES + 1u, shape.v));
+    return PatchAxes(patch_index, rings, along_u, context_of(patch_index, EDGES + 1u, rings.v));
 }
 
 // Of the inside axis that an edge runs along.
-fn inside_context(domain: Domain, edge: u32) -> vec2<u32> {
-    return select(domain.along_v, domain.along_u, (edge & 1u) == 1u);
+fn inside_context(axes: PatchAxes, edge: u32) -> vec2<u32> {
+    return select(axes.along_v, axes.along_u, (edge & 1u) == 1u);
 }
 
 // Where point i of a regular patch is; the outer ring is ring 0.
-fn point_spot(shape: Shape, i: u32) -> Spot {
-    let is_outer = i < shape.boundary;
-    let end = point_ring_end(shape) - 1u;
+fn point_location(rings: Rings, i: u32) -> RingLocation {
+    let is_outer = i < rings.boundary;
+    let end = point_ring_end(rings) - 1u;
     var ring = 0u;
     var rest = i;
-    var begin_1 = shape.before_1 - 1u;
-    var begin_2 = shape.before_2 - 2u;
-    var size_2 = outer_of(shape, 2u) - 1u;
+    var begin_1 = rings.before_1 - 1u;
+    var begin_2 = rings.before_2 - 2u;
+    var size_2 = outer_of(rings, 2u) - 1u;
     if !is_outer {
-        let form = shape.along - 2u * EDGES;
-        let k = last_before(i - shape.boundary, end, form, EDGES);
+        let form = rings.along - 2u * EDGES;
+        let k = last_before(i - rings.boundary, end, form, EDGES);
         ring = k + 1u;
-        rest = i - shape.boundary - k * (form - EDGES * k);
-        size_2 = shape.v - 1u - 2u * ring;
+        rest = i - rings.boundary - k * (form - EDGES * k);
+        size_2 = rings.v - 1u - 2u * ring;
         begin_1 = select(size_2, NEVER, k == end); // the centre has one edge
-        begin_2 = select(shape.sides - 2u - 4u * ring, NEVER, k == end);
+        begin_2 = select(rings.sides - 2u - 4u * ring, NEVER, k == end);
     }
-    return spot_on_edges(ring, rest, begin_1, begin_2, size_2);
+    return location_on_edges(ring, rest, begin_1, begin_2, size_2);
 }
 
-// The run of a spot.
-fn run_of(domain: Domain, spot: Spot) -> Run {
-    let shape = domain.shape;
-    let ring = spot.ring;
+// The run at a location.
+fn run_of(axes: PatchAxes, location: RingLocation) -> PointRun {
+    let rings = axes.rings;
+    let ring = location.ring;
     let is_outer = ring == 0u;
-    let is_centre = ring == point_ring_end(shape);
+    let is_centre = ring == point_ring_end(rings);
     // A row in the centre lies along the longer axis, as edge 0 or 1 do.
-    let edge = select(spot.edge, select(0u, 1u, shape.u > shape.v), is_centre);
-    let along = along_of(shape, edge);
-    let points = select(along, outer_of(shape, edge), is_outer);
+    let edge = select(location.edge, select(0u, 1u, rings.u > rings.v), is_centre);
+    let along = along_of(rings, edge);
+    let points = select(along, outer_of(rings, edge), is_outer);
     let last = points - 1u - ring;
-    var fixed = place_before_middle(inside_context(domain, edge + 1u), ring);
+    var fixed = place_before_middle(inside_context(axes, edge + 1u), ring);
     var form = edge & 1u; // edges 0 and 2 of quads run along v at a constant u
     var descends = edge == 0u || edge == 3u;
     if DOMAIN == TRIANGLE {
@@ -89,24 +90,24 @@ fn run_of(domain: Domain, spot: Spot) -> Run {
         fixed = select(fixed, ONE - fixed, edge >= 2u);
         fixed = select(fixed, HALF, is_centre);
     }
-    var context = inside_context(domain, edge);
+    var context = inside_context(axes, edge);
     if is_outer {
-        context = context_of(domain.patch_index, edge, points);
+        context = context_of(axes.patch_index, edge, points);
     }
-    return Run(
-        last - ring + select(0u, 1u, is_centre), spot.step, fixed, form, context,
+    return PointRun(
+        last - ring + select(0u, 1u, is_centre), location.step, fixed, form, context,
         select(ring, last, descends), select(1u, DOWN, descends));
 }
 
-fn minimum_run(i: u32) -> Run {
-    return Run(EDGES, i, 0u, FORM_CORNER, vec2<u32>(0u), 0u, 1u);
+fn minimum_run(i: u32) -> PointRun {
+    return PointRun(EDGES, i, 0u, FORM_CORNER, vec2<u32>(0u), 0u, 1u);
 }
 
-fn line_run(patch_index: u32, topology: vec2<u32>, i: u32) -> Run {
+fn line_run(patch_index: u32, topology: vec2<u32>, i: u32) -> PointRun {
     let along = outer_points(topology, 1u);
     let line = i / along;
     let v = place(context_of(patch_index, 0u, outer_points(topology, 0u)), line);
-    return Run(
+    return PointRun(
         along, i - line * along, v, FORM_Q_FIXED, context_of(patch_index, 1u, along), 0u, 1u);
 }
 
@@ -124,7 +125,7 @@ fn corner(fixed: u32, number: u32) -> vec2<u32> {
 // Point `step` of a run: u and v, 16.16.
 //
 // On triangles locations along a ring's edge move back by half of its distance from the edge.
-fn point_of_run(run: Run, step: u32) -> vec2<u32> {
+fn point_of_run(run: PointRun, step: u32) -> vec2<u32> {
     let fixed = run.fixed;
     if run.form == FORM_CORNER {
         return corner(fixed, step);

@@ -1,12 +1,14 @@
-// Prefix sums within a workgroup of 256 threads, in a tree of fours.
+// needs: nothing
+// Prefix sums within a workgroup of SUMMED threads, which are 256, in a tree of fours.
 
-// The threads' numbers, then sums of 4, 16 and 64 of them, then their whole sum.
-var<workgroup> sums: array<vec2<u32>, 341>;
+// Where the sums of 4, 16 and 64 numbers lie, and the sum of all.
+const FOURS = SUMMED;
+const SIXTEENS = FOURS + SUMMED / 4u;
+const SIXTY_FOURS = SIXTEENS + SUMMED / 16u;
+const WHOLE = SIXTY_FOURS + SUMMED / 64u;
 
-const FOURS = 256u;
-const SIXTEENS = 320u;
-const SIXTY_FOURS = 336u;
-const WHOLE = 340u;
+// The threads' numbers, then these sums.
+var<workgroup> sums: array<vec2<u32>, WHOLE + 1u>;
 
 struct Sums {
     // Over the threads before this one, and over all threads.
@@ -26,19 +28,19 @@ fn add_four(from_at: u32, to_at: u32) {
     sums[from_at + 3u] = third;
 }
 
-// The sums of `own`. Called in uniform control flow by all 256 threads.
+// The sums of `own`. Called in uniform control flow by all threads.
 fn prefix_sums(thread: u32, own: vec2<u32>) -> Sums {
     sums[thread] = own;
     workgroupBarrier();
-    if thread < 64u {
+    if thread < SUMMED / 4u {
         add_four(4u * thread, FOURS + thread);
     }
     workgroupBarrier();
-    if thread < 16u {
+    if thread < SUMMED / 16u {
         add_four(FOURS + 4u * thread, SIXTEENS + thread);
     }
     workgroupBarrier();
-    if thread < 4u {
+    if thread < SUMMED / 64u {
         add_four(SIXTEENS + 4u * thread, SIXTY_FOURS + thread);
     }
     workgroupBarrier();

@@ -1,3 +1,4 @@
+// needs: make_context
 // Contexts alone, of 15.16 factors and their parities.
 
 @group(0) @binding(0) var<storage, read> probe_in: array<vec2<u32>>;

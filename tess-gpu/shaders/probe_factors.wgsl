@@ -1,3 +1,4 @@
+// needs: process, topology
 // Factor processing alone: of (x, y, z; w) the fixed-point u = 0 factor of the triangle patch
 // (x, y, z; y), 0 if it is culled, and the inside factor of (y, y, z; w).
 

@@ -1,3 +1,4 @@
+// needs: factor_context, place
 // Placing alone: 65 words for each packed context, as many of them written as it has points.
 
 @group(0) @binding(0) var<storage, read> probe_in: array<vec2<u32>>;

@@ -1,3 +1,4 @@
+// needs: d3d_float, fixed_point, make_context, state, topology
 // The steps of factor processing (spec section 3) on the bits of raw factors.
 
 const BITS_1 = 0x3f800000u;

@@ -1,5 +1,7 @@
-// What every stage agrees on. The constants DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT,
-// NUMBERING, WORKGROUP and TILE stand in front of this file (src/shaders.rs writes them).
+// needs: nothing
+// What every stage agrees on. `Setup::prelude` in src/setup.rs writes the constants in front of this
+// file: DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS; the sizes of
+// src/sizes.rs; the places in the tables of src/tables.rs; and SCRATCH for the stages that have one.
 
 const ISOLINE = 0u;
 const TRIANGLE = 1u;
@@ -19,10 +21,14 @@ const RULER = 0u;
 const CENTER = 1u;
 
 const PACKED = 0u;
-const FLOAT = 1u;
+const F32 = 1u;
 
 const PER_BATCH = 0u;
 const PER_PATCH = 1u;
+
+// The two numbers of an entry of the offsets, and the kinds of elements.
+const POINTS = 0u;
+const PRIMITIVES = 1u;
 
 const NEVER = 0xffffffffu;
 
@@ -34,27 +40,19 @@ const EDGES = select(3u, 4u, DOMAIN == QUAD);
 const IS_TRIANGLES = DOMAIN != ISOLINE && OUTPUT >= OUTPUT_TRIANGLE_CW;
 const INDICES = select(select(2u, 3u, IS_TRIANGLES), 1u, OUTPUT == OUTPUT_POINT);
 
-// One chunk of a batch and one window of its output; the host's `layout::Job`.
+// One chunk of a batch and one window of its output: the host's `layout::Job`, which says what each
+// member means.
 struct Job {
-    // Patches in this chunk, at least 1.
     patches: u32,
-    // Number of the chunk's first patch within the batch.
     first_patch: u32,
-    // Number of the chunk.
     chunk: u32,
-    // Distance between the contexts of one factor and of the next.
     stride: u32,
-    // Where in `offsets` the blocks of 256 patches begin, the topologies that all patches of a block
-    // have (0 if they differ), and the groups of 256 blocks.
     blocks_at: u32,
     alike_at: u32,
     groups_at: u32,
-    // Where in `tiles` the primitives' tiles begin.
     primitive_tiles_at: u32,
-    // The window of the output that is bound, in tiles.
     window_first: u32,
     window_tiles: u32,
-    // Of the whole batch: chunks, room for elements, windows of each output and their size.
     chunks: u32,
     point_capacity: u32,
     primitive_capacity: u32,
@@ -62,6 +60,7 @@ struct Job {
     primitive_windows: u32,
     point_window_tiles: u32,
     primitive_window_tiles: u32,
+    max_workgroups: u32,
 }
 
 // Where a chunk's output lies within the batch's.

@@ -1,3 +1,4 @@
+// needs: state; bindings: tables
 // The triangles between two rows of vertices (spec sections 7.2 to 7.4). Every triangle of a patch
 // is one: transitions, ring stitches and the strips in the centre differ in their rows and in
 // their steps, which a table has (src/tables.rs).

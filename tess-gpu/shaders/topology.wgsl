@@ -1,3 +1,4 @@
+// needs: state
 // What connectivity and counts depend on (spec section 12.8), in 8 bytes per patch: the points
 // along each edge and along each inside axis, 2..=65 in 7 bits.
 //

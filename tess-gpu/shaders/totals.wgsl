@@ -1,3 +1,4 @@
+// needs: prefix_sum, state
 // One workgroup: sums of groups become offsets in the output, behind the chunks before; the totals
 // grow by this chunk's. Offsets wrap where the output could not fit anyway; the totals have a
 // second word for that. Behind the last chunk follows what depends on the totals: whether
@@ -10,13 +11,10 @@
 // for each chunk its partition, its windows of points, its windows of primitives.
 @group(0) @binding(3) var<storage, read_write> arguments: array<u32>;
 
-const DISPATCHES_AT = 8u;
-const MAX_WORKGROUPS = 65535u; // along one dimension
-
 fn write_dispatch(number: u32, workgroups: u32) {
-    let rows = (workgroups + MAX_WORKGROUPS - 1u) / MAX_WORKGROUPS;
+    let rows = (workgroups + job.max_workgroups - 1u) / job.max_workgroups;
     let at = DISPATCHES_AT + 3u * number;
-    arguments[at] = select(MAX_WORKGROUPS, workgroups, rows <= 1u);
+    arguments[at] = select(job.max_workgroups, workgroups, rows <= 1u);
     arguments[at + 1u] = max(rows, 1u);
     arguments[at + 2u] = 1u;
 }
@@ -35,9 +33,9 @@ fn tiles_in_window(begin: u32, end: u32, window: u32, window_tiles: u32) -> u32 
 
 fn workgroups_of(slot: u32, range: Range) -> u32 {
     if slot == 0u {
-        let tiles = tiles_between(range.points_begin, range.points_end)
+        let count = tiles_between(range.points_begin, range.points_end)
             + tiles_between(range.primitives_begin, range.primitives_end);
-        return (tiles + 2u + 63u) / 64u; // one entry more for each output: see partition.wgsl
+        return (count + 2u + WORKGROUP - 1u) / WORKGROUP; // one more entry for each output: see partition.wgsl
     }
     if slot <= job.point_windows {
         return tiles_in_window(
@@ -58,7 +56,7 @@ fn overflow() -> u32 {
 fn finish(thread: u32) {
     let slots = 1u + job.point_windows + job.primitive_windows;
     let is_overflow = overflow();
-    for (var slot = thread; slot < job.chunks * slots; slot += 256u) {
+    for (var slot = thread; slot < job.chunks * slots; slot += SUMMED) {
         let workgroups = workgroups_of(slot % slots, status.ranges[slot / slots]);
         write_dispatch(slot, select(workgroups, 0u, is_overflow != 0u));
     }
@@ -75,9 +73,9 @@ fn finish(thread: u32) {
 // How often the sums over the groups pass 2^32.
 var<workgroup> carries: array<atomic<u32>, 2>;
 
-@compute @workgroup_size(256)
+@compute @workgroup_size(SUMMED)
 fn totals(@builtin(local_invocation_index) thread: u32) {
-    let groups = (job.patches + 65535u) / 65536u;
+    let groups = (job.patches + GROUP - 1u) / GROUP;
     var own = vec2<u32>(0u, 0u);
     if thread < groups {
         own = offsets[job.groups_at + thread];

@@ -3,29 +3,48 @@
 use bytemuck::{Pod, Zeroable};
 use tess_core::{DomainPoint, FactorContext, Parity, PatchFactors};
 
-/// One chunk of a batch and one window of its output: `Job` in `state.wgsl`, which says what the
-/// members mean.
+/// One chunk of a batch and one window of its output, as [`crate::Plan::jobs`] writes it and `Job` in
+/// `state.wgsl` reads it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
-#[expect(missing_docs, reason = "documented where they are used, in state.wgsl")]
 pub struct Job {
+    /// Patches of the chunk; 0 only in a batch of no patches.
     pub patches: u32,
+    /// Number of the chunk's first patch within the batch.
     pub first_patch: u32,
+    /// Number of the chunk.
     pub chunk: u32,
+    /// Distance between the contexts of one factor and those of the next, in entries.
     pub stride: u32,
+    /// First entry of the offsets that belongs to a block of patches.
     pub blocks_at: u32,
+    /// First entry of the offsets that holds the topology which all patches of a block have, 0 if
+    /// they differ.
     pub alike_at: u32,
+    /// First entry of the offsets that belongs to a group of blocks.
     pub groups_at: u32,
+    /// First entry of the table of tiles that belongs to the primitives.
     pub primitive_tiles_at: u32,
+    /// First tile of the window that is bound.
     pub window_first: u32,
+    /// Tiles of the window that is bound.
     pub window_tiles: u32,
+    /// Chunks of the batch.
     pub chunks: u32,
+    /// Points that the batch has room for.
     pub point_capacity: u32,
+    /// Primitives that the batch has room for.
     pub primitive_capacity: u32,
+    /// Windows of the points.
     pub point_windows: u32,
+    /// Windows of the primitives.
     pub primitive_windows: u32,
+    /// Tiles of a window of the points.
     pub point_window_tiles: u32,
+    /// Tiles of a window of the primitives.
     pub primitive_window_tiles: u32,
+    /// The most workgroups in a row of an indirect dispatch.
+    pub max_workgroups: u32,
 }
 
 /// What a batch needs and whether it fitted: the head of `Status` in `state.wgsl`.
@@ -175,22 +194,8 @@ pub const fn unpack_context([low, high]: [u32; 2]) -> FactorContext {
 }
 
 /// The words of raw factors as the shaders read them: the bits of each factor in the
-/// specification's order, patch after patch.
+/// specification's order (section 1), patch after patch.
 #[must_use]
 pub fn factor_words(patches: &[PatchFactors]) -> Vec<u32> {
-    let mut words = Vec::new();
-    for patch in patches {
-        match patch {
-            PatchFactors::Isoline(f) => words.extend([f.density, f.detail].map(f32::to_bits)),
-            PatchFactors::Triangle(f) => {
-                words.extend(f.outer().map(f32::to_bits));
-                words.push(f.inside.to_bits());
-            }
-            PatchFactors::Quad(f) => {
-                words.extend(f.outer().map(f32::to_bits));
-                words.extend(f.inside().map(f32::to_bits));
-            }
-        }
-    }
-    words
+    patches.iter().flat_map(PatchFactors::iter).map(f32::to_bits).collect()
 }

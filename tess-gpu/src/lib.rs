@@ -7,7 +7,7 @@
 //! The library itself depends on no graphics interface. It gives what any of them needs: the
 //! WGSL of each [`Stage`] for a [`Setup`] ([`shaders`]), its bindings ([`bindings`]), the layouts
 //! of the structures that host and shaders share ([`layout`]), the constant tables
-//! ([`tables`]), and the sizes of buffers and dispatches as pure functions ([`sizes`]). The crate
+//! ([`tables`]), and the buffers and dispatches of a batch as pure functions ([`plan`], [`sizes`]). The crate
 //! `tess-wgpu` runs them on wgpu.
 //!
 //! The stages, in the order in which they run: `factors` (one thread per patch), `scan` and
@@ -30,12 +30,14 @@
 
 pub mod bindings;
 pub mod layout;
+pub mod plan;
 pub mod setup;
 pub mod shaders;
 pub mod sizes;
 pub mod tables;
 
 pub use bindings::{Access, Binding, Resource};
+pub use plan::{Dispatch, Plan, Workgroups};
 pub use setup::{IndexType, Numbering, PointFormat, Setup};
 pub use shaders::{Probe, Pull, Stage};
-pub use sizes::{Capacity, Limits, Plan};
+pub use sizes::{Capacity, Limits, Span};

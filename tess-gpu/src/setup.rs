@@ -1,5 +1,6 @@
 //! What a batch of patches is tessellated to.
 
+use crate::{sizes, tables};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
 /// How domain points are stored, in 8 bytes either way.
@@ -10,7 +11,7 @@ pub enum PointFormat {
     #[default]
     Packed,
     /// u and v as binary32, exactly.
-    Float,
+    F32,
 }
 
 /// What indices count from.
@@ -71,12 +72,9 @@ impl Setup {
     /// Factors of one patch: each a binary32 in the buffer of factors, in the specification's
     /// order (section 1), patch after patch without gaps.
     #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "6 at most")]
     pub const fn factors(&self) -> u32 {
-        match self.domain {
-            Domain::Isoline => 2,
-            Domain::Triangle => 4,
-            Domain::Quad => 6,
-        }
+        self.domain.factors() as u32
     }
 
     /// Indices of one primitive: 1, 2 or 3. Isolines asked for triangles are lines.
@@ -102,28 +100,48 @@ impl Setup {
         self.config.partitioning.has_integer_factors()
     }
 
-    /// The constants that stand in front of every shader.
+    /// The constants in front of every shader: what `state.wgsl` does not declare itself.
     pub(crate) fn prelude(&self) -> String {
         let Config { partitioning, output, split } = self.config;
-        let constants = [
+        let setup = [
             ("DOMAIN", position(&Domain::ALL, self.domain)),
             ("PARTITIONING", position(&Partitioning::ALL, partitioning)),
             ("OUTPUT", position(&OutputPrimitive::ALL, output)),
             ("SPLIT", position(&SplitOrder::ALL, split)),
-            ("POINT_FORMAT", u32::from(self.point_format == PointFormat::Float)),
+            ("POINT_FORMAT", u32::from(self.point_format == PointFormat::F32)),
             ("NUMBERING", u32::from(self.numbering == Numbering::PerPatch)),
-            ("WORKGROUP", crate::sizes::WORKGROUP),
-            ("TILE", crate::sizes::TILE),
-            ("ROUND", crate::sizes::ROUND),
-            ("RECIPROCALS_AT", crate::tables::RECIPROCALS_AT),
-            ("STEPS_AT", crate::tables::STEPS_AT),
-            ("FAN_BLOCK", crate::tables::FAN_BLOCK),
-            ("RING_BLOCK", crate::tables::RING_BLOCK),
-            ("MIRRORED_BLOCK", crate::tables::MIRRORED_BLOCK),
-            ("STRIP_BLOCK", crate::tables::STRIP_BLOCK),
+            ("FACTORS", self.factors()),
         ];
-        constants.map(|(name, value)| format!("const {name} = {value}u;\n")).concat()
+        constants(&setup) + &constants(&SHARED)
     }
+}
+
+/// The constants of [`sizes`] and [`tables`], which every shader has.
+const SHARED: [(&str, u32); 19] = [
+    ("WORKGROUP", sizes::WORKGROUP),
+    ("TILE", sizes::TILE),
+    ("ROUND", sizes::ROUND),
+    ("SUMMED", sizes::SUMMED),
+    ("BLOCK", sizes::BLOCK),
+    ("BLOCK_BITS", sizes::BLOCK.ilog2()),
+    ("GROUP_BLOCKS", sizes::GROUP_BLOCKS),
+    ("GROUP_BLOCK_BITS", sizes::GROUP_BLOCKS.ilog2()),
+    ("GROUP", sizes::GROUP),
+    ("GROUP_BITS", sizes::GROUP.ilog2()),
+    ("DISPATCHES_AT", sizes::DISPATCHES_AT),
+    ("RECIPROCALS_AT", tables::RECIPROCALS_AT),
+    ("STITCHES_AT", tables::STITCHES_AT),
+    ("STITCH_WORDS", tables::STITCH_WORDS),
+    ("TRANSITION_STRIDE", tables::TRANSITION_STRIDE),
+    ("FAN_STITCH", tables::FAN_STITCH),
+    ("RING_STITCH", tables::RING_STITCH),
+    ("MIRRORED_STRIP", tables::MIRRORED_STRIP),
+    ("PLAIN_STRIP", tables::PLAIN_STRIP),
+];
+
+/// Declarations of constants.
+pub(crate) fn constants(all: &[(&str, u32)]) -> String {
+    all.iter().map(|(name, value)| format!("const {name} = {value}u;\n")).collect()
 }
 
 /// The number of a value in the list of all values, which `state.wgsl` numbers the same way.

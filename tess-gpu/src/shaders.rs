@@ -1,16 +1,11 @@
-//! The WGSL of each stage: constants, then the parts that the stage is made of.
+//! The WGSL of each stage: constants, then the files that the stage needs.
 
 use crate::bindings::{Access, Binding, Resource};
-use crate::setup::{IndexType, Numbering, PointFormat, Setup};
+use crate::setup::{IndexType, Numbering, PointFormat, Setup, constants};
+use crate::sizes;
 use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
-/// A part of a shader: one file of `shaders/`.
-macro_rules! part {
-    ($name:literal) => {
-        include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders/", $name, ".wgsl"))
-    };
-}
-
+mod files;
 mod probe;
 mod pull;
 
@@ -114,72 +109,18 @@ impl Stage {
     /// Its WGSL, a whole module.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        let mut source = setup.prelude() + &self.parts(setup).concat();
-        if self == Self::ExpandPrimitives {
-            source += match setup.index_type {
-                IndexType::U16 => part!("indices_u16"),
-                IndexType::U32 => part!("indices_u32"),
-            };
-        }
-        source
-    }
-
-    const fn parts(self, setup: Setup) -> &'static [&'static str] {
-        match self {
-            Self::Factors => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("d3d_float"),
-                part!("process"),
-                part!("make_context"),
-                part!("topology"),
-                part!("counts"),
-                part!("prefix_sum"),
-                part!("factors"),
-            ],
-            Self::Scan => &[part!("state"), part!("prefix_sum"), part!("scan")],
-            Self::Totals => &[part!("state"), part!("prefix_sum"), part!("totals")],
-            Self::Partition => &[part!("state"), part!("partition")],
-            Self::ExpandPoints if setup.has_integer_factors() => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("place_evenly"),
-                part!("topology"),
-                part!("shape"),
-                part!("points"),
-                part!("point_format"),
-                part!("offsets"),
-                part!("tile"),
-                part!("alike"),
-                part!("expand_points"),
-            ],
-            Self::ExpandPoints => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("factor_context"),
-                part!("place"),
-                part!("stored_contexts"),
-                part!("topology"),
-                part!("shape"),
-                part!("points"),
-                part!("point_format"),
-                part!("offsets"),
-                part!("tile"),
-                part!("alike"),
-                part!("expand_points"),
-            ],
-            Self::ExpandPrimitives => &[
-                part!("state"),
-                part!("topology"),
-                part!("shape"),
-                part!("stitch"),
-                part!("connect"),
-                part!("offsets"),
-                part!("tile"),
-                part!("alike"),
-                part!("expand_primitives"),
-            ],
-        }
+        let (file, scratch) = match self {
+            Self::Factors => ("factors", None),
+            Self::Scan => ("scan", None),
+            Self::Totals => ("totals", None),
+            Self::Partition => ("partition", None),
+            Self::ExpandPoints => ("expand_points", Some(sizes::POINT_SCRATCH)),
+            Self::ExpandPrimitives => ("expand_primitives", Some(sizes::PRIMITIVE_SCRATCH)),
+        };
+        let scratch = scratch.map(|entries| constants(&[("SCRATCH", entries)]));
+        let [place, contexts] = files::placing(setup, "stored_contexts");
+        let choices = [place, contexts, files::indices(setup)];
+        setup.prelude() + &scratch.unwrap_or_default() + &files::joined(file, &choices)
     }
 
     /// `setup` with everything that this stage does not depend on set to one value, so that

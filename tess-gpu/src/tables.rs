@@ -2,142 +2,62 @@
 
 use tess_core::SplitOrder;
 use tess_core::reciprocal::reciprocal;
-use tess_core::ruler::has_point;
+use tess_core::stitch::{Diagonals, Side, Step, ring, strip, transition};
 
-/// Where the reciprocals of 1..=64 are.
+/// The word of the first reciprocal: those of 1..=64 follow one another.
 pub const RECIPROCALS_AT: u32 = 0;
-/// Where the steps are: a block for each stitch that there is, of [`BLOCK_WORDS`] words, each with
-/// two steps, the first in its low half. The block `64 * (outer - 2) + inner` is the transition
-/// between an outer edge of `outer` points and `inner` points of ring 1.
+/// The word where the stitches begin. Each stitch that exists has [`STITCH_WORDS`] words: word `n`
+/// holds step `n` in its low half and step `n + 1` in its high half.
 ///
-/// A step has in bits 0..=6 the vertex of the outer row that it stands on; its number less that
-/// is the vertex of the inner row. Bit 7 says that it advances along the inner row, bit 8 that its
-/// triangle begins with the inner row's vertex; else it begins with the outer row's.
-pub const STEPS_AT: u32 = 64;
-/// Words of a block: 126 steps and 2 unused ones.
-pub const BLOCK_WORDS: u32 = 128;
-/// The block of triangles around one inner vertex.
-pub const FAN_BLOCK: u32 = 64 + 1;
-/// The block before those of stitches between interior rings, by the points of the inner row.
-pub const RING_BLOCK: u32 = 64 * 64;
-/// The block before those of centre strips with a different quad in the middle, by their quads.
-pub const MIRRORED_BLOCK: u32 = RING_BLOCK + 64;
-/// The block of all other centre strips.
-pub const STRIP_BLOCK: u32 = MIRRORED_BLOCK + 64;
+/// A step has in bits 0..=6 its entry of the outer row ([`Step::outer`]); its number minus that is
+/// its entry of the inner row. Bit 7 is set if it advances along the inner row, bit 8 if its
+/// triangle begins on the inner row.
+pub const STITCHES_AT: u32 = 64;
+/// Words of a stitch: at most 126 steps, and 2 unused ones.
+pub const STITCH_WORDS: u32 = 128;
+/// The transitions between an outer edge of `outer` points and `inner` points of ring 1 are
+/// stitches `TRANSITION_STRIDE * (outer - 2) + inner`.
+pub const TRANSITION_STRIDE: u32 = 64;
+/// The stitch that goes round one inner vertex: the transition from 3 points to 1.
+pub const FAN_STITCH: u32 = TRANSITION_STRIDE + 1;
+/// The ring stitch with `inner` points on the inner row is `RING_STITCH + inner`.
+pub const RING_STITCH: u32 = 64 * TRANSITION_STRIDE;
+/// The centre strip of `quads` quads whose middle diagonal is mirrored is `MIRRORED_STRIP + quads`.
+pub const MIRRORED_STRIP: u32 = RING_STITCH + 64;
+/// All other centre strips: they are beginnings of this one, which has 63 quads.
+pub const PLAIN_STRIP: u32 = MIRRORED_STRIP + 64;
 /// Words of the whole table.
-pub const WORDS: u32 = STEPS_AT + BLOCK_WORDS * (STRIP_BLOCK + 1);
+pub const WORDS: u32 = STITCHES_AT + STITCH_WORDS * (PLAIN_STRIP + 1);
 
 /// All tables of a split order, [`WORDS`] words.
 #[must_use]
 pub fn tables(split: SplitOrder) -> Vec<u32> {
     let mut words: Vec<u32> = (1..=64).filter_map(reciprocal).collect();
-    for outer in 2..=65 {
-        add_block(&mut words, &[]);
-        (1..=63).for_each(|inner| add_block(&mut words, &transition(split, outer, inner)));
+    for outer_points in 2..=65 {
+        add_stitch(&mut words, |_| {});
+        for inner_points in 1..=63 {
+            add_stitch(&mut words, |to| transition(split, outer_points, inner_points + 2, to));
+        }
     }
-    add_block(&mut words, &[]);
-    (1..=63).for_each(|inner| add_block(&mut words, &ring(inner)));
-    (0..=63).for_each(|quads| add_block(&mut words, &strip(quads, Some(quads / 2))));
-    add_block(&mut words, &strip(63, None));
+    add_stitch(&mut words, |_| {});
+    (1..=63).for_each(|inner_points| add_stitch(&mut words, |to| ring(inner_points, to)));
+    for quads in 0..=63 {
+        add_stitch(&mut words, |to| strip(quads, Diagonals::ForwardExceptMiddle, to));
+    }
+    add_stitch(&mut words, |to| strip(63, Diagonals::Forward, to));
     words
 }
 
-fn add_block(words: &mut Vec<u32>, steps: &[u32]) {
-    let step = |number| steps.get(number).copied().unwrap_or(0);
-    words.extend((0..128).map(|number| step(number) | step(number + 1) << 16));
+/// Adds the words of the stitch whose steps `stitch` sends.
+fn add_stitch(words: &mut Vec<u32>, stitch: impl FnOnce(&mut dyn FnMut(Step))) {
+    let mut steps = Vec::new();
+    stitch(&mut |step| steps.push(step_bits(step)));
+    steps.resize(STITCH_WORDS as usize + 1, 0);
+    words.extend(steps.windows(2).map(|pair| pair[0] | pair[1] << 16));
 }
 
-/// Where a stitch stands on its two rows, and the steps so far.
-#[derive(Default)]
-struct Walk {
-    outer: u32,
-    inner: u32,
-    steps: Vec<u32>,
-}
-
-const ADVANCES_INNER: u32 = 1 << 7;
-const BEGINS_INNER: u32 = 1 << 8;
-
-impl Walk {
-    /// The triangle (outer, next outer, inner), or the same beginning with the last.
-    fn advance_outer(&mut self, begins: u32) {
-        self.steps.push(self.outer | begins);
-        self.outer += 1;
-    }
-
-    /// The triangle (inner, outer, next inner), or (outer, next inner, inner).
-    fn advance_inner(&mut self, begins: u32) {
-        self.steps.push(self.outer | ADVANCES_INNER | begins);
-        self.inner += 1;
-    }
-}
-
-/// Spec section 7.2.
-fn transition(split: SplitOrder, outer_points: u32, inner_points: u32) -> Vec<u32> {
-    let (outer_half, inner_half) = ((outer_points - 1) / 2, inner_points.div_ceil(2));
-    let mut walk = Walk::default();
-    if outer_half > 0 {
-        walk.advance_outer(0);
-    }
-    for k in 1..=32 {
-        if has_point(split, k, inner_half) {
-            walk.advance_inner(BEGINS_INNER);
-        }
-        if has_point(split, k, outer_half) {
-            walk.advance_outer(0);
-        }
-    }
-    let (inside_is_odd, outer_is_odd) =
-        (inner_points.is_multiple_of(2), outer_points.is_multiple_of(2));
-    if inside_is_odd {
-        walk.advance_inner(BEGINS_INNER);
-    }
-    if outer_is_odd {
-        walk.advance_outer(BEGINS_INNER);
-    }
-    for k in (1..=32).rev() {
-        if has_point(split, k, outer_half) {
-            walk.advance_outer(0);
-        }
-        if has_point(split, k, inner_half) {
-            walk.advance_inner(BEGINS_INNER);
-        }
-    }
-    if outer_half > 0 {
-        walk.advance_outer(0);
-    }
-    walk.steps
-}
-
-/// Spec section 7.3.
-fn ring(inner_points: u32) -> Vec<u32> {
-    let mut walk = Walk::default();
-    walk.advance_outer(0);
-    for p in 0..inner_points - 1 {
-        if p < inner_points / 2 {
-            walk.advance_inner(0);
-            walk.advance_outer(0);
-        } else {
-            walk.advance_outer(BEGINS_INNER);
-            walk.advance_inner(BEGINS_INNER);
-        }
-    }
-    walk.advance_outer(0);
-    walk.steps
-}
-
-/// Spec section 7.4: quads between two sides of a ring. Their diagonals are mirrored about quad
-/// `middle` if there is one, whose own goes the other way.
-fn strip(quads: u32, middle: Option<u32>) -> Vec<u32> {
-    let mut walk = Walk::default();
-    for quad in 0..quads {
-        if middle == Some(quad) {
-            walk.advance_inner(0);
-            walk.advance_outer(0);
-        } else {
-            walk.advance_outer(if middle.is_some() { 0 } else { BEGINS_INNER });
-            walk.advance_inner(BEGINS_INNER);
-        }
-    }
-    walk.steps
+/// The bits of a step: see [`STITCHES_AT`].
+fn step_bits(step: Step) -> u32 {
+    let bit = |side: Side, number: u32| if matches!(side, Side::Inner) { 1 << number } else { 0 };
+    step.outer | bit(step.advances, 7) | bit(step.begins, 8)
 }

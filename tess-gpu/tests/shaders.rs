@@ -137,6 +137,7 @@ fn layouts_are_those_of_the_shaders() {
         "primitive_windows",
         "point_window_tiles",
         "primitive_window_tiles",
+        "max_workgroups",
     ];
     let fields = layout::Job {
         patches: 0,
@@ -156,9 +157,10 @@ fn layouts_are_those_of_the_shaders() {
         primitive_windows: 14,
         point_window_tiles: 15,
         primitive_window_tiles: 16,
+        max_workgroups: 17,
     };
     let words: &[u32] = bytemuck::cast_slice(bytemuck::bytes_of(&fields));
-    assert_eq!(words, (0..17).collect::<Vec<_>>(), "the host's members are in this order");
+    assert_eq!(words, (0..18).collect::<Vec<_>>(), "the host's members are in this order");
     assert_eq!(members(&module, "Job"), (0..).map(|n| 4 * n).zip(expected).collect::<Vec<_>>());
     let ranges = members(&module, "Status").into_iter().find(|&(_, name)| name == "ranges");
     assert_eq!(ranges, Some((size_of::<layout::Status>(), "ranges")));

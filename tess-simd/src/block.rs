@@ -1,15 +1,11 @@
 //! A block of patches after the front end: factors, contexts and counts.
 
-use crate::batch::{Batch, Chunk};
 use crate::counts::{BlockCounts, counts};
 use crate::factor_context::{Context, Spacings, point_counts};
 use crate::factors::process;
 use crate::lanes::{Column, EdgePoints, LANES, Lanes, is_odd};
 use crate::place::Spacing;
-use tess_core::{Config, Domain, Partitioning};
-
-/// Blocks that go through the front end in one call.
-pub(crate) const BLOCKS: usize = Chunk::PATCHES / LANES;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
 /// Sixteen patches of one domain after factor processing, their output sizes known.
 #[derive(Clone, Copy, Debug)]
@@ -24,29 +20,10 @@ pub(crate) struct Block {
     pub(crate) counts: BlockCounts,
 }
 
-/// Takes patches from `first` on through the front end, as many as there is room for; those past
-/// the end of the batch count as culled.
-#[inline(always)]
-pub(crate) fn process_blocks(
-    config: Config,
-    batch: &Batch<'_>,
-    first: usize,
-    blocks: &mut [Block; BLOCKS],
-) {
-    let mut chunk = Chunk::EMPTY;
-    chunk.load(batch, first);
-    for (number, block) in blocks.iter_mut().enumerate() {
-        if first + number * LANES >= batch.len() {
-            break;
-        }
-        *block = Block::new(config, batch.domain(), &chunk.block(number));
-    }
-}
-
 impl Block {
     /// A block of culled patches.
     pub(crate) const EMPTY: Self = Self {
-        config: Config::new(Partitioning::Integer, tess_core::OutputPrimitive::Point),
+        config: Config::new(Partitioning::Integer, OutputPrimitive::Point),
         domain: Domain::Quad,
         fixed: [0; _],
         points: [0; _],
@@ -60,9 +37,15 @@ impl Block {
     #[inline(always)]
     pub(crate) fn new(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
         match domain {
-            Domain::Isoline => Self::of_factors::<{ 2 * LANES }>(config, domain, raw),
-            Domain::Triangle => Self::of_factors::<{ 4 * LANES }>(config, domain, raw),
-            Domain::Quad => Self::of_factors::<{ 6 * LANES }>(config, domain, raw),
+            Domain::Isoline => {
+                Self::of_factors::<{ Domain::Isoline.factors() * LANES }>(config, domain, raw)
+            }
+            Domain::Triangle => {
+                Self::of_factors::<{ Domain::Triangle.factors() * LANES }>(config, domain, raw)
+            }
+            Domain::Quad => {
+                Self::of_factors::<{ Domain::Quad.factors() * LANES }>(config, domain, raw)
+            }
         }
     }
 
@@ -71,7 +54,7 @@ impl Block {
     fn of_factors<const ALL: usize>(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
         let processed = process(config, domain, raw);
         let points = point_counts::<ALL>(&processed.fixed, &processed.odd);
-        // Where factors are integers, few spacings are ever needed: see `Block::spacing`.
+        // Where factors are integers, few spacings are ever needed: see `BlockPatch::spacing`.
         let spacings = if config.partitioning.has_integer_factors() {
             Spacings::NONE
         } else {
@@ -83,59 +66,94 @@ impl Block {
         Self { config, domain, fixed, points, spacings, minimum, topologies, counts }
     }
 
-    /// The domain of its patches.
+    /// One of its patches.
     #[inline(always)]
-    pub(crate) const fn domain(&self) -> Domain {
-        self.domain
+    pub(crate) const fn patch(&self, lane: usize) -> BlockPatch<'_> {
+        BlockPatch { block: self, lane }
+    }
+}
+
+/// One patch of a block. Factors are numbered in the core's order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct BlockPatch<'a> {
+    block: &'a Block,
+    lane: usize,
+}
+
+impl BlockPatch<'_> {
+    /// Its domain.
+    #[inline(always)]
+    pub(crate) const fn domain(self) -> Domain {
+        self.block.domain
+    }
+
+    /// The number of its points; 0 if it is culled.
+    #[inline(always)]
+    pub(crate) const fn points(self) -> u32 {
+        self.block.counts.points[self.lane]
+    }
+
+    /// The number of its indices; 0 if it is culled.
+    #[inline(always)]
+    pub(crate) const fn indices(self) -> u32 {
+        self.block.counts.indices[self.lane]
     }
 
     /// Whether all factors are integers, so that a point count says all about a factor.
     #[inline(always)]
-    pub(crate) const fn integer(&self) -> bool {
-        self.config.partitioning.has_integer_factors()
+    pub(crate) const fn integer(self) -> bool {
+        self.block.config.partitioning.has_integer_factors()
     }
 
-    /// Whether a patch is a minimum patch.
+    /// Whether it is a minimum patch.
     #[inline(always)]
-    pub(crate) const fn is_minimum(&self, lane: usize) -> bool {
-        self.minimum[lane] == 1
+    pub(crate) const fn is_minimum(self) -> bool {
+        self.block.minimum[self.lane] == 1
     }
 
     /// A number for each topology of a domain, not 0.
     #[inline(always)]
-    pub(crate) const fn topology(&self, lane: usize) -> u64 {
-        self.topologies[lane]
+    pub(crate) const fn topology(self) -> u64 {
+        self.block.topologies[self.lane]
     }
 
-    /// The point counts of a patch's factors.
+    /// The point counts of its factors.
     #[inline(always)]
-    pub(crate) fn edges(&self, lane: usize) -> EdgePoints {
-        let points = |factor| self.edge_points(factor, lane);
-        [points(0), points(1), points(2), points(3), points(4), points(5)]
+    pub(crate) const fn edges(self) -> EdgePoints {
+        let Self { block: Block { points, .. }, lane } = self;
+        [
+            points[lane],
+            points[LANES + lane],
+            points[2 * LANES + lane],
+            points[3 * LANES + lane],
+            points[4 * LANES + lane],
+            points[5 * LANES + lane],
+        ]
     }
 
     /// The point count of one factor.
     #[inline(always)]
-    pub(crate) const fn edge_points(&self, factor: usize, lane: usize) -> u32 {
-        self.points[factor * LANES + lane]
+    pub(crate) const fn edge_points(self, factor: usize) -> u32 {
+        self.block.points[factor * LANES + self.lane]
     }
 
-    /// A number that tells contexts of one split order apart; not 0.
+    /// A number that tells the contexts of one split order apart; not 0.
     #[inline(always)]
-    pub(crate) const fn key(&self, factor: usize, lane: usize) -> u32 {
-        let i = factor * LANES + lane;
-        (self.fixed[i] << 1) | (self.points[i] & 1)
+    pub(crate) const fn key(self, factor: usize) -> u32 {
+        let i = factor * LANES + self.lane;
+        (self.block.fixed[i] << 1) | (self.block.points[i] & 1)
     }
 
     /// The spacing of one factor's points.
     #[inline(always)]
-    pub(crate) fn spacing(&self, factor: usize, lane: usize) -> Spacing {
-        let i = factor * LANES + lane;
+    pub(crate) fn spacing(self, factor: usize) -> Spacing {
+        let i = factor * LANES + self.lane;
+        let Block { config, fixed, points, spacings, .. } = self.block;
         if self.integer() {
-            let odd = u32::from(is_odd(self.points[i]));
-            Spacing::new(&Context::new(self.fixed[i], odd, self.config.split))
+            let odd = u32::from(is_odd(points[i]));
+            Spacing::new(&Context::new(fixed[i], odd, config.split))
         } else {
-            self.spacings.get(i, self.points[i])
+            spacings.get(i, points[i])
         }
     }
 }

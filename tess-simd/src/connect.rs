@@ -1,37 +1,40 @@
 //! The primitives of a patch, in order (spec sections 7 and 8).
+//!
+//! Vertex indices are modulo 2^32, so that one past the largest is 0 instead of an overflow.
 
 mod quad;
 mod rings;
 mod triangle;
 
-use crate::emit::Writer;
+use crate::block::BlockPatch;
 use crate::format::IndexFormat;
-use crate::lanes::EdgePoints;
-use crate::stitch::Stitches;
+use crate::setup::Setup;
+use crate::writer::Writer;
 use tess_core::{Domain, OutputPrimitive};
 
 /// Indices written at a time.
 const STEP: usize = 16;
 
-/// Emits the indices of a regular patch with `points` points, the first of them `base`.
+/// Emits the indices of a regular patch whose first point is number `base`.
 #[inline(always)]
 pub(crate) fn emit<I: IndexFormat>(
-    (domain, output): (Domain, OutputPrimitive),
-    edges: &EdgePoints,
-    stitches: &Stitches,
-    (base, points): (u32, u32),
+    setup: &Setup,
+    patch: BlockPatch<'_>,
+    base: u32,
     out: &mut Writer<'_, I>,
 ) {
-    match (domain, output) {
-        (_, OutputPrimitive::Point) => sequence(base, points, out),
+    let Setup { config, stitches, .. } = setup;
+    let edges = &patch.edges();
+    match (patch.domain(), config.output) {
+        (_, OutputPrimitive::Point) => sequence(base, patch.points(), out),
         (Domain::Isoline, _) => {
             let &[density, detail, ..] = edges;
             for line in 0..density - 1 {
-                chain(base + line * detail, detail, out);
+                chain(base.wrapping_add(line * detail), detail, out);
             }
         }
-        (_, OutputPrimitive::Line) => chain(base, points, out),
-        (Domain::Triangle, _) => triangle::emit(edges, stitches, base, output, out),
+        (_, OutputPrimitive::Line) => chain(base, patch.points(), out),
+        (Domain::Triangle, output) => triangle::emit(edges, stitches, base, output, out),
         (Domain::Quad, _) => quad::emit(edges, stitches, base, out),
     }
 }

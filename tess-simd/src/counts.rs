@@ -11,6 +11,26 @@ pub(crate) struct BlockCounts {
     pub(crate) indices: Lanes,
 }
 
+/// Output sizes of a part of a batch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct PartCounts {
+    pub(crate) points: u64,
+    pub(crate) indices: u64,
+    /// Points of its largest patch.
+    pub(crate) largest: u32,
+}
+
+impl PartCounts {
+    /// The counts of all parts together.
+    pub(crate) fn sum(parts: &[Self]) -> Self {
+        parts.iter().fold(Self::default(), |sum, part| Self {
+            points: sum.points + part.points,
+            indices: sum.indices + part.indices,
+            largest: sum.largest.max(part.largest),
+        })
+    }
+}
+
 /// Predicts the output sizes of a block.
 #[inline(always)]
 pub(crate) fn counts(

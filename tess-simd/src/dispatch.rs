@@ -1,12 +1,14 @@
 //! The kernels, compiled once for each CPU level and chosen at run time.
 
 use crate::batch::Batch;
-use crate::block::{self, BLOCKS, Block};
+use crate::block::Block;
+use crate::counts::PartCounts;
 use crate::format::{IndexFormat, PointFormat};
+use crate::kernel;
+use crate::kernel::emit::{Blocks, Caches, Offsets};
 use crate::level::Level;
-use crate::part::{self, Blocks, PartCounts};
-use crate::probe;
-use crate::stitch::Stitches;
+use crate::output::Buffers;
+use crate::setup::Setup;
 use alloc::vec::Vec;
 use multiversion::multiversion;
 use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
@@ -45,49 +47,52 @@ macro_rules! at_each_level {
 }
 
 at_each_level! {
-    /// [`part::count`] at a level.
-    fn count(config: Config, batch: &Batch<'_>) -> PartCounts = part::count;
+    /// [`kernel::count::count`] at a level.
+    fn count(config: Config, batch: &Batch<'_>) -> PartCounts = kernel::count::count;
 }
 
 at_each_level! {
-    /// [`block::process_blocks`] at a level.
-    fn process_blocks(
-        config: Config,
-        batch: &Batch<'_>,
-        first: usize,
-        blocks: &mut [Block; BLOCKS],
-    ) = block::process_blocks;
+    /// [`kernel::count::count_and_keep`] at a level.
+    fn count_and_keep(config: Config, batch: &Batch<'_>, blocks: &mut [Block]) -> PartCounts
+        = kernel::count::count_and_keep;
 }
 
 at_each_level! {
-    /// [`part::emit_blocks`] at a level.
+    /// [`kernel::front_end::process`] at a level.
+    fn process(config: Config, batch: &Batch<'_>, first: usize, blocks: &mut [Block])
+        = kernel::front_end::process;
+}
+
+at_each_level! {
+    /// [`kernel::emit::emit`] at a level.
     fn emit<P: PointFormat, I: IndexFormat>(
-        config: Config,
-        stitches: &Stitches,
-        blocks: Blocks<'_, P, I>,
-    ) -> (u32, u32) = part::emit_blocks;
+        setup: &Setup,
+        blocks: Blocks<'_>,
+        buffers: Buffers<'_, P, I>,
+        caches: &mut Caches,
+    ) -> Offsets = kernel::emit::emit;
 }
 
 at_each_level! {
-    /// [`probe::fixed_factors`] at a level.
+    /// [`kernel::probe::fixed_factors`] at a level.
     fn fixed_factors(
         partitioning: Partitioning,
         values: &[f32],
         factors: &mut [[FixedFactor; 2]],
-    ) = probe::fixed_factors_kernel;
+    ) = kernel::probe::fixed_factors;
 }
 
 at_each_level! {
-    /// [`probe::contexts`] at a level.
+    /// [`kernel::probe::contexts`] at a level.
     fn contexts(
         split: SplitOrder,
         parity: Parity,
         factors: &[FixedFactor],
         contexts: &mut [FactorContext],
-    ) = probe::contexts_kernel;
+    ) = kernel::probe::contexts;
 }
 
 at_each_level! {
-    /// [`probe::locations`] at a level.
-    fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) = probe::locations_kernel;
+    /// [`kernel::probe::locations`] at a level.
+    fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) = kernel::probe::locations;
 }

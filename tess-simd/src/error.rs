@@ -1,10 +1,11 @@
-//! What can go wrong. Whatever it is, nothing was written.
+//! Why a batch is refused.
 
-use crate::level::Level;
 use core::fmt;
+use tess_core::Domain;
 
-/// The caller's buffers.
+/// One of the caller's buffers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Buffer {
     /// The domain points.
     Points,
@@ -14,7 +15,7 @@ pub enum Buffer {
     Ranges,
 }
 
-/// Why a batch was not tessellated; nothing was written.
+/// Why a batch was refused. Buffers and outputs stay as they were.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Error {
@@ -35,15 +36,27 @@ pub enum Error {
         /// The largest index of the format.
         format: u64,
     },
-    /// The batch has more than 2^32 - 1 points or indices. Make it smaller.
+    /// The batch has more than 2^32 - 1 points or indices. Split it.
     BatchTooLarge {
         /// Its points.
         points: u64,
         /// Its indices.
         indices: u64,
     },
-    /// The columns of the batch have different lengths.
-    UnevenColumns,
+    /// The columns of the batch have different lengths. Give each one factor for each patch.
+    UnevenColumns {
+        /// The shortest length, and another one.
+        lengths: [usize; 2],
+    },
+    /// The patches of the batch have different domains. Make a batch of each domain.
+    MixedDomains {
+        /// Number of the first patch that differs from those before it.
+        patch: usize,
+        /// Its domain.
+        found: Domain,
+        /// The domain of the patches before it.
+        expected: Domain,
+    },
 }
 
 impl fmt::Display for Error {
@@ -61,23 +74,22 @@ impl fmt::Display for Error {
                 write!(f, "the batch needs the index {largest}, but indices end at {format}")
             }
             Self::BatchTooLarge { points, indices } => {
-                write!(f, "a batch of {points} points and {indices} indices is too large")
+                write!(
+                    f,
+                    "the batch has {points} points and {indices} indices; at most 4294967295 of \
+                     each can be written at a time"
+                )
             }
-            Self::UnevenColumns => write!(f, "the columns of factors have different lengths"),
+            Self::UnevenColumns { lengths: [one, other] } => {
+                write!(f, "a column has {one} factors and another {other}; all need one length")
+            }
+            Self::MixedDomains { patch, found, expected } => write!(
+                f,
+                "patch {patch} has the domain {found:?}, those before it {expected:?}; a batch has \
+                 one domain"
+            ),
         }
     }
 }
 
 impl core::error::Error for Error {}
-
-/// This machine, or this build, cannot run a CPU level.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LevelUnavailable(pub Level);
-
-impl fmt::Display for LevelUnavailable {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "this machine cannot run the CPU level {}", self.0)
-    }
-}
-
-impl core::error::Error for LevelUnavailable {}

@@ -21,16 +21,22 @@ pub(crate) struct Processed {
 /// Processes the raw factors of a block. Total: every bit pattern is valid.
 #[inline(always)]
 pub(crate) fn process(config: Config, domain: Domain, raw: &Column<f32>) -> Processed {
-    const N: usize = LANES;
+    const fn outer(domain: Domain) -> usize {
+        domain.outer_factors() * LANES
+    }
+    const fn all(domain: Domain) -> usize {
+        domain.factors() * LANES
+    }
+    use Domain::{Isoline, Quad, Triangle};
     let partitioning = config.partitioning;
     let mut processed = match domain {
-        Domain::Isoline => process_as::<{ 2 * N }, { 2 * N }>(partitioning, raw),
-        Domain::Triangle => process_as::<{ 3 * N }, { 4 * N }>(partitioning, raw),
-        Domain::Quad => process_as::<{ 4 * N }, { 6 * N }>(partitioning, raw),
+        Isoline => process_as::<{ outer(Isoline) }, { all(Isoline) }>(partitioning, raw),
+        Triangle => process_as::<{ outer(Triangle) }, { all(Triangle) }>(partitioning, raw),
+        Quad => process_as::<{ outer(Quad) }, { all(Quad) }>(partitioning, raw),
     };
-    if domain == Domain::Isoline {
-        processed.minimum = [0; N];
-        for (lane, &density) in raw[..N].iter().enumerate() {
+    if domain == Isoline {
+        processed.minimum = [0; LANES];
+        for (lane, &density) in raw[..LANES].iter().enumerate() {
             let density = ceil(clamp(density, 1.0, 64.0));
             processed.fixed[lane] = density << 16;
             processed.odd[lane] = density & 1;

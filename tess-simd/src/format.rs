@@ -1,14 +1,14 @@
 //! What points and indices look like in memory.
 
-use crate::dispatch;
-use crate::level::Level;
-use crate::part::Blocks;
 use crate::reciprocal::to_f32;
-use crate::stitch::Stitches;
-use tess_core::{Config, DomainPoint};
+use tess_core::DomainPoint;
 
-/// A point format: [`DomainPoint`] (16.16 pairs) or `[f32; 2]`.
-pub trait PointFormat: sealed::PointKernels + Copy + Default + Send + Sync + 'static {
+/// A point format: `[f32; 2]`, or [`DomainPoint`] for pairs of 16.16 numbers. Both are exact.
+///
+/// `tess-gpu` calls the first `PointFormat::F32`; C calls them `TESS_POINTS_FLOAT` and
+/// `TESS_POINTS_FIXED`. The packed format that the shaders have is not here: it holds a patch's
+/// number in each point.
+pub trait PointFormat: sealed::Point + Copy + Default + Send + Sync + 'static {
     /// The point with these 16.16 coordinates, each in `0..=ONE`. Exact; beyond that range
     /// unspecified.
     #[must_use]
@@ -16,76 +16,65 @@ pub trait PointFormat: sealed::PointKernels + Copy + Default + Send + Sync + 'st
 }
 
 /// An index format: `u16` or `u32`.
-pub trait IndexFormat: sealed::IndexKernels + Copy + Default + Send + Sync + 'static {
+///
+/// `tess-gpu` calls them `IndexType::U16` and `IndexType::U32`; C calls them `TESS_INDICES_16` and
+/// `TESS_INDICES_32`.
+pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     /// The largest index.
     const LARGEST: u64;
 
     /// The index, modulo 2^16 or 2^32.
     #[must_use]
     fn wrapping_from(index: u32) -> Self;
-
-    /// A row position from a stitch table: its sign is extended.
-    #[must_use]
-    fn from_code(code: i8) -> Self;
-
-    /// The sum, modulo 2^16 or 2^32.
-    #[must_use]
-    fn wrapping_add(self, other: Self) -> Self;
-
-    /// Bitwise exclusive or.
-    #[must_use]
-    fn xor(self, other: Self) -> Self;
 }
 
-/// [`dispatch::emit`] for each pair of formats. Whoever calls it for formats of its own choice uses
-/// the instances of this crate, where generic ones would be compiled anew in every crate.
+/// What the kernels need of the formats. It keeps them to those that are compared with the core.
 mod sealed {
-    use super::{Blocks, Config, Level, PointFormat, Stitches};
+    use tess_core::DomainPoint;
 
-    /// A call of a kernel.
+    #[expect(unnameable_types, reason = "keeps the formats to those compared with the core")]
+    pub trait Point: Sized {
+        /// The same points as one of the formats there are.
+        fn any(points: &mut [Self]) -> AnyPoints<'_>;
+    }
+
+    #[expect(unnameable_types, reason = "keeps the formats to those compared with the core")]
+    pub trait Index: Sized {
+        /// The same indices as one of the formats there are.
+        fn any(indices: &mut [Self]) -> AnyIndices<'_>;
+
+        /// A code from a stitch table: its sign is extended.
+        fn from_code(code: i8) -> Self;
+
+        /// The sum, modulo 2^16 or 2^32.
+        fn wrapping_add(self, other: Self) -> Self;
+
+        /// Bitwise exclusive or.
+        fn xor(self, other: Self) -> Self;
+    }
+
+    /// Points of a format that is known at run time.
     #[derive(Debug)]
-    #[expect(unnameable_types, reason = "keeps its private parts from the public traits")]
-    pub struct Call<'a, P, I> {
-        pub(crate) level: Level,
-        pub(crate) config: Config,
-        pub(crate) stitches: &'a Stitches,
-        pub(crate) blocks: Blocks<'a, P, I>,
+    #[expect(unnameable_types, reason = "for the kernels alone")]
+    pub enum AnyPoints<'a> {
+        F32(&'a mut [[f32; 2]]),
+        Fixed(&'a mut [DomainPoint]),
     }
 
-    #[expect(unnameable_types, reason = "keeps the formats to those compared with the core")]
-    pub trait PointKernels: Sized {
-        fn emit_u16(call: Call<'_, Self, u16>) -> (u32, u32);
-        fn emit_u32(call: Call<'_, Self, u32>) -> (u32, u32);
-    }
-
-    #[expect(unnameable_types, reason = "keeps the formats to those compared with the core")]
-    pub trait IndexKernels: Sized {
-        fn emit<P: PointFormat>(call: Call<'_, P, Self>) -> (u32, u32);
+    /// Indices of a format that is known at run time.
+    #[derive(Debug)]
+    #[expect(unnameable_types, reason = "for the kernels alone")]
+    pub enum AnyIndices<'a> {
+        U16(&'a mut [u16]),
+        U32(&'a mut [u32]),
     }
 }
 
-pub(crate) use sealed::Call;
+pub(crate) use sealed::{AnyIndices, AnyPoints};
 
-macro_rules! point_kernels {
-    ($format:ty) => {
-        impl sealed::PointKernels for $format {
-            fn emit_u16(call: Call<'_, Self, u16>) -> (u32, u32) {
-                dispatch::emit(call.level, call.config, call.stitches, call.blocks)
-            }
-
-            fn emit_u32(call: Call<'_, Self, u32>) -> (u32, u32) {
-                dispatch::emit(call.level, call.config, call.stitches, call.blocks)
-            }
-        }
-    };
-}
-point_kernels!(DomainPoint);
-point_kernels!([f32; 2]);
-
-impl PointFormat for DomainPoint {
-    #[inline(always)]
-    fn from_bits(u: u32, v: u32) -> Self {
-        Self::from_bits(u, v)
+impl sealed::Point for [f32; 2] {
+    fn any(points: &mut [Self]) -> AnyPoints<'_> {
+        AnyPoints::F32(points)
     }
 }
 
@@ -99,25 +88,24 @@ impl PointFormat for [f32; 2] {
     }
 }
 
+impl sealed::Point for DomainPoint {
+    fn any(points: &mut [Self]) -> AnyPoints<'_> {
+        AnyPoints::Fixed(points)
+    }
+}
+
+impl PointFormat for DomainPoint {
+    #[inline(always)]
+    fn from_bits(u: u32, v: u32) -> Self {
+        Self::from_bits(u, v)
+    }
+}
+
 macro_rules! index_format {
-    ($format:ty, $emit:ident) => {
-        impl sealed::IndexKernels for $format {
-            fn emit<P: PointFormat>(call: Call<'_, P, Self>) -> (u32, u32) {
-                P::$emit(call)
-            }
-        }
-
-        impl IndexFormat for $format {
-            const LARGEST: u64 = <$format>::MAX as u64;
-
-            #[inline(always)]
-            #[allow(
-                clippy::cast_possible_truncation,
-                trivial_numeric_casts,
-                reason = "modulo, as documented; one of the two formats is u32 itself"
-            )]
-            fn wrapping_from(index: u32) -> Self {
-                index as Self
+    ($format:ty, $any:ident) => {
+        impl sealed::Index for $format {
+            fn any(indices: &mut [Self]) -> AnyIndices<'_> {
+                AnyIndices::$any(indices)
             }
 
             #[inline(always)]
@@ -136,7 +124,21 @@ macro_rules! index_format {
                 self ^ other
             }
         }
+
+        impl IndexFormat for $format {
+            const LARGEST: u64 = <$format>::MAX as u64;
+
+            #[inline(always)]
+            #[allow(
+                clippy::cast_possible_truncation,
+                trivial_numeric_casts,
+                reason = "modulo, as documented; one of the two formats is u32 itself"
+            )]
+            fn wrapping_from(index: u32) -> Self {
+                index as Self
+            }
+        }
     };
 }
-index_format!(u16, emit_u16);
-index_format!(u32, emit_u32);
+index_format!(u16, U16);
+index_format!(u32, U32);

@@ -11,22 +11,13 @@ use tess_core::Domain;
 pub(crate) const LANES: usize = 16;
 
 /// The most factors that a patch has: a quad's.
-pub(crate) const MAX_FACTORS: usize = 6;
+pub(crate) const MAX_FACTORS: usize = Domain::Quad.factors();
 
 /// One quantity of the patches of a block.
 pub(crate) type Lanes<T = u32> = [T; LANES];
 
 /// One quantity of all factors of a block: element `factor * LANES + lane`.
 pub(crate) type Column<T = u32> = [T; LANES * MAX_FACTORS];
-
-/// Factors of a patch.
-pub(crate) const fn factors(domain: Domain) -> usize {
-    match domain {
-        Domain::Isoline => 2,
-        Domain::Triangle => 4,
-        Domain::Quad => 6,
-    }
-}
 
 /// Point counts of a patch's edges and inside axes, in the order of its factors.
 pub(crate) type EdgePoints = [u32; MAX_FACTORS];

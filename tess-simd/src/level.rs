@@ -2,8 +2,9 @@
 
 use core::fmt;
 
-/// A set of CPU instructions. All levels give the same bits.
+/// A set of CPU instructions that the kernels are compiled for. All levels give the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum Level {
     /// What the crate was compiled for; always available.
     Baseline,
@@ -38,6 +39,11 @@ impl Level {
         }
     }
 
+    /// Nothing if this machine can run the level.
+    pub(crate) fn require(self) -> Result<(), LevelUnavailable> {
+        if self.is_available() { Ok(()) } else { Err(LevelUnavailable(self)) }
+    }
+
     /// The most capable level that this machine can run.
     #[must_use]
     pub fn detect() -> Self {
@@ -50,6 +56,18 @@ impl fmt::Display for Level {
         f.write_str(self.name())
     }
 }
+
+/// This machine, or this build, cannot run a CPU level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelUnavailable(pub Level);
+
+impl fmt::Display for LevelUnavailable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "this machine cannot run the CPU level {}", self.0)
+    }
+}
+
+impl core::error::Error for LevelUnavailable {}
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 fn has_avx2() -> bool {

@@ -5,15 +5,30 @@ use alloc::vec::Vec;
 use tess_core::DomainPoint;
 
 /// What an index counts from.
+///
+/// `tess-gpu` has the same names; its batches count from 0. C calls them `TESS_NUMBERING_PATCH` and
+/// `TESS_NUMBERING_BATCH`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Numbering {
-    /// The first point of its patch: the same indices as the core's. 16 bits are always enough.
+    /// Each patch's indices count from its own first point and are those of the core. 16 bits are
+    /// always enough.
     PerPatch,
-    /// The first point of the batch, which has this number: one vertex buffer for all patches.
-    Batch {
+    /// All indices count through the points of the batch: one vertex buffer for all patches.
+    PerBatch {
         /// Number of the first point of the batch.
         base_vertex: u32,
     },
+}
+
+impl Numbering {
+    /// The number of a patch's first point, which is this point of the batch.
+    #[inline(always)]
+    pub(crate) const fn base(self, first_point: u32) -> u32 {
+        match self {
+            Self::PerPatch => 0,
+            Self::PerBatch { base_vertex } => base_vertex.wrapping_add(first_point),
+        }
+    }
 }
 
 /// Where one patch's output lies. A culled patch has no points and no indices.
@@ -41,19 +56,35 @@ pub struct BatchCounts {
     pub indices: usize,
 }
 
-/// The buffers that a batch is written to.
+/// The caller's buffers that a batch is written to. They may be larger than needed: what lies behind
+/// the output stays as it is.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Buffers<'a, P = [f32; 2], I = u32> {
-    /// Points of all patches, one patch after another.
+    /// Receives the points of all patches, one patch after another.
     pub points: &'a mut [P],
-    /// Indices of all patches, one patch after another.
+    /// Receives the indices of all patches, one patch after another.
     pub indices: &'a mut [I],
-    /// One range for each patch.
-    pub ranges: &'a mut [PatchRange],
+    /// Receives one range for each patch, if ranges are wanted.
+    pub ranges: Option<&'a mut [PatchRange]>,
 }
 
-/// Buffers that grow as needed and are used again and again: once they are as large as the largest
-/// batch, nothing is allocated any more.
+impl<'a, P: PointFormat, I: IndexFormat> Buffers<'a, P, I> {
+    /// Buffers for points and indices; ranges are not written.
+    #[must_use]
+    pub const fn new(points: &'a mut [P], indices: &'a mut [I]) -> Self {
+        Self { points, indices, ranges: None }
+    }
+
+    /// The same buffers and one for ranges.
+    #[must_use]
+    pub const fn with_ranges(self, ranges: &'a mut [PatchRange]) -> Self {
+        Self { ranges: Some(ranges), ..self }
+    }
+}
+
+/// Buffers that grow as needed and keep their memory: once they are as large as the largest batch,
+/// nothing is allocated any more.
 #[derive(Clone, Debug)]
 pub struct Output<P = [f32; 2], I = u32> {
     points: Vec<P>,
@@ -62,30 +93,30 @@ pub struct Output<P = [f32; 2], I = u32> {
     counts: BatchCounts,
 }
 
-/// Output in 16.16 points and 32-bit indices, the core's formats.
+/// An output of 16.16 points and 32-bit indices, the core's formats.
 pub type ExactOutput = Output<DomainPoint, u32>;
 
 impl<P: PointFormat, I: IndexFormat> Output<P, I> {
-    /// Without memory yet.
+    /// An empty output, without memory yet.
     #[must_use]
     pub const fn new() -> Self {
         let counts = BatchCounts { patches: 0, points: 0, indices: 0 };
         Self { points: Vec::new(), indices: Vec::new(), ranges: Vec::new(), counts }
     }
 
-    /// The points of all patches of the last batch.
+    /// The points of all patches of the last batch, one patch after another.
     #[must_use]
     pub fn points(&self) -> &[P] {
         self.points.get(..self.counts.points).unwrap_or_default()
     }
 
-    /// The indices of all patches of the last batch.
+    /// The indices of all patches of the last batch, one patch after another.
     #[must_use]
     pub fn indices(&self) -> &[I] {
         self.indices.get(..self.counts.indices).unwrap_or_default()
     }
 
-    /// Where each patch of the last batch lies.
+    /// A range for each patch of the last batch: where its output lies.
     #[must_use]
     pub fn ranges(&self) -> &[PatchRange] {
         self.ranges.get(..self.counts.patches).unwrap_or_default()
@@ -107,7 +138,7 @@ impl<P: PointFormat, I: IndexFormat> Output<P, I> {
         Buffers {
             points: room(&mut self.points, counts.points),
             indices: room(&mut self.indices, counts.indices),
-            ranges: room(&mut self.ranges, counts.patches),
+            ranges: Some(room(&mut self.ranges, counts.patches)),
         }
     }
 }

@@ -5,16 +5,14 @@
 //! ones of the topology of the patch before, are copied.
 //! The templates are made by the same emission that larger patches go through.
 
-use crate::block::Block;
+use crate::block::BlockPatch;
 use crate::connect;
-use crate::emit::Writer;
 use crate::points::{self, LocationTables};
-use crate::stitch::Stitches;
+use crate::setup::Setup;
+use crate::writer::Writer;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use tess_core::{
-    Config, Domain, DomainPoint, IsolineFactors, Patch, PatchFactors, QuadFactors, TriangleFactors,
-};
+use tess_core::{Config, Domain, DomainPoint, Patch, PatchFactors};
 
 /// Points of a small patch: as many as a quad of factor 16 has.
 const SMALL: usize = 17 * 17;
@@ -43,7 +41,7 @@ pub(crate) struct Templates {
 /// Where a template begins.
 #[derive(Clone, Copy, Debug)]
 struct Slot {
-    /// See [`Block::topology`]; 0 if there is none.
+    /// See [`BlockPatch::topology`]; 0 if there is none.
     topology: u64,
     point: u32,
     index: u32,
@@ -81,20 +79,20 @@ impl Templates {
     #[inline(always)]
     pub(crate) fn get(
         &mut self,
-        (config, stitches): (Config, &Stitches),
-        (block, lane): (&Block, usize),
+        setup: &Setup,
+        patch: BlockPatch<'_>,
         tables: &mut LocationTables,
     ) -> Option<Template<'_>> {
-        let topology = block.topology(lane);
+        let topology = patch.topology();
         let slot = slot(topology);
         if self.slots[slot].topology != topology {
-            if !self.wanted(block, lane) {
+            if !self.wanted(patch) {
                 return None;
             }
-            self.make((config, stitches), (block, lane), tables);
+            self.make(setup, patch, tables);
         }
         let Slot { point, index, .. } = self.slots[slot];
-        let decided = block.integer() || block.is_minimum(lane);
+        let decided = patch.integer() || patch.is_minimum();
         Some(Template {
             indices: self.indices.get(index as usize..).unwrap_or_default(),
             points: decided.then(|| self.points.get(point as usize..).unwrap_or_default()),
@@ -103,55 +101,39 @@ impl Templates {
 
     /// Whether a patch is small or like the large patch before.
     #[inline(always)]
-    fn wanted(&mut self, block: &Block, lane: usize) -> bool {
-        let topology = block.topology(lane);
-        block.counts.points[lane] as usize <= SMALL
+    fn wanted(&mut self, patch: BlockPatch<'_>) -> bool {
+        let topology = patch.topology();
+        patch.points() as usize <= SMALL
             || core::mem::replace(&mut self.last_large, topology) == topology
     }
 
     /// Makes a template; if there is no room, all others are forgotten.
     #[cold]
     #[inline(never)]
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "indices of 4 points, and places in the room"
-    )]
-    fn make(
-        &mut self,
-        (config, stitches): (Config, &Stitches),
-        (block, lane): (&Block, usize),
-        tables: &mut LocationTables,
-    ) {
-        let (topology, edges) = (block.topology(lane), &block.edges(lane));
-        let (points, indices) = (block.counts.points[lane], block.counts.indices[lane]);
-        let full = self.indices_used + indices as usize + PADDING > INDEX_ROOM
-            || self.points_used + points as usize + PADDING > POINT_ROOM;
+    #[expect(clippy::cast_possible_truncation, reason = "places in the room")]
+    fn make(&mut self, setup: &Setup, patch: BlockPatch<'_>, tables: &mut LocationTables) {
+        let (points, indices) = (patch.points() as usize, patch.indices() as usize);
+        let full = self.indices_used + indices + PADDING > INDEX_ROOM
+            || self.points_used + points + PADDING > POINT_ROOM;
         if full {
             self.slots.iter_mut().for_each(|slot| slot.topology = 0);
             (self.indices_used, self.points_used) = (0, 0);
         }
-        let (index_room, point_room) =
-            (&mut self.indices[self.indices_used..], &mut self.points[self.points_used..]);
-        let domain = block.domain();
-        if block.is_minimum(lane) {
-            let minimum = minimum(config, domain);
-            let mut wide = [0; 8];
-            let written = minimum.write(point_room, &mut wide);
-            debug_assert!(written.is_ok(), "a minimum patch has at most 4 points and 6 indices");
-            for (narrow, wide) in index_room.iter_mut().zip(wide) {
-                *narrow = wide as u16;
-            }
+        let index_room = &mut self.indices[self.indices_used..];
+        let point_room = &mut self.points[self.points_used..];
+        if patch.is_minimum() {
+            write_minimum(setup.config, patch.domain(), point_room, index_room);
         } else {
-            let mut writer = Writer::new(index_room);
-            connect::emit((domain, config.output), edges, stitches, (0, points), &mut writer);
-            if block.integer() {
-                points::emit((block, lane), edges, tables, &mut Writer::new(point_room));
+            connect::emit(setup, patch, 0, &mut Writer::new(index_room));
+            if patch.integer() {
+                points::emit(patch, tables, &mut Writer::new(point_room));
             }
         }
+        let topology = patch.topology();
         self.slots[slot(topology)] =
             Slot { topology, point: self.points_used as u32, index: self.indices_used as u32 };
-        self.indices_used += indices as usize;
-        self.points_used += points as usize;
+        self.indices_used += indices;
+        self.points_used += points;
     }
 }
 
@@ -162,21 +144,13 @@ const fn slot(topology: u64) -> usize {
     (topology.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SLOTS.ilog2())) as usize % SLOTS
 }
 
-/// The minimum patch of a domain.
-fn minimum(config: Config, domain: Domain) -> Patch {
-    let factors = match domain {
-        Domain::Isoline => PatchFactors::Isoline(IsolineFactors { density: 1.0, detail: 1.0 }),
-        Domain::Triangle => {
-            PatchFactors::Triangle(TriangleFactors { u0: 1.0, v0: 1.0, w0: 1.0, inside: 1.0 })
-        }
-        Domain::Quad => PatchFactors::Quad(QuadFactors {
-            u0: 1.0,
-            v0: 1.0,
-            u1: 1.0,
-            v1: 1.0,
-            inside_u: 1.0,
-            inside_v: 1.0,
-        }),
-    };
-    Patch::new(config, factors)
+/// Writes the minimum patch of a domain, as the core makes it.
+#[expect(clippy::cast_possible_truncation, reason = "indices of at most 4 points")]
+fn write_minimum(config: Config, domain: Domain, points: &mut [DomainPoint], indices: &mut [u16]) {
+    let mut wide = [0; 8];
+    let written = Patch::new(config, PatchFactors::uniform(domain, 1.0)).write(points, &mut wide);
+    debug_assert!(written.is_ok(), "a minimum patch has at most 4 points and 6 indices");
+    for (narrow, wide) in indices.iter_mut().zip(wide) {
+        *narrow = wide as u16;
+    }
 }

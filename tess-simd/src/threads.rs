@@ -1,6 +1,6 @@
-//! Who writes a share: the threads of a rayon pool, or the calling thread alone.
+//! Who counts and writes: the threads of a rayon pool, or the calling thread alone.
 //!
-//! Both define [`Workspaces`], what is kept from batch to batch, and [`join`].
+//! Both define [`Workspaces`], what is kept from batch to batch.
 
 #[cfg(not(feature = "rayon"))]
 mod one;
@@ -8,6 +8,6 @@ mod one;
 mod pool;
 
 #[cfg(not(feature = "rayon"))]
-pub(crate) use one::{Workspaces, join};
+pub(crate) use one::Workspaces;
 #[cfg(feature = "rayon")]
-pub(crate) use pool::{Workspaces, join};
+pub(crate) use pool::{MAX_THREADS, Workspaces};

@@ -39,8 +39,8 @@ fn check(config: Config, domain: Domain, patches: &Patches) {
         Tessellator::with_level(config, Level::Baseline).expect("always available");
     let expected = patches.expected(config);
     for (batch, numbering) in [
-        (patches.structures(domain), Numbering::PerPatch),
-        (patches.columns(domain), Numbering::Batch { base_vertex: 77 }),
+        (Batch::from(&patches.all), Numbering::PerPatch),
+        (patches.columns(domain), Numbering::PerBatch { base_vertex: 77 }),
     ] {
         let same = |point| point;
         compare::<DomainPoint, u32>(&mut tessellator, (patches, batch), &expected, numbering, same);
@@ -83,12 +83,11 @@ fn factors_that_differ_in_one_bit() {
 fn topologies_that_differ_in_one_factor() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     for domain in [Domain::Triangle, Domain::Quad] {
-        let count = domain.factors();
-        for position in 0..count {
+        for position in 0..domain.factors() {
             let patch = |n: u8| {
-                let mut factors = [3.0, 5.0, 2.0, 4.0, 6.0, 3.0][..count].to_vec();
+                let mut factors = [3.0, 5.0, 2.0, 4.0, 6.0, 3.0];
                 factors[position] = f32::from(n);
-                PatchFactors::from_slice(domain, &factors).expect("as many as the domain has")
+                PatchFactors::from_fn(domain, |factor| factors[factor])
             };
             let all = (1..=16).chain((1..=16).rev()).chain(1..=64).map(patch).collect();
             check(config, domain, &Patches::new(all));
@@ -118,6 +117,12 @@ fn messages() {
     let error = Error::BufferTooSmall { buffer: Buffer::Indices, needed: 66, got: 65 };
     let message = "the index buffer holds 65 elements, but the batch needs 66";
     assert_eq!(error.to_string(), message, "a buffer");
+    let error = Error::UnevenColumns { lengths: [8, 9] };
+    let message = "a column has 8 factors and another 9; all need one length";
+    assert_eq!(error.to_string(), message, "columns");
+    let (found, expected) = (Domain::Quad, Domain::Triangle);
+    let message = "patch 3 has the domain Quad, those before it Triangle; a batch has one domain";
+    assert_eq!(Error::MixedDomains { patch: 3, found, expected }.to_string(), message, "domains");
     let message = "this machine cannot run the CPU level avx512";
     assert_eq!(LevelUnavailable(Level::Avx512).to_string(), message, "a level");
 }
@@ -129,7 +134,7 @@ fn memory() {
     let allocated = measure(|| made = Tessellator::with_level(config, Level::Baseline).ok());
     let memory = made.map_or(0, |tessellator| tessellator.memory());
     let own = memory.checked_sub(usize::try_from(allocated.bytes_current).unwrap_or(0));
-    assert!(own.is_some_and(|own| (0..1024).contains(&own)), "{memory} bytes, {own:?} its own");
+    assert!(own.is_some_and(|own| (0..2048).contains(&own)), "{memory} bytes, {own:?} its own");
 }
 
 /// Levels that this machine lacks are refused; without `std` it cannot be asked.
@@ -152,16 +157,19 @@ fn batches_know_their_size() {
     for domain in Domain::ALL {
         let [none, some] = [0, 21].map(|count| Patches::random(1, domain, count));
         for empty in [none.structures(domain), none.columns(domain)] {
-            assert!(empty.is_empty() && empty.is_even(), "{empty:?}");
+            assert!(empty.is_empty(), "{empty:?}");
+            assert_eq!(empty.domain(), domain, "{empty:?}");
         }
-        for batch in [some.structures(domain), some.columns(domain)] {
-            let size = (batch.len(), batch.is_empty(), batch.is_even(), batch.domain());
-            assert_eq!(size, (21, false, true, domain), "{domain:?}");
+        for batch in [some.structures(domain), some.columns(domain), (&some.all).into()] {
+            let size = (batch.len(), batch.is_empty(), batch.domain());
+            assert_eq!(size, (21, false, domain), "{domain:?}");
         }
     }
+    let none: Vec<PatchFactors> = Vec::new();
+    assert_eq!((Batch::from(&none).len(), Batch::from(&none).domain()), (0, Domain::Quad), "none");
     let (long, short) = ([2.0; 9], [2.0; 8]);
-    let uneven = Batch::IsolineColumns(IsolineFactors { density: &long, detail: &short });
-    assert!(!uneven.is_even(), "a column is longer");
+    let uneven = Batch::from(IsolineFactors { density: &long[..], detail: &short[..] });
+    assert_eq!(uneven.len(), 8, "the shortest column's length");
 }
 
 fn factors() {
@@ -184,13 +192,9 @@ fn factors() {
 fn picture_frames() {
     let near_one = [0x3F80_0000, 0x3F80_003F, 0x3F80_0040, 0x3F80_0041].map(f32::from_bits);
     for domain in [Domain::Triangle, Domain::Quad] {
-        let count = domain.factors();
-        let patch = |n: usize| {
-            let factor = |position: usize| near_one[n >> (2 * position) & 3];
-            let factors: Vec<f32> = (0..count).map(factor).collect();
-            PatchFactors::from_slice(domain, &factors).expect("as many as the domain has")
-        };
-        let patches = Patches::new((0..1 << (2 * count)).map(patch).collect());
+        let patch =
+            |n: usize| PatchFactors::from_fn(domain, |position| near_one[n >> (2 * position) & 3]);
+        let patches = Patches::new((0..1 << (2 * domain.factors())).map(patch).collect());
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
         check(config, domain, &patches);
     }

@@ -2,7 +2,9 @@
 //! not touched, and nothing is allocated once a tessellator is warm.
 
 use allocation_counter::measure;
-use tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors, TriangleFactors};
+use tess_core::{
+    Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
+};
 use tess_simd::{
     Batch, BatchCounts, Buffer, Buffers, Error, Level, LevelUnavailable, Numbering, Output,
     PatchRange, Tessellator,
@@ -30,7 +32,7 @@ fn poisoned(
 fn too_small_buffers_stay_as_they_were() {
     let patches = [quad(4.5), quad(0.0), quad(63.0)];
     let mut tessellator = Tessellator::new(CONFIG);
-    let counts = tessellator.count(&patches[..]).expect("a small batch");
+    let counts = tessellator.count(&patches).expect("a small batch").counts();
     let (points, indices, ranges) = (counts.points, counts.indices, counts.patches);
     let cases = [
         (Buffer::Points, points, (points - 1, indices, ranges)),
@@ -39,7 +41,7 @@ fn too_small_buffers_stay_as_they_were() {
     ];
     for (buffer, needed, sizes) in cases {
         let (mut p, mut i, mut r) = poisoned(sizes.0, sizes.1, sizes.2);
-        let buffers = Buffers { points: &mut p[..], indices: &mut i[..], ranges: &mut r[..] };
+        let buffers = Buffers::new(&mut p, &mut i).with_ranges(&mut r);
         let result = tessellator.write(&patches[..], Numbering::PerPatch, buffers);
         assert_eq!(result, Err(Error::BufferTooSmall { buffer, needed, got: needed - 1 }));
         assert!(p.iter().flatten().all(|x| x.to_bits() == POISON), "points untouched");
@@ -55,9 +57,9 @@ fn what_lies_behind_the_output_stays() {
         let mut tessellator = Tessellator::with_level(CONFIG, level).expect("available");
         for step in 0..120u8 {
             let patches = [quad(2.0), quad(1.0 + f32::from(step) / 2.0)];
-            let counts = tessellator.count(&patches[..]).expect("a small batch");
+            let counts = tessellator.count(&patches).expect("a small batch").counts();
             let (mut p, mut i, mut r) = poisoned(counts.points + 40, counts.indices + 40, 3);
-            let buffers = Buffers { points: &mut p[..], indices: &mut i[..], ranges: &mut r[..] };
+            let buffers = Buffers::new(&mut p, &mut i).with_ranges(&mut r);
             let result = tessellator.write(&patches[..], Numbering::PerPatch, buffers);
             assert_eq!(result, Ok(counts), "step {step}");
             let behind = p[counts.points..].iter().flatten();
@@ -75,10 +77,10 @@ fn indices_that_do_not_fit() {
     let mut tessellator = Tessellator::new(CONFIG);
     let mut output = Output::<[f32; 2], u16>::new();
     let patches = [quad(63.0); 20];
-    let counts = tessellator.count(&patches[..]).expect("a small batch");
+    let counts = tessellator.count(&patches).expect("a small batch").counts();
     let base = |spare: usize| {
         let base_vertex = u32::try_from(65536 - counts.points + spare).expect("small");
-        Numbering::Batch { base_vertex }
+        Numbering::PerBatch { base_vertex }
     };
     assert_eq!(tessellator.tessellate(&patches[..], base(0), &mut output), Ok(counts), "just fits");
     assert_eq!(output.indices().iter().max(), Some(&65535), "the largest index");
@@ -88,7 +90,7 @@ fn indices_that_do_not_fit() {
     assert_eq!(result, Err(error), "one too many");
     assert_eq!(before.indices(), output.indices(), "the output stays");
     let mut wide = Output::<[f32; 2], u32>::new();
-    let numbering = Numbering::Batch { base_vertex: u32::MAX };
+    let numbering = Numbering::PerBatch { base_vertex: u32::MAX };
     let result = tessellator.tessellate(&patches[..], numbering, &mut wide);
     assert!(matches!(result, Err(Error::IndexTooLarge { .. })), "beyond 32 bits: {result:?}");
 }
@@ -97,7 +99,7 @@ fn indices_that_do_not_fit() {
 #[test]
 fn no_points_fit_any_numbering() {
     let mut output = Output::<[f32; 2], u16>::new();
-    let numbering = Numbering::Batch { base_vertex: u32::MAX };
+    let numbering = Numbering::PerBatch { base_vertex: u32::MAX };
     let result = Tessellator::new(CONFIG).tessellate(&[quad(0.0)][..], numbering, &mut output);
     assert_eq!(result, Ok(BatchCounts { patches: 1, points: 0, indices: 0 }));
 }
@@ -111,12 +113,18 @@ fn batches_of_2_pow_32_indices_are_too_large() {
     patches.resize(233_016 + 5461, all(1.0));
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let mut tessellator = Tessellator::new(config);
-    let counts = tessellator.count(&patches[..]).expect("just countable");
+    let counts = tessellator.count(&patches).expect("just countable").counts();
     assert_eq!(counts.indices, 0xFFFF_FFFF, "indices");
     patches.push(all(1.0));
     let points = counts.points as u64 + 3;
     let error = Error::BatchTooLarge { points, indices: 0x1_0000_0002 };
-    assert_eq!(tessellator.count(&patches[..]), Err(error), "one triangle more");
+    let result = tessellator.count(&patches).map(|counted| counted.counts());
+    assert_eq!(result, Err(error), "one triangle more");
+}
+
+/// What is wrong with a batch.
+fn refused(batch: Batch<'_>) -> Option<Error> {
+    Tessellator::new(CONFIG).count(batch).err()
 }
 
 #[test]
@@ -124,8 +132,56 @@ fn uneven_columns() {
     let (long, short) = ([2.0; 9], [2.0; 8]);
     let columns =
         TriangleFactors { u0: &long[..], v0: &long[..], w0: &short[..], inside: &long[..] };
-    let result = Tessellator::new(CONFIG).count(Batch::TriangleColumns(columns));
-    assert_eq!(result, Err(Error::UnevenColumns));
+    assert_eq!(refused(columns.into()), Some(Error::UnevenColumns { lengths: [8, 9] }));
+}
+
+#[test]
+fn patches_of_several_domains() {
+    let (found, expected) = (Domain::Triangle, Domain::Quad);
+    for count in [1, 70, 300] {
+        let mut patches = vec![PatchFactors::Quad(quad(3.0)); count];
+        assert_eq!(refused((&patches).into()), None, "{count} quads");
+        patches.push(PatchFactors::uniform(found, 2.0));
+        let error = Error::MixedDomains { patch: count, found, expected };
+        assert_eq!(refused((&patches).into()), Some(error), "and a triangle");
+    }
+}
+
+/// A count can be written any number of times, in any formats, with or without ranges, and after
+/// an error: the same output as that of a call for all.
+#[test]
+fn a_count_is_written_again_and_again() {
+    for patches in [0, 1, 63, 64, 65, 200_u8] {
+        let patches: Vec<_> = (0..patches).map(|i| quad(f32::from(i) / 3.0)).collect();
+        let mut output = Output::<[f32; 2], u32>::new();
+        let numbering = Numbering::PerBatch { base_vertex: 5 };
+        let result = Tessellator::new(CONFIG).tessellate(&patches, numbering, &mut output);
+        let counts = result.expect("a small batch");
+
+        let mut tessellator = Tessellator::new(CONFIG);
+        let mut counted = tessellator.count(&patches).expect("a small batch");
+        let sizes = (counted.patches(), counted.points(), counted.indices());
+        assert_eq!(sizes, (counts.patches, counts.points, counts.indices), "sizes");
+        let largest = counted.largest_index(numbering);
+        assert_eq!(largest, (sizes.1 > 0).then_some(sizes.1 as u64 + 4), "the largest index");
+        if let Some(too_few) = counts.points.checked_sub(1) {
+            let (mut p, mut i, _) = poisoned(too_few, counts.indices, 0);
+            let error = counted.write(numbering, Buffers::new(&mut p, &mut i));
+            assert!(matches!(error, Err(Error::BufferTooSmall { .. })), "{error:?}");
+        }
+        for with_ranges in [false, true] {
+            let (mut p, mut i, mut r) = poisoned(counts.points, counts.indices, counts.patches);
+            let buffers = Buffers::new(&mut p, &mut i);
+            let buffers = if with_ranges { buffers.with_ranges(&mut r) } else { buffers };
+            assert_eq!(counted.write(numbering, buffers), Ok(counts), "{with_ranges}");
+            assert!(p == output.points() && i == output.indices(), "{with_ranges}");
+            let untouched = r.iter().all(|range| range.points == POISON);
+            assert!(if with_ranges { r == output.ranges() } else { untouched }, "{with_ranges}");
+        }
+        let mut again = Output::<[f32; 2], u32>::new();
+        assert_eq!(counted.tessellate(numbering, &mut again), Ok(counts), "into an output");
+        assert_eq!(again.indices(), output.indices(), "into an output");
+    }
 }
 
 #[test]

@@ -20,12 +20,13 @@ fn compare_all(tessellator: &mut Tessellator, domain: Domain, patches: &Patches)
     let expected = patches.expected(tessellator.config());
     let structures = (patches, patches.structures(domain));
     let columns = (patches, patches.columns(domain));
+    let of_any_domain = (patches, (&patches.all).into());
     let to_f32 = DomainPoint::to_f32;
-    for numbering in [Numbering::PerPatch, Numbering::Batch { base_vertex: 77 }] {
+    for numbering in [Numbering::PerPatch, Numbering::PerBatch { base_vertex: 77 }] {
         compare::<DomainPoint, u32>(tessellator, structures, &expected, numbering, SAME);
         compare::<[f32; 2], u16>(tessellator, columns, &expected, numbering, to_f32);
     }
-    compare::<DomainPoint, u16>(tessellator, columns, &expected, Numbering::PerPatch, SAME);
+    compare::<DomainPoint, u16>(tessellator, of_any_domain, &expected, Numbering::PerPatch, SAME);
     compare::<[f32; 2], u32>(tessellator, structures, &expected, Numbering::PerPatch, to_f32);
 }
 

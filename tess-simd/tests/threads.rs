@@ -13,7 +13,7 @@ const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive:
 
 fn assert_same(tessellator: &mut Tessellator, domain: Domain, patches: &Patches) {
     let expected = patches.expected(tessellator.config());
-    let numbering = Numbering::Batch { base_vertex: 77 };
+    let numbering = Numbering::PerBatch { base_vertex: 77 };
     let structures = (patches, patches.structures(domain));
     compare::<DomainPoint, u32>(tessellator, structures, &expected, numbering, |point| point);
     let columns = (patches, patches.columns(domain));
@@ -58,6 +58,42 @@ fn within_a_larger_pool() {
             assert_same(&mut tessellator, Domain::Triangle, &patches);
         }
     });
+}
+
+/// However many threads are asked for, there are at most 256.
+#[test]
+fn too_many_threads() {
+    let of = |threads| Tessellator::new(CONFIG).threads(threads);
+    assert_eq!(Tessellator::MAX_THREADS, 256, "as documented");
+    let most = of(256).memory();
+    assert_eq!(of(257).memory(), most, "one too many");
+    assert_eq!(of(usize::MAX).memory(), most, "far too many");
+    assert!(of(255).memory() < most, "one fewer");
+    let patches = Patches::random(3, Domain::Quad, 40);
+    assert_same(&mut of(100_000), Domain::Quad, &patches);
+}
+
+/// A size of rayon's global pool that cannot be started: the tests start themselves with it.
+#[test]
+fn too_large_a_pool() {
+    let program = std::env::current_exe().expect("the path of this test");
+    let output = std::process::Command::new(program)
+        .args(["--exact", "in_a_pool_of_any_size", "--nocapture"])
+        .env("RAYON_NUM_THREADS", "100000")
+        .output()
+        .expect("this test runs again");
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{text}");
+    assert!(text.contains("global pool: 256 threads"), "{text}");
+}
+
+#[test]
+fn in_a_pool_of_any_size() {
+    use std::io::Write as _;
+    let patches = Patches::random(3, Domain::Quad, 40);
+    assert_same(&mut Tessellator::new(CONFIG).threads(2), Domain::Quad, &patches);
+    let threads = rayon::current_num_threads();
+    let _ = writeln!(std::io::stderr(), "global pool: {threads} threads");
 }
 
 /// Each thread has a workspace of its own, in a copy too.

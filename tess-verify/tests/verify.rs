@@ -1,6 +1,6 @@
 //! Verification of backends: it compares what it says, in any number of shards and threads.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use tess_verify::backend::Backend;
 use tess_verify::case::Case;
 use tess_verify::generate::{Level, Selection, Shard};
@@ -57,7 +57,7 @@ fn random_cases(patches: u64, seed: u64) -> Vec<Vec<Case>> {
 
 #[test]
 fn as_many_random_patches_of_each_configuration_as_asked_for() {
-    let mut counts = HashMap::<_, u64>::new();
+    let mut counts = BTreeMap::<_, u64>::new();
     for case in random_cases(5000, 1).into_iter().flatten() {
         *counts.entry((case.domain(), case.config)).or_default() += 1;
     }

@@ -63,7 +63,7 @@ fn like_patches_of_every_size_and_format() {
             machine.assert_equal(setup, &vec![PatchFactors::from_fn(domain, |_| factor); count]);
         }
         let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
-        for point_format in [PointFormat::Packed, PointFormat::Float] {
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 machine.assert_equal(Setup { point_format, numbering, ..setup }, &patches);
             }

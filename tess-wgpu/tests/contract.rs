@@ -24,7 +24,7 @@ fn formats_and_numberings() {
     let mut random = SplitMix64::new(3);
     for domain in Domain::ALL {
         let patches = common::patches::random(domain, 200, &mut random);
-        for point_format in [PointFormat::Packed, PointFormat::Float] {
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
                 let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };

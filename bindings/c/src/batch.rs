@@ -94,6 +94,7 @@ pub unsafe extern "C" fn tess_batch_level(batch: *const TessBatch, level: *mut u
             Level::Baseline => TESS_LEVEL_BASELINE,
             Level::Avx2 => TESS_LEVEL_AVX2,
             Level::Avx512 => TESS_LEVEL_AVX512,
+            _ => return Err(TESS_INTERNAL), // a level that has no number yet
         };
         // SAFETY: `level` is writable, as the caller promises.
         unsafe { boundary::write(level, number) }
@@ -124,9 +125,9 @@ pub unsafe extern "C" fn tess_batch_count(
         let batch = unsafe { &mut *batch };
         // SAFETY: `factor_count` readable floats, as the caller promises.
         let patches = unsafe { patches(batch.domain, factors, factor_count) }?;
-        let value = batch.tessellator.count(patches).map_err(|error| status_of(&error))?;
+        let counted = batch.tessellator.count(patches).map_err(|error| status_of(&error))?;
         // SAFETY: `counts` is writable, as the caller promises.
-        unsafe { boundary::write(counts, value.into()) }
+        unsafe { boundary::write(counts, counted.counts().into()) }
     })
 }
 

@@ -1,5 +1,6 @@
 //! The WGSL of single steps, for comparing them with the golden model's.
 
+use super::files;
 use crate::setup::Setup;
 
 /// A shader that runs one step alone, for comparing it with the golden model's. Binding 0 is what
@@ -31,30 +32,11 @@ impl Probe {
     /// Its WGSL, a whole module.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        let parts: &[&str] = match self {
-            Self::Factors => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("d3d_float"),
-                part!("process"),
-                part!("make_context"),
-                part!("topology"),
-                part!("probe_factors"),
-            ],
-            Self::Contexts => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("make_context"),
-                part!("probe_contexts"),
-            ],
-            Self::Locations => &[
-                part!("state"),
-                part!("fixed_point"),
-                part!("factor_context"),
-                part!("place"),
-                part!("probe_locations"),
-            ],
+        let file = match self {
+            Self::Factors => "probe_factors",
+            Self::Contexts => "probe_contexts",
+            Self::Locations => "probe_locations",
         };
-        setup.prelude() + &parts.concat() + part!("probe")
+        setup.prelude() + &files::joined("probe", &[("probe", file)])
     }
 }

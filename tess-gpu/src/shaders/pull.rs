@@ -1,5 +1,6 @@
 //! WGSL for shaders that compute points and primitives where they need them.
 
+use super::files;
 use crate::setup::Setup;
 
 /// WGSL that a user's own shader includes to compute any point or primitive of a patch from its
@@ -27,26 +28,11 @@ impl Pull {
             let (group, binding) = (self.group, self.first_binding + offset);
             format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
         };
-        let mut head = setup.prelude()
-            + &declare(0, "topologies", "vec2<u32>")
-            + &declare(1, "tables", "u32")
-            + part!("state")
-            + part!("fixed_point");
-        if setup.has_integer_factors() {
-            head += part!("place_evenly");
-        } else {
-            head += &declare(2, "contexts", "vec2<u32>");
-            head += &format!("const FACTORS = {}u;\n", setup.factors());
-            head += &[part!("factor_context"), part!("place"), part!("pulled_contexts")].concat();
+        let mut source =
+            setup.prelude() + &declare(0, "topologies", "vec2<u32>") + &declare(1, "tables", "u32");
+        if !setup.has_integer_factors() {
+            source += &declare(2, "contexts", "vec2<u32>");
         }
-        let parts = [
-            part!("topology"),
-            part!("shape"),
-            part!("points"),
-            part!("stitch"),
-            part!("connect"),
-            part!("locate"),
-        ];
-        head + &parts.concat()
+        source + &files::joined("locate", &files::placing(setup, "pulled_contexts"))
     }
 }

@@ -21,7 +21,7 @@ fn user(@builtin(global_invocation_id) id: vec3<u32>) {
 pub(crate) fn all_setups() -> Vec<Setup> {
     let mut all = Vec::new();
     for (domain, config) in configurations() {
-        for point_format in [PointFormat::Packed, PointFormat::Float] {
+        for point_format in [PointFormat::Packed, PointFormat::F32] {
             for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
                 all.push(Setup { point_format, numbering, ..Setup::new(domain, config) });
             }

@@ -1,10 +1,11 @@
 //! The triangles of a quad patch (spec section 7).
 
 use super::rings::Rings;
-use crate::emit::Writer;
 use crate::format::IndexFormat;
 use crate::lanes::{EdgePoints, is_odd};
-use crate::stitch::{self, Rows, Stitches, Strip};
+use crate::stitch::{Replaced, Rows, Stitches};
+use crate::writer::Writer;
+use tess_core::stitch::Diagonals;
 
 /// Edges u = 0 and u = 1 run along v, the others along u.
 #[inline(always)]
@@ -21,18 +22,20 @@ pub(super) fn emit<I: IndexFormat>(
         row_at: [row_along_v, row_along_u, row_along_v, row_along_u],
     };
     let innermost = rings.emit(stitches, base, out);
-    if n_u > n_v {
-        if is_odd(n_v) {
-            strip_along_u(
-                stitches,
-                2 * (n_u / 2 - n_v / 2) + 2 - u32::from(is_odd(n_u)),
-                innermost,
-                out,
-            );
-        }
-    } else if is_odd(n_u) {
-        let quads = 2 * (n_v / 2 - n_u / 2) + 2 - u32::from(is_odd(n_v));
-        strip_along_v(stitches, quads, is_odd(n_v), innermost, out);
+    let along_u = n_u > n_v;
+    let (long, short) = if along_u { (n_u, n_v) } else { (n_v, n_u) };
+    if !is_odd(short) {
+        return;
+    }
+    let quads = 2 * (long / 2 - short / 2) + 2 - u32::from(is_odd(long));
+    if along_u {
+        let rows = strip_rows(innermost.wrapping_add(1), quads, Some(innermost));
+        stitches.strip(quads, Diagonals::Forward).emit(&rows, out);
+    } else {
+        let rows = strip_rows(innermost, quads, None);
+        let diagonals =
+            if is_odd(long) { Diagonals::ForwardExceptMiddle } else { Diagonals::Forward };
+        stitches.strip(quads, diagonals).emit(&rows, out);
     }
 }
 
@@ -42,51 +45,15 @@ fn row_ring(points: u32) -> u32 {
     if is_odd(points) { 0 } else { points.div_ceil(2) - 1 }
 }
 
-/// The strip inside a ring that is longer along u (spec section 7.4).
+/// The two sides of a centre strip (spec section 7.4): row A from its first index on, and row B, which
+/// comes back to the index before that one and may have another first entry.
 #[inline(always)]
-fn strip_along_u<I: IndexFormat>(
-    stitches: &Stitches,
-    quads: u32,
-    innermost: u32,
-    out: &mut Writer<'_, I>,
-) {
-    let rows = Rows {
-        outer: innermost + 1,
-        inner: innermost + 2 * quads + 2,
+fn strip_rows(first: u32, quads: u32, first_of_b: Option<u32>) -> Rows {
+    Rows {
+        outer: first,
+        inner: first.wrapping_add(2 * quads + 1),
         descending: true,
         outer_replaced: None,
-        inner_replaced: Some((0, innermost)),
-    };
-    stitch::general(out, 6 * quads as usize, stitches.strip(Strip::Forward), &rows);
-}
-
-/// The strip inside a ring that is not: where both factors are odd, the diagonals are mirrored but
-/// for the middle one.
-#[inline(always)]
-fn strip_along_v<I: IndexFormat>(
-    stitches: &Stitches,
-    quads: u32,
-    mirrored: bool,
-    innermost: u32,
-    out: &mut Writer<'_, I>,
-) {
-    let rows = Rows {
-        outer: innermost,
-        inner: innermost + 2 * quads + 1,
-        descending: true,
-        outer_replaced: None,
-        inner_replaced: None,
-    };
-    let mut quads_of = |strip, first: u32, end: u32| {
-        let codes = stitches.strip(strip).get(6 * first as usize..).unwrap_or_default();
-        stitch::general(out, 6 * (end - first) as usize, codes, &rows);
-    };
-    if mirrored {
-        let middle = quads / 2;
-        quads_of(Strip::Mirrored, 0, middle);
-        quads_of(Strip::Middle, middle, middle + 1);
-        quads_of(Strip::Mirrored, middle + 1, quads);
-    } else {
-        quads_of(Strip::Forward, 0, quads);
+        inner_replaced: first_of_b.map(|index| Replaced { at: 0, index }),
     }
 }

@@ -1,9 +1,9 @@
 //! Ring by ring, edge by edge: the stitches that triangle and quad patches share
 //! (spec section 7.1).
 
-use crate::emit::Writer;
 use crate::format::IndexFormat;
-use crate::stitch::{self, Rows, Stitches};
+use crate::stitch::{Replaced, Rows, Stitches};
+use crate::writer::Writer;
 
 /// What the rings of a patch with `EDGES` edges depend on.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ pub(super) struct Rings<const EDGES: usize> {
 
 impl<const EDGES: usize> Rings<EDGES> {
     /// Emits all rings of a patch whose first point is `base`; returns the first index of the
-    /// innermost ring.
+    /// innermost ring, modulo 2^32.
     #[inline(always)]
     pub(super) fn emit<I: IndexFormat>(
         &self,
@@ -27,35 +27,37 @@ impl<const EDGES: usize> Rings<EDGES> {
         out: &mut Writer<'_, I>,
     ) -> u32 {
         let mut outer = base;
-        let mut inner = base + self.outer.iter().map(|points| points - 1).sum::<u32>();
+        let mut inner = base.wrapping_add(self.outer.iter().map(|points| points - 1).sum::<u32>());
         let end = self.along.iter().map(|points| points.div_ceil(2)).min().unwrap_or(0);
         for ring in 1..end {
-            let starts = (outer, inner);
+            let (outer_start, inner_start) = (outer, inner);
             for edge in 0..EDGES {
                 let inner_points = self.along[edge] - 2 * ring;
-                let (outer_points, (length, codes)) = if ring == 1 {
+                let (outer_points, stitch) = if ring == 1 {
                     let points = self.outer[edge];
                     (points, stitches.transition(points, self.along[edge]))
                 } else {
                     (inner_points + 2, stitches.ring(inner_points))
                 };
                 let walks_back = edge >= 2 && self.row_at[edge] == ring;
-                if edge == EDGES - 1 || walks_back {
-                    let closes = edge == EDGES - 1;
+                let closes = edge == EDGES - 1;
+                if closes || walks_back {
+                    let replaced = |points, index| Some(Replaced { at: points - 1, index });
+                    let outer_end = replaced(outer_points, outer_start);
+                    let inner_end = replaced(inner_points, inner_start);
                     let rows = Rows {
                         outer,
                         inner,
                         descending: walks_back,
-                        outer_replaced: closes.then_some((outer_points - 1, starts.0)),
-                        inner_replaced: (closes && !walks_back)
-                            .then_some((inner_points - 1, starts.1)),
+                        outer_replaced: if closes { outer_end } else { None },
+                        inner_replaced: if closes && !walks_back { inner_end } else { None },
                     };
-                    stitch::general(out, length, codes, &rows);
+                    stitch.emit(&rows, out);
                 } else {
-                    stitch::ascending(out, length, codes, outer, inner);
+                    stitch.emit_ascending(outer, inner, out);
                 }
-                outer += outer_points - 1;
-                inner += inner_points - 1;
+                outer = outer.wrapping_add(outer_points - 1);
+                inner = inner.wrapping_add(inner_points - 1);
             }
         }
         outer

@@ -1,10 +1,10 @@
 //! The triangles of a triangle patch (spec section 7).
 
 use super::rings::Rings;
-use crate::emit::Writer;
 use crate::format::IndexFormat;
 use crate::lanes::{EdgePoints, is_odd};
 use crate::stitch::Stitches;
+use crate::writer::Writer;
 use tess_core::OutputPrimitive;
 
 /// The innermost ring of an even inside factor is a single point, not a row of points.
@@ -19,7 +19,7 @@ pub(super) fn emit<I: IndexFormat>(
     let rings = Rings { outer: [u0, v0, w0], along: [inside; 3], row_at: [0; 3] };
     let innermost = rings.emit(stitches, base, out);
     if is_odd(inside) {
-        let [a, b, c] = [0, 1, 2].map(|k| I::wrapping_from(innermost + k));
+        let [a, b, c] = [0, 1, 2].map(|k| I::wrapping_from(innermost.wrapping_add(k)));
         let clockwise = output == OutputPrimitive::TriangleCw;
         out.put(if clockwise { [a, b, c] } else { [a, c, b] });
     }

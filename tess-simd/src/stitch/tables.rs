@@ -1,16 +1,23 @@
-//! The tables of stitches, read off patches that the core tessellated.
+//! The tables of stitches, made from the core's steps.
 
-use super::{INNER, STEP};
+use super::code::{self, STEP};
+use super::rows::Codes;
 use alloc::vec::Vec;
-use tess_core::{
-    Config, OutputPrimitive, Partitioning, Patch, PatchFactors, ProcessedFactor, ProcessedPatch,
-    QuadFactors, Tessellation,
-};
+use tess_core::stitch::{self, Diagonals, Side, Step};
+use tess_core::{Config, OutputPrimitive, Partitioning};
 
-/// Point counts of edges are below this.
-const COUNTS: usize = 66;
+/// The most points of an edge.
+const MAX_POINTS: u32 = 65;
+/// That, and one more.
+const COUNTS: usize = MAX_POINTS as usize + 1;
+/// The most points of an inner row between two rings, and one more.
+const RINGS: usize = 62;
+/// The most quads of a centre strip.
+const MAX_STRIP: u32 = 63;
+/// That, and one more.
+const STRIPS: usize = MAX_STRIP as usize + 1;
 
-/// A stitch's codes, and how many there are without the padding.
+/// Where a stitch's codes begin, and how many there are without the padding.
 #[derive(Clone, Copy, Debug, Default)]
 struct Table {
     first: u32,
@@ -19,50 +26,65 @@ struct Table {
 
 /// Every stitch that a configuration can ask for.
 ///
-/// About 760 KiB for integer partitionings and 200 KiB for fractional ones; configurations that
+/// About 770 KiB for integer partitionings and 210 KiB for fractional ones; configurations that
 /// make no triangles have empty tables.
 #[derive(Clone, Debug)]
 pub(crate) struct Stitches {
     codes: Vec<i8>,
-    /// By the point count of the inner row.
-    rings: [Table; COUNTS],
     /// By the point counts of the outer edge and of the inside factor.
     transitions: Vec<Table>,
-    /// By kind of strip, row A being the outer and row B the inner one.
-    strips: [Table; 3],
+    /// By the point count of the inner row.
+    rings: [Table; RINGS],
+    /// The longest strip of forward diagonals; shorter ones begin like it.
+    forward: Table,
+    /// The strips whose middle diagonal is not forward, by their number of quads.
+    except_middle: [Table; STRIPS],
 }
-
-/// The diagonals of a centre strip.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Strip {
-    /// All forward.
-    Forward,
-    /// As on either side of the middle where the middle one alone is different.
-    Mirrored,
-    /// As in that middle.
-    Middle,
-}
-
-/// The most quads that a centre strip has.
-const MAX_STRIP: u32 = 62;
 
 impl Stitches {
-    /// Reads all stitches off the core.
+    /// Makes the tables of a configuration.
     pub(crate) fn new(config: Config) -> Self {
         let mut all = Self {
             codes: Vec::new(),
-            rings: [Table::default(); COUNTS],
             transitions: Vec::new(),
-            strips: [Table::default(); 3],
+            rings: [Table::default(); RINGS],
+            forward: Table::default(),
+            except_middle: [Table::default(); STRIPS],
         };
         if matches!(config.output, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw) {
-            all.transitions.resize(COUNTS * COUNTS, Table::default());
-            all.read_transitions(config);
-            all.read_rings(config);
-            all.read_strips(config);
-            all.codes.resize(all.codes.len() + STEP, 0); // strips are read from any quad on
+            all.make(config);
         }
         all
+    }
+
+    fn make(&mut self, config: Config) {
+        let output = config.output;
+        self.transitions.resize(COUNTS * COUNTS, Table::default());
+        let possible = |&points: &u32| can_have(config.partitioning, points);
+        for outer in (2..=MAX_POINTS).filter(possible) {
+            for inside in (3..=MAX_POINTS).filter(possible) {
+                self.transitions[transition(outer, inside)] =
+                    self.add(output, |to| stitch::transition(config.split, outer, inside, to));
+            }
+        }
+        for (inner_points, table) in (1..).zip(1..RINGS) {
+            self.rings[table] = self.add(output, |to| stitch::ring(inner_points, to));
+        }
+        for (quads, table) in (1..).zip(1..STRIPS) {
+            self.except_middle[table] =
+                self.add(output, |to| stitch::strip(quads, Diagonals::ForwardExceptMiddle, to));
+        }
+        self.forward = self.add(output, |to| stitch::strip(MAX_STRIP, Diagonals::Forward, to));
+    }
+
+    /// Adds the codes of the stitch whose steps `stitch` sends, padded so that reading it in whole blocks stays within it.
+    fn add(&mut self, output: OutputPrimitive, stitch: impl FnOnce(&mut dyn FnMut(Step))) -> Table {
+        let first = self.codes.len();
+        stitch(&mut |step| self.codes.extend(codes(step, output)));
+        let length = self.codes.len() - first;
+        self.codes.resize(first + length.next_multiple_of(STEP), 0);
+        let in_u32 = |n| u32::try_from(n).unwrap_or(u32::MAX); // below 2^20
+        Table { first: in_u32(first), length: in_u32(length) }
     }
 
     /// Bytes of memory that the tables take.
@@ -70,152 +92,61 @@ impl Stitches {
         self.codes.capacity() + self.transitions.capacity() * size_of::<Table>() + size_of::<Self>()
     }
 
-    /// The stitch between neighbouring rings whose inner row has `inner_points` points: the number
-    /// of its indices, and its codes.
-    #[inline(always)]
-    pub(crate) fn ring(&self, inner_points: u32) -> (usize, &[i8]) {
-        self.get(self.rings[inner_points as usize % COUNTS])
-    }
-
     /// The stitch between an outer edge and the first ring, by the point counts of the outer and
     /// of the inside factor.
     #[inline(always)]
-    pub(crate) fn transition(&self, outer: u32, inside: u32) -> (usize, &[i8]) {
-        let at = outer as usize * COUNTS + inside as usize;
-        self.get(self.transitions.get(at).copied().unwrap_or_default())
+    pub(crate) fn transition(&self, outer: u32, inside: u32) -> Codes<'_> {
+        let table = self.transitions.get(transition(outer, inside));
+        self.get(table.copied().unwrap_or_default())
     }
 
-    /// The codes of a strip of any number of quads.
+    /// The stitch between neighbouring rings whose inner row has `inner_points` points.
     #[inline(always)]
-    pub(crate) fn strip(&self, strip: Strip) -> &[i8] {
-        self.get(self.strips[strip as usize]).1
+    pub(crate) fn ring(&self, inner_points: u32) -> Codes<'_> {
+        self.get(self.rings[inner_points as usize % RINGS])
+    }
+
+    /// The strip of this many quads.
+    #[inline(always)]
+    pub(crate) fn strip(&self, quads: u32, diagonals: Diagonals) -> Codes<'_> {
+        match diagonals {
+            Diagonals::Forward => {
+                let Codes { codes, .. } = self.get(self.forward);
+                Codes { codes, length: 6 * quads as usize }
+            }
+            Diagonals::ForwardExceptMiddle => self.get(self.except_middle[quads as usize % STRIPS]),
+        }
     }
 
     #[inline(always)]
-    fn get(&self, table: Table) -> (usize, &[i8]) {
-        (table.length as usize, self.codes.get(table.first as usize..).unwrap_or_default())
-    }
-
-    /// Adds a table, padded so that reading it in whole blocks stays within it.
-    fn add(&mut self, codes: impl Iterator<Item = i8>) -> Table {
-        let first = self.codes.len();
-        self.codes.extend(codes);
-        let length = self.codes.len() - first;
-        self.codes.resize(first + length.next_multiple_of(STEP), 0);
-        let in_u32 = |n| u32::try_from(n).unwrap_or(u32::MAX); // below 2^20
-        Table { first: in_u32(first), length: in_u32(length) }
-    }
-
-    /// Edge 0 of quads runs along v, and its transition comes first.
-    fn read_transitions(&mut self, config: Config) {
-        for outer in 1..=64 {
-            for inside in 1..=64 {
-                let quad = Quad::new(config, [outer, 1, 1, 1], [2, inside]);
-                let Some(quad) = quad else { continue };
-                let [outer_points, ..] = quad.outer;
-                let at = outer_points as usize * COUNTS + quad.inside[1] as usize;
-                if self.transitions[at].length > 0 {
-                    continue;
-                }
-                let first_ring: u32 = quad.outer.iter().map(|n| n - 1).sum();
-                let length = quad.transition_indices(0);
-                let indices = quad.output.indices[..length].iter();
-                self.transitions[at] = self.add(indices.map(|&index| {
-                    if index < outer_points {
-                        code(index)
-                    } else {
-                        code(index - first_ring) + INNER
-                    }
-                }));
-            }
-        }
-    }
-
-    /// Edge 0 of the second ring of quads comes after the four transitions.
-    fn read_rings(&mut self, config: Config) {
-        for inside in 4..=64 {
-            let Some(quad) = Quad::new(config, [1; 4], [6, inside]) else { continue };
-            let inner_points = quad.inside[1] - 4;
-            if self.rings[inner_points as usize].length > 0 {
-                continue;
-            }
-            let outer = quad.outer.iter().map(|n| n - 1).sum::<u32>();
-            let inner = outer + 2 * (quad.inside[0] - 3) + 2 * (quad.inside[1] - 3);
-            let before: usize = (0..4).map(|edge| quad.transition_indices(edge)).sum();
-            let length = 6 * inner_points as usize;
-            let indices = quad.output.indices[before..before + length].iter();
-            self.rings[inner_points as usize] = self.add(indices.map(|&index| {
-                if index < inner { code(index - outer) } else { code(index - inner) + INNER }
-            }));
-        }
-    }
-
-    /// A strip's quads repeat: each is another one moved along both rows.
-    fn read_strips(&mut self, config: Config) {
-        let config = Config { partitioning: Partitioning::Integer, ..config }; // has odd factors
-        let strips =
-            [(Strip::Forward, [7, 3], 0), (Strip::Mirrored, [3, 7], 0), (Strip::Middle, [3, 7], 2)];
-        for (strip, inside, k) in strips {
-            let Some(quad) = Quad::new(config, [1; 4], inside) else { continue };
-            let first_ring: u32 = quad.outer.iter().map(|n| n - 1).sum();
-            let quads = quad.inside[0].abs_diff(quad.inside[1]) + 1;
-            // Row A starts at the ring's second or first point; row B comes back to the point
-            // before, so where A starts at the second, B's entry 0 is the ring's first.
-            let a = if strip == Strip::Forward { first_ring + 1 } else { first_ring };
-            let b = first_ring + 2 * quads + 1 + u32::from(strip == Strip::Forward);
-            let indices = &quad.output.indices;
-            let strip_indices = &indices[indices.len() - 6 * quads as usize..];
-            let of_quad = &strip_indices[6 * k as usize..][..6];
-            let codes: Vec<i8> = of_quad
-                .iter()
-                .map(|&index| {
-                    if (a..=a + quads).contains(&index) {
-                        code(index - a - k)
-                    } else if strip == Strip::Forward && index == first_ring {
-                        INNER
-                    } else {
-                        code(b - index - k) + INNER
-                    }
-                })
-                .collect();
-            let moved = |k| codes.iter().map(move |entry| entry + code(k));
-            self.strips[strip as usize] = self.add((0..MAX_STRIP).flat_map(moved));
+    fn get(&self, table: Table) -> Codes<'_> {
+        Codes {
+            codes: self.codes.get(table.first as usize..).unwrap_or_default(),
+            length: table.length as usize,
         }
     }
 }
 
-/// A quad of integer factors as the core tessellates it.
-struct Quad {
-    outer: [u32; 4],
-    inside: [u32; 2],
-    output: Tessellation,
+/// The number of a transition's table.
+#[inline(always)]
+const fn transition(outer: u32, inside: u32) -> usize {
+    outer as usize * COUNTS + inside as usize
 }
 
-impl Quad {
-    /// The quad of these factors, raised to the partitioning's range; `None` if that makes it a
-    /// minimum patch.
-    fn new(config: Config, outer: [u8; 4], inside: [u8; 2]) -> Option<Self> {
-        let [u0, v0, u1, v1] = outer.map(f32::from);
-        let [inside_u, inside_v] = inside.map(f32::from);
-        let factors = QuadFactors { u0, v0, u1, v1, inside_u, inside_v };
-        let patch = Patch::new(config, PatchFactors::Quad(factors));
-        let ProcessedPatch::Regular(PatchFactors::Quad(factors)) = patch.processed() else {
-            return None;
-        };
-        let points = |factor: ProcessedFactor| factor.context.points;
-        let (outer, inside) = (factors.outer().map(points), factors.inside().map(points));
-        Some(Self { outer, inside, output: patch.tessellate() })
-    }
-
-    /// Indices of the transition along an edge: three for each of K + M - 2 triangles.
-    fn transition_indices(&self, edge: usize) -> usize {
-        let inside = self.inside[(edge + 1) % 2];
-        3 * (self.outer[edge] + inside - 4) as usize
+/// Whether an edge can have this many points: its segments are one fewer.
+const fn can_have(partitioning: Partitioning, points: u32) -> bool {
+    match partitioning {
+        Partitioning::Integer | Partitioning::Pow2 => true,
+        Partitioning::FractionalOdd => points.is_multiple_of(2),
+        Partitioning::FractionalEven => !points.is_multiple_of(2),
     }
 }
 
-/// A row position as a code. Positions are at most 64.
-#[expect(clippy::cast_possible_truncation, reason = "at most 64")]
-const fn code(position: u32) -> i8 {
-    position as i8
+/// The codes of a step's triangle.
+fn codes(step: Step, output: OutputPrimitive) -> [i8; 3] {
+    let [a, b, c] = step.vertices().map(|(side, entry)| match side {
+        Side::Outer => code::outer(entry),
+        Side::Inner => code::inner(entry),
+    });
+    if output == OutputPrimitive::TriangleCcw { [a, c, b] } else { [a, b, c] }
 }

@@ -1,8 +1,8 @@
 //! The calling thread alone.
 
-use crate::format::{IndexFormat, PointFormat};
-use crate::part::{self, Part, Workspace};
-use crate::share::{Plan, Share};
+use crate::part::{self, Job, Workspace};
+use crate::setup::Setup;
+use crate::slices::{CountShare, Share};
 
 /// The one workspace.
 #[derive(Clone, Debug)]
@@ -19,25 +19,19 @@ impl Workspaces {
         1
     }
 
-    /// Bytes of memory that it takes.
-    pub(crate) fn bytes(&self) -> usize {
+    /// Bytes of memory that it takes on the heap.
+    pub(crate) const fn bytes(&self) -> usize {
         self.0.bytes()
     }
 
-    /// Writes a share, which has one slice.
-    pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
-        &mut self,
-        plan: Plan<'_>,
-        share: Share<'_, P, I>,
-    ) {
-        let Share { batch, buffers, first, .. } = share;
-        let part = Part { batch, buffers, first, numbering: plan.numbering };
-        part::emit((plan.level, plan.config), plan.stitches, part, &mut self.0);
+    /// Counts a share, slice by slice.
+    #[expect(clippy::unused_self, reason = "the same interface as with a pool")]
+    pub(crate) fn count(&self, setup: &Setup, share: CountShare<'_>) {
+        share.count(setup);
     }
-}
 
-/// Runs both.
-pub(crate) fn join(one: impl FnOnce(), other: impl FnOnce()) {
-    one();
-    other();
+    /// Writes a share, which has one slice.
+    pub(crate) fn emit(&mut self, job: Job<'_>, share: Share<'_>) {
+        part::emit(job, share.part, &mut self.0);
+    }
 }

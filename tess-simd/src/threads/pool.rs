@@ -1,10 +1,16 @@
 //! The threads of the current rayon pool: each takes the next slice when it has finished one.
 
-use crate::format::{IndexFormat, PointFormat};
-use crate::part::{self, Part, Workspace};
-use crate::share::{Plan, Share, halve};
+use crate::part::{self, Job, Workspace};
+use crate::setup::Setup;
+use crate::slices::{CountShare, Share};
 use alloc::vec::Vec;
 use std::sync::{Mutex, PoisonError};
+
+/// The most threads, and so workspaces, that a tessellator uses.
+pub(crate) const MAX_THREADS: usize = 256;
+
+/// Patches that are counted in a few microseconds.
+const SOON_COUNTED: usize = 1024;
 
 /// A workspace for each thread. A copy starts with empty ones.
 #[derive(Debug)]
@@ -15,9 +21,13 @@ impl Workspaces {
         Self::of_threads(1)
     }
 
-    /// Workspaces for this many threads, at least one.
+    /// Workspaces for this many threads, at least one and at most [`MAX_THREADS`].
     pub(crate) fn of_threads(threads: usize) -> Self {
-        Self((0..threads.max(1)).map(|_| Mutex::new(Workspace::new())).collect())
+        let threads = threads.clamp(1, MAX_THREADS);
+        if threads > 1 {
+            limit_global_pool();
+        }
+        Self((0..threads).map(|_| Mutex::new(Workspace::new())).collect())
     }
 
     /// How many threads write at a time.
@@ -25,27 +35,24 @@ impl Workspaces {
         self.0.len()
     }
 
-    /// Bytes of memory that they take.
+    /// Bytes of memory that they take on the heap.
     pub(crate) fn bytes(&self) -> usize {
-        self.0.len() * self.lend(|workspace| workspace.bytes())
+        self.0.len() * (size_of::<Mutex<Workspace>>() + self.lend(|workspace| workspace.bytes()))
+    }
+
+    /// Counts a share on all threads.
+    pub(crate) fn count(&self, setup: &Setup, share: CountShare<'_>) {
+        count_on(self.threads(), setup, share);
     }
 
     /// Writes a share, slice by slice.
-    pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
-        &self,
-        plan: Plan<'_>,
-        share: Share<'_, P, I>,
-    ) {
+    pub(crate) fn emit(&self, job: Job<'_>, share: Share<'_>) {
         if share.counts.len() > 1 {
-            let (one, other) = halve(plan, share);
-            join(|| self.emit(plan, one), || self.emit(plan, other));
-            return;
+            let (one, other) = share.halve();
+            rayon::join(|| self.emit(job, one), || self.emit(job, other));
+        } else {
+            self.lend(|workspace| part::emit(job, share.part, workspace));
         }
-        let Share { batch, buffers, first, .. } = share;
-        let part = Part { batch, buffers, first, numbering: plan.numbering };
-        self.lend(|workspace| {
-            part::emit((plan.level, plan.config), plan.stitches, part, workspace);
-        });
     }
 
     /// Lends a workspace that is free, if possible always the same one to a thread; waits for one
@@ -61,13 +68,31 @@ impl Workspaces {
     }
 }
 
+/// Counts a share on this many threads, unless that takes less than waking them.
+fn count_on(threads: usize, setup: &Setup, share: CountShare<'_>) {
+    if threads > 1 && share.batch.len() > SOON_COUNTED && share.counts.len() > 1 {
+        let (one, other) = share.halve();
+        rayon::join(
+            || count_on(threads / 2, setup, one),
+            || count_on(threads - threads / 2, setup, other),
+        );
+    } else {
+        share.count(setup);
+    }
+}
+
+/// Starts rayon's global pool with [`MAX_THREADS`] if `RAYON_NUM_THREADS` asks for more. Starting a
+/// hundred thousand takes minutes.
+fn limit_global_pool() {
+    let wanted = std::env::var("RAYON_NUM_THREADS").ok().and_then(|value| value.parse().ok());
+    if wanted.is_some_and(|wanted: usize| wanted > MAX_THREADS) {
+        // Fails if the pool was started before; its size is the program's own choice then.
+        let _ = rayon::ThreadPoolBuilder::new().num_threads(MAX_THREADS).build_global();
+    }
+}
+
 impl Clone for Workspaces {
     fn clone(&self) -> Self {
         Self::of_threads(self.threads())
     }
-}
-
-/// Runs both, on two threads if there are.
-pub(crate) fn join(one: impl FnOnce() + Send, other: impl FnOnce() + Send) {
-    rayon::join(one, other);
 }

@@ -58,29 +58,10 @@ pub(crate) fn patch(random: &mut SplitMix64, domain: Domain) -> PatchFactors {
         3 => Some(0.0),
         _ => None,
     };
-    let mut next = || equal.unwrap_or_else(|| factor(random));
-    match domain {
-        Domain::Isoline => {
-            PatchFactors::Isoline(IsolineFactors { density: next(), detail: next() })
-        }
-        Domain::Triangle => PatchFactors::Triangle(TriangleFactors {
-            u0: next(),
-            v0: next(),
-            w0: next(),
-            inside: next(),
-        }),
-        Domain::Quad => PatchFactors::Quad(QuadFactors {
-            u0: next(),
-            v0: next(),
-            u1: next(),
-            v1: next(),
-            inside_u: next(),
-            inside_v: next(),
-        }),
-    }
+    PatchFactors::from_fn(domain, |_| equal.unwrap_or_else(|| factor(random)))
 }
 
-/// Patches of one domain in both layouts.
+/// Patches of one domain in every layout.
 #[derive(Default, Debug)]
 pub(crate) struct Patches {
     pub(crate) all: Vec<PatchFactors>,
@@ -94,21 +75,12 @@ impl Patches {
     pub(crate) fn new(all: Vec<PatchFactors>) -> Self {
         let mut patches = Self::default();
         for patch in &all {
-            let factors = match *patch {
-                PatchFactors::Isoline(f) => {
-                    patches.isolines.push(f);
-                    vec![f.density, f.detail]
-                }
-                PatchFactors::Triangle(f) => {
-                    patches.triangles.push(f);
-                    vec![f.u0, f.v0, f.w0, f.inside]
-                }
-                PatchFactors::Quad(f) => {
-                    patches.quads.push(f);
-                    [f.outer().to_vec(), f.inside().to_vec()].concat()
-                }
-            };
-            patches.columns.iter_mut().zip(factors).for_each(|(column, f)| column.push(f));
+            match *patch {
+                PatchFactors::Isoline(factors) => patches.isolines.push(factors),
+                PatchFactors::Triangle(factors) => patches.triangles.push(factors),
+                PatchFactors::Quad(factors) => patches.quads.push(factors),
+            }
+            patches.columns.iter_mut().zip(patch.iter()).for_each(|(column, f)| column.push(f));
         }
         Self { all, ..patches }
     }
@@ -127,21 +99,7 @@ impl Patches {
     }
 
     pub(crate) fn columns(&self, domain: Domain) -> Batch<'_> {
-        let [a, b, c, d, e, f] = self.columns.each_ref().map(|column| &column[..]);
-        match domain {
-            Domain::Isoline => Batch::IsolineColumns(IsolineFactors { density: a, detail: b }),
-            Domain::Triangle => {
-                Batch::TriangleColumns(TriangleFactors { u0: a, v0: b, w0: c, inside: d })
-            }
-            Domain::Quad => Batch::QuadColumns(QuadFactors {
-                u0: a,
-                v0: b,
-                u1: c,
-                v1: d,
-                inside_u: e,
-                inside_v: f,
-            }),
-        }
+        Batch::Columns(PatchFactors::from_fn(domain, |factor| &self.columns[factor][..]))
     }
 
     pub(crate) fn expected(&self, config: Config) -> Vec<Tessellation> {
@@ -198,8 +156,9 @@ pub(crate) fn difference<P: PointFormat + Bits, I: IndexFormat + Bits>(
         };
         let base = match numbering {
             Numbering::PerPatch => 0,
-            Numbering::Batch { base_vertex } => {
-                base_vertex + u32::try_from(first_point).unwrap_or(u32::MAX)
+            // One past the largest index where nothing but culled patches follows.
+            Numbering::PerBatch { base_vertex } => {
+                base_vertex.wrapping_add(u32::try_from(first_point).unwrap_or(u32::MAX))
             }
         };
         let expected_points = expected.points.iter().map(|&p| point(p).bits()).collect::<Vec<_>>();
@@ -255,8 +214,8 @@ pub(crate) fn compare<P: PointFormat + Bits, I: IndexFormat + Bits>(
     let total = expected.iter().map(|patch| patch.points.len()).sum::<usize>();
     let end = match numbering {
         Numbering::PerPatch => largest as u64,
-        Numbering::Batch { base_vertex } if total > 0 => u64::from(base_vertex) + total as u64,
-        Numbering::Batch { .. } => 0,
+        Numbering::PerBatch { base_vertex } if total > 0 => u64::from(base_vertex) + total as u64,
+        Numbering::PerBatch { .. } => 0,
     };
     let result = tessellator.tessellate(batch, numbering, &mut output);
     if end.saturating_sub(1) > I::LARGEST {
@@ -266,7 +225,8 @@ pub(crate) fn compare<P: PointFormat + Bits, I: IndexFormat + Bits>(
         return;
     }
     let counts = result.unwrap_or_else(|error| panic!("{what}: {error}"));
-    assert_eq!(tessellator.count(batch), Ok(counts), "{what}: counts");
+    let counted = tessellator.count(batch).map(|counted| counted.counts());
+    assert_eq!(counted, Ok(counts), "{what}: counts");
     let difference = difference(&patches.all, expected, numbering, &output, point);
     assert_eq!(difference, None, "{what}");
 }

@@ -86,7 +86,7 @@ fn character_is_log_uniform() {
         let PatchFactors::Triangle(factors) = patch else { panic!("triangles alone") };
         for factor in factors.outer() {
             assert!((1.0..8.0).contains(&factor), "factor {factor}");
-            let boundaries = [0.75, 1.5, 2.25].map(f64::exp2);
+            let boundaries = [8.0, 64.0, 512.0].map(|power: f64| power.sqrt().sqrt());
             let quarter = boundaries.partition_point(|&boundary| boundary <= f64::from(factor));
             quarters[quarter] += 1;
         }

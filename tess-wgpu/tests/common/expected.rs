@@ -109,7 +109,7 @@ pub(crate) fn by_simd(setup: Setup, patches: &[PatchFactors]) -> (Vec<u32>, Vec<
     };
     let numbering = match setup.numbering {
         Numbering::PerPatch => tess_simd::Numbering::PerPatch,
-        Numbering::PerBatch => tess_simd::Numbering::Batch { base_vertex: 0 },
+        Numbering::PerBatch => tess_simd::Numbering::PerBatch { base_vertex: 0 },
     };
     let mut output = Output::<DomainPoint, u32>::new();
     let mut tessellator = Tessellator::new(setup.config);
@@ -125,7 +125,7 @@ pub(crate) fn by_simd(setup: Setup, patches: &[PatchFactors]) -> (Vec<u32>, Vec<
 /// A point as the shaders store it.
 pub(crate) fn point_words(format: PointFormat, point: DomainPoint, patch: u32) -> [u32; 2] {
     match format {
-        PointFormat::Float => point.to_f32().map(f32::to_bits),
+        PointFormat::F32 => point.to_f32().map(f32::to_bits),
         PointFormat::Packed => {
             let [u, v] = [point.u, point.v].map(|bits| u64::from(bits.to_bits()));
             let packed = u | v << 17 | u64::from(patch) << 34;

@@ -1,10 +1,14 @@
 //! What continuous integration runs, in the order of what fails fastest.
 
 use crate::command::{self, cargo};
-use crate::{fuzz, test};
+use crate::ports::{self, Extent};
+use crate::{fuzz, levels, publish, test};
 
-/// Formatting, lints, documentation, features, the fuzz targets, then every test.
+/// Formatting, lints, documentation, features, the fuzz targets, ports, packages, then every test.
 pub(crate) fn run() -> Result<(), String> {
+    if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
+        return Err("continuous integration on x86-64 needs a processor with AVX2".into());
+    }
     command::run(&mut cargo("fmt --all --check"))?;
     command::run(
         cargo("clippy --workspace --all-targets --all-features").args(["--", "-D", "warnings"]),
@@ -17,6 +21,9 @@ pub(crate) fn run() -> Result<(), String> {
     }
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
     fuzz::run(fuzz::BRIEFLY)?;
+    ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;
+    publish::dry_run()?;
+    publish::deny(false)?;
     test::run()
 }
 

@@ -1,7 +1,7 @@
 //! Running programs in the workspace, saying first what is run.
 
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 /// The folder of the workspace's `Cargo.toml`.
 pub(crate) fn workspace() -> PathBuf {
@@ -33,4 +33,16 @@ pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     let status =
         command.status().map_err(|error| format!("cannot run `{}`: {error}", shown(command)))?;
     if status.success() { Ok(()) } else { Err(format!("`{}` ended with {status}", shown(command))) }
+}
+
+/// Runs a command and gives what it prints on its standard output.
+pub(crate) fn output(command: &mut Command) -> Result<String, String> {
+    let output = command
+        .stderr(Stdio::inherit())
+        .output()
+        .map_err(|error| format!("cannot run `{}`: {error}", shown(command)))?;
+    if !output.status.success() {
+        return Err(format!("`{}` ended with {}", shown(command), output.status));
+    }
+    String::from_utf8(output.stdout).map_err(|error| format!("`{}`: {error}", shown(command)))
 }

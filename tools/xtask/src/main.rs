@@ -5,51 +5,88 @@ mod ci;
 mod command;
 mod coverage;
 mod fuzz;
+mod levels;
 mod mutants;
+mod packages;
+mod ports;
+mod publish;
+mod records;
 mod setup;
+mod tally;
 mod test;
 
+use ports::Extent;
+use records::{performance, take};
 use std::process::ExitCode;
 
 const USAGE: &str = "\
 usage: cargo xtask <command>
 
   test    set up what the tests need, then run every test of the workspace
-  ci      what the continuous integration runs: formatting, lints, documentation,
-          features, the fuzz targets' oracles on their seeds, `fuzz`, then `test`
+  ci      what continuous integration runs: formatting, lints, documentation, features,
+          the fuzz targets' oracles on their seeds, `fuzz`, `ports brief`, `publish`,
+          `deny`, then `test`
   setup   only set up: a Vulkan driver, C and C++ compilers, Verilator
+  ports [brief] [NAME...]
+          check other compilers, processors and hosts: msrv, i686, aarch64, s390x, wasm,
+          miri; installs emulators and compilers. `brief` runs the tests that take seconds
   fuzz [SECONDS]
-          build every fuzz target and run each, for 10 seconds unless said
+          build every fuzz target and run each, for 10 seconds by default
   mutants PACKAGE [OPTION...]
           plant faults in tess-core or tess-simd; fails if one survives the tests and
           docs/mutants.md does not list it (needs cargo-mutants; takes an hour)
   coverage
-          line coverage of the tests (needs cargo-llvm-cov)";
+          line coverage of the tests (needs cargo-llvm-cov)
+  publish pack and build every published package as a registry would get it; send nothing
+  deny [advisories]
+          check the licences and sources of dependencies, and known vulnerabilities on request
+  semver REVISION
+          compare the libraries' interfaces with those of a commit or tag
+  record NAME [--machine TEXT] [--rows FILE] -- BENCH-ARGUMENT...
+          run `tess bench` and keep its rows in benches/records/NAME.json
+  performance
+          write the tables of docs/performance.md from the records";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let result = match arguments.iter().map(String::as_str).collect::<Vec<_>>()[..] {
-        ["test"] => setup::run().and_then(|()| test::run()),
-        ["ci"] => setup::run().and_then(|()| ci::run()),
-        ["setup"] => setup::run(),
-        ["fuzz"] => setup::run().and_then(|()| fuzz::run(fuzz::BRIEFLY)),
-        ["fuzz", seconds] => setup::run().and_then(|()| fuzz::run(seconds)),
-        ["mutants", package, ref rest @ ..] => mutants::run(package, rest),
-        ["coverage"] => coverage::run(),
-        ["help" | "--help" | "-h"] => {
-            println!("{USAGE}");
-            return ExitCode::SUCCESS;
-        }
-        _ => {
-            eprintln!("{USAGE}");
-            return ExitCode::from(2);
-        }
-    };
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(message) => {
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match run(&words) {
+        Some(Ok(())) => ExitCode::SUCCESS,
+        Some(Err(message)) => {
             eprintln!("xtask: {message}");
             ExitCode::FAILURE
         }
+        None => {
+            eprintln!("{USAGE}");
+            ExitCode::from(2)
+        }
     }
+}
+
+/// Runs the command; `None` if there is no such command.
+fn run(words: &[&str]) -> Option<Result<(), String>> {
+    let after_setup =
+        |command: &dyn Fn() -> Result<(), String>| setup::run().and_then(|()| command());
+    Some(match *words {
+        ["test"] => after_setup(&test::run),
+        ["ci"] => after_setup(&ci::run),
+        ["setup"] => setup::run(),
+        ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
+        ["ports", ref names @ ..] => ports::run(names, Extent::Whole),
+        ["fuzz"] => after_setup(&|| fuzz::run(fuzz::BRIEFLY)),
+        ["fuzz", seconds] => after_setup(&|| fuzz::run(seconds)),
+        ["mutants", package, ref rest @ ..] => mutants::run(package, rest),
+        ["coverage"] => coverage::run(),
+        ["publish"] => publish::dry_run(),
+        ["deny"] => publish::deny(false),
+        ["deny", "advisories"] => publish::deny(true),
+        ["semver", baseline] => publish::semver(baseline),
+        ["record", ref rest @ ..] => take::run(rest),
+        ["performance"] => performance::run(),
+        ["help" | "--help" | "-h"] => {
+            println!("{USAGE}");
+            Ok(())
+        }
+        _ => return None,
+    })
 }

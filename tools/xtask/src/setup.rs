@@ -1,18 +1,21 @@
-//! Sets up what the tests need beyond Rust.
+//! Sets up what commands need beyond Rust.
 
 use crate::command;
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
 
-/// Something that tests need from the system.
-struct Need {
-    what: &'static str,
+/// Something that a command needs from the system.
+#[derive(Clone, Copy)]
+pub(crate) struct Need {
+    /// What it is, and what for.
+    pub(crate) what: &'static str,
     /// Debian packages that bring it.
-    packages: &'static [&'static str],
-    is_there: fn() -> bool,
+    pub(crate) packages: &'static [&'static str],
+    pub(crate) is_there: fn() -> bool,
 }
 
-const NEEDS: &[Need] = &[
+/// What the tests of the workspace need.
+const TESTS: &[Need] = &[
     Need {
         what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
         packages: &["libvulkan1", "mesa-vulkan-drivers"],
@@ -30,9 +33,17 @@ const NEEDS: &[Need] = &[
     },
 ];
 
-/// Installs what is missing where the system allows it, and says what to install where not.
+/// Provides what the tests of the workspace need.
 pub(crate) fn run() -> Result<(), String> {
-    let missing: Vec<&Need> = NEEDS.iter().filter(|need| !(need.is_there)()).collect();
+    provide(TESTS)
+}
+
+/// Installs what is missing where the system allows it.
+///
+/// # Errors
+/// Something is missing and cannot be installed: the message says what to install.
+pub(crate) fn provide(needs: &[Need]) -> Result<(), String> {
+    let missing: Vec<&Need> = needs.iter().filter(|need| !(need.is_there)()).collect();
     if missing.is_empty() {
         return Ok(());
     }
@@ -47,7 +58,11 @@ pub(crate) fn run() -> Result<(), String> {
     if !Path::new("/usr/bin/apt-get").exists() {
         return Err(by_hand);
     }
-    install(&packages).map_err(|error| format!("{error}. {by_hand}"))
+    install(&packages).map_err(|error| format!("{error}. {by_hand}"))?;
+    match missing.iter().find(|need| !(need.is_there)()) {
+        Some(need) => Err(format!("still missing after its packages are installed: {}", need.what)),
+        None => Ok(()),
+    }
 }
 
 fn install(packages: &[&str]) -> Result<(), String> {
@@ -69,6 +84,71 @@ fn apt() -> Command {
     command
 }
 
+/// Installs a Rust toolchain (`stable`, `nightly`, `1.89.0`) with these components and targets
+/// where it is missing.
+pub(crate) fn toolchain(name: &str, parts: &[(Part, &str)]) -> Result<(), String> {
+    let mut list = rustup(&["toolchain", "list"]);
+    let known = command::output(&mut list).map_err(|error| {
+        format!("{error}. Toolchains other than the current one need rustup: https://rustup.rs")
+    })?;
+    if !known.lines().any(|line| line.starts_with(name)) {
+        command::run(&mut rustup(&["toolchain", "install", name, "--profile", "minimal"]))?;
+    }
+    for &(part, wanted) in parts {
+        let word = part.word();
+        let mut list = rustup(&[word, "list", "--installed", "--toolchain", name]);
+        let installed = command::output(&mut list)?;
+        if !installed.lines().any(|line| line.starts_with(wanted)) {
+            command::run(&mut rustup(&[word, "add", "--toolchain", name, wanted]))?;
+        }
+    }
+    Ok(())
+}
+
+/// Adds the standard library for `target` to the toolchain that runs this.
+pub(crate) fn target(target: &str) -> Result<(), String> {
+    let current = std::env::var("RUSTUP_TOOLCHAIN").map_err(|_| {
+        format!("the target {target} needs a compiler from rustup: https://rustup.rs")
+    })?;
+    toolchain(&current, &[(Part::Target, target)])
+}
+
+/// What a toolchain can be extended by.
+#[derive(Clone, Copy)]
+pub(crate) enum Part {
+    Component,
+    Target,
+}
+
+impl Part {
+    /// The command of `rustup` for it.
+    const fn word(self) -> &'static str {
+        match self {
+            Self::Component => "component",
+            Self::Target => "target",
+        }
+    }
+}
+
+fn rustup(arguments: &[&str]) -> Command {
+    let mut rustup = Command::new("rustup");
+    rustup.args(arguments);
+    rustup
+}
+
+/// Installs a subcommand of cargo where it is missing; compiling it takes minutes.
+pub(crate) fn subcommand(name: &str) -> Result<(), String> {
+    let has_it = command::cargo(&format!("{name} --version"))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status()
+        .is_ok_and(|status| status.success());
+    if has_it {
+        return Ok(());
+    }
+    command::run(&mut command::cargo(&format!("install cargo-{name} --locked")))
+}
+
 /// Whether the loader and any driver's manifest are where Vulkan looks for them.
 fn has_vulkan() -> bool {
     let has_driver = std::env::var_os("VK_DRIVER_FILES").is_some()
@@ -85,7 +165,8 @@ fn has_library(name: &str) -> bool {
     known.is_ok_and(|list| String::from_utf8_lossy(&list.stdout).contains(name))
 }
 
-fn has_program(name: &str) -> bool {
+/// Whether a folder of `PATH` has this file.
+pub(crate) fn has_program(name: &str) -> bool {
     let path = std::env::var_os("PATH").unwrap_or_default();
     std::env::split_paths(&path).any(|folder| folder.join(name).is_file())
 }

@@ -5,7 +5,7 @@ use super::{
     patches, status_of,
 };
 use crate::boundary;
-use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_UNKNOWN_VALUE, TessStatus};
+use crate::status::{TESS_UNKNOWN_VALUE, TessStatus};
 use tess_simd::{Buffers, Error, IndexFormat, Numbering, PatchRange, PointFormat};
 
 /// Tessellates a batch in one pair of formats.
@@ -20,7 +20,7 @@ pub(super) unsafe fn run<P: PointFormat, I: IndexFormat>(
 ) -> Result<(), TessStatus> {
     let numbering = match output.numbering {
         TESS_NUMBERING_PATCH => Numbering::PerPatch,
-        TESS_NUMBERING_BATCH => Numbering::Batch { base_vertex: output.base_vertex },
+        TESS_NUMBERING_BATCH => Numbering::PerBatch { base_vertex: output.base_vertex },
         _ => return Err(TESS_UNKNOWN_VALUE),
     };
     let points = (output.points.cast::<P>(), output.point_capacity);
@@ -34,26 +34,27 @@ pub(super) unsafe fn run<P: PointFormat, I: IndexFormat>(
     ])?;
     // SAFETY: `factor_count` readable floats, as the caller promises.
     let patches = unsafe { patches(batch.domain, factors, factor_count) }?;
-    let buffers = Buffers {
-        // SAFETY: readable and writable, as the caller promises, and apart, as was just checked.
-        points: unsafe { boundary::list_mut(points.0, points.1) }?,
-        // SAFETY: as above.
-        indices: unsafe { boundary::list_mut(indices.0, indices.1) }?,
-        // SAFETY: as above; any bits are a range, and the layouts are the same.
-        ranges: unsafe { boundary::list_mut(ranges.0, ranges.1) }?,
-    };
-    let written = match batch.tessellator.write(patches, numbering, buffers) {
-        Err(Error::BufferTooSmall { .. }) => {
-            let needed = batch.tessellator.count(patches).map_err(|error| status_of(&error))?;
+    // SAFETY: readable and writable, as the caller promises, and apart, as was just checked.
+    let points = unsafe { boundary::list_mut(points.0, points.1) }?;
+    // SAFETY: as above.
+    let indices = unsafe { boundary::list_mut(indices.0, indices.1) }?;
+    // SAFETY: as above; any bits are a range, and the layouts are the same.
+    let ranges = unsafe { boundary::list_mut(ranges.0, ranges.1) }?;
+    let buffers = Buffers::new(points, indices).with_ranges(ranges);
+    let mut counted = batch.tessellator.count(patches).map_err(|error| status_of(&error))?;
+    match counted.write(numbering, buffers) {
+        Ok(written) => {
             // SAFETY: `counts` is writable, as the caller promises.
-            unsafe { boundary::write(counts, needed.into()) }?;
-            return Err(TESS_BUFFER_TOO_SMALL);
+            unsafe { boundary::write(counts, written.into()) }
         }
-        Err(error) => return Err(status_of(&error)),
-        Ok(written) => written,
-    };
-    // SAFETY: `counts` is writable, as the caller promises.
-    unsafe { boundary::write(counts, written.into()) }
+        Err(error) => {
+            if let Error::BufferTooSmall { .. } = error {
+                // SAFETY: `counts` is writable, as the caller promises.
+                unsafe { boundary::write(counts, counted.counts().into()) }?;
+            }
+            Err(status_of(&error))
+        }
+    }
 }
 
 /// Refuses buffers of which any two share memory.

@@ -1,7 +1,7 @@
 //! Area and manifold: what holds for the triangles of a patch.
 
 use super::{Violation, ensure, has_triangles};
-use std::collections::HashSet;
+use std::collections::BTreeSet;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, OutputPrimitive, Tessellation};
 use tess_verify::case::Case;
@@ -44,7 +44,7 @@ pub fn manifold(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     if !has_triangles(case) || output.points.is_empty() {
         return Ok(());
     }
-    let mut directed = HashSet::new();
+    let mut directed = BTreeSet::new();
     for (t, triangle) in output.indices.chunks(3).enumerate() {
         for (i, &from) in triangle.iter().enumerate() {
             let edge = (from, triangle[(i + 1) % triangle.len()]);
@@ -54,8 +54,8 @@ pub fn manifold(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     }
     let boundary: Vec<_> = directed.iter().filter(|(a, b)| !directed.contains(&(*b, *a))).collect();
     // Each boundary point has one boundary edge in and one out, so the boundary is closed.
-    let starts: HashSet<u32> = boundary.iter().map(|(from, _)| *from).collect();
-    let ends: HashSet<u32> = boundary.iter().map(|(_, to)| *to).collect();
+    let starts: BTreeSet<u32> = boundary.iter().map(|(from, _)| *from).collect();
+    let ends: BTreeSet<u32> = boundary.iter().map(|(_, to)| *to).collect();
     let closed = starts == ends && starts.len() == boundary.len();
     ensure(closed, "manifold", || format!("the boundary is not a ring: {boundary:?}"))?;
     let edges = (directed.len() + boundary.len()) / 2;

@@ -103,11 +103,8 @@ impl<I: Index> SimdRunner<I> {
             return Err(BackendError::new("nothing is prepared"));
         };
         let Batch { patches: range, start, .. } = &batches[batch];
-        let buffers = Buffers {
-            points: &mut self.points[start.0..],
-            indices: &mut self.indices[start.1..],
-            ranges: &mut self.ranges[..],
-        };
+        let (points, indices) = (&mut self.points[start.0..], &mut self.indices[start.1..]);
+        let buffers = Buffers::new(points, indices).with_ranges(&mut self.ranges);
         let batch = patches.batch(range.start, range.len());
         let write = || tessellator.write(batch, Numbering::PerPatch, buffers);
         let result = self.pool.install(write);
@@ -255,7 +252,8 @@ fn counted_batch<I: Index>(
 ) -> Result<Batch, BackendError> {
     let counts = tessellator
         .count(patches.batch(range.start, range.len()))
-        .map_err(|error| BackendError::new(error.to_string()))?;
+        .map_err(|error| BackendError::new(error.to_string()))?
+        .counts();
     let primitives = counts.indices as u64 / indices_each;
     let totals = Totals {
         patches: range.len() as u64,

@@ -139,7 +139,7 @@ impl Stream<'_> {
         if patches.is_empty() {
             return Ok(());
         }
-        let numbering = Numbering::Batch { base_vertex: 0 };
+        let numbering = Numbering::PerBatch { base_vertex: 0 };
         statistics
             .time(Stage::Tessellation, || {
                 self.tessellator.tessellate(batch, numbering, &mut self.domain_points)

@@ -1,0 +1,222 @@
+//! How one batch is cut up: sizes of buffers and dispatches as pure functions of the number of
+//! patches, the room for output and the limits.
+//!
+//! A batch is cut into *chunks* of patches, because a device binds only so many bytes at once,
+//! and its output into *windows* for the same reason. Within a window output is made in *tiles*.
+
+use crate::bindings::Resource;
+use crate::layout::{Range, Status, Topology};
+use crate::setup::Setup;
+use crate::sizes::{
+    ALIGNMENT, BLOCK, Capacity, DISPATCHES_AT, GROUP, Limits, MAX_CHUNK, SUMMED, Span, TILE,
+};
+use crate::tables;
+
+mod dispatches;
+mod jobs;
+
+pub use dispatches::{Dispatch, Workgroups};
+
+/// A batch, cut up so that no binding and no dispatch exceeds the limits.
+///
+/// [`Plan::buffer_size`] and [`Plan::jobs`] say which buffers a host makes for it, and
+/// [`Plan::dispatches`] what it runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Plan {
+    setup: Setup,
+    patches: u32,
+    capacity: Capacity,
+    chunk_patches: u32,
+    point_window_tiles: u32,
+    primitive_window_tiles: u32,
+    max_workgroups: u32,
+}
+
+impl Plan {
+    /// Cuts up a batch of `patches` patches with room for `capacity`.
+    #[must_use]
+    pub fn new(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
+        let context_bytes = 8 * u64::from(setup.factors());
+        let bound = limits.storage_binding.max(4 << 20);
+        let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / GROUP * GROUP;
+        let primitive_bytes = u64::from(setup.primitive_bytes());
+        Self {
+            setup,
+            patches,
+            capacity,
+            chunk_patches: patches.max(1).checked_next_multiple_of(BLOCK).unwrap_or(most).min(most),
+            point_window_tiles: to_u32(bound / (8 * u64::from(TILE))),
+            primitive_window_tiles: to_u32(bound / (primitive_bytes * u64::from(TILE))),
+            max_workgroups: limits.workgroups.max(1),
+        }
+    }
+
+    /// Patches of the batch.
+    #[must_use]
+    pub const fn patches(&self) -> u32 {
+        self.patches
+    }
+
+    /// How many chunks there are; 0 for no patches.
+    #[must_use]
+    pub const fn chunks(&self) -> u32 {
+        self.patches.div_ceil(self.chunk_patches)
+    }
+
+    /// How many windows the points have.
+    #[must_use]
+    pub const fn point_windows(&self) -> u32 {
+        self.capacity.points.div_ceil(TILE).div_ceil(self.point_window_tiles)
+    }
+
+    /// How many windows the primitives have.
+    #[must_use]
+    pub const fn primitive_windows(&self) -> u32 {
+        self.capacity.primitives.div_ceil(TILE).div_ceil(self.primitive_window_tiles)
+    }
+
+    /// The bytes that the buffer of a resource must have for this batch; of the caller's own
+    /// (factors, points, indices) the bytes that are used. A host rounds 0 up to what its interface
+    /// demands.
+    #[must_use]
+    pub fn buffer_size(&self, resource: Resource) -> u64 {
+        let chunks = self.chunks().max(1);
+        match resource {
+            Resource::Job => ALIGNMENT * u64::from(self.job_count()),
+            Resource::Factors => self.factor_bytes() * u64::from(self.patches),
+            Resource::Tables => 4 * u64::from(tables::WORDS),
+            Resource::Topologies => end(self.topologies(chunks - 1)),
+            Resource::Contexts => end(self.contexts(chunks - 1)),
+            Resource::Offsets => end(self.offsets(chunks - 1)),
+            Resource::Status => size::<Status>() + size::<Range>() * u64::from(chunks),
+            Resource::Tiles => {
+                let tiles = |elements: u32| u64::from(elements.div_ceil(TILE) + 2);
+                4 * (tiles(self.capacity.points) + tiles(self.capacity.primitives))
+            }
+            Resource::Arguments => self.arguments_at(self.job_count()),
+            Resource::Points => 8 * u64::from(self.capacity.points),
+            Resource::Indices => {
+                let each = u64::from(self.setup.primitive_bytes());
+                (each * u64::from(self.capacity.primitives)).next_multiple_of(8)
+            }
+        }
+    }
+
+    /// The entries of the buffer of offsets whose sum is where a patch's output begins: its own,
+    /// its block's and its group's. Each is a number of points and one of primitives.
+    #[must_use]
+    pub fn offset_entries(&self, patch: u32) -> [u64; 3] {
+        let (chunk, in_chunk) = (patch / self.chunk_patches, patch % self.chunk_patches);
+        let first = self.offsets(chunk).offset / 8;
+        [in_chunk, self.blocks_at() + in_chunk / BLOCK, self.groups_at() + in_chunk / GROUP]
+            .map(|entry| first + u64::from(entry))
+    }
+
+    /// The entries of the buffer of offsets that say whether the patches of `patch`'s block are
+    /// alike: the topology of all of them, or 0.
+    #[must_use]
+    pub fn alike_entry(&self, patch: u32) -> u64 {
+        let (chunk, in_chunk) = (patch / self.chunk_patches, patch % self.chunk_patches);
+        self.offsets(chunk).offset / 8 + u64::from(self.alike_at() + in_chunk / BLOCK)
+    }
+
+    /// Patches of chunk `chunk`.
+    fn patches_in(&self, chunk: u32) -> u32 {
+        (self.patches - chunk * self.chunk_patches).min(self.chunk_patches)
+    }
+
+    /// Where in a chunk's offsets those of the blocks begin, behind one for each patch.
+    const fn blocks_at(&self) -> u32 {
+        self.chunk_patches
+    }
+
+    /// Where in a chunk's offsets the blocks' common topologies begin.
+    const fn alike_at(&self) -> u32 {
+        self.blocks_at() + self.chunk_patches / BLOCK
+    }
+
+    /// Where in a chunk's offsets those of the groups begin.
+    const fn groups_at(&self) -> u32 {
+        self.alike_at() + self.chunk_patches / BLOCK
+    }
+
+    /// Where in the table of tiles those of the primitives begin.
+    const fn primitive_tiles_at(&self) -> u32 {
+        self.capacity.points.div_ceil(TILE) + 2
+    }
+
+    /// Bytes of one patch's raw factors.
+    fn factor_bytes(&self) -> u64 {
+        4 * u64::from(self.setup.factors())
+    }
+
+    /// The bytes of a chunk's raw factors in the caller's buffer.
+    fn factors(&self, chunk: u32) -> Span {
+        let bytes = |patches: u32| self.factor_bytes() * u64::from(patches);
+        let first = chunk * self.chunk_patches;
+        Span { offset: bytes(first), size: bytes(self.patches_in(chunk)) }
+    }
+
+    /// The bytes of a chunk's topologies.
+    fn topologies(&self, chunk: u32) -> Span {
+        region(chunk, size::<Topology>() * u64::from(self.chunk_patches))
+    }
+
+    /// The bytes of a chunk's contexts: all of the first factor, then all of the second ...
+    fn contexts(&self, chunk: u32) -> Span {
+        region(chunk, 8 * u64::from(self.setup.factors()) * u64::from(self.chunk_patches))
+    }
+
+    /// The bytes of a chunk's offsets.
+    fn offsets(&self, chunk: u32) -> Span {
+        let groups = self.chunk_patches.div_ceil(BLOCK).div_ceil(SUMMED);
+        region(chunk, 8 * u64::from(self.groups_at() + groups))
+    }
+
+    /// The bytes of a window of the points.
+    fn point_window(&self, window: u32) -> Span {
+        window_span(self.capacity.points, 8, self.point_window_tiles, window)
+    }
+
+    /// The bytes of a window of the indices.
+    fn primitive_window(&self, window: u32) -> Span {
+        let each = self.setup.primitive_bytes();
+        window_span(self.capacity.primitives, each, self.primitive_window_tiles, window)
+    }
+
+    /// Where in the arguments the size of the indirect dispatch with job `job` is.
+    fn arguments_at(&self, job: u32) -> u64 {
+        4 * u64::from(DISPATCHES_AT) + 12 * u64::from(job)
+    }
+
+    /// So many workgroups, in rows.
+    fn in_rows(&self, workgroups: u32) -> [u32; 3] {
+        let rows = workgroups.div_ceil(self.max_workgroups);
+        [workgroups.min(self.max_workgroups), rows, 1]
+    }
+}
+
+/// The bytes of a chunk in a buffer that has `size` for each.
+fn region(chunk: u32, size: u64) -> Span {
+    Span { offset: u64::from(chunk) * size.next_multiple_of(ALIGNMENT), size }
+}
+
+/// `capacity` elements of `each` bytes, cut into windows.
+fn window_span(capacity: u32, each: u32, window_tiles: u32, window: u32) -> Span {
+    let first = u64::from(window) * u64::from(window_tiles) * u64::from(TILE);
+    let elements = (u64::from(capacity) - first).min(u64::from(window_tiles) * u64::from(TILE));
+    let size = (elements * u64::from(each)).next_multiple_of(8);
+    Span { offset: first * u64::from(each), size }
+}
+
+const fn end(span: Span) -> u64 {
+    span.offset + span.size
+}
+
+const fn size<T>() -> u64 {
+    size_of::<T>() as u64
+}
+
+fn to_u32(value: u64) -> u32 {
+    u32::try_from(value).unwrap_or(u32::MAX)
+}

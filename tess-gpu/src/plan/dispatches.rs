@@ -1,0 +1,112 @@
+//! What runs, in order, and what each dispatch binds.
+
+use super::Plan;
+use super::jobs::Part;
+use crate::bindings::{Binding, Resource};
+use crate::layout::Job;
+use crate::shaders::Stage;
+use crate::sizes::{ALIGNMENT, BLOCK, GROUP, Span};
+
+/// One stage over one part of the batch: bind [`Dispatch::bindings`], then dispatch
+/// [`Dispatch::workgroups`].
+#[derive(Clone, Copy, Debug)]
+pub struct Dispatch {
+    plan: Plan,
+    stage: Stage,
+    chunk: u32,
+    part: Part,
+}
+
+/// How many workgroups a dispatch has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Workgroups {
+    /// So many along x, y and z.
+    Direct([u32; 3]),
+    /// As many as three words at this byte offset of [`Resource::Arguments`] say. An earlier
+    /// dispatch writes them.
+    Indirect(u64),
+}
+
+impl Plan {
+    /// Everything that a batch runs, in order. Each dispatch reads what earlier ones wrote.
+    ///
+    /// All chunks are counted before any is expanded, so that nothing is written if not all fits.
+    /// [`Resource::Status`] has to be all zeros before the first one.
+    pub fn dispatches(&self) -> impl Iterator<Item = Dispatch> + use<> {
+        let plan = *self;
+        // The totals of a batch of no patches are totals too.
+        let is_empty = self.chunks() == 0;
+        let counting = (0..self.chunks().max(1)).flat_map(move |chunk| {
+            let stages = [Stage::Factors, Stage::Scan, Stage::Totals];
+            stages
+                .into_iter()
+                .filter(move |&stage| !is_empty || stage == Stage::Totals)
+                .map(move |stage| Dispatch { plan, stage, chunk, part: Part::Whole })
+        });
+        counting.chain((0..self.chunks()).flat_map(move |chunk| plan.expansion(chunk)))
+    }
+
+    /// What writes the output of a chunk; nothing if there is no room for any.
+    fn expansion(self, chunk: u32) -> impl Iterator<Item = Dispatch> + use<> {
+        let (points, primitives) = (self.point_windows(), self.primitive_windows());
+        let dispatch = move |stage, part| Dispatch { plan: self, stage, chunk, part };
+        let partition = (points + primitives > 0).then(|| dispatch(Stage::Partition, Part::Whole));
+        let points =
+            (0..points).map(move |window| dispatch(Stage::ExpandPoints, Part::Points { window }));
+        let primitives = (0..primitives)
+            .map(move |window| dispatch(Stage::ExpandPrimitives, Part::Primitives { window }));
+        partition.into_iter().chain(points).chain(primitives)
+    }
+}
+
+impl Dispatch {
+    /// The stage, whose pipeline it runs.
+    #[must_use]
+    pub const fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    /// The number of its job in the buffer of jobs.
+    #[must_use]
+    pub fn job(&self) -> u32 {
+        self.plan.job_number(self.chunk, self.part)
+    }
+
+    /// Its bindings in group 0, in order from binding 0: which buffer, and which bytes of it.
+    pub fn bindings(&self) -> impl ExactSizeIterator<Item = (Resource, Span)> {
+        let resources = self.stage.bindings().iter();
+        resources.map(|&Binding(resource, _)| (resource, self.span(resource)))
+    }
+
+    /// Its workgroups.
+    #[must_use]
+    pub fn workgroups(&self) -> Workgroups {
+        let patches = self.plan.patches_in(self.chunk);
+        match self.stage {
+            Stage::Factors => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(BLOCK))),
+            Stage::Scan => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(GROUP))),
+            Stage::Totals => Workgroups::Direct([1; 3]),
+            Stage::Partition | Stage::ExpandPoints | Stage::ExpandPrimitives => {
+                Workgroups::Indirect(self.plan.arguments_at(self.job()))
+            }
+        }
+    }
+
+    fn span(&self, resource: Resource) -> Span {
+        let (plan, chunk) = (&self.plan, self.chunk);
+        let whole = Span { offset: 0, size: plan.buffer_size(resource) };
+        match (resource, self.part) {
+            (Resource::Job, _) => {
+                let offset = ALIGNMENT * u64::from(self.job());
+                Span { offset, size: size_of::<Job>() as u64 }
+            }
+            (Resource::Factors, _) => plan.factors(chunk),
+            (Resource::Topologies, _) => plan.topologies(chunk),
+            (Resource::Contexts, _) => plan.contexts(chunk),
+            (Resource::Offsets, _) => plan.offsets(chunk),
+            (Resource::Points, Part::Points { window }) => plan.point_window(window),
+            (Resource::Indices, Part::Primitives { window }) => plan.primitive_window(window),
+            _ => whole,
+        }
+    }
+}

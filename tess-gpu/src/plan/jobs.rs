@@ -1,0 +1,101 @@
+//! The jobs of a batch: what the shaders are told about a chunk and a window.
+
+use super::Plan;
+use crate::layout::Job;
+use crate::sizes::ALIGNMENT;
+
+/// Which part of a chunk's work a job is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All of it: counting and partitioning.
+    Whole,
+    /// The points in a window.
+    Points {
+        /// Number of the window.
+        window: u32,
+    },
+    /// The primitives in a window.
+    Primitives {
+        /// Number of the window.
+        window: u32,
+    },
+}
+
+impl Plan {
+    /// The contents of the buffer of jobs.
+    #[must_use]
+    pub fn jobs(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        for number in 0..self.job_count() {
+            let job = self.job(number / self.parts(), self.part(number % self.parts()));
+            bytes.extend_from_slice(bytemuck::bytes_of(&job));
+            bytes.resize(bytes.len().next_multiple_of(JOB_STRIDE), 0);
+        }
+        bytes
+    }
+
+    /// How many jobs there are. A batch of no patches has those of an empty chunk.
+    pub(super) fn job_count(&self) -> u32 {
+        self.chunks().max(1) * self.parts()
+    }
+
+    /// The number of a job. Each chunk has one job for the whole of it, one for each window of the
+    /// points and one for each window of the primitives; totals.wgsl numbers dispatch sizes so.
+    pub(super) fn job_number(&self, chunk: u32, part: Part) -> u32 {
+        let in_chunk = match part {
+            Part::Whole => 0,
+            Part::Points { window } => 1 + window,
+            Part::Primitives { window } => 1 + self.point_windows() + window,
+        };
+        chunk * self.parts() + in_chunk
+    }
+
+    /// Jobs of a chunk.
+    fn parts(&self) -> u32 {
+        1 + self.point_windows() + self.primitive_windows()
+    }
+
+    /// The part that has this number within its chunk.
+    fn part(&self, number: u32) -> Part {
+        match number.checked_sub(1) {
+            None => Part::Whole,
+            Some(window) if window < self.point_windows() => Part::Points { window },
+            Some(window) => Part::Primitives { window: window - self.point_windows() },
+        }
+    }
+
+    fn job(&self, chunk: u32, part: Part) -> Job {
+        let (window_first, window_tiles) = match part {
+            Part::Whole => (0, 0),
+            Part::Points { window } => (window * self.point_window_tiles, self.point_window_tiles),
+            Part::Primitives { window } => {
+                (window * self.primitive_window_tiles, self.primitive_window_tiles)
+            }
+        };
+        Job {
+            patches: self.patches_in(chunk),
+            first_patch: chunk * self.chunk_patches,
+            chunk,
+            stride: self.chunk_patches,
+            blocks_at: self.blocks_at(),
+            alike_at: self.alike_at(),
+            groups_at: self.groups_at(),
+            primitive_tiles_at: self.primitive_tiles_at(),
+            window_first,
+            window_tiles,
+            chunks: self.chunks(),
+            point_capacity: self.capacity.points,
+            primitive_capacity: self.capacity.primitives,
+            point_windows: self.point_windows(),
+            primitive_windows: self.primitive_windows(),
+            point_window_tiles: self.point_window_tiles,
+            primitive_window_tiles: self.primitive_window_tiles,
+            max_workgroups: self.max_workgroups,
+        }
+    }
+}
+
+/// Bytes between two jobs.
+#[expect(clippy::cast_possible_truncation, reason = "an alignment of 256")]
+const JOB_STRIDE: usize = ALIGNMENT as usize;
+const _: () = assert!(size_of::<Job>() <= JOB_STRIDE, "a job fits between two");

@@ -1,0 +1,120 @@
+//! The files of `shaders/`, joined in the order in which they need each other.
+//!
+//! The first line of a file names the files that it needs: `// needs: state, {place}`. Names in
+//! braces stand for one of several files, which the setup chooses. Names behind a semicolon are
+//! bindings that whoever needs the file declares.
+
+use crate::setup::{IndexType, Setup};
+
+/// Lists files of `shaders/`: their names and texts.
+macro_rules! files {
+    ($($name:literal),* $(,)?) => {
+        [$(($name, include_str!(concat!("../../shaders/", $name, ".wgsl")))),*]
+    };
+}
+
+const FILES: [(&str, &str); 35] = files![
+    "alike",
+    "connect",
+    "counts",
+    "d3d_float",
+    "expand",
+    "expand_points",
+    "expand_primitives",
+    "factor_context",
+    "factors",
+    "fixed_point",
+    "indices_u16",
+    "indices_u32",
+    "locate",
+    "make_context",
+    "offsets",
+    "partition",
+    "place",
+    "place_evenly",
+    "point_format",
+    "points",
+    "prefix_sum",
+    "probe",
+    "probe_contexts",
+    "probe_factors",
+    "probe_locations",
+    "process",
+    "pulled_contexts",
+    "rings",
+    "scan",
+    "state",
+    "stitch",
+    "stored_contexts",
+    "tile",
+    "topology",
+    "totals",
+];
+
+/// A name in braces and the file that stands for it.
+pub(super) type Choice = (&'static str, &'static str);
+
+/// How points are placed. With integer factors a number of points says it all; otherwise the file
+/// `stored` says where contexts are.
+pub(super) const fn placing(setup: Setup, stored: &'static str) -> [Choice; 2] {
+    if setup.has_integer_factors() {
+        [("place", "place_evenly"), ("contexts", "place_evenly")]
+    } else {
+        [("place", "place"), ("contexts", stored)]
+    }
+}
+
+/// How indices are stored.
+pub(super) const fn indices(setup: Setup) -> Choice {
+    let file = match setup.index_type {
+        IndexType::U16 => "indices_u16",
+        IndexType::U32 => "indices_u32",
+    };
+    ("indices", file)
+}
+
+/// A file behind all that it needs, each once.
+pub(super) fn joined(file: &'static str, choices: &[Choice]) -> String {
+    let mut names = Vec::new();
+    add(file, choices, &mut names);
+    names.into_iter().map(text).collect()
+}
+
+fn add(file: &'static str, choices: &[Choice], names: &mut Vec<&'static str>) {
+    if names.contains(&file) {
+        return;
+    }
+    for need in needs(file) {
+        add(chosen(need, choices), choices, names);
+    }
+    names.push(file);
+}
+
+/// The file that a need names.
+fn chosen(need: &'static str, choices: &[Choice]) -> &'static str {
+    let Some(name) = need.strip_prefix('{').and_then(|rest| rest.strip_suffix('}')) else {
+        return need;
+    };
+    let choice = choices.iter().find(|(choice, _)| *choice == name);
+    choice.map(|&(_, file)| file).unwrap_or_else(|| panic!("{need} is not chosen"))
+}
+
+/// What the first line of a file names.
+fn needs(file: &'static str) -> impl Iterator<Item = &'static str> {
+    first_line(file).0.split(", ").filter(|&need| need != "nothing")
+}
+
+/// The two halves of a file's first line: the files that it needs, and bindings.
+fn first_line(file: &'static str) -> (&'static str, &'static str) {
+    let line = text(file).lines().next().and_then(|line| line.strip_prefix("// needs: "));
+    let line = line.unwrap_or_else(|| panic!("{file}.wgsl does not say what it needs"));
+    line.split_once("; bindings: ").unwrap_or((line, ""))
+}
+
+fn text(file: &str) -> &'static str {
+    let found = FILES.iter().find(|(name, _)| *name == file);
+    found.map(|&(_, text)| text).unwrap_or_else(|| panic!("{file}.wgsl is no file of shaders/"))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,160 @@
+//! Plans: what a host makes, binds and dispatches for a batch.
+
+mod common;
+
+use tess_gpu::layout::Job;
+use tess_gpu::sizes::{ALIGNMENT, TILE};
+use tess_gpu::{Capacity, Dispatch, Limits, Plan, Resource, Setup, Span, Stage, Workgroups};
+
+/// Limits that cut batches often.
+const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 5 };
+
+const ALL: Capacity = Capacity { points: u32::MAX, primitives: u32::MAX };
+
+fn span(dispatch: &Dispatch, resource: Resource) -> Span {
+    let found = dispatch.bindings().find(|&(other, _)| other == resource);
+    found.expect("the stage binds it").1
+}
+
+/// A setup of each domain, index type and point format.
+fn some_setups() -> impl Iterator<Item = Setup> {
+    common::all_setups().into_iter().step_by(37)
+}
+
+/// Batches from empty to the largest, with room for nothing, something and everything.
+fn plans(setup: Setup, limits: Limits) -> Vec<Plan> {
+    let some = Capacity { points: 3_000_001, primitives: 5_000_003 };
+    let mut plans = Vec::new();
+    for patches in [0, 1, 256, 70_000, 1 << 22, 1 << 24] {
+        for capacity in [Capacity::default(), some, ALL] {
+            plans.push(Plan::new(setup, patches, capacity, limits));
+        }
+    }
+    plans
+}
+
+/// WebGPU's limits: chunks and windows end before a dispatch has as many workgroups in a row.
+#[test]
+fn default_limits_need_no_rows() {
+    for setup in some_setups() {
+        let plan = Plan::new(setup, u32::MAX, ALL, Limits::WEBGPU);
+        for dispatch in plan.dispatches() {
+            match dispatch.workgroups() {
+                Workgroups::Direct([_, rows, _]) => assert_eq!(rows, 1, "{dispatch:?}"),
+                Workgroups::Indirect(_) => {
+                    let elements = match dispatch.stage() {
+                        Stage::ExpandPoints => span(&dispatch, Resource::Points).size / 8,
+                        Stage::ExpandPrimitives => {
+                            let bytes = u64::from(setup.primitive_bytes());
+                            span(&dispatch, Resource::Indices).size / bytes
+                        }
+                        _ => continue,
+                    };
+                    assert!(elements.div_ceil(u64::from(TILE)) <= 65535, "{dispatch:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Every binding lies within its buffer, where a device can bind it.
+#[test]
+fn bindings_lie_within_buffers_and_limits() {
+    for limits in [Limits::WEBGPU, LOW] {
+        for plan in some_setups().flat_map(|setup| plans(setup, limits)) {
+            for dispatch in plan.dispatches() {
+                for (resource, Span { offset, size }) in dispatch.bindings() {
+                    let is_sound = offset.is_multiple_of(ALIGNMENT)
+                        && size > 0
+                        && offset + size <= plan.buffer_size(resource);
+                    let may_exceed =
+                        limits == LOW && matches!(resource, Resource::Tiles | Resource::Arguments);
+                    assert!(
+                        is_sound && (may_exceed || size <= limits.storage_binding),
+                        "{resource:?} {offset} {size} of {dispatch:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// The windows of each output follow one another, once for each chunk, from its first byte to its
+/// last; so do the chunks of the factors.
+#[test]
+fn chunks_and_windows_cover_everything_once() {
+    for plan in some_setups().flat_map(|setup| plans(setup, LOW)) {
+        for (stage, resource) in [
+            (Stage::Factors, Resource::Factors),
+            (Stage::ExpandPoints, Resource::Points),
+            (Stage::ExpandPrimitives, Resource::Indices),
+        ] {
+            let own = plan.dispatches().filter(|dispatch| dispatch.stage() == stage);
+            let mut end = plan.buffer_size(resource);
+            for Span { offset, size } in own.map(|dispatch| span(&dispatch, resource)) {
+                let is_first = end == plan.buffer_size(resource) && offset == 0;
+                assert!(is_first || offset == end, "{resource:?} of {plan:?}");
+                end = offset + size;
+            }
+            let is_expected = plan.chunks() == 0 || end == plan.buffer_size(resource);
+            assert!(is_expected, "{end} of {resource:?} of {plan:?}");
+        }
+    }
+}
+
+/// Each dispatch of a chunk has the job of its chunk and window, and its own dispatch size.
+#[test]
+fn jobs_are_those_of_the_dispatches() {
+    let setup = common::all_setups()[0];
+    for plan in plans(setup, LOW) {
+        let jobs = plan.jobs();
+        assert_eq!(jobs.len() as u64, plan.buffer_size(Resource::Job), "{plan:?}");
+        let (mut first_patch, mut sizes) = (0, Vec::new());
+        for dispatch in plan.dispatches() {
+            let Span { offset, size } = span(&dispatch, Resource::Job);
+            assert_eq!(offset, ALIGNMENT * u64::from(dispatch.job()), "{dispatch:?}");
+            let bytes = &jobs[usize::try_from(offset).expect("in memory")..][..size_of::<Job>()];
+            let job: Job = bytemuck::pod_read_unaligned(bytes);
+            assert_eq!(size, bytes.len() as u64, "{dispatch:?}");
+            if dispatch.stage() == Stage::Factors {
+                assert_eq!(job.first_patch, first_patch, "{dispatch:?}");
+                first_patch += job.patches;
+            }
+            let window = match dispatch.stage() {
+                Stage::ExpandPoints => span(&dispatch, Resource::Points).offset / 8,
+                Stage::ExpandPrimitives => {
+                    let bytes = u64::from(setup.primitive_bytes());
+                    span(&dispatch, Resource::Indices).offset / bytes
+                }
+                _ => 0,
+            };
+            assert_eq!(u64::from(job.window_first * TILE), window, "{dispatch:?}");
+            if let Workgroups::Indirect(at) = dispatch.workgroups() {
+                assert!(at + 12 <= plan.buffer_size(Resource::Arguments), "{dispatch:?}");
+                sizes.push(at);
+            }
+        }
+        assert_eq!(first_patch, plan.patches(), "{plan:?}");
+        sizes.sort_unstable();
+        assert!(sizes.windows(2).all(|pair| pair[1] - pair[0] >= 12), "{plan:?}");
+    }
+}
+
+/// A limit of workgroups lays dispatches out in rows that are no longer.
+#[test]
+fn rows_keep_to_the_limit() {
+    let setup = common::all_setups()[0];
+    for workgroups in [1, 5, 300] {
+        let limits = Limits { storage_binding: 128 << 20, workgroups };
+        for dispatch in Plan::new(setup, 1 << 20, ALL, limits).dispatches() {
+            let Workgroups::Direct([x, y, z]) = dispatch.workgroups() else { continue };
+            let needed = match dispatch.stage() {
+                Stage::Factors => 1 << 12,
+                Stage::Scan => 1 << 4,
+                _ => 1,
+            };
+            assert!(x <= workgroups && z == 1, "{dispatch:?}: {x}");
+            assert!(x * y >= needed && x * (y - 1) < needed, "{dispatch:?}: {x} by {y}");
+        }
+    }
+}

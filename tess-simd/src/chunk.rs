@@ -1,0 +1,96 @@
+//! The raw factors of several blocks, factor by factor.
+
+use crate::batch::Batch;
+use crate::lanes::{Column, LANES, MAX_FACTORS};
+use tess_core::{Domain, PatchFactors};
+
+/// The factors of up to [`Chunk::PATCHES`] patches, factor by factor.
+///
+/// Blocks are read from here and not from the batch, because a wide load that follows the narrow
+/// stores of its elements too closely waits for them.
+#[derive(Clone, Debug)]
+pub(crate) struct Chunk([[f32; Self::PATCHES]; MAX_FACTORS]);
+
+impl Chunk {
+    pub(crate) const BLOCKS: usize = 4;
+    pub(crate) const PATCHES: usize = Self::BLOCKS * LANES;
+    pub(crate) const EMPTY: Self = Self([[0.0; Self::PATCHES]; MAX_FACTORS]);
+
+    /// Loads patches from `first` on, as many as there is room for. Factors are zero where the
+    /// last block has no patch, or one of another domain.
+    #[inline(always)]
+    pub(crate) fn load(&mut self, batch: &Batch<'_>, first: usize) {
+        match batch {
+            Batch::Isolines(patches) => self.load_structures(patches, first, |&f| f.into()),
+            Batch::Triangles(patches) => self.load_structures(patches, first, |&f| f.into()),
+            Batch::Quads(patches) => self.load_structures(patches, first, |&f| f.into()),
+            Batch::Patches(patches) => self.load_patches(batch.domain(), patches, first),
+            Batch::Columns(columns) => self.load_columns(columns, batch.len(), first),
+        }
+    }
+
+    #[inline(always)]
+    fn load_patches(&mut self, domain: Domain, patches: &[PatchFactors], first: usize) {
+        match domain {
+            Domain::Isoline => self.load_structures(patches, first, |patch| match *patch {
+                PatchFactors::Isoline(factors) => factors.into(),
+                _ => [0.0; 2],
+            }),
+            Domain::Triangle => self.load_structures(patches, first, |patch| match *patch {
+                PatchFactors::Triangle(factors) => factors.into(),
+                _ => [0.0; 4],
+            }),
+            Domain::Quad => self.load_structures(patches, first, |patch| match *patch {
+                PatchFactors::Quad(factors) => factors.into(),
+                _ => [0.0; 6],
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn load_structures<F, const N: usize>(
+        &mut self,
+        patches: &[F],
+        first: usize,
+        factors: impl Fn(&F) -> [f32; N],
+    ) {
+        let patches = patches.get(first..).unwrap_or_default();
+        let patches = patches.get(..Self::PATCHES).unwrap_or(patches);
+        for (i, patch) in patches.iter().enumerate().take(Self::PATCHES) {
+            for (values, factor) in self.0.iter_mut().zip(factors(patch)) {
+                values[i] = factor;
+            }
+        }
+        self.clear(patches.len());
+    }
+
+    #[inline(always)]
+    fn load_columns(&mut self, columns: &PatchFactors<&[f32]>, patches: usize, first: usize) {
+        let end = patches.min(first + Self::PATCHES);
+        for (values, column) in self.0.iter_mut().zip(columns.iter()) {
+            let source = column.get(first..end).unwrap_or_default();
+            values[..source.len()].copy_from_slice(source);
+        }
+        self.clear(end.saturating_sub(first));
+    }
+
+    /// Zeros from a patch to the end of its block.
+    #[inline(always)]
+    fn clear(&mut self, first: usize) {
+        for i in first..first.next_multiple_of(LANES).min(Self::PATCHES) {
+            for values in &mut self.0 {
+                values[i] = 0.0;
+            }
+        }
+    }
+
+    /// The factors of the patches of a block, `number` blocks into the chunk.
+    #[inline(always)]
+    pub(crate) fn block(&self, number: usize) -> Column<f32> {
+        let mut column = [0.0; LANES * MAX_FACTORS];
+        for (lanes, values) in column.as_chunks_mut::<LANES>().0.iter_mut().zip(&self.0) {
+            *lanes = values.as_chunks().0[number % Self::BLOCKS];
+        }
+        column
+    }
+}

@@ -1,0 +1,89 @@
+//! What is behind the public interface: counting a batch, and writing one that was counted.
+
+use crate::batch::Batch;
+use crate::block::Block;
+use crate::counts::PartCounts;
+use crate::dispatch;
+use crate::error::Error;
+use crate::kernel::emit::Offsets;
+use crate::lanes::LANES;
+use crate::output::Numbering;
+use crate::part::{Job, Part};
+use crate::setup::Setup;
+use crate::slices::{CountShare, Share, Slicing};
+use crate::target::Target;
+use crate::threads::Workspaces;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+/// Blocks that a count keeps for the write: more would not stay in the nearest cache.
+const KEPT: usize = 4;
+
+/// A setup, and the memory that batches need.
+#[derive(Clone, Debug)]
+pub(crate) struct Engine {
+    pub(crate) setup: Setup,
+    pub(crate) workspaces: Workspaces,
+    /// The counts of each slice of the batch that was counted last.
+    slices: Vec<PartCounts>,
+    /// Its blocks, if they were kept.
+    kept: Box<[Block; KEPT]>,
+}
+
+/// What a count found.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Count {
+    pub(crate) total: PartCounts,
+    /// Whether the batch's blocks were kept.
+    kept: bool,
+}
+
+impl Engine {
+    pub(crate) fn new(setup: Setup) -> Self {
+        let kept = Box::new([Block::EMPTY; _]);
+        Self { setup, workspaces: Workspaces::new(), slices: Vec::new(), kept }
+    }
+
+    /// Bytes of memory that it takes.
+    pub(crate) fn bytes(&self) -> usize {
+        self.setup.stitches.bytes() + self.workspaces.bytes() + size_of_val(&*self.kept)
+    }
+
+    /// Counts a batch.
+    pub(crate) fn count(&mut self, batch: &Batch<'_>) -> Result<Count, Error> {
+        batch.check()?;
+        let Self { setup, workspaces, slices, kept } = self;
+        let slicing = Slicing::new(batch.len(), workspaces.threads());
+        slices.clear();
+        let keep = slicing.slices <= 1 && batch.len() <= KEPT * LANES;
+        if keep {
+            let Setup { level, config, .. } = *setup;
+            slices.push(dispatch::count_and_keep(level, config, batch, &mut **kept));
+        } else {
+            slices.resize(slicing.slices, PartCounts::default());
+            let share = CountShare { batch: *batch, slice: slicing.patches, counts: slices };
+            workspaces.count(setup, share);
+        }
+        let total = PartCounts::sum(slices);
+        if total.points.max(total.indices) > u64::from(u32::MAX) {
+            return Err(Error::BatchTooLarge { points: total.points, indices: total.indices });
+        }
+        Ok(Count { total, kept: keep })
+    }
+
+    /// Writes the batch that was counted last, of which this count is, into buffers of exactly its
+    /// sizes.
+    pub(crate) fn write(
+        &mut self,
+        batch: Batch<'_>,
+        count: Count,
+        numbering: Numbering,
+        target: Target<'_>,
+    ) {
+        let Self { setup, workspaces, slices, kept } = self;
+        let kept = if count.kept { &kept[..] } else { &[] };
+        let slice = Slicing::new(batch.len(), workspaces.threads()).patches;
+        let part = Part { batch, target, first: Offsets::default() };
+        workspaces.emit(Job { setup, numbering, kept }, Share { part, slice, counts: slices });
+    }
+}

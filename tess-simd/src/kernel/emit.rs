@@ -1,0 +1,118 @@
+//! Blocks of patches into buffers.
+
+use crate::block::{Block, BlockPatch};
+use crate::connect;
+use crate::format::{IndexFormat, PointFormat};
+use crate::lanes::LANES;
+use crate::output::{Buffers, Numbering, PatchRange};
+use crate::points::{self, LocationTables};
+use crate::setup::Setup;
+use crate::template::Templates;
+use crate::writer::Writer;
+use alloc::boxed::Box;
+use tess_core::DomainPoint;
+
+/// Blocks to write.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Blocks<'a> {
+    pub(crate) blocks: &'a [Block],
+    /// The number of patches; the blocks may have more lanes.
+    pub(crate) patches: usize,
+    pub(crate) first: Offsets,
+    pub(crate) numbering: Numbering,
+}
+
+/// The output of a batch before some patch of it: where that patch's output begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Offsets {
+    pub(crate) points: u32,
+    pub(crate) indices: u32,
+}
+
+/// What is kept from patch to patch and from batch to batch. All of it follows from the
+/// configuration and the patches' factors.
+#[derive(Clone, Debug)]
+pub(crate) struct Caches {
+    tables: Box<LocationTables>,
+    templates: Templates,
+}
+
+impl Caches {
+    pub(crate) fn new() -> Self {
+        Self { tables: Box::new(LocationTables::EMPTY), templates: Templates::new() }
+    }
+
+    /// Bytes of memory that they take on the heap.
+    pub(crate) const fn bytes(&self) -> usize {
+        size_of::<LocationTables>() + self.templates.bytes()
+    }
+}
+
+/// Writers of both kinds of output.
+struct Writers<'a, P, I> {
+    points: Writer<'a, P>,
+    indices: Writer<'a, I>,
+}
+
+/// Writes blocks to the start of buffers and may overrun there; returns where their output ends in
+/// the batch.
+#[inline(always)]
+pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
+    setup: &Setup,
+    blocks: Blocks<'_>,
+    buffers: Buffers<'_, P, I>,
+    caches: &mut Caches,
+) -> Offsets {
+    let Blocks { blocks, patches, mut first, numbering } = blocks;
+    let ranges = buffers.ranges.unwrap_or_default();
+    let mut out =
+        Writers { points: Writer::new(buffers.points), indices: Writer::new(buffers.indices) };
+    for (number, block) in blocks.iter().enumerate() {
+        for lane in 0..LANES.min(patches - (number * LANES).min(patches)) {
+            let patch = block.patch(lane);
+            let range = PatchRange {
+                first_point: first.points,
+                points: patch.points(),
+                first_index: first.indices,
+                indices: patch.indices(),
+            };
+            if let Some(target) = ranges.get_mut(number * LANES + lane) {
+                *target = range;
+            }
+            first.points += range.points;
+            first.indices += range.indices;
+            if range.points > 0 {
+                emit_patch(setup, patch, numbering.base(range.first_point), caches, &mut out);
+            }
+        }
+    }
+    first
+}
+
+/// Writes one patch that is not culled and whose first point is number `base`.
+#[inline(always)]
+fn emit_patch<P: PointFormat, I: IndexFormat>(
+    setup: &Setup,
+    patch: BlockPatch<'_>,
+    base: u32,
+    caches: &mut Caches,
+    out: &mut Writers<'_, P, I>,
+) {
+    let Caches { tables, templates } = caches;
+    let Some(template) = templates.get(setup, patch, tables) else {
+        points::emit(patch, tables, &mut out.points);
+        connect::emit(setup, patch, base, &mut out.indices);
+        return;
+    };
+    if let Some(template) = template.points {
+        out.points.map::<_, 8>(patch.points() as usize, template, |point: DomainPoint| {
+            P::from_bits(point.u.to_bits(), point.v.to_bits())
+        });
+    } else {
+        points::emit(patch, tables, &mut out.points);
+    }
+    let base = I::wrapping_from(base);
+    out.indices.map::<_, 16>(patch.indices() as usize, template.indices, |index: u16| {
+        base.wrapping_add(I::wrapping_from(index.into()))
+    });
+}

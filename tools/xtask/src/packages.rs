@@ -1,0 +1,51 @@
+//! The workspace's packages, as `cargo metadata` lists them.
+
+use crate::command::{self, cargo};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// A package of the workspace.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Package {
+    pub(crate) name: String,
+    manifest_path: PathBuf,
+    /// The registries that take it; `None` means any.
+    publish: Option<Vec<String>>,
+    targets: Vec<Target>,
+}
+
+/// A library, program, test, example or bench of a package.
+#[derive(Debug, Deserialize)]
+struct Target {
+    kind: Vec<String>,
+}
+
+impl Package {
+    /// The folder of its manifest.
+    pub(crate) fn folder(&self) -> &Path {
+        self.manifest_path.parent().unwrap_or(&self.manifest_path)
+    }
+
+    /// Whether it has a library that Rust code can use.
+    pub(crate) fn is_library(&self) -> bool {
+        let kinds = || self.targets.iter().flat_map(|target| &target.kind);
+        kinds().any(|kind| kind == "lib" || kind == "rlib")
+    }
+}
+
+#[derive(Deserialize)]
+struct Metadata {
+    packages: Vec<Package>,
+}
+
+/// The packages that are published.
+///
+/// # Errors
+/// `cargo metadata` fails, or no package is published.
+pub(crate) fn published() -> Result<Vec<Package>, String> {
+    let text = command::output(&mut cargo("metadata --no-deps --format-version 1"))?;
+    let metadata: Metadata = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    let is_published = |package: &Package| package.publish.as_ref().is_none_or(|to| !to.is_empty());
+    let packages: Vec<_> = metadata.packages.into_iter().filter(is_published).collect();
+    if packages.is_empty() { Err("no package is published".into()) } else { Ok(packages) }
+}

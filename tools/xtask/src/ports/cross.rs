@@ -1,0 +1,88 @@
+//! Tests of the model and of the CPU backend on other processors, in emulators.
+
+use super::Extent;
+use crate::command::cargo;
+use crate::setup::{self, Need, has_program};
+use crate::tally;
+use std::path::Path;
+use std::process::Command;
+
+/// A processor that an x86-64 machine with Debian's cross compilers can run programs for.
+pub(super) struct Processor {
+    target: &'static str,
+    linker: &'static str,
+    runner: &'static str,
+    need: Need,
+}
+
+/// 32 bits: `usize` is as wide as an index.
+pub(super) const I686: Processor = Processor {
+    target: "i686-unknown-linux-gnu",
+    linker: "i686-linux-gnu-gcc",
+    runner: "/usr/i686-linux-gnu/lib/ld-linux.so.2 --library-path /usr/i686-linux-gnu/lib",
+    need: Need {
+        what: "a C compiler and C library for i686",
+        packages: &["gcc-i686-linux-gnu", "libc6-dev-i386-cross"],
+        is_there: || {
+            has_program("i686-linux-gnu-gcc")
+                && Path::new("/usr/i686-linux-gnu/lib/ld-linux.so.2").exists()
+        },
+    },
+};
+
+/// Another instruction set with the byte order of x86.
+pub(super) const AARCH64: Processor = Processor {
+    target: "aarch64-unknown-linux-gnu",
+    linker: "aarch64-linux-gnu-gcc",
+    runner: "qemu-aarch64-static -L /usr/aarch64-linux-gnu",
+    need: Need {
+        what: "a C compiler, C library and emulator for aarch64",
+        packages: &["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross", "qemu-user-static"],
+        is_there: || has_program("aarch64-linux-gnu-gcc") && has_program("qemu-aarch64-static"),
+    },
+};
+
+/// The most significant byte first.
+pub(super) const S390X: Processor = Processor {
+    target: "s390x-unknown-linux-gnu",
+    linker: "s390x-linux-gnu-gcc",
+    runner: "qemu-s390x-static -L /usr/s390x-linux-gnu",
+    need: Need {
+        what: "a C compiler, C library and emulator for s390x",
+        packages: &["gcc-s390x-linux-gnu", "libc6-dev-s390x-cross", "qemu-user-static"],
+        is_there: || has_program("s390x-linux-gnu-gcc") && has_program("qemu-s390x-static"),
+    },
+};
+
+/// Tests that compare with `golden/` and take seconds in an emulator.
+const BRIEF: &[&str] = &[
+    "test --package tess-core --lib --test golden",
+    "test --package tess-simd --no-default-features --test baseline",
+];
+
+/// Everything; `tess-simd` has one CPU level on these processors.
+const WHOLE: &[&str] = &["test --package tess-core", "test --package tess-simd --all-features"];
+
+/// Runs the tests on this processor.
+pub(super) fn check(processor: &Processor, extent: Extent) -> Result<(), String> {
+    setup::provide(&[processor.need])?;
+    setup::target(processor.target)?;
+    let variable = |what: &str| {
+        format!("CARGO_TARGET_{}_{what}", processor.target.to_uppercase().replace('-', "_"))
+    };
+    tally::run(commands(extent).iter().map(|arguments| {
+        let mut command: Command = cargo(arguments);
+        command.args(["--target", processor.target]);
+        command.env(variable("LINKER"), processor.linker);
+        command.env(variable("RUNNER"), processor.runner);
+        command
+    }))
+}
+
+/// Arguments of `cargo` for the tests that run on other processors and hosts.
+pub(super) const fn commands(extent: Extent) -> &'static [&'static str] {
+    match extent {
+        Extent::Brief => BRIEF,
+        Extent::Whole => WHOLE,
+    }
+}

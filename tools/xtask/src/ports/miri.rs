@@ -1,0 +1,33 @@
+//! Miri, an interpreter that notices undefined behaviour.
+
+use super::Extent;
+use crate::command;
+use crate::setup::{self, Part};
+use crate::tally;
+use std::process::Command;
+
+/// Arguments of `cargo miri`: short tests, as each step takes a thousand times as long.
+const BRIEF: &[&str] = &[
+    "test --package tess-core --test output -- the_",
+    "test --package tess-capi --test api -- hostile",
+];
+
+const WHOLE: &[&str] = &[
+    "test --package tess-core --lib",
+    "test --package tess-core --test output -- the_",
+    "test --package tess-capi --lib --test api",
+];
+
+/// Runs tests of the model, and those of the C interface, where the only `unsafe` code is.
+pub(super) fn check(extent: Extent) -> Result<(), String> {
+    let parts = [(Part::Component, "miri"), (Part::Component, "rust-src")];
+    setup::toolchain("nightly", &parts)?;
+    let commands = if extent == Extent::Brief { BRIEF } else { WHOLE };
+    tally::run(commands.iter().map(|arguments| {
+        let mut miri = Command::new("cargo");
+        miri.args(["+nightly", "miri"]).args(arguments.split_whitespace());
+        // The tests read files.
+        miri.env("MIRIFLAGS", "-Zmiri-disable-isolation").current_dir(command::workspace());
+        miri
+    }))
+}

@@ -1,0 +1,34 @@
+//! WebAssembly: the libraries build for a browser, and the tests run under Node.js.
+
+use super::Extent;
+use super::cross;
+use crate::command::{self, cargo, workspace};
+use crate::setup::{self, Need, has_program};
+use crate::tally;
+
+const BROWSER: &str = "wasm32-unknown-unknown";
+/// With files and a standard output, as tests need them.
+const WASI: &str = "wasm32-wasip1";
+
+const NODE: Need = Need {
+    what: "Node.js, version 20 or later (runs tests in WebAssembly)",
+    packages: &["nodejs"],
+    is_there: || has_program("node"),
+};
+
+/// Builds what a browser can use, then runs the tests of the model and of the CPU backend.
+pub(super) fn check(extent: Extent) -> Result<(), String> {
+    setup::provide(&[NODE])?;
+    setup::target(BROWSER)?;
+    setup::target(WASI)?;
+    for package in ["tess-core", "tess-simd", "tess-gpu", "tess-surface"] {
+        command::run(cargo("build --package").args([package, "--target", BROWSER]))?;
+    }
+    let script = workspace().join("tools/xtask/src/ports/wasi.mjs");
+    let runner = format!("node --no-warnings {}", script.display());
+    tally::run(cross::commands(extent).iter().map(|arguments| {
+        let mut command = cargo(arguments);
+        command.args(["--target", WASI]).env("CARGO_TARGET_WASM32_WASIP1_RUNNER", &runner);
+        command
+    }))
+}

@@ -1,0 +1,91 @@
+//! What publishing needs: packages that build on their own, licences, compatible changes.
+
+use crate::command::{self, cargo, workspace};
+use crate::{packages, setup};
+use std::fs;
+use std::path::Path;
+
+/// Packs and builds every published package as the registry would get it, without sending it.
+pub(crate) fn dry_run() -> Result<(), String> {
+    let lacking = lacking()?;
+    if !lacking.is_empty() {
+        return Err(lacking.join("\n"));
+    }
+    let mut publish = cargo("publish --dry-run --workspace --all-features");
+    // A developer's changes are packed too; what is published comes from a clean checkout.
+    command::run(publish.arg("--allow-dirty"))
+}
+
+/// Checks dependencies against `deny.toml`: licences, banned and duplicate crates, sources.
+///
+/// `advisories` asks for the database of known vulnerabilities too, which is fetched from the network.
+pub(crate) fn deny(advisories: bool) -> Result<(), String> {
+    setup::subcommand("deny")?;
+    let mut deny = cargo("deny --workspace --all-features check licenses bans sources");
+    if advisories {
+        deny.arg("advisories");
+    } else {
+        println!("deny: advisories are not checked; `cargo xtask deny advisories` checks them");
+    }
+    command::run(&mut deny)
+}
+
+/// Compares the interfaces of the published libraries with those of a commit, and with the version
+/// numbers that the manifests have.
+pub(crate) fn semver(baseline: &str) -> Result<(), String> {
+    setup::subcommand("semver-checks")?;
+    let mut checks = cargo("semver-checks --all-features --baseline-rev");
+    checks.arg(baseline);
+    for package in packages::published()?.iter().filter(|package| package.is_library()) {
+        checks.args(["--package", &package.name]);
+    }
+    command::run(&mut checks)
+}
+
+/// What a registry shows of a package, by the manifest's key.
+const SHOWN: &[&str] = &[
+    "description",
+    "repository",
+    "readme",
+    "keywords",
+    "categories",
+    "[package.metadata.docs.rs]",
+];
+
+/// Copies of the licences, as each package is an archive of its own.
+const LICENCES: &[&str] = &["LICENSE-APACHE", "LICENSE-MIT"];
+
+/// What published packages lack: a file or a key of the manifest, one line for each.
+fn lacking() -> Result<Vec<String>, String> {
+    let mut lacking = Vec::new();
+    for package in packages::published()? {
+        let read = |name| read(&package.folder().join(name));
+        let manifest = read("Cargo.toml")?;
+        let has = |key: &&str| manifest.lines().any(|line| line.starts_with(key));
+        let mut add = |what: String| lacking.push(format!("{}: {what}", package.name));
+        SHOWN.iter().filter(|key| !has(key)).for_each(|key| add(format!("no {key} in Cargo.toml")));
+        for licence in LICENCES {
+            if read(licence).ok() != Some(self::read(&workspace().join(licence))?) {
+                add(format!("{licence} is not a copy of the workspace's"));
+            }
+        }
+        if read("README.md").is_err() {
+            add("no README.md".into());
+        }
+    }
+    Ok(lacking)
+}
+
+fn read(path: &Path) -> Result<String, String> {
+    fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn published_packages_are_complete() {
+        assert_eq!(lacking(), Ok(vec![]), "cargo xtask publish says so too");
+    }
+}
