@@ -7,7 +7,6 @@ use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::BLOCK;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
-use tess_verify::generate::patch_of;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::{Outputs, Tessellator};
 
@@ -18,10 +17,11 @@ fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
     let mut all = Vec::new();
     for (number, &(factor, length)) in runs.iter().enumerate() {
         let outer = if number % 3 == 2 { 13.0 } else { factor };
-        let like = patch_of(domain, |position| if position == 1 { outer } else { factor });
+        let like =
+            PatchFactors::from_fn(domain, |position| if position == 1 { outer } else { factor });
         all.extend(std::iter::repeat_n(like, length));
         let other = [1.0, 2.5, 7.0][random.below(3) as usize];
-        all.extend(std::iter::repeat_n(patch_of(domain, |_| other), number % 2));
+        all.extend(std::iter::repeat_n(PatchFactors::from_fn(domain, |_| other), number % 2));
     }
     all
 }
@@ -61,7 +61,7 @@ fn like_patches_of_every_size_and_format() {
         let setup = Setup::new(domain, config);
         for factor in (1_u8..=26).map(f32::from) {
             let count = if factor > 4.0 { 40 } else { 3000 };
-            machine.assert_equal(setup, &vec![patch_of(domain, |_| factor); count]);
+            machine.assert_equal(setup, &vec![PatchFactors::from_fn(domain, |_| factor); count]);
         }
         let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
         for point_format in [PointFormat::Packed, PointFormat::F32] {
@@ -84,7 +84,8 @@ fn equal_topologies_with_different_points() {
             let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
             let factors = [3.25, 3.5, 3.625, 3.75];
             let mut similar = |_| factors[random.below(4) as usize];
-            let patches: Vec<_> = (0..1000).map(|_| patch_of(domain, &mut similar)).collect();
+            let patches: Vec<_> =
+                (0..1000).map(|_| PatchFactors::from_fn(domain, &mut similar)).collect();
             machine.assert_equal(Setup::new(domain, config), &patches);
         }
     }
@@ -96,7 +97,8 @@ fn blocks_know_whether_their_patches_are_alike() {
     let mut machine = Machine::open();
     let setup =
         Setup::new(Domain::Quad, Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw));
-    let of = |factor: f32, count: usize| vec![patch_of(Domain::Quad, |_| factor); count];
+    let of =
+        |factor: f32, count: usize| vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count];
     let patches = [
         of(2.0, 256),
         of(5.0, 255),
@@ -133,7 +135,7 @@ fn planted_faults_are_seen() {
     let fractional = setup(Partitioning::FractionalOdd);
     let alike = runs(Domain::Quad, &[(2.0, 1350), (1.0, 3600), (10.0, 750), (5.0, 920)]);
     let similar: Vec<_> = (0..200)
-        .map(|n| patch_of(Domain::Quad, |_| f32::from_bits(0x4050_0000 + 4096 * n)))
+        .map(|n| PatchFactors::from_fn(Domain::Quad, |_| f32::from_bits(0x4050_0000 + 4096 * n)))
         .collect();
     for (setup, patches, right, wrong) in [
         (integer, &alike, "atomicStore(&differs, 1u);", ""),

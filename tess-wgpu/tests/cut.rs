@@ -7,7 +7,6 @@ use common::expected::{Expected, by_simd};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::sizes::{BLOCK, GROUP, TILE};
 use tess_gpu::{Capacity, Dispatch, IndexType, Limits, Numbering, Plan, Setup, Stage, Workgroups};
-use tess_verify::generate::patch_of;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::{Gpu, Outputs, Tessellator, Wanted};
 use wgpu::BufferUsages;
@@ -28,7 +27,8 @@ fn small(domain: Domain, count: u32) -> Vec<PatchFactors> {
 
 fn of_these(domain: Domain, count: u32, factors: [f32; 6]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(12);
-    let all = (0..count).map(|_| patch_of(domain, |_| factors[random.below(6) as usize]));
+    let all =
+        (0..count).map(|_| PatchFactors::from_fn(domain, |_| factors[random.below(6) as usize]));
     all.collect()
 }
 

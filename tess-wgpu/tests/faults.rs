@@ -4,9 +4,8 @@ mod common;
 
 use common::device::Machine;
 use common::expected::Expected;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::Setup;
-use tess_verify::generate::patch_of;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::Tessellator;
 
@@ -17,7 +16,7 @@ fn planted_faults_are_seen() {
         let config = Config::new(*partitioning, OutputPrimitive::TriangleCw);
         let setup = Setup::new(*domain, config);
         let mut patches = common::patches::random(*domain, 200, &mut SplitMix64::new(5));
-        patches.push(patch_of(*domain, |_| 1.0));
+        patches.push(PatchFactors::from_fn(*domain, |_| 1.0));
         machine.tessellator = Tessellator::new(&machine.gpu.device);
         let expected = Expected::new(setup, &patches);
         let (points, indices) = expected.words();
@@ -55,7 +54,7 @@ const FAULTS: &[(Domain, Partitioning, &[Fault])] = &[
             ("next * (form - scale * next) <= goal", "next * (form - scale * next) < goal"),
             ("begins[next] <= i32(element)", "begins[next] < i32(element)"),
             ("sums[SIXTEENS + (thread >> 4u)]", "sums[SIXTEENS + (thread >> 5u)]"),
-            ("return patch_of(clamp(element, begin, end - 1u), kind);", "return 0u;"),
+            ("return PatchFactors::from_fn(clamp(element, begin, end - 1u), kind);", "return 0u;"),
         ],
     ),
     (
