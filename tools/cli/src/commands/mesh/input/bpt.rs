@@ -9,8 +9,7 @@ use crate::failure::Failure;
 use glam::{Vec3, Vec4};
 use std::fmt::Display;
 use std::path::Path;
-use tess_surface::Model;
-use tess_surface::bezier::BezierPatch;
+use tess_surface::{BezierPatch, Model};
 
 /// Lines that have anything on them, numbered from 1.
 struct Lines<'a> {

@@ -9,9 +9,7 @@ use gltf::buffer::Source;
 use gltf::mesh::Mode;
 use gltf::{Buffer, Gltf, Node, Primitive};
 use std::path::Path;
-use tess_surface::mesh::{Face, PolygonMesh};
-use tess_surface::sides::Sides;
-use tess_surface::{Model, Style};
+use tess_surface::{Face, Model, PolygonMesh, Sides, Style};
 
 /// The mesh so far, and where each primitive's faces begin.
 struct Reader<'a> {

@@ -5,7 +5,7 @@ use png::{ColorType, Decoder, Transformations};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
-use tess_surface::height::HeightMap;
+use tess_surface::HeightMap;
 
 /// Reads a PNG. Grey images keep up to 16 bits; of colours the Rec. 709 luma is taken.
 ///

@@ -4,9 +4,7 @@ use super::{read, refused};
 use crate::failure::Failure;
 use glam::{Vec2, Vec3};
 use std::path::Path;
-use tess_surface::mesh::{Face, PolygonMesh};
-use tess_surface::sides::Sides;
-use tess_surface::{Model, Style};
+use tess_surface::{Face, Model, PolygonMesh, Sides, Style};
 use tobj::{LoadError, LoadOptions};
 
 /// Reads triangles and quads of all objects and groups. Materials are left alone.
