@@ -7,7 +7,6 @@ use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::layout::{Topology, unpack_context};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
-use tess_verify::generate::patch_of;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::Outputs;
 
@@ -16,7 +15,7 @@ fn quads(partitioning: Partitioning) -> Setup {
 }
 
 fn uniform(factor: f32, count: usize) -> Vec<PatchFactors> {
-    vec![patch_of(Domain::Quad, |_| factor); count]
+    vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count]
 }
 
 #[test]
@@ -81,7 +80,7 @@ fn no_patches_and_culled_patches() {
     let mut mixed = uniform(-1.0, 3000);
     for (number, patch) in mixed.iter_mut().enumerate() {
         if number % 997 == 500 || number > 2990 {
-            *patch = patch_of(Domain::Quad, |_| 17.5);
+            *patch = PatchFactors::from_fn(Domain::Quad, |_| 17.5);
         }
     }
     machine.assert_equal(setup, &mixed);
@@ -98,7 +97,7 @@ fn adversarial_counts() {
         let patches: Vec<PatchFactors> = (0..count)
             .map(|number| {
                 let factor = if large(number, count) { 64.0 } else { [0.0, 1.0, 2.0][number % 3] };
-                patch_of(Domain::Quad, |_| factor)
+                PatchFactors::from_fn(Domain::Quad, |_| factor)
             })
             .collect();
         machine.assert_equal(setup, &patches);

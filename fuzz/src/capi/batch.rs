@@ -2,7 +2,7 @@
 
 use super::hostile::{CANARY, Wrongs};
 use super::patch::capacity;
-use crate::input::{Bytes, factor_count};
+use crate::input::Bytes;
 use crate::{compare_with_model, repeatable};
 use std::ptr::null_mut;
 use tess_capi::batch::{
@@ -12,7 +12,7 @@ use tess_capi::batch::{
 use tess_capi::status::{TESS_BUFFER_TOO_SMALL, TESS_OK, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE};
 use tess_capi::types::{TessConfig, TessPoint};
 use tess_core::{Config, DomainPoint, PatchFactors, Tessellation};
-use tess_verify::case::{Case, factor_list};
+use tess_verify::case::Case;
 
 const NO_POINT: TessPoint = TessPoint { u: CANARY, v: CANARY };
 const NO_RANGE: TessRange =
@@ -35,7 +35,7 @@ pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let mut wrongs = Wrongs::default();
     let mut choices = Bytes(&choices);
     let (output, memory) = output(&mut choices, &mut wrongs, &model);
-    let factors: Vec<f32> = patches.iter().flat_map(factor_list).collect();
+    let factors: Vec<f32> = patches.iter().flat_map(PatchFactors::iter).collect();
     let (status, counts) = run(&case, &factors, &output)?;
     wrongs.judge("tess_batch_run", &case, status)?;
     if wrongs.is_empty() {
@@ -117,7 +117,7 @@ fn run(
     let mut counts = TessBatchCounts::default();
     // SAFETY: the pointers are to memory of this function.
     let made = unsafe { tess_batch_create(&config, TESS_LEVEL_DETECT, &mut batch) };
-    if made != TESS_OK || !factors.len().is_multiple_of(factor_count(case.domain())) {
+    if made != TESS_OK || !factors.len().is_multiple_of(case.domain().factors()) {
         return Err(repeatable(case, &format!("tess_batch_create answered {made}")));
     }
     // SAFETY: a batch that was made; buffers that are null, askew, impossibly large or as large as

@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
-use tess_verify::case::{Case, factors_from_list, outer_count};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+use tess_verify::case::Case;
 use tess_verify::generate::Shard;
 use tess_verify::names::Named;
 
@@ -45,11 +45,12 @@ impl PatchArgs {
     pub(crate) fn case(&self) -> Result<Case, Failure> {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };
-        if self.outer.len() != outer_count(self.domain) {
+        if self.outer.len() != self.domain.outer_factors() {
             return Err(self.wrong_count());
         }
         let all = [&self.outer[..], &self.inner].concat();
-        let factors = factors_from_list(self.domain, &all).ok_or_else(|| self.wrong_count())?;
+        let factors =
+            PatchFactors::from_slice(self.domain, &all).ok_or_else(|| self.wrong_count())?;
         Ok(Case { config, factors })
     }
 

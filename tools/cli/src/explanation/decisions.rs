@@ -5,7 +5,6 @@ use super::processed;
 use tess_core::{
     Domain, FixedFactor, Parity, Partitioning, Patch, PatchFactors, ProcessedFactor, ProcessedPatch,
 };
-use tess_verify::case::outer_count;
 use tess_verify::names::Named;
 
 /// One sentence for each decision, in the order of the specification's steps.
@@ -24,7 +23,7 @@ pub(super) fn decisions(patch: &Patch, raw: &PatchFactors) -> Vec<String> {
 
 fn cull(raw: &PatchFactors) -> String {
     let all = named(raw);
-    match all[..outer_count(raw.domain())]
+    match all[..raw.domain().outer_factors()]
         .iter()
         .find(|(_, factor)| !matches!(factor, x if *x > 0.0))
     {

@@ -3,7 +3,6 @@
 use super::{Fixed, processed};
 use serde::Serialize;
 use tess_core::{Domain, FactorContext, Parity, Patch, PatchFactors, ProcessedFactor};
-use tess_verify::case::factor_list;
 
 /// A binary32 number; NaN and infinities have no `value` in JSON.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -88,7 +87,7 @@ pub(super) const fn names(domain: Domain) -> &'static [&'static str] {
 
 /// Every factor of a patch with its name: outer, then inside.
 pub(super) fn named<T: Copy>(factors: &PatchFactors<T>) -> Vec<(&'static str, T)> {
-    names(factors.domain()).iter().copied().zip(factor_list(factors)).collect()
+    names(factors.domain()).iter().copied().zip(factors.iter()).collect()
 }
 
 pub(super) fn reports(patch: &Patch, raw: &PatchFactors) -> Vec<FactorReport> {

@@ -11,6 +11,7 @@ use tess_core::{Domain, Partitioning};
 use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
 use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::names::Named;
 use tess_verify::readmemh;
 use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
 
@@ -71,9 +72,15 @@ enum Format {
 /// A selection without any case; an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let count = args.cases().count() as u64;
+    if count == 0 && args.shard != Shard::WHOLE && args.selection().cases().next().is_some() {
+        let (part, of) = (args.shard.part + 1, args.shard.of);
+        // A closed stderr does not change the result.
+        _ = writeln!(io::stderr(), "tess: no case in shard {part}/{of}: nothing is written");
+        return Ok(Exit::Done);
+    }
     if count == 0 {
         return Err(Failure::bad_input(
-            "these arguments select no case; give --level 1 or 2, a --count, or a larger shard",
+            "these arguments select no case; give --level 1 or 2, or a --count",
         ));
     }
     let header = args.header(count);
@@ -87,8 +94,8 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 }
 
 impl Args {
-    fn cases(&self) -> impl Iterator<Item = Case> {
-        let selection = Selection {
+    fn selection(&self) -> Selection {
+        Selection {
             level: match self.level {
                 1 => Level::One,
                 2 => Level::Two,
@@ -98,20 +105,29 @@ impl Args {
             random: self.count,
             domain: self.domain,
             partitioning: self.partitioning,
-        };
+        }
+    }
+
+    fn cases(&self) -> impl Iterator<Item = Case> {
         let shard = self.shard;
-        let numbered = (0..).zip(selection.cases());
+        let numbered = (0..).zip(self.selection().cases());
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
     }
 
-    /// The arguments that the cases depend on are noted, so that a file says how it was made.
+    /// The arguments that the cases depend on are noted, so that a file says how it was made. Each
+    /// note has the name of its option, but for `--count`, whose note is `random`.
     fn header(&self, count: u64) -> Header {
+        let note = |key: &str, value: String| (key.to_owned(), value);
         let mut notes = vec![
-            ("level".to_owned(), self.level.to_string()),
-            ("seed".to_owned(), self.seed.to_string()),
+            note("level", self.level.to_string()),
+            note("seed", self.seed.to_string()),
+            note("random", self.selection().random_count().to_string()),
         ];
+        notes.extend(self.domain.map(|domain| note("domain", domain.name().into())));
+        let partitioning = self.partitioning.map(Named::name);
+        notes.extend(partitioning.map(|name| note("partitioning", name.into())));
         if self.shard != Shard::WHOLE {
-            notes.push(("shard".to_owned(), format!("{}/{}", self.shard.part + 1, self.shard.of)));
+            notes.push(note("shard", format!("{}/{}", self.shard.part + 1, self.shard.of)));
         }
         Header { kind: Kind::Patches, count, source: "tess-core".to_owned(), notes }
     }

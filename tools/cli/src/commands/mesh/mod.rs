@@ -23,8 +23,7 @@ use statistics::{Stage, Statistics};
 use std::io::Write;
 use std::path::PathBuf;
 use tess_core::Partitioning;
-use tess_surface::height::{Anchors, Displacement};
-use tess_surface::{FactorRule, Style};
+use tess_surface::{DisplacedModel, Displacement, FactorRule, MAX_COORDINATE, Style};
 use view::{View, ViewArgs};
 
 /// Tessellate a model into a mesh or a picture
@@ -129,6 +128,10 @@ fn positive(text: &str) -> Result<f32, String> {
     number.ok_or_else(|| "a finite number greater than zero is needed".to_owned())
 }
 
+fn too_high() -> Failure {
+    Failure::bad_input(format!("--height is too large: displacements end at {MAX_COORDINATE:e}"))
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -143,14 +146,16 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         let map = args.displace.as_deref();
         let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
         let input = input::load(args.input.as_deref(), style)?;
-        let displacement =
-            map.map(|map| (Displacement { map, scale: args.height }, Anchors::of(&input.model)));
-        Ok::<_, Failure>((input, displacement))
+        let displacement = map.map(|map| Displacement::new(map, args.height).ok_or_else(too_high));
+        Ok::<_, Failure>((input, displacement.transpose()?))
     })?;
     for note in notes {
         // Nobody may be listening; the mesh is tessellated all the same.
         _ = writeln!(std::io::stderr(), "tess: note: {note}");
     }
+    let displaced = statistics.time(Stage::Load, || {
+        displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
+    });
     let up = args.view.up.unwrap_or(up);
     let view = args.view.view(model.bounds(), up);
     let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
@@ -159,7 +164,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         model: &model,
         rule: args.rule.rule(&view),
         partitioning: args.partitioning,
-        displacement: displacement.as_ref().map(|(displacement, anchors)| (displacement, anchors)),
+        displaced: displaced.as_ref(),
     };
     pipeline::run(&job, sink.as_mut(), &mut statistics)?;
     statistics.time(Stage::Output, || sink.finish())?;

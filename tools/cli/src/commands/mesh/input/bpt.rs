@@ -6,7 +6,7 @@
 
 use super::text::{number, quoted, without_mark};
 use glam::{Vec3, Vec4};
-use tess_surface::bezier::BezierPatch;
+use tess_surface::BezierPatch;
 
 /// What a file holds.
 #[derive(Debug, Default)]

@@ -5,8 +5,7 @@
 //! one line stay, and are refused later: without them, the faces around would no longer meet.
 
 use glam::Vec3;
-use tess_surface::mesh::{Face, PolygonMesh};
-use tess_surface::sides::Sides;
+use tess_surface::{Face, PolygonMesh, Sides};
 
 /// What [`repair`] did.
 #[derive(Debug, Default)]

@@ -2,8 +2,8 @@
 
 use super::{bpt, collapsed, gltf, height, obj};
 use std::io::Cursor;
-use tess_surface::bezier::BezierPatch;
-use tess_surface::mesh::PolygonMesh;
+use tess_surface::BezierPatch;
+use tess_surface::PolygonMesh;
 
 /// A grey image: width, height, and texels row by row from the top.
 pub type Heights = (usize, usize, Vec<f32>);

@@ -5,7 +5,7 @@ use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
 use std::fs::File;
 use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
-use tess_surface::height::HeightMap;
+use tess_surface::HeightMap;
 
 /// Most bytes that decoding takes beside the pixels: rows, tables and text of the file.
 const MOST_BESIDE: usize = 16 << 20;

@@ -15,8 +15,7 @@ mod text;
 use crate::failure::Failure;
 use std::fs;
 use std::path::Path;
-use tess_surface::mesh::PolygonMesh;
-use tess_surface::{Fault, MeshError, Model, Style, teapot};
+use tess_surface::{Fault, MeshError, Model, PolygonMesh, Style, teapot};
 
 /// Which way is up in a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]

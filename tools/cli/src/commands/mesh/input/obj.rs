@@ -6,32 +6,15 @@
 
 use super::text::{number, quoted, without_mark};
 use glam::{Vec2, Vec3};
-use tess_surface::mesh::{Face, PolygonMesh};
-use tess_surface::sides::Sides;
+use tess_surface::{Face, PolygonMesh, Sides};
 
 /// Keywords of lines that do not change the surface.
-const SKIPPED: [&str; 14] = [
-    "o",
-    "g",
-    "s",
-    "mg",
-    "usemtl",
-    "mtllib",
-    "usemap",
-    "maplib",
-    "lod",
-    "bevel",
-    "c_interp",
-    "d_interp",
-    "shadow_obj",
-    "trace_obj",
-];
+const SKIPPED: &str = "o g s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj \
+     trace_obj";
 
 /// Keywords of free-form curves and surfaces.
-const FREE_FORM: [&str; 22] = [
-    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
-    "sp", "end", "con", "ctech", "stech", "bsp", "bzp", "cdc", "cdp", "res",
-];
+const FREE_FORM: &str = "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con \
+     ctech stech bsp bzp cdc cdp res";
 
 /// What a file holds.
 #[derive(Debug, Default)]
@@ -161,11 +144,11 @@ impl Obj {
 
 /// Whether a keyword is one of those that are skipped.
 fn unread(keyword: &[u8]) -> Result<(), String> {
-    let is = |name: &&str| name.as_bytes() == keyword;
-    if keyword.starts_with(b"#") || SKIPPED.iter().any(|name| is(name)) {
+    let is_in = |list: &str| list.split(' ').any(|name| name.as_bytes() == keyword);
+    if keyword.starts_with(b"#") || is_in(SKIPPED) {
         return Ok(());
     }
-    Err(if FREE_FORM.iter().any(|name| is(name)) {
+    Err(if is_in(FREE_FORM) {
         "free-form curves and surfaces are not read; convert them to triangles and quads".to_owned()
     } else {
         format!("{} is not a keyword that is read, which are v, vt, vn and f", quoted(keyword))

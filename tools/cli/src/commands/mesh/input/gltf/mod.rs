@@ -16,7 +16,7 @@ use document::broken;
 use primitive::Placed;
 use scene::out_of_range;
 use std::path::Path;
-use tess_surface::mesh::PolygonMesh;
+use tess_surface::PolygonMesh;
 
 /// Most vertices and most triangles of a scene. Nodes can repeat a mesh, so that a small file can
 /// have any number of them; this many take about 8 GiB.

@@ -4,8 +4,7 @@ use super::accessor::{Data, float, is_index, unsigned};
 use super::document::{Accessor, ComponentType, Kind, Primitive, broken};
 use super::scene::out_of_range;
 use glam::{Mat3, Mat4, Vec2, Vec3};
-use tess_surface::mesh::{Face, PolygonMesh};
-use tess_surface::sides::Sides;
+use tess_surface::{Face, PolygonMesh, Sides};
 
 /// The mode of separate triangles.
 const TRIANGLES: u32 = 4;

@@ -94,7 +94,8 @@ fn transform(node: &Node) -> Result<Mat4, (&'static str, String)> {
     if node.translation.is_some() || node.rotation.is_some() || node.scale.is_some() {
         return Err(("matrix", "it excludes translation, rotation and scale".to_owned()));
     }
-    if [matrix[3], matrix[7], matrix[11], matrix[15]] != [0.0, 0.0, 0.0, 1.0] {
+    let last_row = [matrix[3], matrix[7], matrix[11], matrix[15] - 1.0];
+    if last_row.iter().any(|number| number.abs() > 0.0) {
         return Err(("matrix", "its last row must be 0, 0, 0, 1".to_owned()));
     }
     Ok(Mat4::from_cols_array(&matrix))
