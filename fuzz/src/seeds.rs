@@ -1,10 +1,9 @@
 //! Seeds: the factors at which something changes, in the form that each target reads.
 
-use crate::input::{batch_bytes, factor_count};
+use crate::input::batch_bytes;
 use std::io;
 use std::path::Path;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
-use tess_verify::case::factors_from_list;
 use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
 
 /// Every target.
@@ -107,11 +106,11 @@ fn batches(size: usize) -> Vec<(Domain, Config, Vec<PatchFactors>)> {
 
 /// An ordinary patch with a factor in its first place, its last or all of them.
 fn patch(domain: Domain, place: usize, factor: f32) -> PatchFactors {
-    let mut list = [3.0, 4.5, 1.0, 7.25, 2.0, 5.0][..factor_count(domain)].to_vec();
+    let mut list = [3.0, 4.5, 1.0, 7.25, 2.0, 5.0][..domain.factors()].to_vec();
     match (place % 3, list.as_mut_slice()) {
         (0, [first, ..]) => *first = factor,
         (1, [.., last]) => *last = factor,
         (_, all) => all.fill(factor),
     }
-    factors_from_list(domain, &list).expect("as many factors as the domain has")
+    PatchFactors::from_slice(domain, &list).expect("as many factors as the domain has")
 }

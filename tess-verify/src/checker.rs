@@ -1,5 +1,6 @@
 //! Runs the records of a vector file through a backend.
 
+mod consistency;
 mod device;
 mod exhaustive;
 mod patches;
@@ -10,31 +11,49 @@ pub(crate) use patches::tessellate;
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, Report};
 
 use crate::backend::{Backend, BackendError};
+use crate::case::Case;
 use crate::compare::Mismatch;
-use crate::strength::Strength;
+use crate::strength::{Conversions, Strength};
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
+use consistency::{Consistency, Use};
 use std::io::BufRead;
 use std::sync::{Mutex, PoisonError};
 
-/// Checks every record of a file: each result of the backend must equal the recorded one.
+/// Which side of a comparison is tested; the other one is right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Tested {
+    /// The backend: each of its results must equal the recorded one exactly.
+    Backend,
+    /// The file: its listings are what a device gave, and each must equal the model's as closely as
+    /// the strength says. The backends are not asked.
+    Listings(Strength),
+}
+
+/// Checks every record of a file.
 ///
-/// Takes one backend for each thread that is to be used; the report does not depend on how many
-/// there are. `strength` says what counts as equal in the listings of a device under test.
-/// `progress` is told, from any thread, how many more records are done.
+/// `tested` says which side is right; nothing in the file decides that. Takes one backend for each
+/// thread that is to be used; the report does not depend on how many there are. `progress` is told,
+/// from any thread, how many more records are done.
 ///
 /// # Errors
 /// A file that is malformed, truncated or too long, which is known at its end: the report of a
-/// file that is not whole is never given. A backend that could not run, or no backend at all.
+/// file that is not whole is never given. [`Tested::Listings`] for a file that has none. A backend
+/// that could not run, or no backend at all.
 pub fn check<R: BufRead + Send>(
     file: VectorFile<R>,
     backends: &mut [Box<dyn Backend>],
-    strength: Strength,
+    tested: Tested,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Report, CheckError> {
     if backends.is_empty() {
         return Err(BackendError::new("no backend to check with").into());
     }
-    let how = How { header: file.header().clone(), strength };
+    let header = file.header().clone();
+    if tested != Tested::Backend && header.kind != Kind::Listings {
+        return Err(CheckError::NoListings(header.kind));
+    }
+    let how = How { header, tested };
     let source = Mutex::new(Source { file, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, backend.as_mut(), progress);
@@ -55,17 +74,20 @@ pub fn check<R: BufRead + Send>(
     if let Some(Err(error)) = lock(&source).stopped.take() {
         return Err(error.into());
     }
-    let mut report = Report::default();
+    let (mut report, mut consistency) = (Report::default(), Consistency::default());
     for result in results {
-        report.add(result?);
+        let (found, uses) = result?;
+        report.add(found);
+        consistency.add(uses);
     }
+    report.add(consistency.report());
     Ok(report)
 }
 
 /// What the comparison of a record depends on besides the record.
 struct How {
     header: Header,
-    strength: Strength,
+    tested: Tested,
 }
 
 /// The records that are still to be checked.
@@ -116,17 +138,24 @@ fn run<R: BufRead>(
     source: &Mutex<Source<R>>,
     backend: &mut dyn Backend,
     progress: &(dyn Fn(u64) + Sync),
-) -> Result<Report, BackendError> {
-    let mut report = Report::default();
+) -> Result<(Report, Vec<Use>), BackendError> {
+    let (mut report, mut uses) = (Report::default(), Vec::new());
     loop {
-        let Some(unit) = lock(source).next_unit(how.header.kind) else { return Ok(report) };
+        let unit = lock(source).next_unit(how.header.kind);
+        let Some(unit) = unit else { return Ok((report, uses)) };
         let found = check_unit(how, backend, &unit.records)?;
         for ((number, record), found) in (unit.first..).zip(&unit.records).zip(found) {
             report.cases += 1;
-            if let Some((mismatch, case)) = found {
-                report.mismatches += 1;
-                let difference = Difference::new(&how.header, number, record, mismatch, case);
-                report.differences.push(difference);
+            match found {
+                Found::Equal => {}
+                Found::Converted(case, conversions) => {
+                    uses.push(Use { number, line: record.line(), case, conversions });
+                }
+                Found::Different(mismatch, case) => {
+                    report.mismatches += 1;
+                    let difference = Difference::new(&how.header, number, record, mismatch, case);
+                    report.differences.push(difference);
+                }
             }
         }
         report.differences.truncate(MAX_DIFFERENCES);
@@ -134,8 +163,21 @@ fn run<R: BufRead>(
     }
 }
 
-/// What is wrong with a record, and the patch that shows it, if one does.
-type Found = Option<(Mismatch, Option<crate::case::Case>)>;
+/// What is found of a record.
+enum Found {
+    /// It is as it should be.
+    Equal,
+    /// So it is, if the device converts some values in one of these ways.
+    Converted(Case, Conversions),
+    /// What is wrong with it, and the patch that shows it, if one does.
+    Different(Mismatch, Option<Case>),
+}
+
+impl Found {
+    fn new(mismatch: Option<Mismatch>, case: Option<Case>) -> Self {
+        mismatch.map_or(Self::Equal, |mismatch| Self::Different(mismatch, case))
+    }
+}
 
 /// The findings of each record, in order.
 fn check_unit(
@@ -143,12 +185,13 @@ fn check_unit(
     backend: &mut dyn Backend,
     records: &[Record],
 ) -> Result<Vec<Found>, BackendError> {
-    let in_rows = |found: Option<Mismatch>| vec![found.map(|mismatch| (mismatch, None))];
     match records {
         [Record::Sweep(row)] => Ok(vec![patches::sweep(backend, row)?]),
         [Record::Uniform(row)] => Ok(vec![patches::uniform(backend, row)?]),
-        [Record::Locations(row)] => exhaustive::locations(backend, row).map(in_rows),
-        [Record::Factors(row)] => exhaustive::factors(backend, row).map(in_rows),
+        [Record::Locations(row)] => {
+            Ok(vec![Found::new(exhaustive::locations(backend, row)?, None)])
+        }
+        [Record::Factors(row)] => Ok(vec![Found::new(exhaustive::factors(backend, row)?, None)]),
         records => patches::single(how, backend, records),
     }
 }

@@ -13,10 +13,7 @@ pub use patches::{random_factor, random_patch};
 
 use crate::case::Case;
 use crate::random::SplitMix64;
-use tess_core::{
-    Config, Domain, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
-    SplitOrder, TriangleFactors,
-};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
 /// How much is generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,8 +47,17 @@ impl Shard {
 
     /// How many of `count` items belong to this part.
     #[must_use]
-    pub const fn share(self, count: u64) -> u64 {
-        count / self.of + (self.part < count % self.of) as u64
+    pub const fn items(&self, count: u64) -> u64 {
+        count.saturating_sub(self.part).div_ceil(self.of)
+    }
+
+    /// The number of this part's item `n` among all items; `None` beyond 2^64.
+    #[must_use]
+    pub const fn item(&self, n: u64) -> Option<u64> {
+        match n.checked_mul(self.of) {
+            Some(before) => before.checked_add(self.part),
+            None => None,
+        }
     }
 }
 
@@ -87,19 +93,15 @@ impl Selection {
         systematic.into_iter().filter(move |case| self.selects(case)).chain(self.random_cases())
     }
 
-    /// How many cases there are. Takes no longer for more random ones.
+    /// How many random cases there are: as many as asked for, or the level's own number.
     #[must_use]
-    pub fn count(self) -> u64 {
-        let systematic = Self { random: Some(0), ..self }.cases().count() as u64;
-        systematic.saturating_add(self.random_count())
-    }
-
-    fn random_count(self) -> u64 {
-        self.random.unwrap_or(match self.level {
-            Level::One => 500,
-            Level::Two => 20_000,
-            Level::Three => 1_000_000,
-        })
+    pub const fn random_count(self) -> u64 {
+        match (self.random, self.level) {
+            (Some(count), _) => count,
+            (None, Level::One) => 500,
+            (None, Level::Two) => 20_000,
+            (None, Level::Three) => 1_000_000,
+        }
     }
 
     fn random_cases(self) -> impl Iterator<Item = Case> {
@@ -115,7 +117,7 @@ impl Selection {
                 split: pick(&mut random, &SplitOrder::ALL),
             };
             let domain = pick(&mut random, &domains);
-            let factors = patch_of(domain, |_| random_factor(&mut random));
+            let factors = PatchFactors::from_fn(domain, |_| random_factor(&mut random));
             Case { config, factors }
         })
     }
@@ -123,24 +125,6 @@ impl Selection {
     fn selects(&self, case: &Case) -> bool {
         self.domain.is_none_or(|domain| domain == case.factors.domain())
             && self.partitioning.is_none_or(|p| p == case.config.partitioning)
-    }
-}
-
-/// A patch from its factors by position, in the order of spec section 1: outer, then inside.
-pub fn patch_of(domain: Domain, mut factor: impl FnMut(usize) -> f32) -> PatchFactors {
-    match domain {
-        Domain::Isoline => {
-            let [density, detail] = [0, 1].map(factor);
-            PatchFactors::Isoline(IsolineFactors { density, detail })
-        }
-        Domain::Triangle => {
-            let [u0, v0, w0, inside] = [0, 1, 2, 3].map(factor);
-            PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside })
-        }
-        Domain::Quad => {
-            let [u0, v0, u1, v1, inside_u, inside_v] = [0, 1, 2, 3, 4, 5].map(&mut factor);
-            PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
-        }
     }
 }
 

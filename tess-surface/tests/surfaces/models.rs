@@ -1,11 +1,8 @@
 //! The models that the tests run over.
 
 use glam::{Vec2, Vec3, Vec4};
-use tess_surface::bezier::BezierPatch;
-use tess_surface::height::{Displacement, HeightMap};
-use tess_surface::mesh::{Face, PolygonMesh};
-use tess_surface::sides::Sides;
-use tess_surface::{FactorRule, Model, Style, teapot};
+use tess_surface::{BezierPatch, Displacement, Face, FactorRule, HeightMap, Model, PolygonMesh};
+use tess_surface::{Sides, Style, teapot};
 
 pub(crate) fn face(corners: &[u32]) -> Face {
     let positions = match *corners {
@@ -199,5 +196,5 @@ pub(crate) fn rules() -> Vec<(&'static str, FactorRule)> {
 
 pub(crate) fn bumps() -> Displacement {
     let texels = (0..64 * 64).map(|i| ((i * 37 + (i / 64) * 11) % 101) as f32 / 100.0).collect();
-    Displacement { map: HeightMap::new(64, 64, texels).unwrap(), scale: 0.1 }
+    Displacement::new(HeightMap::new(64, 64, texels).unwrap(), 0.1).unwrap()
 }

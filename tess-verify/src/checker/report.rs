@@ -3,7 +3,8 @@
 use crate::backend::BackendError;
 use crate::case::Case;
 use crate::compare::Mismatch;
-use crate::vectors::{Header, Record, VectorError};
+use crate::names::Named;
+use crate::vectors::{Header, Kind, Record, VectorError};
 use std::fmt;
 
 /// How many differences a report shows in full.
@@ -61,14 +62,7 @@ impl Difference {
         mismatch: Mismatch,
         case: Option<Case>,
     ) -> Self {
-        let (line, row) = match record {
-            Record::Listing(listing) => (listing.line, None),
-            Record::Patch(row) => (row.line, Some(&row.text)),
-            Record::Sweep(row) | Record::Uniform(row) => (row.line, Some(&row.text)),
-            Record::Locations(row) => (row.line, Some(&row.text)),
-            Record::Factors(row) => (row.line, Some(&row.text)),
-            Record::Preparation(row) => (row.line, Some(&row.text)),
-        };
+        let (line, row) = (record.line(), record.text());
         let file = row.zip(header.kind.columns()).map(|(row, columns)| {
             let header = Header { count: 1, ..header.clone() };
             format!("{header}\n{}\n{row}\n", columns.join(","))
@@ -103,9 +97,12 @@ impl fmt::Display for Difference {
 
 /// Why there is no verdict.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum CheckError {
     /// The file is malformed, truncated, too long or empty.
     Vectors(VectorError),
+    /// Listings were to be tested, and the file's records are of another kind.
+    NoListings(Kind),
     /// The backend could not run.
     Backend(BackendError),
 }
@@ -126,6 +123,10 @@ impl fmt::Display for CheckError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Vectors(error) => error.fmt(f),
+            Self::NoListings(kind) => {
+                let kind = kind.name();
+                write!(f, "a device is tested by its listings; this file's kind is {kind}")
+            }
             Self::Backend(error) => error.fmt(f),
         }
     }

@@ -4,7 +4,7 @@ use super::error::VectorError;
 use super::header::Kind;
 use super::listing::Listing;
 use super::row::Row;
-use crate::case::{Case, factor_bits, factor_names, factors_from_list};
+use crate::case::Case;
 use crate::digest::{points_digest, words_digest};
 use crate::names::Named;
 use std::fmt;
@@ -15,6 +15,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, PatchFact
 
 /// One record.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Record {
     /// Of the kind `listings`.
     Listing(Listing),
@@ -30,6 +31,34 @@ pub enum Record {
     Factors(Recorded<FactorsRow>),
     /// Of the kind `preparation`.
     Preparation(Recorded<PreparationRow>),
+}
+
+impl Record {
+    /// The line of the file that it starts on.
+    #[must_use]
+    pub const fn line(&self) -> u64 {
+        match self {
+            Self::Listing(listing) => listing.line,
+            Self::Patch(row) => row.line,
+            Self::Sweep(row) | Self::Uniform(row) => row.line,
+            Self::Locations(row) => row.line,
+            Self::Factors(row) => row.line,
+            Self::Preparation(row) => row.line,
+        }
+    }
+
+    /// The row as it stands in the file; `None` for a listing, which has no row.
+    #[must_use]
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            Self::Listing(_) => None,
+            Self::Patch(row) => Some(&row.text),
+            Self::Sweep(row) | Self::Uniform(row) => Some(&row.text),
+            Self::Locations(row) => Some(&row.text),
+            Self::Factors(row) => Some(&row.text),
+            Self::Preparation(row) => Some(&row.text),
+        }
+    }
 }
 
 /// A row of a CSV kind with the text that it was read from.
@@ -92,7 +121,7 @@ impl fmt::Display for PatchRow {
         let Case { config: Config { partitioning, output, split }, factors } = self.case;
         let domain = self.case.domain().name();
         write!(f, "{domain},{},{},{},", partitioning.name(), output.name(), split.name())?;
-        let bits = factor_bits(&factors).into_iter().map(|bits| format!("{bits:08x}"));
+        let bits = factors.iter().map(|factor| format!("{:08x}", factor.to_bits()));
         f.write_str(&bits.collect::<Vec<_>>().join(" "))?;
         let Sizes { points, indices, points_digest, indices_digest } = self.output;
         write!(f, ",{points},{indices},{points_digest:016x},{indices_digest:016x}")
@@ -194,11 +223,12 @@ fn factors(
     domain: Domain,
 ) -> Result<PatchFactors, VectorError> {
     let list = row.floats(column)?;
-    factors_from_list(domain, &list).ok_or_else(|| wrong_number(row, column, domain, list.len()))
+    PatchFactors::from_slice(domain, &list)
+        .ok_or_else(|| wrong_number(row, column, domain, list.len()))
 }
 
 fn wrong_number(row: &Row<'_>, column: &'static str, domain: Domain, found: usize) -> VectorError {
-    let names = factor_names(domain);
+    let names = domain.factor_names();
     row.error(column, format!("expected {} ({}), found {found}", names.len(), names.join(" ")))
 }
 

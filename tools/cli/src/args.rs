@@ -50,8 +50,8 @@ impl PatchArgs {
             return Err(self.wrong_count());
         }
         let all = [&self.outer[..], &self.inner].concat();
-        let factors = PatchFactors::from_slice(self.domain, &all);
-        let factors = factors.ok_or_else(|| self.wrong_count())?;
+        let factors =
+            PatchFactors::from_slice(self.domain, &all).ok_or_else(|| self.wrong_count())?;
         Ok(Case { config, factors })
     }
 

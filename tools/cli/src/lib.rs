@@ -14,6 +14,10 @@ mod formats;
 mod output;
 mod picture;
 
+#[cfg(feature = "fuzzing")]
+#[doc(hidden)]
+pub use commands::fuzzing;
+
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser};
 use commands::Command;
 use std::process::ExitCode;

@@ -4,7 +4,7 @@ use std::fs::read_to_string;
 use std::sync::atomic::Ordering;
 use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::backend::Backend;
-use tess_verify::checker::{CheckError, MAX_DIFFERENCES, Report, check};
+use tess_verify::checker::{CheckError, MAX_DIFFERENCES, Report, Tested, check};
 use tess_verify::compare::{Element, Stage};
 use tess_verify::core_backend::CoreBackend;
 use tess_verify::strength::Strength;
@@ -28,7 +28,7 @@ fn excerpt(name: &str, keep: impl Fn(usize, &str) -> bool) -> String {
 }
 
 fn run(text: &str, backends: &mut [Box<dyn Backend>]) -> Result<Report, CheckError> {
-    check(VectorFile::new("excerpt", text.as_bytes())?, backends, Strength::default(), &|_| ())
+    check(VectorFile::new("excerpt", text.as_bytes())?, backends, Tested::Backend, &|_| ())
 }
 
 /// Checks `text` with a faulty backend; fails if the fault was not committed.
@@ -197,18 +197,21 @@ fn wrong_records() {
     }
 }
 
-/// Listings of a device are what was observed; elsewhere the file is right.
+/// Whoever made a file, what is tested is said to the checker.
 #[test]
-fn listings_of_a_device() {
+fn either_side_of_listings_can_be_tested() {
     let text = excerpt("cases.txt", |_, _| true);
     let damaged = text.replacen("\n0 1 10\n", "\n0 1 11\n", 1);
-    let shown = |text: &str| run_core(text).differences[0].mismatch.to_string();
+    let shown = |tested: Tested| {
+        let file = VectorFile::new("excerpt", damaged.as_bytes()).expect("a header");
+        let report = check(file, &mut [Box::new(CoreBackend)], tested, &|_| ());
+        report.expect("a verdict").differences[0].mismatch.to_string()
+    };
     let index = "index 2 of primitive 0";
     let expected = format!("{index}: observed 0xa, expected 0xb (stage: stitch)");
-    assert_eq!(shown(&damaged), expected, "a recording");
-    let device = damaged.replacen("source=d3d11-reference", "source=rtl", 1);
+    assert_eq!(shown(Tested::Backend), expected, "a recording");
     let expected = format!("{index}: observed 0xb, expected 0xa (stage: stitch)");
-    assert_eq!(shown(&device), expected, "a device");
+    assert_eq!(shown(Tested::Listings(Strength::default())), expected, "a device");
 }
 
 /// The first differences are shown, all are counted, and the number of threads changes nothing.

@@ -2,7 +2,7 @@
 
 use crate::args::{name_of, shard};
 use crate::failure::{Exit, Failure};
-use crate::output::{NewFolder, OutputArgs, progress, stop_when_reader_leaves};
+use crate::output::{NewFolder, OutputArgs, note, progress, stop_when_reader_leaves};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use std::fs::File;
@@ -12,6 +12,7 @@ use tess_core::{Domain, Partitioning};
 use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
 use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::names::Named;
 use tess_verify::readmemh;
 use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
 
@@ -71,10 +72,16 @@ enum Format {
 /// # Errors
 /// A selection without any case; an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
-    let count = args.count();
+    let all = args.all();
+    let count = args.shard.items(all);
+    if count == 0 && all > 0 {
+        let (part, of) = (args.shard.part + 1, args.shard.of);
+        note(&format!("no case in shard {part}/{of}: nothing is written"));
+        return Ok(Exit::Done);
+    }
     if count == 0 {
         return Err(Failure::bad_input(
-            "these arguments select no case; give --level 1 or 2, a --count, or a larger shard",
+            "these arguments select no case; give --level 1 or 2, or a --count",
         ));
     }
     let header = args.header(count);
@@ -111,9 +118,11 @@ impl Args {
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
     }
 
-    /// How many cases there are.
-    fn count(&self) -> u64 {
-        self.shard.share(self.selection().count())
+    /// How many cases there are in all shards.
+    fn all(&self) -> u64 {
+        let selection = self.selection();
+        let systematic = Selection { random: Some(0), ..selection }.cases().count() as u64;
+        systematic.saturating_add(selection.random_count())
     }
 
     /// A bar for this many cases, out of the way of vectors that go to the same terminal.
@@ -127,14 +136,20 @@ impl Args {
         progress(count, "cases")
     }
 
-    /// The arguments that the cases depend on are noted, so that a file says how it was made.
+    /// The arguments that the cases depend on are noted, so that a file says how it was made. Each
+    /// note has the name of its option, but for `--count`, whose note is `random`.
     fn header(&self, count: u64) -> Header {
+        let pair = |key: &str, value: String| (key.to_owned(), value);
         let mut notes = vec![
-            ("level".to_owned(), self.level.to_string()),
-            ("seed".to_owned(), self.seed.to_string()),
+            pair("level", self.level.to_string()),
+            pair("seed", self.seed.to_string()),
+            pair("random", self.selection().random_count().to_string()),
         ];
+        notes.extend(self.domain.map(|domain| pair("domain", domain.name().into())));
+        let partitioning = self.partitioning.map(Named::name);
+        notes.extend(partitioning.map(|name| pair("partitioning", name.into())));
         if self.shard != Shard::WHOLE {
-            notes.push(("shard".to_owned(), format!("{}/{}", self.shard.part + 1, self.shard.of)));
+            notes.push(pair("shard", format!("{}/{}", self.shard.part + 1, self.shard.of)));
         }
         Header { kind: Kind::Patches, count, source: "tess-core".to_owned(), notes }
     }

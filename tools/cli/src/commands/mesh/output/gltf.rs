@@ -3,7 +3,6 @@
 use super::binary::Binary;
 use super::{Options, Sink};
 use crate::commands::mesh::pipeline::Block;
-use crate::commands::mesh::uri;
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use serde_json::Value;
@@ -23,7 +22,7 @@ impl Gltf {
     pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
         let json = OutputFile::create(path)?;
         let beside = path.with_extension("bin");
-        let uri = uri::encode(&beside);
+        let uri = encode(&beside);
         if !json.is_file() {
             return Err(Failure::bad_input(format!(
                 "{} is no file, and glTF is two files; --format glb is one",
@@ -42,6 +41,21 @@ impl Gltf {
         let binary = binary.map_err(|error| Failure::write(&beside, error))?;
         Ok(Self { path: path.to_owned(), uri, json, binary })
     }
+}
+
+/// The reference to a file beside: every byte percent-encoded that has a meaning in a URI (RFC 3986,
+/// section 2).
+fn encode(file: &Path) -> String {
+    let mut uri = String::new();
+    for &byte in file.file_name().unwrap_or_default().as_encoded_bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
+                uri.push(char::from(byte));
+            }
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
 }
 
 /// Whether a glTF file that is there already has this binary part.

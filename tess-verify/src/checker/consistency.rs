@@ -1,0 +1,87 @@
+//! One value, one conversion, through a whole file.
+//!
+//! Within 0.6 units in the last place some values have two legal fixed-point numbers. A device may
+//! take either, but always the same one: neighbouring patches meet because of that.
+
+use super::{Difference, Report};
+use crate::case::Case;
+use crate::compare::{Element, Mismatch, Stage};
+use crate::strength::{Ambiguous, Conversions};
+use std::collections::HashMap;
+
+/// A record that the model explains, if some values were converted in one of some ways.
+#[derive(Debug)]
+pub(super) struct Use {
+    pub(super) number: u64,
+    pub(super) line: u64,
+    pub(super) case: Case,
+    pub(super) conversions: Conversions,
+}
+
+/// The records of all workers.
+#[derive(Debug, Default)]
+pub(super) struct Consistency(Vec<Use>);
+
+/// Which of its two numbers a value became, and the record that says so.
+type Known = HashMap<u32, (usize, u64)>;
+
+impl Consistency {
+    pub(super) fn add(&mut self, mut uses: Vec<Use>) {
+        self.0.append(&mut uses);
+    }
+
+    /// The records that convert a value in another way than one before them.
+    pub(super) fn report(mut self) -> Report {
+        self.0.sort_unstable_by_key(|used| used.number);
+        let (mut report, mut known) = (Report::default(), Known::new());
+        for used in self.0 {
+            if let Some(mismatch) = conflict(&used, &mut known) {
+                report.mismatches += 1;
+                report.differences.push(Difference {
+                    number: used.number,
+                    line: used.line,
+                    mismatch,
+                    case: Some(used.case),
+                    file: None,
+                });
+            }
+        }
+        report
+    }
+}
+
+/// What a record says against those before it; what it says of other values becomes known.
+fn conflict(used: &Use, known: &mut Known) -> Option<Mismatch> {
+    let Conversions { values, accepted } = &used.conversions;
+    let bit = |choice: u64, value: usize| usize::from(choice >> value & 1 == 1);
+    // Values whose number another record says, and that this choice takes in the other way.
+    let against = |choice: u64| {
+        values.iter().enumerate().find_map(|(i, value)| {
+            let (number, record) = known.get(&value.value)?;
+            (bit(choice, i) != *number).then_some((*value, *number, *record))
+        })
+    };
+    let choices = || (0..64).filter(|choice| accepted >> choice & 1 == 1);
+    let consistent: Vec<u64> = choices().filter(|&choice| against(choice).is_none()).collect();
+    let Some(&first) = consistent.first() else {
+        let (value, number, record) = choices().find_map(against)?;
+        return Some(mismatch(value, number, record));
+    };
+    for (i, value) in values.iter().enumerate() {
+        // A value whose number does not show in the output may be either.
+        if consistent.iter().all(|&choice| bit(choice, i) == bit(first, i)) {
+            known.entry(value.value).or_insert((bit(first, i), used.number));
+        }
+    }
+    None
+}
+
+fn mismatch(value: Ambiguous, number: usize, record: u64) -> Mismatch {
+    let [expected, observed] = [value.numbers[number], value.numbers[1 - number]];
+    Mismatch {
+        element: Element::Conversion(value.value),
+        observed: format!("0x{observed:06x}"),
+        expected: format!("0x{expected:06x}, as in record {record}"),
+        stage: Stage::Factors,
+    }
+}
