@@ -5,6 +5,7 @@
 #![expect(clippy::float_arithmetic, reason = "surfaces and pictures are made of floats")]
 
 mod input;
+mod outline;
 mod output;
 mod pipeline;
 mod statistics;
@@ -181,7 +182,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
     });
     let up = args.view.up.unwrap_or(up);
-    let view = args.view.view(args.bounds(&model), up);
+    let view = args.view.view(&args.outline(form, &model), up);
     let indices = args.indices.unwrap_or(IndexWidth::Auto);
     let options = Options { up, indices, view, wireframe: args.wireframe };
     let mut sink = output::open(&args.output, form, &options)?;
@@ -229,11 +230,11 @@ impl Args {
         Ok(form)
     }
 
-    /// The box that the surface lies in: that of the model, with room for the displacement.
-    fn bounds(&self, model: &Model) -> (Vec3, Vec3) {
-        let (low, high) = model.bounds();
-        let room = Vec3::splat(if self.displace.is_some() { self.height.abs() } else { 0.0 });
-        (low - room, high + room)
+    /// What the camera must have in its picture; nothing if there is no use for a camera.
+    fn outline(&self, form: ResultForm, model: &Model) -> Vec<Vec3> {
+        let reach = if self.displace.is_some() { self.height.abs() } else { 0.0 };
+        let looks = form == ResultForm::Png || self.rule.looks();
+        if looks { outline::outline(model, reach) } else { Vec::new() }
     }
 }
 
