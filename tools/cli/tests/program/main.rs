@@ -8,5 +8,7 @@ mod explain;
 mod generate;
 mod help;
 mod mesh;
+mod mesh_gltf;
+mod mesh_input;
 mod patch;
 mod support;
