@@ -216,7 +216,7 @@ fn documents_for_other_readers() {
             (&[("nodes/0/mesh", json!(7))], "nodes[0].mesh: 7 is out of range: there are 1 meshes"),
             (&[("nodes/0/scale", json!([1, 1e39, 1]))], "nodes[0].scale: a number is too large"),
             (&[("nodes/0/rotation", json!([1, 1, 1, 1]))], "nodes[0].rotation: it is not a unit"),
-            (&[("nodes/0/matrix", json!([0; 16]))], "nodes[0].matrix: its last row"),
+            (&[("nodes/0/matrix", json!(vec![0; 16]))], "nodes[0].matrix: its last row"),
         ],
         "mesh_gltf_documents",
     );
