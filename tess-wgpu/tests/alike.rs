@@ -17,7 +17,8 @@ fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
     let mut all = Vec::new();
     for (number, &(factor, length)) in runs.iter().enumerate() {
         let outer = if number % 3 == 2 { 13.0 } else { factor };
-        let like = PatchFactors::from_fn(domain, |position| if position == 1 { outer } else { factor });
+        let like =
+            PatchFactors::from_fn(domain, |position| if position == 1 { outer } else { factor });
         all.extend(std::iter::repeat_n(like, length));
         let other = [1.0, 2.5, 7.0][random.below(3) as usize];
         all.extend(std::iter::repeat_n(PatchFactors::from_fn(domain, |_| other), number % 2));
@@ -83,7 +84,8 @@ fn equal_topologies_with_different_points() {
             let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
             let factors = [3.25, 3.5, 3.625, 3.75];
             let mut similar = |_| factors[random.below(4) as usize];
-            let patches: Vec<_> = (0..1000).map(|_| PatchFactors::from_fn(domain, &mut similar)).collect();
+            let patches: Vec<_> =
+                (0..1000).map(|_| PatchFactors::from_fn(domain, &mut similar)).collect();
             machine.assert_equal(Setup::new(domain, config), &patches);
         }
     }
@@ -95,7 +97,8 @@ fn blocks_know_whether_their_patches_are_alike() {
     let mut machine = Machine::open();
     let setup =
         Setup::new(Domain::Quad, Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw));
-    let of = |factor: f32, count: usize| vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count];
+    let of =
+        |factor: f32, count: usize| vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count];
     let patches = [
         of(2.0, 256),
         of(5.0, 255),

@@ -27,7 +27,8 @@ fn small(domain: Domain, count: u32) -> Vec<PatchFactors> {
 
 fn of_these(domain: Domain, count: u32, factors: [f32; 6]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(12);
-    let all = (0..count).map(|_| PatchFactors::from_fn(domain, |_| factors[random.below(6) as usize]));
+    let all =
+        (0..count).map(|_| PatchFactors::from_fn(domain, |_| factors[random.below(6) as usize]));
     all.collect()
 }
 
