@@ -10,6 +10,9 @@ mod pipeline;
 mod statistics;
 mod view;
 
+#[cfg(feature = "fuzzing")]
+pub use input::fuzzing;
+
 use crate::args::name_of;
 use crate::failure::{Exit, Failure};
 use clap::builder::ValueParser;
@@ -27,8 +30,11 @@ use view::{View, ViewArgs};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Neighbouring patches get the same factor on their common edge, and the same points to the bit, so
-no crack opens. Faces with more than four corners are refused, as are edges of more than two faces.
-Statistics go to stderr.
+no crack opens. Faces with more than four corners are refused, as are edges of more than two faces
+and faces whose corners lie on one line. Faces whose corners coincide, as at the pole of a sphere,
+are left out: their neighbours meet without them. Points and lines of OBJ files are left out. A note
+says how many. Buffers of glTF must be files in the model's folder or below it.
+Notes and statistics go to stderr.
 
 Examples:
   tess mesh -o teapot.png                          the teapot, 64 segments to the patch edge
@@ -58,6 +64,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "LENGTH", default_value = "0.1", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(finite), requires = "displace")]
     height: f32,
+    /// Largest height image to read, in pixels
+    #[arg(long, value_name = "N", default_value = "64000000")]
+    max_pixels: u64,
     /// Width of the indices in glTF
     #[arg(long, value_name = "BITS", default_value = "auto")]
     indices: IndexWidth,
@@ -133,12 +142,17 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         SurfaceName::Flat => Style::Flat,
         SurfaceName::Pn => Style::PointNormal,
     });
-    let (Input { model, up }, displacement) = statistics.time(Stage::Load, || {
-        let map = args.displace.as_deref().map(height::load).transpose()?;
+    let (Input { model, up, notes }, displacement) = statistics.time(Stage::Load, || {
+        let map = args.displace.as_deref();
+        let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
         let input = input::load(args.input.as_deref(), style)?;
         let displacement = map.map(|map| Displacement::new(map, args.height).ok_or_else(too_high));
         Ok::<_, Failure>((input, displacement.transpose()?))
     })?;
+    for note in notes {
+        // Nobody may be listening; the mesh is tessellated all the same.
+        _ = writeln!(std::io::stderr(), "tess: note: {note}");
+    }
     let displaced = statistics.time(Stage::Load, || {
         displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
     });
