@@ -5,8 +5,13 @@ mod bench;
 mod check;
 mod draw;
 mod explain;
+#[cfg(unix)]
+mod files;
 mod generate;
 mod help;
+#[cfg(unix)]
+mod long;
 mod mesh;
+mod options;
 mod patch;
 mod support;
