@@ -1,6 +1,6 @@
 //! Seeds: the factors at which something changes, in the form that each target reads.
 
-use crate::input::batch_bytes;
+use crate::input::{batch_bytes, repeated_bytes};
 use crate::mesh;
 use std::io;
 use std::path::Path;
@@ -65,11 +65,21 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
         };
         (i.to_string(), bytes)
     };
+    // Every fifth batch of these goes on beyond a chunk of 64 patches.
+    let long = |(i, (name, bytes)): (usize, (String, Vec<u8>))| {
+        let is_long = target == "simd" && i % 5 == 0;
+        let bytes = if is_long {
+            repeated_bytes(&bytes, 130 + low_byte(i % 64), 1 << (i % 20))
+        } else {
+            bytes
+        };
+        (name, bytes)
+    };
     // A batch is slow; one patch is all that the other targets read.
     let size = if matches!(target, "simd" | "gpu") { 12 } else { 1 };
     // Calls that make a batch take milliseconds under a sanitizer.
     let step = if target == "capi" { 5 } else { 1 };
-    Ok(batches(size).iter().enumerate().step_by(step).map(seed).collect())
+    Ok(batches(size).iter().enumerate().step_by(step).map(seed).enumerate().map(long).collect())
 }
 
 fn numbered(seeds: Vec<Vec<u8>>) -> Vec<(String, Vec<u8>)> {

@@ -1,4 +1,4 @@
-//! A batch of patches, ready to be encoded again and again.
+//! A batch of patches, which is made once and encoded each frame.
 
 use crate::Tessellator;
 use crate::buffers::Buffers;
@@ -6,12 +6,12 @@ use crate::dispatches::{Dispatch, dispatches};
 use crate::error::Error;
 use tess_gpu::{Capacity, IndexType, Numbering, Plan, Resource, Setup, Stage, Workgroups};
 
-/// Where the output goes.
+/// Where a batch writes its output.
 #[derive(Clone, Copy, Debug)]
 pub enum Outputs<'a> {
-    /// Nowhere: the batch is counted.
+    /// Nowhere: the batch is only counted.
     CountOnly,
-    /// Into these buffers, from their first byte on, as much as they have room for.
+    /// Into these buffers, from their first byte on. If anything does not fit, nothing is written.
     Buffers {
         /// The domain points, 8 bytes each.
         points: &'a wgpu::Buffer,
@@ -20,9 +20,9 @@ pub enum Outputs<'a> {
     },
 }
 
-/// A batch: `patches` patches of one [`Setup`], the caller's buffers, and what is between them.
+/// Patches of one [`Setup`] with the caller's buffers, and every buffer and bind group in between.
 ///
-/// The number of patches is fixed; their factors are read anew each time it runs.
+/// The number of patches is fixed. Their factors are read anew each time the batch runs.
 #[derive(Debug)]
 pub struct Batch {
     plan: Plan,
@@ -88,7 +88,7 @@ impl Batch {
         }
     }
 
-    /// How the batch is cut up.
+    /// How the batch is cut into chunks and windows.
     #[must_use]
     pub const fn plan(&self) -> &Plan {
         &self.plan

@@ -1,31 +1,32 @@
-//! A device to run on, and moving bytes to and from it.
+//! A device, and moving bytes to and from it.
 
 use crate::error::{Error, checked};
 use std::fmt;
 use std::sync::mpsc;
 
-/// A device with its queue, and what it is.
+/// A device with its queue and the adapter that it was made from. The fields are public: put your own
+/// device in, or use that of [`Gpu::open`].
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// The device.
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-    /// The adapter that it was made from.
+    /// What wgpu knows about the adapter.
     pub info: wgpu::AdapterInfo,
 }
 
-/// Which limits to ask a device for.
+/// The limits to open a device with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
-    /// WebGPU's defaults, whatever the device has.
+    /// WebGPU's default limits.
     Defaults,
-    /// All that the device has.
+    /// The highest limits of the adapter.
     Everything,
 }
 
 impl Gpu {
-    /// The first adapter that there is, with WebGPU's default limits.
+    /// Opens the first adapter with WebGPU's default limits.
     ///
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
@@ -33,8 +34,7 @@ impl Gpu {
         Self::open_with(Wanted::Defaults, wgpu::Features::empty()).await
     }
 
-    /// The first adapter that there is, with the limits that are wanted and those of the optional
-    /// features that it has.
+    /// Opens the first adapter with these limits, and with those of the optional features that it has.
     ///
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
@@ -64,7 +64,7 @@ impl Gpu {
         Ok(Self { device, queue, info: adapter.get_info() })
     }
 
-    /// Name and driver of the adapter.
+    /// The name and driver of the adapter, for messages.
     #[must_use]
     pub fn name(&self) -> String {
         let wgpu::AdapterInfo { name, driver_info, backend, .. } = &self.info;

@@ -1,4 +1,4 @@
-//! The simple way: patches in, output back on the host.
+//! Patches in, output back on the host.
 
 use crate::error::Error;
 use crate::{Batch, Gpu, Outputs, Tessellator};
@@ -6,7 +6,7 @@ use tess_core::PatchFactors;
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
 use tess_gpu::{IndexType, Setup};
 
-/// A batch's output, read back.
+/// The output of a batch, read back.
 #[derive(Clone, Debug)]
 pub struct Output {
     /// What the batch needed.
@@ -17,7 +17,7 @@ pub struct Output {
     pub begins: Vec<[u32; 2]>,
     /// The points, two words each: see [`tess_gpu::PointFormat`].
     pub points: Vec<[u32; 2]>,
-    /// The indices, of 32 bits whatever they were on the device.
+    /// The indices, widened to 32 bits.
     pub indices: Vec<u32>,
 }
 

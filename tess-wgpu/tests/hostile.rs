@@ -34,7 +34,7 @@ fn small_device() -> Gpu {
 fn one_buffer_for_two_purposes_is_refused() {
     let mut machine = Machine::open();
     let factors = machine.factors(&quads(2.0, 10));
-    let [one, other] = [(); 2].map(|()| machine.upload(&[0; 10_000], Usage::STORAGE));
+    let [one, other] = [(); 2].map(|()| machine.upload(&[0; 4_000], Usage::STORAGE));
     for (points, indices, expected) in [
         (&one, &other, None),
         (&one, &one, Some([Resource::Points, Resource::Indices])),
@@ -56,8 +56,8 @@ fn buffers_that_do_not_do_are_refused() {
     let batch = machine.tessellator.batch(setup(Domain::Quad), 11, &factors, outputs);
     let expected = Error::FactorsTooShort { needed: 11 * 24, got: 10 * 24 };
     assert_eq!(batch.err(), Some(expected), "too few factors");
-    let plain = machine.upload(&[0; 10_000], Usage::COPY_SRC);
-    let points = machine.upload(&[0; 10_000], Usage::STORAGE);
+    let plain = machine.upload(&[0; 4_000], Usage::COPY_SRC);
+    let points = machine.upload(&[0; 4_000], Usage::STORAGE);
     let outputs = Outputs::Buffers { points: &points, indices: &plain };
     let batch = machine.tessellator.batch(setup(Domain::Quad), 10, &factors, outputs);
     let expected = Error::NotStorage { buffer: Resource::Indices };
