@@ -63,7 +63,8 @@ fn run(
 ) -> Result<(Vec<DomainPoint>, Vec<u32>), String> {
     let (point_format, numbering) = (PointFormat::Packed, Numbering::PerPatch);
     let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };
-    let output = tessellator.tessellate(gpu, setup, patches)?;
+    let output = tessellator.tessellate(gpu, setup, patches);
+    let output = output.map_err(|error| error.to_string())?;
     let points = output.points.iter().map(|&[low, high]| unpack(low, high)).collect();
     Ok((points, output.indices))
 }

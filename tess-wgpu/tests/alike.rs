@@ -17,7 +17,8 @@ fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
     let mut all = Vec::new();
     for (number, &(factor, length)) in runs.iter().enumerate() {
         let outer = if number % 3 == 2 { 13.0 } else { factor };
-        let like = PatchFactors::from_fn(domain, |position| if position == 1 { outer } else { factor });
+        let like =
+            PatchFactors::from_fn(domain, |position| if position == 1 { outer } else { factor });
         all.extend(std::iter::repeat_n(like, length));
         let other = [1.0, 2.5, 7.0][random.below(3) as usize];
         all.extend(std::iter::repeat_n(PatchFactors::from_fn(domain, |_| other), number % 2));
@@ -83,7 +84,8 @@ fn equal_topologies_with_different_points() {
             let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
             let factors = [3.25, 3.5, 3.625, 3.75];
             let mut similar = |_| factors[random.below(4) as usize];
-            let patches: Vec<_> = (0..1000).map(|_| PatchFactors::from_fn(domain, &mut similar)).collect();
+            let patches: Vec<_> =
+                (0..1000).map(|_| PatchFactors::from_fn(domain, &mut similar)).collect();
             machine.assert_equal(Setup::new(domain, config), &patches);
         }
     }
@@ -95,7 +97,8 @@ fn blocks_know_whether_their_patches_are_alike() {
     let mut machine = Machine::open();
     let setup =
         Setup::new(Domain::Quad, Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw));
-    let of = |factor: f32, count: usize| vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count];
+    let of =
+        |factor: f32, count: usize| vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count];
     let patches = [
         of(2.0, 256),
         of(5.0, 255),
@@ -112,10 +115,11 @@ fn blocks_know_whether_their_patches_are_alike() {
     let batch = batch.expect("valid");
     machine.run(&batch);
     let (offsets, topologies) = (machine.words(batch.offsets()), machine.words(batch.topologies()));
-    let words = |words: &[u32], at: u32| words[2 * at as usize..][..2].to_vec();
-    let block = |number: u32| words(&offsets, batch.plan().job(0).alike_at + number);
+    let words =
+        |words: &[u32], at: u64| words[2 * usize::try_from(at).expect("in memory")..][..2].to_vec();
+    let block = |number: u32| words(&offsets, batch.plan().alike_entry(BLOCK * number));
     for (number, alike) in [(0, true), (1, false), (2, false), (4, true)] {
-        let first = words(&topologies, number * BLOCK);
+        let first = words(&topologies, u64::from(number * BLOCK));
         assert_eq!(block(number), if alike { first } else { vec![0, 0] }, "block {number}");
     }
     assert_eq!(block(3)[0] >> 28, 0, "culled patches are alike, and culled");
@@ -143,7 +147,7 @@ fn planted_faults_are_seen() {
         (integer, &alike, "(at * 43691u) >> 17u", "(at * 43690u) >> 17u"),
         (integer, &alike, "it.i + 1u == repeat.size", "it.i == repeat.size"),
         (integer, &alike, "job.first_patch + tile.first_patch + number", "number"),
-        (integer, &alike, "i - KEPT].y = packed", "i - KEPT].x = packed"),
+        (integer, &alike, "i - SCRATCH].y = packed", "i - SCRATCH].x = packed"),
         (
             fractional,
             &similar,
@@ -153,13 +157,10 @@ fn planted_faults_are_seen() {
     ] {
         let expected = Expected::new(setup, patches);
         let (points, indices) = expected.words();
-        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, |_, source| source);
+        machine.tessellator = Tessellator::new(&machine.gpu.device);
         let written = machine.write(setup, patches, points, indices);
         assert_eq!(expected.compare(&written), Ok(()), "without a fault");
-        let sources = tess_gpu::Stage::ALL.map(|stage| stage.source(setup)).concat();
-        assert!(sources.contains(right), "{right} is in no shader");
-        let edit = move |_, source: String| source.replace(right, wrong);
-        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, edit);
+        machine.plant(setup, right, wrong);
         let written = machine.write(setup, patches, points, indices);
         assert!(expected.compare(&written).is_err(), "{right} to {wrong} went unnoticed");
     }

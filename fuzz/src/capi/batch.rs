@@ -9,7 +9,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::ptr::null_mut;
 use tess_capi::batch::{
-    TESS_INDICES_32, TESS_LEVEL_DETECT, TESS_NUMBERING_PATCH, TESS_POINTS_FIXED, TessBatch,
+    TESS_INDEX_U32, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_PATCH, TESS_POINT_FIXED, TessBatch,
     TessBatchCounts, TessBatchOutput, TessRange, tess_batch_create, tess_batch_free,
     tess_batch_run,
 };
@@ -84,8 +84,8 @@ fn output(
     let points = wrongs.room(bytes, memory.points.as_mut_ptr(), point_capacity);
     let indices = wrongs.room(bytes, memory.indices.as_mut_ptr(), index_capacity);
     let ranges = wrongs.room(bytes, memory.ranges.as_mut_ptr(), range_capacity);
-    let [point_format, index_format, numbering] =
-        [TESS_POINTS_FIXED, TESS_INDICES_32, TESS_NUMBERING_PATCH].map(|good| {
+    let [point_format, index_type, numbering] =
+        [TESS_POINT_FIXED, TESS_INDEX_U32, TESS_NUMBERING_PER_PATCH].map(|good| {
             let wrong = bytes.byte() == 255;
             wrongs.add_if(wrong, TESS_UNKNOWN_VALUE);
             if wrong { 2 } else { good }
@@ -98,7 +98,7 @@ fn output(
         ranges,
         range_capacity,
         point_format,
-        index_format,
+        index_type,
         numbering,
         base_vertex: 0,
     };

@@ -14,6 +14,10 @@ mod formats;
 mod output;
 mod picture;
 
+#[cfg(feature = "fuzzing")]
+#[doc(hidden)]
+pub use commands::fuzzing;
+
 use clap::Parser;
 use commands::Command;
 use std::io::Write;

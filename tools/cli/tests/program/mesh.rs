@@ -193,11 +193,26 @@ fn bad_input_is_told() {
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 18, "nothing half-written stays");
 }
 
+/// Numbers of which glTF, written in text, would have made `null`.
+#[test]
+fn positions_that_overflow_are_refused() {
+    let folder = directory("mesh_huge");
+    let out = write(&folder, "out.gltf", "as it was");
+    let input = write(&folder, "huge.obj", CUBE.replace("v 1 1 1", "v 1 1.2e38 1"));
+    let run = tess(&format!("mesh {} -o {}", input.display(), out.display()));
+    let message = "huge.obj: line 10: a position is too large to be evaluated: coordinates must \
+                   lie within 1e16 of 0";
+    assert!(run.code == Some(2) && run.stderr.contains(message), "{:?}: {}", run.code, run.stderr);
+    assert_eq!(fs::read(&out).expect("it is still there"), b"as it was", "nothing was written");
+}
+
 #[test]
 fn bad_usage_is_told() {
     let folder = directory("mesh_usage");
     let cube = write(&folder, "cube.obj", CUBE);
-    let (cube, out) = (cube.display(), folder.join("out.glb"));
+    let image = folder.join("height.png");
+    mesh(&cube, "--factor 1 --size 8x8", &image);
+    let (cube, image, out) = (cube.display(), image.display(), folder.join("out.glb"));
     let out = out.display();
     for (words, message) in [
         (format!("mesh missing.obj -o {out}"), "cannot read missing.obj"),
@@ -209,6 +224,7 @@ fn bad_usage_is_told() {
         (format!("mesh {cube} --size 0x5 -o {out}"), "a size is such as 800x600"),
         (format!("mesh {cube} --height 1 -o {out}"), "--displace"),
         (format!("mesh {cube} --displace {cube} -o {out}"), "cannot read"),
+        (format!("mesh {cube} --displace {image} --height 1e17 -o {out}"), "--height is too large"),
         (format!("mesh --surface flat -o {out}"), "the teapot is made of Bezier patches"),
         (format!("mesh --indices 16 -o {out}"), "more than 65535 vertices"),
     ] {
@@ -216,5 +232,5 @@ fn bad_usage_is_told() {
         assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
         assert!(run.stderr.contains(message), "{words}: `{message}` is not in `{}`", run.stderr);
     }
-    assert_eq!(fs::read_dir(&folder).unwrap().count(), 1, "no output was written");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "no output was written");
 }

@@ -10,6 +10,9 @@ mod pipeline;
 mod statistics;
 mod view;
 
+#[cfg(feature = "fuzzing")]
+pub use input::fuzzing;
+
 use crate::args::name_of;
 use crate::failure::{Exit, Failure};
 use clap::builder::ValueParser;
@@ -20,16 +23,18 @@ use statistics::{Stage, Statistics};
 use std::io::Write;
 use std::path::PathBuf;
 use tess_core::Partitioning;
-use tess_surface::height::{Anchors, Displacement};
-use tess_surface::{FactorRule, Style};
+use tess_surface::{DisplacedModel, Displacement, FactorRule, MAX_COORDINATE, Style};
 use view::{View, ViewArgs};
 
 /// Tessellate a model into a mesh or a picture
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Neighbouring patches get the same factor on their common edge, and the same points to the bit, so
-no crack opens. Faces with more than four corners are refused, as are edges of more than two faces.
-Statistics go to stderr.
+no crack opens. Faces with more than four corners are refused, as are edges of more than two faces
+and faces whose corners lie on one line. Faces whose corners coincide, as at the pole of a sphere,
+are left out: their neighbours meet without them. Points and lines of OBJ files are left out. A note
+says how many. Buffers of glTF must be files in the model's folder or below it.
+Notes and statistics go to stderr.
 
 Examples:
   tess mesh -o teapot.png                          the teapot, 64 segments to the patch edge
@@ -59,6 +64,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "LENGTH", default_value = "0.1", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(finite), requires = "displace")]
     height: f32,
+    /// Largest height image to read, in pixels
+    #[arg(long, value_name = "N", default_value = "64000000")]
+    max_pixels: u64,
     /// Width of the indices in glTF
     #[arg(long, value_name = "BITS", default_value = "auto")]
     indices: IndexWidth,
@@ -120,6 +128,10 @@ fn positive(text: &str) -> Result<f32, String> {
     number.ok_or_else(|| "a finite number greater than zero is needed".to_owned())
 }
 
+fn too_high() -> Failure {
+    Failure::bad_input(format!("--height is too large: displacements end at {MAX_COORDINATE:e}"))
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -130,13 +142,20 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         SurfaceName::Flat => Style::Flat,
         SurfaceName::Pn => Style::PointNormal,
     });
-    let (Input { model, up }, displacement) = statistics.time(Stage::Load, || {
-        let map = args.displace.as_deref().map(height::load).transpose()?;
+    let (Input { model, up, notes }, displacement) = statistics.time(Stage::Load, || {
+        let map = args.displace.as_deref();
+        let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
         let input = input::load(args.input.as_deref(), style)?;
-        let displacement =
-            map.map(|map| (Displacement { map, scale: args.height }, Anchors::of(&input.model)));
-        Ok::<_, Failure>((input, displacement))
+        let displacement = map.map(|map| Displacement::new(map, args.height).ok_or_else(too_high));
+        Ok::<_, Failure>((input, displacement.transpose()?))
     })?;
+    for note in notes {
+        // Nobody may be listening; the mesh is tessellated all the same.
+        _ = writeln!(std::io::stderr(), "tess: note: {note}");
+    }
+    let displaced = statistics.time(Stage::Load, || {
+        displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
+    });
     let up = args.view.up.unwrap_or(up);
     let view = args.view.view(model.bounds(), up);
     let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
@@ -145,7 +164,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         model: &model,
         rule: args.rule.rule(&view),
         partitioning: args.partitioning,
-        displacement: displacement.as_ref().map(|(displacement, anchors)| (displacement, anchors)),
+        displaced: displaced.as_ref(),
     };
     pipeline::run(&job, sink.as_mut(), &mut statistics)?;
     statistics.time(Stage::Output, || sink.finish())?;

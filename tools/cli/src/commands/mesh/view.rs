@@ -49,9 +49,9 @@ impl ViewArgs {
         let (width, height) = (self.size.0 as f32, self.size.1 as f32);
         let radius = (0.5 * high.distance(low)).max(f32::MIN_POSITIVE);
         let target = self.target.unwrap_or((low + high) * 0.5);
-        let half_height = (0.5 * self.fov).to_radians().tan();
+        let half_height = libm::tanf((0.5 * self.fov).to_radians());
         // From where a ball around the model fits the narrower way.
-        let fit = radius / (half_height.atan().sin() * (width / height).min(1.0));
+        let fit = radius / (libm::sinf(libm::atanf(half_height)) * (width / height).min(1.0));
         let (axis, from) = match up {
             Up::Y => (Vec3::Y, Vec3::new(0.35, 0.45, 1.0)),
             Up::Z => (Vec3::Z, Vec3::new(0.35, -1.0, 0.45)),

@@ -94,7 +94,8 @@ impl Light {
         // Inside of the surface, the other side of the normal is lit.
         let normal = if fragment.front { fragment.normal } else { -fragment.normal };
         let diffuse = 0.5 + 0.5 * normal.dot(self.towards);
-        let shine = normal.dot((self.towards + to_eye).normalize_or(Vec3::Z)).max(0.0).powi(48);
+        let towards_both = (self.towards + to_eye).normalize_or(Vec3::Z);
+        let shine = libm::powf(normal.dot(towards_both).max(0.0), 48.0);
         let base = match (fragment.front, self.wireframe) {
             (true, false) => Vec3::new(0.80, 0.47, 0.25),
             (true, true) => Vec3::new(0.93, 0.80, 0.68),
