@@ -1,7 +1,7 @@
 //! `tess mesh`.
 
 use crate::support::{Run, directory, tess};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -46,7 +46,7 @@ pub(crate) fn counts(run: &Run) -> Vec<u64> {
 pub(crate) fn open_edges(obj: &Path) -> usize {
     let text = fs::read_to_string(obj).expect("the OBJ is there");
     let positions: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("v ")).collect();
-    let mut uses: HashMap<[&str; 2], u32> = HashMap::new();
+    let mut uses: BTreeMap<[&str; 2], u32> = BTreeMap::new();
     for face in text.lines().filter_map(|line| line.strip_prefix("f ")) {
         let number = |word: &str| word.split('/').next()?.parse::<usize>().ok();
         let corners: Vec<&str> =

@@ -42,6 +42,12 @@ fn triangle() -> (Value, Vec<u8>) {
 
 /// Puts a value in its place, such as `accessors/0/type`; `null` removes what is there.
 fn set(document: &mut Value, path: &str, value: Value) {
+    if value.is_null() {
+        let (parent, name) = path.rsplit_once('/').expect("only members are removed");
+        let parent = document.pointer_mut(&format!("/{parent}")).and_then(Value::as_object_mut);
+        parent.expect("an object").remove(name);
+        return;
+    }
     let mut place = document;
     for name in path.split('/') {
         place = match name.parse::<usize>() {
@@ -50,11 +56,6 @@ fn set(document: &mut Value, path: &str, value: Value) {
         };
     }
     *place = value;
-    if place.is_null() {
-        let (parent, name) = path.rsplit_once('/').expect("only members are removed");
-        let parent = document.pointer_mut(&format!("/{parent}")).and_then(Value::as_object_mut);
-        parent.expect("an object").remove(name);
-    }
 }
 
 /// The document as a file, its buffer in it.
