@@ -130,13 +130,9 @@ fn bezier_patch_files() {
     assert_eq!(a, b, "a weight common to all points changes nothing");
 }
 
-/// Every kind of bad input: exit code 2, file and line, and the output as it was.
-#[test]
-fn bad_input_is_told() {
-    let folder = directory("mesh_bad");
-    let out = write(&folder, "out.obj", "as it was");
-    let patch = format!("3 3\n{}", "0 0 0\n1 0 0\n2 1 0\n3 0 0\n".repeat(4));
-    let cases: [(&str, String, &str); 16] = [
+/// OBJ files that are refused, each with what the message says.
+fn bad_obj_files() -> Vec<(&'static str, String, &'static str)> {
+    Vec::from([
         (
             "broken.obj",
             CUBE.replace("v 1 1 1", "v 1 one 1"),
@@ -178,6 +174,13 @@ fn bad_input_is_told() {
             "line 10: position index 9 is out of range: there are 8",
         ),
         ("empty.obj", String::new(), "there is no face"),
+    ])
+}
+
+/// The same of other files.
+fn bad_other_files() -> Vec<(&'static str, String, &'static str)> {
+    let patch = format!("3 3\n{}", "0 0 0\n1 0 0\n2 1 0\n3 0 0\n".repeat(4));
+    Vec::from([
         ("count.bpt", "many\n".to_owned(), "line 1: `many` is no number of patches"),
         (
             "cut.bpt",
@@ -197,8 +200,15 @@ fn bad_input_is_told() {
         ),
         ("text.gltf", "{".to_owned(), "text.gltf: "),
         ("model.stl", "solid".to_owned(), "models are .obj, .gltf, .glb or .bpt"),
-    ];
-    for (name, content, message) in cases {
+    ])
+}
+
+/// Every kind of bad input: exit code 2, file and line, and the output as it was.
+#[test]
+fn bad_input_is_told() {
+    let folder = directory("mesh_bad");
+    let out = write(&folder, "out.obj", "as it was");
+    for (name, content, message) in bad_obj_files().into_iter().chain(bad_other_files()) {
         let input = write(&folder, name, content);
         let run = tess(&format!("mesh {} -o {}", input.display(), out.display()));
         assert_eq!(run.code, Some(2), "{name}: {}", run.stderr);
