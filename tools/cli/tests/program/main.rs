@@ -12,6 +12,8 @@ mod help;
 #[cfg(unix)]
 mod long;
 mod mesh;
+mod mesh_gltf;
+mod mesh_input;
 mod options;
 mod patch;
 mod support;
