@@ -77,9 +77,9 @@ pub(crate) struct Args {
     /// Largest height image to read, in pixels
     #[arg(long, value_name = "N", default_value = "64000000")]
     max_pixels: u64,
-    /// Width of the indices in glTF [default: auto]
-    #[arg(long, value_name = "BITS")]
-    indices: Option<IndexWidth>,
+    /// Width of the indices in glTF
+    #[arg(long, value_name = "BITS", default_value = "auto")]
+    indices: IndexWidth,
     /// Show the triangles' edges in pictures
     #[arg(long)]
     wireframe: bool,
@@ -183,8 +183,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     });
     let up = args.view.up.unwrap_or(up);
     let view = args.view.view(&args.outline(form, &model), up);
-    let indices = args.indices.unwrap_or(IndexWidth::Auto);
-    let options = Options { up, indices, view, wireframe: args.wireframe };
+    let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
     let mut sink = output::open(&args.output, form, &options)?;
     let job = Job {
         model: &model,
@@ -210,7 +209,7 @@ impl Args {
         let is_picture = form == ResultForm::Png;
         let is_gltf = matches!(form, ResultForm::Gltf | ResultForm::Glb);
         let needless = [
-            (self.indices.is_some() && !is_gltf, "--indices is for .gltf and .glb"),
+            (self.indices != IndexWidth::Auto && !is_gltf, "--indices is for .gltf and .glb"),
             (self.wireframe && !is_picture, "--wireframe is for pictures"),
             (
                 self.view.is_chosen() && !is_picture && !self.rule.looks(),
