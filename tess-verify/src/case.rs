@@ -117,6 +117,7 @@ fn named<T: Named>(field: &'static str, name: &str) -> Result<T, CaseError> {
 
 /// A text is no case.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct CaseError {
     /// The part that is wrong.
     pub field: &'static str,
@@ -169,8 +170,9 @@ pub(crate) fn parse_bits(words: &[&str]) -> Result<Vec<f32>, CaseError> {
 
 /// A number of exactly `digits` hex digits, at most 16.
 pub(crate) fn parse_hex(word: &str, digits: usize) -> Option<u64> {
-    let hex = word.len() == digits && word.bytes().all(|byte| byte.is_ascii_hexdigit());
-    hex.then(|| u64::from_str_radix(word, 16).ok()).flatten()
+    let digit = |byte: u8| char::from(byte).to_digit(16).map(u64::from);
+    let number = || word.bytes().try_fold(0, |number, byte| Some(number << 4 | digit(byte)?));
+    (word.len() == digits).then(number).flatten()
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 mod consistency;
 mod device;
 mod exhaustive;
+mod findings;
 mod patches;
 mod report;
 mod stages;
@@ -12,12 +13,12 @@ pub use report::{CheckError, Difference, MAX_DIFFERENCES, Report};
 
 use crate::backend::{Backend, BackendError};
 use crate::case::Case;
-use crate::compare::Mismatch;
-use crate::strength::{Conversions, Strength};
+use crate::strength::Strength;
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
-use consistency::{Consistency, Use};
+use findings::{Findings, Found};
 use std::io::BufRead;
 use std::sync::{Mutex, PoisonError};
+use tess_core::Tessellation;
 
 /// Which side of a comparison is tested; the other one is right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,9 +33,9 @@ pub enum Tested {
 
 /// Checks every record of a file.
 ///
-/// `tested` says which side is right; nothing in the file decides that. Takes one backend for each
-/// thread that is to be used; the report does not depend on how many there are. `progress` is told,
-/// from any thread, how many more records are done.
+/// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
+/// to use; the report does not depend on their number. `progress` is called from any thread, with the
+/// number of records that were checked since its last call.
 ///
 /// # Errors
 /// A file that is malformed, truncated or too long, which is known at its end: the report of a
@@ -70,18 +71,28 @@ pub fn check<R: BufRead + Send>(
             results.push(worker.join().unwrap_or_else(panicked));
         }
     });
-    // A malformed file is reported as such, whatever a backend may have said meanwhile.
+    // A malformed file is reported as such, whatever a backend answered meanwhile.
     if let Some(Err(error)) = lock(&source).stopped.take() {
         return Err(error.into());
     }
-    let (mut report, mut consistency) = (Report::default(), Consistency::default());
+    let mut findings = Findings::default();
     for result in results {
-        let (found, uses) = result?;
-        report.add(found);
-        consistency.add(uses);
+        findings.join(result?);
     }
-    report.add(consistency.report());
-    Ok(report)
+    Ok(findings.report())
+}
+
+/// Checks what a device answered for cases, in a strength: [`check`] without a file.
+#[must_use]
+pub fn check_device(
+    answers: impl IntoIterator<Item = (Case, Tessellation)>,
+    strength: Strength,
+) -> Report {
+    let mut findings = Findings::default();
+    for (number, (case, answer)) in (1..).zip(answers) {
+        findings.add(number, None, device::check(&case, &answer, strength), || None);
+    }
+    findings.report()
 }
 
 /// What the comparison of a record depends on besides the record.
@@ -138,44 +149,17 @@ fn run<R: BufRead>(
     source: &Mutex<Source<R>>,
     backend: &mut dyn Backend,
     progress: &(dyn Fn(u64) + Sync),
-) -> Result<(Report, Vec<Use>), BackendError> {
-    let (mut report, mut uses) = (Report::default(), Vec::new());
+) -> Result<Findings, BackendError> {
+    let mut findings = Findings::default();
     loop {
         let unit = lock(source).next_unit(how.header.kind);
-        let Some(unit) = unit else { return Ok((report, uses)) };
+        let Some(unit) = unit else { return Ok(findings) };
         let found = check_unit(how, backend, &unit.records)?;
         for ((number, record), found) in (unit.first..).zip(&unit.records).zip(found) {
-            report.cases += 1;
-            match found {
-                Found::Equal => {}
-                Found::Converted(case, conversions) => {
-                    uses.push(Use { number, line: record.line(), case, conversions });
-                }
-                Found::Different(mismatch, case) => {
-                    report.mismatches += 1;
-                    let difference = Difference::new(&how.header, number, record, mismatch, case);
-                    report.differences.push(difference);
-                }
-            }
+            let file = || report::file_of(&how.header, record);
+            findings.add(number, Some(record.line()), found, file);
         }
-        report.differences.truncate(MAX_DIFFERENCES);
         progress(unit.records.len() as u64);
-    }
-}
-
-/// What is found of a record.
-enum Found {
-    /// It is as it should be.
-    Equal,
-    /// So it is, if the device converts some values in one of these ways.
-    Converted(Case, Conversions),
-    /// What is wrong with it, and the patch that shows it, if one does.
-    Different(Mismatch, Option<Case>),
-}
-
-impl Found {
-    fn new(mismatch: Option<Mismatch>, case: Option<Case>) -> Self {
-        mismatch.map_or(Self::Equal, |mismatch| Self::Different(mismatch, case))
     }
 }
 

@@ -13,48 +13,39 @@ use std::collections::HashMap;
 #[derive(Debug)]
 pub(super) struct Use {
     pub(super) number: u64,
-    pub(super) line: u64,
+    pub(super) line: Option<u64>,
     pub(super) case: Case,
     pub(super) conversions: Conversions,
 }
 
-/// The records of all workers.
-#[derive(Debug, Default)]
-pub(super) struct Consistency(Vec<Use>);
-
-/// Which of its two numbers a value became, and the record that says so.
+/// For each value, the number that it became (0 or 1), and the first record that shows it.
 type Known = HashMap<u32, (usize, u64)>;
 
-impl Consistency {
-    pub(super) fn add(&mut self, mut uses: Vec<Use>) {
-        self.0.append(&mut uses);
-    }
-
-    /// The records that convert a value in another way than one before them.
-    pub(super) fn report(mut self) -> Report {
-        self.0.sort_unstable_by_key(|used| used.number);
-        let (mut report, mut known) = (Report::default(), Known::new());
-        for used in self.0 {
-            if let Some(mismatch) = conflict(&used, &mut known) {
-                report.mismatches += 1;
-                report.differences.push(Difference {
-                    number: used.number,
-                    line: used.line,
-                    mismatch,
-                    case: Some(used.case),
-                    file: None,
-                });
-            }
+/// The records that convert a value in another way than one before them.
+pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
+    uses.sort_unstable_by_key(|used| used.number);
+    let (mut report, mut known) = (Report::default(), Known::new());
+    for used in uses {
+        if let Some(mismatch) = conflict(&used, &mut known) {
+            let Use { number, line, case, .. } = used;
+            report.mismatches += 1;
+            report.differences.push(Difference {
+                number,
+                line,
+                mismatch,
+                case: Some(case),
+                file: None,
+            });
         }
-        report
     }
+    report
 }
 
-/// What a record says against those before it; what it says of other values becomes known.
+/// How a record contradicts those before it. If it does not, the values that it shows become known.
 fn conflict(used: &Use, known: &mut Known) -> Option<Mismatch> {
     let Conversions { values, accepted } = &used.conversions;
     let bit = |choice: u64, value: usize| usize::from(choice >> value & 1 == 1);
-    // Values whose number another record says, and that this choice takes in the other way.
+    // A value that is known, and that this choice converts in the other way.
     let against = |choice: u64| {
         values.iter().enumerate().find_map(|(i, value)| {
             let (number, record) = known.get(&value.value)?;

@@ -78,12 +78,19 @@ impl<R: BufRead> Lines<R> {
                 format!("longer than {MAX_LINE} bytes, which no line of a vector file is");
             return Err(self.error("line", message));
         }
-        let text = String::from_utf8(bytes).map_err(|_| self.error("line", "not UTF-8 text"))?;
-        if let Some(control) = text.chars().find(|character| character.is_control()) {
-            let message = format!("has the control character U+{:04X}", u32::from(control));
-            return Err(self.error("line", message));
+        let is_plain = bytes.iter().all(|byte| (b' '..=b'~').contains(byte));
+        self.text = String::from_utf8(bytes).map_err(|_| self.error("line", "not UTF-8 text"))?;
+        if !is_plain {
+            self.refuse_control_characters()?;
         }
-        self.text = text;
         Ok(found)
+    }
+
+    fn refuse_control_characters(&self) -> Result<(), VectorError> {
+        let control = self.text.chars().find(|character| character.is_control());
+        control.map_or(Ok(()), |control| {
+            let message = format!("has the control character U+{:04X}", u32::from(control));
+            Err(self.error("line", message))
+        })
     }
 }

@@ -88,9 +88,9 @@ fn indices<R: BufRead>(lines: &mut Lines<R>, size: usize) -> Result<Vec<u32>, Ve
     let mut indices = Vec::with_capacity(count);
     for _ in 0..count / size {
         let line = lines.expect("indices")?;
-        let mut words = line.text.split(' ').map(decimal::<u32>);
-        let read = words.try_fold(0, |read, index| {
-            indices.push(index?);
+        let mut words = line.text.as_bytes().split(|byte| *byte == b' ');
+        let read = words.try_fold(0, |read, word| {
+            indices.push(parse_index(word)?);
             Some(read + 1)
         });
         if read != Some(size) {
@@ -118,7 +118,15 @@ fn announced<R: BufRead>(
 }
 
 fn parse_point(text: &str) -> Option<DomainPoint> {
-    let (u, v) = text.split_once(' ')?;
+    let space = text.bytes().position(|byte| byte == b' ')?;
+    let (u, v) = (&text[..space], &text[space + 1..]);
     let coordinate = |text: &str| u32::try_from(parse_hex(text, text.len().clamp(1, 8))?).ok();
     Some(DomainPoint::from_bits(coordinate(u)?, coordinate(v)?))
+}
+
+/// Decimal digits alone: no sign.
+fn parse_index(word: &[u8]) -> Option<u32> {
+    let digit = |byte: &u8| char::from(*byte).to_digit(10);
+    let append = |index: u32, byte| index.checked_mul(10)?.checked_add(digit(byte)?);
+    (!word.is_empty()).then(|| word.iter().try_fold(0, append)).flatten()
 }

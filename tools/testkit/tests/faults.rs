@@ -2,12 +2,14 @@
 
 use std::fs::read_to_string;
 use std::sync::atomic::Ordering;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::backend::Backend;
-use tess_verify::checker::{CheckError, MAX_DIFFERENCES, Report, Tested, check};
+use tess_verify::case::Case;
+use tess_verify::checker::{CheckError, MAX_DIFFERENCES, Report, Tested, check, check_device};
 use tess_verify::compare::{Element, Stage};
 use tess_verify::core_backend::CoreBackend;
-use tess_verify::strength::Strength;
+use tess_verify::strength::{Conversion, Order, Strength};
 use tess_verify::vectors::VectorFile;
 
 /// Rows of a golden file as a file of its own; of listings, all.
@@ -54,7 +56,7 @@ fn looks_like(fault: Fault, element: &Element, stage: Stage) -> bool {
             matches!(element, Element::Point { coordinate: "v", .. }) && stage == Stage::Location
         }
         Fault::SwappedPoints => (first("u") || first("v")) && stage == Stage::PointOrder,
-        Fault::DroppedPoint | Fault::ExtraPoint | Fault::EmptyPatch => {
+        Fault::DroppedPoint | Fault::ExtraPoint | Fault::StrayPoint | Fault::EmptyPatch => {
             *element == Element::Count("points") && stage == Stage::Counts
         }
         Fault::SwappedIndices => {
@@ -193,6 +195,30 @@ fn wrong_records() {
             let again = run_core(again);
             let show = |report: &Report| report.differences[0].mismatch.to_string();
             assert_eq!(show(&again), show(&report), "column {column} of {row}, again");
+        }
+    }
+}
+
+/// A device's faults are seen in any order too: none of them is one of order alone.
+#[test]
+fn faults_of_devices_in_any_order() {
+    let any = Strength { order: Order::Any, ..Strength::default() };
+    let within = Strength { conversion: Conversion::Within06Ulp, ..any };
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    let factors = [2.5, 3.0, 7.5, 5.0].map(|factor| {
+        PatchFactors::from_fn(Domain::Quad, |position| if position == 2 { 4.25 } else { factor })
+    });
+    for fault in Fault::OF_PATCHES {
+        let mut device = Faulty::new(CoreBackend, fault, 0);
+        let outputs = device.tessellate(config, &factors).expect("the model");
+        let answers = || {
+            let cases = factors.iter().map(|&factors| Case { config, factors });
+            cases.zip(outputs.iter().cloned()).collect::<Vec<_>>()
+        };
+        let expected = u64::from(fault != Fault::ShortAnswer); // one answer less, none wrong
+        for strength in [any, within] {
+            let report = check_device(answers(), strength);
+            assert_eq!(report.mismatches, expected, "{fault:?} in {strength:?}");
         }
     }
 }

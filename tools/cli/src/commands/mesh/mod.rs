@@ -15,15 +15,18 @@ pub use input::fuzzing;
 
 use crate::args::name_of;
 use crate::failure::{Exit, Failure};
+use crate::output::{OutputArgs, form, note};
 use clap::builder::ValueParser;
+use glam::Vec3;
 use input::{Input, height};
-use output::{IndexWidth, Options};
+use output::{IndexWidth, Options, ResultForm};
 use pipeline::Job;
 use statistics::{Stage, Statistics};
 use std::io::Write;
 use std::path::PathBuf;
 use tess_core::Partitioning;
-use tess_surface::{DisplacedModel, Displacement, FactorRule, MAX_COORDINATE, Style};
+use tess_surface::{DisplacedModel, Displacement, FactorRule, MAX_COORDINATE, Model, Style};
+use tess_verify::names::Named;
 use view::{View, ViewArgs};
 
 /// Tessellate a model into a mesh or a picture
@@ -45,9 +48,15 @@ pub(crate) struct Args {
     /// Model to read: .obj, .gltf, .glb or .bpt [default: the Newell teapot]
     #[arg(value_name = "IN")]
     input: Option<PathBuf>,
-    /// File to write: .obj, .gltf or .glb for a mesh, .png for a picture
+    /// File to write: .obj, .gltf or .glb for a mesh, .png for a picture; - is stdout
+    ///
+    /// A .gltf has its binary part beside it in a .bin of the same name. One that is there already is
+    /// replaced only if the .gltf that is there refers to it.
     #[arg(short = 'o', long = "out", value_name = "OUT", required = true)]
     output: PathBuf,
+    /// Form of the result [default: that of the file's name]
+    #[arg(long, value_name = "NAME")]
+    format: Option<ResultForm>,
     /// Surface of triangles and quads [default: pn]
     #[arg(long, value_name = "NAME")]
     surface: Option<SurfaceName>,
@@ -67,9 +76,9 @@ pub(crate) struct Args {
     /// Largest height image to read, in pixels
     #[arg(long, value_name = "N", default_value = "64000000")]
     max_pixels: u64,
-    /// Width of the indices in glTF
-    #[arg(long, value_name = "BITS", default_value = "auto")]
-    indices: IndexWidth,
+    /// Width of the indices in glTF [default: auto]
+    #[arg(long, value_name = "BITS")]
+    indices: Option<IndexWidth>,
     /// Show the triangles' edges in pictures
     #[arg(long)]
     wireframe: bool,
@@ -90,7 +99,7 @@ enum SurfaceName {
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[group(multiple = false)]
 struct RuleArgs {
-    /// The same factor everywhere [default: 64]
+    /// The same factor everywhere, at most 64, or 63 with `fractional_odd` [default: that]
     #[arg(long, value_name = "F", value_parser = ValueParser::new(positive))]
     factor: Option<f32>,
     /// Factor at distance 1 from the eye, falling off with the distance
@@ -105,6 +114,23 @@ struct RuleArgs {
 }
 
 impl RuleArgs {
+    /// Whether the factors depend on the camera.
+    const fn looks(self) -> bool {
+        self.distance.is_some() || self.pixels.is_some()
+    }
+
+    /// Refuses a factor that would be clamped.
+    fn fit(self, partitioning: Partitioning) -> Result<(), Failure> {
+        let (low, high) = partitioning.range();
+        match self.factor {
+            Some(factor) if !(low..=high).contains(&factor) => Err(Failure::bad_input(format!(
+                "--factor {factor}: factors are {low} to {high} with --partitioning {}",
+                partitioning.name()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     fn rule(self, view: &View) -> FactorRule {
         let View { eye, pixels_per_unit, .. } = *view;
         match self {
@@ -137,6 +163,7 @@ fn too_high() -> Failure {
 /// # Errors
 /// A model that cannot be read or tessellated, an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    let form = args.form()?;
     let mut statistics = Statistics::default();
     let style = args.surface.map(|surface| match surface {
         SurfaceName::Flat => Style::Flat,
@@ -149,17 +176,15 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         let displacement = map.map(|map| Displacement::new(map, args.height).ok_or_else(too_high));
         Ok::<_, Failure>((input, displacement.transpose()?))
     })?;
-    for note in notes {
-        // Nobody may be listening; the mesh is tessellated all the same.
-        _ = writeln!(std::io::stderr(), "tess: note: {note}");
-    }
+    notes.iter().for_each(|line| note(&format!("note: {line}")));
     let displaced = statistics.time(Stage::Load, || {
         displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
     });
     let up = args.view.up.unwrap_or(up);
-    let view = args.view.view(model.bounds(), up);
-    let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
-    let mut sink = output::open(&args.output, &options)?;
+    let view = args.view.view(args.bounds(&model), up);
+    let indices = args.indices.unwrap_or(IndexWidth::Auto);
+    let options = Options { up, indices, view, wireframe: args.wireframe };
+    let mut sink = output::open(&args.output, form, &options)?;
     let job = Job {
         model: &model,
         rule: args.rule.rule(&view),
@@ -171,4 +196,48 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     // Nobody may be listening; the output is there all the same.
     _ = write!(std::io::stderr(), "{statistics}");
     Ok(Exit::Done)
+}
+
+impl Args {
+    /// The form of the result.
+    ///
+    /// # Errors
+    /// No form can be told from the name, an option that this form does not have, or bytes for a
+    /// terminal.
+    fn form(&self) -> Result<ResultForm, Failure> {
+        let form = form::choose(self.format, &self.output)?;
+        let is_picture = form == ResultForm::Png;
+        let is_gltf = matches!(form, ResultForm::Gltf | ResultForm::Glb);
+        let needless = [
+            (self.indices.is_some() && !is_gltf, "--indices is for .gltf and .glb"),
+            (self.wireframe && !is_picture, "--wireframe is for pictures"),
+            (
+                self.view.is_chosen() && !is_picture && !self.rule.looks(),
+                "--eye, --target, --fov and --size are for pictures, --distance and --pixels",
+            ),
+        ];
+        if let Some((_, why)) = needless.iter().find(|(is_needless, _)| *is_needless) {
+            return Err(Failure::bad_input(format!(
+                "{why}; {} has no use for it",
+                name_of_form(form)
+            )));
+        }
+        self.rule.fit(self.partitioning)?;
+        if !form.is_text() {
+            OutputArgs { file: self.output.clone() }.refuse_terminal("this form")?;
+        }
+        Ok(form)
+    }
+
+    /// The box that the surface lies in: that of the model, with room for the displacement.
+    fn bounds(&self, model: &Model) -> (Vec3, Vec3) {
+        let (low, high) = model.bounds();
+        let room = Vec3::splat(if self.displace.is_some() { self.height.abs() } else { 0.0 });
+        (low - room, high + room)
+    }
+}
+
+fn name_of_form(form: ResultForm) -> String {
+    use clap::ValueEnum;
+    form.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }
