@@ -66,7 +66,8 @@ fn the_teapot_in_every_form() {
     let folder = directory("mesh_forms");
     for name in ["teapot.obj", "teapot.gltf", "teapot.glb", "teapot.png"] {
         let out = folder.join(name);
-        let run = mesh(Path::new(""), "--factor 4 --size 120x90", &out);
+        let size = if name.ends_with("png") { "--size 120x90" } else { "" };
+        let run = mesh(Path::new(""), &format!("--factor 4 {size}"), &out);
         assert_eq!(counts(&run), [32, 800, 1024], "patches, vertices, triangles of {name}");
         assert!(out.metadata().is_ok_and(|file| file.len() > 1000), "{name} is there");
     }
@@ -259,4 +260,57 @@ fn bad_usage_is_told() {
         assert!(run.stderr.contains(message), "{words}: `{message}` is not in `{}`", run.stderr);
     }
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "no output was written");
+}
+
+/// The default camera has the whole model in its picture, and not much more.
+#[test]
+fn the_default_camera() {
+    let folder = directory("mesh_camera");
+    let cube = write(&folder, "cube.obj", CUBE);
+    let plane = write(&folder, "plane.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 1 4 3 2\n");
+    let height = write_grey(&folder, 255);
+    let displace = format!("--displace {} --height 0.5", height.display());
+    for model in [Path::new(""), &cube, &plane] {
+        for size in ["160x120", "80x160"] {
+            for options in ["", "--fov 90", &displace] {
+                let out = folder.join("out.png");
+                mesh(model, &format!("--factor 8 --size {size} {options}"), &out);
+                let (margin, filled) = margin_and_filled(&out);
+                assert!(margin >= 1, "{} {size} {options}: cut off", model.display());
+                assert!(filled >= 0.5, "{} {size} {options}: {filled}", model.display());
+            }
+        }
+    }
+}
+
+/// A height image of one pixel.
+fn write_grey(folder: &Path, grey: u8) -> PathBuf {
+    let path = folder.join("height.png");
+    let file = fs::File::create(&path).expect("the test's file");
+    let mut encoder = png::Encoder::new(file, 1, 1);
+    encoder.set_color(png::ColorType::Grayscale);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&[grey]).expect("a pixel");
+    path
+}
+
+/// Pixels between what is drawn and the border, and the larger part of width and height that is
+/// filled.
+fn margin_and_filled(path: &Path) -> (usize, f64) {
+    let file = std::io::BufReader::new(fs::File::open(path).expect("the picture"));
+    let mut reader = png::Decoder::new(file).read_info().expect("a PNG");
+    let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
+    let info = reader.next_frame(&mut bytes).expect("pixels");
+    let (width, height) = (info.width as usize, info.height as usize);
+    let background = bytes[..3].to_vec();
+    let drawn = |x: usize, y: usize| bytes[(y * width + x) * 3..][..3] != background[..];
+    let all =
+        || (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| drawn(x, y));
+    let low =
+        (all().map(|(x, _)| x).min().expect("drawn"), all().map(|(_, y)| y).min().expect("drawn"));
+    let high =
+        (all().map(|(x, _)| x).max().expect("drawn"), all().map(|(_, y)| y).max().expect("drawn"));
+    let margin = low.0.min(low.1).min(width - 1 - high.0).min(height - 1 - high.1);
+    let part = |low: usize, high: usize, of: usize| (high - low + 1) as f64 / of as f64;
+    (margin, part(low.0, high.0, width).max(part(low.1, high.1, height)))
 }
