@@ -4,9 +4,9 @@ use crate::compare_with_model;
 use crate::input::Bytes;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
-use tess_wgpu::{Gpu, Tessellator};
 use tess_gpu::{Numbering, PointFormat, Setup};
 use tess_verify::case::Case;
+use tess_wgpu::{Gpu, Tessellator};
 
 /// Patches in a batch: small, as a software adapter runs them.
 const MOST: usize = 12;

@@ -5,8 +5,8 @@ use tess_core::DomainPoint;
 
 /// A point format: `[f32; 2]`, or [`DomainPoint`] for pairs of 16.16 numbers. Both are exact.
 ///
-/// `tess-gpu` calls the first `PointFormat::F32`; C calls them `TESS_POINTS_FLOAT` and
-/// `TESS_POINTS_FIXED`. The packed format that the shaders have is not here: it holds a patch's
+/// `tess-gpu` calls the first `PointFormat::F32`; C calls them `TESS_POINT_F32` and
+/// `TESS_POINT_FIXED`. The packed format that the shaders have is not here: it holds a patch's
 /// number in each point.
 pub trait PointFormat: sealed::Point + Copy + Default + Send + Sync + 'static {
     /// The point with these 16.16 coordinates, each in `0..=ONE`. Exact; beyond that range
@@ -17,8 +17,8 @@ pub trait PointFormat: sealed::Point + Copy + Default + Send + Sync + 'static {
 
 /// An index format: `u16` or `u32`.
 ///
-/// `tess-gpu` calls them `IndexType::U16` and `IndexType::U32`; C calls them `TESS_INDICES_16` and
-/// `TESS_INDICES_32`.
+/// `tess-gpu` calls them `IndexType::U16` and `IndexType::U32`; C calls them `TESS_INDEX_U16` and
+/// `TESS_INDEX_U32`.
 pub trait IndexFormat: sealed::Index + Copy + Default + Send + Sync + 'static {
     /// The largest index.
     const LARGEST: u64;

@@ -1,4 +1,4 @@
-//! How far a patch bends away from the triangles that replace it.
+//! Bounds on how far a patch bends away from the triangles that replace it.
 //!
 //! If a triangle's corners lie on a surface and its domain triangle has extents a in u and b in v,
 //! no point of it is further from the surface's point with the same domain coordinates than
@@ -15,12 +15,12 @@ use crate::pn::PnTriangle;
 use crate::sides::Sides;
 use glam::Vec3;
 
-/// Bounds of a patch's second derivatives, for one cut along u and along v each.
+/// Bounds of a patch's second derivatives, one along u and one along v.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bend {
-    /// Muu + Muv.
+    /// The bound along u: Muu + Muv.
     pub u: f32,
-    /// Mvv + Muv.
+    /// The bound along v: Mvv + Muv.
     pub v: f32,
 }
 
@@ -33,17 +33,17 @@ const QUAD_EXTENT: f32 = 1.0;
 /// but for the rounding of their points.
 const TRIANGLE_EXTENT: f32 = 1.334;
 
-/// The number of segments that keeps a bend within the tolerance.
+/// The number of segments, not rounded, that keeps a bend within a tolerance.
 #[must_use]
 pub fn segments(bend: f32, tolerance: f32) -> f32 {
     libm::sqrtf(bend / (4.0 * tolerance))
 }
 
 impl Bend {
-    /// No bend at all.
+    /// The bounds of a plane.
     pub const ZERO: Self = Self { u: 0.0, v: 0.0 };
 
-    /// The bounds for a surface.
+    /// The bounds of a surface.
     #[must_use]
     pub fn of(surface: &Surface) -> Self {
         match surface {
@@ -55,8 +55,8 @@ impl Bend {
         }
     }
 
-    /// The bend that an edge must follow: along its running coordinate. On a triangle all
-    /// coordinates are alike.
+    /// The bound along the running coordinate of edge `edge` of a patch with these sides; on a
+    /// triangle the larger of both.
     #[must_use]
     pub fn along(&self, sides: &Sides<()>, edge: usize) -> f32 {
         match (sides, edge) {

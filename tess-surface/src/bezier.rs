@@ -14,11 +14,11 @@ use glam::{Vec3, Vec4};
 /// throughout and is evaluated without rounding differences to a rational one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BezierPatch {
-    /// The control net.
+    /// The control points.
     pub points: [[Vec4; 4]; 4],
 }
 
-/// Everything that a normal may need: the homogeneous derivatives up to the second.
+/// The homogeneous point and its derivatives up to the second.
 #[derive(Clone, Copy)]
 struct Jet {
     s: Vec4,
@@ -30,13 +30,13 @@ struct Jet {
 }
 
 impl BezierPatch {
-    /// A polynomial patch.
+    /// The polynomial patch with these control points.
     #[must_use]
     pub fn polynomial(points: [[Vec3; 4]; 4]) -> Self {
         Self { points: points.map(|row| row.map(|point| point.extend(1.0))) }
     }
 
-    /// A rational patch from its points in space and their weights w > 0.
+    /// The rational patch with these control points in space and their weights w > 0.
     #[must_use]
     pub fn rational(points: [[Vec3; 4]; 4], weights: [[f32; 4]; 4]) -> Self {
         let mut homogeneous = [[Vec4::ZERO; 4]; 4];
@@ -48,7 +48,7 @@ impl BezierPatch {
         Self { points: homogeneous }
     }
 
-    /// The boundary curves in the order u = 0, v = 0, u = 1, v = 1, each along its coordinate.
+    /// The boundary curves u = 0, v = 0, u = 1, v = 1, each in the direction of its coordinate.
     #[must_use]
     pub fn boundary(&self) -> [Curve; 4] {
         let column = |i: usize| Curve::Cubic(self.points.map(|row| row[i]));
@@ -72,14 +72,14 @@ impl BezierPatch {
     /// The unit normal, on the side from which u to v turns counter-clockwise.
     ///
     /// Where the partial derivatives do not span a plane, as at a corner onto which a whole edge
-    /// is collapsed, it is the limit of the normal along a way into the patch.
+    /// is collapsed, it is the limit of the normals on the way from inside the patch.
     #[must_use]
     pub fn normal(&self, u: f32, v: f32) -> Vec3 {
         let tangents = self.frame(u, v).tangents;
         tangents.normal().or_else(|| self.limit_normal(u, v)).unwrap_or(Vec3::Z)
     }
 
-    /// The first term that does not vanish of the normal's expansion along a way inwards.
+    /// The first term of the normal's expansion along a way inwards that does not vanish.
     ///
     /// With N = Su x Sv = 0 at (u, v), N there is to first order the way's
     /// a (Suu x Sv + Su x Suv) + b (Suv x Sv + Su x Svv), (a, b) pointing into the patch.

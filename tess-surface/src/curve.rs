@@ -1,4 +1,4 @@
-//! Cubic curves in homogeneous coordinates, and the direction they are evaluated in.
+//! Cubic curves in homogeneous coordinates, and the direction in which they are evaluated.
 
 use crate::math::{lerp, order_key, plain_zero, project};
 use glam::{Vec3, Vec4};
@@ -8,20 +8,20 @@ use glam::{Vec3, Vec4};
 /// A polynomial point has weight 1, and stays at weight 1 under every operation here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Curve {
-    /// From the first point to the second.
+    /// The line from the first point to the second.
     Line([Vec3; 2]),
-    /// Control points (w x, w y, w z, w) with weights w > 0.
+    /// The cubic with control points (w x, w y, w z, w), weights w > 0.
     Cubic([Vec4; 4]),
 }
 
 impl Curve {
-    /// A polynomial cubic from its control points.
+    /// The polynomial cubic with these control points.
     #[must_use]
     pub fn cubic(points: [Vec3; 4]) -> Self {
         Self::Cubic(points.map(|point| point.extend(1.0)))
     }
 
-    /// The same curve walked from its other end.
+    /// The same curve from its other end.
     #[must_use]
     pub fn reversed(self) -> Self {
         match self {
@@ -42,7 +42,7 @@ impl Curve {
         plain_zero(point)
     }
 
-    /// The length of the control polygon, at least that of the curve.
+    /// The length of the control polygon, which is at least that of the curve.
     #[must_use]
     pub fn length_bound(&self) -> f32 {
         match *self {
@@ -54,7 +54,7 @@ impl Curve {
         }
     }
 
-    /// The point that all control points are, if they are one and the same.
+    /// The position of all control points, if they have one and the same.
     #[must_use]
     pub fn collapsed_to(&self) -> Option<Vec3> {
         let points = match *self {
@@ -98,21 +98,21 @@ pub(crate) fn de_casteljau(points: [Vec4; 4], t: f32) -> (Vec4, Vec4) {
     (lerp(abc, bcd, t), derivative)
 }
 
-/// How a patch's own direction along an edge relates to the canonical one.
+/// A patch's own direction along an edge, compared with the canonical one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
-    /// The patch walks the edge in canonical direction.
+    /// The patch runs along the edge in canonical direction.
     Along,
-    /// The patch walks the edge against it.
+    /// The patch runs against the canonical direction.
     Against,
-    /// The curve reads the same both ways, so that no direction can be told.
+    /// The curve is the same both ways, so there is no canonical direction.
     Symmetric,
 }
 
 impl Direction {
     /// The canonical parameter of the patch's own parameter `t`, exactly for multiples of 2^-24.
     ///
-    /// A symmetric curve is folded in its middle, where both readings meet.
+    /// A symmetric curve is folded in its middle.
     #[must_use]
     pub fn canonical(self, t: f32) -> f32 {
         match self {
@@ -123,20 +123,20 @@ impl Direction {
     }
 }
 
-/// A boundary of a patch in canonical direction: the same value from both sides.
+/// A boundary curve of a patch in canonical direction, which is the same from both sides.
 ///
-/// The direction is read off the control points alone, so patches that know nothing of each
-/// other but have equal control points (forwards or backwards) evaluate to equal bits.
+/// The direction follows from the control points alone. So patches that know nothing of each other,
+/// but have equal control points forwards or backwards, evaluate to equal bits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
     /// The curve in canonical direction.
     pub curve: Curve,
-    /// The patch's direction.
+    /// The patch's direction along it.
     pub direction: Direction,
 }
 
 impl Edge {
-    /// The edge whose curve, in the patch's direction, is `curve`.
+    /// The edge with this curve in the patch's direction.
     #[must_use]
     pub fn new(curve: Curve) -> Self {
         if let Some(point) = curve.collapsed_to() {

@@ -1,49 +1,82 @@
-//! What can be wrong with a mesh.
+//! Why a mesh or a patch is refused.
 
 use core::fmt;
+use tess_core::Domain;
 
-/// A fault of one face or patch.
+/// The largest magnitude that a coordinate may have: 1e16.
+///
+/// Lengths, bounds of derivatives and normals are square roots of sums of squares of differences of
+/// coordinates. The largest such differences are the tangents of curved quads, up to 32 times as large
+/// as the corners' coordinates, so that the sums stay below 1e36; binary32 ends at 3.4e38. Beyond
+/// that, positions would be infinite or NaN.
+pub const MAX_COORDINATE: f32 = 1e16;
+
+/// What is wrong with one face or patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Fault {
-    /// An index beyond the list that it points into.
+    /// An index points beyond its list.
     OutOfRange {
-        /// What it should be the number of.
+        /// The name of the list's elements.
         what: &'static str,
-        /// How many there are.
+        /// The number of elements in the list.
         count: usize,
     },
-    /// A position or texture coordinate that is NaN or infinite, or a normal of no direction.
+    /// The normals or texture coordinates are not one for each corner.
+    WrongCount {
+        /// The name of the elements.
+        what: &'static str,
+        /// How many the face has.
+        found: usize,
+        /// The number of its corners.
+        corners: usize,
+    },
+    /// A position or texture coordinate is NaN or infinite, or a normal has no direction. The
+    /// string names which.
     NotFinite(&'static str),
-    /// Two neighbouring corners in the same place.
+    /// A position, texture coordinate or control point has a coordinate beyond [`MAX_COORDINATE`].
+    /// The string names which.
+    TooLarge(&'static str),
+    /// Two neighbouring corners have the same position.
     RepeatedCorner,
-    /// Corners on one line, or a patch whose points are all on one line.
+    /// All corners or control points lie on one line.
     NoArea,
-    /// A weight that is not greater than zero.
+    /// A weight is not greater than zero.
     Weight,
-    /// An edge of this face belongs to two other faces already.
+    /// An edge of this face already belongs to two other faces.
     NonManifold {
-        /// The other faces.
+        /// The numbers of the other faces.
         others: [usize; 2],
     },
 }
 
-/// A mesh that cannot be tessellated.
+/// Why a mesh cannot be tessellated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MeshError {
-    /// There is no face.
+    /// The mesh has no face.
     Empty,
-    /// There are more faces than can be numbered.
+    /// The mesh has 2^30 faces or more.
     TooMany {
-        /// How many there are.
+        /// The number of faces.
         faces: usize,
     },
-    /// A face is at fault.
+    /// One face, the first such, is at fault.
     Face {
         /// Its number, from 0.
         face: usize,
         /// What is wrong with it.
         fault: Fault,
     },
+}
+
+/// A value for each corner was given for another domain than the surface's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WrongDomain {
+    /// The domain of the values.
+    pub found: Domain,
+    /// The domain of the surface.
+    pub expected: Domain,
 }
 
 impl MeshError {
@@ -58,8 +91,16 @@ impl fmt::Display for Fault {
             Self::OutOfRange { what, count } => {
                 write!(f, "a {what} index is out of range: there are {count}")
             }
+            Self::WrongCount { what, found, corners } => {
+                write!(f, "a face of {corners} corners has {found} {what} indices")
+            }
             Self::NotFinite("normal") => f.write_str("a normal is zero, NaN or infinite"),
             Self::NotFinite(what) => write!(f, "a {what} is NaN or infinite"),
+            Self::TooLarge(what) => write!(
+                f,
+                "a {what} is too large to be evaluated: coordinates must lie within \
+                 {MAX_COORDINATE:e} of 0"
+            ),
             Self::RepeatedCorner => f.write_str("two neighbouring corners are in the same place"),
             Self::NoArea => f.write_str("it has zero area"),
             Self::Weight => f.write_str("a weight is not greater than zero"),
@@ -74,11 +115,19 @@ impl fmt::Display for MeshError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Empty => f.write_str("there is no face"),
-            Self::TooMany { faces } => write!(f, "{faces} faces are more than 2^30"),
+            Self::TooMany { faces } => write!(f, "there are {faces} faces; 2^30 are too many"),
             Self::Face { face, fault } => write!(f, "face {face}: {fault}"),
         }
     }
 }
 
+impl fmt::Display for WrongDomain {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { found, expected } = self;
+        write!(f, "the values are those of a {found:?} patch, but the surface is a {expected:?}")
+    }
+}
+
+impl core::error::Error for WrongDomain {}
 impl core::error::Error for Fault {}
 impl core::error::Error for MeshError {}

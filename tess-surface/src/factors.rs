@@ -1,7 +1,7 @@
 //! Tessellation factors by rule, each a function of the edge.
 //!
-//! A rule sees an edge in canonical direction, and of the patches beside it only what both sides
-//! agree on. So neighbours ask for the same factor, to the bit, and no crack opens.
+//! A rule gets an edge in canonical direction, and what both sides agree on. So neighbours get the
+//! same factor, to the bit, and no crack opens.
 
 use crate::curve::Curve;
 use crate::model::Model;
@@ -12,51 +12,55 @@ use crate::{bend, bend::Bend};
 use glam::Vec3;
 use tess_core::{Partitioning, PatchFactors, QuadFactors, TriangleFactors};
 
-/// How many segments an edge should have.
+/// How many segments an edge gets.
+///
+/// Every number is valid. A rule's result is clamped to 1..=64, and NaN becomes 1, so that a rule
+/// never culls a patch.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum FactorRule {
-    /// The same everywhere.
+    /// The same factor everywhere.
     Uniform(f32),
-    /// Inversely proportional to the distance of the edge's middle from the eye.
+    /// A factor inversely proportional to the distance of the edge's middle from the eye.
     Distance {
-        /// Where the eye is.
+        /// The position of the eye.
         eye: Vec3,
         /// The factor at distance 1.
         scale: f32,
     },
-    /// Segments of about this many pixels: the edge's length, as a sphere around its middle
-    /// appears. A sphere looks the same from all sides, so edges that point away keep their cuts
-    /// (I. Cantlay, *DirectX 11 Terrain Tessellation*, NVIDIA 2011).
+    /// Segments of about `segment` pixels. The edge is seen as the sphere around its middle whose
+    /// diameter is its length; a sphere looks the same from all sides, so edges that point away from
+    /// the eye keep their segments (I. Cantlay, *DirectX 11 Terrain Tessellation*, NVIDIA 2011).
     ScreenSpace {
-        /// Where the eye is.
+        /// The position of the eye.
         eye: Vec3,
-        /// Pixels that a length of 1 covers at distance 1, across the view: for a picture of
+        /// The pixels that a length of 1 covers at distance 1, across the view: for a picture of
         /// height h pixels and field of view f, h / (2 tan(f / 2)).
         pixels_per_unit: f32,
-        /// Wanted length of a segment, in pixels.
+        /// The wanted length of a segment, in pixels.
         segment: f32,
     },
-    /// No point of a triangle further than `tolerance` from the point of the surface with the
-    /// same domain coordinates, unless a factor is cut off at 64. See [`crate::bend`]. The factors
-    /// are powers of two, without which transitions between factors would deviate more; under
-    /// `fractional_odd`, which cannot have these, the tolerance is approximate.
+    /// As many segments as keep every point of a triangle within `tolerance` of the surface's point
+    /// with the same domain coordinates, unless a factor would exceed 64. [`crate::bend`] has the
+    /// formula. The factors are powers of two; with others, the triangles between different factors
+    /// would deviate more. Under `fractional_odd`, which has no powers of two, the tolerance is
+    /// approximate.
     Flatness {
-        /// Largest distance, in the model's units.
+        /// The largest distance, in the model's units.
         tolerance: f32,
     },
 }
 
-/// The range of factors that any partitioning knows.
+/// The range of factors of all partitionings together.
 const RANGE: (f32, f32) = (1.0, 64.0);
 
-/// Factors are at least 1, which NaN counts as too: a rule never culls a patch.
 fn in_range(factor: f32) -> f32 {
     if factor > RANGE.0 { factor.min(RANGE.1) } else { RANGE.0 }
 }
 
 impl FactorRule {
-    /// The factor of an edge, 1..=64, from its canonical curve ([`crate::curve::Edge::curve`])
-    /// and the larger bend of the two patches along it.
+    /// The factor of an edge, 1..=64, from its canonical curve ([`Edge::curve`](crate::Edge::curve))
+    /// and the larger [`Bend::along`] it of both patches.
     #[must_use]
     pub fn edge(&self, curve: &Curve, bend: f32) -> f32 {
         in_range(match *self {
@@ -70,15 +74,21 @@ impl FactorRule {
         })
     }
 
-    /// The factors of patch `number` of a model, outer and inside, prepared for `partitioning`
-    /// as a hull shader does: powers of two are rounded up to.
+    /// The factors of patch `number` of a model, prepared for `partitioning` as a hull shader does:
+    /// under `pow2` they are rounded up to powers of two.
     ///
-    /// The inside factors are the larger ones of the facing edges, or of all three.
+    /// An inside factor of a quad is the larger factor of the two edges along its axis, that of a
+    /// triangle the largest of all three; more where [`FactorRule::Flatness`] needs it inside.
     ///
     /// # Panics
     /// If there is no such patch.
     #[must_use]
-    pub fn patch(&self, model: &Model, number: usize, partitioning: Partitioning) -> PatchFactors {
+    pub fn factors(
+        &self,
+        model: &Model,
+        number: usize,
+        partitioning: Partitioning,
+    ) -> PatchFactors {
         if let Self::Uniform(factor) = *self {
             let outer = model.sides(number).map(|()| in_range(factor));
             return self.prepare(outer, Bend::ZERO, partitioning);
@@ -94,7 +104,7 @@ impl FactorRule {
         self.prepare(outer, bend, partitioning)
     }
 
-    /// What only one rule asks for.
+    /// The bend of a patch, which only one rule looks at.
     fn bend(&self, patch: &Patch) -> Bend {
         if matches!(self, Self::Flatness { .. }) { Bend::of(patch.surface()) } else { Bend::ZERO }
     }
@@ -120,16 +130,13 @@ impl FactorRule {
         match outer.map(up) {
             Sides::Triangle([u0, v0, w0]) => {
                 let inside = up(inside(bend.u.max(bend.v))).max(u0).max(v0).max(w0);
-                PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside })
+                TriangleFactors::from([u0, v0, w0, inside]).into()
             }
-            Sides::Quad([u0, v0, u1, v1]) => PatchFactors::Quad(QuadFactors {
-                u0,
-                v0,
-                u1,
-                v1,
-                inside_u: up(inside(bend.u)).max(v0).max(v1),
-                inside_v: up(inside(bend.v)).max(u0).max(u1),
-            }),
+            Sides::Quad([u0, v0, u1, v1]) => {
+                let inside_u = up(inside(bend.u)).max(v0).max(v1);
+                let inside_v = up(inside(bend.v)).max(u0).max(u1);
+                QuadFactors::from([u0, v0, u1, v1, inside_u, inside_v]).into()
+            }
         }
     }
 }

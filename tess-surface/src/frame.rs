@@ -6,23 +6,24 @@ use glam::Vec3;
 /// The partial derivatives of a surface's position by the domain coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tangents {
-    /// By u.
+    /// The derivative by u.
     pub du: Vec3,
-    /// By v (on triangles at constant u, so that w shrinks).
+    /// The derivative by v (on triangles at constant u, so that w shrinks).
     pub dv: Vec3,
 }
 
-/// Position and tangents.
+/// A point of a surface with its tangents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
-    /// The point of the surface.
+    /// The position.
     pub position: Vec3,
-    /// Its partial derivatives.
+    /// The partial derivatives there.
     pub tangents: Tangents,
 }
 
 impl Tangents {
-    /// The unit vector of du x dv; `None` where these are zero or parallel to within 2^-15.
+    /// The unit vector of du x dv; `None` where one of them is zero or they are parallel to within
+    /// 2^-15.
     #[must_use]
     pub fn normal(&self) -> Option<Vec3> {
         let (du, dv) = (unit(self.du)?, unit(self.dv)?);

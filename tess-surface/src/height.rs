@@ -8,17 +8,18 @@
 //! *Simulation of Wrinkled Surfaces*, SIGGRAPH 1978.
 
 use crate::curve::Direction;
+use crate::error::MAX_COORDINATE;
 use crate::frame::Tangents;
-use crate::math::{plain_zero, unit};
+use crate::math::{is_in_range, plain_zero, unit};
 use crate::model::Model;
 use crate::patch::{Patch, Sample};
-use crate::sides::{Place, Sides, edge_corners};
+use crate::sides::{Place, Sides, corner_coordinates, edge_corners};
 use crate::topology::{HalfEdge, weld};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{Vec2, Vec3};
 
-/// A grey image as heights, repeated over the plane of texture coordinates.
+/// A grey image of heights, repeated over the plane of texture coordinates.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightMap {
     width: usize,
@@ -27,15 +28,15 @@ pub struct HeightMap {
 }
 
 impl HeightMap {
-    /// An image from its texels, row by row from the top; `None` unless there are
-    /// `width * height`, at least one, all finite.
+    /// The image with these texels, row by row from the top. `None` unless there are
+    /// `width * height` of them, at least one, none NaN or beyond [`MAX_COORDINATE`].
     #[must_use]
     pub fn new(width: usize, height: usize, texels: Vec<f32>) -> Option<Self> {
         let fits = !texels.is_empty() && width.checked_mul(height) == Some(texels.len());
-        (fits && texels.iter().all(|t| t.is_finite())).then_some(Self { width, height, texels })
+        (fits && is_in_range(&texels)).then_some(Self { width, height, texels })
     }
 
-    /// Height and its derivatives by the texture coordinates, bilinear between texel centres.
+    /// The height and its derivatives by the texture coordinates, bilinear between texel centres.
     #[must_use]
     pub fn sample(&self, texcoord: Vec2) -> (f32, Vec2) {
         let (x, fx) = cell(texcoord.x, self.width);
@@ -69,16 +70,24 @@ fn cell(coordinate: f32, size: usize) -> (usize, f32) {
     (texel, scaled - below)
 }
 
-/// What displaces a surface.
+/// Heights in the units of a model, to displace its surface along the normal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Displacement {
-    /// The heights.
-    pub map: HeightMap,
-    /// Units of the model per unit of height, along the normal.
-    pub scale: f32,
+    map: HeightMap,
+    scale: f32,
 }
 
-/// Direction and texture coordinates where they are shared.
+impl Displacement {
+    /// The heights of an image, times `scale` units of the model. `None` if one of the products is
+    /// NaN or beyond [`MAX_COORDINATE`].
+    #[must_use]
+    pub fn new(map: HeightMap, scale: f32) -> Option<Self> {
+        let highest = map.texels.iter().fold(0.0f32, |highest, t| highest.max(t.abs()));
+        ((highest * scale).abs() <= MAX_COORDINATE).then_some(Self { map, scale })
+    }
+}
+
+/// A direction and texture coordinates that several patches share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Anchor {
     direction: Vec3,
@@ -87,7 +96,7 @@ struct Anchor {
 
 /// The corners of a model, each with one direction and one pair of texture coordinates.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Anchors {
+struct Anchors {
     anchors: Vec<Anchor>,
     /// The anchor of each corner, four numbers per patch.
     of_corner: Vec<u32>,
@@ -95,15 +104,14 @@ pub struct Anchors {
 
 impl Anchors {
     /// The anchors of a model: sums of its patches' normals, in their order.
-    #[must_use]
-    pub fn of(model: &Model) -> Self {
+    fn of(model: &Model) -> Self {
         let mut positions = Vec::with_capacity(model.len() * 4);
         let mut corners = Vec::with_capacity(model.len() * 4);
         for number in 0..model.len() {
             let patch = model.patch(number);
             let samples = corner_coordinates(patch.edges()).map(|at| patch.sample(at));
             let samples = samples.as_slice();
-            // Triangles fill their fourth place with their first corner, which nobody asks for.
+            // The fourth corner of a triangle is its first one again, and is not used.
             for corner in 0..4 {
                 let sample = samples.get(corner).unwrap_or(&samples[0]);
                 positions.push(sample.position);
@@ -131,14 +139,50 @@ impl Anchors {
     }
 }
 
-fn corner_coordinates<T>(sides: &Sides<T>) -> Sides<[f32; 2]> {
-    match sides {
-        Sides::Triangle(_) => Sides::Triangle([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
-        Sides::Quad(_) => Sides::Quad([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
+/// A model and its displacement.
+#[derive(Clone, Debug)]
+pub struct DisplacedModel<'a> {
+    model: &'a Model,
+    displacement: &'a Displacement,
+    anchors: Anchors,
+}
+
+impl<'a> DisplacedModel<'a> {
+    /// Finds the directions and texture coordinates that patches share at their corners, which
+    /// evaluates every patch there.
+    #[must_use]
+    pub fn new(model: &'a Model, displacement: &'a Displacement) -> Self {
+        Self { model, displacement, anchors: Anchors::of(model) }
+    }
+
+    /// The model without its displacement.
+    #[must_use]
+    pub const fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// Patch `number`, ready for evaluation.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn patch(&self, number: usize) -> DisplacedPatch<'a> {
+        let Self { model, displacement, anchors } = self;
+        let patch = model.patch(number);
+        let sides = patch.edges().map_numbered(|edge, _| {
+            let half = HalfEdge { patch: number, edge };
+            let twin = model.twin(half);
+            Side {
+                corner: anchors.at(number, edge),
+                beyond: twin.map(|twin| (model.patch(twin.patch), twin.edge)),
+                leads: twin.is_none_or(|twin| half < twin),
+            }
+        });
+        DisplacedPatch { displacement, patch, sides }
     }
 }
 
-/// A patch with what its neighbours have to say about its boundary.
+/// A patch with its displacement and with what it shares with its neighbours.
 #[derive(Clone, Debug)]
 pub struct DisplacedPatch<'a> {
     displacement: &'a Displacement,
@@ -146,43 +190,18 @@ pub struct DisplacedPatch<'a> {
     sides: Sides<Side>,
 }
 
-/// One edge and the corner of the same number.
+/// What is shared at one edge and at the corner of the same number.
 #[derive(Clone, Debug)]
 struct Side {
     corner: Anchor,
-    /// The patch beyond the edge and which of its edges it is.
+    /// The patch beyond the edge, and the edge's number there.
     beyond: Option<(Patch, usize)>,
-    /// Whether this patch's texture coordinates are the edge's.
+    /// Whether the edge has this patch's texture coordinates, not those of the patch beyond.
     leads: bool,
 }
 
-impl<'a> DisplacedPatch<'a> {
-    /// Patch `number` of a model with its anchors.
-    ///
-    /// # Panics
-    /// If there is no such patch, or the anchors are another model's.
-    #[must_use]
-    pub fn new(
-        model: &Model,
-        anchors: &Anchors,
-        number: usize,
-        displacement: &'a Displacement,
-    ) -> Self {
-        let patch = model.patch(number);
-        let sides = patch.edges().map_numbered(|edge, _| {
-            let half = HalfEdge { patch: number, edge };
-            let twin = model.twin(half);
-            let corner = anchors.at(number, edge);
-            Side {
-                corner,
-                beyond: twin.map(|twin| (model.patch(twin.patch), twin.edge)),
-                leads: twin.is_none_or(|twin| half < twin),
-            }
-        });
-        Self { displacement, patch, sides }
-    }
-
-    /// The displaced point at domain coordinates (u, v).
+impl DisplacedPatch<'_> {
+    /// The displaced vertex at the domain point (u, v), in 0..=1 as a tessellator outputs it.
     #[must_use]
     pub fn sample(&self, [u, v]: [f32; 2]) -> Sample {
         let sample = self.patch.sample([u, v]);
@@ -197,7 +216,7 @@ impl<'a> DisplacedPatch<'a> {
         }
     }
 
-    /// Direction and texture coordinates of the displacement: shared on the boundary.
+    /// Direction and texture coordinates of the displacement.
     fn anchor(&self, sample: &Sample, u: f32, v: f32) -> Anchor {
         match self.patch.place(u, v) {
             Place::Inside => Anchor { direction: sample.normal, texcoord: sample.texcoord },
@@ -210,7 +229,7 @@ impl<'a> DisplacedPatch<'a> {
         let side = &self.sides.as_slice()[edge];
         let direction = self.patch.edges().as_slice()[edge].direction;
         if direction == Direction::Symmetric {
-            // Collapsed, or no telling which end is which: one place for the whole edge.
+            // Collapsed, or without a canonical direction: the whole edge has those of one corner.
             return self.sides.as_slice()[edge_corners(&self.sides)[edge][0]].corner;
         }
         let Some((beyond, their_edge)) = &side.beyond else {
@@ -226,20 +245,30 @@ impl<'a> DisplacedPatch<'a> {
         }
     }
 
-    /// Blinn's N' = N + hu (n x Sv) + hv (Su x n), with N = Su x Sv taken along the shading normal.
     fn wrinkled_normal(&self, normal: Vec3, slope: Vec2, u: f32, v: f32) -> Vec3 {
         let Tangents { du, dv } = self.patch.frame(u, v).tangents;
-        let area = du.cross(dv).length();
         let (tu, tv) = texcoord_derivatives(self.patch.texcoords(), u, v);
-        let (hu, hv) = (slope.dot(tu), slope.dot(tv));
-        if area <= 1e-6 * du.length_squared().max(dv.length_squared()) {
-            return normal;
-        }
-        unit(normal * area + normal.cross(dv) * hu + du.cross(normal) * hv).unwrap_or(normal)
+        let slopes = (slope.dot(tu), slope.dot(tv));
+        // The area is a square root of fourth powers. Where these overflow, so does it, and the
+        // whole is computed in smaller units of length.
+        let units = if du.cross(dv).length() < f32::INFINITY { 1.0 } else { SMALLER };
+        wrinkled(normal, [du * units, dv * units], [slopes.0 * units, slopes.1 * units])
     }
 }
 
-/// The domain point of an edge at its running coordinate `t`.
+/// 2^-45, which brings the fourth powers of tangents of 2^32 to 2^58 into range.
+const SMALLER: f32 = 1.0 / 35_184_372_088_832.0;
+
+/// Blinn's N' = N + hu (n x Sv) + hv (Su x n), with N = Su x Sv taken along the shading normal.
+fn wrinkled(normal: Vec3, [du, dv]: [Vec3; 2], [hu, hv]: [f32; 2]) -> Vec3 {
+    let area = du.cross(dv).length();
+    if area <= 1e-6 * du.length_squared().max(dv.length_squared()) {
+        return normal;
+    }
+    unit(normal * area + normal.cross(dv) * hu + du.cross(normal) * hv).unwrap_or(normal)
+}
+
+/// The domain point on an edge at its running coordinate `t`.
 fn edge_point(patch: &Patch, edge: usize, t: f32) -> [f32; 2] {
     match (patch.edges(), edge) {
         (Sides::Triangle(_), 0) | (Sides::Quad(_), 0) => [0.0, t],

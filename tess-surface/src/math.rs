@@ -1,5 +1,6 @@
-//! Small vector operations whose every rounding is spelled out here.
+//! Small vector operations, with every rounding spelled out.
 
+use crate::error::MAX_COORDINATE;
 use glam::{Vec3, Vec4};
 
 /// `a + (b - a) t`: exact at `t = 0`, and where `a` equals `b`.
@@ -24,6 +25,11 @@ pub(crate) fn order_key(point: Vec4) -> [i32; 4] {
         bits ^ ((bits >> 31) & i32::MAX)
     };
     (point + Vec4::ZERO).to_array().map(total_order)
+}
+
+/// Whether no coordinate is beyond [`MAX_COORDINATE`]; NaN is.
+pub(crate) fn is_in_range(coordinates: &[f32]) -> bool {
+    coordinates.iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE)
 }
 
 /// The unit vector of `v`; `None` where the length is zero, overflows or is NaN.

@@ -1,29 +1,33 @@
-//! Triangles and quads with indices: what a model file holds, checked.
+//! Triangles and quads with indices, as a model file holds them.
 
 use crate::error::{Fault, MeshError};
-use crate::math::unit;
+use crate::math::{is_in_range, unit};
 use crate::sides::{Sides, edge_corners};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{DVec3, Vec2, Vec3};
 
-/// One face: corners counter-clockwise as seen from outside.
+/// One face: its corners in counter-clockwise order, seen from outside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Face {
-    /// Numbers of the corners' positions.
+    /// The corners' indices into [`PolygonMesh::positions`].
     pub positions: Sides<u32>,
-    /// Numbers of their normals, if the file gives any.
+    /// The corners' indices into [`PolygonMesh::normals`]; without them the corners get smooth
+    /// normals.
     pub normals: Option<Sides<u32>>,
-    /// Numbers of their texture coordinates, if the file gives any.
+    /// The corners' indices into [`PolygonMesh::texcoords`]; without them the corners get those of
+    /// the unit square.
     pub texcoords: Option<Sides<u32>>,
 }
 
 /// Faces over shared positions, normals and texture coordinates.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PolygonMesh {
-    /// Positions, in the model's units.
+    /// Positions, in the model's units, each coordinate within [`MAX_COORDINATE`] of 0.
+    ///
+    /// [`MAX_COORDINATE`]: crate::MAX_COORDINATE
     pub positions: Vec<Vec3>,
-    /// Normals; made unit by [`PolygonMesh::check`].
+    /// Normals of any length but zero.
     pub normals: Vec<Vec3>,
     /// Texture coordinates, (0, 0) at the lower left of the image.
     pub texcoords: Vec<Vec2>,
@@ -32,49 +36,61 @@ pub struct PolygonMesh {
 }
 
 impl PolygonMesh {
-    /// Checks every face and makes the normals unit vectors.
+    /// Checks every face. Positions and normals that no face uses may be anything.
     ///
     /// # Errors
-    /// The first face with an index out of range, a number that is not finite, a repeated corner
-    /// or no area; a mesh with more than 2^30 faces or none.
-    pub fn check(&mut self) -> Result<(), MeshError> {
+    /// The first face with a [`Fault`], save edges of more than two faces, which [`Model::polygons`]
+    /// finds; a mesh with no face or with 2^30.
+    ///
+    /// [`Model::polygons`]: crate::Model::polygons
+    pub fn check(&self) -> Result<(), MeshError> {
         crate::topology::check_count(self.faces.len())?;
         for (number, face) in self.faces.iter().enumerate() {
             self.check_face(face).map_err(|fault| MeshError::face(number, fault))?;
         }
-        for normal in &mut self.normals {
-            *normal = unit(*normal).unwrap_or(Vec3::ZERO); // unused ones may be anything
-        }
         Ok(())
     }
 
+    /// Scales every normal to unit length. One of no direction, which no face may use, becomes 0.
+    pub fn normalize(&mut self) {
+        for normal in &mut self.normals {
+            *normal = unit(*normal).unwrap_or(Vec3::ZERO);
+        }
+    }
+
     fn check_face(&self, face: &Face) -> Result<(), Fault> {
-        let positions = gather(&self.positions, face.positions, "position")?;
-        if !positions.as_slice().iter().all(|position| position.is_finite()) {
-            return Err(Fault::NotFinite("position"));
+        let corners = face.positions.as_slice().len();
+        let positions = gather(&self.positions, face.positions, corners, "position")?;
+        for position in positions.as_slice() {
+            check_vector("position", position.is_finite(), is_in_range(position.as_ref()))?;
         }
         if let Some(normals) = face.normals {
-            let normals = gather(&self.normals, normals, "normal")?;
+            let normals = gather(&self.normals, normals, corners, "normal")?;
             if normals.as_slice().iter().any(|&normal| unit(normal).is_none()) {
                 return Err(Fault::NotFinite("normal"));
             }
         }
         if let Some(texcoords) = face.texcoords {
-            let texcoords = gather(&self.texcoords, texcoords, "texture coordinate")?;
-            if !texcoords.as_slice().iter().all(|texcoord| texcoord.is_finite()) {
-                return Err(Fault::NotFinite("texture coordinate"));
+            let what = "texture coordinate";
+            let texcoords = gather(&self.texcoords, texcoords, corners, what)?;
+            for texcoord in texcoords.as_slice() {
+                check_vector(what, texcoord.is_finite(), is_in_range(texcoord.as_ref()))?;
             }
         }
         check_area(&positions)
     }
 
-    /// The positions of a face's corners; its indices must have been checked.
+    /// The positions of a face's corners.
+    ///
+    /// # Panics
+    /// If an index of the face is out of range; [`PolygonMesh::check`] finds these.
     #[must_use]
     pub fn corners(&self, face: &Face) -> Sides<Vec3> {
         face.positions.map(|position| self.positions[position as usize])
     }
 
-    /// One normal per position: the sum of its faces' normals, each weighted by the angle there.
+    /// One unit normal for each position: the sum of its faces' normals, each weighted by the angle
+    /// there.
     ///
     /// G. Thürmer, C. A. Wüthrich, *Computing Vertex Normals from Polygonal Facets*, Journal of
     /// Graphics Tools 3(1), 1998. `vertices` maps positions to those that they coincide with.
@@ -92,11 +108,25 @@ impl PolygonMesh {
     }
 }
 
+fn check_vector(what: &'static str, is_finite: bool, is_in_range: bool) -> Result<(), Fault> {
+    match (is_finite, is_in_range) {
+        (false, _) => Err(Fault::NotFinite(what)),
+        (true, false) => Err(Fault::TooLarge(what)),
+        (true, true) => Ok(()),
+    }
+}
+
+/// The values of a face's corners.
 fn gather<T: Copy>(
     values: &[T],
     indices: Sides<u32>,
+    corners: usize,
     what: &'static str,
 ) -> Result<Sides<T>, Fault> {
+    let found = indices.as_slice().len();
+    if found != corners {
+        return Err(Fault::WrongCount { what, found, corners });
+    }
     let fault = Fault::OutOfRange { what, count: values.len() };
     let known = |index: &u32| (*index as usize) < values.len();
     if !indices.as_slice().iter().all(known) {
@@ -105,7 +135,8 @@ fn gather<T: Copy>(
     Ok(indices.map(|index| values[index as usize]))
 }
 
-/// Two corners in one place, or an area that vanishes against the product of its diagonals.
+/// Refuses two neighbouring corners with one position, and an area that vanishes against the
+/// product of the diagonals.
 fn check_area(corners: &Sides<Vec3>) -> Result<(), Fault> {
     let points = corners.as_slice();
     if edge_corners(corners).iter().any(|&[a, b]| points[a] == points[b]) {

@@ -1,9 +1,9 @@
-//! A model: patches that know their neighbours.
+//! Patches that know their neighbours.
 
 use crate::bezier::BezierPatch;
 use crate::curve::Edge;
 use crate::error::{Fault, MeshError};
-use crate::math::unit;
+use crate::math::{is_in_range, unit};
 use crate::mesh::{Face, PolygonMesh};
 use crate::patch::{Patch, Surface};
 use crate::pn::{PnCorner, PnQuad, PnTriangle, edge_points};
@@ -14,14 +14,16 @@ use glam::Vec3;
 
 /// How the faces of a polygon mesh become surfaces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Style {
-    /// Planes and bilinear quads.
+    /// Triangles are planes, quads are bilinear.
     Flat,
-    /// Point-normal triangles and quads.
+    /// Triangles and quads are rounded by their corners' normals ([`crate::pn`]).
     PointNormal,
 }
 
-/// Patches with adjacency.
+/// Patches with adjacency. They are numbered from 0, in the order of the faces or Bezier patches that
+/// the model was made of; methods that take a number panic beyond the last, as slices do.
 #[derive(Clone, Debug)]
 pub struct Model {
     source: Source,
@@ -35,13 +37,15 @@ enum Source {
 }
 
 impl Model {
-    /// A model of a polygon mesh. Faces without normals get smooth ones.
+    /// Makes a model of a polygon mesh. Normals are scaled to unit length, and faces without
+    /// normals get smooth ones. Faces are neighbours where the positions of their corners have equal
+    /// coordinates, whatever their indices.
     ///
     /// # Errors
-    /// What [`PolygonMesh::check`] finds, and edges of more than two faces. Positions are the
-    /// same if their coordinates are equal, whatever their numbers.
+    /// What [`PolygonMesh::check`] finds, and edges of more than two faces.
     pub fn polygons(mut mesh: PolygonMesh, style: Style) -> Result<Self, MeshError> {
         mesh.check()?;
+        mesh.normalize();
         let vertices = weld(&mesh.positions);
         let lacks_normals = mesh.faces.iter().any(|face| face.normals.is_none());
         let normals = if lacks_normals { mesh.smooth_normals(&vertices) } else { Vec::new() };
@@ -58,11 +62,14 @@ impl Model {
         Ok(Self { source: Source::Polygons { mesh, vertices, normals, style }, topology })
     }
 
-    /// A model of bicubic patches, adjacent where their boundary control points are equal.
+    /// Makes a model of bicubic patches. Patches are neighbours where their boundary control points
+    /// are equal.
     ///
     /// # Errors
-    /// Points that are not finite, weights that are not greater than zero, patches with no area,
-    /// edges of more than two patches. A boundary collapsed to a point is no error and no edge.
+    /// The first patch with a control point that is not finite or too large to be evaluated
+    /// ([`Fault::TooLarge`]), with a weight that is not greater than zero, with no area, or with an
+    /// edge of two other patches; no patch, or 2^30. A boundary collapsed to a point is no error, and
+    /// no edge.
     pub fn bezier(patches: Vec<BezierPatch>) -> Result<Self, MeshError> {
         check_count(patches.len())?;
         let mut hashes = Vec::with_capacity(patches.len() * 4);
@@ -82,7 +89,7 @@ impl Model {
         Ok(Self { source: Source::Bezier(patches), topology })
     }
 
-    /// The number of patches, at least one.
+    /// The number of patches, at least 1.
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "a model is never empty")]
     pub const fn len(&self) -> usize {
@@ -92,13 +99,14 @@ impl Model {
         }
     }
 
-    /// The other side of an edge; `None` on the border of the model and for collapsed edges.
+    /// The other side of an edge; `None` on the border of the model, for collapsed edges and for
+    /// edges that do not exist.
     #[must_use]
     pub fn twin(&self, half: HalfEdge) -> Option<HalfEdge> {
         self.topology.twin(half)
     }
 
-    /// The shape of patch number `number`, without its surface.
+    /// The shape of patch `number`, triangle or quad, without its surface.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -110,28 +118,30 @@ impl Model {
         }
     }
 
-    /// Patch number `number`, ready for evaluation.
+    /// Patch `number`, ready for evaluation.
     ///
     /// # Panics
     /// If there is no such patch.
     #[must_use]
     pub fn patch(&self, number: usize) -> Patch {
         match &self.source {
-            Source::Bezier(patches) => Patch::new(Surface::Bezier(patches[number]), None),
+            Source::Bezier(patches) => Patch::new(Surface::Bezier(patches[number])),
             Source::Polygons { mesh, style, .. } => {
                 let face = &mesh.faces[number];
-                let texcoords = face.texcoords;
-                let texcoords = texcoords.map(|t| t.map(|number| mesh.texcoords[number as usize]));
                 let surface = match style {
                     Style::Flat => flat(mesh.corners(face)),
                     Style::PointNormal => self.point_normal(number),
                 };
-                Patch::new(surface, texcoords)
+                let patch = Patch::new(surface);
+                let Some(indices) = face.texcoords else { return patch };
+                let texcoords = indices.map(|index| mesh.texcoords[index as usize]);
+                patch.with_texcoords(texcoords).unwrap_or(patch) // the mesh was checked
             }
         }
     }
 
-    /// A box around all control points, which holds the surface: (least, greatest) corner.
+    /// The (least, greatest) corner of a box around all control points, which holds the surface of
+    /// planes, quads and Bezier patches; point-normal surfaces bulge out of it.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, Vec3) {
         let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -167,7 +177,7 @@ impl Model {
         }
     }
 
-    /// The means of the control points that both sides of an edge ask for.
+    /// The means of the inner control points that both sides of an edge ask for.
     fn shared_edge_points(&self, half: HalfEdge, start: PnCorner, end: PnCorner) -> [Vec3; 2] {
         let own = edge_points(start, end);
         let Some(twin) = self.twin(half) else { return own };
@@ -213,8 +223,15 @@ fn check_patch(patch: &BezierPatch) -> Result<(), Fault> {
     if points.iter().any(|point| point.w <= 0.0) {
         return Err(Fault::Weight);
     }
-    let points = points.iter().map(|&point| crate::math::project(point));
-    let mut directions = points.map(|point| point - crate::math::project(patch.points[0][0]));
+    let positions = points.iter().map(|&point| crate::math::project(point));
+    // Tangents are the positions' differences, times a quotient of weights.
+    let weights = points.iter().map(|point| point.w);
+    let (least, greatest) = weights.fold((f32::MAX, 0.0f32), |(l, g), w| (l.min(w), g.max(w)));
+    let evaluable = positions.clone().all(|p| is_in_range((p * (greatest / least)).as_ref()));
+    if !evaluable || !points.iter().all(|point| is_in_range(point.as_ref())) {
+        return Err(Fault::TooLarge("control point"));
+    }
+    let mut directions = positions.map(|point| point - crate::math::project(patch.points[0][0]));
     let first = directions.by_ref().find_map(unit).ok_or(Fault::NoArea)?;
     let mut others = directions.filter_map(unit);
     let spans = others.any(|other| first.cross(other).length_squared() > 1e-12);

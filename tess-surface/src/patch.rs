@@ -1,22 +1,24 @@
-//! One patch of a model, evaluated so that neighbours agree to the bit.
+//! Evaluating one patch so that neighbours agree to the bit.
 //!
-//! Inside, a point is a function of the patch. On an edge it is a function of the edge alone, in
-//! the edge's canonical direction ([`Edge`]), and on a corner of the corner alone. So two patches
-//! that share an edge give the same bits along it, from whichever side it is evaluated.
+//! A point inside is a function of the patch. A point on an edge is a function of the edge alone, in
+//! the edge's canonical direction ([`Edge`]), and a point on a corner is a function of the corner
+//! alone. So two patches that share an edge give the same bits along it.
 
 use crate::bezier::BezierPatch;
 use crate::curve::{Curve, Direction, Edge};
+use crate::error::WrongDomain;
 use crate::frame::{Frame, Tangents};
 use crate::math::{plain_zero, unit};
 use crate::pn::{PnQuad, PnTriangle, normal_along};
-use crate::sides::{Place, Sides, edge_corners, locate};
+use crate::sides::{Place, Sides, corner_coordinates, edge_corners};
 use glam::{Vec2, Vec3};
 use tess_core::Domain;
 
 /// The formula of a patch's inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Surface {
-    /// The plane of three corners at u = 1, v = 1, w = 1.
+    /// The plane through three corners at u = 1, v = 1, w = 1.
     FlatTriangle([Vec3; 3]),
     /// The bilinear surface of four corners at (0,0), (1,0), (1,1), (0,1).
     Bilinear([Vec3; 4]),
@@ -28,7 +30,7 @@ pub enum Surface {
     PnQuad(PnQuad),
 }
 
-/// A point of the tessellated surface.
+/// A vertex of the tessellated surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
     /// Position, in the model's units.
@@ -48,16 +50,28 @@ pub struct Patch {
 }
 
 impl Patch {
-    /// The patch of a surface with texture coordinates at its corners.
+    /// Makes a patch of a surface. Its texture coordinates are its domain coordinates.
     ///
-    /// Of [`Sides`] of the wrong domain, the unit square's corners are used instead.
+    /// Control points are not checked here, as [`Model`](crate::Model) does: coordinates beyond
+    /// [`MAX_COORDINATE`](crate::MAX_COORDINATE) may overflow in what is evaluated.
     #[must_use]
-    pub fn new(surface: Surface, texcoords: Option<Sides<Vec2>>) -> Self {
+    pub fn new(surface: Surface) -> Self {
         let edges = boundary(&surface).map(Edge::new);
-        let texcoords = texcoords
-            .filter(|given| given.domain() == edges.domain())
-            .unwrap_or_else(|| domain_corners(edges.domain()));
+        let texcoords = corner_coordinates(&edges).map(Vec2::from_array);
         Self { surface, edges, texcoords }
+    }
+
+    /// The same patch with these texture coordinates at its corners.
+    ///
+    /// # Errors
+    /// [`WrongDomain`] if there are three for a quad or four for a triangle.
+    pub fn with_texcoords(self, texcoords: Sides<Vec2>) -> Result<Self, WrongDomain> {
+        let (found, expected) = (texcoords.domain(), self.domain());
+        if found == expected {
+            Ok(Self { texcoords, ..self })
+        } else {
+            Err(WrongDomain { found, expected })
+        }
     }
 
     /// The domain whose points the patch is evaluated at.
@@ -66,7 +80,7 @@ impl Patch {
         self.edges.domain()
     }
 
-    /// The formula.
+    /// The formula of the inside.
     #[must_use]
     pub const fn surface(&self) -> &Surface {
         &self.surface
@@ -84,13 +98,13 @@ impl Patch {
         &self.texcoords
     }
 
-    /// Where (u, v) lies on the patch.
+    /// The corner, the edge or the inside that the domain point (u, v) belongs to.
     #[must_use]
     pub fn place(&self, u: f32, v: f32) -> Place {
-        locate(&self.edges, u, v)
+        Place::of(&self.edges, u, v)
     }
 
-    /// The point at domain coordinates (u, v), as the tessellator outputs them.
+    /// The vertex at the domain point (u, v), in 0..=1 as a tessellator outputs it.
     #[must_use]
     pub fn sample(&self, [u, v]: [f32; 2]) -> Sample {
         let place = self.place(u, v);
@@ -102,20 +116,21 @@ impl Patch {
         }
     }
 
-    /// The position alone.
+    /// The position of [`Patch::sample`] alone.
     #[must_use]
     pub fn position(&self, [u, v]: [f32; 2]) -> Vec3 {
         let place = self.place(u, v);
         self.boundary_position(place).unwrap_or_else(|| self.frame(u, v).position)
     }
 
-    /// The unit normal alone.
+    /// The unit normal of [`Patch::sample`] alone.
     #[must_use]
     pub fn normal(&self, [u, v]: [f32; 2]) -> Vec3 {
         self.normal_in(&self.frame(u, v).tangents, self.place(u, v), u, v)
     }
 
-    /// Position and tangents by the formula of the inside, on edges too.
+    /// Position and tangents by the formula of the inside, also on edges, where neighbours may
+    /// differ.
     #[must_use]
     pub fn frame(&self, u: f32, v: f32) -> Frame {
         let frame = match &self.surface {
@@ -131,7 +146,7 @@ impl Patch {
         Frame { position: plain_zero(frame.position), ..frame }
     }
 
-    /// The position where the neighbours have a say: from the edge or the corner alone.
+    /// The position on the boundary, from the edge or the corner alone; `None` inside.
     fn boundary_position(&self, place: Place) -> Option<Vec3> {
         match place {
             Place::Inside => None,
@@ -140,7 +155,7 @@ impl Patch {
         }
     }
 
-    /// The position of a corner: the end of an edge, which is a control point.
+    /// The position of a corner, which is an end of an edge.
     fn corner(&self, corner: usize) -> Vec3 {
         let ends = edge_corners(&self.edges).iter().zip(self.edges.as_slice());
         let mut at_corner = ends.filter_map(|([start, end], edge)| match corner {
@@ -231,14 +246,5 @@ fn bilinear([a, b, c, d]: &[Vec3; 4], u: f32, v: f32) -> Frame {
     Frame {
         position: low + (high - low) * v,
         tangents: Tangents { du: (*b - *a) * (1.0 - v) + (*c - *d) * v, dv: high - low },
-    }
-}
-
-/// The domain coordinates of the corners.
-const fn domain_corners(domain: Domain) -> Sides<Vec2> {
-    let [a, b, c, d] = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
-    match domain {
-        Domain::Triangle => Sides::Triangle([b, d, a]),
-        Domain::Quad | Domain::Isoline => Sides::Quad([a, b, c, d]),
     }
 }

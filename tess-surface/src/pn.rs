@@ -15,7 +15,7 @@ use glam::Vec3;
 /// A corner of a mesh face.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PnCorner {
-    /// Where it is.
+    /// Its position.
     pub position: Vec3,
     /// Its unit normal.
     pub normal: Vec3,
@@ -64,7 +64,8 @@ pub struct PnTriangle {
 }
 
 impl PnTriangle {
-    /// The triangle with these edges: from [`edge_points`], or the means of both sides' points.
+    /// The triangle with these inner control points of its edges: from [`edge_points`], or the means
+    /// of both sides' points.
     #[must_use]
     pub fn new(corners: [PnCorner; 3], edges: [[Vec3; 2]; 3]) -> Self {
         let [[b012, b021], [b102, b201], [b120, b210]] = edges;
@@ -75,7 +76,7 @@ impl PnTriangle {
         Self { corners, edges, edge_normals, center: e + (e - middle) * 0.5 }
     }
 
-    /// Position and partial derivatives.
+    /// Position and partial derivatives at (u, v).
     #[must_use]
     pub fn frame(&self, u: f32, v: f32) -> Frame {
         let w = 1.0 - u - v;
@@ -112,7 +113,7 @@ impl PnTriangle {
 /// A bicubic quad with blended quadratic normals, corners at (0,0), (1,0), (1,1), (0,1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PnQuad {
-    /// The position.
+    /// The positions.
     pub patch: BezierPatch,
     /// The corners' normals.
     pub corner_normals: [Vec3; 4],

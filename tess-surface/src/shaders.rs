@@ -1,8 +1,9 @@
 //! The formulas as WGSL text, for vertex shaders that evaluate domain points themselves.
 //!
-//! Modules have functions only, no bindings and no entry points; put the ones you need in front of
-//! your own text. Bits are those of the device: within one pipeline both sides of an edge agree,
-//! as they call the same function with the same values; they need not equal the CPU's.
+//! The modules have functions only, no bindings and no entry points. Put those you need in front of
+//! your own text. Results may differ from the CPU's in their last bits, and from device to device;
+//! within one pipeline both sides of an edge agree, as they call the same function with the same
+//! values.
 
 /// Curves, edges in canonical direction, bicubic patches and their normals.
 pub const BEZIER: &str = include_str!("../shaders/bezier.wgsl");

@@ -1,13 +1,13 @@
-//! Corners and edges of the two domains, and where a domain point lies on them.
+//! Corners and edges of the two domains, and which of them a domain point belongs to.
 
 use tess_core::Domain;
 
-/// One value per edge, or per corner, of a patch: three of a triangle, four of a quad.
+/// One `T` per edge, or per corner, of a patch: three for a triangle, four for a quad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sides<T> {
-    /// Of a triangle: edges u = 0, v = 0, w = 0; corners u = 1, v = 1, w = 1.
+    /// A triangle's edges u = 0, v = 0, w = 0, or its corners u = 1, v = 1, w = 1.
     Triangle([T; 3]),
-    /// Of a quad: edges u = 0, v = 0, u = 1, v = 1; corners (0,0), (1,0), (1,1), (0,1).
+    /// A quad's edges u = 0, v = 0, u = 1, v = 1, or its corners (0,0), (1,0), (1,1), (0,1).
     Quad([T; 4]),
 }
 
@@ -20,7 +20,7 @@ impl<T> Sides<T> {
         }
     }
 
-    /// The values in order, to change.
+    /// The values in order, mutable.
     pub const fn as_mut_slice(&mut self) -> &mut [T] {
         match self {
             Self::Triangle(values) => values,
@@ -28,7 +28,7 @@ impl<T> Sides<T> {
         }
     }
 
-    /// Each value changed by `f`.
+    /// The values with `f` applied to each.
     pub fn map<U>(self, f: impl FnMut(T) -> U) -> Sides<U> {
         match self {
             Self::Triangle(values) => Sides::Triangle(values.map(f)),
@@ -36,13 +36,13 @@ impl<T> Sides<T> {
         }
     }
 
-    /// Each value changed by `f`, which is told its number too.
+    /// The values with `f` applied to each one's number and itself.
     pub fn map_numbered<U>(self, mut f: impl FnMut(usize, T) -> U) -> Sides<U> {
         let mut number = 0..;
         self.map(|value| f(number.next().unwrap_or_default(), value))
     }
 
-    /// The domain that has so many edges.
+    /// The domain: triangle or quad.
     pub const fn domain(&self) -> Domain {
         match self {
             Self::Triangle(_) => Domain::Triangle,
@@ -51,8 +51,8 @@ impl<T> Sides<T> {
     }
 }
 
-/// The corners that each edge runs between, in the direction in which its coordinate grows:
-/// u on v = 0, v = 1 and w = 0; v on u = 0 and u = 1.
+/// The numbers of the corners at both ends of each edge, in the direction in which the edge's
+/// running coordinate grows: u on the edges v = 0, v = 1 and w = 0; v on u = 0 and u = 1.
 #[must_use]
 pub const fn edge_corners<T>(sides: &Sides<T>) -> &'static [[usize; 2]] {
     match sides {
@@ -61,28 +61,39 @@ pub const fn edge_corners<T>(sides: &Sides<T>) -> &'static [[usize; 2]] {
     }
 }
 
-/// Where a domain point lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Place {
-    /// On this corner.
-    Corner(usize),
-    /// Inside this edge, at this value in (0, 1) of its running coordinate.
-    Edge(usize, f32),
-    /// Inside the patch.
-    Inside,
-}
-
-/// The place of the domain point (u, v). Exact: domain points are multiples of 2^-16, on which
-/// 1 - u - v does not round.
+/// The domain coordinates (u, v) of the corners.
 #[must_use]
-pub fn locate<T>(sides: &Sides<T>, u: f32, v: f32) -> Place {
+pub const fn corner_coordinates<T>(sides: &Sides<T>) -> Sides<[f32; 2]> {
     match sides {
-        Sides::Triangle(_) => locate_triangle(u, v),
-        Sides::Quad(_) => locate_quad(u, v),
+        Sides::Triangle(_) => Sides::Triangle([[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]),
+        Sides::Quad(_) => Sides::Quad([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]),
     }
 }
 
-fn locate_triangle(u: f32, v: f32) -> Place {
+/// The corner, the edge or the inside of a patch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// The corner of this number.
+    Corner(usize),
+    /// The edge of this number without its ends, at this value in (0, 1) of its running coordinate.
+    Edge(usize, f32),
+    /// The inside of the patch.
+    Inside,
+}
+
+impl Place {
+    /// The place of the domain point (u, v) on a patch with these sides. Exact: domain points are
+    /// multiples of 2^-16, for which 1 - u - v does not round.
+    #[must_use]
+    pub fn of<T>(sides: &Sides<T>, u: f32, v: f32) -> Self {
+        match sides {
+            Sides::Triangle(_) => on_triangle(u, v),
+            Sides::Quad(_) => on_quad(u, v),
+        }
+    }
+}
+
+fn on_triangle(u: f32, v: f32) -> Place {
     let on_edge = [u <= 0.0, v <= 0.0, 1.0 - u - v <= 0.0];
     match on_edge {
         [false, false, false] => Place::Inside,
@@ -95,7 +106,7 @@ fn locate_triangle(u: f32, v: f32) -> Place {
     }
 }
 
-fn locate_quad(u: f32, v: f32) -> Place {
+fn on_quad(u: f32, v: f32) -> Place {
     let (low_u, low_v, high_u, high_v) = (u <= 0.0, v <= 0.0, u >= 1.0, v >= 1.0);
     match (low_u, low_v, high_u, high_v) {
         (true, true, ..) => Place::Corner(0),

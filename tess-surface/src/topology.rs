@@ -1,20 +1,20 @@
-//! Which edges of a model's patches are the same edge.
+//! Finding which edges of a model's patches are the same edge.
 
 use crate::error::{Fault, MeshError};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::Vec3;
 
-/// One side of an edge: an edge of a patch.
+/// One side of an edge: the edge of one patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct HalfEdge {
-    /// Number of the patch.
+    /// The number of the patch.
     pub patch: usize,
-    /// Number of the edge in the patch.
+    /// The number of the edge in the patch, as in [`Sides`](crate::Sides).
     pub edge: usize,
 }
 
-/// For every edge of every patch the edge on its other side.
+/// The other side of every edge of every patch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Topology {
     /// Indexed by slot; `ALONE` for edges of the model's border and collapsed edges.
@@ -26,7 +26,7 @@ const ALONE: u32 = u32::MAX;
 /// The largest number of patches, so that slots are numbered in 32 bits.
 const MAX_PATCHES: usize = 1 << 30;
 
-/// Refuses empty models and those too large to be numbered.
+/// Refuses no faces, and too many to be numbered.
 pub(crate) const fn check_count(faces: usize) -> Result<(), MeshError> {
     match faces {
         0 => Err(MeshError::Empty),
@@ -48,7 +48,7 @@ impl HalfEdge {
 }
 
 impl Topology {
-    /// Pairs the half-edges that are equal. Of each there is a hash and its slot; `same` decides
+    /// Pairs the half-edges that are equal. `hashes` has each one's hash and slot; `same` decides
     /// about those with equal hashes.
     pub(crate) fn pair(
         patches: usize,
@@ -80,12 +80,15 @@ impl Topology {
 
     /// The other side of an edge, if there is one.
     pub(crate) fn twin(&self, half: HalfEdge) -> Option<HalfEdge> {
+        if half.edge >= 4 || half.patch >= self.twins.len() / 4 {
+            return None;
+        }
         let twin = *self.twins.get(half.slot() as usize)?;
         (twin != ALONE).then(|| HalfEdge::of_slot(twin))
     }
 }
 
-/// For each point the number of the first one at the same place.
+/// The number of the first point with the same coordinates, for each point.
 #[expect(clippy::cast_possible_truncation, reason = "faces index points with 32 bits")]
 pub(crate) fn weld(points: &[Vec3]) -> Vec<u32> {
     let key = |i: u32| crate::math::order_key(points[i as usize].extend(0.0));
@@ -98,7 +101,7 @@ pub(crate) fn weld(points: &[Vec3]) -> Vec<u32> {
     first
 }
 
-/// A hash of a curve's bits. Good enough spread is all it takes: equality is checked.
+/// A hash of a curve's bits. Equality is checked, so collisions only cost time.
 pub(crate) fn hash(words: impl Iterator<Item = i32>) -> u64 {
     // FNV-1a over words, with a final mix.
     let start = 0xCBF2_9CE4_8422_2325u64;

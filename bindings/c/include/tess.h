@@ -135,57 +135,57 @@
 /**
  * Where a point comes from: corner `p` of a minimum patch.
  */
-#define TESS_POINT_CORNER 0
+#define TESS_POINT_ORIGIN_CORNER 0
 
 /**
  * Where a point comes from: point `p` of isoline `line`.
  */
-#define TESS_POINT_LINE 1
+#define TESS_POINT_ORIGIN_LINE 1
 
 /**
  * Where a point comes from: point `p` of outer edge `edge`.
  */
-#define TESS_POINT_OUTER_EDGE 2
+#define TESS_POINT_ORIGIN_OUTER_EDGE 2
 
 /**
  * Where a point comes from: point `p` of edge `edge` of interior ring `ring`.
  */
-#define TESS_POINT_RING 3
+#define TESS_POINT_ORIGIN_RING 3
 
 /**
  * Where a point comes from: point `p` of the point or row that ends an even interior.
  */
-#define TESS_POINT_CENTRE 4
+#define TESS_POINT_ORIGIN_CENTRE 4
 
 /**
  * Where a primitive comes from: number `step` of point output or of all points joined in order.
  */
-#define TESS_PRIMITIVE_SEQUENCE 0
+#define TESS_PRIMITIVE_ORIGIN_SEQUENCE 0
 
 /**
  * Where a primitive comes from: segment `step` of isoline `line`.
  */
-#define TESS_PRIMITIVE_LINE 1
+#define TESS_PRIMITIVE_ORIGIN_LINE 1
 
 /**
  * Where a primitive comes from: triangle `step` of a minimum patch.
  */
-#define TESS_PRIMITIVE_MINIMUM 2
+#define TESS_PRIMITIVE_ORIGIN_MINIMUM 2
 
 /**
  * Where a primitive comes from: triangle `step` of the transition stitch of edge `edge`.
  */
-#define TESS_PRIMITIVE_TRANSITION 3
+#define TESS_PRIMITIVE_ORIGIN_TRANSITION 3
 
 /**
  * Where a primitive comes from: triangle `step` of the stitch of edge `edge` to ring `ring`.
  */
-#define TESS_PRIMITIVE_RING 4
+#define TESS_PRIMITIVE_ORIGIN_RING 4
 
 /**
  * Where a primitive comes from: triangle `step` inside the innermost ring.
  */
-#define TESS_PRIMITIVE_CENTRE 5
+#define TESS_PRIMITIVE_ORIGIN_CENTRE 5
 
 /**
  * Reduction: the smallest of the outer factors.
@@ -235,32 +235,32 @@
 /**
  * Point format: `TessPoint`, a pair of unsigned 16.16 numbers.
  */
-#define TESS_POINTS_FIXED 0
+#define TESS_POINT_FIXED 0
 
 /**
  * Point format: two floats, exactly the 16.16 numbers.
  */
-#define TESS_POINTS_FLOAT 1
+#define TESS_POINT_F32 1
 
 /**
  * Index format: `uint32_t`.
  */
-#define TESS_INDICES_32 0
+#define TESS_INDEX_U32 0
 
 /**
  * Index format: `uint16_t`; always enough when each patch is numbered on its own.
  */
-#define TESS_INDICES_16 1
+#define TESS_INDEX_U16 1
 
 /**
  * Numbering: indices count from the first point of their patch.
  */
-#define TESS_NUMBERING_PATCH 0
+#define TESS_NUMBERING_PER_PATCH 0
 
 /**
  * Numbering: indices count from the first point of the batch, which has number `base_vertex`.
  */
-#define TESS_NUMBERING_BATCH 1
+#define TESS_NUMBERING_PER_BATCH 1
 
 /**
  * Tessellates batches. Made by `tess_batch_create`, given back to `tess_batch_free`.
@@ -273,7 +273,7 @@ typedef struct TessBatch TessBatch;
 typedef uint32_t TessStatus;
 
 /**
- * What the tessellator is set to, in the numbers `TESS_DOMAIN_...` and so on.
+ * The state of the tessellator, each field one of the constants that it names.
  */
 typedef struct TessConfig {
   /**
@@ -558,19 +558,19 @@ typedef struct TessBatchOutput {
    */
   size_t range_capacity;
   /**
-   * `TESS_POINTS_...`
+   * `TESS_POINT_...`
    */
   uint32_t point_format;
   /**
-   * `TESS_INDICES_...`
+   * `TESS_INDEX_...`
    */
-  uint32_t index_format;
+  uint32_t index_type;
   /**
    * `TESS_NUMBERING_...`
    */
   uint32_t numbering;
   /**
-   * Number of the batch's first point under `TESS_NUMBERING_BATCH`, else without effect.
+   * Number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else without effect.
    */
   uint32_t base_vertex;
 } TessBatchOutput;
@@ -685,9 +685,10 @@ TessStatus tess_count(const struct TessConfig *config,
 /**
  * Tessellates a patch: points and indices to the start of the caller's buffers.
  *
- * `counts` is written whenever the patch is valid, also when a buffer is too small
- * (`TESS_BUFFER_TOO_SMALL`; then nothing else is written). A buffer of capacity 0 may be null.
- * `TESS_MAX_POINTS` and `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
+ * With `TESS_OK` the output is written and `counts` has its sizes; with `TESS_BUFFER_TOO_SMALL` only
+ * `counts` is written, with what is needed; with any other status nothing is. Buffers and `counts`
+ * must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
+ * `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
  *
  * What the caller must see to:
  * Pointers that are not null and aligned must be valid:
@@ -890,10 +891,10 @@ TessStatus tess_batch_count(struct TessBatch *batch,
 /**
  * Tessellates a batch into the caller's buffers.
  *
- * Factors as for `tess_batch_count`. `counts` is written whenever the batch is valid, also when a
- * buffer is too small (`TESS_BUFFER_TOO_SMALL`; then nothing else is written). Buffers must not
- * overlap each other or the factors (`TESS_OVERLAP`). After the first call with a batch, none
- * allocates.
+ * The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has its
+ * sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is needed; with any other
+ * status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). After the first
+ * call with a batch, none allocates.
  *
  * What the caller must see to:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -901,9 +902,8 @@ TessStatus tess_batch_count(struct TessBatch *batch,
  * Other pointers that are not null and aligned must be valid:
  * - `factors` for reading `factor_count` floats,
  * - `output` for reading one structure,
- * - the buffers that it names for reading and writing as many elements of their formats as it
- *   says (a caller in Rust must have initialised them),
- * - `counts` for writing one structure, which lies in none of the buffers,
+ * - the buffers that it names for writing as many elements of their formats as it says,
+ * - `counts` for writing one structure,
  *
  * and no other thread may use any of them at the same time.
  */

@@ -1,23 +1,24 @@
 //! Many patches of one domain and configuration, through the batch backend.
 
+mod input;
 mod output;
 mod run;
 
 pub use output::{
-    TESS_INDICES_16, TESS_INDICES_32, TESS_NUMBERING_BATCH, TESS_NUMBERING_PATCH,
-    TESS_POINTS_FIXED, TESS_POINTS_FLOAT, TessBatchCounts, TessBatchOutput, TessRange,
+    TESS_INDEX_U16, TESS_INDEX_U32, TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH,
+    TESS_POINT_F32, TESS_POINT_FIXED, TessBatchCounts, TessBatchOutput, TessRange,
 };
 
 use crate::boundary;
 use crate::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_INTERNAL, TESS_LEVEL_UNAVAILABLE,
-    TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus, answer,
+    TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus, answer,
 };
-use crate::types::{TessConfig, factors_of, listed};
+use crate::types::{TessConfig, listed};
+use input::Patches;
 use run::run;
-use std::mem::size_of;
-use tess_core::{Domain, DomainPoint, IsolineFactors, QuadFactors, TriangleFactors};
-use tess_simd::{Batch, Error, Level, Tessellator};
+use tess_core::{Domain, DomainPoint};
+use tess_simd::{Error, Level, Tessellator};
 
 /// CPU level: the most capable one of this machine.
 pub const TESS_LEVEL_DETECT: u32 = 0;
@@ -124,8 +125,9 @@ pub unsafe extern "C" fn tess_batch_count(
         // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
         let batch = unsafe { &mut *batch };
         // SAFETY: `factor_count` readable floats, as the caller promises.
-        let patches = unsafe { patches(batch.domain, factors, factor_count) }?;
-        let counted = batch.tessellator.count(patches).map_err(|error| status_of(&error))?;
+        let patches = unsafe { Patches::new(batch.domain, factors, factor_count) }?;
+        let counted =
+            batch.tessellator.count(patches.batch()).map_err(|error| status_of(&error))?;
         // SAFETY: `counts` is writable, as the caller promises.
         unsafe { boundary::write(counts, counted.counts().into()) }
     })
@@ -133,10 +135,10 @@ pub unsafe extern "C" fn tess_batch_count(
 
 /// Tessellates a batch into the caller's buffers.
 ///
-/// Factors as for `tess_batch_count`. `counts` is written whenever the batch is valid, also when a
-/// buffer is too small (`TESS_BUFFER_TOO_SMALL`; then nothing else is written). Buffers must not
-/// overlap each other or the factors (`TESS_OVERLAP`). After the first call with a batch, none
-/// allocates.
+/// The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has its
+/// sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is needed; with any other
+/// status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). After the first
+/// call with a batch, none allocates.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -144,9 +146,8 @@ pub unsafe extern "C" fn tess_batch_count(
 /// Other pointers that are not null and aligned must be valid:
 /// - `factors` for reading `factor_count` floats,
 /// - `output` for reading one structure,
-/// - the buffers that it names for reading and writing as many elements of their formats as it
-///   says (a caller in Rust must have initialised them),
-/// - `counts` for writing one structure, which lies in none of the buffers,
+/// - the buffers that it names for writing as many elements of their formats as it says,
+/// - `counts` for writing one structure,
 ///
 /// and no other thread may use any of them at the same time.
 #[unsafe(no_mangle)]
@@ -164,48 +165,16 @@ pub unsafe extern "C" fn tess_batch_run(
         let output = unsafe { boundary::read(output) }?;
         // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
         let batch = unsafe { &mut *batch };
-        let run = match (output.point_format, output.index_format) {
-            (TESS_POINTS_FIXED, TESS_INDICES_32) => run::<DomainPoint, u32>,
-            (TESS_POINTS_FIXED, TESS_INDICES_16) => run::<DomainPoint, u16>,
-            (TESS_POINTS_FLOAT, TESS_INDICES_32) => run::<[f32; 2], u32>,
-            (TESS_POINTS_FLOAT, TESS_INDICES_16) => run::<[f32; 2], u16>,
+        let run = match (output.point_format, output.index_type) {
+            (TESS_POINT_FIXED, TESS_INDEX_U32) => run::<DomainPoint, u32>,
+            (TESS_POINT_FIXED, TESS_INDEX_U16) => run::<DomainPoint, u16>,
+            (TESS_POINT_F32, TESS_INDEX_U32) => run::<[f32; 2], u32>,
+            (TESS_POINT_F32, TESS_INDEX_U16) => run::<[f32; 2], u16>,
             _ => return Err(TESS_UNKNOWN_VALUE),
         };
         // SAFETY: `factors`, `counts` and the buffers are as this function asks for them; the
         // element types are those of the formats.
         unsafe { run(batch, (factors, factor_count), &output, counts) }
-    })
-}
-
-// The structures that the batch backend reads are as many floats as a patch has factors.
-const _: () = {
-    assert!(size_of::<IsolineFactors>() == 2 * size_of::<f32>(), "two factors");
-    assert!(size_of::<TriangleFactors>() == 4 * size_of::<f32>(), "four factors");
-    assert!(size_of::<QuadFactors>() == 6 * size_of::<f32>(), "six factors");
-};
-
-/// The patches whose factors lie in a caller's array.
-///
-/// # Safety
-/// - If not null and aligned, `factors` points to `factor_count` floats that can be read and are
-///   not written while the batch lives.
-unsafe fn patches<'a>(
-    domain: Domain,
-    factors: *const f32,
-    factor_count: usize,
-) -> Result<Batch<'a>, TessStatus> {
-    let size = factors_of(domain);
-    if !factor_count.is_multiple_of(size) {
-        return Err(TESS_WRONG_FACTOR_COUNT);
-    }
-    let count = factor_count / size;
-    Ok(match domain {
-        // SAFETY: a structure of factors is as many floats, so `count` of them can be read.
-        Domain::Isoline => Batch::Isolines(unsafe { boundary::list(factors.cast(), count) }?),
-        // SAFETY: as above.
-        Domain::Triangle => Batch::Triangles(unsafe { boundary::list(factors.cast(), count) }?),
-        // SAFETY: as above.
-        Domain::Quad => Batch::Quads(unsafe { boundary::list(factors.cast(), count) }?),
     })
 }
 

@@ -1,7 +1,7 @@
 //! Where pointers become values: the only place that looks through a caller's pointer.
 //!
-//! Null and misaligned pointers are refused. What cannot be checked is the caller's part and
-//! stands under `# Safety` of every function: that the memory behind a pointer is there.
+//! Null and misaligned pointers are refused. That the memory behind a pointer is there cannot be
+//! checked: every function says so under `# Safety`.
 
 use crate::status::{TESS_MISALIGNED, TESS_NULL_POINTER, TESS_OVERLAP, TESS_TOO_LARGE, TessStatus};
 use std::mem::MaybeUninit;
@@ -18,7 +18,7 @@ pub(crate) fn check<T>(pointer: *const T) -> Result<(), TessStatus> {
     }
 }
 
-/// Where a caller's array lies, in addresses.
+/// The addresses of a caller's array.
 pub(crate) type Bytes = Range<usize>;
 
 /// The addresses of an array of `len` values. Refuses arrays larger than memory can be.
@@ -28,10 +28,20 @@ pub(crate) fn bytes<T>(pointer: *const T, len: usize) -> Result<Bytes, TessStatu
     end.map(|end| pointer.addr()..end).ok_or(TESS_TOO_LARGE)
 }
 
-/// Refuses two arrays that share memory, of which one is written.
-pub(crate) fn check_apart(a: &Bytes, b: &Bytes) -> Result<(), TessStatus> {
+/// Refuses two arrays that share memory.
+fn check_apart(a: &Bytes, b: &Bytes) -> Result<(), TessStatus> {
     let apart = a.is_empty() || b.is_empty() || a.end <= b.start || b.end <= a.start;
     if apart { Ok(()) } else { Err(TESS_OVERLAP) }
+}
+
+/// Refuses arrays of which any two share memory.
+pub(crate) fn check_all_apart(arrays: &[Bytes]) -> Result<(), TessStatus> {
+    for (i, a) in arrays.iter().enumerate() {
+        for b in arrays.iter().skip(i + 1) {
+            check_apart(a, b)?;
+        }
+    }
+    Ok(())
 }
 
 /// Copies what a pointer points to.
@@ -89,22 +99,11 @@ pub(crate) unsafe fn room<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), len) })
 }
 
-/// A caller's array that is read and written. With `len` 0 the pointer is not looked at.
-///
-/// # Safety
-/// - If not null and aligned, `pointer` points to `len` values that are initialised, can be read
-///   and written, and that nothing else reads or writes while the slice lives.
-pub(crate) unsafe fn list_mut<'a, T>(
-    pointer: *mut T,
-    len: usize,
-) -> Result<&'a mut [T], TessStatus> {
-    if len == 0 {
-        return Ok(&mut []);
-    }
-    check_array(pointer, len)?;
-    // SAFETY: not null, aligned and of a possible size, as was just checked; `len` values that are
-    // ours alone, as the caller promises.
-    Ok(unsafe { std::slice::from_raw_parts_mut(pointer, len) })
+/// Writes `value` to every element of an array, which is initialised then.
+pub(crate) fn initialised<T: Copy>(room: &mut [MaybeUninit<T>], value: T) -> &mut [T] {
+    room.fill(MaybeUninit::new(value));
+    // SAFETY: every element was just written; `MaybeUninit<T>` has the layout of `T`.
+    unsafe { &mut *(std::ptr::from_mut(room) as *mut [T]) }
 }
 
 fn check_array<T>(pointer: *const T, len: usize) -> Result<(), TessStatus> {

@@ -1,14 +1,14 @@
-//! Contexts that come from outside, and the steps of placing a point with one.
+//! Contexts that callers pass in, and the steps of placing a point with one.
 
 use crate::status::{TESS_NOT_A_CONTEXT, TESS_OUT_OF_RANGE, TessStatus};
 use crate::types::{TessContext, parity};
 use tess_core::fixed_point::ONE;
 use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder, place};
 
-/// The model's context with these numbers, if a factor has one.
+/// The model's context with these numbers; `TESS_NOT_A_CONTEXT` if no factor has it.
 ///
-/// `half_points` and `fraction` determine half the factor, and that one of two contexts, one for
-/// each split order; no other numbers are let through to the arithmetic of placement.
+/// `half_points` and `fraction` determine half the factor, and with it one context for each split
+/// order. Other numbers are refused, so that the arithmetic of placement cannot overflow.
 pub(crate) fn checked(given: TessContext) -> Result<FactorContext, TessStatus> {
     let parity = parity(given.parity)?;
     if given.half_points == 0 || given.half_points > 32 || given.fraction >= ONE {
@@ -40,7 +40,7 @@ pub(crate) struct PlaceSteps {
     pub(crate) coarse: u32,
     /// The place in the finer subdivision; in the exact middle 0.
     pub(crate) fine: u32,
-    /// Between the two, rounded; in the exact middle one half.
+    /// The location on the half edge, rounded; in the exact middle one half.
     pub(crate) half_location: u32,
     /// The location, 0..0x10000.
     pub(crate) location: u32,
@@ -51,20 +51,14 @@ pub(crate) fn place_steps(context: &FactorContext, p: u32) -> Result<PlaceSteps,
     if p >= context.points {
         return Err(TESS_OUT_OF_RANGE);
     }
-    // The model's own answer is the last step and, unmirrored, the one before.
-    let location = place(context, p).to_bits();
-    let flip = p >= context.half_points;
-    let position = if flip { context.points - 1 - p } else { p };
-    let half_location = if flip { ONE - location } else { location };
-    let in_middle = position == context.half_points;
-    let coarse_position = if position > context.split { position - 1 } else { position };
+    let steps = place::steps(context, p);
     Ok(PlaceSteps {
-        flip: u32::from(flip),
-        position,
-        coarse: if in_middle { 0 } else { coarse_position * context.inv_floor },
-        fine: if in_middle { 0 } else { position * context.inv_ceil },
-        half_location,
-        location,
+        flip: u32::from(steps.flip),
+        position: steps.position,
+        coarse: steps.blend.map_or(0, |blend| blend.coarse),
+        fine: steps.blend.map_or(0, |blend| blend.fine),
+        half_location: steps.half_location,
+        location: steps.location.to_bits(),
     })
 }
 

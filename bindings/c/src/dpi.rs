@@ -9,8 +9,8 @@ use crate::context::place_steps;
 use crate::probe::TessPrimitive;
 use crate::process::TessProcessedPatch;
 use crate::status::{TESS_OUT_OF_RANGE, TessStatus, answer};
-use crate::types::{self, TessConfig, TessContext, TessCounts, TessPoint, listed, parity};
-use tess_core::{Domain, FactorContext, FixedFactor, Patch, SplitOrder};
+use crate::types::{TessConfig, TessContext, TessCounts, TessPoint, listed, parity};
+use tess_core::{Domain, FactorContext, FixedFactor, Patch, PatchFactors, SplitOrder};
 
 /// The context of a 15.16 factor: `tess_context` in scalars.
 ///
@@ -101,7 +101,7 @@ pub unsafe extern "C" fn tess_dpi_process(
         let config = TessConfig { domain, partitioning, output: 0, split: split_order };
         let patch = patch(config, [f0, f1, f2, f3, f4, f5])?;
         let processed = TessProcessedPatch::from(patch.processed());
-        if number as usize >= types::factors_of(listed(&Domain::ALL, domain)?) {
+        if number as usize >= listed(&Domain::ALL, domain)?.factors() {
             return Err(TESS_OUT_OF_RANGE);
         }
         let factor = listed(&processed.factors, number)?;
@@ -216,7 +216,8 @@ fn context(factor: u32, parity_number: u32, split: u32) -> Result<FactorContext,
 /// The patch with these bits of binary32 factors, of which the first of its domain's number count.
 fn patch(config: TessConfig, factors: [u32; 6]) -> Result<Patch, TessStatus> {
     let (config, domain) = config.decode()?;
-    Ok(Patch::new(config, types::patch_factors(domain, &factors.map(f32::from_bits))))
+    let factors = PatchFactors::from_fn(domain, |i| f32::from_bits(factors[i]));
+    Ok(Patch::new(config, factors))
 }
 
 /// Writes all numbers, or none if any pointer is null or misaligned.

@@ -32,9 +32,10 @@ pub unsafe extern "C" fn tess_count(
 
 /// Tessellates a patch: points and indices to the start of the caller's buffers.
 ///
-/// `counts` is written whenever the patch is valid, also when a buffer is too small
-/// (`TESS_BUFFER_TOO_SMALL`; then nothing else is written). A buffer of capacity 0 may be null.
-/// `TESS_MAX_POINTS` and `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
+/// With `TESS_OK` the output is written and `counts` has its sizes; with `TESS_BUFFER_TOO_SMALL` only
+/// `counts` is written, with what is needed; with any other status nothing is. Buffers and `counts`
+/// must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
+/// `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -59,21 +60,26 @@ pub unsafe extern "C" fn tess_patch(
     answer(|| {
         // SAFETY: `config` and `factors` are readable, as the caller promises.
         let patch = unsafe { types::patch(config, factors, factor_count) }?;
+        boundary::check(counts)?;
+        boundary::check_all_apart(&[
+            boundary::bytes(points, point_capacity)?,
+            boundary::bytes(indices, index_capacity)?,
+            boundary::bytes(counts, 1)?,
+        ])?;
         let needed = patch.counts();
-        // SAFETY: `counts` is writable, as the caller promises.
-        unsafe { boundary::write(counts, needed.into()) }?;
         let (point_count, index_count) = (needed.points as usize, needed.indices as usize);
         if point_capacity < point_count || index_capacity < index_count {
+            // SAFETY: `counts` is writable, as the caller promises.
+            unsafe { boundary::write(counts, needed.into()) }?;
             return Err(TESS_BUFFER_TOO_SMALL);
         }
-        let (point_bytes, index_bytes) =
-            (boundary::bytes(points, point_count)?, boundary::bytes(indices, index_count)?);
-        boundary::check_apart(&point_bytes, &index_bytes)?;
         // SAFETY: at most `point_capacity` points, writable, as the caller promises, and apart
-        // from the indices; inputs were copied and `counts` is written, so nothing else is used.
+        // from the indices and `counts`; inputs were copied, so nothing else is used.
         let points = unsafe { boundary::room(points, point_count) }?;
         // SAFETY: at most `index_capacity` indices, and as above.
         let indices = unsafe { boundary::room(indices, index_count) }?;
+        // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
+        unsafe { boundary::write(counts, needed.into()) }?;
         patch.emit(&mut Room { points: points.iter_mut(), indices: indices.iter_mut() });
         Ok(())
     })

@@ -2,7 +2,7 @@
 
 use crate::boundary;
 use crate::status::{TessStatus, answer};
-use crate::types::{self, factors_of, for_each_factor, listed};
+use crate::types::{self, listed};
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{Domain, Partitioning, PatchFactors};
 
@@ -89,12 +89,9 @@ fn request(requested: PatchFactors, axes: QuadAxes) -> Request {
 ///   written and that nothing else uses meanwhile.
 unsafe fn store(factors: PatchFactors, out: *mut f32) -> Result<(), TessStatus> {
     // SAFETY: as the caller promises.
-    let out = unsafe { boundary::room(out, factors_of(factors.domain())) }?;
-    let mut slots = out.iter_mut();
-    for_each_factor(&factors, |factor| {
-        if let Some(slot) = slots.next() {
-            slot.write(factor);
-        }
-    });
+    let out = unsafe { boundary::room(out, factors.domain().factors()) }?;
+    for (slot, factor) in out.iter_mut().zip(factors.iter()) {
+        slot.write(factor);
+    }
     Ok(())
 }

@@ -17,15 +17,15 @@ pub struct TessPrimitive {
 }
 
 /// Where a point comes from: corner `p` of a minimum patch.
-pub const TESS_POINT_CORNER: u32 = 0;
+pub const TESS_POINT_ORIGIN_CORNER: u32 = 0;
 /// Where a point comes from: point `p` of isoline `line`.
-pub const TESS_POINT_LINE: u32 = 1;
+pub const TESS_POINT_ORIGIN_LINE: u32 = 1;
 /// Where a point comes from: point `p` of outer edge `edge`.
-pub const TESS_POINT_OUTER_EDGE: u32 = 2;
+pub const TESS_POINT_ORIGIN_OUTER_EDGE: u32 = 2;
 /// Where a point comes from: point `p` of edge `edge` of interior ring `ring`.
-pub const TESS_POINT_RING: u32 = 3;
+pub const TESS_POINT_ORIGIN_RING: u32 = 3;
 /// Where a point comes from: point `p` of the point or row that ends an even interior.
-pub const TESS_POINT_CENTRE: u32 = 4;
+pub const TESS_POINT_ORIGIN_CENTRE: u32 = 4;
 
 /// Where a point comes from (specification, section 6). Fields without meaning are 0.
 #[repr(C)]
@@ -44,17 +44,17 @@ pub struct TessPointOrigin {
 }
 
 /// Where a primitive comes from: number `step` of point output or of all points joined in order.
-pub const TESS_PRIMITIVE_SEQUENCE: u32 = 0;
+pub const TESS_PRIMITIVE_ORIGIN_SEQUENCE: u32 = 0;
 /// Where a primitive comes from: segment `step` of isoline `line`.
-pub const TESS_PRIMITIVE_LINE: u32 = 1;
+pub const TESS_PRIMITIVE_ORIGIN_LINE: u32 = 1;
 /// Where a primitive comes from: triangle `step` of a minimum patch.
-pub const TESS_PRIMITIVE_MINIMUM: u32 = 2;
+pub const TESS_PRIMITIVE_ORIGIN_MINIMUM: u32 = 2;
 /// Where a primitive comes from: triangle `step` of the transition stitch of edge `edge`.
-pub const TESS_PRIMITIVE_TRANSITION: u32 = 3;
+pub const TESS_PRIMITIVE_ORIGIN_TRANSITION: u32 = 3;
 /// Where a primitive comes from: triangle `step` of the stitch of edge `edge` to ring `ring`.
-pub const TESS_PRIMITIVE_RING: u32 = 4;
+pub const TESS_PRIMITIVE_ORIGIN_RING: u32 = 4;
 /// Where a primitive comes from: triangle `step` inside the innermost ring.
-pub const TESS_PRIMITIVE_CENTRE: u32 = 5;
+pub const TESS_PRIMITIVE_ORIGIN_CENTRE: u32 = 5;
 
 /// Where a primitive comes from (specification, sections 7, 8). Fields without meaning are 0.
 #[repr(C)]
@@ -239,15 +239,17 @@ impl From<PointOrigin> for TessPointOrigin {
     fn from(location: PointOrigin) -> Self {
         let none = Self::default();
         match location {
-            PointOrigin::Corner { corner } => Self { kind: TESS_POINT_CORNER, p: corner, ..none },
-            PointOrigin::Line { line, p } => Self { kind: TESS_POINT_LINE, line, p, ..none },
+            PointOrigin::Corner { corner } => {
+                Self { kind: TESS_POINT_ORIGIN_CORNER, p: corner, ..none }
+            }
+            PointOrigin::Line { line, p } => Self { kind: TESS_POINT_ORIGIN_LINE, line, p, ..none },
             PointOrigin::OuterEdge { edge, p } => {
-                Self { kind: TESS_POINT_OUTER_EDGE, edge, p, ..none }
+                Self { kind: TESS_POINT_ORIGIN_OUTER_EDGE, edge, p, ..none }
             }
             PointOrigin::Ring { ring, edge, p } => {
-                Self { kind: TESS_POINT_RING, ring, edge, p, ..none }
+                Self { kind: TESS_POINT_ORIGIN_RING, ring, edge, p, ..none }
             }
-            PointOrigin::Centre { p } => Self { kind: TESS_POINT_CENTRE, p, ..none },
+            PointOrigin::Centre { p } => Self { kind: TESS_POINT_ORIGIN_CENTRE, p, ..none },
         }
     }
 }
@@ -257,21 +259,23 @@ impl From<PrimitiveOrigin> for TessPrimitiveOrigin {
         let none = Self::default();
         match location {
             PrimitiveOrigin::Sequence { step } => {
-                Self { kind: TESS_PRIMITIVE_SEQUENCE, step, ..none }
+                Self { kind: TESS_PRIMITIVE_ORIGIN_SEQUENCE, step, ..none }
             }
             PrimitiveOrigin::Line { line, segment } => {
-                Self { kind: TESS_PRIMITIVE_LINE, line, step: segment, ..none }
+                Self { kind: TESS_PRIMITIVE_ORIGIN_LINE, line, step: segment, ..none }
             }
             PrimitiveOrigin::Minimum { step } => {
-                Self { kind: TESS_PRIMITIVE_MINIMUM, step, ..none }
+                Self { kind: TESS_PRIMITIVE_ORIGIN_MINIMUM, step, ..none }
             }
             PrimitiveOrigin::Transition { edge, step } => {
-                Self { kind: TESS_PRIMITIVE_TRANSITION, edge, step, ..none }
+                Self { kind: TESS_PRIMITIVE_ORIGIN_TRANSITION, edge, step, ..none }
             }
             PrimitiveOrigin::Ring { ring, edge, step } => {
-                Self { kind: TESS_PRIMITIVE_RING, ring, edge, step, ..none }
+                Self { kind: TESS_PRIMITIVE_ORIGIN_RING, ring, edge, step, ..none }
             }
-            PrimitiveOrigin::Centre { step } => Self { kind: TESS_PRIMITIVE_CENTRE, step, ..none },
+            PrimitiveOrigin::Centre { step } => {
+                Self { kind: TESS_PRIMITIVE_ORIGIN_CENTRE, step, ..none }
+            }
         }
     }
 }

@@ -68,12 +68,10 @@ impl From<&ProcessedPatch> for TessProcessedPatch {
             ProcessedPatch::Regular(factors) => (TESS_OUTCOME_REGULAR, factors),
         };
         let mut out = Self { outcome, ..Self::default() };
-        types::for_each_factor(factors, |factor: ProcessedFactor| {
-            if let Some(slot) = out.factors.get_mut(out.factor_count as usize) {
-                *slot = factor.into();
-                out.factor_count += 1;
-            }
-        });
+        for (slot, factor) in out.factors.iter_mut().zip(factors.iter()) {
+            *slot = factor.into();
+            out.factor_count += 1;
+        }
         out
     }
 }

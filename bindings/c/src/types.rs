@@ -3,8 +3,8 @@
 use crate::boundary;
 use crate::status::{TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus};
 use tess_core::{
-    Config, Counts, Domain, DomainPoint, FactorContext, IsolineFactors, OutputPrimitive, Parity,
-    Partitioning, Patch, PatchFactors, QuadFactors, SplitOrder, TriangleFactors,
+    Config, Counts, Domain, DomainPoint, FactorContext, OutputPrimitive, Parity, Partitioning,
+    Patch, PatchFactors, SplitOrder,
 };
 
 /// Domain: parallel lines along u, stacked in v. Factors: density, detail.
@@ -49,7 +49,7 @@ pub const TESS_MAX_INDICES: u32 = 24576;
 /// The most factors that a patch has.
 pub const TESS_MAX_FACTORS: u32 = 6;
 
-/// What the tessellator is set to, in the numbers `TESS_DOMAIN_...` and so on.
+/// The state of the tessellator, each field one of the constants that it names.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct TessConfig {
@@ -130,7 +130,7 @@ impl From<FactorContext> for TessContext {
 /// Both parities, in the order of their numbers.
 const PARITIES: [Parity; 2] = [Parity::Even, Parity::Odd];
 
-/// The value that stands at this place of a list.
+/// Element `number` of a list; `TESS_UNKNOWN_VALUE` beyond its end.
 pub(crate) fn listed<T: Copy>(list: &[T], number: u32) -> Result<T, TessStatus> {
     let place = usize::try_from(number).map_err(|_| TESS_UNKNOWN_VALUE)?;
     list.get(place).copied().ok_or(TESS_UNKNOWN_VALUE)
@@ -161,57 +161,12 @@ pub(crate) unsafe fn factors(
     factors: *const f32,
     factor_count: usize,
 ) -> Result<PatchFactors, TessStatus> {
-    if factor_count != factors_of(domain) {
+    if factor_count != domain.factors() {
         return Err(TESS_WRONG_FACTOR_COUNT);
     }
     // SAFETY: `factor_count` readable floats, as the caller promises.
     let factors = unsafe { boundary::list(factors, factor_count) }?;
-    let mut all = [0.0; 6];
-    for (slot, &factor) in all.iter_mut().zip(factors) {
-        *slot = factor;
-    }
-    Ok(patch_factors(domain, &all))
-}
-
-/// Names the factors of a patch, which come first in the specification's order.
-pub(crate) fn patch_factors(domain: Domain, factors: &[f32; 6]) -> PatchFactors {
-    let [a, b, c, d, e, f] = *factors;
-    match domain {
-        Domain::Isoline => PatchFactors::Isoline(IsolineFactors { density: a, detail: b }),
-        Domain::Triangle => {
-            PatchFactors::Triangle(TriangleFactors { u0: a, v0: b, w0: c, inside: d })
-        }
-        Domain::Quad => {
-            let [inside_u, inside_v] = [e, f];
-            PatchFactors::Quad(QuadFactors { u0: a, v0: b, u1: c, v1: d, inside_u, inside_v })
-        }
-    }
-}
-
-/// How many factors a patch has.
-pub(crate) const fn factors_of(domain: Domain) -> usize {
-    match domain {
-        Domain::Isoline => 2,
-        Domain::Triangle => 4,
-        Domain::Quad => 6,
-    }
-}
-
-/// Hands on what is said of each factor, in the specification's order.
-pub(crate) fn for_each_factor<T: Copy>(factors: &PatchFactors<T>, mut each: impl FnMut(T)) {
-    match factors {
-        PatchFactors::Isoline(factors) => {
-            each(factors.density);
-            each(factors.detail);
-        }
-        PatchFactors::Triangle(factors) => {
-            factors.outer().into_iter().for_each(&mut each);
-            each(factors.inside);
-        }
-        PatchFactors::Quad(factors) => {
-            factors.outer().into_iter().chain(factors.inside()).for_each(each);
-        }
-    }
+    PatchFactors::from_slice(domain, factors).ok_or(TESS_WRONG_FACTOR_COUNT)
 }
 
 /// The patch that a caller describes.

@@ -5,9 +5,7 @@ use crate::models::{bumps, models, rules};
 use crate::weld::{Tamper, complaint, tessellate};
 use glam::Vec3;
 use tess_core::{Partitioning, PatchFactors};
-use tess_surface::curve::Direction;
-use tess_surface::height::{Anchors, DisplacedPatch};
-use tess_surface::{FactorRule, HalfEdge, Model, teapot};
+use tess_surface::{Direction, DisplacedModel, FactorRule, HalfEdge, Model, teapot};
 
 #[test]
 fn every_model_and_rule() {
@@ -61,7 +59,7 @@ fn both_sides_give_the_same_bits() {
     let bumps = bumps();
     let (mut compared, mut differ) = (0, 0);
     for (name, model) in &models() {
-        let anchors = Anchors::of(model);
+        let displaced = DisplacedModel::new(model, &bumps);
         for number in 0..model.len() {
             for edge in 0..model.patch(number).edges().as_slice().len() {
                 let half = HalfEdge { patch: number, edge };
@@ -71,9 +69,8 @@ fn both_sides_give_the_same_bits() {
                     let (ours, theirs) = (at(model, half, t), at(model, twin, t));
                     let (a, b) = (model.patch(number), model.patch(twin.patch));
                     assert_eq!(bits(a.position(ours)), bits(b.position(theirs)), "{name}");
-                    let [c, d] = [(number, ours), (twin.patch, theirs)].map(|(number, at)| {
-                        DisplacedPatch::new(model, &anchors, number, &bumps).sample(at).position
-                    });
+                    let [c, d] = [(number, ours), (twin.patch, theirs)]
+                        .map(|(number, at)| displaced.patch(number).sample(at).position);
                     assert_eq!(bits(c), bits(d), "{name}, displaced, {half:?} at {t}");
                     let [inside_a, inside_b] =
                         [(&a, ours), (&b, theirs)].map(|(p, [u, v])| p.frame(u, v).position);

@@ -1,11 +1,10 @@
 //! What is refused, and with which words.
 
 use crate::models::{cube, mesh};
-use glam::Vec3;
-use tess_surface::bezier::BezierPatch;
-use tess_surface::mesh::PolygonMesh;
-use tess_surface::sides::Sides;
-use tess_surface::{Fault, MeshError, Model, Style, teapot};
+use glam::{Vec2, Vec3};
+use tess_core::Domain;
+use tess_surface::{BezierPatch, Fault, HalfEdge, MeshError, Model, Patch, PolygonMesh, Sides};
+use tess_surface::{Style, Surface, WrongDomain, teapot};
 
 fn refused(mesh: PolygonMesh) -> MeshError {
     Model::polygons(mesh, Style::PointNormal).expect_err("it is refused")
@@ -29,6 +28,12 @@ fn polygons() {
     no_normal.normals = vec![Vec3::ZERO];
     no_normal.faces[3].normals = Some(Sides::Quad([0; 4]));
     assert_eq!(refused(no_normal), at(3, Fault::NotFinite("normal")), "a normal of length zero");
+
+    let mut too_few = cube();
+    too_few.normals = vec![Vec3::Z];
+    too_few.faces[4].normals = Some(Sides::Triangle([0; 3]));
+    let fault = Fault::WrongCount { what: "normal", found: 3, corners: 4 };
+    assert_eq!(refused(too_few), at(4, fault), "three normals for four corners");
 
     let points =
         [[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [0., 1., 0.], [0., 0., 0.], [0., 0., 1.]];
@@ -55,6 +60,14 @@ fn patches() {
     assert_eq!(tampered(|_| ()), Ok(32), "as it is");
     let nan = tampered(|patch| patch.points[1][2].z = f32::NAN);
     assert_eq!(nan, at(Fault::NotFinite("control point")), "NaN");
+    let huge = tampered(|patch| patch.points[1][2].z = 1.2e38);
+    assert_eq!(huge, at(Fault::TooLarge("control point")), "a coordinate");
+    let small = tampered(|patch| patch.points.as_flattened_mut()[6] *= 1e-17);
+    assert_eq!(
+        small,
+        at(Fault::TooLarge("control point")),
+        "a tangent grows by the weights' ratio"
+    );
     let weightless = tampered(|patch| patch.points[0][0].w = 0.0);
     assert_eq!(weightless, at(Fault::Weight), "weight 0");
     let line = tampered(|patch| {
@@ -69,6 +82,26 @@ fn patches() {
     let crowded =
         matches!(doubled, Err(MeshError::Face { face: 32, fault: Fault::NonManifold { .. } }));
     assert!(crowded, "a patch twice: {doubled:?}");
+}
+
+#[test]
+fn texture_coordinates_of_another_domain() {
+    let patch = Patch::new(Surface::Bilinear([Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y]));
+    let wrong = patch.with_texcoords(Sides::Triangle([Vec2::ZERO; 3])).expect_err("a quad");
+    assert_eq!(wrong, WrongDomain { found: Domain::Triangle, expected: Domain::Quad });
+    let words = "the values are those of a Triangle patch, but the surface is a Quad";
+    assert_eq!(wrong.to_string(), words, "what and why");
+    let own = patch.with_texcoords(Sides::Quad([Vec2::NEG_ONE; 4])).expect("a quad's");
+    assert_eq!(own.sample([0.5, 0.5]).texcoord, Vec2::NEG_ONE, "they are used");
+}
+
+#[test]
+fn edges_that_do_not_exist_have_no_other_side() {
+    let model = Model::polygons(cube(), Style::Flat).expect("a cube");
+    assert!(model.twin(HalfEdge { patch: 0, edge: 3 }).is_some(), "the last edge");
+    for (patch, edge) in [(0, 4), (6, 0), (usize::MAX, 0), (1 << 30, 0), (0, usize::MAX)] {
+        assert_eq!(model.twin(HalfEdge { patch, edge }), None, "edge {edge} of patch {patch}");
+    }
 }
 
 #[test]

@@ -2,9 +2,8 @@
 
 use crate::models::models;
 use glam::Vec3;
-use tess_core::{Partitioning, PatchFactors};
-use tess_surface::FactorRule;
-use tess_surface::curve::{Curve, Edge};
+use tess_core::Partitioning;
+use tess_surface::{Curve, Edge, FactorRule};
 
 const X_AXIS: Curve = Curve::Line([Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0)]);
 
@@ -47,12 +46,7 @@ fn direction_is_no_matter() {
 #[test]
 fn powers_of_two() {
     for (name, model) in &models() {
-        let factors = FactorRule::Uniform(5.0).patch(model, 0, Partitioning::Pow2);
-        let all = match factors {
-            PatchFactors::Triangle(f) => vec![f.u0, f.v0, f.w0, f.inside],
-            PatchFactors::Quad(f) => vec![f.u0, f.v0, f.u1, f.v1, f.inside_u, f.inside_v],
-            PatchFactors::Isoline(_) => vec![],
-        };
-        assert!(!all.is_empty() && all.iter().all(|&factor| factor == 8.0), "{name}: {all:?}");
+        let factors = FactorRule::Uniform(5.0).factors(model, 0, Partitioning::Pow2);
+        assert!(factors.iter().all(|factor| factor == 8.0), "{name}: {factors:?}");
     }
 }

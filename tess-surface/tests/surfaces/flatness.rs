@@ -13,13 +13,8 @@ const INTEGER: Config = Config::new(Partitioning::Integer, OutputPrimitive::Tria
 fn deviation(model: &Model, rule: &FactorRule) -> Option<f32> {
     let mut largest = 0.0f32;
     for number in 0..model.len() {
-        let factors = rule.patch(model, number, Partitioning::Integer);
-        let (outer, inside) = match factors {
-            PatchFactors::Triangle(f) => (f.outer().to_vec(), vec![f.inside]),
-            PatchFactors::Quad(f) => (f.outer().to_vec(), f.inside().to_vec()),
-            PatchFactors::Isoline(_) => panic!("no isolines"),
-        };
-        if outer.iter().chain(&inside).any(|&factor| factor >= 64.0) {
+        let factors = rule.factors(model, number, Partitioning::Integer);
+        if factors.iter().any(|factor| factor >= 64.0) {
             return None;
         }
         let (patch, whole) = (model.patch(number), Patch::new(INTEGER, factors).tessellate());

@@ -1,4 +1,4 @@
-//! What the surfaces promise: no cracks, right normals, bounded deviation, errors that are told.
+//! What the surfaces promise: no cracks, right normals, bounded deviation, errors that say what is wrong.
 #![expect(
     clippy::float_arithmetic,
     clippy::float_cmp,
@@ -14,6 +14,7 @@ mod flatness;
 mod models;
 mod normals;
 mod point_normal;
+mod range;
 mod teapot;
 mod weld;
 mod wgsl;

@@ -1,11 +1,8 @@
 //! The models that the tests run over.
 
 use glam::{Vec2, Vec3, Vec4};
-use tess_surface::bezier::BezierPatch;
-use tess_surface::height::{Displacement, HeightMap};
-use tess_surface::mesh::{Face, PolygonMesh};
-use tess_surface::sides::Sides;
-use tess_surface::{FactorRule, Model, Style, teapot};
+use tess_surface::{BezierPatch, Displacement, Face, FactorRule, HeightMap, Model, PolygonMesh};
+use tess_surface::{Sides, Style, teapot};
 
 pub(crate) fn face(corners: &[u32]) -> Face {
     let positions = match *corners {
@@ -91,8 +88,8 @@ pub(crate) fn torus() -> PolygonMesh {
         for j in 0..tubes {
             let (a, b) = (i as f32 * 6.2831855 / rings as f32, j as f32 * 6.2831855 / tubes as f32);
             let r = 0.4 + 0.1 * ((i * 3 + j) % 4) as f32;
-            let x = 2.0 + r * b.cos();
-            out.positions.push(Vec3::new(x * a.cos(), x * a.sin(), r * b.sin()));
+            let x = 2.0 + r * libm::cosf(b);
+            out.positions.push(Vec3::new(x * libm::cosf(a), x * libm::sinf(a), r * libm::sinf(b)));
         }
     }
     for i in 0..rings {
@@ -199,5 +196,5 @@ pub(crate) fn rules() -> Vec<(&'static str, FactorRule)> {
 
 pub(crate) fn bumps() -> Displacement {
     let texels = (0..64 * 64).map(|i| ((i * 37 + (i / 64) * 11) % 101) as f32 / 100.0).collect();
-    Displacement { map: HeightMap::new(64, 64, texels).unwrap(), scale: 0.1 }
+    Displacement::new(HeightMap::new(64, 64, texels).unwrap(), 0.1).unwrap()
 }

@@ -3,9 +3,7 @@
 
 use crate::models::{models, rational_ball};
 use glam::{DVec3, Vec3, Vec4};
-use tess_surface::bezier::BezierPatch;
-use tess_surface::patch::{Patch, Surface};
-use tess_surface::teapot;
+use tess_surface::{BezierPatch, Patch, Surface, teapot};
 
 fn bernstein(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
@@ -144,6 +142,6 @@ fn normals_are_unit_vectors_everywhere() {
             }
         }
     }
-    let flat = Patch::new(Surface::FlatTriangle([Vec3::X, Vec3::Y, Vec3::ZERO]), None);
+    let flat = Patch::new(Surface::FlatTriangle([Vec3::X, Vec3::Y, Vec3::ZERO]));
     assert_eq!(flat.sample([0.25, 0.5]).normal, Vec3::Z, "counter-clockwise is up");
 }

@@ -1,9 +1,8 @@
 //! Tessellating a model and welding the result by the bits of its positions.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
-use tess_surface::height::{Anchors, DisplacedPatch, Displacement};
-use tess_surface::{FactorRule, HalfEdge, Model};
+use tess_surface::{DisplacedModel, Displacement, FactorRule, HalfEdge, Model};
 
 pub(crate) type Triangle = [[f32; 3]; 3];
 
@@ -27,17 +26,15 @@ pub(crate) fn tessellate(
     tamper: Option<Tamper>,
 ) -> Tessellated {
     let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
-    let anchors = displacement.map(|_| Anchors::of(model));
+    let displaced = displacement.map(|displacement| DisplacedModel::new(model, displacement));
     let mut out = Tessellated::default();
     for number in 0..model.len() {
-        let mut factors = rule.patch(model, number, partitioning);
+        let mut factors = rule.factors(model, number, partitioning);
         if let Some(tamper) = tamper {
             tamper(number, &mut factors);
         }
         let patch = model.patch(number);
-        let displaced = displacement.zip(anchors.as_ref()).map(|(displacement, anchors)| {
-            DisplacedPatch::new(model, anchors, number, displacement)
-        });
+        let displaced = displaced.as_ref().map(|displaced| displaced.patch(number));
         let position = |at: [f32; 2]| match &displaced {
             Some(displaced) => displaced.sample(at).position.to_array(),
             None => patch.sample(at).position.to_array(),
@@ -67,7 +64,7 @@ fn border_edges(model: &Model, number: usize) -> Vec<usize> {
 }
 
 /// The domain points on an edge, in order.
-fn points_on(patch: &tess_surface::patch::Patch, edge: usize, at: &[[f32; 2]]) -> Vec<[f32; 2]> {
+fn points_on(patch: &tess_surface::Patch, edge: usize, at: &[[f32; 2]]) -> Vec<[f32; 2]> {
     let on_edge = |&[u, v]: &[f32; 2]| match (patch.domain(), edge) {
         (_, 0) => u == 0.0,
         (_, 1) => v == 0.0,
@@ -87,8 +84,8 @@ fn edge_key(a: [f32; 3], b: [f32; 3]) -> Option<EdgeKey> {
     (a != b).then(|| if a < b { [a, b] } else { [b, a] })
 }
 
-fn uses(edges: impl Iterator<Item = EdgeKey>) -> HashMap<EdgeKey, u32> {
-    let mut uses = HashMap::new();
+fn uses(edges: impl Iterator<Item = EdgeKey>) -> BTreeMap<EdgeKey, u32> {
+    let mut uses = BTreeMap::new();
     edges.for_each(|key| *uses.entry(key).or_default() += 1);
     uses
 }
@@ -105,7 +102,7 @@ pub(crate) fn complaint(out: &Tessellated) -> Option<String> {
     let inside = uses(solid.flatten());
     let border = uses(out.border.iter().filter_map(|&[a, b]| edge_key(a, b)));
     let odd =
-        |uses: &HashMap<EdgeKey, u32>, key: &EdgeKey| uses.get(key).copied().unwrap_or(0) % 2 == 1;
+        |uses: &BTreeMap<EdgeKey, u32>, key: &EdgeKey| uses.get(key).copied().unwrap_or(0) % 2 == 1;
     let cracks = inside.keys().filter(|key| odd(&inside, key) && !odd(&border, key)).count();
     let missing = border.keys().filter(|key| odd(&border, key) && !odd(&inside, key)).count();
     (cracks + missing > 0).then(|| format!("{cracks} cracks, {missing} border segments missing"))

@@ -32,7 +32,7 @@ pub(crate) fn factors() -> Result<Vec<PatchFactors>, MeshError> {
     let model = Model::bezier(teapot::patches())?;
     let rule = FactorRule::Distance { eye: EYE, scale: 140.0 };
     let partitioning = setup().config.partitioning;
-    Ok((0..model.len()).map(|number| rule.patch(&model, number, partitioning)).collect())
+    Ok((0..model.len()).map(|number| rule.factors(&model, number, partitioning)).collect())
 }
 
 /// Its control nets as `draw.wgsl` reads them: x, y, z, w of 16 points for each patch.

@@ -6,19 +6,19 @@ use tess_core::DomainPoint;
 use tess_simd::{BatchCounts, PatchRange};
 
 /// Point format: `TessPoint`, a pair of unsigned 16.16 numbers.
-pub const TESS_POINTS_FIXED: u32 = 0;
+pub const TESS_POINT_FIXED: u32 = 0;
 /// Point format: two floats, exactly the 16.16 numbers.
-pub const TESS_POINTS_FLOAT: u32 = 1;
+pub const TESS_POINT_F32: u32 = 1;
 
 /// Index format: `uint32_t`.
-pub const TESS_INDICES_32: u32 = 0;
+pub const TESS_INDEX_U32: u32 = 0;
 /// Index format: `uint16_t`; always enough when each patch is numbered on its own.
-pub const TESS_INDICES_16: u32 = 1;
+pub const TESS_INDEX_U16: u32 = 1;
 
 /// Numbering: indices count from the first point of their patch.
-pub const TESS_NUMBERING_PATCH: u32 = 0;
+pub const TESS_NUMBERING_PER_PATCH: u32 = 0;
 /// Numbering: indices count from the first point of the batch, which has number `base_vertex`.
-pub const TESS_NUMBERING_BATCH: u32 = 1;
+pub const TESS_NUMBERING_PER_BATCH: u32 = 1;
 
 /// Sizes of a batch's output.
 #[repr(C)]
@@ -63,13 +63,13 @@ pub struct TessBatchOutput {
     pub ranges: *mut TessRange,
     /// Room in `ranges`.
     pub range_capacity: usize,
-    /// `TESS_POINTS_...`
+    /// `TESS_POINT_...`
     pub point_format: u32,
-    /// `TESS_INDICES_...`
-    pub index_format: u32,
+    /// `TESS_INDEX_...`
+    pub index_type: u32,
     /// `TESS_NUMBERING_...`
     pub numbering: u32,
-    /// Number of the batch's first point under `TESS_NUMBERING_BATCH`, else without effect.
+    /// Number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else without effect.
     pub base_vertex: u32,
 }
 

@@ -1,12 +1,24 @@
 //! A batch into the caller's buffers, in the formats that the caller chose.
 
+use super::input::Patches;
 use super::{
-    TESS_NUMBERING_BATCH, TESS_NUMBERING_PATCH, TessBatch, TessBatchCounts, TessBatchOutput,
-    patches, status_of,
+    TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH, TessBatch, TessBatchCounts,
+    TessBatchOutput, status_of,
 };
 use crate::boundary;
-use crate::status::{TESS_UNKNOWN_VALUE, TessStatus};
-use tess_simd::{Buffers, Error, IndexFormat, Numbering, PatchRange, PointFormat};
+use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus};
+use std::mem::{MaybeUninit, size_of};
+use tess_simd::{
+    BatchCounts, Buffers, IndexFormat, Numbering, PatchRange, PointFormat, Tessellator,
+};
+
+/// The caller's buffers, which need not be initialised.
+#[derive(Debug)]
+struct Room<'a, P, I> {
+    points: &'a mut [MaybeUninit<P>],
+    indices: &'a mut [MaybeUninit<I>],
+    ranges: &'a mut [MaybeUninit<PatchRange>],
+}
 
 /// Tessellates a batch in one pair of formats.
 ///
@@ -19,50 +31,115 @@ pub(super) unsafe fn run<P: PointFormat, I: IndexFormat>(
     counts: *mut TessBatchCounts,
 ) -> Result<(), TessStatus> {
     let numbering = match output.numbering {
-        TESS_NUMBERING_PATCH => Numbering::PerPatch,
-        TESS_NUMBERING_BATCH => Numbering::PerBatch { base_vertex: output.base_vertex },
+        TESS_NUMBERING_PER_PATCH => Numbering::PerPatch,
+        TESS_NUMBERING_PER_BATCH => Numbering::PerBatch { base_vertex: output.base_vertex },
         _ => return Err(TESS_UNKNOWN_VALUE),
     };
     let points = (output.points.cast::<P>(), output.point_capacity);
     let indices = (output.indices.cast::<I>(), output.index_capacity);
     let ranges = (output.ranges.cast::<PatchRange>(), output.range_capacity);
-    check_all_apart(&[
+    boundary::check_all_apart(&[
         boundary::bytes(factors, factor_count)?,
         boundary::bytes(points.0, points.1)?,
         boundary::bytes(indices.0, indices.1)?,
         boundary::bytes(ranges.0, ranges.1)?,
+        boundary::bytes(counts, 1)?,
     ])?;
     // SAFETY: `factor_count` readable floats, as the caller promises.
-    let patches = unsafe { patches(batch.domain, factors, factor_count) }?;
-    // SAFETY: readable and writable, as the caller promises, and apart, as was just checked.
-    let points = unsafe { boundary::list_mut(points.0, points.1) }?;
-    // SAFETY: as above.
-    let indices = unsafe { boundary::list_mut(indices.0, indices.1) }?;
-    // SAFETY: as above; any bits are a range, and the layouts are the same.
-    let ranges = unsafe { boundary::list_mut(ranges.0, ranges.1) }?;
-    let buffers = Buffers::new(points, indices).with_ranges(ranges);
-    let mut counted = batch.tessellator.count(patches).map_err(|error| status_of(&error))?;
-    match counted.write(numbering, buffers) {
-        Ok(written) => {
-            // SAFETY: `counts` is writable, as the caller promises.
-            unsafe { boundary::write(counts, written.into()) }
-        }
-        Err(error) => {
-            if let Error::BufferTooSmall { .. } = error {
-                // SAFETY: `counts` is writable, as the caller promises.
-                unsafe { boundary::write(counts, counted.counts().into()) }?;
-            }
-            Err(status_of(&error))
-        }
+    let patches = unsafe { Patches::new(batch.domain, factors, factor_count) }?;
+    let room = Room {
+        // SAFETY: writable, as the caller promises, and apart from all else, as was just checked.
+        points: unsafe { boundary::room(points.0, points.1) }?,
+        // SAFETY: as above.
+        indices: unsafe { boundary::room(indices.0, indices.1) }?,
+        // SAFETY: as above; the two structures of ranges have the same layout.
+        ranges: unsafe { boundary::room(ranges.0, ranges.1) }?,
+    };
+    let counted = batch.tessellator.count(patches.batch()).map_err(|error| status_of(&error))?;
+    let needed = counted.counts();
+    if counted.largest_index(numbering).is_some_and(|largest| largest > I::LARGEST) {
+        return Err(TESS_INDEX_TOO_LARGE);
     }
+    let written = match room.of_sizes(needed) {
+        Some(room) => write(&mut batch.tessellator, patches, numbering, room, needed),
+        None => Err(TESS_BUFFER_TOO_SMALL),
+    };
+    if matches!(written, Ok(()) | Err(TESS_BUFFER_TOO_SMALL)) {
+        // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
+        unsafe { boundary::write(counts, needed.into()) }?;
+    }
+    written
 }
 
-/// Refuses buffers of which any two share memory.
-fn check_all_apart(buffers: &[boundary::Bytes]) -> Result<(), TessStatus> {
-    for (i, a) in buffers.iter().enumerate() {
-        for b in buffers.iter().skip(i + 1) {
-            boundary::check_apart(a, b)?;
-        }
+/// The size of a part's output, in bytes, that stays in a core's nearest caches.
+const PART_BYTES: usize = 1 << 18;
+
+/// The patches of a part at most: as many as the batch backend keeps from counting to writing.
+const PART_PATCHES: usize = 64;
+
+/// Writes a batch into room of exactly its sizes.
+///
+/// The batch backend takes initialised slices. So that initialising the room does not send it
+/// through memory twice, that is done part by part, each just before its output is written.
+fn write<P: PointFormat, I: IndexFormat>(
+    tessellator: &mut Tessellator,
+    patches: Patches<'_>,
+    numbering: Numbering,
+    mut room: Room<'_, P, I>,
+    needed: BatchCounts,
+) -> Result<(), TessStatus> {
+    let bytes = needed.points * size_of::<P>() + needed.indices * size_of::<I>();
+    let per_patch = bytes.div_ceil(needed.patches.max(1)).max(1);
+    let mut first = PatchRange::default();
+    for part in patches.parts((PART_BYTES / per_patch).clamp(1, PART_PATCHES)) {
+        let mut counted = tessellator.count(part.batch()).map_err(|error| status_of(&error))?;
+        let counts = counted.counts();
+        let (now, later) = room.split_at(counts).ok_or(crate::status::TESS_INTERNAL)?;
+        let ranges = boundary::initialised(now.ranges, PatchRange::default());
+        let buffers = Buffers::new(
+            boundary::initialised(now.points, P::default()),
+            boundary::initialised(now.indices, I::default()),
+        );
+        let numbering = match numbering {
+            Numbering::PerBatch { base_vertex } => {
+                Numbering::PerBatch { base_vertex: base_vertex.wrapping_add(first.first_point) }
+            }
+            Numbering::PerPatch => numbering,
+        };
+        let buffers = buffers.with_ranges(&mut *ranges);
+        counted.write(numbering, buffers).map_err(|error| status_of(&error))?;
+        first = shift(ranges, first);
+        room = later;
     }
     Ok(())
+}
+
+/// Moves a part's ranges to where it begins in the batch; gives where the next part begins.
+fn shift(ranges: &mut [PatchRange], first: PatchRange) -> PatchRange {
+    let mut end = first;
+    for range in ranges {
+        range.first_point += first.first_point;
+        range.first_index += first.first_index;
+        end.first_point = range.first_point + range.points;
+        end.first_index = range.first_index + range.indices;
+    }
+    end
+}
+
+impl<'a, P, I> Room<'a, P, I> {
+    /// Its beginning; `None` if it is smaller.
+    fn of_sizes(self, counts: BatchCounts) -> Option<Self> {
+        self.split_at(counts).map(|(first, _)| first)
+    }
+
+    /// Its beginning and the rest; `None` if it is smaller.
+    fn split_at(self, counts: BatchCounts) -> Option<(Self, Self)> {
+        let (points, more_points) = self.points.split_at_mut_checked(counts.points)?;
+        let (indices, more_indices) = self.indices.split_at_mut_checked(counts.indices)?;
+        let (ranges, more_ranges) = self.ranges.split_at_mut_checked(counts.patches)?;
+        Some((
+            Self { points, indices, ranges },
+            Self { points: more_points, indices: more_indices, ranges: more_ranges },
+        ))
+    }
 }

@@ -1,11 +1,11 @@
 //! Batches against the model, in every format, numbering and CPU level; and what they refuse.
 
-use super::samples::{patch_factors, samples};
+use super::samples::{self, patch_factors, samples};
 use std::ffi::c_void;
 use std::ptr::{null, null_mut};
 use tess_capi::batch::{
-    TESS_INDICES_16, TESS_INDICES_32, TESS_LEVEL_AVX512, TESS_LEVEL_DETECT, TESS_NUMBERING_BATCH,
-    TESS_NUMBERING_PATCH, TESS_POINTS_FIXED, TESS_POINTS_FLOAT, TessBatch, TessBatchCounts,
+    TESS_INDEX_U16, TESS_INDEX_U32, TESS_LEVEL_AVX512, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_BATCH,
+    TESS_NUMBERING_PER_PATCH, TESS_POINT_F32, TESS_POINT_FIXED, TessBatch, TessBatchCounts,
     TessBatchOutput, TessRange, tess_batch_count, tess_batch_create, tess_batch_free,
     tess_batch_level, tess_batch_run,
 };
@@ -17,12 +17,12 @@ use tess_capi::status::{
 use tess_capi::types::TessConfig;
 use tess_core::{Domain, Patch, Tessellation};
 
-/// A batch of quads and memory for what it gives, all of it filled with `FILL`.
+/// A batch and memory for its output, all of it filled with `FILL`.
 struct Fixture {
     batch: *mut TessBatch,
     factors: Vec<f32>,
     patches: Vec<Tessellation>,
-    points: Vec<u64>,
+    points: Vec<[u32; 2]>,
     indices: Vec<u32>,
     ranges: Vec<TessRange>,
 }
@@ -40,18 +40,14 @@ impl Fixture {
         }
         let same = |c: &TessConfig| c.domain == config.domain;
         let samples: Vec<_> = samples().into_iter().filter(|s| same(&s.config)).collect();
-        let model = samples.iter().map(|s| s.patch.config()).find(|c| {
-            (c.partitioning as u32, c.output as u32, c.split as u32)
-                == (config.partitioning, config.output, config.split)
-        });
-        let model = model.expect("samples have every configuration");
+        let model = samples::model(&config);
         let domain = Domain::ALL[config.domain as usize];
         let patches: Vec<Tessellation> = samples
             .iter()
             .map(|s| Patch::new(model, patch_factors(domain, &s.factors)).tessellate())
             .collect();
         let factors = samples.into_iter().flat_map(|s| s.factors).collect();
-        let points = vec![0; patches.iter().map(|p| p.points.len()).sum()];
+        let points = vec![[FILL; 2]; patches.iter().map(|p| p.points.len()).sum()];
         let indices = vec![FILL; patches.iter().map(|p| p.indices.len()).sum()];
         let ranges = vec![FILLED_RANGE; patches.len()];
         Ok(Self { batch, factors, patches, points, indices, ranges })
@@ -65,9 +61,9 @@ impl Fixture {
             index_capacity: self.indices.len(),
             ranges: self.ranges.as_mut_ptr(),
             range_capacity: self.ranges.len(),
-            point_format: TESS_POINTS_FIXED,
-            index_format: TESS_INDICES_32,
-            numbering: TESS_NUMBERING_PATCH,
+            point_format: TESS_POINT_FIXED,
+            index_type: TESS_INDEX_U32,
+            numbering: TESS_NUMBERING_PER_PATCH,
             base_vertex: 0,
         }
     }
@@ -114,16 +110,15 @@ fn every_level_and_format() {
             let mut counts = TessBatchCounts::default();
             let status = unsafe { tess_batch_count(fixture.batch, f, n, &mut counts) };
             assert_eq!((status, counts), (TESS_OK, fixture.needed()), "{config:?}");
-            for point_format in [TESS_POINTS_FIXED, TESS_POINTS_FLOAT] {
-                for index_format in [TESS_INDICES_32, TESS_INDICES_16] {
-                    let formats =
-                        TessBatchOutput { point_format, index_format, ..fixture.output() };
+            for point_format in [TESS_POINT_FIXED, TESS_POINT_F32] {
+                for index_type in [TESS_INDEX_U32, TESS_INDEX_U16] {
+                    let formats = TessBatchOutput { point_format, index_type, ..fixture.output() };
                     assert_eq!(fixture.run(&formats), (TESS_OK, fixture.needed()), "{config:?}");
                     check(&fixture, &formats);
                 }
             }
             let numbered = TessBatchOutput {
-                numbering: TESS_NUMBERING_BATCH,
+                numbering: TESS_NUMBERING_PER_BATCH,
                 base_vertex: 1000,
                 ..fixture.output()
             };
@@ -132,6 +127,30 @@ fn every_level_and_format() {
         }
     }
     assert!(levels_run >= 6, "the detected level and the baseline run everywhere");
+}
+
+/// Memory that was never written, as from `malloc`, receives the same as any other.
+#[test]
+fn memory_need_not_be_initialised() {
+    let mut fixture = Fixture::new(CONFIG, TESS_LEVEL_DETECT).expect("a batch");
+    let needed = fixture.needed();
+    let mut points = Vec::<[u32; 2]>::with_capacity(needed.points);
+    let mut indices = Vec::<u32>::with_capacity(needed.indices);
+    let mut ranges = Vec::<TessRange>::with_capacity(needed.patches);
+    let output = TessBatchOutput {
+        points: points.as_mut_ptr().cast(),
+        indices: indices.as_mut_ptr().cast(),
+        ranges: ranges.as_mut_ptr(),
+        ..fixture.output()
+    };
+    assert_eq!(fixture.run(&output), (TESS_OK, needed), "into new memory");
+    unsafe {
+        points.set_len(needed.points);
+        indices.set_len(needed.indices);
+        ranges.set_len(needed.patches);
+    }
+    (fixture.points, fixture.indices, fixture.ranges) = (points, indices, ranges);
+    check(&fixture, &output);
 }
 
 /// Compares what was written with the model.
@@ -147,23 +166,21 @@ fn check(fixture: &Fixture, output: &TessBatchOutput) {
         };
         assert_eq!(*range, expected, "range");
         for (i, point) in patch.points.iter().enumerate() {
-            let pair = fixture.points[first_point + i].to_ne_bytes();
-            let [u, v] = [0, 4].map(|at| [pair[at], pair[at + 1], pair[at + 2], pair[at + 3]]);
-            let observed = [u32::from_ne_bytes(u), u32::from_ne_bytes(v)];
+            let observed = fixture.points[first_point + i];
             let expected = match output.point_format {
-                TESS_POINTS_FIXED => [point.u.to_bits(), point.v.to_bits()],
+                TESS_POINT_FIXED => [point.u.to_bits(), point.v.to_bits()],
                 _ => point.to_f32().map(f32::to_bits),
             };
             assert_eq!(observed, expected, "point {i}");
         }
         let base = match output.numbering {
-            TESS_NUMBERING_PATCH => 0,
+            TESS_NUMBERING_PER_PATCH => 0,
             _ => output.base_vertex + small(first_point),
         };
         for (i, index) in patch.indices.iter().enumerate() {
             let at = first_index + i;
-            let observed = match output.index_format {
-                TESS_INDICES_32 => fixture.indices[at],
+            let observed = match output.index_type {
+                TESS_INDEX_U32 => fixture.indices[at],
                 _ => unsafe { u32::from(*fixture.indices.as_ptr().cast::<u16>().add(at)) },
             };
             assert_eq!(observed, base + index, "index {i}");
@@ -198,13 +215,13 @@ fn bad_outputs_write_nothing() {
         (TessBatchOutput { points: good.indices, ..good }, TESS_OVERLAP),
         (TessBatchOutput { points: fixture.factors.as_mut_ptr().cast(), ..good }, TESS_OVERLAP),
         (TessBatchOutput { point_format: 2, ..good }, TESS_UNKNOWN_VALUE),
-        (TessBatchOutput { index_format: 2, ..good }, TESS_UNKNOWN_VALUE),
+        (TessBatchOutput { index_type: 2, ..good }, TESS_UNKNOWN_VALUE),
         (TessBatchOutput { numbering: 2, ..good }, TESS_UNKNOWN_VALUE),
         (
             TessBatchOutput {
-                numbering: TESS_NUMBERING_BATCH,
+                numbering: TESS_NUMBERING_PER_BATCH,
                 base_vertex: 65_535,
-                index_format: TESS_INDICES_16,
+                index_type: TESS_INDEX_U16,
                 ..good
             },
             TESS_INDEX_TOO_LARGE,
@@ -212,10 +229,21 @@ fn bad_outputs_write_nothing() {
     ] {
         let (observed, counts) = fixture.run(&bad);
         assert_eq!(observed, status, "{bad:?}");
-        let reported = if status == TESS_BUFFER_TOO_SMALL { needed } else { counts };
-        assert_eq!(counts, reported, "what is needed is said when room lacks");
+        let is_reported = status == TESS_BUFFER_TOO_SMALL;
+        let expected = if is_reported { needed } else { TessBatchCounts::default() };
+        assert_eq!(counts, expected, "counts say what is needed where room lacks: {bad:?}");
     }
-    assert!(fixture.points.iter().all(|&p| p == 0), "no point was written");
+    let counts_in = |pointer: *mut c_void| {
+        let (f, n) = (fixture.factors.as_ptr(), fixture.factors.len());
+        unsafe { tess_batch_run(fixture.batch, f, n, &good, pointer.cast()) }
+    };
+    let factors = fixture.factors.as_ptr().cast_mut().cast::<c_void>();
+    for buffer in [good.points, good.indices, good.ranges.cast(), factors] {
+        // Two floats in, so that 8 bytes are aligned wherever the buffer is.
+        let inside = buffer.wrapping_byte_add(8 + buffer.align_offset(8));
+        assert_eq!(counts_in(inside), TESS_OVERLAP, "the counts lie in {buffer:?}");
+    }
+    assert!(fixture.points.iter().all(|&p| p == [FILL; 2]), "no point was written");
     assert!(fixture.indices.iter().all(|&i| i == FILL), "no index was written");
     assert!(fixture.ranges.iter().all(|&r| r == FILLED_RANGE), "no range was written");
 }

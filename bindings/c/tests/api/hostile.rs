@@ -10,7 +10,7 @@ use tess_capi::probe::{
 use tess_capi::process::{TessProcessedPatch, tess_process};
 use tess_capi::status::{
     TESS_BUFFER_TOO_SMALL, TESS_MISALIGNED, TESS_NOT_A_CONTEXT, TESS_NULL_POINTER, TESS_OK,
-    TESS_OVERLAP, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus,
+    TESS_OVERLAP, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus,
 };
 use tess_capi::types::{TessConfig, TessContext, TessCounts, TessPoint};
 
@@ -119,7 +119,9 @@ fn buffers_of_patches() {
     let call = |p, n, i, m| {
         let mut counts = TessCounts::default();
         let status = unsafe { tess_patch(c, f, 6, p, n, i, m, &mut counts) };
-        assert_eq!(counts, needed, "counts are written whenever the patch is valid");
+        let is_reported = matches!(status, TESS_OK | TESS_BUFFER_TOO_SMALL);
+        let expected = if is_reported { needed } else { TessCounts::default() };
+        assert_eq!(counts, expected, "what is reported with status {status}");
         status
     };
     assert_eq!(call(p, n - 1, i, m), TESS_BUFFER_TOO_SMALL, "one point too few");
@@ -133,8 +135,19 @@ fn buffers_of_patches() {
     assert_eq!(call(p, n, unsafe { p.add(n - 1) }.cast(), m), TESS_OVERLAP, "one point shared");
     assert!(points.iter().all(|p| p.u == 5 && p.v == 5), "no point was written");
     assert!(indices.iter().all(|&i| i == 5), "no index was written");
-    // The library believes no capacity beyond what it needs.
-    assert_eq!(call(p, usize::MAX, i, usize::MAX), TESS_OK, "hostile capacities");
+    for impossible in [usize::MAX, usize::MAX / 8 + 1, isize::MAX.unsigned_abs() / 4 + 1] {
+        assert_eq!(call(p, impossible, i, m), TESS_TOO_LARGE, "{impossible} points");
+        assert_eq!(call(p, n, i, impossible), TESS_TOO_LARGE, "{impossible} indices");
+    }
+    for inside in
+        [p.cast(), unsafe { p.add(n - 2) }.cast(), i.cast(), unsafe { i.add(m - 1) }.cast()]
+    {
+        let status = unsafe { tess_patch(c, f, 6, p, n, i, m, inside) };
+        assert_eq!(status, TESS_OVERLAP, "the counts lie in a buffer");
+    }
+    assert!(points.iter().all(|p| p.u == 5 && p.v == 5), "no point was written");
+    assert!(indices.iter().all(|&i| i == 5), "no index was written");
+    assert_eq!(call(p, n + 1, i, m + 1), TESS_OK, "more room than is needed");
     assert!(points[n].u == 5 && indices[m] == 5, "something was written behind the patch");
     // A culled patch needs no memory.
     let culled = [0.0; 6];

@@ -12,9 +12,7 @@ use tess_core::{
     Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
 };
 use tess_simd::{Batch, Numbering, Output, Tessellator};
-use tess_surface::height::{Anchors, DisplacedPatch, Displacement};
-use tess_surface::patch::Sample;
-use tess_surface::{FactorRule, Model};
+use tess_surface::{DisplacedModel, FactorRule, Model, Sample};
 
 /// Patches whose factors are held at a time.
 const FACTOR_BLOCK: usize = 8192;
@@ -34,8 +32,8 @@ pub(crate) struct Job<'a> {
     pub(crate) rule: FactorRule,
     /// Spacing of the cuts.
     pub(crate) partitioning: Partitioning,
-    /// How their surface is displaced, with the model's anchors.
-    pub(crate) displacement: Option<(&'a Displacement, &'a Anchors)>,
+    /// The same patches with their displacement, if they are displaced.
+    pub(crate) displaced: Option<&'a DisplacedModel<'a>>,
 }
 
 /// Part of the result.
@@ -114,7 +112,7 @@ impl Stream<'_> {
             .clone()
             .into_par_iter()
             .with_min_len(PATCHES_PER_TASK)
-            .map(|number| rule.patch(model, number, *partitioning))
+            .map(|number| rule.factors(model, number, *partitioning))
             .collect();
         let mut triangles = Group { patches: Vec::new(), factors: Vec::new() };
         let mut quads = Group { patches: Vec::new(), factors: Vec::new() };
@@ -179,13 +177,13 @@ impl Stream<'_> {
 
 fn evaluate_patch(job: &Job<'_>, number: usize, points: &[[f32; 2]], out: &mut [Sample]) {
     let pairs = out.iter_mut().zip(points);
-    match job.displacement {
+    match job.displaced {
         None => {
             let patch = job.model.patch(number);
             pairs.for_each(|(vertex, &point)| *vertex = patch.sample(point));
         }
-        Some((displacement, anchors)) => {
-            let patch = DisplacedPatch::new(job.model, anchors, number, displacement);
+        Some(displaced) => {
+            let patch = displaced.patch(number);
             pairs.for_each(|(vertex, &point)| *vertex = patch.sample(point));
         }
     }

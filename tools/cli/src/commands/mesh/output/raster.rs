@@ -1,7 +1,7 @@
 //! A rasteriser: triangles into a depth buffer, without a GPU.
 
 use glam::{Mat4, Vec2, Vec3, Vec4};
-use tess_surface::patch::Sample;
+use tess_surface::Sample;
 
 /// What a pixel sees.
 #[derive(Clone, Copy, Debug)]

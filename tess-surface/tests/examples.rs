@@ -1,0 +1,12 @@
+//! The examples run to their end; what they assert holds.
+
+#[path = "../examples/displaced_mesh.rs"]
+mod displaced_mesh;
+#[path = "../examples/teapot.rs"]
+mod teapot;
+
+#[test]
+fn every_example_runs() {
+    teapot::main().expect("the teapot is sound");
+    displaced_mesh::main().expect("the cube is sound");
+}
