@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 use tess_core::{BufferTooSmall, DomainPoint, Patch};
-use tess_simd::{Buffers, Level, Numbering, PatchRange, Tessellator};
+use tess_simd::{Buffers, Level, Numbering, OwnedBatch, PatchRange, Tessellator};
 use tess_verify::digest::Fnv1a;
 use tess_verify::workloads::{IndexType, Totals, Workload, all};
 
@@ -30,10 +30,11 @@ pub struct Case {
     simd: Simd,
 }
 
-/// The SIMD backend and its ranges.
+/// The SIMD backend, and the patches as it reads them fastest.
 #[derive(Debug)]
 struct Simd {
     tessellator: Tessellator,
+    patches: OwnedBatch,
     ranges: Vec<PatchRange>,
 }
 
@@ -53,6 +54,7 @@ impl Case {
         let indices = part.counts().map(|counts| counts.indices as usize).sum();
         let simd = Simd {
             tessellator: Tessellator::new(workload.config),
+            patches: OwnedBatch::try_from(&part.patches[..]).expect("patches of one domain"),
             ranges: vec![PatchRange::default(); part.patches.len()],
         };
         Self {
@@ -84,10 +86,10 @@ impl Case {
     /// # Errors
     /// The buffers are too small, which their sizes rule out.
     pub fn run_simd(&mut self) -> Result<(), tess_simd::Error> {
-        let Self { workload, batch, points, indices, simd, .. } = self;
-        let buffers = Buffers::new(points, indices).with_ranges(&mut simd.ranges);
-        let patches = &workload.patches[batch.clone()];
-        simd.tessellator.write(patches, Numbering::PerPatch, buffers)?;
+        let Self { points, indices, simd, .. } = self;
+        let Simd { tessellator, patches, ranges } = simd;
+        let buffers = Buffers::new(points, indices).with_ranges(ranges);
+        tessellator.write(patches.batch(), Numbering::PerPatch, buffers)?;
         Ok(())
     }
 

@@ -4,9 +4,9 @@ use crate::compare_with_model;
 use crate::input::Bytes;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
-use tess_wgpu::{Gpu, Tessellator};
 use tess_gpu::{Numbering, PointFormat, Setup};
 use tess_verify::case::Case;
+use tess_wgpu::{Gpu, Tessellator};
 
 /// Patches in a batch: small, as a software adapter runs them.
 const MOST: usize = 12;
@@ -63,7 +63,8 @@ fn run(
 ) -> Result<(Vec<DomainPoint>, Vec<u32>), String> {
     let (point_format, numbering) = (PointFormat::Packed, Numbering::PerPatch);
     let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };
-    let output = tessellator.tessellate(gpu, setup, patches)?;
+    let output = tessellator.tessellate(gpu, setup, patches);
+    let output = output.map_err(|error| error.to_string())?;
     let points = output.points.iter().map(|&[low, high]| unpack(low, high)).collect();
     Ok((points, output.indices))
 }

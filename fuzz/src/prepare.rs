@@ -7,7 +7,7 @@ use crate::fault_is_planted;
 use crate::input::Bytes;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{Domain, Partitioning, PatchFactors};
-use tess_verify::case::{Case, factor_bits, factor_list, factor_names};
+use tess_verify::case::Case;
 
 /// Compares the unrounded and the rounded factors of one request.
 ///
@@ -26,13 +26,13 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     };
     let prepared = prepare(config.partitioning, reduction, request);
     let second = Second { partitioning: config.partitioning, reduction, axes };
-    let [unrounded, rounded] = second.prepare(domain, &factor_list(&factors));
+    let [unrounded, rounded] = second.prepare(domain, &factors.iter().collect::<Vec<_>>());
     for (result, observed, expected) in [
-        ("unrounded", factor_bits(&prepared.unrounded), unrounded),
-        ("rounded", factor_bits(&prepared.rounded), rounded),
+        ("unrounded", prepared.unrounded.map(f32::to_bits), unrounded),
+        ("rounded", prepared.rounded.map(f32::to_bits), rounded),
     ] {
-        for (i, name) in factor_names(domain).iter().enumerate() {
-            let (mut observed, expected) = (observed[i], expected[i].to_bits());
+        let values = observed.iter().zip(expected.iter().map(|factor| factor.to_bits()));
+        for (name, (mut observed, expected)) in domain.factor_names().iter().zip(values) {
             observed ^= u32::from(fault_is_planted());
             if observed != expected {
                 // The case is the request in the form of a patch: scales stand for inside factors.
@@ -62,12 +62,7 @@ fn rounded(x: f64) -> f32 {
 impl Second {
     /// Unrounded and rounded factors in the order of the domain.
     fn prepare(&self, domain: Domain, inputs: &[f32]) -> [Vec<f32>; 2] {
-        let outer_count = match domain {
-            Domain::Isoline => 2,
-            Domain::Triangle => 3,
-            Domain::Quad => 4,
-        };
-        let (outer, scales) = inputs.split_at(outer_count);
+        let (outer, scales) = inputs.split_at(domain.outer_factors());
         if outer.iter().any(|x| x.is_nan() || *x <= 0.0) {
             let zeros = vec![0.0; inputs.len()];
             let unrounded = outer.iter().chain(scales.iter().map(|_| &0.0)).copied().collect();

@@ -1,14 +1,25 @@
 //! Seeds: the factors at which something changes, in the form that each target reads.
 
-use crate::input::{batch_bytes, factor_count};
+use crate::input::{batch_bytes, repeated_bytes};
+use crate::mesh;
 use std::io;
 use std::path::Path;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
-use tess_verify::case::factors_from_list;
 use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
 
 /// Every target.
-pub const TARGETS: [&str; 6] = ["random_access", "simd", "prepare", "vectors", "capi", "gpu"];
+pub const TARGETS: [&str; 10] = [
+    "random_access",
+    "simd",
+    "prepare",
+    "vectors",
+    "capi",
+    "obj",
+    "gltf",
+    "bpt",
+    "height_png",
+    "gpu",
+];
 
 /// Writes the seeds of every target to `corpus/TARGET/`; `golden` is the folder of recorded results.
 ///
@@ -32,8 +43,13 @@ pub fn write(corpus: &Path, golden: &Path) -> io::Result<usize> {
 /// # Errors
 /// Those of the file system, for the recorded results.
 pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
-    if target == "vectors" {
-        return recorded(golden);
+    match target {
+        "vectors" => return recorded(golden),
+        "obj" => return Ok(numbered(mesh::seeds::obj())),
+        "gltf" => return Ok(numbered(mesh::seeds::gltf())),
+        "bpt" => return Ok(numbered(mesh::seeds::bpt())),
+        "height_png" => return Ok(numbered(mesh::seeds::height_png())),
+        _ => {}
     }
     let seed = |(i, (domain, config, patches)): (usize, &(Domain, Config, Vec<PatchFactors>))| {
         let batch = batch_bytes(*domain, *config, patches);
@@ -49,11 +65,25 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
         };
         (i.to_string(), bytes)
     };
+    // Every fifth batch of these goes on beyond a chunk of 64 patches.
+    let long = |(i, (name, bytes)): (usize, (String, Vec<u8>))| {
+        let is_long = target == "simd" && i % 5 == 0;
+        let bytes = if is_long {
+            repeated_bytes(&bytes, 130 + low_byte(i % 64), 1 << (i % 20))
+        } else {
+            bytes
+        };
+        (name, bytes)
+    };
     // A batch is slow; one patch is all that the other targets read.
     let size = if matches!(target, "simd" | "gpu") { 12 } else { 1 };
     // Calls that make a batch take milliseconds under a sanitizer.
     let step = if target == "capi" { 5 } else { 1 };
-    Ok(batches(size).iter().enumerate().step_by(step).map(seed).collect())
+    Ok(batches(size).iter().enumerate().step_by(step).map(seed).enumerate().map(long).collect())
+}
+
+fn numbered(seeds: Vec<Vec<u8>>) -> Vec<(String, Vec<u8>)> {
+    seeds.into_iter().enumerate().map(|(number, seed)| (number.to_string(), seed)).collect()
 }
 
 fn low_byte(number: usize) -> u8 {
@@ -107,11 +137,11 @@ fn batches(size: usize) -> Vec<(Domain, Config, Vec<PatchFactors>)> {
 
 /// An ordinary patch with a factor in its first place, its last or all of them.
 fn patch(domain: Domain, place: usize, factor: f32) -> PatchFactors {
-    let mut list = [3.0, 4.5, 1.0, 7.25, 2.0, 5.0][..factor_count(domain)].to_vec();
+    let mut list = [3.0, 4.5, 1.0, 7.25, 2.0, 5.0][..domain.factors()].to_vec();
     match (place % 3, list.as_mut_slice()) {
         (0, [first, ..]) => *first = factor,
         (1, [.., last]) => *last = factor,
         (_, all) => all.fill(factor),
     }
-    factors_from_list(domain, &list).expect("as many factors as the domain has")
+    PatchFactors::from_slice(domain, &list).expect("as many factors as the domain has")
 }

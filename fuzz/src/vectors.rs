@@ -36,8 +36,12 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     }
 }
 
-/// An error reads `fuzz:LINE: ...`, with a line that the file has, or the one behind its end.
+/// An error reads `fuzz:LINE: ...`, with a line that the file has, or the one behind its end; it is
+/// short, and has nothing in it that a terminal would obey.
 fn names_a_line(message: &str, lines: u64) -> Result<(), String> {
+    if message.len() > 1000 || message.chars().any(char::is_control) {
+        return Err(format!("an error of {} bytes: {message:?}", message.len()));
+    }
     let line = message.strip_prefix("fuzz:").and_then(|rest| rest.split(':').next());
     match line.and_then(|line| line.trim().parse::<u64>().ok()) {
         Some(line) if line <= lines => Ok(()),

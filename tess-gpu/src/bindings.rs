@@ -1,34 +1,53 @@
-//! What the shaders read and write, as data.
+//! The buffers that the shaders read and write.
 
 /// A buffer that a stage binds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Resource {
-    /// A [`crate::layout::Job`], the one uniform buffer.
+    /// One [`crate::layout::Job`] of [`crate::Plan::jobs`]: the only uniform buffer.
     Job,
-    /// The caller's raw factors.
+    /// The caller's raw factors: [`crate::layout::factor_words`].
     Factors,
     /// The constants of [`crate::tables`].
     Tables,
-    /// Two words per patch of the chunk: [`crate::layout::Topology`].
+    /// One [`crate::layout::Topology`] for each patch.
     Topologies,
-    /// Two words per factor of the chunk, factor after factor:
-    /// [`crate::layout::pack_context`].
+    /// Two words for each factor ([`crate::layout::pack_context`]): in each chunk the first factor
+    /// of all patches, then the second of all patches, and so on.
     Contexts,
-    /// Offsets of patches, blocks and groups of the chunk.
+    /// Where the output of patches, blocks and groups begins: [`crate::Plan::offset_entries`].
     Offsets,
-    /// A [`crate::layout::Status`] and the range of each chunk.
+    /// A [`crate::layout::Status`], then a [`crate::layout::Range`] for each chunk. All zeros before
+    /// the batch runs.
     Status,
-    /// The patch that each tile begins with.
+    /// The number of the patch that each tile of the output begins with.
     Tiles,
-    /// Draw arguments and dispatch sizes.
+    /// A [`crate::layout::DrawIndexed`], then the sizes of indirect dispatches. Needs the usage
+    /// `INDIRECT`.
     Arguments,
-    /// The caller's points.
+    /// The caller's points: [`crate::PointFormat`].
     Points,
-    /// The caller's indices.
+    /// The caller's indices: [`crate::IndexType`], [`crate::Numbering`].
     Indices,
 }
 
-/// How a stage uses a buffer.
+impl Resource {
+    /// Every resource.
+    pub const ALL: [Self; 11] = [
+        Self::Job,
+        Self::Factors,
+        Self::Tables,
+        Self::Topologies,
+        Self::Contexts,
+        Self::Offsets,
+        Self::Status,
+        Self::Tiles,
+        Self::Arguments,
+        Self::Points,
+        Self::Indices,
+    ];
+}
+
+/// What a stage does with a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Access {
     /// Reads it.
@@ -37,6 +56,6 @@ pub enum Access {
     ReadWrite,
 }
 
-/// A binding of a stage; its number is its place in [`crate::Stage::bindings`].
+/// A binding of a stage. Its number is its place in [`crate::Stage::bindings`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Binding(pub Resource, pub Access);

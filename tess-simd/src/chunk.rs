@@ -21,9 +21,15 @@ impl Chunk {
     #[inline(always)]
     pub(crate) fn load(&mut self, batch: &Batch<'_>, first: usize) {
         match batch {
-            Batch::Isolines(patches) => self.load_structures(patches, first, |&f| f.into()),
-            Batch::Triangles(patches) => self.load_structures(patches, first, |&f| f.into()),
-            Batch::Quads(patches) => self.load_structures(patches, first, |&f| f.into()),
+            Batch::Isolines(patches) => {
+                self.load_structures(patches, first, |&patch| Some(patch.into()))
+            }
+            Batch::Triangles(patches) => {
+                self.load_structures(patches, first, |&patch| Some(patch.into()))
+            }
+            Batch::Quads(patches) => {
+                self.load_structures(patches, first, |&patch| Some(patch.into()))
+            }
             Batch::Patches(patches) => self.load_patches(batch.domain(), patches, first),
             Batch::Columns(columns) => self.load_columns(columns, batch.len(), first),
         }
@@ -33,16 +39,16 @@ impl Chunk {
     fn load_patches(&mut self, domain: Domain, patches: &[PatchFactors], first: usize) {
         match domain {
             Domain::Isoline => self.load_structures(patches, first, |patch| match *patch {
-                PatchFactors::Isoline(factors) => factors.into(),
-                _ => [0.0; 2],
+                PatchFactors::Isoline(factors) => Some(factors.into()),
+                _ => None,
             }),
             Domain::Triangle => self.load_structures(patches, first, |patch| match *patch {
-                PatchFactors::Triangle(factors) => factors.into(),
-                _ => [0.0; 4],
+                PatchFactors::Triangle(factors) => Some(factors.into()),
+                _ => None,
             }),
             Domain::Quad => self.load_structures(patches, first, |patch| match *patch {
-                PatchFactors::Quad(factors) => factors.into(),
-                _ => [0.0; 6],
+                PatchFactors::Quad(factors) => Some(factors.into()),
+                _ => None,
             }),
         }
     }
@@ -52,12 +58,13 @@ impl Chunk {
         &mut self,
         patches: &[F],
         first: usize,
-        factors: impl Fn(&F) -> [f32; N],
+        factors: impl Fn(&F) -> Option<[f32; N]>,
     ) {
         let patches = patches.get(first..).unwrap_or_default();
         let patches = patches.get(..Self::PATCHES).unwrap_or(patches);
         for (i, patch) in patches.iter().enumerate().take(Self::PATCHES) {
-            for (values, factor) in self.0.iter_mut().zip(factors(patch)) {
+            let Some(factors) = factors(patch) else { break };
+            for (values, factor) in self.0.iter_mut().zip(factors) {
                 values[i] = factor;
             }
         }

@@ -2,12 +2,12 @@
 
 use crate::batch::Batch;
 use crate::block::Block;
+use crate::chunk::Chunk;
 use crate::counts::PartCounts;
 use crate::format::{IndexFormat, PointFormat};
 use crate::kernel;
-use crate::kernel::emit::{Blocks, Caches, Offsets};
+use crate::kernel::emit::{Blocks, Caches, Offsets, Room};
 use crate::level::Level;
-use crate::output::Buffers;
 use crate::setup::Setup;
 use alloc::vec::Vec;
 use multiversion::multiversion;
@@ -53,14 +53,21 @@ at_each_level! {
 
 at_each_level! {
     /// [`kernel::count::count_and_keep`] at a level.
-    fn count_and_keep(config: Config, batch: &Batch<'_>, blocks: &mut [Block]) -> PartCounts
-        = kernel::count::count_and_keep;
+    fn count_and_keep(
+        config: Config,
+        batch: &Batch<'_>,
+        kept: &mut [[Block; Chunk::BLOCKS]],
+    ) -> PartCounts = kernel::count::count_and_keep;
 }
 
 at_each_level! {
     /// [`kernel::front_end::process`] at a level.
-    fn process(config: Config, batch: &Batch<'_>, first: usize, blocks: &mut [Block])
-        = kernel::front_end::process;
+    fn process(
+        config: Config,
+        batch: &Batch<'_>,
+        first: usize,
+        blocks: &mut [Block; Chunk::BLOCKS],
+    ) = kernel::front_end::process;
 }
 
 at_each_level! {
@@ -68,7 +75,7 @@ at_each_level! {
     fn emit<P: PointFormat, I: IndexFormat>(
         setup: &Setup,
         blocks: Blocks<'_>,
-        buffers: Buffers<'_, P, I>,
+        room: Room<'_, P, I>,
         caches: &mut Caches,
     ) -> Offsets = kernel::emit::emit;
 }

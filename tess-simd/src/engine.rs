@@ -2,11 +2,11 @@
 
 use crate::batch::Batch;
 use crate::block::Block;
+use crate::chunk::Chunk;
 use crate::counts::PartCounts;
 use crate::dispatch;
 use crate::error::Error;
 use crate::kernel::emit::Offsets;
-use crate::lanes::LANES;
 use crate::output::Numbering;
 use crate::part::{Job, Part};
 use crate::setup::Setup;
@@ -16,8 +16,8 @@ use crate::threads::Workspaces;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// Blocks that a count keeps for the write: more would not stay in the nearest cache.
-const KEPT: usize = 4;
+/// Chunks whose blocks a count keeps for the write.
+const KEPT: usize = 1;
 
 /// A setup, and the memory that batches need.
 #[derive(Clone, Debug)]
@@ -27,7 +27,7 @@ pub(crate) struct Engine {
     /// The counts of each slice of the batch that was counted last.
     slices: Vec<PartCounts>,
     /// Its blocks, if they were kept.
-    kept: Box<[Block; KEPT]>,
+    kept: Box<[[Block; Chunk::BLOCKS]; KEPT]>,
 }
 
 /// What a count found.
@@ -40,7 +40,7 @@ pub(crate) struct Count {
 
 impl Engine {
     pub(crate) fn new(setup: Setup) -> Self {
-        let kept = Box::new([Block::EMPTY; _]);
+        let kept = Box::new([[Block::EMPTY; _]; _]);
         Self { setup, workspaces: Workspaces::new(), slices: Vec::new(), kept }
     }
 
@@ -55,7 +55,7 @@ impl Engine {
         let Self { setup, workspaces, slices, kept } = self;
         let slicing = Slicing::new(batch.len(), workspaces.threads());
         slices.clear();
-        let keep = slicing.slices <= 1 && batch.len() <= KEPT * LANES;
+        let keep = slicing.slices <= 1 && batch.len() <= KEPT * Chunk::PATCHES;
         if keep {
             let Setup { level, config, .. } = *setup;
             slices.push(dispatch::count_and_keep(level, config, batch, &mut **kept));

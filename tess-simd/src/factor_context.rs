@@ -1,7 +1,6 @@
 //! Factor contexts of a block (spec section 4).
 
 use crate::lanes::{Column, LANES, MAX_FACTORS};
-use crate::place::Spacing;
 use crate::reciprocal::reciprocal;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{FactorContext, Parity, SplitOrder};
@@ -26,40 +25,6 @@ pub(crate) fn point_counts<const ALL: usize>(fixed: &Column, odd: &Column) -> Co
         points[i] = 2 * (half(fixed[i], odd[i]).div_ceil(ONE)) + 1 - odd[i];
     }
     points
-}
-
-/// The spacings of a block of fractional factors.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Spacings {
-    split: Column,
-    step: Column,
-    lag: Column,
-}
-
-impl Spacings {
-    pub(crate) const NONE: Self = {
-        const NONE: Column = [0; LANES * MAX_FACTORS];
-        Self { split: NONE, step: NONE, lag: NONE }
-    };
-
-    /// The spacings of the first `ALL` elements of two columns.
-    #[inline(always)]
-    pub(crate) fn new<const ALL: usize>(fixed: &Column, odd: &Column, order: SplitOrder) -> Self {
-        let mut all = Self::NONE;
-        for i in 0..ALL {
-            let spacing = Spacing::new(&Context::new(fixed[i], odd[i], order));
-            all.split[i] = spacing.split;
-            all.step[i] = spacing.step;
-            all.lag[i] = spacing.lag;
-        }
-        all
-    }
-
-    /// The spacing of an element with this many points.
-    #[inline(always)]
-    pub(crate) const fn get(&self, i: usize, points: u32) -> Spacing {
-        Spacing { points, split: self.split[i], step: self.step[i], lag: self.lag[i] }
-    }
 }
 
 impl Context {

@@ -5,9 +5,8 @@ use crate::block::Block;
 use crate::chunk::Chunk;
 use crate::dispatch;
 use crate::format::{AnyIndices, AnyPoints, IndexFormat, PointFormat};
-use crate::kernel::emit::{Blocks, Caches, Offsets};
-use crate::lanes::LANES;
-use crate::output::{Buffers, Numbering};
+use crate::kernel::emit::{Blocks, Caches, Offsets, Room};
+use crate::output::{Buffers, Numbering, PatchRange};
 use crate::setup::Setup;
 use crate::target::Target;
 use alloc::boxed::Box;
@@ -17,9 +16,9 @@ use alloc::boxed::Box;
 pub(crate) struct Job<'a> {
     pub(crate) setup: &'a Setup,
     pub(crate) numbering: Numbering,
-    /// The blocks of the whole batch if the count kept them, else none. A batch whose blocks were
+    /// The blocks of the whole batch, chunk by chunk, if the count kept them, else none. A batch whose blocks were
     /// kept is one part.
-    pub(crate) kept: &'a [Block],
+    pub(crate) kept: &'a [[Block; Chunk::BLOCKS]],
 }
 
 /// Consecutive patches of a batch and where their output goes.
@@ -36,12 +35,18 @@ pub(crate) struct Part<'a> {
 #[repr(align(128))]
 pub(crate) struct Workspace {
     blocks: Box<[Block; Chunk::BLOCKS]>,
+    /// The ranges of a chunk, where the caller wants none.
+    ranges: [PatchRange; Chunk::PATCHES],
     caches: Caches,
 }
 
 impl Workspace {
     pub(crate) fn new() -> Self {
-        Self { blocks: Box::new([Block::EMPTY; _]), caches: Caches::new() }
+        Self {
+            blocks: Box::new([Block::EMPTY; _]),
+            ranges: [PatchRange::default(); _],
+            caches: Caches::new(),
+        }
     }
 
     /// Bytes of memory that it takes on the heap.
@@ -80,20 +85,21 @@ fn emit_as<P: PointFormat, I: IndexFormat>(
     let Job { setup, numbering, kept } = job;
     let Buffers { mut points, mut indices, mut ranges } = buffers;
     let all = batch.len();
-    for start in (0..all).step_by(Chunk::PATCHES) {
-        let patches = Chunk::PATCHES.min(all - start);
-        let blocks = if kept.is_empty() {
-            dispatch::process(setup.level, setup.config, batch, start, &mut *workspace.blocks);
-            &workspace.blocks[..]
+    for (number, start) in (0..all).step_by(Chunk::PATCHES).enumerate() {
+        let patches = start..all.min(start + Chunk::PATCHES);
+        let blocks = if let Some(kept) = kept.get(number) {
+            kept
         } else {
-            kept.get(start / LANES..).unwrap_or_default()
+            dispatch::process(setup.level, setup.config, batch, start, &mut workspace.blocks);
+            &*workspace.blocks
         };
-        let blocks = &blocks[..patches.div_ceil(LANES)];
-        let blocks = Blocks { blocks, patches, first, numbering };
-        let chunk_ranges = ranges.as_deref_mut().map(|ranges| &mut ranges[start..start + patches]);
-        let buffers =
-            Buffers { points: &mut *points, indices: &mut *indices, ranges: chunk_ranges };
-        let end = dispatch::emit(setup.level, setup, blocks, buffers, &mut workspace.caches);
+        let ranges = match &mut ranges {
+            Some(ranges) => &mut ranges[patches],
+            None => &mut workspace.ranges[..patches.len()],
+        };
+        let blocks = Blocks { blocks, first, numbering };
+        let room = Room { points: &mut *points, indices: &mut *indices, ranges };
+        let end = dispatch::emit(setup.level, setup, blocks, room, &mut workspace.caches);
         points = points.split_at_mut((end.points - first.points) as usize).1;
         indices = indices.split_at_mut((end.indices - first.indices) as usize).1;
         first = end;

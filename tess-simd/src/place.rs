@@ -1,7 +1,8 @@
 //! Locations along one dimension, a whole edge at a time (spec section 5).
 
 use crate::factor_context::Context;
-use crate::lanes::is_odd;
+use crate::lanes::{Column, LANES, MAX_FACTORS, is_odd};
+use tess_core::SplitOrder;
 use tess_core::fixed_point::{HALF, ONE};
 
 /// Locations computed at a time.
@@ -33,6 +34,40 @@ impl Spacing {
         let lag = inv_floor.wrapping_mul(ONE - fraction);
         let step = lag.wrapping_add(inv_ceil.wrapping_mul(fraction));
         Self { points, split, step, lag }
+    }
+}
+
+/// The spacings of a block of fractional factors.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spacings {
+    split: Column,
+    step: Column,
+    lag: Column,
+}
+
+impl Spacings {
+    pub(crate) const NONE: Self = {
+        const NONE: Column = [0; LANES * MAX_FACTORS];
+        Self { split: NONE, step: NONE, lag: NONE }
+    };
+
+    /// The spacings of the first `ALL` elements of two columns.
+    #[inline(always)]
+    pub(crate) fn new<const ALL: usize>(fixed: &Column, odd: &Column, order: SplitOrder) -> Self {
+        let mut all = Self::NONE;
+        for i in 0..ALL {
+            let spacing = Spacing::new(&Context::new(fixed[i], odd[i], order));
+            all.split[i] = spacing.split;
+            all.step[i] = spacing.step;
+            all.lag[i] = spacing.lag;
+        }
+        all
+    }
+
+    /// The spacing of an element with this many points.
+    #[inline(always)]
+    pub(crate) const fn get(&self, i: usize, points: u32) -> Spacing {
+        Spacing { points, split: self.split[i], step: self.step[i], lag: self.lag[i] }
     }
 }
 

@@ -7,7 +7,7 @@ use tess_core::{
 };
 use tess_simd::{
     Batch, BatchCounts, Buffer, Buffers, Error, Level, LevelUnavailable, Numbering, Output,
-    PatchRange, Tessellator,
+    OwnedBatch, PatchRange, Tessellator,
 };
 
 const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
@@ -145,6 +145,26 @@ fn patches_of_several_domains() {
         let error = Error::MixedDomains { patch: count, found, expected };
         assert_eq!(refused((&patches).into()), Some(error), "and a triangle");
     }
+}
+
+#[test]
+fn owned_batches_have_one_domain() {
+    let (found, expected) = (Domain::Triangle, Domain::Isoline);
+    for domain in Domain::ALL {
+        let patches = [1.0, 2.0, 3.0].map(|factor| PatchFactors::uniform(domain, factor));
+        let owned = OwnedBatch::try_from(&patches[..]).expect("one domain");
+        let size = (owned.batch().len(), owned.batch().domain());
+        assert_eq!(size, (3, domain), "all of them");
+        assert_eq!(owned.get(1..3).map(|part| part.len()), Some(2), "a part of them");
+        assert!(owned.get(1..4).is_none(), "more than there are");
+    }
+    let mut owned = OwnedBatch::new(expected);
+    assert_eq!(owned.push(PatchFactors::uniform(expected, 2.0)), Ok(()), "an isoline");
+    let error = Error::MixedDomains { patch: 1, found, expected };
+    assert_eq!(owned.push(PatchFactors::uniform(found, 2.0)), Err(error), "a triangle");
+    assert_eq!(owned.batch().len(), 1, "the isoline alone");
+    let mixed = [PatchFactors::uniform(expected, 1.0), PatchFactors::uniform(found, 1.0)];
+    assert_eq!(OwnedBatch::try_from(&mixed[..]), Err(error), "both");
 }
 
 /// A count can be written any number of times, in any formats, with or without ranges, and after

@@ -1,11 +1,10 @@
 //! One patch with its configuration, as a line of text.
 
 use crate::names::Named;
+use crate::quote::quoted;
 use std::fmt;
-use tess_core::{
-    Config, Domain, IsolineFactors, OutputPrimitive, Partitioning, Patch, PatchFactors,
-    QuadFactors, SplitOrder, TriangleFactors,
-};
+use std::hash::{Hash, Hasher};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, SplitOrder};
 
 /// A configuration and raw factors: everything that a tessellation depends on.
 ///
@@ -37,12 +36,18 @@ pub struct Case {
 impl PartialEq for Case {
     fn eq(&self, other: &Self) -> bool {
         self.config == other.config
-            && self.domain() == other.domain()
-            && factor_bits(&self.factors) == factor_bits(&other.factors)
+            && self.factors.map(f32::to_bits) == other.factors.map(f32::to_bits)
     }
 }
 
 impl Eq for Case {}
+
+impl Hash for Case {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.config, self.domain()).hash(state);
+        self.factors.iter().for_each(|factor| factor.to_bits().hash(state));
+    }
+}
 
 impl Case {
     /// The domain of the patch.
@@ -60,19 +65,14 @@ impl Case {
     /// The command line that tessellates the same patch.
     #[must_use]
     pub fn command(&self) -> String {
-        let bits = factor_bits(&self.factors);
-        let (outer, inner) = bits.split_at(outer_count(self.domain()));
-        let list = |bits: &[u32]| {
-            let factors: Vec<_> = bits.iter().map(|bits| format!("0x{bits:08x}")).collect();
-            factors.join(",")
-        };
-        let inner =
-            if inner.is_empty() { String::new() } else { format!(" --inner {}", list(inner)) };
+        let bits = |factor: f32| format!("0x{:08x}", factor.to_bits());
+        let outer = self.factors.outer().map(bits).collect::<Vec<_>>().join(",");
+        let inside = self.factors.inside().map(bits).collect::<Vec<_>>().join(",");
+        let inner = if inside.is_empty() { String::new() } else { format!(" --inner {inside}") };
         let Config { partitioning, output, split } = self.config;
         format!(
-            "tess patch {} --outer {}{inner} --partitioning {} --output {} --split {}",
+            "tess patch {} --outer {outer}{inner} --partitioning {} --output {} --split {}",
             self.domain().name(),
-            list(outer),
             partitioning.name(),
             output.name(),
             split.name()
@@ -85,7 +85,7 @@ impl fmt::Display for Case {
         let Config { partitioning, output, split } = self.config;
         let domain = self.domain().name();
         write!(f, "case {domain} {} {} {}", partitioning.name(), output.name(), split.name())?;
-        factor_bits(&self.factors).iter().try_for_each(|bits| write!(f, " {bits:08x}"))
+        self.factors.iter().try_for_each(|factor| write!(f, " {:08x}", factor.to_bits()))
     }
 }
 
@@ -96,7 +96,10 @@ impl std::str::FromStr for Case {
         let words: Vec<_> = line.split_whitespace().collect();
         let ["case", domain, partitioning, output, split, factors @ ..] = &words[..] else {
             let form = "a case is: case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...";
-            return Err(CaseError { field: "case", message: format!("{form}, not `{line}`") });
+            return Err(CaseError {
+                field: "case",
+                message: format!("{form}, not {}", quoted(line)),
+            });
         };
         let domain = named::<Domain>("domain", domain)?;
         let config = Config {
@@ -114,6 +117,7 @@ fn named<T: Named>(field: &'static str, name: &str) -> Result<T, CaseError> {
 
 /// A text is no case.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct CaseError {
     /// The part that is wrong.
     pub field: &'static str,
@@ -129,71 +133,17 @@ impl fmt::Display for CaseError {
 
 impl std::error::Error for CaseError {}
 
-/// The names of a domain's factors, in their order (spec section 1).
-#[must_use]
-pub const fn factor_names(domain: Domain) -> &'static [&'static str] {
-    match domain {
-        Domain::Isoline => &["density", "detail"],
-        Domain::Triangle => &["u0", "v0", "w0", "inside"],
-        Domain::Quad => &["u0", "v0", "u1", "v1", "inside_u", "inside_v"],
-    }
-}
-
-/// How many of a domain's factors are outer factors (for isolines: both).
-#[must_use]
-pub const fn outer_count(domain: Domain) -> usize {
-    match domain {
-        Domain::Isoline => 2,
-        Domain::Triangle => 3,
-        Domain::Quad => 4,
-    }
-}
-
-/// Factors as a list, in the order of [`factor_names`].
-#[must_use]
-pub fn factor_list<T: Copy>(factors: &PatchFactors<T>) -> Vec<T> {
-    match factors {
-        PatchFactors::Isoline(f) => vec![f.density, f.detail],
-        PatchFactors::Triangle(f) => vec![f.u0, f.v0, f.w0, f.inside],
-        PatchFactors::Quad(f) => vec![f.u0, f.v0, f.u1, f.v1, f.inside_u, f.inside_v],
-    }
-}
-
-/// The bit patterns of raw factors, in the order of [`factor_names`].
-#[must_use]
-pub fn factor_bits(factors: &PatchFactors) -> Vec<u32> {
-    factor_list(factors).into_iter().map(f32::to_bits).collect()
-}
-
-/// The factors of a list in the order of [`factor_names`]; `None` if it has another length.
-#[must_use]
-pub const fn factors_from_list<T: Copy>(domain: Domain, list: &[T]) -> Option<PatchFactors<T>> {
-    match (domain, list) {
-        (Domain::Isoline, &[density, detail]) => {
-            Some(PatchFactors::Isoline(IsolineFactors { density, detail }))
-        }
-        (Domain::Triangle, &[u0, v0, w0, inside]) => {
-            Some(PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside }))
-        }
-        (Domain::Quad, &[u0, v0, u1, v1, inside_u, inside_v]) => {
-            Some(PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v }))
-        }
-        _ => None,
-    }
-}
-
 /// Factors from their hex bit patterns.
 ///
 /// # Errors
 /// A pattern that is not 8 hex digits, or a number of factors that the domain does not have.
-pub fn parse_factors(domain: Domain, words: &[&str]) -> Result<PatchFactors, CaseError> {
+pub(crate) fn parse_factors(domain: Domain, words: &[&str]) -> Result<PatchFactors, CaseError> {
     let values = parse_bits(words)?;
-    factors_from_list(domain, &values).ok_or_else(|| {
-        let names = factor_names(domain);
-        let (name, count) = (domain.name(), names.len());
+    PatchFactors::from_slice(domain, &values).ok_or_else(|| {
+        let (name, count) = (domain.name(), domain.factors());
         let message = format!(
             "{name} patches have {count} factors ({}), these are {}",
-            names.join(", "),
+            domain.factor_names().join(", "),
             values.len()
         );
         CaseError { field: "factors", message }
@@ -204,12 +154,15 @@ pub fn parse_factors(domain: Domain, words: &[&str]) -> Result<PatchFactors, Cas
 ///
 /// # Errors
 /// A pattern that is not 8 hex digits.
-pub fn parse_bits(words: &[&str]) -> Result<Vec<f32>, CaseError> {
+pub(crate) fn parse_bits(words: &[&str]) -> Result<Vec<f32>, CaseError> {
     let parse = |word: &&str| {
         let bits = parse_hex(word, 8).and_then(|bits| u32::try_from(bits).ok());
         bits.map(f32::from_bits).ok_or_else(|| CaseError {
             field: "factors",
-            message: format!("`{word}` is not the 8 hex digits of a binary32 number's bits"),
+            message: format!(
+                "{} is not the 8 hex digits of a binary32 number's bits",
+                quoted(word)
+            ),
         })
     };
     words.iter().map(parse).collect()
@@ -217,8 +170,9 @@ pub fn parse_bits(words: &[&str]) -> Result<Vec<f32>, CaseError> {
 
 /// A number of exactly `digits` hex digits, at most 16.
 pub(crate) fn parse_hex(word: &str, digits: usize) -> Option<u64> {
-    let hex = word.len() == digits && word.bytes().all(|byte| byte.is_ascii_hexdigit());
-    hex.then(|| u64::from_str_radix(word, 16).ok()).flatten()
+    let digit = |byte: u8| char::from(byte).to_digit(16).map(u64::from);
+    let number = || word.bytes().try_fold(0, |number, byte| Some(number << 4 | digit(byte)?));
+    (word.len() == digits).then(number).flatten()
 }
 
 #[cfg(test)]
@@ -230,8 +184,7 @@ mod tests {
     #[test]
     fn text_round_trips() {
         for domain in Domain::ALL {
-            let factors: String =
-                factor_names(domain).iter().map(|_| " ffc12345".to_owned()).collect();
+            let factors = " ffc12345".repeat(domain.factors());
             let line = format!("case {} integer point ruler{factors}", domain.name());
             let case: Case = line.parse().unwrap_or_else(|error| panic!("{line}: {error}"));
             assert_eq!(case.to_string(), line, "the same line");

@@ -1,7 +1,9 @@
 //! Runs the records of a vector file through a backend.
 
+mod consistency;
 mod device;
 mod exhaustive;
+mod findings;
 mod patches;
 mod report;
 mod stages;
@@ -10,31 +12,49 @@ pub(crate) use patches::tessellate;
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, Report};
 
 use crate::backend::{Backend, BackendError};
-use crate::compare::Mismatch;
+use crate::case::Case;
 use crate::strength::Strength;
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
+use findings::{Findings, Found};
 use std::io::BufRead;
 use std::sync::{Mutex, PoisonError};
+use tess_core::Tessellation;
 
-/// Checks every record of a file: each result of the backend must equal the recorded one.
+/// Which side of a comparison is tested; the other one is right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Tested {
+    /// The backend: each of its results must equal the recorded one exactly.
+    Backend,
+    /// The file: its listings are what a device gave, and each must equal the model's as closely as
+    /// the strength says. The backends are not asked.
+    Listings(Strength),
+}
+
+/// Checks every record of a file.
 ///
-/// Takes one backend for each thread that is to be used; the report does not depend on how many
-/// there are. `strength` says what counts as equal in the listings of a device under test.
-/// `progress` is told, from any thread, how many more records are done.
+/// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
+/// to use; the report does not depend on their number. `progress` is called from any thread, with the
+/// number of records that were checked since its last call.
 ///
 /// # Errors
 /// A file that is malformed, truncated or too long, which is known at its end: the report of a
-/// file that is not whole is never given. A backend that could not run, or no backend at all.
+/// file that is not whole is never given. [`Tested::Listings`] for a file that has none. A backend
+/// that could not run, or no backend at all.
 pub fn check<R: BufRead + Send>(
     file: VectorFile<R>,
     backends: &mut [Box<dyn Backend>],
-    strength: Strength,
+    tested: Tested,
     progress: &(dyn Fn(u64) + Sync),
 ) -> Result<Report, CheckError> {
     if backends.is_empty() {
         return Err(BackendError::new("no backend to check with").into());
     }
-    let how = How { header: file.header().clone(), strength };
+    let header = file.header().clone();
+    if tested != Tested::Backend && header.kind != Kind::Listings {
+        return Err(CheckError::NoListings(header.kind));
+    }
+    let how = How { header, tested };
     let source = Mutex::new(Source { file, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, backend.as_mut(), progress);
@@ -51,21 +71,34 @@ pub fn check<R: BufRead + Send>(
             results.push(worker.join().unwrap_or_else(panicked));
         }
     });
-    // A malformed file is reported as such, whatever a backend may have said meanwhile.
+    // A malformed file is reported as such, whatever a backend answered meanwhile.
     if let Some(Err(error)) = lock(&source).stopped.take() {
         return Err(error.into());
     }
-    let mut report = Report::default();
+    let mut findings = Findings::default();
     for result in results {
-        report.add(result?);
+        findings.join(result?);
     }
-    Ok(report)
+    Ok(findings.report())
+}
+
+/// Checks what a device answered for cases, in a strength: [`check`] without a file.
+#[must_use]
+pub fn check_device(
+    answers: impl IntoIterator<Item = (Case, Tessellation)>,
+    strength: Strength,
+) -> Report {
+    let mut findings = Findings::default();
+    for (number, (case, answer)) in (1..).zip(answers) {
+        findings.add(number, None, device::check(&case, &answer, strength), || None);
+    }
+    findings.report()
 }
 
 /// What the comparison of a record depends on besides the record.
 struct How {
     header: Header,
-    strength: Strength,
+    tested: Tested,
 }
 
 /// The records that are still to be checked.
@@ -116,26 +149,19 @@ fn run<R: BufRead>(
     source: &Mutex<Source<R>>,
     backend: &mut dyn Backend,
     progress: &(dyn Fn(u64) + Sync),
-) -> Result<Report, BackendError> {
-    let mut report = Report::default();
+) -> Result<Findings, BackendError> {
+    let mut findings = Findings::default();
     loop {
-        let Some(unit) = lock(source).next_unit(how.header.kind) else { return Ok(report) };
+        let unit = lock(source).next_unit(how.header.kind);
+        let Some(unit) = unit else { return Ok(findings) };
         let found = check_unit(how, backend, &unit.records)?;
         for ((number, record), found) in (unit.first..).zip(&unit.records).zip(found) {
-            report.cases += 1;
-            if let Some((mismatch, case)) = found {
-                report.mismatches += 1;
-                let difference = Difference::new(&how.header, number, record, mismatch, case);
-                report.differences.push(difference);
-            }
+            let file = || report::file_of(&how.header, record);
+            findings.add(number, Some(record.line()), found, file);
         }
-        report.differences.truncate(MAX_DIFFERENCES);
         progress(unit.records.len() as u64);
     }
 }
-
-/// What is wrong with a record, and the patch that shows it, if one does.
-type Found = Option<(Mismatch, Option<crate::case::Case>)>;
 
 /// The findings of each record, in order.
 fn check_unit(
@@ -143,12 +169,13 @@ fn check_unit(
     backend: &mut dyn Backend,
     records: &[Record],
 ) -> Result<Vec<Found>, BackendError> {
-    let in_rows = |found: Option<Mismatch>| vec![found.map(|mismatch| (mismatch, None))];
     match records {
         [Record::Sweep(row)] => Ok(vec![patches::sweep(backend, row)?]),
         [Record::Uniform(row)] => Ok(vec![patches::uniform(backend, row)?]),
-        [Record::Locations(row)] => exhaustive::locations(backend, row).map(in_rows),
-        [Record::Factors(row)] => exhaustive::factors(backend, row).map(in_rows),
+        [Record::Locations(row)] => {
+            Ok(vec![Found::new(exhaustive::locations(backend, row)?, None)])
+        }
+        [Record::Factors(row)] => Ok(vec![Found::new(exhaustive::factors(backend, row)?, None)]),
         records => patches::single(how, backend, records),
     }
 }

@@ -1,179 +1,12 @@
 //! Exact comparison: the first element in which two results differ, and the stage it points to.
 
+mod mismatch;
+
+pub use mismatch::{Element, Mismatch, Stage};
+
 use crate::case::Case;
 use crate::vectors::primitive_size;
-use std::fmt;
 use tess_core::{DomainPoint, FactorContext, FixedFactor, Tessellation};
-
-/// A stage on a patch's way, as far as a difference can be traced back.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Stage {
-    /// Factor preparation (spec section 9).
-    Preparation,
-    /// Factor processing (spec section 3).
-    Factors,
-    /// Factor contexts (spec section 4).
-    Context,
-    /// Numbers of points and indices (spec section 12.6).
-    Counts,
-    /// Placing of points (spec sections 5 and 6).
-    Location,
-    /// The right points in another order (spec section 6).
-    PointOrder,
-    /// Connectivity (spec sections 7 and 8).
-    Stitch,
-    /// A digest over whole patches differs, every element of which is the model's.
-    Unknown,
-}
-
-impl fmt::Display for Stage {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Preparation => "preparation",
-            Self::Factors => "factors",
-            Self::Context => "context",
-            Self::Counts => "counts",
-            Self::Location => "location",
-            Self::PointOrder => "point order",
-            Self::Stitch => "stitch",
-            Self::Unknown => "unknown, every element is the model's",
-        })
-    }
-}
-
-/// One element of a result.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Element {
-    /// A number of elements, such as `points`.
-    Count(&'static str),
-    /// A coordinate, `u` or `v`, of a domain point.
-    Point {
-        /// Number of the point.
-        index: usize,
-        /// `u` or `v`.
-        coordinate: &'static str,
-    },
-    /// One index of a primitive.
-    Index {
-        /// Number of the primitive.
-        primitive: usize,
-        /// Position in the primitive, from 0.
-        position: usize,
-    },
-    /// A field of a factor's context.
-    Context {
-        /// The factor.
-        factor: FixedFactor,
-        /// Name of the field.
-        field: &'static str,
-    },
-    /// The location of a factor's point.
-    Location {
-        /// The factor.
-        factor: FixedFactor,
-        /// Number of the point.
-        p: usize,
-    },
-    /// A processed factor of the triangle patch (x, 3, 3; x).
-    Factor {
-        /// Bits of the raw factor x.
-        x: u32,
-        /// `outer` or `inside`.
-        role: &'static str,
-    },
-    /// A prepared factor.
-    Prepared {
-        /// `unrounded` or `rounded`.
-        result: &'static str,
-        /// Name of the factor.
-        factor: &'static str,
-    },
-    /// A point, or a primitive by its vertices, where the order is free: 16.16 bits of u and v.
-    Vertices(Vec<[u32; 2]>),
-    /// A digest that differs although every element agrees with the model's.
-    Digest(&'static str),
-}
-
-impl fmt::Display for Element {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Count(what) => write!(f, "number of {what}"),
-            Self::Point { index, coordinate } => write!(f, "point {index} {coordinate}"),
-            Self::Index { primitive, position } => {
-                write!(f, "index {position} of primitive {primitive}")
-            }
-            Self::Context { factor, field } => {
-                write!(f, "{field} of the context of factor 0x{:06x}", factor.to_bits())
-            }
-            Self::Location { factor, p } => {
-                write!(f, "location {p} of factor 0x{:06x}", factor.to_bits())
-            }
-            Self::Factor { x, role } => write!(f, "{role} factor from 0x{x:08x}"),
-            Self::Prepared { result, factor } => write!(f, "{result} {factor}"),
-            Self::Vertices(vertices) => {
-                f.write_str(if vertices.len() == 1 { "point" } else { "primitive" })?;
-                vertices.iter().try_for_each(|[u, v]| write!(f, " ({u:05x}, {v:05x})"))
-            }
-            Self::Digest(what) => write!(f, "digest of the {what}"),
-        }
-    }
-}
-
-/// The first difference between two results.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mismatch {
-    /// The first element that differs.
-    pub element: Element,
-    /// What an implementation gave there, in hex (counts in decimal), or `none`.
-    pub observed: String,
-    /// What is right there.
-    pub expected: String,
-    /// The stage that the difference points to.
-    pub stage: Stage,
-}
-
-impl fmt::Display for Mismatch {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { element, observed, expected, stage } = self;
-        write!(f, "{element}: observed {observed}, expected {expected} (stage: {stage})")
-    }
-}
-
-impl Mismatch {
-    /// A difference of two numbers, shown with at least `digits` hex digits.
-    pub(crate) fn hex(
-        element: Element,
-        digits: usize,
-        observed: impl Into<u64>,
-        expected: impl Into<u64>,
-        stage: Stage,
-    ) -> Self {
-        let show = |number: u64| format!("0x{number:0digits$x}");
-        let (observed, expected) = (show(observed.into()), show(expected.into()));
-        Self { element, observed, expected, stage }
-    }
-
-    /// A difference of two counts.
-    pub(crate) fn count(what: &'static str, observed: u64, expected: u64) -> Option<Self> {
-        (observed != expected).then(|| Self {
-            element: Element::Count(what),
-            observed: observed.to_string(),
-            expected: expected.to_string(),
-            stage: Stage::Counts,
-        })
-    }
-
-    /// A difference of two digests.
-    pub(crate) fn digest(
-        what: &'static str,
-        observed: u64,
-        expected: u64,
-        stage: Stage,
-    ) -> Option<Self> {
-        let mismatch = || Self::hex(Element::Digest(what), 16, observed, expected, stage);
-        (observed != expected).then(mismatch)
-    }
-}
 
 /// The first difference between two outputs of a case: counts, then points, then indices.
 #[must_use]
@@ -190,8 +23,7 @@ pub fn tessellations(
 }
 
 /// The first difference between the points of two outputs, whatever their indices.
-#[must_use]
-pub fn points_alone(observed: &Tessellation, expected: &Tessellation) -> Option<Mismatch> {
+pub(crate) fn points_alone(observed: &Tessellation, expected: &Tessellation) -> Option<Mismatch> {
     count("points", &observed.points, &expected.points)
         .or_else(|| points(&observed.points, &expected.points))
 }
@@ -228,8 +60,7 @@ fn indices(size: usize, observed: &[u32], expected: &[u32]) -> Option<Mismatch> 
 }
 
 /// The first difference between contexts of `factors`, all three lists being equally long.
-#[must_use]
-pub fn contexts(
+pub(crate) fn contexts(
     factors: &[FixedFactor],
     observed: &[FactorContext],
     expected: &[FactorContext],
@@ -246,8 +77,7 @@ pub fn contexts(
 }
 
 /// The fields of a context by name, parity as 1 for odd.
-#[must_use]
-pub fn context_fields(context: &FactorContext) -> [(&'static str, u32); 7] {
+fn context_fields(context: &FactorContext) -> [(&'static str, u32); 7] {
     [
         ("parity", context.parity.odd()),
         ("inv_floor", context.inv_floor),
@@ -260,8 +90,7 @@ pub fn context_fields(context: &FactorContext) -> [(&'static str, u32); 7] {
 }
 
 /// The first difference between the locations of contexts, which belong to `factors`.
-#[must_use]
-pub fn locations(
+pub(crate) fn locations(
     factors: &[FixedFactor],
     contexts: &[FactorContext],
     observed: &[u32],
@@ -290,8 +119,7 @@ pub fn locations(
 }
 
 /// The first difference between processed factors of the raw factors `values`.
-#[must_use]
-pub fn fixed_factors(
+pub(crate) fn fixed_factors(
     values: &[f32],
     observed: &[[FixedFactor; 2]],
     expected: &[[FixedFactor; 2]],

@@ -1,8 +1,10 @@
 //! Test vectors in three levels: same arguments, same cases, in the same order.
 //!
-//! - Level 1: every boundary once: small enough for a simulation, and it hits every coverage bin.
-//! - Level 2: every boundary in every position, every pair of counts, and random cases.
-//! - Level 3: random cases, as many as asked for.
+//! - Level 1 has every boundary once. It hits every coverage bin and is small enough to simulate.
+//! - Level 2 has every boundary in every position, and every pair of counts.
+//! - Level 3 is random.
+//!
+//! Each level ends with random cases.
 
 mod boundaries;
 mod levels;
@@ -13,13 +15,11 @@ pub use patches::{random_factor, random_patch};
 
 use crate::case::Case;
 use crate::random::SplitMix64;
-use tess_core::{
-    Config, Domain, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
-    SplitOrder, TriangleFactors,
-};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
 /// How much is generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Level {
     /// Every boundary once.
     One,
@@ -46,6 +46,21 @@ impl Shard {
     #[must_use]
     pub const fn has(&self, i: u64) -> bool {
         i % self.of == self.part
+    }
+
+    /// How many of `count` items belong to this part.
+    #[must_use]
+    pub const fn items(&self, count: u64) -> u64 {
+        count.saturating_sub(self.part).div_ceil(self.of)
+    }
+
+    /// The number of this part's item `n` among all items; `None` beyond 2^64.
+    #[must_use]
+    pub const fn item(&self, n: u64) -> Option<u64> {
+        match n.checked_mul(self.of) {
+            Some(before) => before.checked_add(self.part),
+            None => None,
+        }
     }
 }
 
@@ -81,12 +96,19 @@ impl Selection {
         systematic.into_iter().filter(move |case| self.selects(case)).chain(self.random_cases())
     }
 
+    /// How many random cases there are: as many as asked for, or the level's own number.
+    #[must_use]
+    pub const fn random_count(self) -> u64 {
+        match (self.random, self.level) {
+            (Some(count), _) => count,
+            (None, Level::One) => 500,
+            (None, Level::Two) => 20_000,
+            (None, Level::Three) => 1_000_000,
+        }
+    }
+
     fn random_cases(self) -> impl Iterator<Item = Case> {
-        let count = self.random.unwrap_or(match self.level {
-            Level::One => 500,
-            Level::Two => 20_000,
-            Level::Three => 1_000_000,
-        });
+        let count = self.random_count();
         let mut random = SplitMix64::new(self.seed);
         let domains = self.domain.map_or(Domain::ALL.to_vec(), |domain| vec![domain]);
         let partitionings =
@@ -98,7 +120,7 @@ impl Selection {
                 split: pick(&mut random, &SplitOrder::ALL),
             };
             let domain = pick(&mut random, &domains);
-            let factors = patch_of(domain, |_| random_factor(&mut random));
+            let factors = PatchFactors::from_fn(domain, |_| random_factor(&mut random));
             Case { config, factors }
         })
     }
@@ -106,24 +128,6 @@ impl Selection {
     fn selects(&self, case: &Case) -> bool {
         self.domain.is_none_or(|domain| domain == case.factors.domain())
             && self.partitioning.is_none_or(|p| p == case.config.partitioning)
-    }
-}
-
-/// A patch from its factors by position, in the order of spec section 1: outer, then inside.
-pub fn patch_of(domain: Domain, mut factor: impl FnMut(usize) -> f32) -> PatchFactors {
-    match domain {
-        Domain::Isoline => {
-            let [density, detail] = [0, 1].map(factor);
-            PatchFactors::Isoline(IsolineFactors { density, detail })
-        }
-        Domain::Triangle => {
-            let [u0, v0, w0, inside] = [0, 1, 2, 3].map(factor);
-            PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside })
-        }
-        Domain::Quad => {
-            let [u0, v0, u1, v1, inside_u, inside_v] = [0, 1, 2, 3, 4, 5].map(&mut factor);
-            PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
-        }
     }
 }
 

@@ -1,8 +1,4 @@
-//! The verification kit: what tests, fuzz targets, benches and the program `tess` compare with.
-//!
-//! Cases, vector files, comparison in a strength, generated levels with their coverage, and
-//! verification of anything that implements [`backend::Backend`]. The one implementation that it
-//! knows itself is the golden model.
+#![doc = include_str!("../README.md")]
 
 pub mod backend;
 pub mod case;
@@ -13,10 +9,11 @@ pub mod coverage;
 pub mod digest;
 pub mod generate;
 pub mod names;
+mod quote;
 pub mod random;
 pub mod readmemh;
 pub mod second;
-pub mod sequences;
+mod sequences;
 pub mod strength;
 pub mod vectors;
 pub mod verify;

@@ -1,5 +1,6 @@
 //! The names that vector files and the command line use.
 
+use crate::quote::quoted;
 use std::fmt;
 use tess_core::prepare::{QuadAxes, Reduction};
 use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
@@ -33,6 +34,7 @@ pub trait Named: Copy + PartialEq + 'static {
 
 /// A name that stands for nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct UnknownName {
     /// What was to be chosen.
     pub what: &'static str,
@@ -45,7 +47,8 @@ pub struct UnknownName {
 impl fmt::Display for UnknownName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let known = self.known.join(", ");
-        write!(f, "unknown {} `{}`, expected one of: {known}", self.what, self.name)
+        let name = quoted(&self.name);
+        write!(f, "unknown {} {name}, expected one of: {known}", self.what)
     }
 }
 

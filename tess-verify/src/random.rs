@@ -15,6 +15,9 @@ pub struct SplitMix64 {
     state: u64,
 }
 
+/// What the state grows by for each number.
+const STEP: u64 = 0x9E37_79B9_7F4A_7C15;
+
 impl SplitMix64 {
     /// The generator of a seed. Every seed is as good as any other.
     #[must_use]
@@ -22,9 +25,15 @@ impl SplitMix64 {
         Self { state: seed }
     }
 
+    /// The generator of a seed after `numbers` calls of [`Self::next_u64`], in constant time.
+    #[must_use]
+    pub const fn after(seed: u64, numbers: u64) -> Self {
+        Self { state: seed.wrapping_add(STEP.wrapping_mul(numbers)) }
+    }
+
     /// The next 64 bits.
     pub const fn next_u64(&mut self) -> u64 {
-        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        self.state = self.state.wrapping_add(STEP);
         let mut z = self.state;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);

@@ -2,7 +2,7 @@
 //!
 //! Each is a text of one hex word a line, after a comment that says how the word is laid out.
 
-use crate::case::{Case, factor_bits};
+use crate::case::Case;
 use crate::names::Named;
 use crate::vectors::primitive_size;
 use std::io::{self, Write};
@@ -25,6 +25,7 @@ const LAYOUTS: [&str; 4] = [
 
 /// How many words each image has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Words {
     /// Words of `cases.memh` and of `factors.memh`.
     pub cases: u64,
@@ -37,42 +38,62 @@ pub struct Words {
 /// Writes the five files, in the order of [`FILES`], with results from the model.
 ///
 /// # Errors
-/// Those of the writers.
+/// Those of the writers; [`io::ErrorKind::InvalidInput`] for so many cases that their points or
+/// primitives have no number of 32 bits.
 pub fn write_images(
     files: &mut [&mut dyn Write; 5],
     cases: impl Iterator<Item = Case>,
 ) -> io::Result<Words> {
-    let [case_file, factor_file, point_file, primitive_file, size_file] = files;
-    let images = [&mut *case_file, factor_file, point_file, primitive_file];
-    for (file, layout) in images.into_iter().zip(LAYOUTS) {
+    let mut words = Words::default();
+    for (file, layout) in files.iter_mut().zip(LAYOUTS) {
         writeln!(file, "// {layout}")?;
     }
-    let mut words = Words::default();
     for case in cases {
-        let output = case.patch().tessellate();
-        let size = primitive_size(&case);
-        let primitives = output.indices.len() / size;
-        write!(case_file, "{}", configuration(&case))?;
-        for number in [words.points, output.points.len() as u64, words.primitives] {
-            write!(case_file, "{number:08x}")?;
-        }
-        writeln!(case_file, "{primitives:08x}")?;
-        writeln!(factor_file, "{}", factors(&case))?;
-        for point in &output.points {
-            let word = (u64::from(point.u.to_bits()) << 17) | u64::from(point.v.to_bits());
-            writeln!(point_file, "{word:09x}")?;
-        }
-        for primitive in output.indices.chunks(size) {
-            writeln!(primitive_file, "{}", indices(primitive))?;
-        }
-        words.cases += 1;
-        words.points += output.points.len() as u64;
-        words.primitives += primitives as u64;
+        write_case(files, &mut words, &case)?;
     }
-    writeln!(size_file, "`define TESS_CASES {}", words.cases)?;
-    writeln!(size_file, "`define TESS_POINTS {}", words.points)?;
-    writeln!(size_file, "`define TESS_PRIMITIVES {}", words.primitives)?;
+    let [.., sizes] = files;
+    writeln!(sizes, "`define TESS_CASES {}", words.cases)?;
+    writeln!(sizes, "`define TESS_POINTS {}", words.points)?;
+    writeln!(sizes, "`define TESS_PRIMITIVES {}", words.primitives)?;
     Ok(words)
+}
+
+/// Writes the words of one case behind `words`.
+fn write_case(files: &mut [&mut dyn Write; 5], words: &mut Words, case: &Case) -> io::Result<()> {
+    let [case_file, factor_file, point_file, primitive_file, _] = files;
+    let output = case.patch().tessellate();
+    let size = primitive_size(case);
+    let [points, primitives] = [output.points.len(), output.indices.len() / size];
+    let [first_point, first_primitive] = [number(words.points)?, number(words.primitives)?];
+    let configuration = configuration(case);
+    writeln!(
+        case_file,
+        "{configuration}{first_point:08x}{points:08x}{first_primitive:08x}{primitives:08x}"
+    )?;
+    writeln!(factor_file, "{}", factors(case))?;
+    for point in &output.points {
+        let word = (u64::from(point.u.to_bits()) << 17) | u64::from(point.v.to_bits());
+        writeln!(point_file, "{word:09x}")?;
+    }
+    for primitive in output.indices.chunks(size) {
+        writeln!(primitive_file, "{}", indices(primitive))?;
+    }
+    words.cases += 1;
+    words.points += points as u64;
+    words.primitives += primitives as u64;
+    Ok(())
+}
+
+/// Where a case's elements begin, as a field of 32 bits.
+fn number(first: u64) -> io::Result<u32> {
+    u32::try_from(first).map_err(|_| {
+        io::Error::new(
+            io::ErrorKind::InvalidInput,
+            format!(
+                "element {first} of an image has no number of 32 bits; write fewer cases, or shards"
+            ),
+        )
+    })
 }
 
 /// The four digits of a case's configuration: positions in the lists of the specification.
@@ -91,9 +112,8 @@ fn configuration(case: &Case) -> String {
 }
 
 fn factors(case: &Case) -> String {
-    let mut bits = factor_bits(&case.factors);
-    bits.resize(6, 0);
-    bits.iter().map(|bits| format!("{bits:08x}")).collect()
+    let bits = case.factors.iter().map(f32::to_bits).chain([0; 6]).take(6);
+    bits.map(|bits| format!("{bits:08x}")).collect()
 }
 
 fn indices(primitive: &[u32]) -> String {
@@ -125,5 +145,26 @@ mod tests {
         assert_eq!(lines(2)[..3], ["000010000", "000000000", "200000000"], "points");
         assert_eq!(lines(3), ["000000020001", "000000020001"], "primitives");
         assert!(texts[4].contains("`define TESS_POINTS 6\n"), "sizes: {}", texts[4]);
+    }
+
+    /// Fields of `cases.memh` have 32 bits; longer numbers would move the fields beside them.
+    #[test]
+    fn images_end_at_32_bits() {
+        let line = "case tri integer triangle_ccw center 3f800000 3f800000 3f800000 7fc00000";
+        let case: Case = line.parse().expect("a case");
+        let write = |points: u64, primitives: u64| {
+            let mut words = Words { cases: 0, points, primitives };
+            let mut texts = [const { Vec::new() }; 5];
+            let [a, b, c, d, e] = &mut texts;
+            let written = write_case(&mut [a, b, c, d, e], &mut words, &case);
+            written.map(|()| String::from_utf8(texts[0].clone()).expect("ASCII"))
+        };
+        let last = u64::from(u32::MAX);
+        let text = write(last, last).expect("the last numbers");
+        assert_eq!(text, "1031ffffffff00000003ffffffff00000001\n", "36 digits");
+        for (points, primitives) in [(last + 1, 0), (0, last + 1)] {
+            let error = write(points, primitives).expect_err("no such number").to_string();
+            assert!(error.starts_with("element 4294967296 of an image"), "{error}");
+        }
     }
 }

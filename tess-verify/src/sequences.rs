@@ -6,7 +6,6 @@
     reason = "factors are given as decimal fractions, computed in binary64 and rounded once"
 )]
 
-use crate::case::{factor_names, factors_from_list};
 use tess_core::{Domain, FixedFactor, Parity, Partitioning, PatchFactors};
 
 /// The 64 patches of row `row` (1..=64) of a systematic sweep.
@@ -15,7 +14,7 @@ use tess_core::{Domain, FixedFactor, Parity, Partitioning, PatchFactors};
 /// vary with both. Quad: inside factors (`row`, 1..=64) likewise. Fractional triangles and quads
 /// lie 0.25 and 0.625 below the integers.
 #[must_use]
-pub fn sweep(domain: Domain, partitioning: Partitioning, row: u8) -> Vec<PatchFactors> {
+pub(crate) fn sweep(domain: Domain, partitioning: Partitioning, row: u8) -> Vec<PatchFactors> {
     let below = match domain {
         _ if partitioning.has_integer_factors() => 0.0,
         Domain::Isoline => 0.0,
@@ -30,7 +29,7 @@ pub fn sweep(domain: Domain, partitioning: Partitioning, row: u8) -> Vec<PatchFa
             Domain::Quad => vec![b, a % 64 + 1, (5 * b) % 64 + 1, (11 * a) % 64 + 1, a, b],
         };
         let factors: Vec<_> = factors.iter().map(|&x| (f64::from(x) - below) as f32).collect();
-        factors_from_list(domain, &factors)
+        PatchFactors::from_slice(domain, &factors)
     };
     (1..=64).filter_map(patch).collect()
 }
@@ -38,29 +37,26 @@ pub fn sweep(domain: Domain, partitioning: Partitioning, row: u8) -> Vec<PatchFa
 /// The patches of row `row` (0..=65) with all factors equal: i / 100 for i in 100 `row` ..
 /// 100 `row` + 99; row 65 is 65.00 alone.
 #[must_use]
-pub fn uniform(domain: Domain, row: u8) -> Vec<PatchFactors> {
+pub(crate) fn uniform(domain: Domain, row: u8) -> Vec<PatchFactors> {
     let first = 100 * u32::from(row);
     let count = if row == 65 { 1 } else { 100 };
-    let patch = |i: u32| {
-        let factor = (f64::from(i) / 100.0) as f32;
-        factors_from_list(domain, &vec![factor; factor_names(domain).len()])
-    };
-    (first..first + count).filter_map(patch).collect()
+    let patch = |i: u32| PatchFactors::uniform(domain, (f64::from(i) / 100.0) as f32);
+    (first..first + count).map(patch).collect()
 }
 
 /// How many binary32 numbers a binade has.
-pub const BINADE_SIZE: u32 = 1 << 23;
+pub(crate) const BINADE_SIZE: u32 = 1 << 23;
 
 /// Numbers `range` of the binade [2^`exponent`, 2^(`exponent` + 1)), ascending; `exponent` is in
 /// -126..=127 and `range` within 0..[`BINADE_SIZE`].
-pub fn binade(exponent: i32, range: std::ops::Range<u32>) -> impl Iterator<Item = f32> {
+pub(crate) fn binade(exponent: i32, range: std::ops::Range<u32>) -> impl Iterator<Item = f32> {
     let biased = exponent.saturating_add(127).clamp(1, 254).unsigned_abs();
     range.map(move |mantissa| f32::from_bits((biased << 23) | mantissa))
 }
 
 /// The fixed-point factors with integer part `bucket`, ascending: all 65536 fractions, or the
 /// integer alone for the highest factor of a parity, 63 (odd) or 64 (even).
-pub fn bucket(parity: Parity, bucket: u32) -> impl Iterator<Item = FixedFactor> {
+pub(crate) fn bucket(parity: Parity, bucket: u32) -> impl Iterator<Item = FixedFactor> {
     let highest = 64 - parity.odd();
     let fractions = if bucket == highest { 1 } else { 1 << 16 };
     (0..fractions).map(move |fraction| FixedFactor::from_bits((bucket << 16) | fraction))

@@ -4,17 +4,18 @@
 //! device's output therefore has a strength: which order, which elements, which conversions from
 //! floating point and which treatment of denormals count as equal.
 
-mod candidates;
+mod conversions;
 mod unordered;
 
 use crate::case::Case;
 use tess_core::Tessellation;
 
-pub use candidates::candidates;
-pub use unordered::Missing;
+pub(crate) use conversions::{Alternatives, Ambiguous, Conversions};
+pub(crate) use unordered::{Difference, first_difference};
 
 /// Whether points and primitives must come in the model's order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Order {
     /// The model's order, index for index.
     #[default]
@@ -25,6 +26,7 @@ pub enum Order {
 
 /// What is compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Elements {
     /// Points and the primitives made of them.
     #[default]
@@ -35,6 +37,7 @@ pub enum Elements {
 
 /// How factors may become fixed-point numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Conversion {
     /// To the nearest, ties to even.
     #[default]
@@ -45,6 +48,7 @@ pub enum Conversion {
 
 /// What happens to a positive denormal outer factor before the cull test.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Denormals {
     /// It is greater than zero.
     #[default]
@@ -73,34 +77,28 @@ impl Strength {
         self == Self::default()
     }
 
-    /// Whether an output for a case is one that this strength accepts.
+    /// Whether this strength accepts an output for a case, looking at nothing but the case.
+    ///
+    /// [`crate::checker::check`] demands more of a whole file: with [`Conversion::Within06Ulp`], one
+    /// conversion for each value.
     #[must_use]
     pub fn accepts(self, case: &Case, observed: &Tessellation) -> bool {
-        candidates(case, self.conversion, self.denormals)
-            .iter()
-            .any(|candidate| self.equal(case, observed, &candidate.patch().tessellate()))
+        self.explain(case, observed).is_some()
     }
 
     /// Whether two outputs of the same case count as equal.
-    fn equal(self, case: &Case, observed: &Tessellation, expected: &Tessellation) -> bool {
-        match (self.order, self.elements) {
-            (Order::Exact, Elements::Primitives) => observed == expected,
-            (Order::Exact, Elements::Points) => observed.points == expected.points,
-            (Order::Any, _) => self.first_missing(case, observed, expected).is_none(),
-        }
-    }
-
-    /// In any order: the first element of one output that the other lacks.
-    #[must_use]
-    pub fn first_missing(
+    pub(crate) fn equal(
         self,
         case: &Case,
         observed: &Tessellation,
         expected: &Tessellation,
-    ) -> Option<Missing> {
-        match self.elements {
-            Elements::Points => unordered::points(observed, expected),
-            Elements::Primitives => unordered::primitives(case, observed, expected),
+    ) -> bool {
+        match (self.order, self.elements) {
+            (Order::Exact, Elements::Primitives) => observed == expected,
+            (Order::Exact, Elements::Points) => observed.points == expected.points,
+            (Order::Any, elements) => {
+                first_difference(elements, case, observed, expected).is_none()
+            }
         }
     }
 }

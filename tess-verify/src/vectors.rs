@@ -6,48 +6,24 @@
 
 mod error;
 mod header;
+mod lines;
 mod listing;
 mod record;
 mod row;
+mod rows;
 mod write;
 
 pub use error::VectorError;
 pub use header::{Header, Kind};
 pub use listing::{Listing, primitive_size};
-pub use record::{
-    ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Record, Recorded, Sizes,
-};
+pub use record::Record;
+pub use rows::{ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Recorded, Sizes};
 pub use write::{write_listings, write_patches};
 
-use error::Place;
+use crate::quote::quoted;
+use lines::Lines;
 use row::Row;
 use std::io::BufRead;
-
-/// Lines of a text, numbered from 1, without their ends.
-#[derive(Debug)]
-pub(crate) struct Lines<R> {
-    reader: R,
-    place: Place,
-}
-
-impl<R: BufRead> Lines<R> {
-    /// The next line; `None` at the end.
-    fn next(&mut self) -> Result<Option<String>, VectorError> {
-        self.place.line += 1;
-        let mut line = String::new();
-        match self.reader.read_line(&mut line) {
-            Ok(0) => Ok(None),
-            Ok(_) => Ok(Some(line.trim_end_matches(['\n', '\r']).to_owned())),
-            Err(error) => Err(self.place.error("line", format!("cannot be read: {error}"))),
-        }
-    }
-
-    /// The next line, which must be there.
-    fn expect(&mut self, what: &'static str) -> Result<String, VectorError> {
-        let line = self.next()?;
-        line.ok_or_else(|| self.place.error(what, "the file ends here; it is truncated"))
-    }
-}
 
 /// A vector file that is being read: an iterator over its records that ends after the first error.
 ///
@@ -76,17 +52,19 @@ impl<R: BufRead> VectorFile<R> {
     ///
     /// # Errors
     /// An empty file, or a header or column names that are not those of this format.
-    pub fn new(name: impl Into<String>, reader: R) -> Result<Self, VectorError> {
-        let place = Place { file: name.into().into(), line: 0 };
-        let mut lines = Lines { reader, place };
-        let first = lines.next()?;
-        let header = Header::parse(first.as_deref().unwrap_or(""), &lines.place)?;
+    pub fn new(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
+        let mut lines = Lines::new(name.as_ref(), reader);
+        let header = match lines.next()? {
+            Some(first) => Header::parse(first)?,
+            None => return Err(lines.error("header", Header::missing("an empty file"))),
+        };
         if let Some(columns) = header.kind.columns() {
             let found = lines.expect("columns")?;
             let expected = columns.join(",");
-            if found != expected {
-                let message = format!("the column names must be `{expected}`, not `{found}`");
-                return Err(lines.place.error("columns", message));
+            if found.text != expected {
+                let found_text = quoted(found.text);
+                let message = format!("the column names must be `{expected}`, not {found_text}");
+                return Err(found.error("columns", message));
             }
         }
         Ok(Self { lines, header, records: 0, ended: false })
@@ -97,34 +75,32 @@ impl<R: BufRead> VectorFile<R> {
         &self.header
     }
 
-    /// The next record with the line that it starts on; `None` after the last.
+    /// The next record; `None` after the last.
     fn read(&mut self) -> Result<Option<Record>, VectorError> {
-        let line = self.lines.next()?;
-        let announced = self.header.count;
-        let Some(line) = line else {
-            if self.records == announced {
-                return Ok(None);
-            }
-            let message = format!(
-                "the header announces {announced}, but the file ends after {}; it is truncated",
-                self.records
-            );
-            return Err(self.lines.place.error("count", message));
-        };
-        if self.records == announced {
-            let message =
-                format!("the header announces {announced}, but the file goes on: `{line}`");
-            return Err(self.lines.place.error("count", message));
+        let (announced, records) = (self.header.count, self.records);
+        if records == announced {
+            let Some(line) = self.lines.next()? else { return Ok(None) };
+            let text = quoted(line.text);
+            let message = format!("the header announces {announced}, but the file goes on: {text}");
+            return Err(line.error("count", message));
         }
         self.records += 1;
         let record = match self.header.kind.columns() {
-            None => Record::Listing(listing::read(&mut self.lines, &line)?),
+            None => listing::read(&mut self.lines)?.map(Record::Listing),
             Some(columns) => {
-                let row = Row::new(&line, columns, &self.lines.place)?;
-                record::read(self.header.kind, &row)?
+                let line = self.lines.next()?;
+                let row = line.map(|line| Row::new(line, columns)).transpose()?;
+                row.map(|row| record::read(self.header.kind, &row)).transpose()?
             }
         };
-        Ok(Some(record))
+        let truncated = || {
+            let message = format!(
+                "the header announces {announced}, but the file ends after {records}; it is \
+                 truncated"
+            );
+            self.lines.error("count", message)
+        };
+        record.map(Some).ok_or_else(truncated)
     }
 }
 

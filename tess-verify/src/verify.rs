@@ -4,10 +4,13 @@
 //! different machines, can take disjoint parts of it.
 
 mod run;
+mod subject;
+mod topologies;
 mod units;
 
 pub use run::{Row, verify};
-pub use units::{Random, RandomUnit, Subject, Unit, units};
+pub use subject::{Random, Subject};
+pub use units::{RandomUnit, Unit, Units};
 
 use crate::generate::Shard;
 

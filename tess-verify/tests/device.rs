@@ -3,10 +3,10 @@
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::backend::Backend;
 use tess_verify::case::Case;
-use tess_verify::checker::{Report, check};
+use tess_verify::checker::{CheckError, Report, Tested, check};
 use tess_verify::compare::Stage;
 use tess_verify::core_backend::CoreBackend;
-use tess_verify::strength::{Conversion, Elements, Order, Strength};
+use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
 use tess_verify::vectors::{Listing, VectorFile};
 
 const TRIANGLE: &str =
@@ -18,11 +18,26 @@ fn case(line: &str) -> Case {
 
 /// Checks what a device says of `case`.
 fn observe(case: Case, output: Tessellation, strength: Strength) -> Report {
-    let listing = Listing { line: 0, case, output };
-    let text = format!("# tess-vectors 1 kind=listings count=1 source=device\n{listing}");
+    observe_all("device", &[(case, output)], strength, 1)
+}
+
+/// Checks what a device of this name says of cases, on some threads.
+fn observe_all(
+    source: &str,
+    outputs: &[(Case, Tessellation)],
+    strength: Strength,
+    threads: usize,
+) -> Report {
+    let listing = |(case, output): &(Case, Tessellation)| {
+        Listing { line: 0, case: *case, output: output.clone() }.to_string()
+    };
+    let listings: String = outputs.iter().map(listing).collect();
+    let count = outputs.len();
+    let text = format!("# tess-vectors 1 kind=listings count={count} source={source}\n{listings}");
     let file = VectorFile::new("device", text.as_bytes()).expect("a header");
-    let mut backends: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
-    check(file, &mut backends, strength, &|_| ()).expect("a verdict")
+    let mut backends: Vec<Box<dyn Backend>> = Vec::new();
+    backends.resize_with(threads, || Box::new(CoreBackend));
+    check(file, &mut backends, Tested::Listings(strength), &|_| ()).expect("a verdict")
 }
 
 /// The stage that a wrong output points to.
@@ -99,4 +114,180 @@ fn points_alone() {
     device.points.pop();
     let report = observe(case(TRIANGLE), device, strength);
     assert_eq!(report.differences[0].mismatch.stage, Stage::Counts, "a point too few");
+}
+
+const ANY: Strength = Strength {
+    order: Order::Any,
+    elements: Elements::Primitives,
+    conversion: Conversion::Exact,
+    denormals: Denormals::Keep,
+};
+
+/// What a report says of its only difference.
+fn shown(report: &Report) -> String {
+    assert_eq!(report.mismatches, 1, "{report:?}");
+    report.differences[0].mismatch.to_string()
+}
+
+/// The name of a device decides nothing: its listings are what was observed.
+#[test]
+fn devices_of_any_name_are_what_is_tested() {
+    let mut wrong = right(TRIANGLE);
+    wrong.indices[2] ^= 1;
+    let expected = right(TRIANGLE).indices[2];
+    for source in ["device", "tesseract-gpu", "tess-core", "d3d11-reference-like"] {
+        let outputs = [(case(TRIANGLE), wrong.clone())];
+        let shown = shown(&observe_all(source, &outputs, Strength::default(), 1));
+        let both = format!("observed 0x{:x}, expected 0x{expected:x}", expected ^ 1);
+        assert!(shown.contains(&both), "{source}: {shown}");
+    }
+}
+
+/// Only listings are what a device gives.
+#[test]
+fn other_kinds_cannot_be_tested() {
+    let text = "# tess-vectors 1 kind=factors count=1 source=device\n\
+                partitioning,exponent,outer_fnv1a64,inside_fnv1a64\n";
+    let file = VectorFile::new("device", text.as_bytes()).expect("a header");
+    let result = check(file, &mut [Box::new(CoreBackend)], Tested::Listings(ANY), &|_| ());
+    assert!(matches!(result, Err(CheckError::NoListings(_))), "{result:?}");
+}
+
+/// Points that no primitive uses count too: in any order, the places are a set.
+#[test]
+fn points_that_no_primitive_uses() {
+    let with = |change: fn(&mut Vec<DomainPoint>)| {
+        let mut output = right(TRIANGLE);
+        change(&mut output.points);
+        observe(case(TRIANGLE), output, ANY)
+    };
+    let junk = shown(&with(|points| points.push(DomainPoint::from_bits(1, 2))));
+    assert!(junk.starts_with("point (00001, 00002): observed 1 times, expected 0"), "{junk}");
+    let outside = shown(&with(|points| points.push(DomainPoint::from_bits(u32::MAX, 0))));
+    assert!(outside.starts_with("point (ffffffff, 00000)"), "{outside}");
+    let twice = shown(&with(|points| points.push(points[5])));
+    assert!(twice.contains("observed 2 times, expected 1"), "{twice}");
+
+    let culled = case(&TRIANGLE.replace("40733333", "00000000"));
+    let points = vec![DomainPoint::from_bits(0, 0)];
+    let report = observe(culled, Tessellation { points, indices: Vec::new() }, ANY);
+    assert!(shown(&report).starts_with("point (00000, 00000)"), "{report:?}");
+}
+
+/// A device without an index buffer lists a vertex for each use: all are used, so it may.
+#[test]
+fn vertices_listed_for_each_use() {
+    let indexed = right(TRIANGLE);
+    let points: Vec<_> = indexed.indices.iter().map(|&i| indexed.points[i as usize]).collect();
+    let indices = (0..).take(points.len()).collect();
+    let output = Tessellation { points, indices };
+    assert_eq!(observe(case(TRIANGLE), output, ANY).mismatches, 0, "the same triangles");
+}
+
+/// Just above 2, neighbouring points coincide (spec section 12), and may be merged (section 13).
+#[test]
+fn coinciding_points_may_be_merged() {
+    let line = "case isoline fractional_even point ruler 3f800000 40000080";
+    let all = right(line);
+    let mut merged = all.clone();
+    merged.points.dedup();
+    assert!(merged.points.len() < all.points.len(), "some coincide: {all:?}");
+    merged.indices.truncate(merged.points.len());
+    assert_eq!(observe(case(line), all, ANY).mismatches, 0, "all of them");
+    assert_eq!(observe(case(line), merged.clone(), ANY).mismatches, 0, "each place once");
+    merged.points.pop();
+    merged.indices.pop();
+    assert_eq!(observe(case(line), merged, ANY).mismatches, 1, "a place less");
+}
+
+/// The stage is found with the strength that found the difference.
+#[test]
+fn stages_in_any_order() {
+    let reversed = |output: &Tessellation| {
+        let last = u32::try_from(output.points.len()).expect("small") - 1;
+        Tessellation {
+            points: output.points.iter().rev().copied().collect(),
+            indices: output.indices.iter().map(|index| last - index).collect(),
+        }
+    };
+    let stage = |output: &Tessellation| {
+        let report = observe(case(TRIANGLE), reversed(output), ANY);
+        assert_eq!(report.mismatches, 1, "the difference is seen");
+        report.differences[0].mismatch.stage
+    };
+    let mut moved = right(TRIANGLE);
+    moved.points[9] = DomainPoint::from_bits(moved.points[9].u.to_bits() ^ 1, 0x4000);
+    assert_eq!(stage(&moved), Stage::Location, "a point in the wrong place");
+    let truncated = right(&TRIANGLE.replace("40733333", "40733300"));
+    assert_eq!(stage(&truncated), Stage::Factors, "converted by truncation");
+    let center = right(&TRIANGLE.replace("ruler", "center"));
+    assert_eq!(stage(&center), Stage::Context, "split in another order");
+    let clockwise = right(&TRIANGLE.replace("ccw", "cw"));
+    assert_eq!(stage(&clockwise), Stage::Stitch, "the other winding");
+}
+
+/// With `--points`, wrong indices explain nothing.
+#[test]
+fn stages_of_points_alone() {
+    let mut truncated = right(&TRIANGLE.replace("40733333", "40733300"));
+    truncated.indices.clear();
+    let strength = Strength { elements: Elements::Points, ..Strength::default() };
+    let report = observe(case(TRIANGLE), truncated, strength);
+    assert_eq!(report.differences[0].mismatch.stage, Stage::Factors, "{report:?}");
+}
+
+const WITHIN_06_ULP: Strength = Strength { conversion: Conversion::Within06Ulp, ..ANY };
+/// An edge of 3 + 2^-17: its fixed-point number is 0x30000 or 0x30001.
+const TIE: &str = "case quad fractional_odd triangle_cw ruler \
+                   40400020 40200000 40a00000 40500000 40900000 40d00000";
+
+/// Two patches that share an edge cannot convert its factor in two ways.
+#[test]
+fn a_value_has_one_conversion_through_the_file() {
+    let [low, high] = [right(TIE), right(&TIE.replace("40400020", "40400040"))];
+    let other = "case tri fractional_odd line center 40a00000 40400020 40200000 40900000";
+    let other_high = right(&other.replace("40400020", "40400040"));
+    let (tie, other) = (case(TIE), case(other));
+    for outputs in [
+        vec![(tie, low.clone()), (other, right(&other.to_string()))],
+        vec![(tie, high.clone()), (other, other_high.clone()), (tie, high.clone())],
+    ] {
+        let report = observe_all("device", &outputs, WITHIN_06_ULP, 1);
+        assert_eq!(report.mismatches, 0, "one way throughout: {report:?}");
+    }
+    let mut outputs = vec![(tie, low); 600];
+    outputs[400] = (other, other_high);
+    outputs[500] = (tie, high);
+    for threads in [1, 3] {
+        let report = observe_all("device", &outputs, WITHIN_06_ULP, threads);
+        assert_eq!((report.cases, report.mismatches), (600, 2), "{threads} threads");
+        let first = &report.differences[0];
+        assert_eq!((first.number, first.mismatch.stage), (401, Stage::Factors), "{first}");
+        assert_eq!(
+            first.mismatch.to_string(),
+            "fixed-point number of factor 0x40400020: observed 0x030001, expected 0x030000, as \
+             in record 1 (stage: factors)"
+        );
+    }
+}
+
+/// Nor can two edges of one patch.
+#[test]
+fn a_value_has_one_conversion_in_a_patch() {
+    let both = TIE.replace("40a00000", "40400020");
+    let one = right(&both.replacen("40400020", "40400040", 1));
+    assert_eq!(observe(case(&both), one, WITHIN_06_ULP).mismatches, 1, "two ways");
+    let all = right(&both.replace("40400020", "40400040"));
+    assert_eq!(observe(case(&both), all, WITHIN_06_ULP).mismatches, 0, "one way");
+}
+
+/// What is wrong is told by comparison with the conversion that the device uses.
+#[test]
+fn differences_beside_a_legal_conversion() {
+    let mut wrong = right(&TIE.replace("40400020", "40400040"));
+    let last = wrong.points.len() - 1;
+    wrong.points[last] = DomainPoint::from_bits(3, 4);
+    let strength = Strength { order: Order::Exact, ..WITHIN_06_ULP };
+    let shown = shown(&observe(case(TIE), wrong, strength));
+    assert!(shown.starts_with(&format!("point {last} u: observed 0x00003")), "{shown}");
 }

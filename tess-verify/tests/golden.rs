@@ -5,9 +5,8 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::PathBuf;
 use tess_verify::backend::Backend;
-use tess_verify::checker::check;
+use tess_verify::checker::{Tested, check};
 use tess_verify::core_backend::CoreBackend;
-use tess_verify::strength::Strength;
 use tess_verify::vectors::{Kind, VectorFile};
 
 /// Every vector file there is.
@@ -35,7 +34,7 @@ fn check_file(name: &str) {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let mut backends: Vec<Box<dyn Backend>> = Vec::new();
     backends.resize_with(threads, || Box::new(CoreBackend));
-    let report = check(file, &mut backends, Strength::default(), &|_| ())
+    let report = check(file, &mut backends, Tested::Backend, &|_| ())
         .unwrap_or_else(|error| panic!("{error}"));
     let differences: Vec<_> = report.differences.iter().map(|d| format!("{d}\n")).collect();
     assert_eq!(report.mismatches, 0, "{name}: {report}\n{}", differences.concat());

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use tess_verify::backend::Backend;
-use tess_verify::case::{Case, factor_bits};
+use tess_verify::case::Case;
 use tess_verify::generate::{Level, Selection, Shard};
 use tess_verify::second::SecondFormulation;
-use tess_verify::verify::{Plan, Random, Row, Subject, Unit, units, verify};
+use tess_verify::verify::{Plan, Random, Row, Subject, Unit, Units, verify};
 
 /// One part in 61 of every subject (and far less of the largest).
 fn small_plan() -> Plan {
@@ -47,8 +47,8 @@ fn factors_agree_with_binary64() {
 }
 
 fn random_cases(patches: u64, seed: u64) -> Vec<Vec<Case>> {
-    let units = units(Subject::Random(Random { patches, seed })).into_iter();
-    let cases = units.map(|unit| match unit {
+    let units = Units::of(Subject::Random(Random { patches, seed }));
+    let cases = units.iter().map(|unit| match unit {
         Unit::Random(unit) => unit.cases(),
         other => panic!("random patches: {other:?}"),
     });
@@ -68,7 +68,9 @@ fn as_many_random_patches_of_each_configuration_as_asked_for() {
 /// Seeds tell apart, and so do the units of one seed; a longer run begins with a shorter one's.
 #[test]
 fn random_patches_depend_on_the_seed_alone() {
-    let factors = |cases: &[Case]| cases.iter().map(|case| factor_bits(&case.factors)).collect();
+    let factors = |cases: &[Case]| {
+        cases.iter().map(|case| case.factors.map(f32::to_bits).iter().collect::<Vec<_>>()).collect()
+    };
     let short: Vec<Vec<_>> = random_cases(20, 1).iter().map(|cases| factors(cases)).collect();
     let distinct: HashSet<_> = short.iter().collect();
     assert_eq!(distinct.len(), 96, "every configuration has patches of its own");
@@ -85,15 +87,16 @@ fn random_patches_depend_on_the_seed_alone() {
 
 #[test]
 fn factors_cover_every_binary32() {
-    assert_eq!(units(Subject::Factors).len(), 4 * 4096, "2^20 each, four partitionings");
-    assert_eq!(units(Subject::Locations).len(), 252, "as many as golden/place.csv has rows");
+    assert_eq!(Units::of(Subject::Factors).count(), 4 * 4096, "2^20 each, four partitionings");
+    assert_eq!(Units::of(Subject::Locations).count(), 252, "as many as golden/place.csv has rows");
 }
 
 /// Every case of level 2 is in one of the two subjects, and none is in both.
 #[test]
 fn levels_are_compared_once() {
     let texts = |subject| -> BTreeSet<String> {
-        let cases = units(subject).into_iter().flat_map(|unit| match unit {
+        let units = Units::of(subject);
+        let cases = units.iter().flat_map(|unit| match unit {
             Unit::Patches(cases) => cases,
             other => panic!("levels are patches: {other:?}"),
         });
@@ -103,6 +106,22 @@ fn levels_are_compared_once() {
     assert!(one.is_disjoint(&two), "nothing is compared twice");
     let whole = Selection::level(Level::Two, 1).cases().map(|case| case.to_string());
     assert_eq!(&one | &two, whole.collect(), "level 2");
+}
+
+/// However many patches are asked for, a unit is made when it is its turn, and not before.
+#[test]
+fn as_many_random_patches_as_there_are_numbers() {
+    let random = Random { patches: u64::MAX, seed: 1 };
+    let units = Units::of(Subject::Random(random));
+    assert_eq!(units.count(), 96 << 52, "4096 patches a unit");
+    assert!(units.get(units.count()).is_none(), "no unit behind the last");
+    let shard = Shard { part: 5, of: 96 << 51 };
+    assert_eq!(shard.items(units.count()), 2, "units of a tiny shard");
+    let mine: Vec<_> = (0..3).map(|n| shard.item(n).and_then(|n| units.get(n))).collect();
+    assert!(matches!(mine[..], [Some(_), Some(_), None]), "{mine:?}");
+    let rows =
+        run(&mut [vec![Box::new(SecondFormulation)]], &Plan { shard, ..Plan::random(random) });
+    assert_eq!((rows[0].compared, rows[0].first.as_deref()), (2 * 4096, None), "two units");
 }
 
 #[test]

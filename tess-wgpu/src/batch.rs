@@ -1,19 +1,17 @@
-//! A batch of patches, ready to be encoded again and again.
+//! A batch of patches, which is made once and encoded each frame.
 
 use crate::Tessellator;
 use crate::buffers::Buffers;
-use crate::dispatches::{Dispatch, Encoding, Workgroups};
-use std::fmt;
-use tess_gpu::setup::{IndexType, Numbering, Setup};
-use tess_gpu::shaders::Stage;
-use tess_gpu::sizes::{Capacity, Plan};
+use crate::dispatches::{Dispatch, dispatches};
+use crate::error::Error;
+use tess_gpu::{Capacity, IndexType, Numbering, Plan, Resource, Setup, Stage, Workgroups};
 
-/// Where the output goes.
+/// Where a batch writes its output.
 #[derive(Clone, Copy, Debug)]
 pub enum Outputs<'a> {
-    /// Nowhere: the batch is counted.
+    /// Nowhere: the batch is only counted.
     CountOnly,
-    /// Into these buffers, from their first byte on, as much as they have room for.
+    /// Into these buffers, from their first byte on. If anything does not fit, nothing is written.
     Buffers {
         /// The domain points, 8 bytes each.
         points: &'a wgpu::Buffer,
@@ -22,37 +20,9 @@ pub enum Outputs<'a> {
     },
 }
 
-/// A batch can't be made of these buffers.
-#[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Error {
-    /// Make the buffer of factors as long as the patches need, or name fewer patches.
-    FactorsTooShort {
-        /// Bytes that the patches need.
-        needed: u64,
-        /// Bytes that the buffer has.
-        got: u64,
-    },
-    /// Create the buffers of factors, points and indices with the usage `STORAGE`.
-    NotStorage,
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::FactorsTooShort { needed, got } => {
-                write!(f, "the patches have {needed} bytes of factors, their buffer {got}")
-            }
-            Self::NotStorage => f.write_str("a buffer does not have the usage STORAGE"),
-        }
-    }
-}
-
-impl std::error::Error for Error {}
-
-/// A batch: `patches` patches of one [`Setup`], the caller's buffers, and what is between them.
+/// Patches of one [`Setup`] with the caller's buffers, and every buffer and bind group in between.
 ///
-/// The number of patches is fixed; their factors are read anew each time it runs.
+/// The number of patches is fixed. Their factors are read anew each time the batch runs.
 #[derive(Debug)]
 pub struct Batch {
     plan: Plan,
@@ -72,21 +42,30 @@ impl Batch {
         factors: &wgpu::Buffer,
         outputs: Outputs<'_>,
     ) -> Result<Self, Error> {
-        check(setup, patches, factors, outputs)?;
         let plan = Plan::new(setup, patches, capacity(setup, outputs), tessellator.limits());
-        let buffers = Buffers::new(tessellator, &plan, setup, factors, outputs);
-        let dispatches = Encoding { tessellator, setup, plan: &plan, buffers: &buffers }.all();
+        check(&plan, factors, outputs)?;
+        let buffers = Buffers::new(tessellator, &plan, setup, factors, outputs)?;
+        let dispatches = dispatches(tessellator, setup, &plan, &buffers)?;
         let Buffers { status, arguments, topologies, contexts, offsets, .. } = buffers;
         Ok(Self { plan, status, arguments, topologies, contexts, offsets, dispatches })
     }
 
     /// Records everything, from factors to draw arguments, into one compute pass.
     pub fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
-        self.encode_each(encoder, |_, _| {});
+        self.record(encoder, |_, _| {});
     }
 
     /// The same, with `after` called behind each dispatch; for timing stages one by one.
+    #[cfg(feature = "measure")]
     pub fn encode_each(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        after: impl FnMut(&mut wgpu::ComputePass<'_>, Stage),
+    ) {
+        self.record(encoder, after);
+    }
+
+    fn record(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         mut after: impl FnMut(&mut wgpu::ComputePass<'_>, Stage),
@@ -109,7 +88,7 @@ impl Batch {
         }
     }
 
-    /// How the batch is cut up.
+    /// How the batch is cut into chunks and windows.
     #[must_use]
     pub const fn plan(&self) -> &Plan {
         &self.plan
@@ -147,23 +126,32 @@ impl Batch {
     }
 }
 
-fn check(
-    setup: Setup,
-    patches: u32,
-    factors: &wgpu::Buffer,
-    outputs: Outputs<'_>,
-) -> Result<(), Error> {
-    let (needed, got) = (4 * u64::from(setup.factors()) * u64::from(patches), factors.size());
+/// Refuses buffers that the batch cannot use.
+fn check(plan: &Plan, factors: &wgpu::Buffer, outputs: Outputs<'_>) -> Result<(), Error> {
+    if plan.patches() > MAX_PATCHES {
+        return Err(Error::TooManyPatches { got: plan.patches() as usize });
+    }
+    let (needed, got) = (plan.buffer_size(Resource::Factors), factors.size());
     if needed > got {
         return Err(Error::FactorsTooShort { needed, got });
     }
-    let is_storage = |buffer: &wgpu::Buffer| buffer.usage().contains(wgpu::BufferUsages::STORAGE);
-    let outputs_are_storage = match outputs {
-        Outputs::CountOnly => true,
-        Outputs::Buffers { points, indices } => is_storage(points) && is_storage(indices),
-    };
-    if is_storage(factors) && outputs_are_storage { Ok(()) } else { Err(Error::NotStorage) }
+    let mut own = vec![(Resource::Factors, factors)];
+    if let Outputs::Buffers { points, indices } = outputs {
+        own.extend([(Resource::Points, points), (Resource::Indices, indices)]);
+    }
+    for (number, &(resource, buffer)) in own.iter().enumerate() {
+        if !buffer.usage().contains(wgpu::BufferUsages::STORAGE) {
+            return Err(Error::NotStorage { buffer: resource });
+        }
+        if let Some(&(other, _)) = own[..number].iter().find(|&&(_, other)| other == buffer) {
+            return Err(Error::SharedBuffer { buffers: [other, resource] });
+        }
+    }
+    Ok(())
 }
+
+/// The most patches of a batch: packed points have 30 bits for the number of theirs.
+const MAX_PATCHES: u32 = 1 << 30;
 
 fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
     let Outputs::Buffers { points, indices } = outputs else { return Capacity::default() };

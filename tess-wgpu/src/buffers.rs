@@ -1,10 +1,8 @@
 //! The buffers of a batch: the caller's and those in between.
 
-use crate::batch::Outputs;
-use crate::{Tessellator, gpu};
-use tess_gpu::layout::{Job, Status};
-use tess_gpu::setup::Setup;
-use tess_gpu::sizes::{ALIGNMENT, Plan, Span};
+use crate::error::Error;
+use crate::{Outputs, Tessellator, gpu};
+use tess_gpu::{Plan, Resource, Setup, Span};
 
 /// Everything that the stages bind.
 pub(crate) struct Buffers {
@@ -28,57 +26,50 @@ impl Buffers {
         setup: Setup,
         factors: &wgpu::Buffer,
         outputs: Outputs<'_>,
-    ) -> Self {
+    ) -> Result<Self, Error> {
         use wgpu::BufferUsages as Usage;
-        let tables = tessellator.tables(setup.config.split);
+        let tables = tessellator.tables(setup.config.split)?;
         let device = tessellator.device();
-        let storage = Usage::STORAGE | Usage::COPY_SRC;
-        let make = |label, size, more| gpu::empty(device, label, size, storage | more);
-        let all = |region: fn(&Plan, u32) -> Span| region(plan, plan.chunks().max(1)).offset;
-        let jobs = all_jobs(plan);
+        let make = |resource, more| {
+            let usage = Usage::STORAGE | Usage::COPY_SRC | more;
+            gpu::empty(device, &format!("{resource:?}"), plan.buffer_size(resource), usage)
+        };
         // Without outputs there are no windows, so nothing binds what stands for them here.
         let (points, indices) = match outputs {
             Outputs::CountOnly => (factors, factors),
             Outputs::Buffers { points, indices } => (points, indices),
         };
-        Self {
-            jobs: gpu::filled(device, "jobs", &jobs, Usage::UNIFORM),
+        Ok(Self {
+            jobs: gpu::filled(device, "Job", &plan.jobs(), Usage::UNIFORM)?,
             factors: factors.clone(),
             tables,
-            topologies: make("topologies", all(Plan::topologies), Usage::empty()),
-            contexts: make("contexts", all(Plan::contexts), Usage::empty()),
-            offsets: make("offsets", all(Plan::offsets), Usage::empty()),
-            status: make("status", plan.status_size(), Usage::COPY_DST),
-            tiles: make("tiles", plan.tiles_size(), Usage::empty()),
-            arguments: make("arguments", plan.arguments_size(), Usage::INDIRECT),
+            topologies: make(Resource::Topologies, Usage::empty())?,
+            contexts: make(Resource::Contexts, Usage::empty())?,
+            offsets: make(Resource::Offsets, Usage::empty())?,
+            status: make(Resource::Status, Usage::COPY_DST)?,
+            tiles: make(Resource::Tiles, Usage::empty())?,
+            arguments: make(Resource::Arguments, Usage::INDIRECT)?,
             points: points.clone(),
             indices: indices.clone(),
-        }
+        })
+    }
+
+    /// These bytes of the buffer of a resource.
+    pub(crate) fn bound(&self, resource: Resource, span: Span) -> wgpu::BindingResource<'_> {
+        let buffer = match resource {
+            Resource::Job => &self.jobs,
+            Resource::Factors => &self.factors,
+            Resource::Tables => &self.tables,
+            Resource::Topologies => &self.topologies,
+            Resource::Contexts => &self.contexts,
+            Resource::Offsets => &self.offsets,
+            Resource::Status => &self.status,
+            Resource::Tiles => &self.tiles,
+            Resource::Arguments => &self.arguments,
+            Resource::Points => &self.points,
+            Resource::Indices => &self.indices,
+        };
+        let size = std::num::NonZeroU64::new(span.size);
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer, offset: span.offset, size })
     }
 }
-
-/// A job of no patches, then for each chunk its own and those of its windows.
-fn all_jobs(plan: &Plan) -> Vec<u8> {
-    let mut jobs = vec![plan.empty_job()];
-    for chunk in 0..plan.chunks() {
-        jobs.push(plan.job(chunk));
-        jobs.extend((0..plan.point_windows()).map(|window| plan.point_job(chunk, window)));
-        jobs.extend((0..plan.primitive_windows()).map(|window| plan.primitive_job(chunk, window)));
-    }
-    let mut bytes = Vec::new();
-    for job in &jobs {
-        bytes.extend_from_slice(bytemuck::bytes_of(job));
-        bytes.extend_from_slice(&[0; PADDING]);
-    }
-    bytes
-}
-
-/// Where job `job` lies in the buffer of jobs.
-pub(crate) fn job_span(job: u32) -> Span {
-    Span { offset: ALIGNMENT * u64::from(job), size: size_of::<Job>() as u64 }
-}
-
-/// Bytes between two jobs.
-#[expect(clippy::cast_possible_truncation, reason = "an alignment of 256")]
-const PADDING: usize = ALIGNMENT as usize - size_of::<Job>();
-const _: () = assert!(size_of::<Status>() == 32, "ranges follow the status at once");

@@ -1,60 +1,44 @@
-//! A device to run on, and moving bytes to and from it.
+//! A device, and moving bytes to and from it.
 
+use crate::error::{Error, checked};
 use std::fmt;
 use std::sync::mpsc;
 
-/// A device with its queue, and what it is.
+/// A device with its queue and the adapter that it was made from. The fields are public: put your own
+/// device in, or use that of [`Gpu::open`].
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// The device.
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-    /// The adapter that it was made from.
+    /// What wgpu knows about the adapter.
     pub info: wgpu::AdapterInfo,
 }
 
-/// There is no device to run on.
-#[derive(Clone, Debug)]
-pub struct Unavailable(String);
-
-impl fmt::Display for Unavailable {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "no graphics adapter could be used ({}); install a Vulkan driver \
-             (in software: Debian's mesa-vulkan-drivers)",
-            self.0
-        )
-    }
-}
-
-impl std::error::Error for Unavailable {}
-
-/// Which limits to ask a device for.
+/// The limits to open a device with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
-    /// WebGPU's defaults, whatever the device has.
+    /// WebGPU's default limits.
     Defaults,
-    /// All that the device has.
+    /// The highest limits of the adapter.
     Everything,
 }
 
 impl Gpu {
-    /// The first adapter that there is, with WebGPU's default limits.
+    /// Opens the first adapter with WebGPU's default limits.
     ///
     /// # Errors
-    /// [`Unavailable`] if there is none, or it gives no device.
-    pub async fn open() -> Result<Self, Unavailable> {
+    /// [`Error::NoDevice`] if there is none, or it gives no device.
+    pub async fn open() -> Result<Self, Error> {
         Self::open_with(Wanted::Defaults, wgpu::Features::empty()).await
     }
 
-    /// The first adapter that there is, with the limits that are wanted and those of the optional
-    /// features that it has.
+    /// Opens the first adapter with these limits, and with those of the optional features that it has.
     ///
     /// # Errors
-    /// [`Unavailable`] if there is none, or it gives no device.
-    pub async fn open_with(wanted: Wanted, optional: wgpu::Features) -> Result<Self, Unavailable> {
+    /// [`Error::NoDevice`] if there is none, or it gives no device.
+    pub async fn open_with(wanted: Wanted, optional: wgpu::Features) -> Result<Self, Error> {
         let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
         // The shaders write no dispatch sizes beyond the limits; checking costs dispatches more.
         descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
@@ -63,7 +47,7 @@ impl Gpu {
             power_preference: wgpu::PowerPreference::HighPerformance,
             ..Default::default()
         };
-        let unavailable = |error: &dyn fmt::Display| Unavailable(error.to_string());
+        let unavailable = |error: &dyn fmt::Display| Error::NoDevice { reason: error.to_string() };
         let adapter =
             instance.request_adapter(&options).await.map_err(|error| unavailable(&error))?;
         let required_limits = match wanted {
@@ -80,7 +64,7 @@ impl Gpu {
         Ok(Self { device, queue, info: adapter.get_info() })
     }
 
-    /// Name and driver of the adapter.
+    /// The name and driver of the adapter, for messages.
     #[must_use]
     pub fn name(&self) -> String {
         let wgpu::AdapterInfo { name, driver_info, backend, .. } = &self.info;
@@ -88,52 +72,72 @@ impl Gpu {
     }
 
     /// A buffer with these bytes.
-    #[must_use]
-    pub fn upload(&self, label: &str, bytes: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    ///
+    /// # Errors
+    /// [`Error::BufferTooLarge`], [`Error::OutOfMemory`] or [`Error::Refused`].
+    pub fn upload(
+        &self,
+        label: &str,
+        bytes: &[u8],
+        usage: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, Error> {
         filled(&self.device, label, bytes, usage)
     }
 
     /// A buffer of `size` bytes, at least 4.
-    #[must_use]
-    pub fn buffer(&self, label: &str, size: u64, usage: wgpu::BufferUsages) -> wgpu::Buffer {
+    ///
+    /// # Errors
+    /// [`Error::BufferTooLarge`], [`Error::OutOfMemory`] or [`Error::Refused`].
+    pub fn buffer(
+        &self,
+        label: &str,
+        size: u64,
+        usage: wgpu::BufferUsages,
+    ) -> Result<wgpu::Buffer, Error> {
         empty(&self.device, label, size, usage)
     }
 
     /// Submits the commands and waits until they have run.
     ///
     /// # Errors
-    /// A message if the device was lost.
-    pub fn run(&self, encoder: wgpu::CommandEncoder) -> Result<(), String> {
-        self.queue.submit([encoder.finish()]);
-        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
-        waited.map(drop).map_err(|error| format!("the device did not finish: {error}"))
+    /// [`Error::DeviceLost`], or [`Error::Refused`] for commands that are not valid.
+    pub fn run(&self, encoder: wgpu::CommandEncoder) -> Result<(), Error> {
+        check_alive(&self.device)?;
+        checked(&self.device, || self.queue.submit([encoder.finish()]))?;
+        self.wait()
     }
 
     /// The first `size` bytes of a buffer, which has the usage `COPY_SRC`.
     ///
     /// # Errors
-    /// A message if the device was lost.
-    pub fn read(&self, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, String> {
+    /// [`Error::DeviceLost`]; or [`Error::Refused`], for example for more bytes than the buffer has.
+    pub fn read(&self, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, Error> {
         if size == 0 {
             return Ok(Vec::new());
         }
         let usage = wgpu::BufferUsages::MAP_READ | wgpu::BufferUsages::COPY_DST;
-        let staging = self.buffer("read back", size, usage);
+        let staging = self.buffer("read back", size, usage)?;
         let mut encoder = self.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
-        self.queue.submit([encoder.finish()]);
+        self.run(encoder)?;
         let (sender, receiver) = mpsc::channel();
-        staging.map_async(wgpu::MapMode::Read, .., move |result| {
-            // The receiver lives until the wait below is over.
-            let _ = sender.send(result);
-        });
-        self.device
-            .poll(wgpu::PollType::wait_indefinitely())
-            .map_err(|error| format!("the device did not finish: {error}"))?;
-        let mapped = receiver.recv().map_err(|error| error.to_string())?;
-        mapped.map_err(|error| format!("reading back failed: {error}"))?;
-        let view = staging.get_mapped_range(..).map_err(|error| error.to_string())?;
+        checked(&self.device, || {
+            staging.map_async(wgpu::MapMode::Read, .., move |result| {
+                // The receiver lives until the wait below is over.
+                let _ = sender.send(result);
+            });
+        })?;
+        self.wait()?;
+        receiver.recv().map_err(|error| lost(&error))?.map_err(|error| lost(&error))?;
+        let view = staging.get_mapped_range(..).map_err(|error| lost(&error))?;
         Ok(view.to_vec())
+    }
+
+    /// Waits until everything submitted has run.
+    fn wait(&self) -> Result<(), Error> {
+        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        waited.map_err(|error| lost(&error))?;
+        check_alive(&self.device)
     }
 }
 
@@ -142,12 +146,13 @@ pub(crate) fn empty(
     label: &str,
     size: u64,
     usage: wgpu::BufferUsages,
-) -> wgpu::Buffer {
-    device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some(label),
-        size: size.max(4).next_multiple_of(4),
-        usage,
-        mapped_at_creation: false,
+) -> Result<wgpu::Buffer, Error> {
+    let size = size.max(4).next_multiple_of(4);
+    check_size(device, label, size)?;
+    let label = Some(label);
+    checked(device, || {
+        let mapped_at_creation = false;
+        device.create_buffer(&wgpu::BufferDescriptor { label, size, usage, mapped_at_creation })
     })
 }
 
@@ -156,8 +161,37 @@ pub(crate) fn filled(
     label: &str,
     bytes: &[u8],
     usage: wgpu::BufferUsages,
-) -> wgpu::Buffer {
-    use wgpu::util::{BufferInitDescriptor, DeviceExt};
-    let contents: &[u8] = if bytes.is_empty() { &[0; 4] } else { bytes };
-    device.create_buffer_init(&BufferInitDescriptor { label: Some(label), contents, usage })
+) -> Result<wgpu::Buffer, Error> {
+    let size = (bytes.len() as u64).max(4).next_multiple_of(4);
+    check_size(device, label, size)?;
+    let label = Some(label);
+    checked(device, || {
+        let mapped_at_creation = true;
+        let descriptor = wgpu::BufferDescriptor { label, size, usage, mapped_at_creation };
+        let buffer = device.create_buffer(&descriptor);
+        let mut view = buffer.get_mapped_range_mut(..).map_err(|error| lost(&error))?;
+        view.slice(..bytes.len()).copy_from_slice(bytes);
+        drop(view);
+        buffer.unmap();
+        Ok(buffer)
+    })?
+}
+
+/// An error if the device is lost. wgpu does not say so when it makes objects or takes commands, but
+/// it maps no buffer.
+fn check_alive(device: &wgpu::Device) -> Result<(), Error> {
+    filled(device, "is the device alive", &[0; 4], wgpu::BufferUsages::COPY_SRC).map(drop)
+}
+
+fn lost(error: &dyn fmt::Display) -> Error {
+    Error::DeviceLost { reason: error.to_string() }
+}
+
+/// Says that a buffer is too large, which wgpu would only say in its own words.
+fn check_size(device: &wgpu::Device, label: &str, needed: u64) -> Result<(), Error> {
+    let limit = device.limits().max_buffer_size;
+    if needed <= limit {
+        return Ok(());
+    }
+    Err(Error::BufferTooLarge { buffer: label.to_owned(), needed, limit })
 }

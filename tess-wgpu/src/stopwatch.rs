@@ -1,7 +1,7 @@
 //! Times of the device, from its own timestamps.
 
-use crate::{Batch, Gpu};
-use tess_gpu::shaders::Stage;
+use crate::{Batch, Error, Gpu};
+use tess_gpu::Stage;
 
 /// Timestamps around work on the device.
 #[derive(Debug)]
@@ -19,32 +19,31 @@ impl Stopwatch {
         .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS)
         .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES);
 
-    /// `None` if the device lacks [`Self::FEATURES`].
+    /// `None` if the device lacks [`Self::FEATURES`] or has no memory left.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Option<Self> {
-        gpu.device.features().contains(Self::FEATURES).then(|| Self {
-            queries: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
-                label: Some("timestamps"),
-                ty: wgpu::QueryType::Timestamp,
-                count: MAX_STAMPS,
-            }),
-            resolved: gpu.buffer(
-                "timestamps",
-                8 * u64::from(MAX_STAMPS),
-                wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
-            ),
-        })
+        if !gpu.device.features().contains(Self::FEATURES) {
+            return None;
+        }
+        let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
+        let resolved = gpu.buffer("timestamps", 8 * u64::from(MAX_STAMPS), usage).ok()?;
+        let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+            label: Some("timestamps"),
+            ty: wgpu::QueryType::Timestamp,
+            count: MAX_STAMPS,
+        });
+        Some(Self { queries, resolved })
     }
 
     /// Runs what `work` records, and returns the nanoseconds that it took on the device.
     ///
     /// # Errors
-    /// A message if the device was lost.
+    /// [`Error::DeviceLost`].
     pub fn time(
         &self,
         gpu: &Gpu,
         work: impl FnOnce(&mut wgpu::CommandEncoder),
-    ) -> Result<u64, String> {
+    ) -> Result<u64, Error> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         encoder.write_timestamp(&self.queries, 0);
         work(&mut encoder);
@@ -56,8 +55,8 @@ impl Stopwatch {
     /// Runs a batch, and returns the nanoseconds of each dispatch.
     ///
     /// # Errors
-    /// A message if the device was lost.
-    pub fn time_stages(&self, gpu: &Gpu, batch: &Batch) -> Result<Vec<(Stage, u64)>, String> {
+    /// [`Error::DeviceLost`].
+    pub fn time_stages(&self, gpu: &Gpu, batch: &Batch) -> Result<Vec<(Stage, u64)>, Error> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         encoder.write_timestamp(&self.queries, 0);
         let mut stages = Vec::new();
@@ -79,7 +78,7 @@ impl Stopwatch {
         gpu: &Gpu,
         mut encoder: wgpu::CommandEncoder,
         count: u32,
-    ) -> Result<Vec<u64>, String> {
+    ) -> Result<Vec<u64>, Error> {
         encoder.resolve_query_set(&self.queries, 0..count, &self.resolved, 0);
         gpu.run(encoder)?;
         Ok(bytemuck::pod_collect_to_vec(&gpu.read(&self.resolved, 8 * u64::from(count))?))

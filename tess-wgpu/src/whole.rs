@@ -1,12 +1,12 @@
-//! The simple way: patches in, output back on the host.
+//! Patches in, output back on the host.
 
+use crate::error::Error;
 use crate::{Batch, Gpu, Outputs, Tessellator};
 use tess_core::PatchFactors;
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
-use tess_gpu::setup::{IndexType, Setup};
-use tess_gpu::shaders::Probe;
+use tess_gpu::{IndexType, Setup};
 
-/// A batch's output, read back.
+/// The output of a batch, read back.
 #[derive(Clone, Debug)]
 pub struct Output {
     /// What the batch needed.
@@ -17,7 +17,7 @@ pub struct Output {
     pub begins: Vec<[u32; 2]>,
     /// The points, two words each: see [`tess_gpu::PointFormat`].
     pub points: Vec<[u32; 2]>,
-    /// The indices, of 32 bits whatever they were on the device.
+    /// The indices, widened to 32 bits.
     pub indices: Vec<u32>,
 }
 
@@ -25,31 +25,32 @@ impl Tessellator {
     /// Counts the batch, makes buffers of that size, tessellates and reads everything back.
     ///
     /// # Errors
-    /// A message if the device was lost or the output does not fit the device.
+    /// [`Error::WrongDomain`] for patches of another domain than the setup's; an error of size if the
+    /// factors or the output are too large for the device; [`Error::DeviceLost`].
     pub fn tessellate(
         &mut self,
         gpu: &Gpu,
         setup: Setup,
         patches: &[PatchFactors],
-    ) -> Result<Output, String> {
+    ) -> Result<Output, Error> {
         use wgpu::BufferUsages as Usage;
+        check_domains(setup, patches)?;
         let words = factor_words(patches);
-        let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE);
-        let count = u32::try_from(patches.len()).map_err(|error| error.to_string())?;
-        let prepare = |tessellator: &mut Self, outputs| {
-            tessellator.batch(setup, count, &factors, outputs).map_err(|error| error.to_string())
-        };
-        let needed = run(gpu, &prepare(self, Outputs::CountOnly)?)?;
+        let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)?;
+        let count = u32::try_from(patches.len())
+            .map_err(|_| Error::TooManyPatches { got: patches.len() })?;
+        let needed = run(gpu, &self.batch(setup, count, &factors, Outputs::CountOnly)?)?;
         let indices = needed.primitives() * u64::from(setup.indices_per_primitive());
         let usage = Usage::STORAGE | Usage::COPY_SRC;
-        let point_buffer = gpu.buffer("points", 8 * needed.points(), usage);
+        let point_buffer = gpu.buffer("points", 8 * needed.points(), usage)?;
         let index_bytes = u64::from(setup.index_type.bytes()) * indices;
-        let index_buffer = gpu.buffer("indices", index_bytes.next_multiple_of(8), usage);
+        let index_buffer = gpu.buffer("indices", index_bytes.next_multiple_of(8), usage)?;
         let outputs = Outputs::Buffers { points: &point_buffer, indices: &index_buffer };
-        let batch = prepare(self, outputs)?;
+        let batch = self.batch(setup, count, &factors, outputs)?;
         let status = run(gpu, &batch)?;
         if !status.fits() {
-            return Err(format!("{} points and {indices} indices do not fit", needed.points()));
+            let (points, primitives) = (needed.points(), needed.primitives());
+            return Err(Error::OutputTooLarge { points, primitives });
         }
         let draw = gpu.read(batch.draw_arguments(), size_of::<DrawIndexed>() as u64)?;
         Ok(Output {
@@ -66,42 +67,12 @@ impl Tessellator {
     }
 }
 
-impl Tessellator {
-    /// Runs a probe over `input`, whose length is a multiple of the probe's.
-    ///
-    /// # Errors
-    /// A message if the device was lost.
-    pub fn probe(
-        &mut self,
-        gpu: &Gpu,
-        probe: Probe,
-        setup: Setup,
-        input: &[u32],
-    ) -> Result<Vec<u32>, String> {
-        use wgpu::BufferUsages as Usage;
-        let (words_in, words_out) = probe.words();
-        let count = input.len() as u64 / u64::from(words_in);
-        if count == 0 {
-            return Ok(Vec::new());
-        }
-        let size = 4 * count * u64::from(words_out);
-        let output = gpu.buffer("probes", size, Usage::STORAGE | Usage::COPY_SRC);
-        let buffers = [
-            gpu.upload("input", bytemuck::cast_slice(input), Usage::STORAGE),
-            output.clone(),
-            self.tables(setup.config.split),
-        ];
-        let (pipeline, group) = super::probe_pipeline(&gpu.device, &probe.source(setup), &buffers);
-        let workgroups = u32::try_from(count.div_ceil(64)).map_err(|error| error.to_string())?;
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups(workgroups.min(65535), workgroups.div_ceil(65535), 1);
-        }
-        gpu.run(encoder)?;
-        Ok(bytemuck::pod_collect_to_vec(&gpu.read(&output, size)?))
+/// Refuses patches of another domain, whose factors would be read as those of other patches.
+fn check_domains(setup: Setup, patches: &[PatchFactors]) -> Result<(), Error> {
+    let expected = setup.domain;
+    match patches.iter().position(|factors| factors.domain() != expected) {
+        None => Ok(()),
+        Some(patch) => Err(Error::WrongDomain { patch, expected, got: patches[patch].domain() }),
     }
 }
 
@@ -118,7 +89,7 @@ fn widened(setup: Setup, bytes: &[u8], count: u64) -> Vec<u32> {
 }
 
 /// Where each patch's output begins.
-fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, String> {
+fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, Error> {
     let bytes = gpu.read(batch.offsets(), batch.offsets().size())?;
     let offsets: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&bytes[..bytes.len() / 8 * 8]);
     let at = |entry: u64| usize::try_from(entry).ok().and_then(|entry| offsets.get(entry));
@@ -131,7 +102,7 @@ fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, String> {
 }
 
 /// Runs a batch; returns its status.
-fn run(gpu: &Gpu, batch: &Batch) -> Result<Status, String> {
+fn run(gpu: &Gpu, batch: &Batch) -> Result<Status, Error> {
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     batch.encode(&mut encoder);
     gpu.run(encoder)?;

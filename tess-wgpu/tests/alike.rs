@@ -7,7 +7,6 @@ use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::BLOCK;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
-use tess_verify::generate::patch_of;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::{Outputs, Tessellator};
 
@@ -18,10 +17,11 @@ fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
     let mut all = Vec::new();
     for (number, &(factor, length)) in runs.iter().enumerate() {
         let outer = if number % 3 == 2 { 13.0 } else { factor };
-        let like = patch_of(domain, |position| if position == 1 { outer } else { factor });
+        let like =
+            PatchFactors::from_fn(domain, |position| if position == 1 { outer } else { factor });
         all.extend(std::iter::repeat_n(like, length));
         let other = [1.0, 2.5, 7.0][random.below(3) as usize];
-        all.extend(std::iter::repeat_n(patch_of(domain, |_| other), number % 2));
+        all.extend(std::iter::repeat_n(PatchFactors::from_fn(domain, |_| other), number % 2));
     }
     all
 }
@@ -61,7 +61,7 @@ fn like_patches_of_every_size_and_format() {
         let setup = Setup::new(domain, config);
         for factor in (1_u8..=26).map(f32::from) {
             let count = if factor > 4.0 { 40 } else { 3000 };
-            machine.assert_equal(setup, &vec![patch_of(domain, |_| factor); count]);
+            machine.assert_equal(setup, &vec![PatchFactors::from_fn(domain, |_| factor); count]);
         }
         let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
         for point_format in [PointFormat::Packed, PointFormat::F32] {
@@ -84,7 +84,8 @@ fn equal_topologies_with_different_points() {
             let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
             let factors = [3.25, 3.5, 3.625, 3.75];
             let mut similar = |_| factors[random.below(4) as usize];
-            let patches: Vec<_> = (0..1000).map(|_| patch_of(domain, &mut similar)).collect();
+            let patches: Vec<_> =
+                (0..1000).map(|_| PatchFactors::from_fn(domain, &mut similar)).collect();
             machine.assert_equal(Setup::new(domain, config), &patches);
         }
     }
@@ -96,7 +97,8 @@ fn blocks_know_whether_their_patches_are_alike() {
     let mut machine = Machine::open();
     let setup =
         Setup::new(Domain::Quad, Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw));
-    let of = |factor: f32, count: usize| vec![patch_of(Domain::Quad, |_| factor); count];
+    let of =
+        |factor: f32, count: usize| vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count];
     let patches = [
         of(2.0, 256),
         of(5.0, 255),
@@ -113,10 +115,11 @@ fn blocks_know_whether_their_patches_are_alike() {
     let batch = batch.expect("valid");
     machine.run(&batch);
     let (offsets, topologies) = (machine.words(batch.offsets()), machine.words(batch.topologies()));
-    let words = |words: &[u32], at: u32| words[2 * at as usize..][..2].to_vec();
-    let block = |number: u32| words(&offsets, batch.plan().job(0).alike_at + number);
+    let words =
+        |words: &[u32], at: u64| words[2 * usize::try_from(at).expect("in memory")..][..2].to_vec();
+    let block = |number: u32| words(&offsets, batch.plan().alike_entry(BLOCK * number));
     for (number, alike) in [(0, true), (1, false), (2, false), (4, true)] {
-        let first = words(&topologies, number * BLOCK);
+        let first = words(&topologies, u64::from(number * BLOCK));
         assert_eq!(block(number), if alike { first } else { vec![0, 0] }, "block {number}");
     }
     assert_eq!(block(3)[0] >> 28, 0, "culled patches are alike, and culled");
@@ -132,7 +135,7 @@ fn planted_faults_are_seen() {
     let fractional = setup(Partitioning::FractionalOdd);
     let alike = runs(Domain::Quad, &[(2.0, 1350), (1.0, 3600), (10.0, 750), (5.0, 920)]);
     let similar: Vec<_> = (0..200)
-        .map(|n| patch_of(Domain::Quad, |_| f32::from_bits(0x4050_0000 + 4096 * n)))
+        .map(|n| PatchFactors::from_fn(Domain::Quad, |_| f32::from_bits(0x4050_0000 + 4096 * n)))
         .collect();
     for (setup, patches, right, wrong) in [
         (integer, &alike, "atomicStore(&differs, 1u);", ""),
@@ -144,7 +147,7 @@ fn planted_faults_are_seen() {
         (integer, &alike, "(at * 43691u) >> 17u", "(at * 43690u) >> 17u"),
         (integer, &alike, "it.i + 1u == repeat.size", "it.i == repeat.size"),
         (integer, &alike, "job.first_patch + tile.first_patch + number", "number"),
-        (integer, &alike, "i - KEPT].y = packed", "i - KEPT].x = packed"),
+        (integer, &alike, "i - SCRATCH].y = packed", "i - SCRATCH].x = packed"),
         (
             fractional,
             &similar,
@@ -154,13 +157,10 @@ fn planted_faults_are_seen() {
     ] {
         let expected = Expected::new(setup, patches);
         let (points, indices) = expected.words();
-        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, |_, source| source);
+        machine.tessellator = Tessellator::new(&machine.gpu.device);
         let written = machine.write(setup, patches, points, indices);
         assert_eq!(expected.compare(&written), Ok(()), "without a fault");
-        let sources = tess_gpu::Stage::ALL.map(|stage| stage.source(setup)).concat();
-        assert!(sources.contains(right), "{right} is in no shader");
-        let edit = move |_, source: String| source.replace(right, wrong);
-        machine.tessellator = Tessellator::with_edit(&machine.gpu.device, edit);
+        machine.plant(setup, right, wrong);
         let written = machine.write(setup, patches, points, indices);
         assert!(expected.compare(&written).is_err(), "{right} to {wrong} went unnoticed");
     }

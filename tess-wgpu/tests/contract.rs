@@ -4,10 +4,11 @@ mod common;
 
 use common::device::{Machine, POISON};
 use common::expected::Expected;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_core::{
+    Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, ProcessedPatch,
+};
 use tess_gpu::layout::{Topology, unpack_context};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
-use tess_verify::generate::patch_of;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::Outputs;
 
@@ -16,7 +17,7 @@ fn quads(partitioning: Partitioning) -> Setup {
 }
 
 fn uniform(factor: f32, count: usize) -> Vec<PatchFactors> {
-    vec![patch_of(Domain::Quad, |_| factor); count]
+    vec![PatchFactors::from_fn(Domain::Quad, |_| factor); count]
 }
 
 #[test]
@@ -81,7 +82,7 @@ fn no_patches_and_culled_patches() {
     let mut mixed = uniform(-1.0, 3000);
     for (number, patch) in mixed.iter_mut().enumerate() {
         if number % 997 == 500 || number > 2990 {
-            *patch = patch_of(Domain::Quad, |_| 17.5);
+            *patch = PatchFactors::from_fn(Domain::Quad, |_| 17.5);
         }
     }
     machine.assert_equal(setup, &mixed);
@@ -98,7 +99,7 @@ fn adversarial_counts() {
         let patches: Vec<PatchFactors> = (0..count)
             .map(|number| {
                 let factor = if large(number, count) { 64.0 } else { [0.0, 1.0, 2.0][number % 3] };
-                patch_of(Domain::Quad, |_| factor)
+                PatchFactors::from_fn(Domain::Quad, |_| factor)
             })
             .collect();
         machine.assert_equal(setup, &patches);
@@ -185,31 +186,22 @@ fn intermediate_buffers() {
         let topologies = machine.words(batch.topologies());
         let stride = contexts.len() / 12;
         for (number, &raw) in patches.iter().enumerate() {
-            let patch = tess_core::Patch::new(setup.config, raw);
-            let state = topologies[2 * number] >> 28;
-            let factors = match patch.processed() {
-                tess_core::ProcessedPatch::Culled => {
-                    assert_eq!(state, 0, "{raw:?} is culled");
-                    continue;
-                }
-                tess_core::ProcessedPatch::Minimum(_) => {
-                    assert_eq!(state, 1, "{raw:?} is a minimum patch");
-                    continue;
-                }
-                tess_core::ProcessedPatch::Regular(PatchFactors::Quad(factors)) => factors,
-                tess_core::ProcessedPatch::Regular(_) => unreachable!("all are quads"),
-            };
-            assert_eq!(state, 2, "{raw:?} is regular");
+            let patch = Patch::new(setup.config, raw);
             let topology = Topology([topologies[2 * number], topologies[2 * number + 1]]);
-            let outer = [0, 1, 2, 3].map(|edge| topology.outer_points(edge));
-            assert_eq!(outer, factors.outer().map(|f| f.context.points), "edges of {raw:?}");
-            let inside = factors.inside().map(|f| f.context.points);
-            assert_eq!(topology.inside_points(), inside, "inside of {raw:?}");
+            let (state, factors) = match patch.processed() {
+                ProcessedPatch::Culled => (0, None),
+                ProcessedPatch::Minimum(_) => (1, None),
+                ProcessedPatch::Regular(factors) => (2, Some(factors)),
+            };
+            assert_eq!(topology.state(), state, "state of {raw:?}");
+            let Some(factors) = factors else { continue };
+            let edges = [0, 1, 2, 3].map(|edge| topology.outer_points(edge));
+            let points = edges.into_iter().chain(topology.inside_points());
+            assert!(points.eq(factors.iter().map(|f| f.context.points)), "points of {raw:?}");
             if setup.has_integer_factors() {
                 continue; // no contexts are stored
             }
-            let all = factors.outer().into_iter().chain(factors.inside());
-            for (factor, expected) in all.enumerate() {
+            for (factor, expected) in factors.iter().enumerate() {
                 let at = 2 * (factor * stride + number);
                 let observed = unpack_context([contexts[at], contexts[at + 1]]);
                 assert_eq!(observed, expected.context, "factor {factor} of {raw:?}");

@@ -6,13 +6,15 @@ use common::device::Machine;
 use common::expected::{Expected, by_simd};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::sizes::{BLOCK, GROUP, TILE};
-use tess_gpu::{Capacity, IndexType, Limits, Numbering, Plan, Setup};
-use tess_verify::generate::patch_of;
+use tess_gpu::{Capacity, Dispatch, IndexType, Limits, Numbering, Plan, Setup, Stage, Workgroups};
 use tess_verify::random::SplitMix64;
 use tess_wgpu::{Gpu, Outputs, Tessellator, Wanted};
+use wgpu::BufferUsages;
 
 /// Limits that cut after 65536 patches, a few hundred tiles and 5 workgroups.
 const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 5 };
+/// WebGPU's limits, but for workgroups.
+const TWO: Limits = Limits { workgroups: 2, ..Limits::WEBGPU };
 
 fn setup(domain: Domain) -> Setup {
     Setup::new(domain, Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw))
@@ -25,41 +27,36 @@ fn small(domain: Domain, count: u32) -> Vec<PatchFactors> {
 
 fn of_these(domain: Domain, count: u32, factors: [f32; 6]) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(12);
-    let all = (0..count).map(|_| patch_of(domain, |_| factors[random.below(6) as usize]));
+    let all =
+        (0..count).map(|_| PatchFactors::from_fn(domain, |_| factors[random.below(6) as usize]));
     all.collect()
-}
-
-/// A device with [`LOW`] limits, and shaders in which something is replaced.
-fn low_machine(right: &'static str, wrong: &'static str) -> Machine {
-    let mut machine = Machine::open();
-    let edit = move |_, source: String| {
-        source
-            .replace("const MAX_WORKGROUPS = 65535u;", "const MAX_WORKGROUPS = 5u;")
-            .replace(right, wrong)
-    };
-    machine.tessellator = Tessellator::with_edit(&machine.gpu.device, edit).limited(LOW);
-    machine
 }
 
 /// Everything is written once and in its place wherever the batch is cut.
 #[test]
 fn chunks_windows_and_rows() {
-    let mut machine = low_machine("", "");
+    let mut machine = Machine::open();
+    machine.limit(LOW);
     let patches = small(Domain::Triangle, 150_000);
     let setup = setup(Domain::Triangle);
-    let factors = machine.factors(&patches);
-    let batch =
-        machine.tessellator.batch(setup, 150_000, &factors, Outputs::CountOnly).expect("valid");
-    machine.run(&batch);
-    let (status, _) = machine.status(&batch);
-    let all = |elements: u64| u32::try_from(elements).expect("a test's output");
-    let room = Capacity { points: all(status.points()), primitives: all(status.primitives()) };
-    let plan = Plan::new(setup, 150_000, room, LOW);
-    assert!(plan.chunks() > 1 && plan.factors_workgroups(0)[1] > 1, "{plan:?}");
+    let plan = Plan::new(setup, 150_000, needed(&mut machine, setup, &patches), LOW);
+    assert!(plan.chunks() > 1 && rows(&plan, Stage::Factors) > 1, "{plan:?}");
     assert!(plan.point_windows() > 1 && plan.primitive_windows() > 1, "{plan:?}");
     machine.assert_equal(setup, &patches);
     let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
     machine.assert_equal(Setup { numbering, index_type, ..setup }, &patches);
+}
+
+/// Three groups of blocks in rows of two, with a workgroup too many.
+#[test]
+fn rows_of_groups() {
+    let mut machine = Machine::open();
+    machine.limit(TWO);
+    let patches = small(Domain::Triangle, 150_000);
+    let setup = setup(Domain::Triangle);
+    let plan = Plan::new(setup, 150_000, Capacity::default(), TWO);
+    assert!(plan.chunks() == 1 && rows(&plan, Stage::Scan) == 2, "{plan:?}");
+    machine.assert_equal(setup, &patches);
 }
 
 /// A window that begins at another tile and workgroups that take each row for the first are noticed.
@@ -69,13 +66,85 @@ fn wrong_windows_and_rows_are_seen() {
     let setup = setup(Domain::Triangle);
     let expected = Expected::new(setup, &patches);
     let (points, indices) = expected.words();
-    for (right, wrong) in [
-        ("tile.base - job.window_first * TILE;", "tile.base;"),
-        ("let number = workgroup.x + workgroup.y * workgroups.x;", "let number = workgroup.x;"),
-        ("let block = workgroup.x + workgroup.y * workgroups.x;", "let block = workgroup.x;"),
+    let mut machine = Machine::open();
+    for (limits, right, wrong) in [
+        (LOW, "tile.base - job.window_first * TILE;", "tile.base;"),
+        (
+            LOW,
+            "let number = workgroup.x + workgroup.y * workgroups.x;",
+            "let number = workgroup.x;",
+        ),
+        (LOW, "let block = workgroup.x + workgroup.y * workgroups.x;", "let block = workgroup.x;"),
+        (TWO, "let group = workgroup.x + workgroup.y * workgroups.x;", "let group = workgroup.x;"),
     ] {
-        let written = low_machine(right, wrong).write(setup, &patches, points, indices);
+        machine.plant(setup, right, wrong);
+        machine.tessellator = machine.tessellator.limited(limits);
+        let written = machine.write(setup, &patches, points, indices);
         assert!(expected.compare(&written).is_err(), "{wrong} went unnoticed");
+    }
+}
+
+/// The dispatch sizes that the device writes keep to the limit, and the check would see others.
+#[test]
+fn written_dispatch_sizes_keep_to_the_limit() {
+    let mut machine = Machine::open();
+    let setup = setup(Domain::Quad);
+    let patches = small(Domain::Quad, 100_000);
+    for limits in [LOW, TWO] {
+        machine.limit(limits);
+        let sizes = dispatch_sizes(&mut machine, setup, &patches);
+        assert!(sizes.iter().any(|&[_, rows, _]| rows > 1), "there are rows");
+        assert!(keep_to(limits, &sizes), "{sizes:?}");
+    }
+    machine.plant(setup, "job.max_workgroups", "65535u");
+    machine.tessellator = machine.tessellator.limited(LOW);
+    assert!(!keep_to(LOW, &dispatch_sizes(&mut machine, setup, &patches)), "longer rows");
+}
+
+fn keep_to(limits: Limits, sizes: &[[u32; 3]]) -> bool {
+    sizes.iter().all(|&[x, _, z]| x <= limits.workgroups && z == 1)
+}
+
+/// The sizes of a batch's indirect dispatches, in order.
+fn dispatch_sizes(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) -> Vec<[u32; 3]> {
+    let factors = machine.factors(patches);
+    let room = needed(machine, setup, patches);
+    let [points, indices] = [2 * room.points, (3 * room.primitives).next_multiple_of(2)]
+        .map(|words| machine.upload(&vec![0; words as usize], BufferUsages::STORAGE));
+    let outputs = Outputs::Buffers { points: &points, indices: &indices };
+    let count = u32::try_from(patches.len()).expect("a test's patches");
+    let batch = machine.tessellator.batch(setup, count, &factors, outputs).expect("valid");
+    machine.run(&batch);
+    assert!(machine.status(&batch).0.fits(), "it fits");
+    let arguments = machine.words(batch.draw_arguments());
+    let size = |dispatch: Dispatch| match dispatch.workgroups() {
+        Workgroups::Direct(_) => None,
+        Workgroups::Indirect(at) => {
+            let at = usize::try_from(at / 4).expect("in memory");
+            arguments[at..].first_chunk().copied()
+        }
+    };
+    batch.plan().dispatches().filter_map(size).collect()
+}
+
+/// What the patches need.
+fn needed(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) -> Capacity {
+    let factors = machine.factors(patches);
+    let count = u32::try_from(patches.len()).expect("a test's patches");
+    let batch = machine.tessellator.batch(setup, count, &factors, Outputs::CountOnly);
+    let batch = batch.expect("valid");
+    machine.run(&batch);
+    let (status, _) = machine.status(&batch);
+    let all = |elements: u64| u32::try_from(elements).expect("a test's output");
+    Capacity { points: all(status.points()), primitives: all(status.primitives()) }
+}
+
+/// The rows of workgroups of a stage's first dispatch.
+fn rows(plan: &Plan, stage: Stage) -> u32 {
+    let first = plan.dispatches().find(|dispatch| dispatch.stage() == stage);
+    match first.expect("it is dispatched").workgroups() {
+        Workgroups::Direct([_, rows, _]) => rows,
+        Workgroups::Indirect(_) => panic!("{stage:?} is dispatched by the device"),
     }
 }
 
@@ -101,7 +170,7 @@ fn more_workgroups_than_a_row_has() {
         workgroups: device.max_compute_workgroups_per_dimension,
     };
     let plan = Plan::new(setup, count, room, limits);
-    assert!(plan.factors_workgroups(0)[1] > 1, "{plan:?}");
+    assert!(rows(&plan, Stage::Factors) > 1, "{plan:?}");
     let tiles = room.primitives.div_ceil(TILE);
     assert!(plan.primitive_windows() == 1 && tiles > 65535, "{tiles} tiles, {plan:?}");
     let written = machine.write(setup, &patches, words(&points), words(&indices));

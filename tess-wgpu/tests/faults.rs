@@ -4,9 +4,8 @@ mod common;
 
 use common::device::Machine;
 use common::expected::Expected;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_gpu::{Setup, Stage};
-use tess_verify::generate::patch_of;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::Setup;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::Tessellator;
 
@@ -17,18 +16,14 @@ fn planted_faults_are_seen() {
         let config = Config::new(*partitioning, OutputPrimitive::TriangleCw);
         let setup = Setup::new(*domain, config);
         let mut patches = common::patches::random(*domain, 200, &mut SplitMix64::new(5));
-        patches.push(patch_of(*domain, |_| 1.0));
+        patches.push(PatchFactors::from_fn(*domain, |_| 1.0));
         machine.tessellator = Tessellator::new(&machine.gpu.device);
         let expected = Expected::new(setup, &patches);
         let (points, indices) = expected.words();
         let written = machine.write(setup, &patches, points, indices);
         assert_eq!(expected.compare(&written), Ok(()), "without a fault");
         for &(right, wrong) in *faults {
-            let sources = Stage::ALL.map(|stage| stage.source(setup));
-            let places: usize = sources.iter().map(|source| source.matches(right).count()).sum();
-            assert!(places > 0, "{right} is in no shader");
-            let edit = move |_, source: String| source.replace(right, wrong);
-            machine.tessellator = Tessellator::with_edit(&machine.gpu.device, edit);
+            machine.plant(setup, right, wrong);
             let written = machine.write(setup, &patches, points, indices);
             assert!(expected.compare(&written).is_err(), "{setup:?}: {wrong} went unnoticed");
         }
@@ -49,17 +44,17 @@ const FAULTS: &[(Domain, Partitioning, &[Fault])] = &[
                 "(fine - coarse) * (fraction_of(context) | 1u)",
             ),
             ("position > split_of(context)", "position >= split_of(context)"),
-            ("u <= shape.v && (shape.v & 1u) == 0u", "u <= shape.v && (shape.v & 1u) == 1u"),
+            ("u <= rings.v && (rings.v & 1u) == 0u", "u <= rings.v && (rings.v & 1u) == 1u"),
             ("2u * first + 2u * quads + 1u", "2u * first + 2u * quads + 2u"),
             ("(steps & 0x100u) != 0u", "(steps & 0x200u) != 0u"),
             (
-                "64u * outer_points + inner_points - 128u",
-                "64u * outer_points + inner_points - 127u",
+                "inner_points - 2u * TRANSITION_STRIDE,",
+                "inner_points - 2u * TRANSITION_STRIDE + 1u,",
             ),
             ("next * (form - scale * next) <= goal", "next * (form - scale * next) < goal"),
             ("begins[next] <= i32(element)", "begins[next] < i32(element)"),
             ("sums[SIXTEENS + (thread >> 4u)]", "sums[SIXTEENS + (thread >> 5u)]"),
-            ("return patch_of(clamp(element, begin, end - 1u), kind);", "return 0u;"),
+            ("return PatchFactors::from_fn(clamp(element, begin, end - 1u), kind);", "return 0u;"),
         ],
     ),
     (
@@ -79,10 +74,10 @@ const FAULTS: &[(Domain, Partitioning, &[Fault])] = &[
         &[
             ("const ONE_THIRD = 0x5555u;", "const ONE_THIRD = 0x5556u;"),
             (
-                "return straight(1u, FAN_BLOCK, first, first + 2u);",
-                "return straight(1u, FAN_BLOCK, first, first + 1u);",
+                "return straight(1u, FAN_STITCH, first, first + 2u);",
+                "return straight(1u, FAN_STITCH, first, first + 1u);",
             ),
-            ("is_last = spot.edge + 1u == EDGES", "is_last = spot.edge == EDGES"),
+            ("is_last = location.edge + 1u == EDGES", "is_last = location.edge == EDGES"),
             ("factor == ONE && odd == 0u", "factor == ONE && odd == 1u"),
         ],
     ),
@@ -95,7 +90,7 @@ const FAULTS: &[(Domain, Partitioning, &[Fault])] = &[
             ("select(x, ONE - x, position > mirror)", "x"),
             ("select(location, HALF, position == mirror)", "location"),
             ("k == end);", "k > end);"),
-            ("select(0u, 1u, shape.u > shape.v)", "select(0u, 1u, shape.u < shape.v)"),
+            ("select(0u, 1u, rings.u > rings.v)", "select(0u, 1u, rings.u < rings.v)"),
             ("number == 1u || number == 2u", "number == 1u || number == 3u"),
         ],
     ),

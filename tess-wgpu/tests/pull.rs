@@ -91,9 +91,9 @@ fn ask(machine: &Machine, setup: Setup, batch: &tess_wgpu::Batch, asked: &[u32])
     });
     let count = asked.len() as u64 / 4;
     let answers = machine.gpu.buffer("answers", 28 * count, Usage::STORAGE | Usage::COPY_SRC);
+    let answers = answers.expect("the device has room");
     let tables = tables(setup.config.split);
-    let upload =
-        |words: &[u32]| machine.gpu.upload("words", bytemuck::cast_slice(words), Usage::STORAGE);
+    let upload = |words: &[u32]| machine.upload(words, Usage::STORAGE);
     let (asked, tables) = (upload(asked), upload(&tables));
     let mut buffers = vec![&asked, &answers, batch.topologies(), &tables];
     if !setup.has_integer_factors() {

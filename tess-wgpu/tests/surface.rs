@@ -85,10 +85,16 @@ impl Teapot {
     /// The device's positions of each patch's points.
     fn positions(&self, source: &str, nets: &[[f32; 4]]) -> Vec<Vec<Vec3>> {
         let gpu = &self.gpu;
-        let nets = gpu.upload("nets", bytemuck::cast_slice(nets), Usage::STORAGE);
-        let points = gpu.upload("points", bytemuck::cast_slice(&self.packed), Usage::STORAGE);
+        let nets = gpu
+            .upload("nets", bytemuck::cast_slice(nets), Usage::STORAGE)
+            .expect("the device has room");
+        let points = gpu
+            .upload("points", bytemuck::cast_slice(&self.packed), Usage::STORAGE)
+            .expect("the device has room");
         let size = 16 * self.packed.len() as u64;
-        let written = gpu.buffer("positions", size, Usage::STORAGE | Usage::COPY_SRC);
+        let written = gpu
+            .buffer("positions", size, Usage::STORAGE | Usage::COPY_SRC)
+            .expect("the device has room");
         let module = picture::module(gpu, &[source, EVALUATE].concat());
         let threads = u32::try_from(self.packed.len()).expect("a teapot's points");
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -2,17 +2,21 @@
 
 use super::hostile::{CANARY, Wrongs};
 use super::patch::{capacity, is_possible};
-use crate::input::{Bytes, factor_count};
+use crate::input::Bytes;
 use crate::{compare_with_model, repeatable};
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::ptr::null_mut;
 use tess_capi::batch::{
-    TESS_INDEX_U32, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_PATCH, TESS_POINT_FIXED, TessBatchCounts,
-    TessBatchOutput, TessRange, tess_batch_create, tess_batch_free, tess_batch_run,
+    TESS_INDEX_U32, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_PATCH, TESS_POINT_FIXED, TessBatch,
+    TessBatchCounts, TessBatchOutput, TessRange, tess_batch_create, tess_batch_free,
+    tess_batch_run,
 };
 use tess_capi::status::{TESS_BUFFER_TOO_SMALL, TESS_OK, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE};
 use tess_capi::types::{TessConfig, TessPoint};
-use tess_core::{Config, DomainPoint, PatchFactors, Tessellation};
-use tess_verify::case::{Case, factor_list};
+use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
+use tess_verify::case::Case;
 
 const NO_POINT: TessPoint = TessPoint { u: CANARY, v: CANARY };
 const NO_RANGE: TessRange =
@@ -35,7 +39,7 @@ pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let mut wrongs = Wrongs::default();
     let mut choices = Bytes(&choices);
     let (output, memory) = output(&mut choices, &mut wrongs, &model);
-    let factors: Vec<f32> = patches.iter().flat_map(factor_list).collect();
+    let factors: Vec<f32> = patches.iter().flat_map(PatchFactors::iter).collect();
     let (status, counts) = run(&case, &factors, &output)?;
     wrongs.judge("tess_batch_run", &case, status)?;
     if wrongs.is_empty() {
@@ -113,20 +117,43 @@ fn run(
         output: primitive as u32,
         split: split as u32,
     };
-    let mut batch = null_mut();
     let mut counts = TessBatchCounts::default();
-    // SAFETY: the pointers are to memory of this function.
-    let made = unsafe { tess_batch_create(&config, TESS_LEVEL_DETECT, &mut batch) };
-    if made != TESS_OK || !factors.len().is_multiple_of(factor_count(case.domain())) {
-        return Err(repeatable(case, &format!("tess_batch_create answered {made}")));
-    }
+    let batch = MADE.with_borrow_mut(|made| match made.entry((case.domain(), case.config)) {
+        Entry::Occupied(made) => Ok(made.get().0),
+        Entry::Vacant(place) => Ok(place.insert(Made::new(case, &config)?).0),
+    });
     // SAFETY: a batch that was made; buffers that are null, askew, impossibly large or as large as
     // they say.
     let status =
-        unsafe { tess_batch_run(batch, factors.as_ptr(), factors.len(), output, &mut counts) };
-    // SAFETY: a batch that was made and is not used any more.
-    unsafe { tess_batch_free(batch) };
+        unsafe { tess_batch_run(batch?, factors.as_ptr(), factors.len(), output, &mut counts) };
     Ok((status, counts))
+}
+
+thread_local! {
+    /// Batches hold tables that take milliseconds to make.
+    static MADE: RefCell<HashMap<(Domain, Config), Made>> = RefCell::new(HashMap::new());
+}
+
+/// A batch that was made, until the thread ends.
+struct Made(*mut TessBatch);
+
+impl Made {
+    fn new(case: &Case, config: &TessConfig) -> Result<Self, String> {
+        let mut batch = null_mut();
+        // SAFETY: the pointers are to memory of this function and its caller.
+        let status = unsafe { tess_batch_create(config, TESS_LEVEL_DETECT, &mut batch) };
+        if status == TESS_OK {
+            return Ok(Self(batch));
+        }
+        Err(repeatable(case, &format!("tess_batch_create answered {status}")))
+    }
+}
+
+impl Drop for Made {
+    fn drop(&mut self) {
+        // SAFETY: a batch that was made and is not used any more.
+        unsafe { tess_batch_free(self.0) };
+    }
 }
 
 fn compare(

@@ -1,13 +1,13 @@
 //! Arguments that may be wrong, and what may be answered then.
 
-use crate::input::{Bytes, factor_count};
+use crate::input::Bytes;
 use crate::repeatable;
 use tess_capi::status::{
     TESS_MISALIGNED, TESS_NULL_POINTER, TESS_OK, TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT,
     TessStatus,
 };
 use tess_capi::types::TessConfig;
-use tess_verify::case::{Case, factor_list};
+use tess_verify::case::Case;
 
 /// The words that buffers hold before a call.
 pub(super) const CANARY: u32 = 0xC0DE_C0DE;
@@ -93,8 +93,8 @@ impl Hostile {
         if wrongs.is_empty() {
             case = expected_case(case, config);
         }
-        let factors = factor_list(&case.factors);
-        let right = factor_count(case.domain());
+        let factors = case.factors.iter().collect();
+        let right = case.domain().factors();
         let count = match bytes.byte() {
             250 => 0,
             251 => right - 1,
@@ -111,11 +111,10 @@ impl Hostile {
 
 /// The case whose numbers are these; its factors, if the domain is another, are all 3.
 fn expected_case(case: Case, config: TessConfig) -> Case {
-    use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+    use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
     let domain = Domain::ALL[config.domain as usize];
-    let three = [3.0; 6];
-    let others = tess_verify::case::factors_from_list(domain, &three[..factor_count(domain)]);
-    let factors = if domain == case.domain() { case.factors } else { others.expect("a patch") };
+    let others = PatchFactors::uniform(domain, 3.0);
+    let factors = if domain == case.domain() { case.factors } else { others };
     let config = Config {
         partitioning: Partitioning::ALL[config.partitioning as usize],
         output: OutputPrimitive::ALL[config.output as usize],

@@ -25,7 +25,7 @@ pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let factors = wrongs.pointer(bytes, hostile.factors.as_mut_ptr());
     let counts_pointer = wrongs.pointer(bytes, &raw mut counts);
     let count_status =
-        // SAFETY: each pointer is null, askew or to memory of the size that is said with it.
+        // SAFETY: each pointer is null, askew or to memory as large as the call claims.
         unsafe { tess_count(config, factors, hostile.factor_count, counts_pointer) };
     wrongs.judge("tess_count", &hostile.case, count_status)?;
     let valid = wrongs.is_empty();

@@ -3,8 +3,10 @@
 use super::files;
 use crate::setup::Setup;
 
-/// A shader that runs one step alone, for comparing it with the golden model's. Binding 0 is what
-/// goes in, 1 what comes out, 2 the [`crate::tables`]; the entry point is `probes`.
+/// A shader that runs one step alone, so that it can be compared with the golden model's.
+///
+/// The entry point is `probes`. Binding 0 is the input, binding 1 the output, binding 2 the
+/// [`crate::tables`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Probe {
     /// Four words of a triangle patch's factors to its fixed-point u = 0 and inside factors.

@@ -3,25 +3,26 @@
 use super::files;
 use crate::setup::Setup;
 
-/// WGSL that a user's own shader includes to compute any point or primitive of a patch from its
-/// number alone, in constant time, so that nothing needs to be written out for drawing.
+/// WGSL to put in front of your own shader. It computes any point or primitive of a patch from its
+/// number, in constant time, so that nothing needs to be written out for drawing.
 ///
-/// It declares `topologies` (as a batch of one chunk leaves them), `tables` and, unless
-/// [`Setup::has_integer_factors`], `contexts` as read-only storage buffers, and offers
-/// - `tess_point(patch_index, i) -> vec2<u32>`: u and v as 16.16 numbers,
+/// Run a batch with room for nothing first, of one chunk: it leaves topologies and contexts. The WGSL
+/// declares `topologies`, `tables` and, unless [`Setup::has_integer_factors`], `contexts` as read-only
+/// storage buffers, and offers these functions:
+/// - `tess_point(patch_index, i) -> vec2<u32>`: u and v of point `i` as 16.16 numbers,
 /// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
-/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the patch's own indices, as many as a
-///   primitive has.
+/// - `tess_primitive(patch_index, t) -> vec3<u32>`: the indices of primitive `t`, which count from the
+///   patch's first point; as many of the three as a primitive has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Pull {
     /// Bind group of the buffers.
     pub group: u32,
-    /// Binding of `topologies`; `tables` and `contexts` follow.
+    /// Binding of `topologies`; `tables` and `contexts` have the next two numbers.
     pub first_binding: u32,
 }
 
 impl Pull {
-    /// The WGSL, to stand in front of the user's.
+    /// The WGSL.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
         let declare = |offset: u32, name: &str, of: &str| {

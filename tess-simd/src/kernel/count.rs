@@ -23,18 +23,20 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
     sums.total()
 }
 
-/// Takes patches through the front end and predicts their output sizes. There are at least as many
-/// blocks as the patches fill.
+/// Takes patches through the front end and predicts their output sizes. `kept` has room for them.
 #[inline(always)]
 pub(crate) fn count_and_keep(
     config: Config,
     batch: &Batch<'_>,
-    blocks: &mut [Block],
+    kept: &mut [[Block; Chunk::BLOCKS]],
 ) -> PartCounts {
-    front_end::process(config, batch, 0, blocks);
     let mut sums = Sums::default();
-    for block in blocks.iter().take(batch.len().div_ceil(LANES)) {
-        sums.add(&block.counts);
+    let patches = batch.len();
+    for (first, blocks) in (0..patches).step_by(Chunk::PATCHES).zip(kept) {
+        front_end::process(config, batch, first, blocks);
+        for block in blocks.iter().take((patches - first).div_ceil(LANES)) {
+            sums.add(&block.counts);
+        }
     }
     sums.total()
 }

@@ -4,7 +4,7 @@ use crate::block::{Block, BlockPatch};
 use crate::connect;
 use crate::format::{IndexFormat, PointFormat};
 use crate::lanes::LANES;
-use crate::output::{Buffers, Numbering, PatchRange};
+use crate::output::{Numbering, PatchRange};
 use crate::points::{self, LocationTables};
 use crate::setup::Setup;
 use crate::template::Templates;
@@ -16,10 +16,19 @@ use tess_core::DomainPoint;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blocks<'a> {
     pub(crate) blocks: &'a [Block],
-    /// The number of patches; the blocks may have more lanes.
-    pub(crate) patches: usize,
     pub(crate) first: Offsets,
     pub(crate) numbering: Numbering,
+}
+
+/// Where blocks are written.
+#[derive(Debug)]
+pub(crate) struct Room<'a, P, I> {
+    /// At least as long as the blocks' output. What follows that may be overwritten.
+    pub(crate) points: &'a mut [P],
+    /// As `points`.
+    pub(crate) indices: &'a mut [I],
+    /// As long as there are patches; the blocks may have more lanes than that.
+    pub(crate) ranges: &'a mut [PatchRange],
 }
 
 /// The output of a batch before some patch of it: where that patch's output begins.
@@ -54,35 +63,30 @@ struct Writers<'a, P, I> {
     indices: Writer<'a, I>,
 }
 
-/// Writes blocks to the start of buffers and may overrun there; returns where their output ends in
-/// the batch.
+/// Writes blocks; returns where their output ends in the batch.
 #[inline(always)]
 pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
     setup: &Setup,
     blocks: Blocks<'_>,
-    buffers: Buffers<'_, P, I>,
+    room: Room<'_, P, I>,
     caches: &mut Caches,
 ) -> Offsets {
-    let Blocks { blocks, patches, mut first, numbering } = blocks;
-    let ranges = buffers.ranges.unwrap_or_default();
-    let mut out =
-        Writers { points: Writer::new(buffers.points), indices: Writer::new(buffers.indices) };
-    for (number, block) in blocks.iter().enumerate() {
-        for lane in 0..LANES.min(patches - (number * LANES).min(patches)) {
+    let Blocks { blocks, mut first, numbering } = blocks;
+    let mut out = Writers { points: Writer::new(room.points), indices: Writer::new(room.indices) };
+    for (block, ranges) in blocks.iter().zip(room.ranges.chunks_mut(LANES)) {
+        for (lane, range) in ranges.iter_mut().enumerate() {
             let patch = block.patch(lane);
-            let range = PatchRange {
+            *range = PatchRange {
                 first_point: first.points,
                 points: patch.points(),
                 first_index: first.indices,
                 indices: patch.indices(),
             };
-            if let Some(target) = ranges.get_mut(number * LANES + lane) {
-                *target = range;
-            }
+            let base = numbering.base(first.points);
             first.points += range.points;
             first.indices += range.indices;
             if range.points > 0 {
-                emit_patch(setup, patch, numbering.base(range.first_point), caches, &mut out);
+                emit_patch(setup, patch, base, caches, &mut out);
             }
         }
     }

@@ -30,21 +30,19 @@ impl LocationTables {
     /// The locations of a patch, computed where they are not there yet.
     #[inline(always)]
     pub(super) fn of(&mut self, patch: BlockPatch<'_>) -> FactorLocations<'_> {
+        let integer = patch.integer();
+        let slot = |factor| {
+            if integer { patch.edge_points(factor) as usize % COUNTS } else { COUNTS + factor }
+        };
         for factor in 0..patch.domain().factors() {
-            let slot = slot(patch, factor);
-            let key = if patch.integer() { patch.edge_points(factor) } else { patch.key(factor) };
+            let slot = slot(factor);
+            let key = if integer { patch.edge_points(factor) } else { patch.key(factor) };
             if self.keys[slot] != key {
                 self.keys[slot] = key;
                 self.tables[slot].fill(&patch.spacing(factor));
             }
         }
-        let table = |factor| &self.tables[slot(patch, factor)];
+        let table = |factor| &self.tables[slot(factor)];
         [table(0), table(1), table(2), table(3), table(4), table(5)]
     }
-}
-
-/// The number of the table that holds a factor's locations.
-#[inline(always)]
-const fn slot(patch: BlockPatch<'_>, factor: usize) -> usize {
-    if patch.integer() { patch.edge_points(factor) as usize % COUNTS } else { COUNTS + factor }
 }

@@ -77,7 +77,8 @@ impl Stitches {
         self.forward = self.add(output, |to| stitch::strip(MAX_STRIP, Diagonals::Forward, to));
     }
 
-    /// Adds the codes of the stitch whose steps `stitch` sends, padded so that reading it in whole blocks stays within it.
+    /// Adds the codes of the stitch whose steps `stitch` sends, padded so that reading it in whole
+    /// blocks stays within it.
     fn add(&mut self, output: OutputPrimitive, stitch: impl FnOnce(&mut dyn FnMut(Step))) -> Table {
         let first = self.codes.len();
         stitch(&mut |step| self.codes.extend(codes(step, output)));

@@ -88,8 +88,8 @@ pub(crate) fn torus() -> PolygonMesh {
         for j in 0..tubes {
             let (a, b) = (i as f32 * 6.2831855 / rings as f32, j as f32 * 6.2831855 / tubes as f32);
             let r = 0.4 + 0.1 * ((i * 3 + j) % 4) as f32;
-            let x = 2.0 + r * b.cos();
-            out.positions.push(Vec3::new(x * a.cos(), x * a.sin(), r * b.sin()));
+            let x = 2.0 + r * libm::cosf(b);
+            out.positions.push(Vec3::new(x * libm::cosf(a), x * libm::sinf(a), r * libm::sinf(b)));
         }
     }
     for i in 0..rings {

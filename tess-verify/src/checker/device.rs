@@ -1,31 +1,60 @@
 //! Observations of a device under test, compared with the model.
 
-use crate::case::{Case, factor_list, factors_from_list, outer_count};
+use super::Found;
+use crate::case::Case;
 use crate::compare::{self, Element, Mismatch, Stage};
 use crate::generate::from_fixed;
-use crate::strength::{Elements, Missing, Order, Strength};
-use tess_core::{Config, ProcessedPatch, SplitOrder, Tessellation};
+use crate::strength::{Alternatives, Difference, Elements, Order, Strength, first_difference};
+use tess_core::{Config, PatchFactors, SplitOrder, Tessellation};
 
-/// What a device's output for a case has wrong, if `strength` does not accept it.
-pub(super) fn compare(
-    case: &Case,
-    observed: &Tessellation,
-    expected: &Tessellation,
-    strength: Strength,
-) -> Option<Mismatch> {
-    if strength.accepts(case, observed) {
-        return None;
+/// What is found of a device's output for a case.
+pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) -> Found {
+    match strength.explain(case, observed) {
+        Some(conversions) if conversions.values.is_empty() => Found::Equal,
+        Some(conversions) => Found::Converted(*case, conversions),
+        None => Found::new(first_mismatch(case, observed, strength), Some(*case)),
     }
-    let mismatch = match (strength.order, strength.elements) {
-        (Order::Exact, Elements::Primitives) => compare::tessellations(case, observed, expected),
-        (Order::Exact, Elements::Points) => compare::points_alone(observed, expected),
-        (Order::Any, _) => strength.first_missing(case, observed, expected).map(missing),
-    };
-    mismatch.map(|mismatch| Mismatch { stage: stage(case, observed, mismatch.stage), ..mismatch })
 }
 
-fn missing(missing: Missing) -> Mismatch {
-    let Missing { vertices, observed, expected } = missing;
+/// The first difference to the output that is the nearest of the legal ones.
+fn first_mismatch(case: &Case, observed: &Tessellation, strength: Strength) -> Option<Mismatch> {
+    let case = nearest(case, observed, strength);
+    let expected = case.patch().tessellate();
+    let found = match (strength.order, strength.elements) {
+        (Order::Exact, Elements::Primitives) => compare::tessellations(&case, observed, &expected),
+        (Order::Exact, Elements::Points) => compare::points_alone(observed, &expected),
+        (Order::Any, elements) => {
+            first_difference(elements, &case, observed, &expected).map(unordered)
+        }
+    };
+    found.map(|found| {
+        let stage = stage(&case, observed, strength, found.stage);
+        Mismatch { stage, ..found }
+    })
+}
+
+/// Of the cases whose output is legal, the one that has the most points in common with the
+/// observed ones: the first difference to that one is the most useful.
+fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
+    let alternatives = Alternatives::new(case, strength.conversion);
+    let wrong_points = |choice: &u64| {
+        let expected = alternatives.case(*choice).patch().tessellate();
+        match strength.order {
+            Order::Exact => {
+                observed.points.iter().zip(&expected.points).filter(|(a, b)| a != b).count()
+            }
+            Order::Any => {
+                observed.points.iter().filter(|point| !expected.points.contains(point)).count()
+            }
+        }
+    };
+    let choices = alternatives.choices();
+    let nearest = if choices.end == 1 { Some(0) } else { choices.min_by_key(wrong_points) };
+    alternatives.case(nearest.unwrap_or(0))
+}
+
+fn unordered(difference: Difference) -> Mismatch {
+    let Difference { vertices, observed, expected } = difference;
     let stage = if vertices.len() == 1 { Stage::Location } else { Stage::Stitch };
     let times = |count: usize| format!("{count} times");
     let element = Element::Vertices(vertices);
@@ -34,16 +63,20 @@ fn missing(missing: Missing) -> Mismatch {
 
 /// The stage that explains a whole output: one that the model reaches with one factor processed
 /// differently, or with the other split order; else the one that the first difference points to.
-fn stage(case: &Case, observed: &Tessellation, first: Stage) -> Stage {
-    if other_factors(case).iter().any(|other| other.patch().tessellate() == *observed) {
+fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: Stage) -> Stage {
+    let explains = |strength: Strength, other: &Case| {
+        strength.equal(case, observed, &other.patch().tessellate())
+    };
+    if other_factors(case).iter().any(|other| explains(strength, other)) {
         return Stage::Factors;
     }
-    let other_split = match case.config.split {
+    let split = match case.config.split {
         SplitOrder::Ruler => SplitOrder::Center,
         SplitOrder::Center => SplitOrder::Ruler,
     };
-    let other = Case { config: Config { split: other_split, ..case.config }, ..*case };
-    if other.patch().tessellate().points == observed.points && first == Stage::Location {
+    let other_split = Case { config: Config { split, ..case.config }, ..*case };
+    let points_alone = Strength { elements: Elements::Points, ..strength };
+    if first == Stage::Location && explains(points_alone, &other_split) {
         return Stage::Context;
     }
     first
@@ -51,24 +84,18 @@ fn stage(case: &Case, observed: &Tessellation, first: Stage) -> Stage {
 
 /// The case with one factor off by a unit in the last place, or by one; and culled.
 fn other_factors(case: &Case) -> Vec<Case> {
-    let raw = factor_list(&case.factors);
-    let with = |list: Vec<f32>| {
-        factors_from_list(case.domain(), &list).map(|factors| Case { factors, ..*case })
-    };
-    let mut culled = raw.clone();
-    culled[..outer_count(case.domain())].fill(0.0);
-    let mut lists = vec![culled];
-    if let ProcessedPatch::Minimum(factors) | ProcessedPatch::Regular(factors) =
-        case.patch().processed()
-    {
-        for (position, factor) in factor_list(factors).into_iter().enumerate() {
-            let fixed = factor.fixed.to_bits();
-            for other in [fixed - 1, fixed + 1, fixed - 0x1_0000, fixed + 0x1_0000] {
-                let mut list = raw.clone();
-                list[position] = from_fixed(other);
-                lists.push(list);
-            }
+    let mut cases = vec![PatchFactors::uniform(case.domain(), 0.0)];
+    let patch = case.patch();
+    let processed = patch.processed().factors().into_iter().flat_map(|factors| factors.iter());
+    for (position, factor) in processed.enumerate() {
+        let fixed = factor.fixed.to_bits();
+        for other in [fixed - 1, fixed + 1, fixed - 0x1_0000, fixed + 0x1_0000] {
+            let mut at = 0;
+            cases.push(case.factors.map(|raw| {
+                at += 1;
+                if at == position + 1 { from_fixed(other) } else { raw }
+            }));
         }
     }
-    lists.into_iter().filter_map(with).collect()
+    cases.into_iter().map(|factors| Case { factors, ..*case }).collect()
 }

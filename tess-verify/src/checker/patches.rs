@@ -1,12 +1,13 @@
 //! The kinds whose records are patches: single ones, and sequences with one digest.
 
-use super::{Found, How, device, stages};
+use super::{Found, How, Tested, device, stages};
 use crate::backend::{Backend, BackendError, all_answered};
-use crate::case::{Case, factor_bits, factor_names};
+use crate::case::Case;
 use crate::compare::{self, Element, Mismatch, Stage};
 use crate::core_backend::CoreBackend;
 use crate::digest::Fnv1a;
 use crate::sequences;
+use crate::strength::Strength;
 use crate::vectors::{ChainRow, PreparationRow, Record, Sizes};
 use tess_core::prepare::prepare;
 use tess_core::{Config, Domain, PatchFactors, Tessellation};
@@ -17,14 +18,25 @@ pub(super) fn single(
     backend: &mut dyn Backend,
     records: &[Record],
 ) -> Result<Vec<Found>, BackendError> {
+    if let Tested::Listings(strength) = how.tested {
+        return Ok(listings(records, strength));
+    }
     let cases: Vec<Case> = records.iter().filter_map(case_of).collect();
     let outputs = tessellate(backend, &cases)?;
     let mut found = Vec::with_capacity(records.len());
-    for ((record, case), observed) in records.iter().zip(&cases).zip(&outputs) {
-        let mismatch = compare_one(how, backend, record, case, observed)?;
-        found.push(mismatch.map(|mismatch| (mismatch, Some(*case))));
+    for ((record, case), output) in records.iter().zip(&cases).zip(&outputs) {
+        found.push(Found::new(compare_one(backend, record, case, output)?, Some(*case)));
     }
     Ok(found)
+}
+
+/// Checks the listings of a device.
+fn listings(records: &[Record], strength: Strength) -> Vec<Found> {
+    let listing = |record: &Record| match record {
+        Record::Listing(listing) => Some(device::check(&listing.case, &listing.output, strength)),
+        _ => None,
+    };
+    records.iter().filter_map(listing).collect()
 }
 
 /// The patch that a record tessellates; `None` for a record that has several.
@@ -40,16 +52,12 @@ fn case_of(record: &Record) -> Option<Case> {
 }
 
 fn compare_one(
-    how: &How,
     backend: &mut dyn Backend,
     record: &Record,
     case: &Case,
     output: &Tessellation,
 ) -> Result<Option<Mismatch>, BackendError> {
     match record {
-        Record::Listing(listing) if how.header.is_from_device() => {
-            Ok(device::compare(case, &listing.output, output, how.strength))
-        }
         Record::Listing(listing) => {
             let found = compare::tessellations(case, output, &listing.output);
             found.map(|mismatch| stages::trace(backend, case, mismatch)).transpose()
@@ -128,8 +136,8 @@ fn prepared(row: &PreparationRow) -> Option<Mismatch> {
         ("rounded", observed.rounded, row.prepared.rounded),
     ];
     results.into_iter().find_map(|(result, observed, expected)| {
-        let bits = factor_bits(&observed).into_iter().zip(factor_bits(&expected));
-        let mut named = factor_names(expected.domain()).iter().zip(bits);
+        let bits = observed.map(f32::to_bits).iter().zip(expected.map(f32::to_bits).iter());
+        let mut named = expected.domain().factor_names().iter().zip(bits);
         let (&factor, (observed, expected)) = named.find(|(_, (o, e))| o != e)?;
         let element = Element::Prepared { result, factor };
         Some(Mismatch::hex(element, 8, observed, expected, Stage::Preparation))
@@ -156,15 +164,15 @@ fn chain(
     let mut digest = Fnv1a::new();
     observed.iter().for_each(|patch| digest.patch(patch));
     if digest.finish() == row.chain {
-        return Ok(None);
+        return Ok(Found::Equal);
     }
     let expected = CoreBackend.tessellate(row.config, patches)?;
     for ((&factors, observed), expected) in patches.iter().zip(&observed).zip(&expected) {
         let case = Case { config: row.config, factors };
         if let Some(mismatch) = compare::tessellations(&case, observed, expected) {
-            return Ok(Some((stages::trace(backend, &case, mismatch)?, Some(case))));
+            return Ok(Found::Different(stages::trace(backend, &case, mismatch)?, Some(case)));
         }
     }
     let mismatch = Mismatch::digest("chained patches", digest.finish(), row.chain, Stage::Unknown);
-    Ok(mismatch.map(|mismatch| (mismatch, None)))
+    Ok(Found::new(mismatch, None))
 }

@@ -3,7 +3,8 @@
 use crate::backend::BackendError;
 use crate::case::Case;
 use crate::compare::Mismatch;
-use crate::vectors::{Header, Record, VectorError};
+use crate::names::Named;
+use crate::vectors::{Header, Kind, Record, VectorError};
 use std::fmt;
 
 /// How many differences a report shows in full.
@@ -11,6 +12,7 @@ pub const MAX_DIFFERENCES: usize = 20;
 
 /// The verdict on a vector file.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Report {
     /// Records that were checked: all of the file.
     pub cases: u64,
@@ -40,11 +42,12 @@ impl fmt::Display for Report {
 
 /// One record that differs.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Difference {
     /// Number of the record, from 1.
     pub number: u64,
-    /// The line of the file that it starts on.
-    pub line: u64,
+    /// The line of the file that it starts on, if there is a file.
+    pub line: Option<u64>,
     /// The first wrong element.
     pub mismatch: Mismatch,
     /// The patch that shows it, if one does.
@@ -54,28 +57,6 @@ pub struct Difference {
 }
 
 impl Difference {
-    pub(super) fn new(
-        header: &Header,
-        number: u64,
-        record: &Record,
-        mismatch: Mismatch,
-        case: Option<Case>,
-    ) -> Self {
-        let (line, row) = match record {
-            Record::Listing(listing) => (listing.line, None),
-            Record::Patch(row) => (row.line, Some(&row.text)),
-            Record::Sweep(row) | Record::Uniform(row) => (row.line, Some(&row.text)),
-            Record::Locations(row) => (row.line, Some(&row.text)),
-            Record::Factors(row) => (row.line, Some(&row.text)),
-            Record::Preparation(row) => (row.line, Some(&row.text)),
-        };
-        let file = row.zip(header.kind.columns()).map(|(row, columns)| {
-            let header = Header { count: 1, ..header.clone() };
-            format!("{header}\n{}\n{row}\n", columns.join(","))
-        });
-        Self { number, line, mismatch, case, file }
-    }
-
     /// Shell commands that show the same again: the record alone through `tess check`, and the
     /// patch through `tess patch`.
     #[must_use]
@@ -90,10 +71,20 @@ impl Difference {
     }
 }
 
+/// A record as a vector file of its own; `None` for a listing, which may be long.
+pub(super) fn file_of(header: &Header, record: &Record) -> Option<String> {
+    let (row, columns) = (record.text()?, header.kind.columns()?);
+    let header = Header { count: 1, ..header.clone() };
+    Some(format!("{header}\n{}\n{row}\n", columns.join(",")))
+}
+
 /// Number, line, patch and the first wrong element.
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "record {} (line {})", self.number, self.line)?;
+        write!(f, "record {}", self.number)?;
+        if let Some(line) = self.line {
+            write!(f, " (line {line})")?;
+        }
         if let Some(case) = &self.case {
             write!(f, ": {case}")?;
         }
@@ -103,9 +94,12 @@ impl fmt::Display for Difference {
 
 /// Why there is no verdict.
 #[derive(Debug)]
+#[non_exhaustive]
 pub enum CheckError {
     /// The file is malformed, truncated, too long or empty.
     Vectors(VectorError),
+    /// Listings were to be tested, and the file's records are of another kind.
+    NoListings(Kind),
     /// The backend could not run.
     Backend(BackendError),
 }
@@ -126,6 +120,10 @@ impl fmt::Display for CheckError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Vectors(error) => error.fmt(f),
+            Self::NoListings(kind) => {
+                let kind = kind.name();
+                write!(f, "a device is tested by its listings; this file's kind is {kind}")
+            }
             Self::Backend(error) => error.fmt(f),
         }
     }

@@ -1,10 +1,10 @@
 //! Which stage of a backend goes wrong on a patch that it gets wrong.
 
 use crate::backend::{Backend, BackendError, all_answered};
-use crate::case::{Case, factor_list};
+use crate::case::Case;
 use crate::compare::{Mismatch, Stage};
 use crate::core_backend::CoreBackend;
-use tess_core::{FactorContext, ProcessedFactor, ProcessedPatch};
+use tess_core::{FactorContext, ProcessedFactor};
 
 /// The same mismatch with the earliest stage that the backend gets wrong on this patch, asked one
 /// by one; the stage stays if all of them are right on their own.
@@ -13,10 +13,9 @@ pub(super) fn trace(
     case: &Case,
     mismatch: Mismatch,
 ) -> Result<Mismatch, BackendError> {
-    let processed = match case.patch().processed() {
-        ProcessedPatch::Culled => Vec::new(),
-        ProcessedPatch::Minimum(factors) | ProcessedPatch::Regular(factors) => factor_list(factors),
-    };
+    let patch = case.patch();
+    let processed: Vec<_> =
+        patch.processed().factors().into_iter().flat_map(|f| f.iter()).collect();
     let stage = if !factors_agree(backend, case)? {
         Stage::Factors
     } else if !contexts_agree(backend, case, &processed)? {
@@ -30,7 +29,7 @@ pub(super) fn trace(
 }
 
 fn factors_agree(backend: &mut dyn Backend, case: &Case) -> Result<bool, BackendError> {
-    let raw = factor_list(&case.factors);
+    let raw: Vec<f32> = case.factors.iter().collect();
     let partitioning = case.config.partitioning;
     let answers = backend.fixed_factors(partitioning, &raw)?;
     let observed = all_answered(backend, "factors", answers, raw.len())?;

@@ -1,6 +1,5 @@
 //! Every bin there is.
 
-use crate::case::{factor_names, outer_count};
 use crate::names::Named;
 use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
 
@@ -41,7 +40,7 @@ fn configuration(bins: &mut Vec<String>) {
 
 fn cull(bins: &mut Vec<String>) {
     for domain in Domain::ALL {
-        for factor in &factor_names(domain)[..outer_count(domain)] {
+        for factor in &domain.factor_names()[..domain.outer_factors()] {
             for why in ["zero", "negative", "nan"] {
                 bins.push(format!("cull/{}/{factor}/{why}", domain.name()));
             }

@@ -1,6 +1,6 @@
 //! Which bins a case hits, read off the model's intermediate values.
 
-use crate::case::{Case, factor_list, factor_names, outer_count};
+use crate::case::Case;
 use crate::names::Named;
 use tess_core::{
     Domain, FactorContext, Parity, Partitioning, PatchFactors, ProcessedFactor, ProcessedPatch,
@@ -28,8 +28,7 @@ pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
 
 fn culled(case: &Case, hit: &mut impl FnMut(String)) {
     let domain = case.domain();
-    let outer = factor_list(&case.factors).into_iter().take(outer_count(domain));
-    for (name, factor) in factor_names(domain).iter().zip(outer) {
+    for (name, factor) in domain.factor_names().iter().zip(case.factors.outer()) {
         let why = match factor {
             _ if factor.is_nan() => "nan",
             _ if factor < 0.0 => "negative",
@@ -43,20 +42,19 @@ fn culled(case: &Case, hit: &mut impl FnMut(String)) {
 /// What spec sections 3 to 5 do with each factor.
 fn processing(case: &Case, factors: &PatchFactors<ProcessedFactor>, hit: &mut impl FnMut(String)) {
     let domain = case.domain();
-    let raw = factor_list(&case.factors);
-    for (i, (raw, factor)) in raw.iter().copied().zip(factor_list(factors)).enumerate() {
+    for (i, (raw, factor)) in case.factors.iter().zip(factors.iter()).enumerate() {
         let is_density = domain == Domain::Isoline && i == 0;
         let partitioning =
             if is_density { Partitioning::Integer } else { case.config.partitioning };
-        let role = if i < outer_count(domain) { "outer" } else { "inside" };
+        let role = if i < domain.outer_factors() { "outer" } else { "inside" };
         if role == "outer" && raw.is_subnormal() {
-            hit(format!("denormal/{}/{}", domain.name(), factor_names(domain)[i]));
+            hit(format!("denormal/{}/{}", domain.name(), domain.factor_names()[i]));
         }
         clamping_and_rounding(partitioning, role, raw, &factor, hit);
         context(case, &factor.context, hit);
     }
     if case.config.partitioning == Partitioning::FractionalOdd {
-        picture_frame(factors, &raw, hit);
+        picture_frame(factors, &case.factors, hit);
     }
 }
 
@@ -101,12 +99,11 @@ fn conversion(factor: &ProcessedFactor) -> &'static str {
 
 fn picture_frame(
     factors: &PatchFactors<ProcessedFactor>,
-    raw: &[f32],
+    raw: &PatchFactors,
     hit: &mut impl FnMut(String),
 ) {
     const LOW: u32 = 0x3F80_0080; // 1 + 2^-16
-    let inside = outer_count(factors.domain());
-    for (raw, factor) in raw.iter().zip(factor_list(factors)).skip(inside) {
+    for (raw, factor) in raw.inside().zip(factors.inside()) {
         let raised = factor.clamped == LOW && raw.to_bits() != LOW;
         hit(match factor.clamped {
             _ if raised => "picture_frame/raised".to_owned(),

@@ -1,7 +1,7 @@
 //! The systematic parts of levels 1 and 2.
 
-use super::{boundary_factors, configurations, exceptional_factors, patch_of, special_factors};
-use crate::case::{Case, factor_names};
+use super::{boundary_factors, configurations, exceptional_factors, special_factors};
+use crate::case::Case;
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, SplitOrder,
 };
@@ -14,7 +14,7 @@ const PLAIN: [f32; 8] = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0, 1.5, 6.0];
 pub(super) fn one() -> Vec<Case> {
     let mut cases = Vec::new();
     for (domain, partitioning) in combinations() {
-        let factors = factor_names(domain).len();
+        let factors = domain.factors();
         let values = [boundary_factors(), exceptional_factors()].concat();
         for (i, &value) in values.iter().enumerate() {
             // Outer factors and inside factors in turn, so that each value takes both roles.
@@ -35,7 +35,7 @@ pub(super) fn two() -> Vec<Case> {
     let mut cases = one();
     for (domain, partitioning) in combinations() {
         let values = [boundary_factors(), exceptional_factors(), special_factors()].concat();
-        for position in 0..factor_names(domain).len() {
+        for position in 0..domain.factors() {
             for (i, &value) in values.iter().enumerate() {
                 for turn in [i, i + 4] {
                     cases.push(one_value(domain, partitioning, turn, position, value));
@@ -72,11 +72,11 @@ fn one_value(
     value: f32,
 ) -> Case {
     let factor = |p| if p == position { value } else { PLAIN[(turn + p) % PLAIN.len()] };
-    Case { config: config(partitioning, turn), factors: patch_of(domain, factor) }
+    Case { config: config(partitioning, turn), factors: PatchFactors::from_fn(domain, factor) }
 }
 
 fn specials_everywhere(cases: &mut Vec<Case>, domain: Domain, partitioning: Partitioning) {
-    for position in 0..factor_names(domain).len() {
+    for position in 0..domain.factors() {
         for (i, &value) in special_factors().iter().enumerate() {
             cases.push(one_value(domain, partitioning, i, position, value));
         }
@@ -90,7 +90,7 @@ fn all_equal(cases: &mut Vec<Case>, domain: Domain, partitioning: Partitioning) 
     let others = special_factors().into_iter().chain([1.5, 2.0, 2.5, 3.0, 15.9, 16.0]);
     for (i, value) in near_one.chain(others).enumerate() {
         for turn in [i, i + 1] {
-            let factors = patch_of(domain, |_| value);
+            let factors = PatchFactors::uniform(domain, value);
             cases.push(Case { config: config(partitioning, turn), factors });
         }
     }
@@ -127,10 +127,11 @@ fn interiors(cases: &mut Vec<Case>, wanted: impl Fn(u8, u8) -> bool) {
         let shift = if partitioning == Partitioning::Integer { 0 } else { 0x6000 };
         let factor = |n: u8| super::from_fixed((u32::from(n) << 16) - shift);
         for u in 1..=64 {
-            let triangle = patch_of(Domain::Triangle, |p| if p == 3 { factor(u) } else { 3.0 });
+            let triangle =
+                PatchFactors::from_fn(Domain::Triangle, |p| if p == 3 { factor(u) } else { 3.0 });
             cases.push(triangles(partitioning, SplitOrder::Ruler, triangle));
             for v in (1..=64).filter(|&v| wanted(u, v)) {
-                let quad = patch_of(Domain::Quad, |p| match p {
+                let quad = PatchFactors::from_fn(Domain::Quad, |p| match p {
                     4 => factor(u),
                     5 => factor(v),
                     _ => PLAIN[p],
@@ -149,7 +150,7 @@ fn triangles(partitioning: Partitioning, split: SplitOrder, factors: PatchFactor
 /// Each configuration of each domain, on one ordinary patch.
 fn every_configuration(cases: &mut Vec<Case>) {
     cases.extend(configurations().map(|(domain, config)| {
-        let factors = patch_of(domain, |p| PLAIN[p]);
+        let factors = PatchFactors::from_fn(domain, |p| PLAIN[p]);
         Case { config, factors }
     }));
 }

@@ -1,7 +1,6 @@
 //! Random factors and patches.
 
-use super::{exceptional_factors, from_fixed, patch_of, pick, special_factors};
-use crate::case::factor_names;
+use super::{exceptional_factors, from_fixed, pick, special_factors};
 use crate::random::SplitMix64;
 use tess_core::{Domain, PatchFactors};
 
@@ -28,9 +27,9 @@ pub fn random_factor(random: &mut SplitMix64) -> f32 {
 /// Another 64th has nothing above 1, as minimum patches do.
 #[must_use]
 pub fn random_patch(domain: Domain, random: &mut SplitMix64) -> PatchFactors {
-    let positions = u32::try_from(factor_names(domain).len()).unwrap_or(u32::MAX);
+    let positions = u32::try_from(domain.factors()).unwrap_or(u32::MAX);
     let (kind, one) = (random.below(128), random.below(positions) as usize);
-    patch_of(domain, |position| match kind {
+    PatchFactors::from_fn(domain, |position| match kind {
         0..2 => factor_up_to(MAXIMUM, random),
         2..4 => pick(random, &UP_TO_ONE),
         4..20 if position == one => factor_up_to(MAXIMUM, random),

@@ -1,11 +1,15 @@
 //! The first line of a vector file.
 
-use super::error::{Place, VectorError};
+use super::error::VectorError;
+use super::lines::Line;
+use super::row::decimal;
 use crate::names::Named;
+use crate::quote::quoted;
 use std::fmt;
 
 /// What the records of a vector file are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Kind {
     /// Whole outputs.
     Listings,
@@ -92,9 +96,9 @@ pub struct Header {
     pub kind: Kind,
     /// How many records follow, at least 1.
     pub count: u64,
-    /// Where the results come from.
+    /// Where the results come from: a name for people, by which nothing is decided.
     pub source: String,
-    /// Everything else that the producer says, such as a level and a seed.
+    /// The producer's notes, key and value, such as a level and a seed.
     pub notes: Vec<(String, String)>,
 }
 
@@ -110,55 +114,61 @@ const MAGIC: &str = "# tess-vectors";
 const VERSION: &str = "1";
 
 impl Header {
-    /// Whether the results are observations of a device under test: their source is neither the
-    /// reference (`d3d11-reference...`) nor this project (`tess...`).
-    #[must_use]
-    pub fn is_from_device(&self) -> bool {
-        !["d3d11-reference", "tess"].iter().any(|known| self.source.starts_with(known))
+    /// What a first line must be, where there is `instead`.
+    pub(super) fn missing(instead: &str) -> String {
+        format!(
+            "a vector file starts with `{MAGIC} {VERSION} kind=... count=... source=...`, not with \
+             {instead}"
+        )
     }
 
     /// Parses the first line of a file.
-    pub(super) fn parse(line: &str, place: &Place) -> Result<Self, VectorError> {
-        let Some(rest) = line.strip_prefix(MAGIC) else {
-            let what = if line.is_empty() { "an empty one" } else { "this one" };
-            let message = format!(
-                "a vector file starts with `{MAGIC} {VERSION} kind=... count=... source=...`, \
-                 not with {what}"
-            );
-            return Err(place.error("header", message));
+    pub(super) fn parse(line: Line<'_>) -> Result<Self, VectorError> {
+        let rest = line.text.strip_prefix(MAGIC).and_then(|rest| rest.strip_prefix(' '));
+        let Some(rest) = rest else {
+            return Err(line.error("header", Self::missing(&quoted(line.text))));
         };
-        let mut words = rest.split_whitespace();
+        let mut words = rest.split(' ').filter(|word| !word.is_empty());
         let version = words.next().unwrap_or("");
         if version != VERSION {
-            let message = format!("format version `{version}` is unknown, expected {VERSION}");
-            return Err(place.error("header", message));
+            let version = quoted(version);
+            let message = format!("format version {version} is unknown, expected {VERSION}");
+            return Err(line.error("header", message));
         }
-        let mut pairs = Vec::new();
-        for word in words {
-            let Some((key, value)) = word.split_once('=') else {
-                return Err(place.error("header", format!("`{word}` is not KEY=VALUE")));
-            };
-            if pairs.iter().any(|(known, _)| known == key) {
-                return Err(place.error("header", format!("{key} is given twice")));
-            }
-            pairs.push((key.to_owned(), value.to_owned()));
-        }
+        let mut pairs = pairs(line, words)?;
         let mut take = |key: &'static str| {
             let at = pairs.iter().position(|(known, _)| known == key);
             let pair = at.map(|at| pairs.remove(at));
-            pair.map(|(_, value)| value).ok_or_else(|| place.error(key, "missing in the header"))
+            pair.map(|(_, value)| value).ok_or_else(|| line.error(key, "missing in the header"))
         };
         let (kind, count, source) = (take("kind")?, take("count")?, take("source")?);
-        let kind =
-            Kind::from_name(&kind).map_err(|error| place.error("kind", error.to_string()))?;
-        Ok(Self { kind, count: parse_count(&count, place)?, source, notes: pairs })
+        let kind = Kind::from_name(&kind).map_err(|error| line.error("kind", error.to_string()))?;
+        Ok(Self { kind, count: parse_count(&count, line)?, source, notes: pairs })
     }
 }
 
-fn parse_count(text: &str, place: &Place) -> Result<u64, VectorError> {
-    match text.parse() {
-        Ok(0) => Err(place.error("count", "is 0; a file without records shows nothing")),
-        Ok(count) => Ok(count),
-        Err(_) => Err(place.error("count", format!("`{text}` is not a number"))),
+/// The words `KEY=VALUE`, each key once.
+fn pairs<'a>(
+    line: Line<'_>,
+    words: impl Iterator<Item = &'a str>,
+) -> Result<Vec<(String, String)>, VectorError> {
+    let mut pairs: Vec<(String, String)> = Vec::new();
+    for word in words {
+        let Some((key, value)) = word.split_once('=') else {
+            return Err(line.error("header", format!("{} is not KEY=VALUE", quoted(word))));
+        };
+        if pairs.iter().any(|(known, _)| known == key) {
+            return Err(line.error("header", format!("{} is given twice", quoted(key))));
+        }
+        pairs.push((key.to_owned(), value.to_owned()));
+    }
+    Ok(pairs)
+}
+
+fn parse_count(text: &str, line: Line<'_>) -> Result<u64, VectorError> {
+    match decimal(text) {
+        Some(0) => Err(line.error("count", "is 0; a file without records shows nothing")),
+        Some(count) => Ok(count),
+        None => Err(line.error("count", format!("{} is not a number", quoted(text)))),
     }
 }

@@ -1,10 +1,13 @@
 //! Listings: a patch's whole output as text.
 
-use super::{Lines, VectorError};
-use crate::case::{Case, parse_hex};
+use super::error::VectorError;
+use super::lines::Lines;
+use super::row::decimal;
+use crate::case::{Case, CaseError, parse_hex};
+use crate::quote::quoted;
 use std::fmt;
 use std::io::BufRead;
-use tess_core::{Domain, DomainPoint, OutputPrimitive, Tessellation};
+use tess_core::{Domain, DomainPoint, MAX_INDICES, MAX_POINTS, OutputPrimitive, Tessellation};
 
 /// A case and an output for it.
 ///
@@ -45,58 +48,85 @@ impl fmt::Display for Listing {
     }
 }
 
-/// Reads a listing whose first line has been read already.
-pub(super) fn read<R: BufRead>(lines: &mut Lines<R>, first: &str) -> Result<Listing, VectorError> {
-    let line = lines.place.line;
-    let case: Case = first
-        .parse()
-        .map_err(|error: crate::case::CaseError| lines.place.error(error.field, error.message))?;
-    let mut output = Tessellation::default();
-    for _ in 0..announced(lines, "points")? {
-        let text = lines.expect("points")?;
-        let point = parse_point(&text).ok_or_else(|| {
-            let message = format!("`{text}` is not a point: u and v as up to 8 hex digits each");
-            lines.place.error("points", message)
-        })?;
-        output.points.push(point);
-    }
+/// Reads a listing; `None` at the end of the file.
+pub(super) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Option<Listing>, VectorError> {
+    let Some(first) = lines.next()? else { return Ok(None) };
+    let parsed: Result<Case, CaseError> = first.text.parse();
+    let case = parsed.map_err(|error| first.error(error.field, error.message))?;
+    let line = first.place.line;
     let size = primitive_size(&case);
-    let count = announced(lines, "indices")?;
-    if !count.is_multiple_of(size as u64) {
-        let message = format!("{count} is no multiple of {size}, the size of a primitive");
-        return Err(lines.place.error("indices", message));
-    }
-    for _ in 0..count / size as u64 {
-        let text = lines.expect("indices")?;
-        let indices = parse_primitive(&text, size).ok_or_else(|| {
-            let message = format!("`{text}` is not a primitive: {size} decimal indices");
-            lines.place.error("indices", message)
-        })?;
-        output.indices.extend(indices);
-    }
+    let output = Tessellation { points: points(lines)?, indices: indices(lines, size)? };
     let end = lines.expect("end")?;
-    if end != "end" {
-        return Err(lines.place.error("end", format!("a listing ends with `end`, not `{end}`")));
+    if end.text != "end" {
+        let message = format!("a listing ends with `end`, not {}", quoted(end.text));
+        return Err(end.error("end", message));
     }
-    Ok(Listing { line, case, output })
+    Ok(Some(Listing { line, case, output }))
 }
 
-/// The number of a line such as `points 17`.
-fn announced<R: BufRead>(lines: &mut Lines<R>, what: &'static str) -> Result<u64, VectorError> {
-    let text = lines.expect(what)?;
-    let count = text.strip_prefix(what).and_then(|rest| rest.strip_prefix(' '));
-    count
-        .and_then(|count| count.parse().ok())
-        .ok_or_else(|| lines.place.error(what, format!("expected `{what} COUNT`, not `{text}`")))
+fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorError> {
+    let count = announced(lines, "points", MAX_POINTS)?;
+    let mut points = Vec::with_capacity(count);
+    for _ in 0..count {
+        let line = lines.expect("points")?;
+        let point = parse_point(line.text).ok_or_else(|| {
+            let text = quoted(line.text);
+            let message = format!("{text} is not a point: u and v as up to 8 hex digits each");
+            line.error("points", message)
+        })?;
+        points.push(point);
+    }
+    Ok(points)
+}
+
+fn indices<R: BufRead>(lines: &mut Lines<R>, size: usize) -> Result<Vec<u32>, VectorError> {
+    let count = announced(lines, "indices", MAX_INDICES)?;
+    if !count.is_multiple_of(size) {
+        let message = format!("{count} is no multiple of {size}, the size of a primitive");
+        return Err(lines.error("indices", message));
+    }
+    let mut indices = Vec::with_capacity(count);
+    for _ in 0..count / size {
+        let line = lines.expect("indices")?;
+        let mut words = line.text.as_bytes().split(|byte| *byte == b' ');
+        let read = words.try_fold(0, |read, word| {
+            indices.push(parse_index(word)?);
+            Some(read + 1)
+        });
+        if read != Some(size) {
+            let text = quoted(line.text);
+            let message = format!("{text} is not a primitive: {size} decimal indices");
+            return Err(line.error("indices", message));
+        }
+    }
+    Ok(indices)
+}
+
+/// The number of a line such as `points 17`, of which no patch has more than `most`.
+fn announced<R: BufRead>(
+    lines: &mut Lines<R>,
+    what: &'static str,
+    most: usize,
+) -> Result<usize, VectorError> {
+    let line = lines.expect(what)?;
+    let count = line.text.strip_prefix(what).and_then(|rest| rest.strip_prefix(' '));
+    let count: u64 = count.and_then(decimal).ok_or_else(|| {
+        line.error(what, format!("expected `{what} COUNT`, not {}", quoted(line.text)))
+    })?;
+    let few = usize::try_from(count).ok().filter(|&count| count <= most);
+    few.ok_or_else(|| line.error(what, format!("{count} is too many: a patch has at most {most}")))
 }
 
 fn parse_point(text: &str) -> Option<DomainPoint> {
-    let (u, v) = text.split_once(' ')?;
+    let space = text.bytes().position(|byte| byte == b' ')?;
+    let (u, v) = (&text[..space], &text[space + 1..]);
     let coordinate = |text: &str| u32::try_from(parse_hex(text, text.len().clamp(1, 8))?).ok();
     Some(DomainPoint::from_bits(coordinate(u)?, coordinate(v)?))
 }
 
-fn parse_primitive(text: &str, size: usize) -> Option<Vec<u32>> {
-    let indices: Option<Vec<u32>> = text.split(' ').map(|word| word.parse().ok()).collect();
-    indices.filter(|indices| indices.len() == size)
+/// Decimal digits alone: no sign.
+fn parse_index(word: &[u8]) -> Option<u32> {
+    let digit = |byte: &u8| char::from(*byte).to_digit(10);
+    let append = |index: u32, byte| index.checked_mul(10)?.checked_add(digit(byte)?);
+    (!word.is_empty()).then(|| word.iter().try_fold(0, append)).flatten()
 }

@@ -4,17 +4,15 @@ use super::error::VectorError;
 use super::header::Kind;
 use super::listing::Listing;
 use super::row::Row;
-use crate::case::{Case, factor_bits, factor_names, factors_from_list};
-use crate::digest::{points_digest, words_digest};
-use crate::names::Named;
-use std::fmt;
+use super::rows::{ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Recorded, Sizes};
+use crate::case::Case;
 use std::ops::RangeInclusive;
-use tess_core::Tessellation;
-use tess_core::prepare::{Prepared, QuadAxes, Reduction, Request};
+use tess_core::prepare::{Prepared, QuadAxes, Request};
 use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, PatchFactors, SplitOrder};
 
 /// One record.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Record {
     /// Of the kind `listings`.
     Listing(Listing),
@@ -32,129 +30,32 @@ pub enum Record {
     Preparation(Recorded<PreparationRow>),
 }
 
-/// A row of a CSV kind with the text that it was read from.
-#[derive(Clone, Debug)]
-pub struct Recorded<T> {
-    /// The line of the file.
-    pub line: u64,
-    /// The row as it stands there.
-    pub text: String,
-    /// What it says.
-    pub row: T,
-}
-
-impl<T> std::ops::Deref for Recorded<T> {
-    type Target = T;
-
-    fn deref(&self) -> &T {
-        &self.row
-    }
-}
-
-/// Counts and digests of a patch's output.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sizes {
-    /// Number of points.
-    pub points: u64,
-    /// Number of indices.
-    pub indices: u64,
-    /// Digest of the points.
-    pub points_digest: u64,
-    /// Digest of the indices.
-    pub indices_digest: u64,
-}
-
-/// Counts and digests of one patch.
-#[derive(Clone, Copy, Debug)]
-pub struct PatchRow {
-    /// What was tessellated.
-    pub case: Case,
-    /// What came out.
-    pub output: Sizes,
-}
-
-impl Sizes {
-    /// Counts and digests of an output.
+impl Record {
+    /// The line of the file that it starts on.
     #[must_use]
-    pub fn of(output: &Tessellation) -> Self {
-        Self {
-            points: output.points.len() as u64,
-            indices: output.indices.len() as u64,
-            points_digest: points_digest(&output.points),
-            indices_digest: words_digest(&output.indices),
+    pub const fn line(&self) -> u64 {
+        match self {
+            Self::Listing(listing) => listing.line,
+            Self::Patch(row) => row.line,
+            Self::Sweep(row) | Self::Uniform(row) => row.line,
+            Self::Locations(row) => row.line,
+            Self::Factors(row) => row.line,
+            Self::Preparation(row) => row.line,
         }
     }
-}
 
-/// The row as it stands in a file of the kind `patches`.
-impl fmt::Display for PatchRow {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Case { config: Config { partitioning, output, split }, factors } = self.case;
-        let domain = self.case.domain().name();
-        write!(f, "{domain},{},{},{},", partitioning.name(), output.name(), split.name())?;
-        let bits = factor_bits(&factors).into_iter().map(|bits| format!("{bits:08x}"));
-        f.write_str(&bits.collect::<Vec<_>>().join(" "))?;
-        let Sizes { points, indices, points_digest, indices_digest } = self.output;
-        write!(f, ",{points},{indices},{points_digest:016x},{indices_digest:016x}")
+    /// The row as it stands in the file; `None` for a listing, which has no row.
+    #[must_use]
+    pub fn text(&self) -> Option<&str> {
+        match self {
+            Self::Listing(_) => None,
+            Self::Patch(row) => Some(&row.text),
+            Self::Sweep(row) | Self::Uniform(row) => Some(&row.text),
+            Self::Locations(row) => Some(&row.text),
+            Self::Factors(row) => Some(&row.text),
+            Self::Preparation(row) => Some(&row.text),
+        }
     }
-}
-
-/// A digest chained over a sequence of patches.
-#[derive(Clone, Copy, Debug)]
-pub struct ChainRow {
-    /// Domain of the patches.
-    pub domain: Domain,
-    /// Configuration of the patches; the split order is ruler.
-    pub config: Config,
-    /// Which sequence; see [`crate::sequences`].
-    pub row: u8,
-    /// The digest.
-    pub chain: u64,
-}
-
-/// Digests over all fractions of a factor's integer part.
-#[derive(Clone, Copy, Debug)]
-pub struct LocationsRow {
-    /// Split order.
-    pub split: SplitOrder,
-    /// Parity.
-    pub parity: Parity,
-    /// Integer part of the factors.
-    pub bucket: u32,
-    /// Digest of the contexts.
-    pub contexts_digest: u64,
-    /// Digest of the locations.
-    pub locations_digest: u64,
-    /// How many locations.
-    pub locations: u64,
-}
-
-/// Digests over the processed factors of all binary32 of a binade.
-#[derive(Clone, Copy, Debug)]
-pub struct FactorsRow {
-    /// Partitioning.
-    pub partitioning: Partitioning,
-    /// The binade [2^exponent, 2^(exponent + 1)).
-    pub exponent: i32,
-    /// Digest of the u = 0 factors.
-    pub outer_digest: u64,
-    /// Digest of the inside factors.
-    pub inside_digest: u64,
-}
-
-/// A factor preparation and the tessellation of its rounded factors.
-#[derive(Clone, Copy, Debug)]
-pub struct PreparationRow {
-    /// Configuration; the split order is ruler.
-    pub config: Config,
-    /// How inside factors are made.
-    pub reduction: Reduction,
-    /// What is prepared.
-    pub request: Request,
-    /// What comes out of the preparation.
-    pub prepared: Prepared,
-    /// What comes out of the tessellator.
-    pub output: Sizes,
 }
 
 /// Reads one row of a CSV kind.
@@ -194,11 +95,12 @@ fn factors(
     domain: Domain,
 ) -> Result<PatchFactors, VectorError> {
     let list = row.floats(column)?;
-    factors_from_list(domain, &list).ok_or_else(|| wrong_number(row, column, domain, list.len()))
+    PatchFactors::from_slice(domain, &list)
+        .ok_or_else(|| wrong_number(row, column, domain, list.len()))
 }
 
 fn wrong_number(row: &Row<'_>, column: &'static str, domain: Domain, found: usize) -> VectorError {
-    let names = factor_names(domain);
+    let names = domain.factor_names();
     row.error(column, format!("expected {} ({}), found {found}", names.len(), names.join(" ")))
 }
 

@@ -1,8 +1,10 @@
 //! One line of a CSV kind, its fields by column name.
 
-use super::error::{Place, VectorError};
+use super::error::VectorError;
+use super::lines::Line;
 use crate::case::{parse_bits, parse_hex};
 use crate::names::Named;
+use crate::quote::quoted;
 use std::ops::RangeInclusive;
 use std::str::FromStr;
 
@@ -11,37 +13,36 @@ use std::str::FromStr;
 pub(crate) struct Row<'a> {
     columns: &'static [&'static str],
     values: Vec<&'a str>,
-    place: &'a Place,
+    line: Line<'a>,
 }
 
 impl<'a> Row<'a> {
     pub(crate) fn new(
-        line: &'a str,
+        line: Line<'a>,
         columns: &'static [&'static str],
-        place: &'a Place,
     ) -> Result<Self, VectorError> {
-        let values: Vec<_> = line.split(',').collect();
+        let values: Vec<_> = line.text.split(',').collect();
         if values.len() == columns.len() {
-            return Ok(Self { columns, values, place });
+            return Ok(Self { columns, values, line });
         }
         let (expected, found) = (columns.len(), values.len());
         let message = format!("a row has {expected} fields ({}), not {found}", columns.join(","));
         // The first column that is missing, or the last one if there are too many.
         let field = columns[found.min(expected - 1)];
-        Err(place.error(field, message))
+        Err(line.error(field, message))
     }
 
     pub(crate) fn error(&self, column: &'static str, message: impl Into<String>) -> VectorError {
-        self.place.error(column, message)
+        self.line.error(column, message)
     }
 
     pub(crate) fn line(&self) -> u64 {
-        self.place.line
+        self.line.place.line
     }
 
     /// The line as it was read.
     pub(crate) fn text(&self) -> String {
-        self.values.join(",")
+        self.line.text.to_owned()
     }
 
     pub(crate) fn field(&self, column: &'static str) -> Result<&'a str, VectorError> {
@@ -55,7 +56,8 @@ impl<'a> Row<'a> {
 
     pub(crate) fn number<T: FromStr>(&self, column: &'static str) -> Result<T, VectorError> {
         let text = self.field(column)?;
-        text.parse().map_err(|_| self.error(column, format!("`{text}` is not a number in range")))
+        decimal(text)
+            .ok_or_else(|| self.error(column, format!("{} is not a number in range", quoted(text))))
     }
 
     pub(crate) fn number_in<T: FromStr + PartialOrd + std::fmt::Display>(
@@ -74,13 +76,20 @@ impl<'a> Row<'a> {
     /// A 64-bit digest.
     pub(crate) fn digest(&self, column: &'static str) -> Result<u64, VectorError> {
         let text = self.field(column)?;
-        parse_hex(text, 16)
-            .ok_or_else(|| self.error(column, format!("`{text}` is not a digest of 16 hex digits")))
+        parse_hex(text, 16).ok_or_else(|| {
+            self.error(column, format!("{} is not a digest of 16 hex digits", quoted(text)))
+        })
     }
 
     /// Bit patterns of binary32 numbers.
     pub(crate) fn floats(&self, column: &'static str) -> Result<Vec<f32>, VectorError> {
-        let words: Vec<_> = self.field(column)?.split_whitespace().collect();
+        let words: Vec<_> =
+            self.field(column)?.split(' ').filter(|word| !word.is_empty()).collect();
         parse_bits(&words).map_err(|error| self.error(column, error.message))
     }
+}
+
+/// A decimal number without a plus sign, which `parse` alone would take.
+pub(crate) fn decimal<T: FromStr>(text: &str) -> Option<T> {
+    text.parse().ok().filter(|_| !text.starts_with('+'))
 }

@@ -56,14 +56,16 @@ fn headers_round_trip() {
 fn wrong_headers() {
     let cases = [
         ("# tess-vectors 1", "# vectors 1", "f:1: header: a vector file starts with"),
+        ("vectors 1", "vectors1", "f:1: header: a vector file starts with"),
         ("vectors 1", "vectors 2", "f:1: header: format version `2` is unknown, expected 1"),
         ("kind=patches", "kind=patch", "f:1: kind: unknown kind `patch`, expected one of: list"),
         ("kind=patches ", "", "f:1: kind: missing in the header"),
         (" count=2", "", "f:1: count: missing in the header"),
         ("count=2", "count=two", "f:1: count: `two` is not a number"),
         ("count=2", "count=-2", "f:1: count: `-2` is not a number"),
+        ("count=2", "count=+2", "f:1: count: `+2` is not a number"),
         ("count=2", "count=0", "f:1: count: is 0"),
-        ("source=test", "count=2 source=test", "f:1: header: count is given twice"),
+        ("source=test", "count=2 source=test", "f:1: header: `count` is given twice"),
         ("source=test", "", "f:1: source: missing in the header"),
         ("source=test", "source", "f:1: header: `source` is not KEY=VALUE"),
         ("domain,part", "part,domain", "f:2: columns: the column names must be `domain,part"),
@@ -137,6 +139,13 @@ fn wrong_listings() {
         ("case tri", "case quad", "f:2: factors: quad patches have 6 factors"),
         ("points 3", "points", "f:3: points: expected `points COUNT`, not `points`"),
         ("points 3", "points three", "f:3: points: expected `points COUNT`"),
+        ("points 3", "points 4226", "f:3: points: 4226 is too many: a patch has at most 4225"),
+        ("points 3", "points 99999999999", "f:3: points: 99999999999 is too many"),
+        (
+            "indices 3",
+            "indices 24577",
+            "f:7: indices: 24577 is too many: a patch has at most 24576",
+        ),
         ("points 3", "points 4", "f:7: points: `indices 3` is not a point"),
         ("points 3", "points 2", "f:6: indices: expected `indices COUNT`, not `10000 00000`"),
         ("00000 10000", "00000", "f:4: points: `00000` is not a point"),
@@ -146,6 +155,7 @@ fn wrong_listings() {
         ("indices 3", "indices 6", "f:9: indices: `end` is not a primitive"),
         ("0 1 2", "0 1", "f:8: indices: `0 1` is not a primitive: 3 decimal indices"),
         ("0 1 2", "0 1 2 3", "f:8: indices: `0 1 2 3` is not a primitive"),
+        ("0 1 2", "0 1 +2", "f:8: indices: `0 1 +2` is not a primitive"),
         ("0 1 2", "0 1 -2", "f:8: indices: `0 1 -2` is not a primitive"),
     ];
     for (from, to, expected) in cases {
@@ -190,6 +200,40 @@ fn bytes_that_are_no_text() {
     let mut file = VectorFile::new("f", &bytes[..]).expect("header");
     assert!(file.next().is_some_and(|record| record.is_ok()), "the listing");
     let error = file.next().and_then(Result::err).expect("an error").to_string();
-    assert!(error.starts_with("f:10: line: cannot be read"), "{error}");
+    assert!(error.starts_with("f:10: line: not UTF-8 text"), "{error}");
     assert!(file.next().is_none(), "ended");
+}
+
+/// Foreign text is bounded and escaped in errors, whatever a line holds.
+#[test]
+fn lines_that_are_too_long_or_not_text() {
+    let long = "x".repeat(50_000_000);
+    let error_of = |from: &str, to: &str| error(LISTING, from, to);
+    assert_eq!(
+        error_of("case tri", &long),
+        "f:2: line: longer than 4096 bytes, which no line of a vector file is"
+    );
+    let fits = "x".repeat(4000);
+    let shown = error_of("00000 10000", &fits);
+    assert_eq!(
+        shown,
+        format!(
+            "f:4: points: `{}...` (4000 bytes) is not a point: u and v as up to 8 hex digits each",
+            &fits[..60]
+        )
+    );
+    assert_eq!(
+        error_of("case tri", "case \u{1b}[2Jtri"),
+        "f:2: line: has the control character U+001B"
+    );
+    let hidden = error_of("integer", "\u{202e}integer");
+    assert!(hidden.contains("`\\u{202e}integer`"), "{hidden}");
+}
+
+/// A file without an end gives an error after its first line.
+#[test]
+fn endless_files() {
+    let endless = std::io::BufReader::new(std::io::repeat(0));
+    let error = VectorFile::new("zero", endless).expect_err("no header").to_string();
+    assert!(error.starts_with("zero:1: line: longer than 4096 bytes"), "{error}");
 }

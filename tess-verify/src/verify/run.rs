@@ -1,7 +1,7 @@
 //! Compares units and adds up what was compared.
 
 use super::units::VALUES;
-use super::{Plan, Subject, Unit, units};
+use super::{Plan, Subject, Unit, Units};
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::Case;
 use crate::checker::tessellate;
@@ -9,7 +9,7 @@ use crate::compare;
 use crate::core_backend::CoreBackend;
 use crate::names::Named;
 use crate::sequences::bucket;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder, Tessellation};
 
@@ -30,8 +30,8 @@ pub struct Row {
 
 /// Compares everything in the plan's shard.
 ///
-/// Takes one list of backends for each thread that is to be used, all lists naming the same
-/// backends. `progress` is told, from any thread, how many units are done of how many.
+/// Give one list of backends for each thread to use, all lists with the same backends. `progress` is
+/// called from any thread with the subject, the number of units that are done, and the number of all.
 ///
 /// # Errors
 /// A backend that could not run, or no backend at all.
@@ -56,19 +56,20 @@ fn verify_subject(
     subject: Subject,
     progress: &(dyn Fn(Subject, u64, u64) + Sync),
 ) -> Result<Vec<Row>, BackendError> {
-    let mine = (0..).zip(units(subject)).filter(|(i, _)| plan.shard.has(*i));
-    let mine: Vec<Unit> = mine.map(|(_, unit)| unit).collect();
+    let units = Units::of(subject);
+    let mine = plan.shard.items(units.count());
     let names: Vec<&'static str> = workers[0].iter().map(|backend| backend.name()).collect();
     let rows: Vec<Row> = names
         .into_iter()
         .map(|backend| Row { subject, backend, compared: 0, mismatches: 0, first: None })
         .collect();
     let rows = Mutex::new(rows);
-    let (next, done) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let (next, done) = (AtomicU64::new(0), AtomicU64::new(0));
     let work = |backends: &mut Vec<Box<dyn Backend>>| -> Result<(), BackendError> {
-        while let Some(unit) = mine.get(next.fetch_add(1, Ordering::Relaxed)) {
+        let next_unit = || plan.shard.item(next.fetch_add(1, Ordering::Relaxed));
+        while let Some(unit) = next_unit().and_then(|number| units.get(number)) {
             for (column, backend) in backends.iter_mut().enumerate() {
-                let (compared, difference) = compare_unit(backend.as_mut(), unit)?;
+                let (compared, difference) = compare_unit(backend.as_mut(), &unit)?;
                 let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
                 let row = &mut rows[column];
                 row.compared += compared;
@@ -78,7 +79,7 @@ fn verify_subject(
                 }
             }
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress(subject, done as u64, mine.len() as u64);
+            progress(subject, done, mine);
         }
         Ok(())
     };

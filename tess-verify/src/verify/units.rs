@@ -1,70 +1,12 @@
 //! What there is to compare, cut into units.
 
-use crate::case::{Case, factor_bits, factors_from_list};
+use super::subject::{Random, Subject};
+use super::topologies::{interiors, transitions};
+use crate::case::Case;
 use crate::generate::{Level, Selection, configurations, random_patch};
-use crate::names::Named;
 use crate::random::SplitMix64;
 use std::collections::HashSet;
-use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
-
-/// Something that can be compared.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Subject {
-    /// The generated level 1.
-    Level1,
-    /// What the generated level 2 has beyond level 1.
-    Level2,
-    /// All 2^32 binary32 factors, as outer and as inside factor, in every partitioning.
-    Factors,
-    /// All fixed-point factors: contexts and locations, in both parities and split orders.
-    Locations,
-    /// All pairs of an outer and an inside factor, in both split orders.
-    Transitions,
-    /// All pairs of inside factors, and all isolines.
-    Interiors,
-    /// Random patches.
-    Random(Random),
-}
-
-impl Subject {
-    /// Every subject that is finite, the fastest first.
-    pub const ALL: [Self; 6] = [
-        Self::Level1,
-        Self::Transitions,
-        Self::Interiors,
-        Self::Level2,
-        Self::Locations,
-        Self::Factors,
-    ];
-}
-
-impl Named for Subject {
-    const WHAT: &'static str = "subject";
-    const NAMES: &'static [(&'static str, Self)] = &[
-        ("level-1", Self::Level1),
-        ("level-2", Self::Level2),
-        ("factors", Self::Factors),
-        ("locations", Self::Locations),
-        ("transitions", Self::Transitions),
-        ("interiors", Self::Interiors),
-    ];
-
-    fn name(self) -> &'static str {
-        let finite = Self::NAMES.iter().find(|(_, subject)| *subject == self);
-        finite.map_or("random", |(name, _)| name)
-    }
-}
-
-/// Random patches of every configuration: every domain, partitioning, output and split order.
-///
-/// Each unit is drawn from a seed of its own, so that more patches begin with the same ones.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Random {
-    /// How many patches of each configuration.
-    pub patches: u64,
-    /// Seed of all of them.
-    pub seed: u64,
-}
+use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder};
 
 /// Random patches of one configuration, from a seed of their own.
 #[derive(Clone, Copy, Debug)]
@@ -88,6 +30,7 @@ impl RandomUnit {
 
 /// A part of a subject.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Unit {
     /// Whole patches.
     Patches(Vec<Case>),
@@ -113,105 +56,119 @@ pub enum Unit {
 
 /// How many binary32 numbers a unit has.
 pub(super) const VALUES: u32 = 1 << 20;
+/// How many units the binary32 numbers make in one partitioning.
+const VALUE_UNITS: u64 = (1 << 32) / VALUES as u64;
 /// How many patches a unit has at most.
 const PATCHES: usize = 1024;
 /// How many random patches a unit has at most: large batches, as each is one configuration's.
 const RANDOM_PATCHES: u64 = 4096;
 
 /// The units of a subject, always the same in the same order.
-#[must_use]
-pub fn units(subject: Subject) -> Vec<Unit> {
-    match subject {
-        Subject::Level1 => patches(Selection::level(Level::One, 1).cases()),
-        Subject::Level2 => patches(beyond_level_one()),
-        Subject::Factors => values().collect(),
-        Subject::Locations => buckets().collect(),
-        Subject::Transitions => patches(transitions()),
-        Subject::Interiors => patches(interiors()),
-        Subject::Random(random) => random_units(random).collect(),
+///
+/// A unit is made when it is asked for: there may be more than fit into memory.
+#[derive(Clone, Debug)]
+pub struct Units(Source);
+
+#[derive(Clone, Debug)]
+enum Source {
+    Patches(Vec<Case>),
+    Random { random: Random, configurations: Vec<(Domain, Config)> },
+    Values,
+    Buckets(Vec<(SplitOrder, Parity, u32)>),
+}
+
+impl Units {
+    /// The units of `subject`.
+    #[must_use]
+    pub fn of(subject: Subject) -> Self {
+        Self(match subject {
+            Subject::Level1 => Source::Patches(Selection::level(Level::One, 1).cases().collect()),
+            Subject::Level2 => Source::Patches(beyond_level_one().collect()),
+            Subject::Factors => Source::Values,
+            Subject::Locations => Source::Buckets(buckets().collect()),
+            Subject::Transitions => Source::Patches(transitions().collect()),
+            Subject::Interiors => Source::Patches(interiors().collect()),
+            Subject::Random(random) => {
+                Source::Random { random, configurations: configurations().collect() }
+            }
+        })
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        match &self.0 {
+            Source::Patches(cases) => cases.len().div_ceil(PATCHES) as u64,
+            Source::Random { random, configurations } => {
+                random.units() * configurations.len() as u64
+            }
+            Source::Values => Partitioning::ALL.len() as u64 * VALUE_UNITS,
+            Source::Buckets(buckets) => buckets.len() as u64,
+        }
+    }
+
+    /// Unit `number`; `None` if there are not so many.
+    #[must_use]
+    pub fn get(&self, number: u64) -> Option<Unit> {
+        let index = usize::try_from(number).ok()?;
+        match &self.0 {
+            Source::Patches(cases) => {
+                cases.chunks(PATCHES).nth(index).map(|cases| Unit::Patches(cases.to_vec()))
+            }
+            Source::Random { random, configurations } => {
+                let of_each = random.units();
+                let configuration = usize::try_from(number.checked_div(of_each)?).ok()?;
+                let &(domain, config) = configurations.get(configuration)?;
+                Some(Unit::Random(random.unit(domain, config, configuration, number % of_each)))
+            }
+            Source::Values => {
+                let &partitioning =
+                    Partitioning::ALL.get(usize::try_from(number / VALUE_UNITS).ok()?)?;
+                let first = u32::try_from(number % VALUE_UNITS).ok()? * VALUES;
+                Some(Unit::Values { partitioning, first })
+            }
+            Source::Buckets(buckets) => {
+                let &(split, parity, bucket) = buckets.get(index)?;
+                Some(Unit::Bucket { split, parity, bucket })
+            }
+        }
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl Iterator<Item = Unit> {
+        (0..self.count()).filter_map(|number| self.get(number))
     }
 }
 
-fn patches(cases: impl Iterator<Item = Case>) -> Vec<Unit> {
-    let cases: Vec<Case> = cases.collect();
-    cases.chunks(PATCHES).map(|cases| Unit::Patches(cases.to_vec())).collect()
+impl Random {
+    /// How many units the patches of one configuration make.
+    const fn units(self) -> u64 {
+        self.patches.div_ceil(RANDOM_PATCHES)
+    }
+
+    /// Unit `number` of configuration `configuration`: each configuration has a seed drawn from
+    /// this one's, and each of its units a seed drawn from that.
+    fn unit(self, domain: Domain, config: Config, configuration: usize, number: u64) -> RandomUnit {
+        let of_configuration = SplitMix64::after(self.seed, configuration as u64).next_u64();
+        let seed = SplitMix64::after(of_configuration, number).next_u64();
+        let patches = RANDOM_PATCHES.min(self.patches - number * RANDOM_PATCHES);
+        RandomUnit { domain, config, seed, patches }
+    }
 }
 
 /// The cases of level 2, most of which level 1 does not have, without those that it has.
 fn beyond_level_one() -> impl Iterator<Item = Case> {
-    let key = |case: &Case| (case.config, case.domain(), factor_bits(&case.factors));
-    let known: HashSet<_> =
-        Selection::level(Level::One, 1).cases().map(|case| key(&case)).collect();
-    Selection::level(Level::Two, 1).cases().filter(move |case| !known.contains(&key(case)))
+    let known: HashSet<Case> = Selection::level(Level::One, 1).cases().collect();
+    Selection::level(Level::Two, 1).cases().filter(move |case| !known.contains(case))
 }
 
-/// Configuration by configuration.
-fn random_units(random: Random) -> impl Iterator<Item = Unit> {
-    let mut seeds = SplitMix64::new(random.seed);
-    configurations().flat_map(move |(domain, config)| {
-        let mut seeds = SplitMix64::new(seeds.next_u64());
-        (0..random.patches.div_ceil(RANDOM_PATCHES)).map(move |number| {
-            let patches = RANDOM_PATCHES.min(random.patches - number * RANDOM_PATCHES);
-            Unit::Random(RandomUnit { domain, config, seed: seeds.next_u64(), patches })
-        })
-    })
-}
-
-fn values() -> impl Iterator<Item = Unit> {
-    Partitioning::ALL.into_iter().flat_map(|partitioning| {
-        let starts = (0..=u32::MAX).step_by(VALUES as usize);
-        starts.map(move |first| Unit::Values { partitioning, first })
-    })
-}
-
-fn buckets() -> impl Iterator<Item = Unit> {
+fn buckets() -> impl Iterator<Item = (SplitOrder, Parity, u32)> {
     let parities = |split| [Parity::Even, Parity::Odd].map(|parity| (split, parity));
     SplitOrder::ALL.into_iter().flat_map(parities).flat_map(|(split, parity)| {
         let integers = match parity {
             Parity::Even => 2..=64,
             Parity::Odd => 1..=63,
         };
-        integers.map(move |bucket| Unit::Bucket { split, parity, bucket })
+        integers.map(move |bucket| (split, parity, bucket))
     })
-}
-
-/// Integer factors reach every topology (spec section 12.8): a transition depends on the two point
-/// counts alone. Four outer factors at a time, along either axis of a quad; three on a triangle.
-fn transitions() -> impl Iterator<Item = Case> {
-    let pairs = (1..=64u8).flat_map(|inside| (1..=64u8).map(move |outer| (outer, inside)));
-    SplitOrder::ALL.into_iter().flat_map(move |split| {
-        pairs.clone().flat_map(move |(outer, inside)| {
-            let next = outer % 64 + 1;
-            [
-                integer(Domain::Quad, split, &[outer, 2, next, 1, 3, inside]),
-                integer(Domain::Quad, split, &[1, outer, 3, next, inside, 4]),
-                integer(Domain::Triangle, split, &[outer, next, 65 - outer, inside]),
-            ]
-            .into_iter()
-            .flatten()
-        })
-    })
-}
-
-/// Triangles, quads of every two inside factors and isolines of every two factors.
-fn interiors() -> impl Iterator<Item = Case> {
-    let pairs = (1..=64u8).flat_map(|a| (1..=64u8).map(move |b| (a, b)));
-    pairs.flat_map(|(a, b)| {
-        let triangle = integer(Domain::Triangle, SplitOrder::Ruler, &[1, 2, 3, a]);
-        [
-            integer(Domain::Quad, SplitOrder::Ruler, &[1, 2, 3, 4, a, b]),
-            integer(Domain::Isoline, SplitOrder::Ruler, &[a, b]),
-            triangle.filter(|_| b == 1),
-        ]
-        .into_iter()
-        .flatten()
-    })
-}
-
-/// A patch with these integer factors; `None` for a wrong number of them.
-fn integer(domain: Domain, split: SplitOrder, factors: &[u8]) -> Option<Case> {
-    let factors: Vec<f32> = factors.iter().copied().map(f32::from).collect();
-    let output = OutputPrimitive::TriangleCw;
-    let config = Config { partitioning: Partitioning::Integer, output, split };
-    factors_from_list(domain, &factors).map(|factors| Case { config, factors })
 }

@@ -53,9 +53,7 @@ pub fn seed_table() -> Vec<Workload> {
 fn isolines() -> Workload {
     let factors = (1..=64u8).flat_map(|density| (1..=64u8).map(move |detail| (density, detail)));
     let patches = factors
-        .map(|(density, detail)| {
-            PatchFactors::Isoline(IsolineFactors { density: density.into(), detail: detail.into() })
-        })
+        .map(|(density, detail)| IsolineFactors { density, detail }.map(f32::from).into())
         .collect();
     let config = Config::new(Partitioning::Integer, OutputPrimitive::Line);
     Workload::single("seed-table/isolines", config, patches)
@@ -98,8 +96,7 @@ pub fn character() -> Workload {
         .map(|_| {
             let [u0, v0, w0] = std::array::from_fn(|_| power_of_two(3.0 * random.unit()));
             let mean = (u0 + v0 + w0) / 3.0;
-            let [u0, v0, w0, inside] = [u0, v0, w0, mean].map(|factor| factor as f32);
-            PatchFactors::Triangle(TriangleFactors { u0, v0, w0, inside })
+            TriangleFactors { u0, v0, w0, inside: mean }.map(|factor| factor as f32).into()
         })
         .collect();
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
@@ -117,8 +114,8 @@ pub fn worst() -> Workload {
     Workload::batch("worst", config, patches)
 }
 
-fn quad([u0, v0, u1, v1, inside_u, inside_v]: [f32; 6]) -> PatchFactors {
-    PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
+fn quad(factors: [f32; 6]) -> PatchFactors {
+    QuadFactors::from(factors).into()
 }
 
 /// 2^x for x >= 0, out of square roots, as library powers differ between machines.

@@ -1,5 +1,6 @@
 //! What the pictures share: a batch tessellated and drawn by one command buffer, and its pixels.
 
+use std::error::Error;
 use tess_gpu::Setup;
 use tess_gpu::layout::Status;
 use tess_wgpu::{Gpu, Outputs, Tessellator};
@@ -38,23 +39,22 @@ pub(crate) struct Scene<'a> {
 /// are RGBA, row by row.
 ///
 /// # Errors
-/// A message if the device was lost, or there was too little room for points or indices.
+/// If the device was lost, or there was too little room for points or indices.
 pub(crate) fn render(
     gpu: &Gpu,
     mut encoder: wgpu::CommandEncoder,
     scene: &Scene<'_>,
-) -> Result<Vec<u8>, String> {
+) -> Result<Vec<u8>, Box<dyn Error>> {
     let [point_bytes, index_bytes] = scene.room;
-    let points = gpu.buffer("points", point_bytes, Usage::STORAGE | Usage::VERTEX);
-    let indices = gpu.buffer("indices", index_bytes, Usage::STORAGE | Usage::INDEX);
+    let points = gpu.buffer("points", point_bytes, Usage::STORAGE | Usage::VERTEX)?;
+    let indices = gpu.buffer("indices", index_bytes, Usage::STORAGE | Usage::INDEX)?;
     let outputs = Outputs::Buffers { points: &points, indices: &indices };
-    let batch = Tessellator::new(&gpu.device)
-        .batch(scene.setup, scene.patches, scene.factors, outputs)
-        .map_err(|error| error.to_string())?;
+    let batch =
+        Tessellator::new(&gpu.device).batch(scene.setup, scene.patches, scene.factors, outputs)?;
     let color = texture(gpu, COLOR, wgpu::TextureUsages::COPY_SRC);
     let depth = texture(gpu, DEPTH, wgpu::TextureUsages::empty());
     let pixels =
-        gpu.buffer("pixels", u64::from(4 * WIDTH * HEIGHT), Usage::COPY_DST | Usage::COPY_SRC);
+        gpu.buffer("pixels", u64::from(4 * WIDTH * HEIGHT), Usage::COPY_DST | Usage::COPY_SRC)?;
     let pipeline = render_pipeline(gpu, scene);
 
     batch.encode(&mut encoder);
@@ -73,9 +73,9 @@ pub(crate) fn render(
     gpu.run(encoder)?;
     let status = gpu.read(batch.status(), size_of::<Status>() as u64)?;
     if !bytemuck::pod_read_unaligned::<Status>(&status).fits() {
-        return Err(format!("the output does not fit {point_bytes} and {index_bytes} bytes"));
+        return Err(format!("the output does not fit {point_bytes} and {index_bytes} bytes").into());
     }
-    gpu.read(&pixels, pixels.size())
+    Ok(gpu.read(&pixels, pixels.size())?)
 }
 
 /// A shader module of WGSL text.

@@ -7,6 +7,7 @@ pub(crate) mod picture;
 
 use glam::Vec3;
 use picture::Scene;
+use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::Setup;
 use tess_gpu::layout::factor_words;
@@ -46,10 +47,10 @@ pub(crate) fn source() -> String {
 }
 
 /// Renders the teapot. The pixels are RGBA, row by row.
-pub(crate) fn render(gpu: &Gpu) -> Result<Vec<u8>, String> {
-    let words = factor_words(&factors().map_err(|error| error.to_string())?);
-    let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE);
-    let nets = gpu.upload("nets", bytemuck::cast_slice(&nets()), Usage::STORAGE);
+pub(crate) fn render(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn Error>> {
+    let words = factor_words(&factors()?);
+    let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)?;
+    let nets = gpu.upload("nets", bytemuck::cast_slice(&nets()), Usage::STORAGE)?;
     let scene = Scene {
         setup: setup(),
         patches: PATCHES,

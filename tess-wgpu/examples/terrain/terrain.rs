@@ -8,6 +8,7 @@ pub(crate) mod picture;
 
 use compute::encode_compute;
 use picture::Scene;
+use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::Setup;
 use tess_wgpu::Gpu;
@@ -22,9 +23,9 @@ const DRAW: &str = include_str!("draw.wgsl");
 const GRID: u32 = 32;
 
 /// Renders the terrain; `wrong_patch` gets one wrong edge factor. The pixels are RGBA, row by row.
-pub(crate) fn render(gpu: &Gpu, wrong_patch: Option<u32>) -> Result<Vec<u8>, String> {
-    let edges = gpu.buffer("edges", 2 * 4 * u64::from(GRID * (GRID + 1)), Usage::STORAGE);
-    let factors = gpu.buffer("factors", 24 * u64::from(GRID * GRID), Usage::STORAGE);
+pub(crate) fn render(gpu: &Gpu, wrong_patch: Option<u32>) -> Result<Vec<u8>, Box<dyn Error>> {
+    let edges = gpu.buffer("edges", 2 * 4 * u64::from(GRID * (GRID + 1)), Usage::STORAGE)?;
+    let factors = gpu.buffer("factors", 24 * u64::from(GRID * GRID), Usage::STORAGE)?;
     let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
     let scene = Scene {
         setup: Setup::new(Domain::Quad, config),

@@ -2,8 +2,8 @@
 
 use super::expected::Expected;
 use tess_core::PatchFactors;
-use tess_gpu::Setup;
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
+use tess_gpu::{Limits, Setup, Stage};
 use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 
@@ -36,10 +36,29 @@ impl Machine {
         Self { gpu, tessellator }
     }
 
+    /// Replaces a text of the shaders, which at least one must have.
+    pub(crate) fn plant(&mut self, setup: Setup, right: &'static str, wrong: &'static str) {
+        let sources = Stage::ALL.map(|stage| stage.source(setup));
+        assert!(sources.iter().any(|source| source.contains(right)), "{right} is in no shader");
+        let edit = move |_, source: String| source.replace(right, wrong);
+        self.tessellator = Tessellator::with_edit(&self.gpu.device, edit);
+    }
+
+    /// Makes the pipelines anew, without faults and with these limits.
+    pub(crate) fn limit(&mut self, limits: Limits) {
+        self.tessellator = Tessellator::new(&self.gpu.device).limited(limits);
+    }
+
     /// A buffer of factors.
     pub(crate) fn factors(&self, patches: &[PatchFactors]) -> wgpu::Buffer {
         let words = factor_words(patches);
-        self.gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)
+        self.upload(&words, Usage::STORAGE)
+    }
+
+    /// A buffer of these words.
+    pub(crate) fn upload(&self, words: &[u32], usage: Usage) -> wgpu::Buffer {
+        let bytes = bytemuck::cast_slice(words);
+        self.gpu.upload("a test's words", bytes, usage).expect("the device has room")
     }
 
     /// Submits a batch and waits.
@@ -72,12 +91,9 @@ impl Machine {
     ) -> Written {
         let factors = self.factors(patches);
         let usage = Usage::STORAGE | Usage::COPY_SRC;
-        let poisoned = |label, words: u32| {
-            let poison = vec![POISON; words as usize];
-            self.gpu.upload(label, bytemuck::cast_slice(&poison), usage)
-        };
-        let points = poisoned("points", point_words);
-        let indices = poisoned("indices", index_words);
+        let poisoned = |words: u32| self.upload(&vec![POISON; words as usize], usage);
+        let points = poisoned(point_words);
+        let indices = poisoned(index_words);
         let outputs = Outputs::Buffers { points: &points, indices: &indices };
         let count = u32::try_from(patches.len()).expect("a test's patches");
         let batch = self.tessellator.batch(setup, count, &factors, outputs).expect("buffers fit");

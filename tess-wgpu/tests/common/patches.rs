@@ -1,10 +1,10 @@
 //! Patches to test with.
 
 use tess_core::{Domain, PatchFactors};
-use tess_verify::generate::{patch_of, random_factor};
+use tess_verify::generate::random_factor;
 use tess_verify::random::SplitMix64;
 
 /// Random patches, boundary values, culled and degenerate ones included.
 pub(crate) fn random(domain: Domain, count: u32, random: &mut SplitMix64) -> Vec<PatchFactors> {
-    (0..count).map(|_| patch_of(domain, |_| random_factor(random))).collect()
+    (0..count).map(|_| PatchFactors::from_fn(domain, |_| random_factor(random))).collect()
 }

@@ -86,13 +86,13 @@ impl<'a> Bench<'a> {
             totals,
             repeats,
             digest: workload.digest(),
-            factors: gpu.upload("factors", bytemuck::cast_slice(&words), usage),
-            points: gpu.buffer("points", 8 * totals.points * repeats, usage),
+            factors: gpu.upload("factors", bytemuck::cast_slice(&words), usage)?,
+            points: gpu.buffer("points", 8 * totals.points * repeats, usage)?,
             indices: gpu.buffer(
                 "indices",
                 (4 * totals.indices * repeats).next_multiple_of(8),
                 usage,
-            ),
+            )?,
         })
     }
 

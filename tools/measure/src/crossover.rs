@@ -69,9 +69,9 @@ fn on_gpu(
     });
     let usage = wgpu::BufferUsages::STORAGE;
     let words = factor_words(patches);
-    let factors = gpu.upload("factors", bytemuck::cast_slice(&words), usage);
-    let points = gpu.buffer("points", 8 * points, usage);
-    let indices = gpu.buffer("indices", (4 * indices).next_multiple_of(8), usage);
+    let factors = gpu.upload("factors", bytemuck::cast_slice(&words), usage)?;
+    let points = gpu.buffer("points", 8 * points, usage)?;
+    let indices = gpu.buffer("indices", (4 * indices).next_multiple_of(8), usage)?;
     let outputs = Outputs::Buffers { points: &points, indices: &indices };
     let mut tessellator = Tessellator::new(&gpu.device);
     let batch = tessellator.batch(setup, u32::try_from(count)?, &factors, outputs)?;

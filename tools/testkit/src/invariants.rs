@@ -16,7 +16,7 @@ use tess_core::{
     Config, Domain, FactorContext, OutputPrimitive, Parity, Partitioning, Patch, PatchFactors,
     ProcessedFactor, ProcessedPatch, Tessellation,
 };
-use tess_verify::case::{Case, factor_list};
+use tess_verify::case::Case;
 use tess_verify::names::Named;
 
 /// An invariant does not hold.
@@ -171,13 +171,11 @@ pub fn winding(cw: &Tessellation, ccw: &Tessellation) -> Result<(), Violation> {
 /// The first index that is not.
 pub fn separability(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     let ProcessedPatch::Regular(factors) = *case.patch().processed() else { return Ok(()) };
-    let integers: Vec<f32> = factor_list(&factors).iter().map(|f| integer(&f.context)).collect();
-    let integers = tess_verify::case::factors_from_list(case.domain(), &integers);
+    let integers = factors.map(|factor| integer(&factor.context));
     let config = Config { partitioning: Partitioning::Integer, ..case.config };
-    let expected = integers.map(|factors| Patch::new(config, factors).tessellate().indices);
-    let equal = expected.as_ref() == Some(&output.indices);
+    let expected = Patch::new(config, integers).tessellate().indices;
+    let equal = expected == output.indices;
     ensure(equal, "separability", || {
-        let expected = expected.unwrap_or_default();
         let at = expected.iter().zip(&output.indices).position(|(a, b)| a != b);
         let name = case.domain().name();
         format!("{name}: indices differ from those of integer factors, first at {at:?}")

@@ -2,12 +2,14 @@
 
 use std::fs::read_to_string;
 use std::sync::atomic::Ordering;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::backend::Backend;
-use tess_verify::checker::{CheckError, MAX_DIFFERENCES, Report, check};
+use tess_verify::case::Case;
+use tess_verify::checker::{CheckError, MAX_DIFFERENCES, Report, Tested, check, check_device};
 use tess_verify::compare::{Element, Stage};
 use tess_verify::core_backend::CoreBackend;
-use tess_verify::strength::Strength;
+use tess_verify::strength::{Conversion, Order, Strength};
 use tess_verify::vectors::VectorFile;
 
 /// Rows of a golden file as a file of its own; of listings, all.
@@ -28,7 +30,7 @@ fn excerpt(name: &str, keep: impl Fn(usize, &str) -> bool) -> String {
 }
 
 fn run(text: &str, backends: &mut [Box<dyn Backend>]) -> Result<Report, CheckError> {
-    check(VectorFile::new("excerpt", text.as_bytes())?, backends, Strength::default(), &|_| ())
+    check(VectorFile::new("excerpt", text.as_bytes())?, backends, Tested::Backend, &|_| ())
 }
 
 /// Checks `text` with a faulty backend; fails if the fault was not committed.
@@ -54,7 +56,7 @@ fn looks_like(fault: Fault, element: &Element, stage: Stage) -> bool {
             matches!(element, Element::Point { coordinate: "v", .. }) && stage == Stage::Location
         }
         Fault::SwappedPoints => (first("u") || first("v")) && stage == Stage::PointOrder,
-        Fault::DroppedPoint | Fault::ExtraPoint | Fault::EmptyPatch => {
+        Fault::DroppedPoint | Fault::ExtraPoint | Fault::StrayPoint | Fault::EmptyPatch => {
             *element == Element::Count("points") && stage == Stage::Counts
         }
         Fault::SwappedIndices => {
@@ -197,18 +199,45 @@ fn wrong_records() {
     }
 }
 
-/// Listings of a device are what was observed; elsewhere the file is right.
+/// A device's faults are seen in any order too: none of them is one of order alone.
 #[test]
-fn listings_of_a_device() {
+fn faults_of_devices_in_any_order() {
+    let any = Strength { order: Order::Any, ..Strength::default() };
+    let within = Strength { conversion: Conversion::Within06Ulp, ..any };
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    let factors = [2.5, 3.0, 7.5, 5.0].map(|factor| {
+        PatchFactors::from_fn(Domain::Quad, |position| if position == 2 { 4.25 } else { factor })
+    });
+    for fault in Fault::OF_PATCHES {
+        let mut device = Faulty::new(CoreBackend, fault, 0);
+        let outputs = device.tessellate(config, &factors).expect("the model");
+        let answers = || {
+            let cases = factors.iter().map(|&factors| Case { config, factors });
+            cases.zip(outputs.iter().cloned()).collect::<Vec<_>>()
+        };
+        let expected = u64::from(fault != Fault::ShortAnswer); // one answer less, none wrong
+        for strength in [any, within] {
+            let report = check_device(answers(), strength);
+            assert_eq!(report.mismatches, expected, "{fault:?} in {strength:?}");
+        }
+    }
+}
+
+/// Whoever made a file, what is tested is said to the checker.
+#[test]
+fn either_side_of_listings_can_be_tested() {
     let text = excerpt("cases.txt", |_, _| true);
     let damaged = text.replacen("\n0 1 10\n", "\n0 1 11\n", 1);
-    let shown = |text: &str| run_core(text).differences[0].mismatch.to_string();
+    let shown = |tested: Tested| {
+        let file = VectorFile::new("excerpt", damaged.as_bytes()).expect("a header");
+        let report = check(file, &mut [Box::new(CoreBackend)], tested, &|_| ());
+        report.expect("a verdict").differences[0].mismatch.to_string()
+    };
     let index = "index 2 of primitive 0";
     let expected = format!("{index}: observed 0xa, expected 0xb (stage: stitch)");
-    assert_eq!(shown(&damaged), expected, "a recording");
-    let device = damaged.replacen("source=d3d11-reference", "source=rtl", 1);
+    assert_eq!(shown(Tested::Backend), expected, "a recording");
     let expected = format!("{index}: observed 0xb, expected 0xa (stage: stitch)");
-    assert_eq!(shown(&device), expected, "a device");
+    assert_eq!(shown(Tested::Listings(Strength::default())), expected, "a device");
 }
 
 /// The first differences are shown, all are counted, and the number of threads changes nothing.

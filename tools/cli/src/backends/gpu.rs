@@ -41,7 +41,7 @@ impl GpuBackend {
     ) -> Result<Vec<u32>, BackendError> {
         let config = Config { split, ..Config::new(partitioning, OutputPrimitive::Point) };
         let setup = Setup::new(Domain::Triangle, config);
-        self.tessellator.probe(&self.gpu, probe, setup, input).map_err(BackendError::new)
+        self.tessellator.probe(&self.gpu, probe, setup, input).map_err(device_error)
     }
 }
 
@@ -71,7 +71,7 @@ impl Backend for GpuBackend {
         let Some(first) = patches.first() else { return Ok(Vec::new()) };
         let setup = setup_of(first.domain(), config, self.index_type);
         let output = self.tessellator.tessellate(&self.gpu, setup, patches);
-        split_by_patch(&output.map_err(BackendError::new)?, setup)
+        split_by_patch(&output.map_err(device_error)?, setup)
     }
 
     fn fixed_factors(
@@ -106,6 +106,12 @@ impl Backend for GpuBackend {
             .flat_map(|(all, context)| all.iter().copied().take(context.points as usize))
             .collect())
     }
+}
+
+/// What tess-wgpu says, as an error of the backend.
+#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
+pub(crate) fn device_error(error: tess_wgpu::Error) -> BackendError {
+    BackendError::new(error.to_string())
 }
 
 /// The patches of a batch, one after another, as the specification numbers them.

@@ -6,8 +6,7 @@ use super::simd::Simd;
 use tess_simd::Level;
 use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::backend::Backend;
-use tess_verify::checker;
-use tess_verify::strength::Strength;
+use tess_verify::checker::{self, Tested};
 use tess_verify::vectors::VectorFile;
 #[cfg(feature = "gpu")]
 use tess_verify::workloads::IndexType;
@@ -20,7 +19,7 @@ fn narrow_indices_that_differ() {
     for backend in &mut faulty() {
         let file = VectorFile::new("cases.txt", recorded.as_bytes()).expect("a vector file");
         let one = std::slice::from_mut(backend);
-        let report = checker::check(file, one, Strength::default(), &|_| {}).expect("a verdict");
+        let report = checker::check(file, one, Tested::Backend, &|_| {}).expect("a verdict");
         assert_eq!((report.cases, report.mismatches), (51, 1), "{}", backend.device());
     }
 }

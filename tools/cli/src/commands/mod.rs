@@ -9,6 +9,9 @@ mod mesh;
 mod patch;
 mod verify;
 
+#[cfg(feature = "fuzzing")]
+pub use mesh::fuzzing;
+
 use crate::failure::{Exit, Failure};
 use clap::Subcommand;
 

@@ -28,7 +28,7 @@ pub(super) fn disc_radii(points: &[Position]) -> Vec<f64> {
 /// The radius of a number's disc and the height of its digits, if the disc can hold it.
 pub(super) fn in_disc(number: u32, radius: f64) -> Option<(f64, f64)> {
     // Digits fit if their diagonal is a diameter; two digits at least, so that discs are alike.
-    let diagonal_per_height = number_width(number.max(10), 1.0).hypot(1.0);
+    let diagonal_per_height = libm::hypot(number_width(number.max(10), 1.0), 1.0);
     let height = (1.7 * radius / diagonal_per_height).min(LARGEST);
     let needed = (height * diagonal_per_height / 1.7).max(6.0).min(radius);
     (height >= SMALLEST).then_some((needed, height))
@@ -41,7 +41,7 @@ pub(super) fn in_primitive(number: u32, corners: &[Position]) -> Option<(Positio
         [a, b, c] => incircle(*a, *b, *c)?,
         _ => return None,
     };
-    let height = (1.8 * room / number_width(number, 1.0).hypot(1.0)).min(LARGEST);
+    let height = (1.8 * room / libm::hypot(number_width(number, 1.0), 1.0)).min(LARGEST);
     (height >= SMALLEST).then_some((centre, height))
 }
 
@@ -58,7 +58,7 @@ fn middle(a: Position, b: Position) -> Position {
 }
 
 fn distance(a: Position, b: Position) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
+    libm::hypot(a[0] - b[0], a[1] - b[1])
 }
 
 /// Centre and radius; `None` for a triangle without an inside.

@@ -1,17 +1,15 @@
 //! What factor processing decided, and why (spec section 3).
 
 use super::factors::named;
-use super::processed;
 use tess_core::{
     Domain, FixedFactor, Parity, Partitioning, Patch, PatchFactors, ProcessedFactor, ProcessedPatch,
 };
-use tess_verify::case::outer_count;
 use tess_verify::names::Named;
 
 /// One sentence for each decision, in the order of the specification's steps.
 pub(super) fn decisions(patch: &Patch, raw: &PatchFactors) -> Vec<String> {
     let mut sentences = vec![cull(raw)];
-    if let Some(processed) = processed(patch) {
+    if let Some(processed) = patch.processed().factors() {
         let partitioning = patch.config().partitioning;
         sentences.extend(clamping(raw, processed, partitioning));
         sentences.extend(picture_frame(raw, partitioning));
@@ -24,7 +22,7 @@ pub(super) fn decisions(patch: &Patch, raw: &PatchFactors) -> Vec<String> {
 
 fn cull(raw: &PatchFactors) -> String {
     let all = named(raw);
-    match all[..outer_count(raw.domain())]
+    match all[..raw.domain().outer_factors()]
         .iter()
         .find(|(_, factor)| !matches!(factor, x if *x > 0.0))
     {

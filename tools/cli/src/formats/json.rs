@@ -2,7 +2,6 @@
 
 use super::OnePatch;
 use serde::Serialize;
-use tess_verify::case::{factor_list, factor_names};
 use tess_verify::names::Named;
 
 #[derive(Serialize)]
@@ -36,7 +35,7 @@ struct Point {
 
 pub(super) fn render(patch: &OnePatch) -> String {
     let case = patch.case();
-    let named = factor_names(case.domain()).iter().zip(factor_list(&case.factors));
+    let named = case.domain().factor_names().iter().zip(case.factors.iter());
     let factor = |(name, value): (&&'static str, f32)| Factor { name, bits: hex(value), value };
     let document = Document {
         domain: case.domain().name(),

@@ -65,3 +65,31 @@ fn memory_images_and_coverage() {
     assert_eq!(tess("gen --level 4").code, Some(2), "no such level");
     assert_eq!(tess("gen --format readmemh").code, Some(2), "images need a folder");
 }
+
+/// The first line notes every option that the cases depend on, so that it makes the file again.
+#[test]
+fn headers_say_how_a_file_is_made() {
+    let options = "--level 3 --seed 7 --count 40 --domain tri --partitioning pow2 --shard 2/3";
+    let run = tess(&format!("gen {options}"));
+    let header = run.stdout.lines().next().expect("a header");
+    let notes = "source=tess-core level=3 seed=7 random=40 domain=tri partitioning=pow2 shard=2/3";
+    assert_eq!(header, format!("# tess-vectors 1 kind=patches count=13 {notes}"), "{options}");
+    let noted: Vec<String> = header
+        .split(' ')
+        .skip(6)
+        .map(|note| format!("--{}", note.replace("random", "count").replacen('=', " ", 1)))
+        .collect();
+    assert_eq!(tess(&format!("gen {}", noted.join(" "))).stdout, run.stdout, "the same again");
+    let header = tess("gen --level 3 --count 1").stdout;
+    assert!(header.contains(" random=1\n"), "no other option: {header}");
+}
+
+/// A shard without cases is no error, as of `tess verify`: the others have them.
+#[test]
+fn a_shard_without_cases() {
+    let run = tess("gen --level 3 --count 2 --shard 5/9");
+    assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "nothing is written");
+    assert_eq!(run.stderr, "tess: no case in shard 5/9: nothing is written\n", "but that is said");
+    assert_eq!(tess("gen --level 3 --count 0 --shard 5/9").code, Some(2), "no shard has any");
+    assert_eq!(tess("gen --level 3 --count 0").code, Some(2), "no case at all");
+}

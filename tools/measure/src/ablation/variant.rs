@@ -49,3 +49,23 @@ fn parse(text: &str) -> Option<Vec<(String, String)>> {
     }
     Some(edits)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+    use tess_gpu::{Setup, Stage};
+
+    /// The edits of this crate still find what they replace.
+    #[test]
+    fn edits_are_of_the_shaders() {
+        let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+        let sources = Stage::ALL.map(|stage| stage.source(Setup::new(Domain::Quad, config)));
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/edits");
+        let variants = Variant::read_all(folder.as_ref()).expect("edits");
+        assert!(variants.len() > 5, "{} variants", variants.len());
+        for variant in &variants {
+            assert_eq!(variant.missing(&sources), None, "{}", variant.name);
+        }
+    }
+}

@@ -3,10 +3,10 @@
 use super::{Violation, ensure, symmetry};
 use tess_core::fixed_point::ONE;
 use tess_core::{
-    Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Patch, PatchFactors,
-    ProcessedPatch, Tessellation,
+    Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Patch, ProcessedPatch,
+    Tessellation,
 };
-use tess_verify::case::{Case, factor_list, factor_names, outer_count};
+use tess_verify::case::Case;
 
 /// 12.5: the points on an outer edge are those of that edge's factor, whatever the other factors
 /// and whichever edge it is, and one minus themselves walked from the other side.
@@ -25,9 +25,8 @@ pub fn crack_free(case: &Case, output: &Tessellation) -> Result<(), Violation> {
     if domain == Domain::Isoline {
         return Ok(());
     }
-    let raw = factor_list(&case.factors);
-    let expected: Vec<_> =
-        raw[..outer_count(domain)].iter().map(|&factor| locations(case.config, factor)).collect();
+    let edge_locations = |factor| locations(case.config, factor);
+    let expected: Vec<_> = case.factors.outer().map(edge_locations).collect();
     let boundary = expected.iter().map(|edge| edge.len() - 1).sum();
     let few = || format!("{} points, fewer than the outer edges have", output.points.len());
     ensure(output.points.len() >= boundary, "crack-free", few)?;
@@ -41,7 +40,7 @@ pub fn crack_free(case: &Case, output: &Tessellation) -> Result<(), Violation> {
         let points = &ring[first..first + expected.len()];
         first += expected.len() - 1;
         let found: Option<Vec<u32>> = points.iter().map(|&p| along(domain, edge, p)).collect();
-        let name = factor_names(domain)[edge];
+        let name = domain.factor_names()[edge];
         ensure(found.as_ref() == Some(expected), "crack-free", || {
             format!("edge {name} has {points:x?}, its factor alone gives {expected:x?}")
         })?;
@@ -54,7 +53,7 @@ pub fn crack_free(case: &Case, output: &Tessellation) -> Result<(), Violation> {
 fn locations(config: Config, factor: f32) -> Vec<u32> {
     let config = Config { output: OutputPrimitive::Point, ..config };
     let factors = IsolineFactors { density: 1.0, detail: factor };
-    let line = Patch::new(config, PatchFactors::Isoline(factors)).tessellate();
+    let line = Patch::new(config, factors).tessellate();
     line.points.iter().map(|point| point.u.to_bits()).collect()
 }
 

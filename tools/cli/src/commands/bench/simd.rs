@@ -1,6 +1,5 @@
 //! The SIMD backend under the clock: points as binary32 pairs, into the caller's buffers.
 
-use super::measure::total;
 use super::parts::parts;
 use super::runner::{Amount, Runner, RunnerOptions, WorkingSet};
 use crate::backends::simd::Patches;
@@ -174,7 +173,7 @@ impl<I: Index> Runner for SimdRunner<I> {
                 std::iter::once(0..batches.len()).collect()
             }
         };
-        let amount = |part: &Range<usize>| total(batches[part.clone()].iter().map(|b| b.amount));
+        let amount = |part: &Range<usize>| batches[part.clone()].iter().map(|b| b.amount).sum();
         let amounts = parts.iter().map(amount).collect();
         let largest = |end: fn(&Batch) -> usize| batches.iter().map(end).max().unwrap_or(0);
         // Not zeros, which would leave the memory to be mapped under the clock.

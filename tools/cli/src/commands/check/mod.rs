@@ -2,20 +2,19 @@
 
 mod strength;
 
-use crate::backends::{BackendArgs, BackendName};
+use crate::backends::{BackendName, BackendOptions};
 use crate::explanation::{PointReport, PrimitiveReport};
 use crate::failure::{Exit, Failure};
-use crate::output::{progress, stdout};
+use crate::output::{progress, stdout, stop_when_reader_leaves};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 use std::thread::available_parallelism;
 use strength::StrengthArgs;
 use tess_verify::backend::Backend;
-use tess_verify::checker::{self, CheckError, Difference, Report};
+use tess_verify::checker::{self, CheckError, Difference, Report, Tested};
 use tess_verify::compare::Element;
-use tess_verify::vectors::{Kind, VectorFile};
-use tess_verify::workloads::IndexType;
+use tess_verify::vectors::VectorFile;
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
@@ -24,8 +23,9 @@ The first differences and a summary line go to stdout. Each difference shows the
 wrong element, what was observed and what is right there in hex, the stage of the specification
 that it points to, and commands that show it again.
 
-In a file of listings whose source (in its first line) is neither d3d11-reference... nor tess...,
-the listings are what a device under test gave; everywhere else the file is right.
+What is tested: with --backend, that backend, and the file is right. Without it, a file of listings
+is what a device under test gave, and the model is right; in a file of any other kind the model is
+tested. Nothing in the file decides this, its source least of all.
 
 A device's listings are compared in a strength: --order, --points, --conversion and --denormals say
 which freedom of the public specification counts as equal (docs/verification.md).
@@ -42,8 +42,11 @@ pub(crate) struct Args {
     /// Vector file; - is stdin
     #[arg(value_name = "FILE")]
     file: PathBuf,
+    /// Backend to test; without it, a device's listings, or the model
+    #[arg(long, value_name = "NAME")]
+    backend: Option<BackendName>,
     #[command(flatten)]
-    backend: BackendArgs,
+    options: BackendOptions,
     #[command(flatten)]
     strength: StrengthArgs,
 }
@@ -53,41 +56,35 @@ pub(crate) struct Args {
 /// # Errors
 /// Malformed, short or empty input; a backend that is not available.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
-    let mut backends = backends(&args.backend)?;
+    let mut backends = backends(args)?;
     let name =
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
-    let file = VectorFile::new(name, open(&args.file)?).map_err(|e| failure(e.into()))?;
-    let strength = args.strength.of(file.header())?;
-    if file.header().kind == Kind::Listings && file.header().is_from_device() {
-        device_has_no_index_type(args)?;
-    }
+    let file = VectorFile::new(&name, open(&args.file)?).map_err(|e| failure(e.into()))?;
+    let tested = args.strength.tested(file.header().kind, args.backend)?;
+    stop_when_reader_leaves();
     let bar = progress(file.header().count, "records");
-    let report = checker::check(file, &mut backends, strength, &|records| bar.inc(records));
+    let report = checker::check(file, &mut backends, tested, &|records| bar.inc(records));
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
     let backend = backends.first().map_or("core", |backend| backend.name());
-    let backend = args.backend.options.words(backend);
-    show(&report, &backend).map_err(|error| Failure::file("write", Path::new("-"), &error))?;
+    let sides = match tested {
+        Tested::Listings(_) => format!("tested: {name}; right: the model"),
+        _ => format!("tested: the backend {backend}; right: {name}"),
+    };
+    let backend = args.options.words(backend);
+    show(&report, &sides, &backend).map_err(|error| Failure::write(Path::new("-"), error))?;
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
 }
 
 /// One backend for each thread: the model runs on every core, the others use them by themselves.
-fn backends(args: &BackendArgs) -> Result<Vec<Box<dyn Backend>>, Failure> {
-    let threads = match args.backend {
+fn backends(args: &Args) -> Result<Vec<Box<dyn Backend>>, Failure> {
+    let name = args.backend.unwrap_or(BackendName::Core);
+    args.options.fit(&[name])?;
+    let threads = match name {
         BackendName::Core => available_parallelism().map_or(1, usize::from),
         BackendName::Simd | BackendName::Gpu => 1,
     };
-    (0..threads).map(|_| args.select()).collect()
-}
-
-/// What a device gave is tested then, not the backend that it is compared with.
-fn device_has_no_index_type(args: &Args) -> Result<(), Failure> {
-    match args.backend.options.index_type {
-        IndexType::U32 => Ok(()),
-        IndexType::U16 => Err(Failure::bad_input(
-            "--index-type is for a backend under test; in this file a device's listings are tested",
-        )),
-    }
+    (0..threads).map(|_| args.options.select(name)).collect()
 }
 
 fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
@@ -98,8 +95,11 @@ fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
     Ok(Box::new(BufReader::new(file)))
 }
 
-fn show(report: &Report, backend: &str) -> io::Result<()> {
-    let mut out = stdout();
+fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
+    let mut out = stdout()?;
+    if report.mismatches > 0 {
+        writeln!(out, "{sides}")?;
+    }
     for difference in &report.differences {
         writeln!(out, "{difference}")?;
         for line in model_values(difference).lines() {
@@ -135,7 +135,7 @@ fn model_values(difference: &Difference) -> String {
 
 fn failure(error: CheckError) -> Failure {
     match error {
-        CheckError::Vectors(error) => Failure::bad_input(error.to_string()),
         CheckError::Backend(error) => error.into(),
+        error => Failure::bad_input(error.to_string()),
     }
 }

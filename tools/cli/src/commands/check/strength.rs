@@ -1,9 +1,12 @@
 //! The options that say what counts as equal in a device's listings.
 
+use crate::backends::BackendName;
 use crate::failure::Failure;
 use clap::ValueEnum;
+use tess_verify::checker::Tested;
+use tess_verify::names::Named;
 use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
-use tess_verify::vectors::{Header, Kind};
+use tess_verify::vectors::Kind;
 
 /// The strength of a comparison with a device under test (spec section 13).
 #[derive(Clone, Debug, clap::Args)]
@@ -52,20 +55,28 @@ enum DenormalsName {
 }
 
 impl StrengthArgs {
-    /// The strength for a file with this header.
+    /// What is tested with a file of this kind and a backend, if one was asked for.
     ///
     /// # Errors
-    /// A weaker strength than identity for results that are not a device's.
-    pub(crate) fn of(&self, header: &Header) -> Result<Strength, Failure> {
+    /// A weaker strength than identity where no device is tested.
+    pub(super) fn tested(
+        &self,
+        kind: Kind,
+        backend: Option<BackendName>,
+    ) -> Result<Tested, Failure> {
         let strength = self.strength();
-        let from_device = header.kind == Kind::Listings && header.is_from_device();
-        if strength.is_strictest() || from_device {
-            return Ok(strength);
+        if kind == Kind::Listings && backend.is_none() {
+            return Ok(Tested::Listings(strength));
         }
+        if strength.is_strictest() {
+            return Ok(Tested::Backend);
+        }
+        let why = match backend {
+            Some(_) => "leave out --backend, which is what is tested otherwise".to_owned(),
+            None => format!("this file has no listings, its kind is {}", kind.name()),
+        };
         Err(Failure::bad_input(format!(
-            "--order, --points, --conversion and --denormals are for the listings of a device; \
-             this file's results come from {}, and every backend must equal them exactly",
-            header.source
+            "--order, --points, --conversion and --denormals are for the listings of a device: {why}"
         )))
     }
 

@@ -2,15 +2,17 @@
 
 use crate::args::{name_of, shard};
 use crate::failure::{Exit, Failure};
-use crate::output::OutputArgs;
+use crate::output::{NewFolder, OutputArgs, note, progress, stop_when_reader_leaves};
 use clap::ValueEnum;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use indicatif::ProgressBar;
+use std::fs::File;
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 use tess_core::{Domain, Partitioning};
 use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
 use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::names::Named;
 use tess_verify::readmemh;
 use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
 
@@ -49,7 +51,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", default_value = "csv")]
     format: Format,
     /// Instead of vectors, report which coverage bins they hit
-    #[arg(long)]
+    #[arg(long, conflicts_with = "format")]
     coverage: bool,
     #[command(flatten)]
     output: OutputArgs,
@@ -70,25 +72,34 @@ enum Format {
 /// # Errors
 /// A selection without any case; an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
-    let count = args.cases().count() as u64;
+    let all = args.all();
+    let count = args.shard.items(all);
+    if count == 0 && all > 0 {
+        let (part, of) = (args.shard.part + 1, args.shard.of);
+        note(&format!("no case in shard {part}/{of}: nothing is written"));
+        return Ok(Exit::Done);
+    }
     if count == 0 {
         return Err(Failure::bad_input(
-            "these arguments select no case; give --level 1 or 2, a --count, or a larger shard",
+            "these arguments select no case; give --level 1 or 2, or a --count",
         ));
     }
     let header = args.header(count);
-    match args.format {
-        _ if args.coverage => args.output.stream(|out| report(out, args.cases()))?,
-        Format::Csv => args.output.stream(|out| write_patches(out, &header, args.cases()))?,
-        Format::Listing => args.output.stream(|out| write_listings(out, &header, args.cases()))?,
-        Format::Readmemh => images(&args.output.file, args.cases())?,
-    }
-    Ok(Exit::Done)
+    let bar = args.progress(count);
+    let cases = bar.wrap_iter(args.cases());
+    let written = match args.format {
+        _ if args.coverage => args.output.stream(|out| report(out, cases)),
+        Format::Csv => args.output.stream(|out| write_patches(out, &header, cases)),
+        Format::Listing => args.output.stream(|out| write_listings(out, &header, cases)),
+        Format::Readmemh => images(&args.output.file, cases),
+    };
+    bar.finish_and_clear();
+    written.map(|()| Exit::Done)
 }
 
 impl Args {
-    fn cases(&self) -> impl Iterator<Item = Case> {
-        let selection = Selection {
+    fn selection(&self) -> Selection {
+        Selection {
             level: match self.level {
                 1 => Level::One,
                 2 => Level::Two,
@@ -98,20 +109,47 @@ impl Args {
             random: self.count,
             domain: self.domain,
             partitioning: self.partitioning,
-        };
+        }
+    }
+
+    fn cases(&self) -> impl Iterator<Item = Case> {
         let shard = self.shard;
-        let numbered = (0..).zip(selection.cases());
+        let numbered = (0..).zip(self.selection().cases());
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
     }
 
-    /// The arguments that the cases depend on are noted, so that a file says how it was made.
+    /// How many cases there are in all shards.
+    fn all(&self) -> u64 {
+        let selection = self.selection();
+        let systematic = Selection { random: Some(0), ..selection }.cases().count() as u64;
+        systematic.saturating_add(selection.random_count())
+    }
+
+    /// A bar for this many cases, out of the way of vectors that go to the same terminal.
+    fn progress(&self, count: u64) -> ProgressBar {
+        if self.output.is_stdout() {
+            stop_when_reader_leaves();
+            if io::stdout().is_terminal() {
+                return ProgressBar::hidden();
+            }
+        }
+        progress(count, "cases")
+    }
+
+    /// The arguments that the cases depend on are noted, so that a file says how it was made. Each
+    /// note has the name of its option, but for `--count`, whose note is `random`.
     fn header(&self, count: u64) -> Header {
+        let pair = |key: &str, value: String| (key.to_owned(), value);
         let mut notes = vec![
-            ("level".to_owned(), self.level.to_string()),
-            ("seed".to_owned(), self.seed.to_string()),
+            pair("level", self.level.to_string()),
+            pair("seed", self.seed.to_string()),
+            pair("random", self.selection().random_count().to_string()),
         ];
+        notes.extend(self.domain.map(|domain| pair("domain", domain.name().into())));
+        let partitioning = self.partitioning.map(Named::name);
+        notes.extend(partitioning.map(|name| pair("partitioning", name.into())));
         if self.shard != Shard::WHOLE {
-            notes.push(("shard".to_owned(), format!("{}/{}", self.shard.part + 1, self.shard.of)));
+            notes.push(pair("shard", format!("{}/{}", self.shard.part + 1, self.shard.of)));
         }
         Header { kind: Kind::Patches, count, source: "tess-core".to_owned(), notes }
     }
@@ -133,28 +171,20 @@ fn report(out: &mut dyn Write, cases: impl Iterator<Item = Case>) -> io::Result<
     Ok(())
 }
 
-/// Writes the memory images into a folder that is made beside `folder` first, then renamed.
+/// Writes the memory images into a new folder.
 fn images(folder: &Path, cases: impl Iterator<Item = Case>) -> Result<(), Failure> {
     if folder.as_os_str() == "-" {
         return Err(Failure::bad_input("readmemh writes several files: give a folder with -o"));
     }
-    if folder.exists() {
-        let name = folder.display();
-        return Err(Failure::bad_input(format!("{name} exists already; give a new folder")));
-    }
-    let mut name = folder.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.partial", std::process::id()));
-    let partial = folder.with_file_name(name);
-    let written = write_images(&partial, cases).and_then(|()| fs::rename(&partial, folder));
-    written.map_err(|error| {
-        // It may never have been made; the first error is the one to report.
-        _ = fs::remove_dir_all(&partial);
-        Failure::file("write", folder, &error)
-    })
+    let write = || {
+        let new = NewFolder::create(folder)?;
+        write_images(new.path(), cases)?;
+        new.finish()
+    };
+    write().map_err(|error| Failure::write(folder, error))
 }
 
 fn write_images(folder: &Path, cases: impl Iterator<Item = Case>) -> io::Result<()> {
-    fs::create_dir(folder)?;
     let create = |name| File::create(folder.join(name)).map(BufWriter::new);
     let [a, b, c, d, e] = readmemh::FILES;
     let mut files = [create(a)?, create(b)?, create(c)?, create(d)?, create(e)?];

@@ -1,8 +1,7 @@
 //! The compute shaders under the clock of their device.
 
-use super::measure::total;
 use super::runner::{Amount, Runner, RunnerOptions, WorkingSet};
-use crate::backends::gpu::{setup_of, split_by_patch};
+use crate::backends::gpu::{device_error, setup_of, split_by_patch};
 use crate::failure::Failure;
 use fill::Fill;
 use std::ops::Range;
@@ -80,14 +79,17 @@ impl GpuRunner {
         let (totals, repeats) = amount;
         let words = factor_words(patches).repeat(usize::try_from(repeats).unwrap_or(1));
         let usage = wgpu::BufferUsages::STORAGE;
-        let factors = self.gpu.upload("factors", words_as_bytes(&words).as_slice(), usage);
+        let factors = self
+            .gpu
+            .upload("factors", words_as_bytes(&words).as_slice(), usage)
+            .map_err(device_error)?;
         let (points, indices) = outputs;
         let count = u32::try_from(totals.patches * repeats)
             .map_err(|_| BackendError::new("more patches than 32 bits count"))?;
         let batch = self
             .tessellator
             .batch(setup, count, &factors, Outputs::Buffers { points, indices })
-            .map_err(|error| BackendError::new(error.to_string()))?;
+            .map_err(device_error)?;
         let spans = [
             (points, 8 * totals.points),
             (indices, u64::from(setup.index_type.bytes()) * totals.indices),
@@ -106,14 +108,20 @@ impl GpuRunner {
         })
     }
 
-    fn outputs(&self, points: u64, indices: u64) -> (wgpu::Buffer, wgpu::Buffer) {
+    fn outputs(
+        &self,
+        points: u64,
+        indices: u64,
+    ) -> Result<(wgpu::Buffer, wgpu::Buffer), BackendError> {
         let usage = wgpu::BufferUsages::STORAGE;
-        let buffer = |label, bytes: u64| self.gpu.buffer(label, bytes.next_multiple_of(16), usage);
+        let buffer = |label, bytes: u64| {
+            self.gpu.buffer(label, bytes.next_multiple_of(16), usage).map_err(device_error)
+        };
         let index_bytes = match self.index_type {
             IndexType::U16 => 2 * indices,
             IndexType::U32 => 4 * indices,
         };
-        (buffer("points", 8 * points), buffer("indices", index_bytes))
+        Ok((buffer("points", 8 * points)?, buffer("indices", index_bytes)?))
     }
 
     /// Runs a part until the device has left its idle state.
@@ -132,7 +140,7 @@ impl GpuRunner {
 
     fn time(&self, work: impl FnOnce(&mut wgpu::CommandEncoder)) -> Result<Duration, BackendError> {
         let time = self.stopwatch.time(&self.gpu, work);
-        time.map(Duration::from_nanos).map_err(BackendError::new)
+        time.map(Duration::from_nanos).map_err(device_error)
     }
 
     fn part(&self, part: usize) -> &[Timed] {
@@ -178,7 +186,7 @@ impl Runner for GpuRunner {
         let (points, indices) = self.outputs(
             most(|totals| totals.points) * repeats,
             most(|totals| totals.indices) * repeats,
-        );
+        )?;
         self.batches.clear();
         for (range, &totals) in ranges.iter().zip(&totals) {
             let patches = &workload.patches[range.clone()];
@@ -187,7 +195,7 @@ impl Runner for GpuRunner {
         }
         self.workload = Some((setup, workload.patches.clone()));
         let parts = self.batches.chunks(BATCHES_PER_PART);
-        Ok(parts.map(|part| total(part.iter().map(|timed| timed.amount))).collect())
+        Ok(parts.map(|part| part.iter().map(|timed| timed.amount).sum()).collect())
     }
 
     fn digest(&mut self) -> Result<u64, BackendError> {
@@ -195,7 +203,7 @@ impl Runner for GpuRunner {
             self.workload.as_ref().ok_or_else(|| BackendError::new("nothing is prepared"))?;
         let output = self.tessellator.tessellate(&self.gpu, *setup, patches);
         let mut digest = Fnv1a::new();
-        for patch in split_by_patch(&output.map_err(BackendError::new)?, *setup)? {
+        for patch in split_by_patch(&output.map_err(device_error)?, *setup)? {
             digest.patch(&patch);
         }
         Ok(digest.finish())
@@ -228,5 +236,5 @@ fn totals(counts: &[Counts], range: &Range<usize>) -> Totals {
 }
 
 fn words_as_bytes(words: &[u32]) -> Vec<u8> {
-    words.iter().flat_map(|word| word.to_ne_bytes()).collect()
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }

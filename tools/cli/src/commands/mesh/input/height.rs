@@ -1,44 +1,78 @@
 //! Height images: PNG files, the brightness taken as height 0..=1.
 
 use crate::failure::Failure;
-use png::{ColorType, Decoder, Transformations};
+use png::{BitDepth, ColorType, Decoder, Limits, Transformations};
 use std::fs::File;
-use std::io::BufReader;
+use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 use tess_surface::HeightMap;
 
-/// Reads a PNG. Grey images keep up to 16 bits; of colours the Rec. 709 luma is taken.
+/// Most bytes that decoding takes beside the pixels: rows, tables and text of the file.
+const MOST_BESIDE: usize = 16 << 20;
+
+/// A grey image, row by row from the top.
+#[derive(Debug)]
+pub(crate) struct Heights {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+    pub(crate) texels: Vec<f32>,
+}
+
+/// Reads a PNG of at most `most` pixels.
 ///
 /// # Errors
-/// A file that cannot be read or is no PNG.
-pub(crate) fn load(path: &Path) -> Result<HeightMap, Failure> {
+/// A file that cannot be read, is no PNG or is too large.
+pub(crate) fn load(path: &Path, most: u64) -> Result<HeightMap, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
-    let bad = |error: png::DecodingError| Failure::file("read", path, &error);
-    let mut decoder = Decoder::new(BufReader::new(file));
+    let in_file = |what| Failure::bad_input(format!("cannot read {}: {what}", path.display()));
+    let Heights { width, height, texels } = decode(BufReader::new(file), most).map_err(in_file)?;
+    HeightMap::new(width, height, texels).ok_or_else(|| in_file("no pixels".to_owned()))
+}
+
+/// Decodes a PNG. Grey images keep up to 16 bits; of colours the Rec. 709 luma is taken.
+///
+/// # Errors
+/// What is malformed, or the size and the limit.
+pub(crate) fn decode(file: impl BufRead + Seek, most: u64) -> Result<Heights, String> {
+    let mut decoder = Decoder::new_with_limits(file, Limits { bytes: MOST_BESIDE });
     decoder.set_transformations(Transformations::EXPAND);
-    let mut reader = decoder.read_info().map_err(bad)?;
-    let size = reader.output_buffer_size().unwrap_or_default();
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let (width, height) = reader.info().size();
+    if u64::from(width) * u64::from(height) > most {
+        return Err(format!(
+            "{width} x {height} are more than {most} pixels; scale the image down, or raise \
+             --max-pixels"
+        ));
+    }
+    let size = reader.output_buffer_size().ok_or("the image does not fit into memory")?;
     let mut bytes = vec![0; size];
-    let info = reader.next_frame(&mut bytes).map_err(bad)?;
-    let samples: Vec<f32> = match info.bit_depth {
-        png::BitDepth::Sixteen => {
-            let words = bytes.as_chunks::<2>().0.iter();
-            words.map(|&word| f32::from(u16::from_be_bytes(word)) / 65535.0).collect()
-        }
-        _ => bytes.iter().map(|&byte| f32::from(byte) / 255.0).collect(),
-    };
-    let luma = |pixel: &[f32]| match *pixel {
-        [grey] | [grey, _] => grey,
-        [r, g, b, ..] => 0.2126 * r + 0.7152 * g + 0.0722 * b,
-        [] => 0.0,
-    };
+    let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
+    reader.finish().map_err(|error| error.to_string())?;
     let channels = match info.color_type {
         ColorType::Grayscale | ColorType::Indexed => 1,
         ColorType::GrayscaleAlpha => 2,
         ColorType::Rgb => 3,
         ColorType::Rgba => 4,
     };
-    let texels = samples.chunks_exact(channels).map(luma).collect();
-    let map = HeightMap::new(info.width as usize, info.height as usize, texels);
-    map.ok_or_else(|| Failure::bad_input(format!("{}: no pixels", path.display())))
+    let texels = match info.bit_depth {
+        BitDepth::Sixteen => {
+            let words = |pixel: &[[u8; 2]]| {
+                luma(pixel, |&word| f32::from(u16::from_be_bytes(word)) / 65535.0)
+            };
+            bytes.as_chunks().0.chunks_exact(channels).map(words).collect()
+        }
+        _ => {
+            let octets = |pixel: &[u8]| luma(pixel, |&byte| f32::from(byte) / 255.0);
+            bytes.chunks_exact(channels).map(octets).collect()
+        }
+    };
+    Ok(Heights { width: info.width as usize, height: info.height as usize, texels })
+}
+
+fn luma<T>(pixel: &[T], value: impl Fn(&T) -> f32) -> f32 {
+    match pixel {
+        [grey] | [grey, _] => value(grey),
+        [r, g, b, ..] => 0.2126 * value(r) + 0.7152 * value(g) + 0.0722 * value(b),
+        [] => 0.0,
+    }
 }

@@ -1,14 +1,21 @@
 //! Reading models.
+//!
+//! Every reader takes the bytes of a file and gives what they hold or says what is wrong and where;
+//! [`load`] adds the file's name.
 
 mod bpt;
+mod collapsed;
+#[cfg(feature = "fuzzing")]
+pub mod fuzzing;
 mod gltf;
 pub(crate) mod height;
 mod obj;
+mod text;
 
 use crate::failure::Failure;
 use std::fs;
 use std::path::Path;
-use tess_surface::{Fault, MeshError, Model, Style, teapot};
+use tess_surface::{Fault, MeshError, Model, PolygonMesh, Style, teapot};
 
 /// Which way is up in a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -26,6 +33,31 @@ pub(crate) struct Input {
     pub(crate) model: Model,
     /// Which way is up.
     pub(crate) up: Up,
+    /// What was left out, for the user to know.
+    pub(crate) notes: Vec<String>,
+}
+
+/// Where each face of a mesh stands in its file.
+#[derive(Debug)]
+enum Places {
+    /// The line of each face.
+    Lines(Vec<usize>),
+    /// The first face of each run of triangles, and the run's name.
+    Runs(Vec<(usize, String)>),
+}
+
+impl Places {
+    /// The place of a face, such as `line 12`.
+    fn of(&self, face: usize) -> String {
+        match self {
+            Self::Lines(lines) => format!("line {}", lines[face]),
+            Self::Runs(runs) => {
+                let after = runs.partition_point(|&(first, _)| first <= face);
+                let (first, name) = &runs[after - 1];
+                format!("{name}, triangle {}", face - first)
+            }
+        }
+    }
 }
 
 /// Reads a model file, or makes the teapot if there is none.
@@ -36,17 +68,41 @@ pub(crate) struct Input {
 pub(crate) fn load(path: Option<&Path>, style: Option<Style>) -> Result<Input, Failure> {
     let Some(path) = path else { return embedded_teapot(style) };
     let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    let polygon_style = style.unwrap_or(Style::PointNormal);
-    match extension.to_ascii_lowercase().as_str() {
-        "obj" => obj::load(path, polygon_style).map(|model| Input { model, up: Up::Y }),
-        "gltf" | "glb" => gltf::load(path, polygon_style).map(|model| Input { model, up: Up::Y }),
-        "bpt" if style.is_some() => Err(style_of_patches(&path.display().to_string())),
-        "bpt" => bpt::load(path).map(|model| Input { model, up: Up::Z }),
-        _ => Err(Failure::bad_input(format!(
-            "cannot tell what {} is: models are .obj, .gltf, .glb or .bpt files",
-            path.display()
-        ))),
+    let in_file = |what: String| Failure::bad_input(format!("{}: {what}", path.display()));
+    let loaded = match extension.to_ascii_lowercase().as_str() {
+        "obj" => load_obj(&read(path)?, style),
+        "gltf" | "glb" => load_gltf(&read(path)?, path, style),
+        "bpt" if style.is_some() => return Err(style_of_patches(&path.display().to_string())),
+        "bpt" => load_bpt(&read(path)?),
+        _ => {
+            return Err(Failure::bad_input(format!(
+                "cannot tell what {} is: models are .obj, .gltf, .glb or .bpt files",
+                path.display()
+            )));
+        }
+    };
+    loaded.map_err(in_file)
+}
+
+fn load_obj(bytes: &[u8], style: Option<Style>) -> Result<Input, String> {
+    let obj::Obj { mesh, lines, skipped } = obj::parse(bytes)?;
+    let mut input = polygons(mesh, &Places::Lines(lines), style)?;
+    if skipped > 0 {
+        input.notes.push(format!("points and lines have no surface: {skipped} are left out"));
     }
+    Ok(input)
+}
+
+fn load_gltf(bytes: &[u8], path: &Path, style: Option<Style>) -> Result<Input, String> {
+    let gltf::Scene { mesh, runs } = gltf::parse(bytes, path.parent(), gltf::MOST)?;
+    polygons(mesh, &Places::Runs(runs), style)
+}
+
+fn load_bpt(bytes: &[u8]) -> Result<Input, String> {
+    let bpt::Bpt { patches, lines } = bpt::parse(bytes)?;
+    let place = |patch: usize| format!("patch {} at line {}", patch + 1, lines[patch]);
+    let model = Model::bezier(patches).map_err(|error| refused(error, place))?;
+    Ok(Input { model, up: Up::Z, notes: Vec::new() })
 }
 
 fn embedded_teapot(style: Option<Style>) -> Result<Input, Failure> {
@@ -55,7 +111,7 @@ fn embedded_teapot(style: Option<Style>) -> Result<Input, Failure> {
     }
     let model = Model::bezier(teapot::patches());
     let model = model.map_err(|error| Failure::bad_input(format!("the teapot: {error}")))?;
-    Ok(Input { model, up: Up::Z })
+    Ok(Input { model, up: Up::Z, notes: Vec::new() })
 }
 
 fn style_of_patches(what: &str) -> Failure {
@@ -68,18 +124,30 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     fs::read(path).map_err(|error| Failure::file("read", path, &error))
 }
 
-/// The failure of a model whose faces are named by `place`, such as `line 12`.
-fn refused(path: &Path, error: MeshError, place: impl Fn(usize) -> String) -> Failure {
-    let file = path.display();
-    Failure::bad_input(match error {
+/// The model of a polygon mesh, without what has collapsed.
+fn polygons(mut mesh: PolygonMesh, places: &Places, style: Option<Style>) -> Result<Input, String> {
+    let count = mesh.faces.len();
+    let collapsed = collapsed::repair(&mut mesh);
+    if mesh.faces.is_empty() && count > 0 {
+        return Err(format!("all faces, {count}, have corners in the same place and no area"));
+    }
+    let place = |face| places.of(collapsed.original(face));
+    let model = Model::polygons(mesh, style.unwrap_or(Style::PointNormal));
+    let model = model.map_err(|error| refused(error, place))?;
+    Ok(Input { model, up: Up::Y, notes: collapsed.note().into_iter().collect() })
+}
+
+/// The message about a model whose faces are named by `place`, such as `line 12`.
+fn refused(error: MeshError, place: impl Fn(usize) -> String) -> String {
+    match error {
         MeshError::Face { face, fault: Fault::NonManifold { others: [a, b] } } => format!(
-            "{file}: {}: an edge of this face belongs to two other faces already ({} and {}); \
+            "{}: an edge of this face belongs to two other faces already ({} and {}); \
              a mesh must be manifold",
             place(face),
             place(a),
             place(b)
         ),
-        MeshError::Face { face, fault } => format!("{file}: {}: {fault}", place(face)),
-        error => format!("{file}: {error}"),
-    })
+        MeshError::Face { face, fault } => format!("{}: {fault}", place(face)),
+        error => error.to_string(),
+    }
 }

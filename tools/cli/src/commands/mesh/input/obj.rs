@@ -1,116 +1,214 @@
-//! OBJ files, read by `tobj`, which tells no line numbers: they are found when they are needed.
+//! OBJ files: triangles and quads with texture coordinates and normals.
+//!
+//! Read are `v`, `vt`, `vn` and `f` with all forms of indices. Comments, names, groups, materials
+//! and display attributes do not change a surface and are skipped. Points and lines have none; they
+//! are skipped and counted. Every other keyword is an error, so that no misspelt line is lost.
 
-use super::{read, refused};
-use crate::failure::Failure;
+use super::text::{number, quoted, without_mark};
 use glam::{Vec2, Vec3};
-use std::path::Path;
-use tess_surface::{Face, Model, PolygonMesh, Sides, Style};
-use tobj::{LoadError, LoadOptions};
+use tess_surface::{Face, PolygonMesh, Sides};
 
-/// Reads triangles and quads of all objects and groups. Materials are left alone.
-pub(super) fn load(path: &Path, style: Style) -> Result<Model, Failure> {
-    let bytes = read(path)?;
-    let objects = parse(&bytes).map_err(|error| broken(path, &bytes, error))?;
-    let mut mesh = PolygonMesh::default();
-    for object in &objects {
-        append(&mut mesh, &object.mesh)
-            .map_err(|(face, arity)| wrong_arity(path, &bytes, face, arity))?;
+/// Keywords of lines that do not change the surface.
+const SKIPPED: &str = "o g s mg usemtl mtllib usemap maplib lod bevel c_interp d_interp shadow_obj \
+     trace_obj";
+
+/// Keywords of free-form curves and surfaces.
+const FREE_FORM: &str = "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con \
+     ctech stech bsp bzp cdc cdp res";
+
+/// What a file holds.
+#[derive(Debug, Default)]
+pub(crate) struct Obj {
+    /// The faces of all objects and groups, every index within its list.
+    pub(crate) mesh: PolygonMesh,
+    /// The line of each face, from 1.
+    pub(crate) lines: Vec<usize>,
+    /// How many points and lines were skipped.
+    pub(crate) skipped: usize,
+}
+
+/// The indices of one corner, resolved from 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Corner {
+    position: u32,
+    texcoord: Option<u32>,
+    normal: Option<u32>,
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// The first line that is malformed, or the first face with an index out of range.
+pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
+    let mut obj = Obj::default();
+    for (number, line) in (1..).zip(without_mark(bytes).split(|&byte| byte == b'\n')) {
+        let read = obj.line(number, line);
+        read.map_err(|what| format!("line {number}: {}: {what}", quoted(line)))?;
     }
-    drop(objects);
-    Model::polygons(mesh, style).map_err(|error| refused(path, error, |face| place(&bytes, face)))
+    for (face, line) in obj.mesh.faces.iter().zip(&obj.lines) {
+        obj.check_range(face).map_err(|what| format!("line {line}: {what}"))?;
+    }
+    Ok(obj)
 }
 
-fn parse(bytes: &[u8]) -> Result<Vec<tobj::Model>, LoadError> {
-    // Default options: faces of any number of corners, one index for each of their attributes.
-    let no_materials = |_: &Path| Err(LoadError::GenericFailure);
-    let (objects, _) = tobj::load_obj_buf(&mut &bytes[..], &LoadOptions::default(), no_materials)?;
-    Ok(objects)
-}
+impl Obj {
+    fn line(&mut self, number: usize, line: &[u8]) -> Result<(), String> {
+        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let Some(keyword) = words.next() else { return Ok(()) };
+        let words = words.take_while(|word| !word.starts_with(b"#"));
+        match keyword {
+            b"v" => self.mesh.positions.push(position(words)?),
+            b"vt" => self.mesh.texcoords.push(texcoord(words)?),
+            b"vn" => self.mesh.normals.push(normal(words)?),
+            b"f" => {
+                let face = self.face(words)?;
+                self.mesh.faces.push(face);
+                self.lines.push(number);
+            }
+            b"l" | b"p" => self.skipped += 1,
+            _ => unread(keyword)?,
+        }
+        Ok(())
+    }
 
-/// Adds an object's faces; fails with the number of the first one with the wrong number of corners.
-fn append(mesh: &mut PolygonMesh, object: &tobj::Mesh) -> Result<(), (usize, usize)> {
-    let (positions, normals) = (vec3s(&object.positions), vec3s(&object.normals));
-    let texcoords = object.texcoords.as_chunks().0.iter().map(|&t| Vec2::from_array(t));
-    let firsts = [mesh.positions.len(), mesh.texcoords.len(), mesh.normals.len()];
-    let triangles = object.indices.len() / 3;
-    let arities = if object.face_arities.is_empty() {
-        vec![3; triangles]
-    } else {
-        object.face_arities.clone()
-    };
-    let mut first_corner = 0;
-    for arity in arities.into_iter().map(|arity| arity as usize) {
-        let corners = |list: &[u32], first: usize| {
-            let numbers = list.get(first_corner..first_corner + arity)?;
-            let moved = numbers.iter().map(|&n| n.saturating_add(count(first)));
-            sides(&moved.collect::<Vec<_>>())
+    fn face<'a>(&self, words: impl Iterator<Item = &'a [u8]>) -> Result<Face, String> {
+        let mut corners = [Corner::default(); 4];
+        let mut count = 0;
+        for word in words {
+            if let Some(corner) = corners.get_mut(count) {
+                *corner = self.corner(word)?;
+            }
+            count += 1;
+        }
+        if count != 3 && count != 4 {
+            return Err(format!(
+                "a face with {count} corners; only triangles and quads are read: triangulate the \
+                 mesh first"
+            ));
+        }
+        let form = |corner: &Corner| (corner.texcoord.is_some(), corner.normal.is_some());
+        if corners[..count].iter().any(|corner| form(corner) != form(&corners[0])) {
+            return Err("the corners of a face must all have the same kinds of indices".to_owned());
+        }
+        let [a, b, c, d] = corners;
+        let sides = if count == 3 { Sides::Triangle([a, b, c]) } else { Sides::Quad([a, b, c, d]) };
+        let all = |index: fn(Corner) -> Option<u32>| {
+            index(a).is_some().then(|| sides.map(|corner| index(corner).unwrap_or_default()))
         };
-        let wrong = (mesh.faces.len(), arity);
-        mesh.faces.push(Face {
-            positions: corners(&object.indices, firsts[0]).ok_or(wrong)?,
-            texcoords: corners(&object.texcoord_indices, firsts[1]),
-            normals: corners(&object.normal_indices, firsts[2]),
-        });
-        first_corner += arity;
-    }
-    mesh.positions.extend(positions);
-    mesh.normals.extend(normals);
-    mesh.texcoords.extend(texcoords);
-    Ok(())
-}
-
-fn vec3s(floats: &[f32]) -> impl Iterator<Item = Vec3> {
-    floats.as_chunks().0.iter().map(|&v| Vec3::from_array(v))
-}
-
-/// Models of 2^32 positions are refused later, as indices out of range.
-fn count(length: usize) -> u32 {
-    u32::try_from(length).unwrap_or(u32::MAX)
-}
-
-fn sides(numbers: &[u32]) -> Option<Sides<u32>> {
-    match *numbers {
-        [a, b, c] => Some(Sides::Triangle([a, b, c])),
-        [a, b, c, d] => Some(Sides::Quad([a, b, c, d])),
-        _ => None,
-    }
-}
-
-fn wrong_arity(path: &Path, bytes: &[u8], face: usize, arity: usize) -> Failure {
-    Failure::bad_input(format!(
-        "{}: {}: a face with {arity} corners; only triangles and quads are read, others are \
-         refused: triangulate the mesh first",
-        path.display(),
-        place(bytes, face)
-    ))
-}
-
-/// `line N`, of face number `face` of the file.
-fn place(bytes: &[u8], face: usize) -> String {
-    let is_face = |line: &&[u8]| matches!(line.trim_ascii_start(), [b'f' | b'l', b' ' | b'\t', ..]);
-    let faces = lines(bytes).enumerate().filter(|(_, line)| is_face(line));
-    match faces.map(|(number, _)| number + 1).nth(face) {
-        Some(line) => format!("line {line}"),
-        None => format!("face {}", face + 1),
-    }
-}
-
-fn lines(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
-    bytes.split_inclusive(|&byte| byte == b'\n')
-}
-
-/// The line at which reading fails: the end of the shortest beginning of the file that does not
-/// read, found by halving.
-fn broken(path: &Path, bytes: &[u8], error: LoadError) -> Failure {
-    let ends: Vec<usize> = lines(bytes)
-        .scan(0, |end, line| {
-            *end += line.len();
-            Some(*end)
+        Ok(Face {
+            positions: sides.map(|corner| corner.position),
+            texcoords: all(|corner| corner.texcoord),
+            normals: all(|corner| corner.normal),
         })
-        .collect();
-    let first_bad = ends.partition_point(|&end| parse(&bytes[..end]).is_ok());
-    let start = first_bad.checked_sub(1).map_or(0, |before| ends[before]);
-    let end = ends.get(first_bad).copied().unwrap_or(bytes.len());
-    let text = String::from_utf8_lossy(bytes[start..end].trim_ascii());
-    Failure::bad_input(format!("{}: line {}: {error}: `{text}`", path.display(), first_bad + 1))
+    }
+
+    /// One of `v`, `v/vt`, `v//vn` and `v/vt/vn`.
+    fn corner(&self, word: &[u8]) -> Result<Corner, String> {
+        let PolygonMesh { positions, texcoords, normals, .. } = &self.mesh;
+        let mut parts = word.split(|&byte| byte == b'/');
+        let (v, vt, vn) = (parts.next().unwrap_or_default(), parts.next(), parts.next());
+        let no_texcoord = vn.is_some() && vt.is_some_and(<[u8]>::is_empty);
+        let vt = vt.filter(|_| !no_texcoord);
+        let index = |part: &[u8], what, count| {
+            resolve(part, what, count).map_err(|why| format!("corner {}: {why}", quoted(word)))
+        };
+        if parts.next().is_some() {
+            return Err(format!("corner {}: it has more than three indices", quoted(word)));
+        }
+        Ok(Corner {
+            position: index(v, "position", positions.len())?,
+            texcoord: vt
+                .map(|part| index(part, "texture coordinate", texcoords.len()))
+                .transpose()?,
+            normal: vn.map(|part| index(part, "normal", normals.len())).transpose()?,
+        })
+    }
+
+    /// Positive indices may name what comes later in the file, so ranges are checked at its end.
+    fn check_range(&self, face: &Face) -> Result<(), String> {
+        let PolygonMesh { positions, texcoords, normals, .. } = &self.mesh;
+        for (what, indices, count) in [
+            ("position", Some(face.positions), positions.len()),
+            ("texture coordinate", face.texcoords, texcoords.len()),
+            ("normal", face.normals, normals.len()),
+        ] {
+            let Some(indices) = indices else { continue };
+            if let Some(&index) = indices.as_slice().iter().find(|&&i| i as usize >= count) {
+                let index = u64::from(index) + 1;
+                return Err(format!("{what} index {index} is out of range: there are {count}"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether a keyword is one of those that are skipped.
+fn unread(keyword: &[u8]) -> Result<(), String> {
+    let is_in = |list: &str| list.split(' ').any(|name| name.as_bytes() == keyword);
+    if keyword.starts_with(b"#") || is_in(SKIPPED) {
+        return Ok(());
+    }
+    Err(if is_in(FREE_FORM) {
+        "free-form curves and surfaces are not read; convert them to triangles and quads".to_owned()
+    } else {
+        format!("{} is not a keyword that is read, which are v, vt, vn and f", quoted(keyword))
+    })
+}
+
+/// Resolves an index: from 1, or from -1 backwards from the last of the `count` so far.
+fn resolve(part: &[u8], what: &str, count: usize) -> Result<u32, String> {
+    let number = std::str::from_utf8(part).ok().and_then(|text| text.parse::<i64>().ok());
+    let number = number.ok_or_else(|| {
+        format!("{} is not a {what} index; corners are v, v/vt, v//vn or v/vt/vn", quoted(part))
+    })?;
+    let index = match number {
+        0 => return Err("indices begin at 1".to_owned()),
+        1.. => number - 1,
+        _ => i64::try_from(count).unwrap_or(i64::MAX).saturating_add(number),
+    };
+    let out_of_range =
+        || format!("{what} index {number} is out of range: there are {count} so far");
+    u32::try_from(index).map_err(|_| out_of_range())
+}
+
+fn position<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
+    let what = "a position is three numbers, perhaps with weight 1 or with a colour of three";
+    let (numbers, count) = numbers::<6>(words, what)?;
+    let [x, y, z, w, ..] = numbers;
+    match count {
+        3 | 6 => Ok(Vec3::new(x, y, z)),
+        4 if w.to_bits() == 1.0f32.to_bits() => Ok(Vec3::new(x, y, z)),
+        _ => Err(what.to_owned()),
+    }
+}
+
+fn texcoord<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec2, String> {
+    let what = "texture coordinates are one to three numbers";
+    match numbers(words, what)? {
+        (_, 0) => Err(what.to_owned()),
+        ([u, v, _], _) => Ok(Vec2::new(u, v)),
+    }
+}
+
+fn normal<'a>(words: impl Iterator<Item = &'a [u8]>) -> Result<Vec3, String> {
+    let what = "a normal is three numbers";
+    match numbers(words, what)? {
+        (xyz, 3) => Ok(Vec3::from_array(xyz)),
+        _ => Err(what.to_owned()),
+    }
+}
+
+/// At most `N` numbers and how many there are; zeros fill the rest.
+fn numbers<'a, const N: usize>(
+    words: impl Iterator<Item = &'a [u8]>,
+    what: &str,
+) -> Result<([f32; N], usize), String> {
+    let mut numbers = [0.0; N];
+    let mut count = 0;
+    for word in words {
+        let place = numbers.get_mut(count).ok_or(what)?;
+        *place = number(word).map_err(|why| format!("{why}; {what}"))?;
+        count += 1;
+    }
+    Ok((numbers, count))
 }

@@ -1,0 +1,78 @@
+//! One value, one conversion, through a whole file.
+//!
+//! Within 0.6 units in the last place some values have two legal fixed-point numbers. A device may
+//! take either, but always the same one: neighbouring patches meet because of that.
+
+use super::{Difference, Report};
+use crate::case::Case;
+use crate::compare::{Element, Mismatch, Stage};
+use crate::strength::{Ambiguous, Conversions};
+use std::collections::HashMap;
+
+/// A record that the model explains, if some values were converted in one of some ways.
+#[derive(Debug)]
+pub(super) struct Use {
+    pub(super) number: u64,
+    pub(super) line: Option<u64>,
+    pub(super) case: Case,
+    pub(super) conversions: Conversions,
+}
+
+/// For each value, the number that it became (0 or 1), and the first record that shows it.
+type Known = HashMap<u32, (usize, u64)>;
+
+/// The records that convert a value in another way than one before them.
+pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
+    uses.sort_unstable_by_key(|used| used.number);
+    let (mut report, mut known) = (Report::default(), Known::new());
+    for used in uses {
+        if let Some(mismatch) = conflict(&used, &mut known) {
+            let Use { number, line, case, .. } = used;
+            report.mismatches += 1;
+            report.differences.push(Difference {
+                number,
+                line,
+                mismatch,
+                case: Some(case),
+                file: None,
+            });
+        }
+    }
+    report
+}
+
+/// How a record contradicts those before it. If it does not, the values that it shows become known.
+fn conflict(used: &Use, known: &mut Known) -> Option<Mismatch> {
+    let Conversions { values, accepted } = &used.conversions;
+    let bit = |choice: u64, value: usize| usize::from(choice >> value & 1 == 1);
+    // A value that is known, and that this choice converts in the other way.
+    let against = |choice: u64| {
+        values.iter().enumerate().find_map(|(i, value)| {
+            let (number, record) = known.get(&value.value)?;
+            (bit(choice, i) != *number).then_some((*value, *number, *record))
+        })
+    };
+    let choices = || (0..64).filter(|choice| accepted >> choice & 1 == 1);
+    let consistent: Vec<u64> = choices().filter(|&choice| against(choice).is_none()).collect();
+    let Some(&first) = consistent.first() else {
+        let (value, number, record) = choices().find_map(against)?;
+        return Some(mismatch(value, number, record));
+    };
+    for (i, value) in values.iter().enumerate() {
+        // A value whose number does not show in the output may be either.
+        if consistent.iter().all(|&choice| bit(choice, i) == bit(first, i)) {
+            known.entry(value.value).or_insert((bit(first, i), used.number));
+        }
+    }
+    None
+}
+
+fn mismatch(value: Ambiguous, number: usize, record: u64) -> Mismatch {
+    let [expected, observed] = [value.numbers[number], value.numbers[1 - number]];
+    Mismatch {
+        element: Element::Conversion(value.value),
+        observed: format!("0x{observed:06x}"),
+        expected: format!("0x{expected:06x}, as in record {record}"),
+        stage: Stage::Factors,
+    }
+}

@@ -1,0 +1,69 @@
+//! What is found record by record, and what it adds up to.
+
+use super::consistency::{Use, conflicts};
+use super::{Difference, MAX_DIFFERENCES, Report};
+use crate::case::Case;
+use crate::compare::Mismatch;
+use crate::strength::Conversions;
+
+/// What is found of a record.
+pub(super) enum Found {
+    /// It is as it should be.
+    Equal,
+    /// So it is, if the device converts some values in one of these ways.
+    Converted(Case, Conversions),
+    /// What is wrong with it, and the patch that shows it, if one does.
+    Different(Mismatch, Option<Case>),
+}
+
+impl Found {
+    pub(super) fn new(mismatch: Option<Mismatch>, case: Option<Case>) -> Self {
+        mismatch.map_or(Self::Equal, |mismatch| Self::Different(mismatch, case))
+    }
+}
+
+/// What one worker found, or all of them.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    report: Report,
+    uses: Vec<Use>,
+}
+
+impl Findings {
+    /// Adds what was found of record `number`, which `file` can show again on its own.
+    pub(super) fn add(
+        &mut self,
+        number: u64,
+        line: Option<u64>,
+        found: Found,
+        file: impl FnOnce() -> Option<String>,
+    ) {
+        self.report.cases += 1;
+        match found {
+            Found::Equal => {}
+            Found::Converted(case, conversions) => {
+                self.uses.push(Use { number, line, case, conversions });
+            }
+            Found::Different(mismatch, case) => {
+                self.report.mismatches += 1;
+                if self.report.differences.len() < MAX_DIFFERENCES {
+                    let file = file();
+                    let difference = Difference { number, line, mismatch, case, file };
+                    self.report.differences.push(difference);
+                }
+            }
+        }
+    }
+
+    /// Adds what another worker found.
+    pub(super) fn join(&mut self, mut other: Self) {
+        self.report.add(other.report);
+        self.uses.append(&mut other.uses);
+    }
+
+    /// The verdict, when everything is in.
+    pub(super) fn report(mut self) -> Report {
+        self.report.add(conflicts(self.uses));
+        self.report
+    }
+}

@@ -1,0 +1,96 @@
+//! The lines of a vector file, each bounded, so that no input makes the reader grow.
+
+use super::error::{Place, VectorError};
+use std::io::{BufRead, Read};
+
+/// The most bytes that a line may have. The longest that this kit writes has about 300.
+pub(super) const MAX_LINE: usize = 4096;
+
+/// Lines of a text, numbered from 1.
+#[derive(Debug)]
+pub(super) struct Lines<R> {
+    reader: R,
+    /// The line that was read last, without its end.
+    text: String,
+    place: Place,
+}
+
+/// One line without its end, and where it stands.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line<'a> {
+    pub(super) text: &'a str,
+    pub(super) place: &'a Place,
+}
+
+impl Line<'_> {
+    /// An error in this line.
+    pub(super) fn error(&self, field: &'static str, message: impl Into<String>) -> VectorError {
+        self.place.error(field, message)
+    }
+}
+
+impl<R: BufRead> Lines<R> {
+    pub(super) fn new(file: &str, reader: R) -> Self {
+        Self { reader, text: String::new(), place: Place { file: file.into(), line: 0 } }
+    }
+
+    /// An error in the line that was read last, or behind the last line.
+    pub(super) fn error(&self, field: &'static str, message: impl Into<String>) -> VectorError {
+        self.place.error(field, message)
+    }
+
+    /// The next line; `None` at the end.
+    ///
+    /// # Errors
+    /// A line that cannot be read, is longer than [`MAX_LINE`], is not UTF-8 or has control
+    /// characters in it.
+    pub(super) fn next(&mut self) -> Result<Option<Line<'_>>, VectorError> {
+        let found = self.read()?;
+        Ok(found.then_some(Line { text: &self.text, place: &self.place }))
+    }
+
+    /// The next line, which must be there.
+    ///
+    /// # Errors
+    /// As for [`Self::next`], and the end of the file.
+    pub(super) fn expect(&mut self, what: &'static str) -> Result<Line<'_>, VectorError> {
+        if self.read()? {
+            return Ok(Line { text: &self.text, place: &self.place });
+        }
+        Err(self.error(what, "the file ends here; it is truncated"))
+    }
+
+    /// Reads the next line into `self.text`; `false` at the end.
+    fn read(&mut self) -> Result<bool, VectorError> {
+        self.place.line += 1;
+        let mut bytes = std::mem::take(&mut self.text).into_bytes();
+        bytes.clear();
+        // Two bytes more than a line may have, for its end.
+        let mut bounded = self.reader.by_ref().take(MAX_LINE as u64 + 2);
+        let read = bounded.read_until(b'\n', &mut bytes);
+        read.map_err(|error| self.error("line", format!("cannot be read: {error}")))?;
+        let found = !bytes.is_empty();
+        for end in [b'\n', b'\r'] {
+            bytes.pop_if(|last| *last == end);
+        }
+        if bytes.len() > MAX_LINE {
+            let message =
+                format!("longer than {MAX_LINE} bytes, which no line of a vector file is");
+            return Err(self.error("line", message));
+        }
+        let is_plain = bytes.iter().all(|byte| (b' '..=b'~').contains(byte));
+        self.text = String::from_utf8(bytes).map_err(|_| self.error("line", "not UTF-8 text"))?;
+        if !is_plain {
+            self.refuse_control_characters()?;
+        }
+        Ok(found)
+    }
+
+    fn refuse_control_characters(&self) -> Result<(), VectorError> {
+        let control = self.text.chars().find(|character| character.is_control());
+        control.map_or(Ok(()), |control| {
+            let message = format!("has the control character U+{:04X}", u32::from(control));
+            Err(self.error("line", message))
+        })
+    }
+}

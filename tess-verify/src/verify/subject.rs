@@ -1,0 +1,63 @@
+//! What can be compared.
+
+use crate::names::Named;
+
+/// Something that can be compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Subject {
+    /// The generated level 1.
+    Level1,
+    /// What the generated level 2 has beyond level 1.
+    Level2,
+    /// All 2^32 binary32 factors, as outer and as inside factor, in every partitioning.
+    Factors,
+    /// All fixed-point factors: contexts and locations, in both parities and split orders.
+    Locations,
+    /// All pairs of an outer and an inside factor, in both split orders.
+    Transitions,
+    /// All pairs of inside factors, and all isolines.
+    Interiors,
+    /// Random patches.
+    Random(Random),
+}
+
+impl Subject {
+    /// Every subject that is finite, the fastest first.
+    pub const ALL: [Self; 6] = [
+        Self::Level1,
+        Self::Transitions,
+        Self::Interiors,
+        Self::Level2,
+        Self::Locations,
+        Self::Factors,
+    ];
+}
+
+impl Named for Subject {
+    const WHAT: &'static str = "subject";
+    const NAMES: &'static [(&'static str, Self)] = &[
+        ("level-1", Self::Level1),
+        ("level-2", Self::Level2),
+        ("factors", Self::Factors),
+        ("locations", Self::Locations),
+        ("transitions", Self::Transitions),
+        ("interiors", Self::Interiors),
+    ];
+
+    fn name(self) -> &'static str {
+        let finite = Self::NAMES.iter().find(|(_, subject)| *subject == self);
+        finite.map_or("random", |(name, _)| name)
+    }
+}
+
+/// Random patches of every configuration: every domain, partitioning, output and split order.
+///
+/// Each unit is drawn from a seed of its own, so that more patches begin with the same ones.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Random {
+    /// How many patches of each configuration.
+    pub patches: u64,
+    /// Seed of all of them.
+    pub seed: u64,
+}

@@ -1,0 +1,44 @@
+//! Every topology there is, by integer factors (spec section 12.8).
+
+use crate::case::Case;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+
+/// Every pair of an outer and an inside factor: a transition depends on the two point counts alone. Four outer factors at a time, along either axis of a quad; three on a triangle.
+pub(super) fn transitions() -> impl Iterator<Item = Case> {
+    let pairs = (1..=64u8).flat_map(|inside| (1..=64u8).map(move |outer| (outer, inside)));
+    SplitOrder::ALL.into_iter().flat_map(move |split| {
+        pairs.clone().flat_map(move |(outer, inside)| {
+            let next = outer % 64 + 1;
+            [
+                integer(Domain::Quad, split, &[outer, 2, next, 1, 3, inside]),
+                integer(Domain::Quad, split, &[1, outer, 3, next, inside, 4]),
+                integer(Domain::Triangle, split, &[outer, next, 65 - outer, inside]),
+            ]
+            .into_iter()
+            .flatten()
+        })
+    })
+}
+
+/// Triangles, quads of every two inside factors and isolines of every two factors.
+pub(super) fn interiors() -> impl Iterator<Item = Case> {
+    let pairs = (1..=64u8).flat_map(|a| (1..=64u8).map(move |b| (a, b)));
+    pairs.flat_map(|(a, b)| {
+        let triangle = integer(Domain::Triangle, SplitOrder::Ruler, &[1, 2, 3, a]);
+        [
+            integer(Domain::Quad, SplitOrder::Ruler, &[1, 2, 3, 4, a, b]),
+            integer(Domain::Isoline, SplitOrder::Ruler, &[a, b]),
+            triangle.filter(|_| b == 1),
+        ]
+        .into_iter()
+        .flatten()
+    })
+}
+
+/// A patch with these integer factors; `None` for a wrong number of them.
+fn integer(domain: Domain, split: SplitOrder, factors: &[u8]) -> Option<Case> {
+    let output = OutputPrimitive::TriangleCw;
+    let config = Config { partitioning: Partitioning::Integer, output, split };
+    let factors = PatchFactors::from_slice(domain, factors)?.map(f32::from);
+    Some(Case { config, factors })
+}

@@ -1,0 +1,161 @@
+//! What can go wrong.
+
+use std::fmt;
+use std::pin::pin;
+use std::task::{Context, Poll, Waker};
+use tess_core::Domain;
+use tess_gpu::Resource;
+
+/// Why a device, a buffer or a batch cannot be had.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// No adapter gives a device. Install a Vulkan driver; Debian's `mesa-vulkan-drivers` has one
+    /// in software.
+    NoDevice {
+        /// What wgpu says.
+        reason: String,
+    },
+    /// The device was lost. Open another one and make every object anew.
+    DeviceLost {
+        /// What wgpu says.
+        reason: String,
+    },
+    /// The device has too little memory left. Free some, or tessellate fewer patches at a time.
+    OutOfMemory,
+    /// A buffer would be larger than the device allows. Tessellate fewer patches at a time, or open
+    /// the device with higher limits ([`crate::Wanted::Everything`]).
+    BufferTooLarge {
+        /// Label of the buffer.
+        buffer: String,
+        /// Bytes that it needs.
+        needed: u64,
+        /// The device's limit, `max_buffer_size`.
+        limit: u64,
+    },
+    /// The buffer of factors is too short. Make it longer, or name fewer patches.
+    FactorsTooShort {
+        /// Bytes that the patches need.
+        needed: u64,
+        /// Bytes that the buffer has.
+        got: u64,
+    },
+    /// The caller's buffer lacks the usage `STORAGE`. Create it with that usage.
+    NotStorage {
+        /// Factors, points or indices.
+        buffer: Resource,
+    },
+    /// One buffer serves two purposes. Use different buffers for factors, points and indices.
+    SharedBuffer {
+        /// What it is given for.
+        buffers: [Resource; 2],
+    },
+    /// A patch has the factors of another domain than the setup. Tessellate the patches of each
+    /// domain on their own.
+    WrongDomain {
+        /// Number of the first such patch.
+        patch: usize,
+        /// Domain of the setup.
+        expected: Domain,
+        /// Domain of the patch.
+        got: Domain,
+    },
+    /// A batch has at most 2^30 patches.
+    TooManyPatches {
+        /// Patches of the batch.
+        got: usize,
+    },
+    /// The output of a batch exceeds 2^32 - 1 points or primitives, or more points than indices of
+    /// 16 bits can number. Tessellate fewer patches at a time.
+    OutputTooLarge {
+        /// Points of the batch.
+        points: u64,
+        /// Primitives of the batch.
+        primitives: u64,
+    },
+    /// wgpu refused an object or a command, for example to read beyond the end of a buffer.
+    Refused {
+        /// What wgpu says.
+        reason: String,
+    },
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoDevice { reason } => write!(
+                f,
+                "no graphics adapter could be used ({reason}); install a Vulkan driver \
+                 (in software: Debian's mesa-vulkan-drivers)"
+            ),
+            Self::DeviceLost { reason } => write!(f, "the graphics device was lost: {reason}"),
+            Self::OutOfMemory => f.write_str("the graphics device is out of memory"),
+            Self::BufferTooLarge { buffer, needed, limit } => write!(
+                f,
+                "the buffer `{buffer}` needs {needed} bytes, and the device allows {limit}; \
+                 tessellate fewer patches at a time"
+            ),
+            Self::FactorsTooShort { needed, got } => {
+                write!(f, "the patches have {needed} bytes of factors, their buffer {got}")
+            }
+            Self::NotStorage { buffer } => {
+                write!(f, "the buffer of {} lacks the usage STORAGE", name(*buffer))
+            }
+            Self::SharedBuffer { buffers: [first, second] } => write!(
+                f,
+                "one buffer is given for {} and for {}; use two",
+                name(*first),
+                name(*second)
+            ),
+            Self::WrongDomain { patch, expected, got } => write!(
+                f,
+                "patch {patch} has {got:?} factors, and the setup is for the {expected:?} domain"
+            ),
+            Self::TooManyPatches { got } => {
+                write!(f, "{got} patches are more than a batch can have, 2^30")
+            }
+            Self::OutputTooLarge { points, primitives } => write!(
+                f,
+                "{points} points and {primitives} primitives are more than the indices can number; \
+                 tessellate fewer patches at a time"
+            ),
+            Self::Refused { reason } => write!(f, "wgpu refused: {reason}"),
+        }
+    }
+}
+
+impl std::error::Error for Error {}
+
+const fn name(buffer: Resource) -> &'static str {
+    match buffer {
+        Resource::Factors => "factors",
+        Resource::Points => "points",
+        Resource::Indices => "indices",
+        _ => "the batch",
+    }
+}
+
+/// Does `work` and returns what wgpu has against it, which would end the program otherwise.
+///
+/// Natively wgpu answers at once. A browser answers later; there its console has the complaint.
+pub(crate) fn checked<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, Error> {
+    let filters = [
+        wgpu::ErrorFilter::Internal,
+        wgpu::ErrorFilter::OutOfMemory,
+        wgpu::ErrorFilter::Validation,
+    ];
+    let scopes = filters.map(|filter| device.push_error_scope(filter));
+    let done = work();
+    let mut found = None;
+    for scope in scopes.into_iter().rev() {
+        let answer = pin!(scope.pop()).poll(&mut Context::from_waker(Waker::noop()));
+        if let Poll::Ready(Some(error)) = answer {
+            found = Some(error);
+        }
+    }
+    match found {
+        None => Ok(done),
+        Some(wgpu::Error::OutOfMemory { .. }) => Err(Error::OutOfMemory),
+        Some(error) => Err(Error::Refused { reason: error.to_string() }),
+    }
+}

@@ -1,0 +1,84 @@
+//! Compute pipelines of the shaders.
+
+use tess_gpu::{Access, Binding, Resource, Stage};
+
+/// The pipeline of a stage's source.
+pub(crate) fn of_stage(device: &wgpu::Device, stage: Stage, source: &str) -> wgpu::ComputePipeline {
+    let label = Some(stage.entry_point());
+    let entries: Vec<_> = (0..).zip(stage.bindings()).map(layout_entry).collect();
+    compute_pipeline(device, label, source, &entries)
+}
+
+/// The pipeline of a probe's source, and its buffers bound.
+#[cfg(feature = "measure")]
+pub(crate) fn of_probe(
+    device: &wgpu::Device,
+    source: &str,
+    buffers: &[wgpu::Buffer; 3],
+) -> (wgpu::ComputePipeline, wgpu::BindGroup) {
+    let label = Some("probes");
+    let accesses = [Access::Read, Access::ReadWrite, Access::Read];
+    let bindings = accesses.map(|access| Binding(Resource::Tables, access));
+    let entries: Vec<_> = (0..).zip(&bindings).map(layout_entry).collect();
+    let pipeline = compute_pipeline(device, label, source, &entries);
+    let entries: Vec<_> = (0..)
+        .zip(buffers)
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label,
+        layout: &pipeline.get_bind_group_layout(0),
+        entries: &entries,
+    });
+    (pipeline, group)
+}
+
+fn compute_pipeline(
+    device: &wgpu::Device,
+    label: Option<&str>,
+    source: &str,
+    entries: &[wgpu::BindGroupLayoutEntry],
+) -> wgpu::ComputePipeline {
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label,
+        source: wgpu::ShaderSource::Wgsl(source.into()),
+    });
+    let group =
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries });
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label,
+        bind_group_layouts: &[Some(&group)],
+        immediate_size: 0,
+    });
+    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+        label,
+        layout: Some(&layout),
+        module: &module,
+        entry_point: label,
+        compilation_options: wgpu::PipelineCompilationOptions {
+            // Every word of it is written before it is read.
+            zero_initialize_workgroup_memory: false,
+            ..Default::default()
+        },
+        cache: None,
+    })
+}
+
+fn layout_entry(
+    (binding, &Binding(resource, access)): (u32, &Binding),
+) -> wgpu::BindGroupLayoutEntry {
+    let ty = match (resource, access) {
+        (Resource::Job, _) => wgpu::BufferBindingType::Uniform,
+        (_, Access::Read) => wgpu::BufferBindingType::Storage { read_only: true },
+        (_, Access::ReadWrite) => wgpu::BufferBindingType::Storage { read_only: false },
+    };
+    wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+        count: None,
+    }
+}

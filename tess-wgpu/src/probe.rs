@@ -1,0 +1,49 @@
+//! Single steps of the shaders, for comparing them with the golden model's.
+
+use crate::error::{Error, checked};
+use crate::{Gpu, Tessellator, pipeline};
+use tess_gpu::sizes::WORKGROUP;
+use tess_gpu::{Probe, Setup};
+
+impl Tessellator {
+    /// Runs a probe over `input`, whose length is a multiple of the probe's.
+    ///
+    /// # Errors
+    /// [`Error::DeviceLost`], or an error of size if there is more input than the device can take.
+    pub fn probe(
+        &mut self,
+        gpu: &Gpu,
+        probe: Probe,
+        setup: Setup,
+        input: &[u32],
+    ) -> Result<Vec<u32>, Error> {
+        use wgpu::BufferUsages as Usage;
+        let (words_in, words_out) = probe.words();
+        let count = input.len() as u64 / u64::from(words_in);
+        if count == 0 {
+            return Ok(Vec::new());
+        }
+        let size = 4 * count * u64::from(words_out);
+        let output = gpu.buffer("probes", size, Usage::STORAGE | Usage::COPY_SRC)?;
+        let buffers = [
+            gpu.upload("input", bytemuck::cast_slice(input), Usage::STORAGE)?,
+            output.clone(),
+            self.tables(setup.config.split)?,
+        ];
+        let source = probe.source(setup);
+        let (pipeline, group) =
+            checked(&gpu.device, || pipeline::of_probe(&gpu.device, &source, &buffers))?;
+        let most = self.limits().workgroups;
+        // A buffer of more input would be too large.
+        let workgroups = u32::try_from(count.div_ceil(u64::from(WORKGROUP))).unwrap_or(u32::MAX);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
+            pass.set_pipeline(&pipeline);
+            pass.set_bind_group(0, &group, &[]);
+            pass.dispatch_workgroups(workgroups.min(most), workgroups.div_ceil(most), 1);
+        }
+        gpu.run(encoder)?;
+        Ok(bytemuck::pod_collect_to_vec(&gpu.read(&output, size)?))
+    }
+}

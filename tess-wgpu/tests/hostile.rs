@@ -1,0 +1,131 @@
+//! What a caller can do wrong, and what a device can refuse: errors, no panics.
+
+mod common;
+
+use common::device::Machine;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::{Resource, Setup};
+use tess_wgpu::{Error, Gpu, Outputs, Tessellator};
+use wgpu::BufferUsages as Usage;
+
+fn setup(domain: Domain) -> Setup {
+    Setup::new(domain, Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw))
+}
+
+fn quads(factor: f32, count: usize) -> Vec<PatchFactors> {
+    vec![PatchFactors::uniform(Domain::Quad, factor); count]
+}
+
+/// A device that allows buffers of 1 MiB.
+fn small_device() -> Gpu {
+    let mut gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let adapter = pollster::block_on(instance.request_adapter(&Default::default()));
+    let descriptor = wgpu::DeviceDescriptor {
+        required_limits: wgpu::Limits { max_buffer_size: 1 << 20, ..Default::default() },
+        ..Default::default()
+    };
+    let device = pollster::block_on(adapter.expect("an adapter").request_device(&descriptor));
+    (gpu.device, gpu.queue) = device.expect("a device");
+    gpu
+}
+
+#[test]
+fn one_buffer_for_two_purposes_is_refused() {
+    let mut machine = Machine::open();
+    let factors = machine.factors(&quads(2.0, 10));
+    let [one, other] = [(); 2].map(|()| machine.upload(&[0; 4_000], Usage::STORAGE));
+    for (points, indices, expected) in [
+        (&one, &other, None),
+        (&one, &one, Some([Resource::Points, Resource::Indices])),
+        (&factors, &one, Some([Resource::Factors, Resource::Points])),
+        (&one, &factors, Some([Resource::Factors, Resource::Indices])),
+    ] {
+        let outputs = Outputs::Buffers { points, indices };
+        let batch = machine.tessellator.batch(setup(Domain::Quad), 10, &factors, outputs);
+        let expected = expected.map(|buffers| Error::SharedBuffer { buffers });
+        assert_eq!(batch.err(), expected, "batch of these buffers");
+    }
+}
+
+#[test]
+fn buffers_that_do_not_do_are_refused() {
+    let mut machine = Machine::open();
+    let factors = machine.factors(&quads(2.0, 10));
+    let outputs = Outputs::CountOnly;
+    let batch = machine.tessellator.batch(setup(Domain::Quad), 11, &factors, outputs);
+    let expected = Error::FactorsTooShort { needed: 11 * 24, got: 10 * 24 };
+    assert_eq!(batch.err(), Some(expected), "too few factors");
+    let plain = machine.upload(&[0; 4_000], Usage::COPY_SRC);
+    let points = machine.upload(&[0; 4_000], Usage::STORAGE);
+    let outputs = Outputs::Buffers { points: &points, indices: &plain };
+    let batch = machine.tessellator.batch(setup(Domain::Quad), 10, &factors, outputs);
+    let expected = Error::NotStorage { buffer: Resource::Indices };
+    assert_eq!(batch.err(), Some(expected), "indices that no shader can write");
+    let patches = (1 << 30) + 1;
+    let batch = machine.tessellator.batch(setup(Domain::Quad), patches, &factors, outputs);
+    let expected = Error::TooManyPatches { got: patches as usize };
+    assert_eq!(batch.err(), Some(expected), "more patches than points can name");
+}
+
+#[test]
+fn patches_of_another_domain_are_refused() {
+    let mut machine = Machine::open();
+    let mut patches = vec![PatchFactors::uniform(Domain::Isoline, 3.0); 4];
+    patches.extend(quads(3.0, 1));
+    let output = machine.tessellator.tessellate(&machine.gpu, setup(Domain::Isoline), &patches);
+    let (expected, got) = (Domain::Isoline, Domain::Quad);
+    let expected = Error::WrongDomain { patch: 4, expected, got };
+    assert_eq!(output.err(), Some(expected), "a quad among isolines");
+}
+
+/// Too much output, too many factors, and what lies between them.
+#[test]
+fn what_exceeds_the_device_is_refused() {
+    let gpu = small_device();
+    let mut tessellator = Tessellator::new(&gpu.device);
+    let limit = 1 << 20;
+    // The tables of constants alone are larger.
+    let output = tessellator.tessellate(&gpu, setup(Domain::Quad), &quads(1.0, 1));
+    let expected = |buffer: &str, needed| {
+        let buffer = buffer.to_owned();
+        Some(Error::BufferTooLarge { buffer, needed, limit })
+    };
+    assert_eq!(output.err(), expected("tables", 4 * 540_864), "tables");
+    let patches = quads(1.0, 50_000);
+    let output = tessellator.tessellate(&gpu, setup(Domain::Quad), &patches);
+    assert_eq!(output.err(), expected("factors", 24 * 50_000), "factors");
+
+    let mut machine = Machine::open();
+    let patches = quads(64.0, 8_000);
+    let output = machine.tessellator.tessellate(&machine.gpu, setup(Domain::Quad), &patches);
+    let limit = machine.gpu.device.limits().max_buffer_size;
+    let needed = 8 * 4_225 * 8_000;
+    assert!(needed > limit, "{limit}");
+    let buffer = "points".to_owned();
+    assert_eq!(output.err(), Some(Error::BufferTooLarge { buffer, needed, limit }), "points");
+    machine.assert_equal(setup(Domain::Quad), &quads(3.0, 10));
+}
+
+/// A lost device is an error each time, in whatever is done next.
+#[test]
+fn a_lost_device_is_an_error() {
+    let mut machine = Machine::open();
+    let quad = setup(Domain::Quad);
+    let usage = Usage::STORAGE | Usage::COPY_SRC;
+    let buffer = machine.upload(&[1, 2, 3], usage);
+    let factors = machine.factors(&quads(2.0, 10));
+    let batch = machine.tessellator.batch(quad, 10, &factors, Outputs::CountOnly).expect("valid");
+    machine.gpu.device.destroy();
+
+    let is_lost = |error: Option<Error>| matches!(error, Some(Error::DeviceLost { .. }));
+    let Machine { gpu, tessellator } = &mut machine;
+    assert!(is_lost(gpu.read(&buffer, 12).err()), "read");
+    assert!(is_lost(gpu.upload("words", &[1; 8], usage).err()), "upload");
+    assert!(is_lost(tessellator.tessellate(gpu, quad, &quads(2.0, 10)).err()), "tessellate");
+    let again = tessellator.batch(quad, 10, &factors, Outputs::CountOnly);
+    assert!(is_lost(again.err()), "a batch");
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    batch.encode(&mut encoder);
+    assert!(is_lost(gpu.run(encoder).err()), "run");
+}

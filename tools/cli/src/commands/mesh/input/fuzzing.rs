@@ -1,0 +1,47 @@
+//! The readers as fuzz targets call them: bytes in, a mesh or a message out.
+
+use super::{bpt, collapsed, gltf, height, obj};
+use std::io::Cursor;
+use tess_surface::BezierPatch;
+use tess_surface::PolygonMesh;
+
+/// A grey image: width, height, and texels row by row from the top.
+pub type Heights = (usize, usize, Vec<f32>);
+
+/// Reads an OBJ file.
+///
+/// # Errors
+/// What is wrong and where.
+pub fn obj(bytes: &[u8]) -> Result<PolygonMesh, String> {
+    obj::parse(bytes).map(|obj| obj.mesh)
+}
+
+/// Reads a glTF or GLB file of at most `most` vertices and triangles, without files beside it.
+///
+/// # Errors
+/// What is wrong and where.
+pub fn gltf(bytes: &[u8], most: usize) -> Result<PolygonMesh, String> {
+    gltf::parse(bytes, None, most).map(|scene| scene.mesh)
+}
+
+/// Reads a Bezier patch file.
+///
+/// # Errors
+/// What is wrong and where.
+pub fn bpt(bytes: &[u8]) -> Result<Vec<BezierPatch>, String> {
+    bpt::parse(bytes).map(|bpt| bpt.patches)
+}
+
+/// Reads a PNG of at most `most` pixels as heights.
+///
+/// # Errors
+/// What is wrong.
+pub fn height_png(bytes: &[u8], most: u64) -> Result<Heights, String> {
+    let heights = height::decode(Cursor::new(bytes), most)?;
+    Ok((heights.width, heights.height, heights.texels))
+}
+
+/// Drops faces whose corners coincide, as is done with every mesh that is read.
+pub fn without_collapsed(mesh: &mut PolygonMesh) {
+    collapsed::repair(mesh);
+}

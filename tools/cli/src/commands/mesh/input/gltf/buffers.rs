@@ -1,0 +1,126 @@
+//! The content of buffers: from the file itself, from base64 in it, or from a file beside it.
+
+use super::document::{Buffer, broken};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use std::borrow::Cow;
+use std::fs::{self, File};
+use std::io::Read;
+use std::path::{Component, Path, PathBuf};
+
+/// Most bytes that all buffers of a model may have together: what a GLB file can hold.
+const MOST: u64 = 1 << 32;
+
+/// Every buffer's content, exactly as long as the buffer says.
+///
+/// # Errors
+/// A buffer without content or with too little, a URI that leads out of `folder`, a file that
+/// cannot be read or is no ordinary file, buffers of more than 4 GiB.
+pub(super) fn load<'a>(
+    buffers: &[Buffer],
+    folder: Option<&Path>,
+    blob: Option<&'a [u8]>,
+) -> Result<Vec<Cow<'a, [u8]>>, String> {
+    let mut left = MOST;
+    let mut contents = Vec::new();
+    for (number, buffer) in buffers.iter().enumerate() {
+        let path = format!("buffers[{number}]");
+        let length = buffer.byte_length;
+        if length == 0 {
+            return Err(broken(format!("{path}.byteLength"), "it is 0; at least 1 is needed"));
+        }
+        left = left.checked_sub(length).ok_or_else(|| {
+            broken(format!("{path}.byteLength"), "the buffers have more than 4 GiB")
+        })?;
+        let content = match &buffer.uri {
+            Some(uri) => {
+                let read = from_uri(uri, folder, length);
+                Cow::Owned(read.map_err(|what| broken(format!("{path}.uri"), what))?)
+            }
+            None => {
+                let blob = blob.filter(|_| number == 0);
+                Cow::Borrowed(blob.ok_or_else(|| {
+                    broken(&path, "it has no uri, and is not the first buffer of a GLB file")
+                })?)
+            }
+        };
+        contents.push(exactly(content, length).map_err(|what| broken(&path, what))?);
+    }
+    Ok(contents)
+}
+
+fn exactly(content: Cow<'_, [u8]>, length: u64) -> Result<Cow<'_, [u8]>, String> {
+    let too_short = || format!("it has {} of its {length} bytes", content.len());
+    let end = usize::try_from(length).ok().filter(|&end| end <= content.len());
+    let end = end.ok_or_else(too_short)?;
+    Ok(match content {
+        Cow::Borrowed(bytes) => Cow::Borrowed(&bytes[..end]),
+        Cow::Owned(mut bytes) => {
+            bytes.truncate(end);
+            Cow::Owned(bytes)
+        }
+    })
+}
+
+fn from_uri(uri: &str, folder: Option<&Path>, length: u64) -> Result<Vec<u8>, String> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        let text = data.split_once(";base64,").ok_or("data without `;base64,` is not read")?.1;
+        return BASE64_STANDARD.decode(text).map_err(|error| error.to_string());
+    }
+    let relative = file_name(uri)?;
+    let folder = folder.ok_or("a file without a folder cannot have other files beside it")?;
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    read_file(&folder.join(relative), folder, length)
+}
+
+/// The relative path of a URI that names a file in the model's folder or below it.
+fn file_name(uri: &str) -> Result<PathBuf, String> {
+    let outside = || format!("`{uri}` is not a file in the model's folder or below it");
+    let scheme = uri.split(['/', '?', '#']).next().is_some_and(|first| first.contains(':'));
+    let path = PathBuf::from(percent_decoded(uri).ok_or_else(outside)?);
+    let mut depth = 0i32;
+    for component in path.components() {
+        depth += match component {
+            Component::Normal(_) => 1,
+            Component::CurDir => 0,
+            Component::ParentDir => -1,
+            Component::RootDir | Component::Prefix(_) => return Err(outside()),
+        };
+        if depth < 0 {
+            return Err(outside());
+        }
+    }
+    if scheme || depth == 0 { Err(outside()) } else { Ok(path) }
+}
+
+/// RFC 3986, section 2.1; `None` for what is not two digits after a `%`, and not UTF-8.
+fn percent_decoded(uri: &str) -> Option<String> {
+    let mut pieces = uri.split('%');
+    let mut bytes = pieces.next()?.as_bytes().to_vec();
+    for piece in pieces {
+        let (digits, rest) = piece.split_at_checked(2)?;
+        if !digits.bytes().all(|digit| digit.is_ascii_hexdigit()) {
+            return None;
+        }
+        bytes.push(u8::from_str_radix(digits, 16).ok()?);
+        bytes.extend(rest.as_bytes());
+    }
+    String::from_utf8(bytes).ok().filter(|path| !path.contains('\0'))
+}
+
+/// Reads no more than `length` bytes of an ordinary file that lies below `folder`, links followed.
+fn read_file(path: &Path, folder: &Path, length: u64) -> Result<Vec<u8>, String> {
+    let shown = path.display();
+    let cannot = |error: std::io::Error| format!("cannot read {shown}: {error}");
+    let real = fs::canonicalize(path).map_err(cannot)?;
+    if !real.starts_with(fs::canonicalize(folder).map_err(cannot)?) {
+        return Err(format!("{shown} is a link to a file outside of the model's folder"));
+    }
+    let found = fs::metadata(&real).map_err(cannot)?;
+    if !found.is_file() {
+        return Err(format!("{shown} is not an ordinary file"));
+    }
+    let mut bytes = Vec::new();
+    File::open(&real).and_then(|file| file.take(length).read_to_end(&mut bytes)).map_err(cannot)?;
+    Ok(bytes)
+}
