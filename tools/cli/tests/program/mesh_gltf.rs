@@ -42,20 +42,14 @@ fn triangle() -> (Value, Vec<u8>) {
 
 /// Puts a value in its place, such as `accessors/0/type`; `null` removes what is there.
 fn set(document: &mut Value, path: &str, value: Value) {
-    if value.is_null() {
-        let (parent, name) = path.rsplit_once('/').expect("only members are removed");
-        let parent = document.pointer_mut(&format!("/{parent}")).and_then(Value::as_object_mut);
-        parent.expect("an object").remove(name);
-        return;
+    let (parent, name) = path.rsplit_once('/').unwrap_or(("", path));
+    let pointer = if parent.is_empty() { String::new() } else { format!("/{parent}") };
+    match document.pointer_mut(&pointer) {
+        Some(Value::Array(list)) => list[name.parse::<usize>().expect("an index")] = value,
+        Some(Value::Object(members)) if value.is_null() => _ = members.remove(name),
+        Some(Value::Object(members)) => _ = members.insert(name.to_owned(), value),
+        _ => panic!("{path} is in no list and no object"),
     }
-    let mut place = document;
-    for name in path.split('/') {
-        place = match name.parse::<usize>() {
-            Ok(index) => &mut place[index],
-            Err(_) => &mut place[name],
-        };
-    }
-    *place = value;
 }
 
 /// The document as a file, its buffer in it.
