@@ -45,10 +45,6 @@ fn growth(space: &str) -> Result<u64, Error> {
     });
     let count = gpu.upload("count", &[0; 16], Usage::UNIFORM | Usage::STORAGE)?;
     let out = gpu.buffer("out", 4096, Usage::STORAGE)?;
-    let entry = |binding, buffer: &wgpu::Buffer| wgpu::BindGroupEntry {
-        binding,
-        resource: wgpu::BindingResource::Buffer(buffer.as_entire_buffer_binding()),
-    };
     let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: None,
         layout: &pipeline.get_bind_group_layout(0),
@@ -82,4 +78,12 @@ fn a_branch_on_a_uniform_takes_no_memory() {
     assert!(storage < most, "a storage buffer: {storage} bytes in 200 runs");
     let uniform = growth("uniform").expect("it runs");
     assert!(uniform < most, "a uniform: {uniform} bytes in 200 runs");
+}
+
+/// A whole buffer as a binding.
+fn entry(binding: u32, buffer: &wgpu::Buffer) -> wgpu::BindGroupEntry<'_> {
+    wgpu::BindGroupEntry {
+        binding,
+        resource: wgpu::BindingResource::Buffer(buffer.as_entire_buffer_binding()),
+    }
 }
