@@ -146,7 +146,8 @@ pub(crate) fn subcommand(name: &str) -> Result<(), String> {
     if has_it {
         return Ok(());
     }
-    command::run(&mut command::cargo(&format!("install cargo-{name} --locked")))
+    // Without optimisation: building it takes longer than all of its runs here.
+    command::run(&mut command::cargo(&format!("install cargo-{name} --locked --debug")))
 }
 
 /// Whether the loader and any driver's manifest are where Vulkan looks for them.
