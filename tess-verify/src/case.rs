@@ -117,6 +117,7 @@ fn named<T: Named>(field: &'static str, name: &str) -> Result<T, CaseError> {
 
 /// A text is no case.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct CaseError {
     /// The part that is wrong.
     pub field: &'static str,

@@ -33,9 +33,9 @@ pub enum Tested {
 
 /// Checks every record of a file.
 ///
-/// `tested` says which side is right; nothing in the file decides that. Takes one backend for each
-/// thread that is to be used; the report does not depend on how many there are. `progress` is told,
-/// from any thread, how many more records are done.
+/// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
+/// to use; the report does not depend on their number. `progress` is called from any thread, with the
+/// number of records that were checked since its last call.
 ///
 /// # Errors
 /// A file that is malformed, truncated or too long, which is known at its end: the report of a
@@ -71,7 +71,7 @@ pub fn check<R: BufRead + Send>(
             results.push(worker.join().unwrap_or_else(panicked));
         }
     });
-    // A malformed file is reported as such, whatever a backend may have said meanwhile.
+    // A malformed file is reported as such, whatever a backend answered meanwhile.
     if let Some(Err(error)) = lock(&source).stopped.take() {
         return Err(error.into());
     }

@@ -18,6 +18,7 @@ pub struct Coverage {
 
 /// How many bins of a group were hit.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Group {
     /// Name of the group.
     pub name: String,

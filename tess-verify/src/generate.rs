@@ -1,8 +1,10 @@
 //! Test vectors in three levels: same arguments, same cases, in the same order.
 //!
-//! - Level 1: every boundary once: small enough for a simulation, and it hits every coverage bin.
-//! - Level 2: every boundary in every position, every pair of counts, and random cases.
-//! - Level 3: random cases, as many as asked for.
+//! - Level 1 has every boundary once. It hits every coverage bin and is small enough to simulate.
+//! - Level 2 has every boundary in every position, and every pair of counts.
+//! - Level 3 is random.
+//!
+//! Each level ends with random cases.
 
 mod boundaries;
 mod levels;
@@ -17,6 +19,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, Spl
 
 /// How much is generated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Level {
     /// Every boundary once.
     One,

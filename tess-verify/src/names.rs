@@ -34,6 +34,7 @@ pub trait Named: Copy + PartialEq + 'static {
 
 /// A name that stands for nothing.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct UnknownName {
     /// What was to be chosen.
     pub what: &'static str,

@@ -10,14 +10,14 @@ mod lines;
 mod listing;
 mod record;
 mod row;
+mod rows;
 mod write;
 
 pub use error::VectorError;
 pub use header::{Header, Kind};
 pub use listing::{Listing, primitive_size};
-pub use record::{
-    ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Record, Recorded, Sizes,
-};
+pub use record::Record;
+pub use rows::{ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Recorded, Sizes};
 pub use write::{write_listings, write_patches};
 
 use crate::quote::quoted;

@@ -20,7 +20,7 @@ pub(super) fn check_element(bytes: &mut Bytes<'_>) -> Result<(), String> {
     let mut point = TessPoint { u: CANARY, v: CANARY };
     let mut point_wrongs = Wrongs::default();
     point_wrongs.add_if(number >= patch.counts().points, TESS_OUT_OF_RANGE);
-    // SAFETY: each pointer is null, askew or to memory of the size that is said with it.
+    // SAFETY: each pointer is null, askew or to memory as large as the call claims.
     let status = unsafe { tess_point(config, factors, n, number, &mut point) };
     judge(&wrongs, &point_wrongs, "tess_point", &hostile, status)?;
     let expected = match patch.point(number) {

@@ -18,7 +18,7 @@ pub(super) struct Use {
     pub(super) conversions: Conversions,
 }
 
-/// Which of its two numbers a value became, and the record that says so.
+/// For each value, the number that it became (0 or 1), and the first record that shows it.
 type Known = HashMap<u32, (usize, u64)>;
 
 /// The records that convert a value in another way than one before them.
@@ -41,11 +41,11 @@ pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
     report
 }
 
-/// What a record says against those before it; what it says of other values becomes known.
+/// How a record contradicts those before it. If it does not, the values that it shows become known.
 fn conflict(used: &Use, known: &mut Known) -> Option<Mismatch> {
     let Conversions { values, accepted } = &used.conversions;
     let bit = |choice: u64, value: usize| usize::from(choice >> value & 1 == 1);
-    // Values whose number another record says, and that this choice takes in the other way.
+    // A value that is known, and that this choice converts in the other way.
     let against = |choice: u64| {
         values.iter().enumerate().find_map(|(i, value)| {
             let (number, record) = known.get(&value.value)?;

@@ -34,7 +34,7 @@ fn first_mismatch(case: &Case, observed: &Tessellation, strength: Strength) -> O
 }
 
 /// Of the cases whose output is legal, the one that has the most points in common with the
-/// observed ones: what is wrong is told in comparison with that.
+/// observed ones: the first difference to that one is the most useful.
 fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
     let alternatives = Alternatives::new(case, strength.conversion);
     let wrong_points = |choice: &u64| {

@@ -12,6 +12,7 @@ pub const MAX_DIFFERENCES: usize = 20;
 
 /// The verdict on a vector file.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Report {
     /// Records that were checked: all of the file.
     pub cases: u64,
@@ -41,6 +42,7 @@ impl fmt::Display for Report {
 
 /// One record that differs.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Difference {
     /// Number of the record, from 1.
     pub number: u64,

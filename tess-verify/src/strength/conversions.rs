@@ -118,7 +118,7 @@ impl Strength {
         if accepted != 0 {
             return Some(Conversions { values: alternatives.values, accepted });
         }
-        // A patch that was culled says nothing about its factors' fractions.
+        // A culled patch does not show how its factors were converted.
         let may_flush = self.denormals == Denormals::Flush;
         let culled = may_flush.then(|| flushed(case)).flatten();
         culled.filter(equals).map(|_| Conversions::default())

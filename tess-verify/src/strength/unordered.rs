@@ -152,7 +152,7 @@ fn counts<T: Copy + Ord>(a: &[T], b: &[T]) -> impl Iterator<Item = (T, usize, us
     })
 }
 
-/// Takes the elements equal to `element` and says how many there were.
+/// Takes the elements equal to `element` and counts them.
 fn take<T: Ord>(list: &mut Peekable<impl Iterator<Item = T>>, element: T) -> usize {
     std::iter::from_fn(|| list.next_if(|next| *next == element)).count()
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 /// A vector file is malformed, truncated, too long or empty.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct VectorError {
     /// Name of the file.
     pub file: String,

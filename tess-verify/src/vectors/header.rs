@@ -9,6 +9,7 @@ use std::fmt;
 
 /// What the records of a vector file are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Kind {
     /// Whole outputs.
     Listings,
@@ -95,9 +96,9 @@ pub struct Header {
     pub kind: Kind,
     /// How many records follow, at least 1.
     pub count: u64,
-    /// Where the results come from.
+    /// Where the results come from: a name for people, by which nothing is decided.
     pub source: String,
-    /// Everything else that the producer says, such as a level and a seed.
+    /// The producer's notes, key and value, such as a level and a seed.
     pub notes: Vec<(String, String)>,
 }
 

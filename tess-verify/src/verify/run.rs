@@ -30,8 +30,8 @@ pub struct Row {
 
 /// Compares everything in the plan's shard.
 ///
-/// Takes one list of backends for each thread that is to be used, all lists naming the same
-/// backends. `progress` is told, from any thread, how many units are done of how many.
+/// Give one list of backends for each thread to use, all lists with the same backends. `progress` is
+/// called from any thread with the subject, the number of units that are done, and the number of all.
 ///
 /// # Errors
 /// A backend that could not run, or no backend at all.

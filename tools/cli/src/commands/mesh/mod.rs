@@ -5,6 +5,7 @@
 #![expect(clippy::float_arithmetic, reason = "surfaces and pictures are made of floats")]
 
 mod input;
+mod outline;
 mod output;
 mod pipeline;
 mod statistics;
@@ -76,9 +77,9 @@ pub(crate) struct Args {
     /// Largest height image to read, in pixels
     #[arg(long, value_name = "N", default_value = "64000000")]
     max_pixels: u64,
-    /// Width of the indices in glTF [default: auto]
-    #[arg(long, value_name = "BITS")]
-    indices: Option<IndexWidth>,
+    /// Width of the indices in glTF
+    #[arg(long, value_name = "BITS", default_value = "auto")]
+    indices: IndexWidth,
     /// Show the triangles' edges in pictures
     #[arg(long)]
     wireframe: bool,
@@ -181,9 +182,8 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
     });
     let up = args.view.up.unwrap_or(up);
-    let view = args.view.view(args.bounds(&model), up);
-    let indices = args.indices.unwrap_or(IndexWidth::Auto);
-    let options = Options { up, indices, view, wireframe: args.wireframe };
+    let view = args.view.view(&args.outline(form, &model), up);
+    let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
     let mut sink = output::open(&args.output, form, &options)?;
     let job = Job {
         model: &model,
@@ -209,7 +209,7 @@ impl Args {
         let is_picture = form == ResultForm::Png;
         let is_gltf = matches!(form, ResultForm::Gltf | ResultForm::Glb);
         let needless = [
-            (self.indices.is_some() && !is_gltf, "--indices is for .gltf and .glb"),
+            (self.indices != IndexWidth::Auto && !is_gltf, "--indices is for .gltf and .glb"),
             (self.wireframe && !is_picture, "--wireframe is for pictures"),
             (
                 self.view.is_chosen() && !is_picture && !self.rule.looks(),
@@ -229,11 +229,11 @@ impl Args {
         Ok(form)
     }
 
-    /// The box that the surface lies in: that of the model, with room for the displacement.
-    fn bounds(&self, model: &Model) -> (Vec3, Vec3) {
-        let (low, high) = model.bounds();
-        let room = Vec3::splat(if self.displace.is_some() { self.height.abs() } else { 0.0 });
-        (low - room, high + room)
+    /// What the camera must have in its picture; nothing if there is no use for a camera.
+    fn outline(&self, form: ResultForm, model: &Model) -> Vec<Vec3> {
+        let reach = if self.displace.is_some() { self.height.abs() } else { 0.0 };
+        let looks = form == ResultForm::Png || self.rule.looks();
+        if looks { outline::outline(model, reach) } else { Vec::new() }
     }
 }
 

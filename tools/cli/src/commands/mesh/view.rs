@@ -54,9 +54,12 @@ impl ViewArgs {
         self.eye.is_some() || self.target.is_some() || self.fov.is_some() || self.size.is_some()
     }
 
-    /// The camera, for a model within these bounds.
+    /// The camera, for a surface with these points.
     #[must_use]
-    pub(crate) fn view(&self, (low, high): (Vec3, Vec3), up: Up) -> View {
+    pub(crate) fn view(&self, points: &[Vec3], up: Up) -> View {
+        let first = points.first().copied().unwrap_or_default();
+        let grow = |(low, high): (Vec3, Vec3), &point: &Vec3| (low.min(point), high.max(point));
+        let (low, high) = points.iter().fold((first, first), grow);
         let size = self.size.unwrap_or((800, 600));
         let (width, height) = (size.0 as f32, size.1 as f32);
         let radius = (0.5 * high.distance(low)).max(f32::MIN_POSITIVE);
@@ -69,7 +72,7 @@ impl ViewArgs {
         let eye = self.eye.unwrap_or_else(|| {
             let half = [half_height * width / height, half_height];
             let away = from.normalize();
-            target + away * distance_to_fit((low, high), target, away, axis, half).max(radius * 0.1)
+            target + away * distance_to_fit(points, target, away, axis, half).max(radius * 0.1)
         });
         let forward = (target - eye).normalize_or(Vec3::X);
         // Straight up or down, any direction may be the picture's top.
@@ -88,26 +91,17 @@ impl ViewArgs {
     }
 }
 
-/// How far from `target`, in direction `away`, a box fills the picture: all its corners lie within
-/// [`FILLED`] of the half width and half height, `half` at distance 1.
-fn distance_to_fit(
-    (low, high): (Vec3, Vec3),
-    target: Vec3,
-    away: Vec3,
-    axis: Vec3,
-    half: [f32; 2],
-) -> f32 {
+/// How far from `target`, in direction `away`, points fill the picture: all lie within [`FILLED`] of
+/// its half width and half height, which are `half` at distance 1.
+fn distance_to_fit(points: &[Vec3], target: Vec3, away: Vec3, axis: Vec3, half: [f32; 2]) -> f32 {
     let right = axis.cross(away).normalize();
     let top = away.cross(right);
     let mut distance = 0.0f32;
-    for corner in 0..8 {
-        let is_high = |k: u32| (corner >> k & 1) == 1;
-        let pick = |k: usize, bit: u32| if is_high(bit) { high[k] } else { low[k] };
-        let corner = Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2)) - target;
-        // From `distance`, the corner is `distance - corner.dot(away)` deep.
+    for &point in points {
+        let point = point - target;
+        // From `distance`, the point is `distance - point.dot(away)` deep.
         for (across, half) in [(right, half[0]), (top, half[1])] {
-            let needed = corner.dot(across).abs() / (half * FILLED) + corner.dot(away);
-            distance = distance.max(needed);
+            distance = distance.max(point.dot(across).abs() / (half * FILLED) + point.dot(away));
         }
     }
     distance

@@ -236,5 +236,5 @@ fn totals(counts: &[Counts], range: &Range<usize>) -> Totals {
 }
 
 fn words_as_bytes(words: &[u32]) -> Vec<u8> {
-    words.iter().flat_map(|word| word.to_ne_bytes()).collect()
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
