@@ -50,9 +50,8 @@ impl Collapsed {
 /// fault stay as they are.
 pub(super) fn repair(mesh: &mut PolygonMesh) -> Collapsed {
     let mut collapsed = Collapsed::default();
-    let without_area = |face: &Face| {
-        matches!(mesh.check_face(face), Err(Fault::RepeatedCorner | Fault::NoArea))
-    };
+    let without_area =
+        |face: &Face| matches!(mesh.check_face(face), Err(Fault::RepeatedCorner | Fault::NoArea));
     if !mesh.faces.iter().any(without_area) {
         return collapsed;
     }
