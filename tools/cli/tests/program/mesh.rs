@@ -155,11 +155,6 @@ fn bad_obj_files() -> Vec<(&'static str, String, &'static str)> {
             "line 7: `v 1 nan 1`: `nan` is NaN, infinite or too large for 32 bits",
         ),
         (
-            "zero.obj",
-            format!("{CUBE}\nv 5 0 0\nv 6 0 0\nv 7 0 0\nf 9 10 11\n"),
-            "line 19: it has zero area",
-        ),
-        (
             "edge.obj",
             format!("{CUBE}v 0 0 5\nf 1 2 9\n"),
             "line 16: an edge of this face belongs to two other faces already (line 9 and line 11)",

@@ -108,7 +108,7 @@ fn types_that_attributes_must_not_have() {
             (
                 &[
                     ("accessors/2/type", json!("VEC3")),
-                    ("bufferViews/2/byteLength", json!(32)),
+                    ("bufferViews/2/byteLength", json!(36)),
                     ("bufferViews/2/byteOffset", json!(64)),
                 ],
                 "TEXCOORD_0: accessors[2] is Vec3",
@@ -178,7 +178,7 @@ fn bytes_that_are_not_there() {
             (&[("meshes/0/primitives/0/indices", json!(9))], "indices: 9 is out of range"),
             (&[("accessors/2/count", json!(2))], "attributes.TEXCOORD_0: its count is not that of"),
             (&[("accessors/3/count", json!(2))], "accessors[3] 2 indices are no whole triangles"),
-            (&[("bufferViews/3/byteOffset", json!(4))], "accessors[3] index 16256 at 1 is out of"),
+            (&[("bufferViews/3/byteOffset", json!(12))], "accessors[3] index 16256 at 1 is out of"),
             (
                 &[
                     ("accessors/0/sparse", sparse(4)),
