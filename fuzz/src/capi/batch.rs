@@ -1,7 +1,7 @@
 //! `tess_batch_run`.
 
 use super::hostile::{CANARY, Wrongs};
-use super::patch::capacity;
+use super::patch::{capacity, is_possible};
 use crate::input::Bytes;
 use crate::{compare_with_model, repeatable};
 use std::cell::RefCell;
@@ -68,7 +68,7 @@ fn output(
     let mut sized = |needed: usize, size: usize| {
         let (capacity, room) = capacity(bytes, needed);
         wrongs.add_if(capacity < needed, TESS_BUFFER_TOO_SMALL);
-        let possible = capacity.checked_mul(size).is_some_and(|n| isize::try_from(n).is_ok());
+        let possible = is_possible(capacity, size);
         wrongs.add_if(!possible, TESS_TOO_LARGE);
         // A possible capacity must be there: the library may believe it.
         (capacity, if possible { capacity } else { room })
