@@ -118,14 +118,16 @@ fn run(
         split: split as u32,
     };
     let mut counts = TessBatchCounts::default();
-    let batch = MADE.with_borrow_mut(|made| match made.entry((case.domain(), case.config)) {
-        Entry::Occupied(made) => Ok(made.get().0),
-        Entry::Vacant(place) => Ok(place.insert(Made::new(case, &config)?).0),
-    });
+    let batch: Result<_, String> =
+        MADE.with_borrow_mut(|made| match made.entry((case.domain(), case.config)) {
+            Entry::Occupied(made) => Ok(made.get().0),
+            Entry::Vacant(place) => Ok(place.insert(Made::new(case, &config)?).0),
+        });
+    let batch = batch?;
     // SAFETY: a batch that was made; buffers that are null, askew, impossibly large or as large as
     // they say.
     let status =
-        unsafe { tess_batch_run(batch?, factors.as_ptr(), factors.len(), output, &mut counts) };
+        unsafe { tess_batch_run(batch, factors.as_ptr(), factors.len(), output, &mut counts) };
     Ok((status, counts))
 }
 

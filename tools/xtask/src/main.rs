@@ -24,7 +24,7 @@ usage: cargo xtask <command>
 
   test    set up what the tests need, then run every test of the workspace
   ci      what continuous integration runs: formatting, lints, documentation, features,
-          the fuzz targets' oracles on their seeds, `fuzz`, `ports brief`, `publish`,
+          the fuzz targets' oracles on their seeds, `fuzz`, `publish`,
           `deny` if cargo-deny is installed, then `test`
   setup   only set up: a Vulkan driver, C and C++ compilers, Verilator
   ports [brief] [NAME...]
