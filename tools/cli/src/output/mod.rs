@@ -1,6 +1,6 @@
 //! Where results go: stdout, a pipe, or a file that is there whole or not at all.
 //!
-//! [`file`] is the one way in which commands write files, [`stdout()`] the one way to stdout. Both name
+//! [`mod@file`] is the one way in which commands write files, [`stdout()`] the one way to stdout. Both name
 //! [`ending`] what must not stay behind when a signal ends the process. [`form`] chooses the form of
 //! a file by its name.
 
