@@ -9,6 +9,7 @@ pub mod capi;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod input;
+pub mod mesh;
 pub mod prepare;
 pub mod random_access;
 pub mod seeds;

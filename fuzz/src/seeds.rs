@@ -1,13 +1,25 @@
 //! Seeds: the factors at which something changes, in the form that each target reads.
 
 use crate::input::{batch_bytes, repeated_bytes};
+use crate::mesh;
 use std::io;
 use std::path::Path;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
 
 /// Every target.
-pub const TARGETS: [&str; 6] = ["random_access", "simd", "prepare", "vectors", "capi", "gpu"];
+pub const TARGETS: [&str; 10] = [
+    "random_access",
+    "simd",
+    "prepare",
+    "vectors",
+    "capi",
+    "obj",
+    "gltf",
+    "bpt",
+    "height_png",
+    "gpu",
+];
 
 /// Writes the seeds of every target to `corpus/TARGET/`; `golden` is the folder of recorded results.
 ///
@@ -31,8 +43,13 @@ pub fn write(corpus: &Path, golden: &Path) -> io::Result<usize> {
 /// # Errors
 /// Those of the file system, for the recorded results.
 pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
-    if target == "vectors" {
-        return recorded(golden);
+    match target {
+        "vectors" => return recorded(golden),
+        "obj" => return Ok(numbered(mesh::seeds::obj())),
+        "gltf" => return Ok(numbered(mesh::seeds::gltf())),
+        "bpt" => return Ok(numbered(mesh::seeds::bpt())),
+        "height_png" => return Ok(numbered(mesh::seeds::height_png())),
+        _ => {}
     }
     let seed = |(i, (domain, config, patches)): (usize, &(Domain, Config, Vec<PatchFactors>))| {
         let batch = batch_bytes(*domain, *config, patches);
@@ -63,6 +80,10 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
     // Calls that make a batch take milliseconds under a sanitizer.
     let step = if target == "capi" { 5 } else { 1 };
     Ok(batches(size).iter().enumerate().step_by(step).map(seed).enumerate().map(long).collect())
+}
+
+fn numbered(seeds: Vec<Vec<u8>>) -> Vec<(String, Vec<u8>)> {
+    seeds.into_iter().enumerate().map(|(number, seed)| (number.to_string(), seed)).collect()
 }
 
 fn low_byte(number: usize) -> u8 {

@@ -3,7 +3,9 @@
 //! One test, as the planted fault is seen by the whole process.
 
 use std::path::Path;
+use tess_fuzz::mesh::{self, mutations};
 use tess_fuzz::{capi, plant_fault, prepare, random_access, seeds, simd, vectors};
+use tess_program::fuzzing;
 
 type Oracle = fn(&[u8]) -> Result<(), String>;
 
@@ -13,9 +15,47 @@ const ORACLES: &[(&str, Oracle)] = &[
     ("prepare", prepare::check),
     ("vectors", vectors::check),
     ("capi", capi::check),
+    ("obj", mesh::obj::check),
+    ("gltf", mesh::gltf::check),
+    ("bpt", mesh::bpt::check),
+    ("height_png", mesh::height_png::check),
     #[cfg(feature = "gpu")]
     ("gpu", tess_fuzz::gpu::check),
 ];
+
+/// What a reader of mesh files and its oracle may allocate.
+const MOST_BYTES: u64 = 64 << 20;
+
+/// Whether the reader takes a file.
+fn is_read(target: &str, bytes: &[u8]) -> Result<(), String> {
+    match target {
+        "obj" => fuzzing::obj(bytes).map(drop),
+        "gltf" => fuzzing::gltf(bytes, 1 << 10).map(drop),
+        "bpt" => fuzzing::bpt(bytes).map(drop),
+        _ => fuzzing::height_png(bytes, 1 << 10).map(drop),
+    }
+}
+
+/// Readers take the seeds. Files with faults they refuse, or read as the independent reading does,
+/// with little memory.
+fn files_with_faults_pass(target: &str, oracle: Oracle) {
+    let (mut count, mut read) = (0, 0);
+    for (name, bytes) in seeds::of(target, Path::new("")).expect("seeds") {
+        assert_eq!(is_read(target, &bytes), Ok(()), "seed {name} of {target} is right");
+        for variant in mutations::of(target, &bytes) {
+            let mut result = Ok(());
+            let memory = allocation_counter::measure(|| result = oracle(&variant));
+            let shown = String::from_utf8_lossy(&variant);
+            assert_eq!(result, Ok(()), "a variant of seed {name} of {target}:\n{shown}");
+            assert!(memory.bytes_max < MOST_BYTES, "{name} of {target}: {memory:?}\n{shown}");
+            count += 1;
+            read += usize::from(is_read(target, &variant).is_ok());
+        }
+    }
+    let balanced = read > count / 50 && read < count - count / 50;
+    assert!(count > 1000 && balanced, "{target}: {count} variants, {read} of them are read");
+    println!("{target}: {count} variants of the seeds, {read} of them are read");
+}
 
 #[test]
 fn seeds_pass_until_a_fault_is_planted() {
@@ -26,6 +66,9 @@ fn seeds_pass_until_a_fault_is_planted() {
         for (name, bytes) in seeds {
             assert_eq!(oracle(&bytes), Ok(()), "seed {name} of {target}");
         }
+    }
+    for &(target, oracle) in &ORACLES[5..9] {
+        files_with_faults_pass(target, oracle);
     }
     plant_fault();
     for &(target, oracle) in ORACLES {

@@ -1,6 +1,6 @@
 //! Tessellating a model and welding the result by the bits of its positions.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_surface::{DisplacedModel, Displacement, FactorRule, HalfEdge, Model};
 
@@ -84,8 +84,8 @@ fn edge_key(a: [f32; 3], b: [f32; 3]) -> Option<EdgeKey> {
     (a != b).then(|| if a < b { [a, b] } else { [b, a] })
 }
 
-fn uses(edges: impl Iterator<Item = EdgeKey>) -> HashMap<EdgeKey, u32> {
-    let mut uses = HashMap::new();
+fn uses(edges: impl Iterator<Item = EdgeKey>) -> BTreeMap<EdgeKey, u32> {
+    let mut uses = BTreeMap::new();
     edges.for_each(|key| *uses.entry(key).or_default() += 1);
     uses
 }
@@ -102,7 +102,7 @@ pub(crate) fn complaint(out: &Tessellated) -> Option<String> {
     let inside = uses(solid.flatten());
     let border = uses(out.border.iter().filter_map(|&[a, b]| edge_key(a, b)));
     let odd =
-        |uses: &HashMap<EdgeKey, u32>, key: &EdgeKey| uses.get(key).copied().unwrap_or(0) % 2 == 1;
+        |uses: &BTreeMap<EdgeKey, u32>, key: &EdgeKey| uses.get(key).copied().unwrap_or(0) % 2 == 1;
     let cracks = inside.keys().filter(|key| odd(&inside, key) && !odd(&border, key)).count();
     let missing = border.keys().filter(|key| odd(&border, key) && !odd(&inside, key)).count();
     (cracks + missing > 0).then(|| format!("{cracks} cracks, {missing} border segments missing"))

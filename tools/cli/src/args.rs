@@ -1,6 +1,7 @@
 //! What several commands take: a patch (domain, factors and configuration), names, a shard.
 
 use crate::failure::Failure;
+use crate::output::note;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::case::Case;
@@ -55,17 +56,35 @@ impl PatchArgs {
     }
 
     fn wrong_count(&self) -> Failure {
-        let needs = match self.domain {
-            Domain::Isoline => "--outer density,detail and no --inner",
-            Domain::Triangle => "--outer U0,V0,W0 (3 factors) and --inner INSIDE (1 factor)",
-            Domain::Quad => "--outer U0,V0,U1,V1 (4 factors) and --inner U,V (2 factors)",
+        let (outer, inner) = self.domain.factor_names().split_at(self.domain.outer_factors());
+        let list = |names: &[&str]| {
+            let ending = if names.len() == 1 { "" } else { "s" };
+            format!("{} ({} factor{ending})", names.join(","), names.len())
+        };
+        let inner = match inner {
+            [] => "no --inner".to_owned(),
+            names => format!("--inner {}", list(names)),
         };
         Failure::bad_input(format!(
-            "domain {} takes {needs}; got {} outer and {} inside factors",
+            "domain {} takes --outer {} and {inner}; got {} outer and {} inside factors",
             self.domain.name(),
+            list(outer),
             self.outer.len(),
             self.inner.len()
         ))
+    }
+}
+
+/// Says on stderr which factors are larger than a factor can be. They are valid, and count less.
+pub(crate) fn note_large_factors(case: &Case) {
+    let patch = case.patch();
+    let Some(processed) = patch.processed().factors() else { return };
+    let factors = case.factors.iter().zip(processed.iter());
+    for (name, (raw, factor)) in case.domain().factor_names().iter().zip(factors) {
+        let largest = f32::from_bits(factor.clamped);
+        if raw > largest {
+            note(&format!("note: {name} is {raw} and counts as {largest}, the largest factor"));
+        }
     }
 }
 

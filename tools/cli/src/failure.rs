@@ -2,6 +2,7 @@
 
 use std::error::Error;
 use std::fmt;
+use std::io;
 use std::path::Path;
 use std::process::ExitCode;
 use tess_verify::backend::BackendError;
@@ -17,6 +18,8 @@ pub(crate) enum Exit {
     BadInput = 2,
     /// The backend is not available here.
     Unavailable = 3,
+    /// The reader of the output left before its end: what shells report for programs that end so.
+    ReaderLeft = 141,
 }
 
 impl From<Exit> for ExitCode {
@@ -32,7 +35,7 @@ impl From<Exit> for ExitCode {
 pub(crate) struct Failure {
     /// The code to exit with.
     pub(crate) exit: Exit,
-    /// The message, without a trailing newline.
+    /// The message, without a trailing newline; empty if nothing is to be said.
     pub(crate) message: String,
 }
 
@@ -53,6 +56,16 @@ impl Failure {
     #[must_use]
     pub(crate) fn unavailable(message: impl Into<String>) -> Self {
         Self { exit: Exit::Unavailable, message: message.into() }
+    }
+
+    /// A place that could not be written: exit code 2; a reader that left ends the program quietly.
+    #[must_use]
+    pub(crate) fn write(path: &Path, error: io::Error) -> Self {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            return Self { exit: Exit::ReaderLeft, message: String::new() };
+        }
+        let path = if path.as_os_str() == "-" { Path::new("stdout") } else { path };
+        Self::file("write", path, &error)
     }
 
     /// A file that could not be read or written: exit code 2.
@@ -86,7 +99,6 @@ impl From<BackendError> for Failure {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io;
 
     #[test]
     fn exit_codes_are_the_documented_ones() {
@@ -96,6 +108,7 @@ mod tests {
             (Failure::file("read", Path::new("x"), &io::Error::other("y")), 2),
             (Failure::unavailable(""), 3),
             (BackendError::new("no adapter").into(), 3),
+            (Failure::write(Path::new("-"), io::ErrorKind::BrokenPipe.into()), 141),
         ];
         for (failure, code) in failures {
             assert_eq!(failure.exit as u8, code, "{failure:?}");
@@ -103,7 +116,7 @@ mod tests {
     }
 
     #[test]
-    fn causes_are_told() {
+    fn causes_are_shown() {
         let source = Some(io::Error::other("device lost").into());
         let failure = Failure::from(BackendError { message: "gpu failed".into(), source });
         assert_eq!(failure.to_string(), "gpu failed\n  because: device lost", "both lines");

@@ -18,15 +18,15 @@ mod picture;
 #[doc(hidden)]
 pub use commands::fuzzing;
 
-use clap::Parser;
+use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser};
 use commands::Command;
-use std::io::Write;
 use std::process::ExitCode;
 
 /// A bit-exact model of the Direct3D 11 class fixed-function tessellator.
 ///
 /// Results go to stdout, progress and messages to stderr. Exit codes: 0 done or equal,
-/// 1 different, 2 bad usage or malformed, short or empty input, 3 backend not available here.
+/// 1 different, 2 bad usage or malformed, short or empty input, 3 backend not available here,
+/// 141 the reader of stdout left early.
 #[derive(Debug, Parser)]
 #[command(name = "tess", version, after_help = EXAMPLES)]
 struct Program {
@@ -44,13 +44,25 @@ Examples:
 /// Runs the program on the process's arguments and says how it ended.
 #[must_use]
 pub fn main() -> ExitCode {
-    let command = Program::parse().command;
+    let program = Program::from_arg_matches(&command_line().get_matches());
+    let command = program.unwrap_or_else(|error| error.exit()).command;
     match commands::run(&command) {
         Ok(exit) => exit.into(),
         Err(failure) => {
-            // Nothing can be done if stderr is closed; the exit code still tells.
-            _ = writeln!(std::io::stderr(), "tess: {failure}");
+            if !failure.message.is_empty() {
+                output::note(&failure.message);
+            }
             failure.exit.into()
         }
     }
+}
+
+/// The command line, on which a negative number is a value that may be wrong, never an option: an
+/// error names the value, and does not advise to write `-- -1`.
+fn command_line() -> clap::Command {
+    let numbers = |arg: Arg| match arg.get_action() {
+        ArgAction::Set | ArgAction::Append => arg.allow_negative_numbers(true),
+        _ => arg,
+    };
+    Program::command().mut_subcommands(move |command| command.mut_args(numbers))
 }

@@ -154,7 +154,6 @@ fn memory_need_not_be_initialised() {
 }
 
 /// Compares what was written with the model.
-#[expect(clippy::disallowed_methods, reason = "words in memory have the order of this machine")]
 fn check(fixture: &Fixture, output: &TessBatchOutput) {
     let (mut first_point, mut first_index) = (0, 0);
     let small = |count: usize| u32::try_from(count).expect("a small count");

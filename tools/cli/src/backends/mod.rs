@@ -1,9 +1,11 @@
-//! Who tessellates: the backends that this build has, chosen by `--backend`.
+//! The implementations that commands run, chosen by `--backend`.
 //!
-//! One adapter per backend, each an implementation of [`Backend`].
+//! Each has an adapter here that implements the verification kit's [`Backend`].
 
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;
+#[cfg(feature = "gpu")]
+pub(crate) mod quiet;
 pub(crate) mod simd;
 #[cfg(test)]
 mod tests;
@@ -28,21 +30,20 @@ pub(crate) enum BackendName {
 }
 
 /// The options that choose a backend.
-#[derive(Clone, Debug, clap::Args)]
+#[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct BackendArgs {
     /// Implementation to run
     #[arg(long, value_name = "NAME", default_value = "core")]
     pub(crate) backend: BackendName,
-    /// What it can be told.
+    /// How it runs.
     #[command(flatten)]
     pub(crate) options: BackendOptions,
 }
 
-/// What a backend can be told.
+/// How a backend runs.
 #[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct BackendOptions {
-    /// CPU level of the simd backend (baseline, avx2 or avx512); the best of this machine unless
-    /// said
+    /// CPU level of the simd backend: baseline, avx2 or avx512 [default: the best of this machine]
     #[arg(long, value_name = "NAME", value_parser = cpu_level)]
     pub(crate) cpu_level: Option<Level>,
     /// Width of the indices that simd and gpu write: u16 or u32
@@ -63,69 +64,73 @@ fn cpu_level(name: &str) -> Result<Level, String> {
     known.ok_or_else(|| "the levels are baseline, avx2 and avx512".to_owned())
 }
 
+impl BackendName {
+    /// The name on a command line.
+    #[must_use]
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Core => "core",
+            Self::Simd => "simd",
+            Self::Gpu => "gpu",
+        }
+    }
+}
+
 impl BackendArgs {
     /// Makes the chosen backend ready.
     ///
     /// # Errors
-    /// Exit code 2 if it is told what it does not know, 3 if this build or this machine does not have it,
-    /// with the next step.
-    pub(crate) fn select(&self) -> Result<Box<dyn Backend>, Failure> {
-        self.options.level_of(self.backend)?;
-        self.select_named(self.backend)
-    }
-
-    /// Makes a backend ready that another option names, as these options say.
-    ///
-    /// # Errors
-    /// As for [`Self::select`].
-    pub(crate) fn select_named(&self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
-        self.options.select(name)
+    /// Exit code 2 if it has no such options, 3 if this build or this machine does not have it, with
+    /// the next step.
+    pub(crate) fn select(self) -> Result<Box<dyn Backend>, Failure> {
+        self.options.fit(&[self.backend])?;
+        self.options.select(self.backend)
     }
 }
 
 impl BackendOptions {
-    /// The CPU level to run a backend at: only the simd backend has any.
+    /// Refuses options that none of the backends in use has.
     ///
     /// # Errors
-    /// Exit code 2 if a level was asked of another backend, 3 if this machine cannot run it.
-    pub(crate) fn level_of(self, name: BackendName) -> Result<Level, Failure> {
-        match (self.cpu_level, name) {
-            (None, _) => Ok(Level::detect()),
-            (Some(level), BackendName::Simd) if level.is_available() => Ok(level),
-            (Some(level), BackendName::Simd) => Err(unavailable(LevelUnavailable(level))),
-            (Some(_), _) => Err(Failure::bad_input("--cpu-level goes with --backend simd")),
+    /// Exit code 2 if a CPU level is asked for without the simd backend, or 16-bit indices without a
+    /// backend that has them.
+    pub(crate) fn fit(self, backends: &[BackendName]) -> Result<(), Failure> {
+        let has = |name: BackendName| backends.contains(&name);
+        if self.cpu_level.is_some() && !has(BackendName::Simd) {
+            return Err(Failure::bad_input("--cpu-level goes with --backend simd"));
         }
+        if self.index_type == IndexType::U16 && !has(BackendName::Simd) && !has(BackendName::Gpu) {
+            return Err(Failure::bad_input(
+                "--index-type u16 goes with --backend simd or gpu; core has indices of 32 bits alone",
+            ));
+        }
+        Ok(())
     }
 
-    /// Makes a backend ready as these options say.
+    /// The CPU level to run the simd backend at.
     ///
     /// # Errors
-    /// Exit code 2 if the backend has no indices of that width, 3 if this build or this machine does
-    /// not have it, with the next step.
+    /// Exit code 3 if this machine cannot run the one that is asked for.
+    pub(crate) fn level(self) -> Result<Level, Failure> {
+        let level = self.cpu_level.unwrap_or_else(Level::detect);
+        if level.is_available() { Ok(level) } else { Err(unavailable(LevelUnavailable(level))) }
+    }
+
+    /// Makes a backend ready as these options say, as far as they are for it.
+    ///
+    /// # Errors
+    /// Exit code 3 if this build or this machine does not have it, with the next step.
     pub(crate) fn select(self, name: BackendName) -> Result<Box<dyn Backend>, Failure> {
         match name {
-            BackendName::Core => {
-                self.only_32_bits()?;
-                Ok(Box::new(CoreBackend))
-            }
+            BackendName::Core => Ok(Box::new(CoreBackend)),
             BackendName::Simd => self.simd(),
             #[cfg(feature = "gpu")]
-            BackendName::Gpu => Ok(Box::new(gpu::GpuBackend::open(self.index_type)?)),
+            BackendName::Gpu => {
+                quiet::start_again_for_loader();
+                Ok(Box::new(gpu::GpuBackend::open(self.index_type)?))
+            }
             #[cfg(not(feature = "gpu"))]
             BackendName::Gpu => Err(not_built_in("gpu")),
-        }
-    }
-
-    /// Refuses 16-bit indices on behalf of the model, which has none.
-    ///
-    /// # Errors
-    /// Exit code 2 if they are asked for.
-    pub(crate) fn only_32_bits(self) -> Result<(), Failure> {
-        match self.index_type {
-            IndexType::U32 => Ok(()),
-            IndexType::U16 => Err(Failure::bad_input(
-                "--index-type u16 goes with --backend simd or gpu; core has indices of 32 bits alone",
-            )),
         }
     }
 
@@ -139,7 +144,7 @@ impl BackendOptions {
     }
 
     fn simd(self) -> Result<Box<dyn Backend>, Failure> {
-        let level = self.cpu_level.unwrap_or_else(Level::detect);
+        let level = self.level()?;
         Ok(match self.index_type {
             IndexType::U16 => Box::new(Simd::<u16>::with_level(level).map_err(unavailable)?),
             IndexType::U32 => Box::new(Simd::<u32>::with_level(level).map_err(unavailable)?),

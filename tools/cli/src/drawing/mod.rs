@@ -6,12 +6,14 @@ mod layout;
 mod overlay;
 mod rings;
 
+use crate::failure::Failure;
 use crate::formats::OnePatch;
 use crate::picture::{Colour, Picture, Position, Shape};
 use colours::{GRID, INK, PAPER, POINT};
 use layout::Layout;
 pub(crate) use overlay::overlay;
-use tess_core::Domain;
+use tess_core::{Domain, OutputPrimitive};
+use tess_verify::vectors::primitive_size;
 
 /// What a picture shows beside the primitives and points themselves.
 #[derive(Clone, Copy, Debug, Default, clap::Args)]
@@ -47,15 +49,36 @@ pub(crate) fn draw(patch: &OnePatch, options: &DrawOptions) -> Drawing {
     let points = layout.place_all(&patch.output().points);
     let mut drawing = Drawing::new(patch, options, &layout);
     drawing.primitives(patch, options, &points);
-    if options.order {
+    // Primitives that are points have their numbers where the points have theirs.
+    let are_points = options.order && primitive_size(patch.case()) == 1;
+    if are_points {
+        drawing.ordered_points(patch, options, &points);
+    } else if options.order {
         drawing.primitive_numbers(patch, &points);
     }
-    if options.indices {
-        drawing.point_numbers(&points);
-    } else {
-        drawing.dots(&points);
+    match (are_points, options.indices) {
+        (true, _) => {}
+        (false, true) => drawing.point_numbers(&points),
+        (false, false) => drawing.dots(&points),
     }
     drawing
+}
+
+impl DrawOptions {
+    /// Refuses to show what a patch does not have.
+    ///
+    /// # Errors
+    /// Rings without triangles.
+    pub(crate) fn fit(&self, domain: Domain, output: OutputPrimitive) -> Result<(), Failure> {
+        let is_triangles =
+            matches!(output, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw);
+        if self.rings && (domain == Domain::Isoline || !is_triangles) {
+            return Err(Failure::bad_input(
+                "--rings colours the triangles of a tri or quad patch; this one has none",
+            ));
+        }
+        Ok(())
+    }
 }
 
 impl Drawing {
@@ -115,20 +138,38 @@ impl Drawing {
         self.picture.shapes.extend(points.iter().map(dot));
     }
 
-    /// Each point as a disc with its number, as large as its neighbours allow, else as a dot.
     fn point_numbers(&mut self, points: &[Position]) {
-        let dot = layout::dot_radius(points.len());
+        self.discs(points, &vec![PAPER; points.len()], POINT);
+    }
+
+    /// The points in the order of the primitives that they are.
+    fn ordered_points(&mut self, patch: &OnePatch, options: &DrawOptions, points: &[Position]) {
+        let (mut places, mut colours) = (Vec::new(), Vec::new());
+        for (primitive, fill) in patch.primitives().zip(fills(patch, options)) {
+            if let Some([place]) = corners(primitive, points).as_deref() {
+                places.push(*place);
+                colours.push(fill);
+            }
+        }
+        self.discs(&places, &colours, INK);
+    }
+
+    /// Numbered discs, as large as their neighbours allow; dots with a rim where there is no room.
+    fn discs(&mut self, places: &[Position], fills: &[Colour], rim: Colour) {
+        let dot = layout::dot_radius(places.len());
         let labels: Vec<_> = (0..)
-            .zip(labels::disc_radii(points))
+            .zip(labels::disc_radii(places))
             .map(|(number, room)| labels::in_disc(number, room))
             .collect();
-        for (&centre, _) in points.iter().zip(&labels).filter(|(_, label)| label.is_none()) {
+        for (k, &centre) in places.iter().enumerate().filter(|(k, _)| labels[*k].is_none()) {
             self.labels_left_out += 1;
-            self.picture.shapes.push(Shape::Disc { centre, radius: dot, fill: POINT, rim: POINT });
+            let fill = if fills[k] == PAPER { rim } else { fills[k] };
+            self.picture.shapes.push(Shape::Disc { centre, radius: dot, fill, rim });
         }
-        for (number, (&centre, label)) in (0..).zip(points.iter().zip(labels)) {
-            if let Some((radius, height)) = label {
-                self.picture.shapes.push(Shape::Disc { centre, radius, fill: PAPER, rim: INK });
+        for (number, (k, &centre)) in (0..).zip(places.iter().enumerate()) {
+            if let Some((radius, height)) = labels[k] {
+                let fill = fills[k];
+                self.picture.shapes.push(Shape::Disc { centre, radius, fill, rim: INK });
                 self.picture.number(number, centre, height, INK);
             }
         }
@@ -140,7 +181,7 @@ fn fills(patch: &OnePatch, options: &DrawOptions) -> Vec<Colour> {
     let count = patch.primitives().count();
     if options.order {
         (0..count).map(|t| colours::along_scale(t, count)).collect()
-    } else if options.rings && patch.case().domain() != Domain::Isoline {
+    } else if options.rings {
         rings::rings(&patch.case().patch(), count).into_iter().map(colours::of_ring).collect()
     } else {
         vec![colours::PLAIN; count]

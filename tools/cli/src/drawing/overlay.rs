@@ -4,76 +4,127 @@ use super::colours::{DIFFERENT, DIFFERENT_FILL, GRID};
 use super::layout::{self, Layout};
 use super::{DrawOptions, Drawing, corners};
 use crate::formats::OnePatch;
-use crate::picture::{Position, Shape};
+use crate::picture::{Colour, Position, Shape};
 
 /// How many elements differ between two results of one case.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Differences {
     /// Points whose bits differ, and points that one result lacks.
     pub(crate) points: usize,
     /// Primitives whose indices differ, and primitives that one result lacks.
     pub(crate) primitives: usize,
+    /// What a picture cannot show as it is, a line each: primitives that are missing, have no
+    /// extent or name points that are not there.
+    pub(crate) in_words: Vec<String>,
 }
 
 /// Draws the expected result in grey and what is observed differently in red.
+///
+/// A primitive that is missing or cannot be drawn is marked by a red outline of the expected one,
+/// one without extent by discs at its corners.
 #[must_use]
 pub(crate) fn overlay(
     expected: &OnePatch,
     observed: &OnePatch,
     options: &DrawOptions,
 ) -> (Drawing, Differences) {
-    let layout = Layout::new(expected.case().domain(), options.size);
-    let expected_points = layout.place_all(&expected.output().points);
-    let observed_points = layout.place_all(&observed.output().points);
     let mut drawing = super::draw(expected, options);
-    let primitives = different(expected.primitives(), observed.primitives());
-    let points = different(expected.output().points.iter(), observed.output().points.iter());
+    let layout = Layout::new(expected.case().domain(), options.size);
+    let both = [expected, observed].map(|patch| layout.place_all(&patch.output().points));
     let shapes = &mut drawing.picture.shapes;
-    for &t in &primitives {
-        if let Some(primitive) = observed.primitives().nth(t) {
-            shapes.extend(red_primitive(primitive, &observed_points));
-        }
-    }
-    for &i in &points {
-        let radius = layout::mark_radius(expected_points.len());
-        let (from, to) = (expected_points.get(i), observed_points.get(i));
-        if let (Some(&from), Some(&to)) = (from, to) {
-            shapes.push(Shape::Line { points: vec![from, to], width: 2.0, stroke: DIFFERENT });
-        }
-        if let Some(&centre) = to.or(from) {
-            let fill = if to.is_some() { DIFFERENT } else { GRID };
-            shapes.push(Shape::Disc { centre, radius, fill, rim: DIFFERENT });
-        }
-    }
-    (drawing, Differences { points: points.len(), primitives: primitives.len() })
+    let mut differences = Differences::default();
+    for_each_difference(expected.primitives(), observed.primitives(), |t, from, to| {
+        differences.primitives += 1;
+        let (marks, words) = mark_primitive(t, from, to, &both);
+        shapes.extend(marks);
+        differences.in_words.extend(words);
+    });
+    let points = |patch: &OnePatch| patch.output().points.clone();
+    for_each_difference(points(expected), points(observed), |i, _, _| {
+        differences.points += 1;
+        shapes.extend(mark_point(both[0].get(i).copied(), both[1].get(i).copied(), both[0].len()));
+    });
+    (drawing, differences)
 }
 
-/// The positions at which two lists differ; those that one of them lacks differ.
-fn different<T: PartialEq>(
-    mut expected: impl Iterator<Item = T>,
-    mut observed: impl Iterator<Item = T>,
-) -> Vec<usize> {
-    let mut positions = Vec::new();
+/// Calls `each` with the positions at which two lists differ, and what they have there.
+fn for_each_difference<T: PartialEq>(
+    expected: impl IntoIterator<Item = T>,
+    observed: impl IntoIterator<Item = T>,
+    mut each: impl FnMut(usize, Option<T>, Option<T>),
+) {
+    let (mut expected, mut observed) = (expected.into_iter(), observed.into_iter());
     for k in 0.. {
         match (expected.next(), observed.next()) {
             (None, None) => break,
-            (a, b) if a != b => positions.push(k),
+            (a, b) if a != b => each(k, a, b),
             _ => {}
         }
     }
-    positions
 }
 
-/// A primitive in red; one that names points that are not there cannot be drawn.
-fn red_primitive(primitive: &[u32], points: &[Position]) -> Vec<Shape> {
-    let Some(mut line) = corners(primitive, points) else {
-        return Vec::new();
-    };
+fn mark_point(from: Option<Position>, to: Option<Position>, points: usize) -> Vec<Shape> {
     let mut shapes = Vec::new();
-    if line.len() == 3 {
-        shapes.push(Shape::Polygon { corners: line.clone(), fill: DIFFERENT_FILL });
-        line.extend(line.first().copied());
+    if let (Some(from), Some(to)) = (from, to) {
+        shapes.push(Shape::Line { points: vec![from, to], width: 2.0, stroke: DIFFERENT });
     }
-    shapes.push(Shape::Line { points: line, width: 2.0, stroke: DIFFERENT });
+    let fill = if to.is_some() { DIFFERENT } else { GRID };
+    shapes.extend(to.or(from).map(|centre| disc(centre, points, fill)));
+    shapes
+}
+
+fn disc(centre: Position, points: usize, fill: Colour) -> Shape {
+    Shape::Disc { centre, radius: layout::mark_radius(points), fill, rim: DIFFERENT }
+}
+
+/// The shapes that mark primitive `t`, and what is wrong in words if they do not show it.
+fn mark_primitive(
+    t: usize,
+    expected: Option<&[u32]>,
+    observed: Option<&[u32]>,
+    [expected_points, observed_points]: &[Vec<Position>; 2],
+) -> (Vec<Shape>, Option<String>) {
+    let outline = || {
+        let corners = expected.and_then(|primitive| corners(primitive, expected_points));
+        corners.map_or_else(Vec::new, |corners| red(corners, None, expected_points.len()))
+    };
+    let Some(observed) = observed else {
+        return (outline(), Some(format!("primitive {t} is missing")));
+    };
+    let Some(corners) = corners(observed, observed_points) else {
+        let count = observed_points.len();
+        let words =
+            format!("primitive {t} is {}, but there are {count} points, from 0", indices(observed));
+        return (outline(), Some(words));
+    };
+    let repeats = (1..observed.len()).any(|k| observed[..k].contains(&observed[k]));
+    let words = repeats
+        .then(|| format!("primitive {t} is {}, which names a point twice", indices(observed)));
+    let mut shapes = red(corners.clone(), Some(DIFFERENT_FILL), observed_points.len());
+    if repeats {
+        let discs = corners.iter().map(|&place| disc(place, observed_points.len(), DIFFERENT));
+        shapes.extend(discs);
+    }
+    (shapes, words)
+}
+
+fn indices(primitive: &[u32]) -> String {
+    let words: Vec<_> = primitive.iter().map(u32::to_string).collect();
+    format!("`{}`", words.join(" "))
+}
+
+/// A primitive in red: an outline, filled if it is a triangle and there is a colour; a disc if it is
+/// a point.
+fn red(mut corners: Vec<Position>, fill: Option<Colour>, points: usize) -> Vec<Shape> {
+    let mut shapes = Vec::new();
+    match (corners.len(), fill) {
+        (1, _) => return vec![disc(corners[0], points, fill.unwrap_or(GRID))],
+        (3, Some(fill)) => shapes.push(Shape::Polygon { corners: corners.clone(), fill }),
+        _ => {}
+    }
+    if corners.len() == 3 {
+        corners.extend(corners.first().copied());
+    }
+    shapes.push(Shape::Line { points: corners, width: 2.0, stroke: DIFFERENT });
     shapes
 }

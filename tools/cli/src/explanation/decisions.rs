@@ -1,7 +1,6 @@
 //! What factor processing decided, and why (spec section 3).
 
 use super::factors::named;
-use super::processed;
 use tess_core::{
     Domain, FixedFactor, Parity, Partitioning, Patch, PatchFactors, ProcessedFactor, ProcessedPatch,
 };
@@ -10,7 +9,7 @@ use tess_verify::names::Named;
 /// One sentence for each decision, in the order of the specification's steps.
 pub(super) fn decisions(patch: &Patch, raw: &PatchFactors) -> Vec<String> {
     let mut sentences = vec![cull(raw)];
-    if let Some(processed) = processed(patch) {
+    if let Some(processed) = patch.processed().factors() {
         let partitioning = patch.config().partitioning;
         sentences.extend(clamping(raw, processed, partitioning));
         sentences.extend(picture_frame(raw, partitioning));

@@ -1,8 +1,8 @@
 //! Each factor after each step of factor processing (spec sections 2 to 4).
 
-use super::{Fixed, processed};
+use super::Fixed;
 use serde::Serialize;
-use tess_core::{Domain, FactorContext, Parity, Patch, PatchFactors, ProcessedFactor};
+use tess_core::{FactorContext, Parity, Patch, PatchFactors, ProcessedFactor};
 
 /// A binary32 number; NaN and infinities have no `value` in JSON.
 #[derive(Clone, Copy, Debug, Serialize)]
@@ -76,22 +76,28 @@ impl From<&ProcessedFactor> for Processed {
     }
 }
 
-/// The specification's names of a domain's factors: outer ones, then inside ones.
-pub(super) const fn names(domain: Domain) -> &'static [&'static str] {
-    match domain {
-        Domain::Isoline => &["density", "detail"],
-        Domain::Triangle => &["U=0", "V=0", "W=0", "inside"],
-        Domain::Quad => &["U=0", "V=0", "U=1", "V=1", "inside U", "inside V"],
+/// The specification's name of a factor, which the model names after a field.
+pub(super) fn name(field: &'static str) -> &'static str {
+    match field {
+        "u0" => "U=0",
+        "v0" => "V=0",
+        "w0" => "W=0",
+        "u1" => "U=1",
+        "v1" => "V=1",
+        "inside_u" => "inside U",
+        "inside_v" => "inside V",
+        other => other,
     }
 }
 
 /// Every factor of a patch with its name: outer, then inside.
 pub(super) fn named<T: Copy>(factors: &PatchFactors<T>) -> Vec<(&'static str, T)> {
-    names(factors.domain()).iter().copied().zip(factors.iter()).collect()
+    let names = factors.domain().factor_names().iter().copied().map(name);
+    names.zip(factors.iter()).collect()
 }
 
 pub(super) fn reports(patch: &Patch, raw: &PatchFactors) -> Vec<FactorReport> {
-    let processed = processed(patch).map(named).unwrap_or_default();
+    let processed = patch.processed().factors().map(named).unwrap_or_default();
     let report = |(k, (name, raw)): (usize, (&'static str, f32))| FactorReport {
         name,
         raw: Float::new(raw.to_bits()),

@@ -13,7 +13,7 @@ pub(crate) use point::PointReport;
 pub(crate) use primitive::PrimitiveReport;
 use serde::Serialize;
 use structure::{PointRun, Stitch};
-use tess_core::{Patch, PatchFactors, ProcessedPatch};
+use tess_core::ProcessedPatch;
 use tess_verify::case::Case;
 use tess_verify::names::Named;
 
@@ -77,13 +77,5 @@ impl Fixed {
     #[expect(clippy::float_arithmetic, reason = "exact: 32 bits divided by a power of two")]
     const fn new(bits: u32) -> Self {
         Self { bits, value: bits as f64 / 65536.0 }
-    }
-}
-
-/// The processed factors of a patch that is not culled.
-const fn processed(patch: &Patch) -> Option<&PatchFactors<tess_core::ProcessedFactor>> {
-    match patch.processed() {
-        ProcessedPatch::Culled => None,
-        ProcessedPatch::Minimum(factors) | ProcessedPatch::Regular(factors) => Some(factors),
     }
 }

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 use std::fmt;
+use tess_core::FactorContext;
 use tess_core::fixed_point::{HALF, ONE};
-use tess_core::{FactorContext, place};
+use tess_core::place::{Blend, steps};
 
 /// `place(context of factor, position)` and how it came about.
 #[derive(Clone, Debug, Serialize)]
@@ -15,7 +16,7 @@ pub(super) struct Placement {
     half_edge: Option<HalfEdge>,
 }
 
-/// The lerp on the half edge.
+/// What is blended on the half edge.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct HalfEdge {
     /// Whether the location is ONE minus that of the mirrored position.
@@ -32,34 +33,25 @@ struct HalfEdge {
 
 impl Placement {
     pub(super) fn new(factor: &'static str, context: &FactorContext, position: u32) -> Self {
-        let location = place(context, position).to_bits();
-        Self { factor, position, location, half_edge: HalfEdge::new(context, position) }
+        let placed = steps(context, position);
+        let half_edge = |Blend { coarse, fine, fraction }| HalfEdge {
+            flipped: placed.flip,
+            position: placed.position,
+            coarse,
+            fine,
+            fraction,
+        };
+        Self {
+            factor,
+            position,
+            location: placed.location.to_bits(),
+            half_edge: placed.blend.map(half_edge),
+        }
     }
 
     /// The location that came out.
     pub(super) const fn location(&self) -> u32 {
         self.location
-    }
-}
-
-impl HalfEdge {
-    fn new(context: &FactorContext, position: u32) -> Option<Self> {
-        let flipped = position >= context.half_points;
-        let mirrored = 2 * context.half_points - context.parity.odd();
-        let position = if flipped { mirrored - position } else { position };
-        (position != context.half_points).then(|| Self {
-            flipped,
-            position,
-            coarse: (position - u32::from(position > context.split)) * context.inv_floor,
-            fine: position * context.inv_ceil,
-            fraction: context.fraction,
-        })
-    }
-
-    #[cfg(test)]
-    const fn location(&self) -> u32 {
-        let x = (self.coarse * (ONE - self.fraction) + self.fine * self.fraction + HALF) >> 16;
-        if self.flipped { ONE - x } else { x }
     }
 }
 
@@ -79,29 +71,5 @@ impl fmt::Display for Placement {
             "(coarse {:05x} * {coarse_weight:05x} + fine {:05x} * {:05x} + {HALF:05x}) >> 16",
             half.coarse, half.fine, half.fraction
         )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use tess_core::{FixedFactor, Parity, SplitOrder};
-
-    /// The intermediate values shown are the ones that the model's location follows from.
-    #[test]
-    fn intermediate_values_give_the_location() {
-        for parity in [Parity::Even, Parity::Odd] {
-            for bits in (0x1_0000..=0x40_0000).step_by(3011) {
-                for split in SplitOrder::ALL {
-                    let context = FactorContext::new(FixedFactor::from_bits(bits), parity, split);
-                    for p in 0..context.points {
-                        let half = HalfEdge::new(&context, p);
-                        let location = half.map_or(HALF, |half| half.location());
-                        let expected = place(&context, p).to_bits();
-                        assert_eq!(location, expected, "{context:?}, position {p}");
-                    }
-                }
-            }
-        }
     }
 }

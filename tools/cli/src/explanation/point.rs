@@ -1,8 +1,8 @@
 //! Where one domain point comes from (spec section 6).
 
-use super::factors::names;
+use super::Fixed;
+use super::factors::{name, named};
 use super::placement::Placement;
-use super::{Fixed, processed};
 use serde::Serialize;
 use std::fmt;
 use tess_core::fixed_point::{HALF, TWO_THIRDS};
@@ -27,14 +27,14 @@ impl PointReport {
     pub(crate) fn new(patch: &Patch, i: u32) -> Option<Self> {
         let location = patch.locate_point(i)?;
         let point = patch.point(i)?;
-        let (placements, rule) = match processed(patch)? {
+        let (placements, rule) = match patch.processed().factors()? {
             PatchFactors::Isoline(factors) => isoline(factors, location),
             PatchFactors::Triangle(factors) => triangle(factors, location),
             PatchFactors::Quad(factors) => quad(factors, location),
         };
         Some(Self {
             point: i,
-            location: describe(location, patch),
+            location: describe(location, patch.processed().factors()),
             u: Fixed::new(point.u.to_bits()),
             v: Fixed::new(point.v.to_bits()),
             placements,
@@ -57,9 +57,9 @@ fn isoline(factors: &tess_core::IsolineFactors<ProcessedFactor>, location: Point
 fn triangle(factors: &TriangleFactors<ProcessedFactor>, location: PointOrigin) -> Origin {
     match location {
         PointOrigin::OuterEdge { edge, p } => {
-            let context = factors.outer()[edge as usize].context;
+            let (name, factor) = named(&PatchFactors::Triangle(*factors))[edge as usize];
+            let context = factor.context;
             let position = if edge == 1 { p } else { context.points - 1 - p };
-            let name = ["U=0", "V=0", "W=0"][edge as usize];
             let rule = ["(0, q)", "(q, 0)", "(q, 1 - q)"][edge as usize];
             let q = Placement::new(name, &context, position);
             (vec![q], format!("(u, v) = {rule}"))
@@ -102,9 +102,9 @@ fn quad(factors: &QuadFactors<ProcessedFactor>, location: PointOrigin) -> Origin
     };
     match location {
         PointOrigin::OuterEdge { edge, p } => {
-            let context = factors.outer()[edge as usize].context;
+            let (name, factor) = named(&PatchFactors::Quad(*factors))[edge as usize];
+            let context = factor.context;
             let position = if edge == 1 || edge == 2 { p } else { context.points - 1 - p };
-            let name = ["U=0", "V=0", "U=1", "V=1"][edge as usize];
             let rule = ["(0, q)", "(q, 0)", "(1, q)", "(q, 1)"][edge as usize];
             (vec![Placement::new(name, &context, position)], format!("(u, v) = {rule}"))
         }
@@ -134,20 +134,32 @@ fn corner() -> Origin {
 }
 
 /// A location in words.
-pub(super) fn describe(location: PointOrigin, patch: &Patch) -> String {
-    let edge_name = |edge: u32| {
-        let domain = processed(patch).map(PatchFactors::domain);
-        let names = domain.map_or(&[][..], names);
-        names.get(edge as usize).copied().unwrap_or("?")
-    };
+fn describe(location: PointOrigin, factors: Option<&PatchFactors<ProcessedFactor>>) -> String {
+    let place = place(location, factors);
+    match location {
+        PointOrigin::Corner { .. } => place,
+        PointOrigin::Line { p, .. }
+        | PointOrigin::OuterEdge { p, .. }
+        | PointOrigin::Ring { p, .. }
+        | PointOrigin::Centre { p } => format!("{place}, point {p}"),
+    }
+}
+
+/// The corner, line, edge or centre of a location in words.
+pub(super) fn place(
+    location: PointOrigin,
+    factors: Option<&PatchFactors<ProcessedFactor>>,
+) -> String {
     match location {
         PointOrigin::Corner { corner } => format!("minimum patch, corner {corner}"),
-        PointOrigin::Line { line, p } => format!("line {line}, point {p}"),
-        PointOrigin::OuterEdge { edge, p } => {
-            format!("outer edge {edge} ({}), point {p}", edge_name(edge))
+        PointOrigin::Line { line, .. } => format!("line {line}"),
+        PointOrigin::OuterEdge { edge, .. } => {
+            let names = factors.map_or(&[][..], |factors| factors.domain().factor_names());
+            let field = names.get(edge as usize).copied().unwrap_or("?");
+            format!("outer edge {edge} ({})", name(field))
         }
-        PointOrigin::Ring { ring, edge, p } => format!("ring {ring}, edge {edge}, point {p}"),
-        PointOrigin::Centre { p } => format!("centre, point {p}"),
+        PointOrigin::Ring { ring, edge, .. } => format!("ring {ring}, edge {edge}"),
+        PointOrigin::Centre { .. } => "centre".to_owned(),
     }
 }
 

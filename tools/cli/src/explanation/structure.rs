@@ -1,8 +1,9 @@
-//! The rings and stitches of a patch, as runs of the points and primitives that were walked.
+//! The edges, rings and stitches of a patch, as the model walks them (spec sections 6 to 8).
 
-use super::processed;
+use super::point;
 use serde::Serialize;
-use tess_core::{Patch, PatchFactors, PointOrigin, Primitive, PrimitiveOrigin};
+use tess_core::stitch::{Step, StitchKind};
+use tess_core::{Patch, PointOrigin, PrimitiveOrigin, Side};
 
 /// Consecutive points of one line, edge of a ring, or centre.
 #[derive(Clone, Debug, Serialize)]
@@ -18,7 +19,7 @@ pub(super) struct Stitch {
     pub(super) place: String,
     pub(super) first: u32,
     pub(super) count: u32,
-    /// The indices of the row outside; empty where there are no two rows.
+    /// The indices of the row outside; empty where no two rings are stitched.
     pub(super) outer_row: Vec<u32>,
     /// The indices of the row inside.
     pub(super) inner_row: Vec<u32>,
@@ -28,118 +29,108 @@ pub(super) struct Stitch {
 
 /// The points, run by run.
 pub(super) fn point_runs(patch: &Patch) -> Vec<PointRun> {
-    let mut runs: Vec<PointRun> = Vec::new();
-    let mut last = None;
-    for i in 0..patch.counts().points {
-        let place = patch.locate_point(i).map(|location| point_place(location, patch));
-        if let (true, Some(run)) = (place == last, runs.last_mut()) {
-            run.count += 1;
-        } else {
-            runs.push(PointRun { place: place.clone().unwrap_or_default(), first: i, count: 1 });
-        }
-        last = place;
-    }
-    runs
-}
-
-fn point_place(location: PointOrigin, patch: &Patch) -> String {
-    let whole = super::point::describe(location, patch);
-    whole.split(", point").next().unwrap_or_default().to_owned()
+    let origins = (0..patch.counts().points).filter_map(|i| patch.locate_point(i));
+    let run = |(origin, first, count)| {
+        let place = point::place(origin, patch.processed().factors());
+        PointRun { place, first, count }
+    };
+    runs(origins.map(first_of_its_run)).into_iter().map(run).collect()
 }
 
 /// The primitives, run by run.
 pub(super) fn stitches(patch: &Patch) -> Vec<Stitch> {
-    let mut stitches: Vec<Stitch> = Vec::new();
-    let mut last = None;
-    for t in 0..patch.counts().primitives {
-        let (Some(location), Some(primitive)) = (patch.locate_primitive(t), patch.primitive(t))
-        else {
-            continue;
-        };
-        let place = describe(location);
-        if last.as_ref() != Some(&place) {
-            stitches.push(Stitch::starting(place.clone(), t));
+    let mut rows = Vec::new();
+    patch.stitches(|stitch| rows.push(stitch));
+    let origins = (0..patch.counts().primitives).filter_map(|t| patch.locate_primitive(t));
+    let stitch = |(origin, first, count)| {
+        let place = describe(origin);
+        let kind = kind(origin);
+        match rows.iter().find(|stitch| Some(stitch.kind) == kind) {
+            Some(stitch) => Stitch {
+                place,
+                first,
+                count,
+                outer_row: (0..stitch.outer_points).map(|k| stitch.outer.index(k)).collect(),
+                inner_row: (0..stitch.inner_points).map(|k| stitch.inner.index(k)).collect(),
+                steps: letters(patch, stitch),
+            },
+            None => Stitch {
+                place,
+                first,
+                count,
+                outer_row: Vec::new(),
+                inner_row: Vec::new(),
+                steps: String::new(),
+            },
         }
-        if let Some(stitch) = stitches.last_mut() {
-            stitch.count += 1;
-            if let Some(ring) = inner_ring(location) {
-                stitch.follow(patch, primitive, ring);
-            }
-        }
-        last = Some(place);
-    }
-    stitches
+    };
+    runs(origins.map(first_step)).into_iter().map(stitch).collect()
 }
 
-/// A primitive's location in words, without its number.
-pub(super) fn describe(location: PrimitiveOrigin) -> String {
-    match location {
+fn letters(patch: &Patch, stitch: &tess_core::Stitch) -> String {
+    let mut letters = String::new();
+    stitch.steps(patch.config().split, |step: Step| {
+        letters.push(match step.advances {
+            Side::Outer => 'O',
+            Side::Inner => 'I',
+        });
+    });
+    letters
+}
+
+/// Equal values that follow each other: the value, the position of the first, how many.
+fn runs<T: PartialEq + Copy>(values: impl Iterator<Item = T>) -> Vec<(T, u32, u32)> {
+    let mut runs: Vec<(T, u32, u32)> = Vec::new();
+    for (position, value) in (0..).zip(values) {
+        match runs.last_mut() {
+            Some((last, _, count)) if *last == value => *count += 1,
+            _ => runs.push((value, position, 1)),
+        }
+    }
+    runs
+}
+
+/// The first point of the line, edge or centre that a point lies on.
+const fn first_of_its_run(origin: PointOrigin) -> PointOrigin {
+    match origin {
+        PointOrigin::Corner { corner } => PointOrigin::Corner { corner },
+        PointOrigin::Line { line, .. } => PointOrigin::Line { line, p: 0 },
+        PointOrigin::OuterEdge { edge, .. } => PointOrigin::OuterEdge { edge, p: 0 },
+        PointOrigin::Ring { ring, edge, .. } => PointOrigin::Ring { ring, edge, p: 0 },
+        PointOrigin::Centre { .. } => PointOrigin::Centre { p: 0 },
+    }
+}
+
+/// The first primitive of the line, stitch or centre that a primitive belongs to.
+const fn first_step(origin: PrimitiveOrigin) -> PrimitiveOrigin {
+    use PrimitiveOrigin as Origin;
+    match origin {
+        Origin::Sequence { .. } => Origin::Sequence { step: 0 },
+        Origin::Line { line, .. } => Origin::Line { line, segment: 0 },
+        Origin::Minimum { .. } => Origin::Minimum { step: 0 },
+        Origin::Transition { edge, .. } => Origin::Transition { edge, step: 0 },
+        Origin::Ring { ring, edge, .. } => Origin::Ring { ring, edge, step: 0 },
+        Origin::Centre { .. } => Origin::Centre { step: 0 },
+    }
+}
+
+/// The stitch between two rings that a primitive belongs to.
+const fn kind(origin: PrimitiveOrigin) -> Option<StitchKind> {
+    match origin {
+        PrimitiveOrigin::Transition { edge, .. } => Some(StitchKind::Transition { edge }),
+        PrimitiveOrigin::Ring { ring, edge, .. } => Some(StitchKind::Ring { ring, edge }),
+        _ => None,
+    }
+}
+
+/// A primitive's place in words, without its number there.
+pub(super) fn describe(origin: PrimitiveOrigin) -> String {
+    match origin {
         PrimitiveOrigin::Sequence { .. } => "in order".to_owned(),
         PrimitiveOrigin::Line { line, .. } => format!("line {line}"),
         PrimitiveOrigin::Minimum { .. } => "minimum patch".to_owned(),
         PrimitiveOrigin::Transition { edge, .. } => format!("transition, edge {edge}"),
         PrimitiveOrigin::Ring { ring, edge, .. } => format!("ring {ring}, edge {edge}"),
         PrimitiveOrigin::Centre { .. } => "centre".to_owned(),
-    }
-}
-
-/// The ring inside of a stitch.
-const fn inner_ring(location: PrimitiveOrigin) -> Option<u32> {
-    match location {
-        PrimitiveOrigin::Transition { .. } => Some(1),
-        PrimitiveOrigin::Ring { ring, .. } => Some(ring),
-        _ => None,
-    }
-}
-
-impl Stitch {
-    const fn starting(place: String, first: u32) -> Self {
-        Self {
-            place,
-            first,
-            count: 0,
-            outer_row: Vec::new(),
-            inner_row: Vec::new(),
-            steps: String::new(),
-        }
-    }
-
-    /// Sorts a triangle's indices onto the rows; the side with two of them is the one that advances.
-    fn follow(&mut self, patch: &Patch, primitive: Primitive, inner_ring: u32) {
-        let (inner, outer): (Vec<u32>, Vec<u32>) =
-            primitive.indices().iter().partition(|&&index| ring_of(patch, index) >= inner_ring);
-        self.steps.push(if outer.len() == 2 { 'O' } else { 'I' });
-        extend_row(&mut self.outer_row, &outer);
-        extend_row(&mut self.inner_row, &inner);
-    }
-}
-
-/// Appends what a triangle adds to a row: of two indices, one is the row's end already.
-fn extend_row(row: &mut Vec<u32>, indices: &[u32]) {
-    if row.is_empty() {
-        row.extend(indices);
-        return;
-    }
-    let end = row.last().copied();
-    row.extend(indices.iter().filter(|&&index| Some(index) != end));
-}
-
-/// The ring that a point lies on: 0 for the outer one; the centre is the innermost of all.
-pub(super) fn ring_of(patch: &Patch, index: u32) -> u32 {
-    match patch.locate_point(index) {
-        Some(PointOrigin::Ring { ring, .. }) => ring,
-        Some(PointOrigin::Centre { .. }) => centre_ring(patch),
-        _ => 0,
-    }
-}
-
-fn centre_ring(patch: &Patch) -> u32 {
-    match processed(patch) {
-        Some(PatchFactors::Triangle(factors)) => factors.inside.context.points / 2,
-        Some(PatchFactors::Quad(factors)) => {
-            let [u, v] = factors.inside().map(|factor| factor.context.points);
-            u.min(v) / 2
-        }
-        _ => 0,
     }
 }

@@ -6,6 +6,7 @@ mod obj;
 
 use crate::drawing::DrawOptions;
 use crate::failure::Failure;
+use crate::output::form::Form;
 use clap::ValueEnum;
 use tess_core::Tessellation;
 use tess_verify::backend::Backend;
@@ -27,6 +28,11 @@ pub(crate) enum Format {
     Svg,
     /// The same as pixels
     Png,
+}
+
+impl Form for Format {
+    const DEFAULT: Option<Self> = Some(Self::Text);
+    const COMMON_EXTENSIONS: &'static [&'static str] = &["txt"];
 }
 
 /// A patch as some backend tessellated it.

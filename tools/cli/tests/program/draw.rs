@@ -63,7 +63,46 @@ fn overlays_show_differences() {
 
 #[test]
 fn two_backends_are_compared() {
-    let run = tess(&format!("draw {PATCH} --against core"));
+    let run = tess(&format!("draw {PATCH} --backend simd --against core"));
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(run.stderr.contains("0 points and 0 primitives"), "{}", run.stderr);
+}
+
+/// What cannot be drawn is marked in red and named.
+#[test]
+fn overlays_mark_what_cannot_be_drawn() {
+    let directory = directory("overlays_mark");
+    let file = directory.join("device.txt");
+    let patch = "tri --outer 4,4,4 --inner 4";
+    let listing = tess(&format!("patch {patch}")).stdout;
+    let at = listing.find("\nindices ").expect("indices") + 1;
+    let (points, indices) = listing.split_at(at);
+    let first = indices.lines().nth(1).expect("a triangle");
+    for (faulty, words) in [
+        (format!("{points}indices 0\nend\n"), "primitive 0 is missing"),
+        (listing.replacen(&format!("\n{first}\n"), "\n0 1 99\n", 1), "primitive 0 is `0 1 99`"),
+        (listing.replacen(&format!("\n{first}\n"), "\n1 1 1\n", 1), "names a point twice"),
+    ] {
+        fs::write(&file, &faulty).expect("a faulty listing");
+        let run = tess(&format!("draw {patch} --overlay {}", file.display()));
+        assert_eq!(run.code, Some(1), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+        assert!(run.stdout.contains("#d51f1f"), "{words}: something is red");
+    }
+    fs::write(&file, format!("{points}indices 0\nend\n")).expect("no indices");
+    let run = tess(&format!("draw {patch} --overlay {}", file.display()));
+    let all = indices.lines().count() - 2;
+    assert_eq!(run.stdout.matches("#d51f1f").count(), all, "an outline for each");
+    assert!(run.stderr.contains(&format!("and {} more", all - 20)), "{}", run.stderr);
+}
+
+/// Primitives that are points are numbered in their order, too.
+#[test]
+fn order_of_points() {
+    let patch = "tri --outer 2,2,2 --inner 2 --output point";
+    let [plain, order] = ["", "--order"].map(|option| tess(&format!("draw {patch} {option}")));
+    assert_eq!(order.code, Some(0), "{}", order.stderr);
+    assert_eq!(order.stderr, "", "no number is left out");
+    let lines = |text: &str| text.matches("<polyline").count();
+    assert!(lines(&order.stdout) > lines(&plain.stdout) + 6, "seven numbers:\n{}", order.stdout);
 }

@@ -5,8 +5,15 @@ mod bench;
 mod check;
 mod draw;
 mod explain;
+#[cfg(unix)]
+mod files;
 mod generate;
 mod help;
+#[cfg(unix)]
+mod long;
 mod mesh;
+mod mesh_gltf;
+mod mesh_input;
+mod options;
 mod patch;
 mod support;

@@ -1,11 +1,11 @@
 //! `tess mesh`.
 
 use crate::support::{Run, directory, tess};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const CUBE: &str = "\
+pub(crate) const CUBE: &str = "\
 v -1 -1 -1
 v 1 -1 -1
 v 1 1 -1
@@ -22,30 +22,31 @@ f 3 4 8 7
 f 4 1 5 8
 ";
 
-fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
+pub(crate) fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> PathBuf {
     let path = folder.join(name);
     fs::write(&path, content).expect("the test's file is written");
     path
 }
 
 /// Runs `tess mesh IN [options] -o OUT`, which must do what it is asked for.
-fn mesh(input: &Path, options: &str, output: &Path) -> Run {
+pub(crate) fn mesh(input: &Path, options: &str, output: &Path) -> Run {
     let run = tess(&format!("mesh {} {options} -o {}", input.display(), output.display()));
     assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{options}: {}", run.stderr);
     run
 }
 
-/// A number from the line of counts.
-fn counts(run: &Run) -> Vec<u64> {
-    let line = run.stderr.lines().next().unwrap_or_default();
+/// The numbers in the line of counts, which follows the notes.
+pub(crate) fn counts(run: &Run) -> Vec<u64> {
+    let mut lines = run.stderr.lines().skip_while(|line| line.starts_with("tess: note: "));
+    let line = lines.next().unwrap_or_default();
     line.split_whitespace().filter_map(|word| word.parse().ok()).collect()
 }
 
 /// Edges of one triangle, after welding positions that are written alike.
-fn open_edges(obj: &Path) -> usize {
+pub(crate) fn open_edges(obj: &Path) -> usize {
     let text = fs::read_to_string(obj).expect("the OBJ is there");
     let positions: Vec<&str> = text.lines().filter_map(|line| line.strip_prefix("v ")).collect();
-    let mut uses: HashMap<[&str; 2], u32> = HashMap::new();
+    let mut uses: BTreeMap<[&str; 2], u32> = BTreeMap::new();
     for face in text.lines().filter_map(|line| line.strip_prefix("f ")) {
         let number = |word: &str| word.split('/').next()?.parse::<usize>().ok();
         let corners: Vec<&str> =
@@ -65,7 +66,8 @@ fn the_teapot_in_every_form() {
     let folder = directory("mesh_forms");
     for name in ["teapot.obj", "teapot.gltf", "teapot.glb", "teapot.png"] {
         let out = folder.join(name);
-        let run = mesh(Path::new(""), "--factor 4 --size 120x90", &out);
+        let size = if name.ends_with("png") { "--size 120x90" } else { "" };
+        let run = mesh(Path::new(""), &format!("--factor 4 {size}"), &out);
         assert_eq!(counts(&run), [32, 800, 1024], "patches, vertices, triangles of {name}");
         assert!(out.metadata().is_ok_and(|file| file.len() > 1000), "{name} is there");
     }
@@ -129,39 +131,52 @@ fn bezier_patch_files() {
     assert_eq!(a, b, "a weight common to all points changes nothing");
 }
 
-/// Every kind of bad input: exit code 2, file and line, and the output as it was.
-#[test]
-fn bad_input_is_told() {
-    let folder = directory("mesh_bad");
-    let out = write(&folder, "out.obj", "as it was");
-    let patch = format!("3 3\n{}", "0 0 0\n1 0 0\n2 1 0\n3 0 0\n".repeat(4));
-    let cases: [(&str, String, &str); 17] = [
+/// OBJ files that are refused, each with what the message says.
+fn bad_obj_files() -> Vec<(&'static str, String, &'static str)> {
+    Vec::from([
         (
             "broken.obj",
             CUBE.replace("v 1 1 1", "v 1 one 1"),
-            "line 7: position parse error: `v 1 one 1`",
+            "line 7: `v 1 one 1`: `one` is not a number; a position is three numbers",
         ),
-        ("short.obj", CUBE.replace("v 1 1 1", "v 1 1"), "line 7: position parse error"),
+        (
+            "short.obj",
+            CUBE.replace("v 1 1 1", "v 1 1"),
+            "line 7: `v 1 1`: a position is three numbers",
+        ),
         (
             "face.obj",
             CUBE.replace("f 5 6 7 8", "f 5 6 7 x"),
-            "line 10: face parse error: `f 5 6 7 x`",
+            "line 10: `f 5 6 7 x`: corner `x`: `x` is not a position index",
         ),
-        ("nan.obj", CUBE.replace("v 1 1 1", "v 1 nan 1"), "line 10: a position is NaN or infinite"),
         (
-            "zero.obj",
-            format!("{CUBE}\nv 5 0 0\nv 6 0 0\nv 7 0 0\nf 9 10 11\n"),
-            "line 19: it has zero area",
+            "nan.obj",
+            CUBE.replace("v 1 1 1", "v 1 nan 1"),
+            "line 7: `v 1 nan 1`: `nan` is NaN, infinite or too large for 32 bits",
         ),
-        ("twice.obj", format!("{CUBE}f 1 2 2\n"), "line 15: two neighbouring corners"),
         (
             "edge.obj",
             format!("{CUBE}v 0 0 5\nf 1 2 9\n"),
             "line 16: an edge of this face belongs to two other faces already (line 9 and line 11)",
         ),
-        ("ngon.obj", format!("{CUBE}v 0 0 5\nf 1 2 6 5 9\n"), "line 16: a face with 5 corners"),
-        ("beyond.obj", CUBE.replace("f 5 6 7 8", "f 5 6 7 9"), "out of bounds"),
+        (
+            "ngon.obj",
+            format!("{CUBE}v 0 0 5\nf 1 2 6 5 9\n"),
+            "line 16: `f 1 2 6 5 9`: a face with 5 corners",
+        ),
+        (
+            "beyond.obj",
+            CUBE.replace("f 5 6 7 8", "f 5 6 7 9"),
+            "line 10: position index 9 is out of range: there are 8",
+        ),
         ("empty.obj", String::new(), "there is no face"),
+    ])
+}
+
+/// The same of other files.
+fn bad_other_files() -> Vec<(&'static str, String, &'static str)> {
+    let patch = format!("3 3\n{}", "0 0 0\n1 0 0\n2 1 0\n3 0 0\n".repeat(4));
+    Vec::from([
         ("count.bpt", "many\n".to_owned(), "line 1: `many` is no number of patches"),
         (
             "cut.bpt",
@@ -181,8 +196,15 @@ fn bad_input_is_told() {
         ),
         ("text.gltf", "{".to_owned(), "text.gltf: "),
         ("model.stl", "solid".to_owned(), "models are .obj, .gltf, .glb or .bpt"),
-    ];
-    for (name, content, message) in cases {
+    ])
+}
+
+/// Every kind of bad input: exit code 2, file and line, and the output as it was.
+#[test]
+fn bad_input_is_told() {
+    let folder = directory("mesh_bad");
+    let out = write(&folder, "out.obj", "as it was");
+    for (name, content, message) in bad_obj_files().into_iter().chain(bad_other_files()) {
         let input = write(&folder, name, content);
         let run = tess(&format!("mesh {} -o {}", input.display(), out.display()));
         assert_eq!(run.code, Some(2), "{name}: {}", run.stderr);
@@ -190,7 +212,7 @@ fn bad_input_is_told() {
         assert!(told, "{name}: `{message}` is not in `{}`", run.stderr);
         assert_eq!(fs::read(&out).unwrap(), b"as it was", "{name}");
     }
-    assert_eq!(fs::read_dir(&folder).unwrap().count(), 18, "nothing half-written stays");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 16, "nothing half-written stays");
 }
 
 /// Numbers of which glTF, written in text, would have made `null`.
@@ -233,4 +255,57 @@ fn bad_usage_is_told() {
         assert!(run.stderr.contains(message), "{words}: `{message}` is not in `{}`", run.stderr);
     }
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "no output was written");
+}
+
+/// The default camera has the whole model in its picture, and not much more.
+#[test]
+fn the_default_camera() {
+    let folder = directory("mesh_camera");
+    let cube = write(&folder, "cube.obj", CUBE);
+    let plane = write(&folder, "plane.obj", "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\nf 1 4 3 2\n");
+    let height = write_grey(&folder, 255);
+    let displace = format!("--displace {} --height 0.5", height.display());
+    for model in [Path::new(""), &cube, &plane] {
+        for size in ["160x120", "80x160"] {
+            for options in ["", "--fov 90", &displace] {
+                let out = folder.join("out.png");
+                mesh(model, &format!("--factor 8 --size {size} {options}"), &out);
+                let (margin, filled) = margin_and_filled(&out);
+                assert!(margin >= 1, "{} {size} {options}: cut off", model.display());
+                assert!(filled >= 50, "{} {size} {options}: {filled} %", model.display());
+            }
+        }
+    }
+}
+
+/// A height image of one pixel.
+fn write_grey(folder: &Path, grey: u8) -> PathBuf {
+    let path = folder.join("height.png");
+    let file = fs::File::create(&path).expect("the test's file");
+    let mut encoder = png::Encoder::new(file, 1, 1);
+    encoder.set_color(png::ColorType::Grayscale);
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&[grey]).expect("a pixel");
+    path
+}
+
+/// Pixels between what is drawn and the border, and how much of the width or of the height is
+/// filled, in percent, whichever is more.
+fn margin_and_filled(path: &Path) -> (usize, usize) {
+    let file = std::io::BufReader::new(fs::File::open(path).expect("the picture"));
+    let mut reader = png::Decoder::new(file).read_info().expect("a PNG");
+    let mut bytes = vec![0; reader.output_buffer_size().expect("a size")];
+    let info = reader.next_frame(&mut bytes).expect("pixels");
+    let (width, height) = (info.width as usize, info.height as usize);
+    let background = bytes[..3].to_vec();
+    let drawn = |x: usize, y: usize| bytes[(y * width + x) * 3..][..3] != background[..];
+    let all =
+        || (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).filter(|&(x, y)| drawn(x, y));
+    let low =
+        (all().map(|(x, _)| x).min().expect("drawn"), all().map(|(_, y)| y).min().expect("drawn"));
+    let high =
+        (all().map(|(x, _)| x).max().expect("drawn"), all().map(|(_, y)| y).max().expect("drawn"));
+    let margin = low.0.min(low.1).min(width - 1 - high.0).min(height - 1 - high.1);
+    let part = |low: usize, high: usize, of: usize| 100 * (high - low + 1) / of;
+    (margin, part(low.0, high.0, width).max(part(low.1, high.1, height)))
 }

@@ -1,6 +1,8 @@
 //! Running the program.
 
 use std::io::Write;
+#[cfg(unix)]
+use std::path::Path;
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
@@ -26,10 +28,24 @@ pub(crate) fn tess(words: &str) -> Run {
     tess_with_input(words, "")
 }
 
+/// The command of `tess` with these words.
+pub(crate) fn command(words: &str) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tess"));
+    command.args(words.split_whitespace());
+    command
+}
+
+/// Runs a shell script in which `$TESS` is the program.
+#[cfg(unix)]
+pub(crate) fn shell(script: &str, folder: &Path) -> Run {
+    let mut shell = Command::new("sh");
+    shell.args(["-c", script]).current_dir(folder).env("TESS", env!("CARGO_BIN_EXE_tess"));
+    shell.output().expect("there is a shell").into()
+}
+
 /// Runs `tess` with these words and this stdin.
 pub(crate) fn tess_with_input(words: &str, input: &str) -> Run {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_tess"))
-        .args(words.split_whitespace())
+    let mut child = command(words)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -43,9 +59,7 @@ pub(crate) fn tess_with_input(words: &str, input: &str) -> Run {
 /// Runs `tess` with these words and environment variables.
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 pub(crate) fn tess_with_environment(words: &str, variables: &[(&str, &str)]) -> Run {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_tess"));
-    command.args(words.split_whitespace()).envs(variables.iter().copied());
-    command.output().expect("tess runs").into()
+    command(words).envs(variables.iter().copied()).output().expect("tess runs").into()
 }
 
 /// An empty directory of a test's own.

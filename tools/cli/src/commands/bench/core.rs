@@ -1,6 +1,5 @@
 //! The golden model under the clock.
 
-use super::measure::total;
 use super::parts::parts;
 use super::runner::{Amount, Runner, RunnerOptions, WorkingSet};
 use crate::failure::Failure;
@@ -120,7 +119,7 @@ impl Runner for CoreRunner {
         let amounts = self
             .parts
             .iter()
-            .map(|part| total(self.batches[part.clone()].iter().map(|batch| batch.amount)));
+            .map(|part| self.batches[part.clone()].iter().map(|batch| batch.amount).sum());
         Ok(amounts.collect())
     }
 

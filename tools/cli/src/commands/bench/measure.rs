@@ -7,11 +7,12 @@
 
 use super::core::CoreRunner;
 use super::runner::{Amount, Runner, WorkingSet};
-use super::table::Row;
+use super::table::{Row, name_of};
 use crate::failure::Failure;
+use std::fmt;
 use std::time::Duration;
 use tess_verify::backend::BackendError;
-use tess_verify::workloads::{IndexType, Workload};
+use tess_verify::workloads::Workload;
 
 /// What is measured.
 #[derive(Clone, Copy, Debug)]
@@ -22,6 +23,12 @@ pub(crate) struct Plan<'a> {
     pub(crate) working_set: WorkingSet,
     /// Interleaved samples, at least 1.
     pub(crate) samples: u32,
+}
+
+impl fmt::Display for Plan<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, {}", self.workload.name, self.working_set.name())
+    }
 }
 
 /// Checks the digest, then times backend, fill and core in turn, part by part.
@@ -45,10 +52,10 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
             core_run.take(part, 1, || core.run(part))?;
         }
     }
-    let (amount, seconds) = (total(parts), run.seconds());
+    let (amount, seconds) = (parts.into_iter().sum::<Amount>(), run.seconds());
     let core_rate = match &core_parts[..] {
         [] => amount.patches as f64 / seconds,
-        parts => total(parts.iter().copied()).patches as f64 / core_run.seconds(),
+        parts => parts.iter().copied().sum::<Amount>().patches as f64 / core_run.seconds(),
     };
     Ok(Row {
         workload: plan.workload.name.clone(),
@@ -56,10 +63,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
         level: runner.level(),
         working_set: plan.working_set.name(),
         threads: runner.threads(),
-        index_type: match runner.index_type() {
-            IndexType::U16 => "u16",
-            IndexType::U32 => "u32",
-        },
+        index_type: name_of(runner.index_type()),
         patches_per_s: amount.patches as f64 / seconds,
         triangles_per_s: amount.triangles as f64 / seconds,
         bytes_per_s: amount.bytes as f64 / seconds,
@@ -74,8 +78,7 @@ fn check_digest(runner: &mut dyn Runner, workload: &Workload) -> Result<(), Fail
         return Ok(());
     }
     Err(Failure::different(format!(
-        "{}: {} gives digest {observed:016x}, the model {expected:016x}; not timed",
-        workload.name,
+        "{} gives digest {observed:016x}, the model {expected:016x}; not timed",
         runner.backend()
     )))
 }
@@ -91,15 +94,6 @@ fn prepared_core(
         _ => core.prepare(plan.workload, plan.working_set)?,
     };
     Ok((core, parts))
-}
-
-/// Several amounts together.
-pub(super) fn total(amounts: impl IntoIterator<Item = Amount>) -> Amount {
-    amounts.into_iter().fold(Amount::default(), |sum, more| Amount {
-        patches: sum.patches + more.patches,
-        triangles: sum.triangles + more.triangles,
-        bytes: sum.bytes + more.bytes,
-    })
 }
 
 /// The samples of each part, in seconds.

@@ -9,13 +9,15 @@ mod runner;
 mod simd;
 mod table;
 
+#[cfg(feature = "gpu")]
+use crate::backends::quiet;
 use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
-use crate::output;
+use crate::output::{self, Frame, Rows, note};
 use measure::{Plan, measure};
-use runner::{RunnerOptions, WorkingSet, runner};
-use std::io::Write;
-use table::{Row, table};
+use runner::{Runner, RunnerOptions, WorkingSet};
+use std::path::Path;
+use table::heading;
 use tess_verify::workloads::{self, Workload};
 
 /// Time the named workloads against filling the same bytes and against the core
@@ -27,7 +29,8 @@ Examples:
   tess bench --backend simd --cpu-level avx2 --workload terrain
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
-a part's time is the median of its samples, a workload's the sum over its parts. Workloads:
+a part's time is the median of its samples, a workload's the sum over its parts. A row is printed as
+soon as it is measured; what could not be measured is left out and named at the end. Workloads:
 uniform-1 to uniform-64, seed-table, terrain, character, worst.")]
 pub(crate) struct Args {
     /// Workload or family of workloads; may be repeated [default: all]
@@ -57,34 +60,77 @@ pub(crate) struct Args {
 /// Runs the command.
 ///
 /// # Errors
-/// An unknown workload, a backend that is not available, a result that differs from the model's.
+/// An unknown workload, a backend that is not available, stdout that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let workloads = find_workloads(&args.workload)?;
     let working_sets = match &args.working_set[..] {
         [] => &[WorkingSet::Cache, WorkingSet::Stream],
         chosen => chosen,
     };
-    let level = args.options.level_of(args.backend)?;
-    let index_type = args.options.index_type;
+    args.options.fit(&[args.backend])?;
+    let (level, index_type) = (args.options.level()?, args.options.index_type);
     let options = RunnerOptions { level, threads: args.threads, index_type };
     let mut runner = runner(args.backend, options)?;
     if cfg!(debug_assertions) {
-        // A closed stderr does not change the result.
-        _ = writeln!(std::io::stderr(), "this build has debug assertions; figures need --release");
+        note("this build has debug assertions; figures need --release");
     }
-    let progress = output::progress((workloads.len() * working_sets.len()) as u64, "measurements");
-    let mut rows = Vec::new();
-    for workload in &workloads {
-        for &working_set in working_sets {
-            progress.set_message(format!("{}, {}", workload.name, working_set.name()));
-            let plan = Plan { workload, working_set, samples: args.samples };
-            rows.push(measure(runner.as_mut(), plan)?);
-            progress.inc(1);
+    let plans: Vec<_> = workloads
+        .iter()
+        .flat_map(|workload| working_sets.iter().map(move |&set| (workload, set)))
+        .map(|(workload, working_set)| Plan { workload, working_set, samples: args.samples })
+        .collect();
+    measure_all(runner.as_mut(), &plans, args.json)
+}
+
+/// Measures and prints row by row. What cannot be measured is left out and named at the end; the
+/// first such row says the exit code.
+fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Result<Exit, Failure> {
+    let unwritten = |error| Failure::write(Path::new("-"), error);
+    output::stop_when_reader_leaves();
+    let frame = if json {
+        Frame { opening: "[\n".to_owned(), between: ",\n", closing: "\n]\n", empty: "[]\n" }
+    } else {
+        Frame { opening: heading(runner), ..Frame::default() }
+    };
+    let rows = Rows::new(frame, plans.iter().map(Plan::to_string)).map_err(unwritten)?;
+    let bar = output::progress(plans.len() as u64, "measurements");
+    let mut left_out = Vec::new();
+    for plan in plans {
+        bar.set_message(plan.to_string());
+        match measure(runner, *plan) {
+            Ok(row) if json => rows.print(&bar, &row.json()).map_err(unwritten)?,
+            Ok(row) => rows.print(&bar, &row.line()).map_err(unwritten)?,
+            Err(failure) => {
+                rows.skip();
+                left_out.push((plan, failure));
+            }
         }
+        bar.inc(1);
     }
-    progress.finish_and_clear();
-    print(&rows, args.json)?;
-    Ok(Exit::Done)
+    bar.finish_and_clear();
+    rows.finish().map_err(unwritten)?;
+    for (plan, failure) in &left_out {
+        note(&format!("left out {plan}: {failure}"));
+    }
+    Ok(left_out.first().map_or(Exit::Done, |(_, failure)| failure.exit))
+}
+
+/// The runner of a backend.
+///
+/// # Errors
+/// Exit code 3 if the backend is not available, 2 if it does not offer these options.
+fn runner(name: BackendName, options: RunnerOptions) -> Result<Box<dyn Runner>, Failure> {
+    match name {
+        BackendName::Core => Ok(Box::new(core::CoreRunner::new(options)?)),
+        BackendName::Simd => simd::runner(options),
+        #[cfg(feature = "gpu")]
+        BackendName::Gpu => {
+            quiet::start_again_for_loader();
+            Ok(Box::new(gpu::GpuRunner::new(options)?))
+        }
+        #[cfg(not(feature = "gpu"))]
+        BackendName::Gpu => Err(crate::backends::not_built_in("gpu")),
+    }
 }
 
 fn find_workloads(names: &[String]) -> Result<Vec<Workload>, Failure> {
@@ -104,11 +150,4 @@ fn find_workloads(names: &[String]) -> Result<Vec<Workload>, Failure> {
         found.extend(workloads);
     }
     Ok(found)
-}
-
-fn print(rows: &[Row], json: bool) -> Result<(), Failure> {
-    let text = if json { output::json(&rows) } else { table(rows) };
-    let mut out = output::stdout();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    written.map_err(|error| Failure::bad_input(format!("cannot write results: {error}")))
 }

@@ -1,13 +1,7 @@
-//! What a backend must offer to be timed, and which runner offers it.
+//! What a backend must offer to be timed.
 
-#[cfg(feature = "gpu")]
-use super::gpu;
-use super::{core, simd};
-use crate::backends::BackendName;
-#[cfg(not(feature = "gpu"))]
-use crate::backends::not_built_in;
-use crate::failure::Failure;
 use clap::ValueEnum;
+use std::iter::Sum;
 use std::time::Duration;
 use tess_simd::Level;
 use tess_verify::backend::BackendError;
@@ -42,6 +36,16 @@ pub(crate) struct Amount {
     pub(crate) triangles: u64,
     /// Bytes of points and indices written.
     pub(crate) bytes: u64,
+}
+
+impl Sum for Amount {
+    fn sum<I: Iterator<Item = Self>>(amounts: I) -> Self {
+        amounts.fold(Self::default(), |sum, more| Self {
+            patches: sum.patches + more.patches,
+            triangles: sum.triangles + more.triangles,
+            bytes: sum.bytes + more.bytes,
+        })
+    }
 }
 
 /// An implementation that can be timed.
@@ -103,22 +107,4 @@ pub(crate) struct RunnerOptions {
     pub(crate) threads: u32,
     /// Width of the indices.
     pub(crate) index_type: IndexType,
-}
-
-/// The runner of a backend.
-///
-/// # Errors
-/// Exit code 3 if the backend is not available, 2 if it does not offer these options.
-pub(crate) fn runner(
-    name: BackendName,
-    options: RunnerOptions,
-) -> Result<Box<dyn Runner>, Failure> {
-    match name {
-        BackendName::Core => Ok(Box::new(core::CoreRunner::new(options)?)),
-        BackendName::Simd => simd::runner(options),
-        #[cfg(feature = "gpu")]
-        BackendName::Gpu => Ok(Box::new(gpu::GpuRunner::new(options)?)),
-        #[cfg(not(feature = "gpu"))]
-        BackendName::Gpu => Err(not_built_in("gpu")),
-    }
 }

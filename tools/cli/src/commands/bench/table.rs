@@ -1,8 +1,10 @@
 //! Results: as objects for programs, as a table for people.
 #![expect(clippy::float_arithmetic, reason = "units of measurements")]
 
+use super::runner::Runner;
+use crate::output::json;
 use serde::Serialize;
-use std::fmt::Write;
+use tess_verify::workloads::IndexType;
 
 /// One line of results, with the keys that `--json` prints.
 #[derive(Clone, Debug, Serialize)]
@@ -20,35 +22,56 @@ pub(crate) struct Row {
     pub(super) core_ratio: f64,
 }
 
-/// A heading and one line for each row; rates in millions and in GB (10^9 bytes).
+/// The lines above the rows: what was timed, and the columns; rates in millions and in GB (10^9
+/// bytes).
 #[must_use]
-pub(crate) fn table(rows: &[Row]) -> String {
-    let mut text = String::new();
-    if let Some(row) = rows.first() {
-        // Writing to a String does not fail.
-        _ = writeln!(
-            text,
-            "backend {} ({}), threads {}, {} indices",
-            row.backend, row.level, row.threads, row.index_type
-        );
+pub(crate) fn heading(runner: &dyn Runner) -> String {
+    format!(
+        "backend {} ({}), threads {}, {} indices\n\
+         {:<34} {:<6} {:>12} {:>13} {:>8} {:>8} {:>8}\n",
+        runner.backend(),
+        runner.level(),
+        runner.threads(),
+        name_of(runner.index_type()),
+        "workload",
+        "set",
+        "Mpatches/s",
+        "Mtriangles/s",
+        "GB/s",
+        "of fill",
+        "of core"
+    )
+}
+
+/// The name of a width of indices.
+pub(super) const fn name_of(index_type: IndexType) -> &'static str {
+    match index_type {
+        IndexType::U16 => "u16",
+        IndexType::U32 => "u32",
     }
-    _ = writeln!(
-        text,
-        "{:<34} {:<6} {:>12} {:>13} {:>8} {:>8} {:>8}",
-        "workload", "set", "Mpatches/s", "Mtriangles/s", "GB/s", "of fill", "of core"
-    );
-    for row in rows {
-        _ = writeln!(
-            text,
-            "{:<34} {:<6} {:>12.4} {:>13.1} {:>8.2} {:>8.4} {:>8.2}",
-            row.workload,
-            row.working_set,
-            row.patches_per_s / 1e6,
-            row.triangles_per_s / 1e6,
-            row.bytes_per_s / 1e9,
-            row.fill_ratio,
-            row.core_ratio
-        );
+}
+
+impl Row {
+    /// One line of the table.
+    #[must_use]
+    pub(crate) fn line(&self) -> String {
+        format!(
+            "{:<34} {:<6} {:>12.4} {:>13.1} {:>8.2} {:>8.4} {:>8.2}\n",
+            self.workload,
+            self.working_set,
+            self.patches_per_s / 1e6,
+            self.triangles_per_s / 1e6,
+            self.bytes_per_s / 1e9,
+            self.fill_ratio,
+            self.core_ratio
+        )
     }
-    text
+
+    /// The element of a JSON array.
+    #[must_use]
+    pub(crate) fn json(&self) -> String {
+        let object = json(self);
+        let lines: Vec<_> = object.lines().map(|line| format!("  {line}")).collect();
+        lines.join("\n")
+    }
 }

@@ -5,7 +5,7 @@ mod strength;
 use crate::backends::{BackendName, BackendOptions};
 use crate::explanation::{PointReport, PrimitiveReport};
 use crate::failure::{Exit, Failure};
-use crate::output::{progress, stdout};
+use crate::output::{progress, stdout, stop_when_reader_leaves};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -61,6 +61,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
     let file = VectorFile::new(&name, open(&args.file)?).map_err(|e| failure(e.into()))?;
     let tested = args.strength.tested(file.header().kind, args.backend)?;
+    stop_when_reader_leaves();
     let bar = progress(file.header().count, "records");
     let report = checker::check(file, &mut backends, tested, &|records| bar.inc(records));
     bar.finish_and_clear();
@@ -71,15 +72,14 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         _ => format!("tested: the backend {backend}; right: {name}"),
     };
     let backend = args.options.words(backend);
-    show(&report, &sides, &backend)
-        .map_err(|error| Failure::file("write", Path::new("-"), &error))?;
+    show(&report, &sides, &backend).map_err(|error| Failure::write(Path::new("-"), error))?;
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
 }
 
 /// One backend for each thread: the model runs on every core, the others use them by themselves.
 fn backends(args: &Args) -> Result<Vec<Box<dyn Backend>>, Failure> {
     let name = args.backend.unwrap_or(BackendName::Core);
-    args.options.level_of(name)?;
+    args.options.fit(&[name])?;
     let threads = match name {
         BackendName::Core => available_parallelism().map_or(1, usize::from),
         BackendName::Simd | BackendName::Gpu => 1,
@@ -96,7 +96,7 @@ fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
 }
 
 fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
-    let mut out = stdout();
+    let mut out = stdout()?;
     if report.mismatches > 0 {
         writeln!(out, "{sides}")?;
     }

@@ -1,15 +1,17 @@
 //! `tess draw`: a picture of one patch.
 
-use crate::args::PatchArgs;
+use crate::args::{PatchArgs, note_large_factors};
 use crate::backends::{BackendArgs, BackendName};
 use crate::drawing::{self, DrawOptions, Drawing};
 use crate::failure::{Exit, Failure};
 use crate::formats::OnePatch;
-use crate::output::OutputArgs;
+use crate::output::form::{self, Form};
+use crate::output::{OutputArgs, note};
 use clap::ValueEnum;
 use std::fs::File;
-use std::io::{BufReader, Write};
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
+use tess_verify::backend::Backend;
 use tess_verify::vectors::{Record, VectorFile};
 
 /// Draw one patch as SVG or PNG
@@ -49,6 +51,10 @@ pub(crate) enum PictureFormat {
     Png,
 }
 
+impl Form for PictureFormat {
+    const DEFAULT: Option<Self> = Some(Self::Svg);
+}
+
 /// Runs the command.
 ///
 /// # Errors
@@ -56,10 +62,16 @@ pub(crate) enum PictureFormat {
 /// no such patch, an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
-    let patch = OnePatch::tessellate(args.backend.select()?.as_mut(), case)?;
+    let format = form::choose(args.format, &args.output.file)?;
+    if format == PictureFormat::Png {
+        args.output.refuse_terminal("a PNG picture")?;
+    }
+    args.options.fit(case.domain(), case.config.output)?;
+    note_large_factors(&case);
+    let patch = OnePatch::tessellate(args.select()?.as_mut(), case)?;
     let pair = match (args.against, &args.overlay) {
         (Some(name), _) => {
-            let mut against = args.backend.select_named(name)?;
+            let mut against = args.backend.options.select(name)?;
             Some((OnePatch::tessellate(against.as_mut(), case)?, patch.clone()))
         }
         (None, Some(file)) => Some((patch.clone(), find_listing(file, &patch)?)),
@@ -70,8 +82,27 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         None => (drawing::draw(&patch, &args.options), Exit::Done),
     };
     report_left_out(&drawing);
-    args.output.write(&render(args, &drawing)?)?;
+    args.output.write(&match format {
+        PictureFormat::Svg => drawing.picture.to_svg().into_bytes(),
+        PictureFormat::Png => drawing.picture.to_png()?,
+    })?;
     Ok(exit)
+}
+
+impl Args {
+    /// Makes the backend ready that is drawn.
+    fn select(&self) -> Result<Box<dyn Backend>, Failure> {
+        let BackendArgs { backend, options } = self.backend;
+        if self.against == Some(backend) {
+            return Err(Failure::bad_input(format!(
+                "--against {} compares a backend with itself: choose another one with --backend",
+                backend.name()
+            )));
+        }
+        let chosen = [Some(backend), self.against];
+        options.fit(&chosen.into_iter().flatten().collect::<Vec<_>>())?;
+        options.select(backend)
+    }
 }
 
 fn draw_overlay(
@@ -81,34 +112,24 @@ fn draw_overlay(
 ) -> (Drawing, Exit) {
     let (drawing, differences) = drawing::overlay(expected, observed, options);
     let (points, primitives) = (differences.points, differences.primitives);
-    // A closed stderr does not change the result.
-    _ = writeln!(
-        std::io::stderr(),
+    note(&format!(
         "{points} points and {primitives} primitives differ between {} and {}",
-        expected.backend,
-        observed.backend
-    );
+        expected.backend, observed.backend
+    ));
+    const SHOWN: usize = 20;
+    let words = &differences.in_words;
+    words.iter().take(SHOWN).for_each(|line| note(line));
+    if words.len() > SHOWN {
+        note(&format!("and {} more like these", words.len() - SHOWN));
+    }
     let equal = points == 0 && primitives == 0;
     (drawing, if equal { Exit::Done } else { Exit::Different })
 }
 
 fn report_left_out(drawing: &Drawing) {
     if drawing.labels_left_out > 0 {
-        // A closed stderr does not change the result.
-        _ = writeln!(
-            std::io::stderr(),
-            "{} numbers left out for lack of room; a larger --size shows more",
-            drawing.labels_left_out
-        );
-    }
-}
-
-fn render(args: &Args, drawing: &Drawing) -> Result<Vec<u8>, Failure> {
-    let is_png = args.output.file.extension().is_some_and(|name| name.eq_ignore_ascii_case("png"));
-    let by_name = if is_png { PictureFormat::Png } else { PictureFormat::Svg };
-    match args.format.unwrap_or(by_name) {
-        PictureFormat::Svg => Ok(drawing.picture.to_svg().into_bytes()),
-        PictureFormat::Png => drawing.picture.to_png(),
+        let count = drawing.labels_left_out;
+        note(&format!("{count} numbers left out for lack of room; a larger --size shows more"));
     }
 }
 

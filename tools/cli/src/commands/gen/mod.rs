@@ -2,10 +2,11 @@
 
 use crate::args::{name_of, shard};
 use crate::failure::{Exit, Failure};
-use crate::output::OutputArgs;
+use crate::output::{NewFolder, OutputArgs, note, progress, stop_when_reader_leaves};
 use clap::ValueEnum;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use indicatif::ProgressBar;
+use std::fs::File;
+use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::Path;
 use tess_core::{Domain, Partitioning};
 use tess_verify::case::Case;
@@ -50,7 +51,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", default_value = "csv")]
     format: Format,
     /// Instead of vectors, report which coverage bins they hit
-    #[arg(long)]
+    #[arg(long, conflicts_with = "format")]
     coverage: bool,
     #[command(flatten)]
     output: OutputArgs,
@@ -71,11 +72,11 @@ enum Format {
 /// # Errors
 /// A selection without any case; an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
-    let count = args.cases().count() as u64;
-    if count == 0 && args.shard != Shard::WHOLE && args.selection().cases().next().is_some() {
+    let all = args.all();
+    let count = args.shard.items(all);
+    if count == 0 && all > 0 {
         let (part, of) = (args.shard.part + 1, args.shard.of);
-        // A closed stderr does not change the result.
-        _ = writeln!(io::stderr(), "tess: no case in shard {part}/{of}: nothing is written");
+        note(&format!("no case in shard {part}/{of}: nothing is written"));
         return Ok(Exit::Done);
     }
     if count == 0 {
@@ -84,13 +85,16 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         ));
     }
     let header = args.header(count);
-    match args.format {
-        _ if args.coverage => args.output.stream(|out| report(out, args.cases()))?,
-        Format::Csv => args.output.stream(|out| write_patches(out, &header, args.cases()))?,
-        Format::Listing => args.output.stream(|out| write_listings(out, &header, args.cases()))?,
-        Format::Readmemh => images(&args.output.file, args.cases())?,
-    }
-    Ok(Exit::Done)
+    let bar = args.progress(count);
+    let cases = bar.wrap_iter(args.cases());
+    let written = match args.format {
+        _ if args.coverage => args.output.stream(|out| report(out, cases)),
+        Format::Csv => args.output.stream(|out| write_patches(out, &header, cases)),
+        Format::Listing => args.output.stream(|out| write_listings(out, &header, cases)),
+        Format::Readmemh => images(&args.output.file, cases),
+    };
+    bar.finish_and_clear();
+    written.map(|()| Exit::Done)
 }
 
 impl Args {
@@ -114,20 +118,38 @@ impl Args {
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
     }
 
+    /// How many cases there are in all shards.
+    fn all(&self) -> u64 {
+        let selection = self.selection();
+        let systematic = Selection { random: Some(0), ..selection }.cases().count() as u64;
+        systematic.saturating_add(selection.random_count())
+    }
+
+    /// A bar for this many cases, out of the way of vectors that go to the same terminal.
+    fn progress(&self, count: u64) -> ProgressBar {
+        if self.output.is_stdout() {
+            stop_when_reader_leaves();
+            if io::stdout().is_terminal() {
+                return ProgressBar::hidden();
+            }
+        }
+        progress(count, "cases")
+    }
+
     /// The arguments that the cases depend on are noted, so that a file says how it was made. Each
     /// note has the name of its option, but for `--count`, whose note is `random`.
     fn header(&self, count: u64) -> Header {
-        let note = |key: &str, value: String| (key.to_owned(), value);
+        let pair = |key: &str, value: String| (key.to_owned(), value);
         let mut notes = vec![
-            note("level", self.level.to_string()),
-            note("seed", self.seed.to_string()),
-            note("random", self.selection().random_count().to_string()),
+            pair("level", self.level.to_string()),
+            pair("seed", self.seed.to_string()),
+            pair("random", self.selection().random_count().to_string()),
         ];
-        notes.extend(self.domain.map(|domain| note("domain", domain.name().into())));
+        notes.extend(self.domain.map(|domain| pair("domain", domain.name().into())));
         let partitioning = self.partitioning.map(Named::name);
-        notes.extend(partitioning.map(|name| note("partitioning", name.into())));
+        notes.extend(partitioning.map(|name| pair("partitioning", name.into())));
         if self.shard != Shard::WHOLE {
-            notes.push(note("shard", format!("{}/{}", self.shard.part + 1, self.shard.of)));
+            notes.push(pair("shard", format!("{}/{}", self.shard.part + 1, self.shard.of)));
         }
         Header { kind: Kind::Patches, count, source: "tess-core".to_owned(), notes }
     }
@@ -149,28 +171,20 @@ fn report(out: &mut dyn Write, cases: impl Iterator<Item = Case>) -> io::Result<
     Ok(())
 }
 
-/// Writes the memory images into a folder that is made beside `folder` first, then renamed.
+/// Writes the memory images into a new folder.
 fn images(folder: &Path, cases: impl Iterator<Item = Case>) -> Result<(), Failure> {
     if folder.as_os_str() == "-" {
         return Err(Failure::bad_input("readmemh writes several files: give a folder with -o"));
     }
-    if folder.exists() {
-        let name = folder.display();
-        return Err(Failure::bad_input(format!("{name} exists already; give a new folder")));
-    }
-    let mut name = folder.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.partial", std::process::id()));
-    let partial = folder.with_file_name(name);
-    let written = write_images(&partial, cases).and_then(|()| fs::rename(&partial, folder));
-    written.map_err(|error| {
-        // It may never have been made; the first error is the one to report.
-        _ = fs::remove_dir_all(&partial);
-        Failure::file("write", folder, &error)
-    })
+    let write = || {
+        let new = NewFolder::create(folder)?;
+        write_images(new.path(), cases)?;
+        new.finish()
+    };
+    write().map_err(|error| Failure::write(folder, error))
 }
 
 fn write_images(folder: &Path, cases: impl Iterator<Item = Case>) -> io::Result<()> {
-    fs::create_dir(folder)?;
     let create = |name| File::create(folder.join(name)).map(BufWriter::new);
     let [a, b, c, d, e] = readmemh::FILES;
     let mut files = [create(a)?, create(b)?, create(c)?, create(d)?, create(e)?];

@@ -5,6 +5,7 @@
 #![expect(clippy::float_arithmetic, reason = "surfaces and pictures are made of floats")]
 
 mod input;
+mod outline;
 mod output;
 mod pipeline;
 mod statistics;
@@ -15,26 +16,29 @@ pub use input::fuzzing;
 
 use crate::args::name_of;
 use crate::failure::{Exit, Failure};
+use crate::output::{OutputArgs, form, note};
 use clap::builder::ValueParser;
+use glam::Vec3;
 use input::{Input, height};
-use output::{IndexWidth, Options};
+use output::{IndexWidth, Options, ResultForm};
 use pipeline::Job;
 use statistics::{Stage, Statistics};
 use std::io::Write;
 use std::path::PathBuf;
 use tess_core::Partitioning;
-use tess_surface::{DisplacedModel, Displacement, FactorRule, MAX_COORDINATE, Style};
+use tess_surface::{DisplacedModel, Displacement, FactorRule, MAX_COORDINATE, Model, Style};
+use tess_verify::names::Named;
 use view::{View, ViewArgs};
 
 /// Tessellate a model into a mesh or a picture
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Neighbouring patches get the same factor on their common edge, and the same points to the bit, so
-no crack opens. Faces with more than four corners are refused, as are edges of more than two faces
-and faces whose corners lie on one line. Faces whose corners coincide, as at the pole of a sphere,
-are left out: their neighbours meet without them. Points and lines of OBJ files are left out. A note
-says how many. Buffers of glTF must be files in the model's folder or below it.
-Notes and statistics go to stderr.
+no crack opens. Faces with more than four corners are refused, as are edges of more than two faces.
+Faces without area are left out, and a note says how many: where corners coincide, as at the pole of
+a sphere, the neighbours meet without them; where corners lie on one line, cracks may open. Points
+and lines of OBJ files are left out too. Buffers of glTF must be files in the model's folder or below
+it. Notes and statistics go to stderr.
 
 Examples:
   tess mesh -o teapot.png                          the teapot, 64 segments to the patch edge
@@ -45,9 +49,15 @@ pub(crate) struct Args {
     /// Model to read: .obj, .gltf, .glb or .bpt [default: the Newell teapot]
     #[arg(value_name = "IN")]
     input: Option<PathBuf>,
-    /// File to write: .obj, .gltf or .glb for a mesh, .png for a picture
+    /// File to write: .obj, .gltf or .glb for a mesh, .png for a picture; - is stdout
+    ///
+    /// A .gltf has its binary part beside it in a .bin of the same name. One that is there already is
+    /// replaced only if the .gltf that is there refers to it.
     #[arg(short = 'o', long = "out", value_name = "OUT", required = true)]
     output: PathBuf,
+    /// Form of the result [default: that of the file's name]
+    #[arg(long, value_name = "NAME")]
+    format: Option<ResultForm>,
     /// Surface of triangles and quads [default: pn]
     #[arg(long, value_name = "NAME")]
     surface: Option<SurfaceName>,
@@ -90,7 +100,7 @@ enum SurfaceName {
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[group(multiple = false)]
 struct RuleArgs {
-    /// The same factor everywhere [default: 64]
+    /// The same factor everywhere, at most 64, or 63 with `fractional_odd` [default: that]
     #[arg(long, value_name = "F", value_parser = ValueParser::new(positive))]
     factor: Option<f32>,
     /// Factor at distance 1 from the eye, falling off with the distance
@@ -105,6 +115,23 @@ struct RuleArgs {
 }
 
 impl RuleArgs {
+    /// Whether the factors depend on the camera.
+    const fn looks(self) -> bool {
+        self.distance.is_some() || self.pixels.is_some()
+    }
+
+    /// Refuses a factor that would be clamped.
+    fn fit(self, partitioning: Partitioning) -> Result<(), Failure> {
+        let (low, high) = partitioning.range();
+        match self.factor {
+            Some(factor) if !(low..=high).contains(&factor) => Err(Failure::bad_input(format!(
+                "--factor {factor}: factors are {low} to {high} with --partitioning {}",
+                partitioning.name()
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     fn rule(self, view: &View) -> FactorRule {
         let View { eye, pixels_per_unit, .. } = *view;
         match self {
@@ -137,6 +164,7 @@ fn too_high() -> Failure {
 /// # Errors
 /// A model that cannot be read or tessellated, an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    let form = args.form()?;
     let mut statistics = Statistics::default();
     let style = args.surface.map(|surface| match surface {
         SurfaceName::Flat => Style::Flat,
@@ -149,17 +177,14 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         let displacement = map.map(|map| Displacement::new(map, args.height).ok_or_else(too_high));
         Ok::<_, Failure>((input, displacement.transpose()?))
     })?;
-    for note in notes {
-        // Nobody may be listening; the mesh is tessellated all the same.
-        _ = writeln!(std::io::stderr(), "tess: note: {note}");
-    }
+    notes.iter().for_each(|line| note(&format!("note: {line}")));
     let displaced = statistics.time(Stage::Load, || {
         displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
     });
     let up = args.view.up.unwrap_or(up);
-    let view = args.view.view(model.bounds(), up);
+    let view = args.view.view(&args.outline(form, &model), up);
     let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
-    let mut sink = output::open(&args.output, &options)?;
+    let mut sink = output::open(&args.output, form, &options)?;
     let job = Job {
         model: &model,
         rule: args.rule.rule(&view),
@@ -171,4 +196,48 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     // Nobody may be listening; the output is there all the same.
     _ = write!(std::io::stderr(), "{statistics}");
     Ok(Exit::Done)
+}
+
+impl Args {
+    /// The form of the result.
+    ///
+    /// # Errors
+    /// No form can be told from the name, an option that this form does not have, or bytes for a
+    /// terminal.
+    fn form(&self) -> Result<ResultForm, Failure> {
+        let form = form::choose(self.format, &self.output)?;
+        let is_picture = form == ResultForm::Png;
+        let is_gltf = matches!(form, ResultForm::Gltf | ResultForm::Glb);
+        let needless = [
+            (self.indices != IndexWidth::Auto && !is_gltf, "--indices is for .gltf and .glb"),
+            (self.wireframe && !is_picture, "--wireframe is for pictures"),
+            (
+                self.view.is_chosen() && !is_picture && !self.rule.looks(),
+                "--eye, --target, --fov and --size are for pictures, --distance and --pixels",
+            ),
+        ];
+        if let Some((_, why)) = needless.iter().find(|(is_needless, _)| *is_needless) {
+            return Err(Failure::bad_input(format!(
+                "{why}; {} has no use for it",
+                name_of_form(form)
+            )));
+        }
+        self.rule.fit(self.partitioning)?;
+        if !form.is_text() {
+            OutputArgs { file: self.output.clone() }.refuse_terminal("this form")?;
+        }
+        Ok(form)
+    }
+
+    /// What the camera must have in its picture; nothing if there is no use for a camera.
+    fn outline(&self, form: ResultForm, model: &Model) -> Vec<Vec3> {
+        let reach = if self.displace.is_some() { self.height.abs() } else { 0.0 };
+        let looks = form == ResultForm::Png || self.rule.looks();
+        if looks { outline::outline(model, reach) } else { Vec::new() }
+    }
+}
+
+fn name_of_form(form: ResultForm) -> String {
+    use clap::ValueEnum;
+    form.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }

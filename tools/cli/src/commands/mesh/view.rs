@@ -15,12 +15,12 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     #[arg(value_parser = ValueParser::new(point))]
     target: Option<Vec3>,
-    /// Field of view from top to bottom, in degrees
-    #[arg(long, value_name = "DEGREES", default_value = "30", value_parser = ValueParser::new(angle))]
-    fov: f32,
-    /// Size of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "800x600", value_parser = ValueParser::new(size))]
-    size: (u32, u32),
+    /// Field of view from top to bottom, in degrees [default: 30]
+    #[arg(long, value_name = "DEGREES", value_parser = ValueParser::new(angle))]
+    fov: Option<f32>,
+    /// Size of the picture in pixels, at most 16777216 of them [default: 800x600]
+    #[arg(long, value_name = "WxH", value_parser = ValueParser::new(size))]
+    size: Option<(u32, u32)>,
     /// Which way is up [default: y for OBJ and glTF, z for Bezier patches]
     #[arg(long, value_name = "AXIS")]
     pub(crate) up: Option<Up>,
@@ -40,23 +40,40 @@ pub(crate) struct View {
 }
 
 /// Largest width and height of a picture.
-const MAX_SIZE: u32 = 8192;
+const MAX_SIDE: u32 = 8192;
+
+/// Most pixels of a picture: each takes 63 bytes while it is drawn, a gigabyte in all.
+const MAX_PIXELS: u32 = 4096 * 4096;
+
+/// Part of the picture's half width and half height that the default camera fills.
+const FILLED: f32 = 0.94;
 
 impl ViewArgs {
-    /// The camera, for a model within these bounds.
+    /// Whether any of the camera is given.
+    pub(crate) const fn is_chosen(&self) -> bool {
+        self.eye.is_some() || self.target.is_some() || self.fov.is_some() || self.size.is_some()
+    }
+
+    /// The camera, for a surface with these points.
     #[must_use]
-    pub(crate) fn view(&self, (low, high): (Vec3, Vec3), up: Up) -> View {
-        let (width, height) = (self.size.0 as f32, self.size.1 as f32);
+    pub(crate) fn view(&self, points: &[Vec3], up: Up) -> View {
+        let first = points.first().copied().unwrap_or_default();
+        let grow = |(low, high): (Vec3, Vec3), &point: &Vec3| (low.min(point), high.max(point));
+        let (low, high) = points.iter().fold((first, first), grow);
+        let size = self.size.unwrap_or((800, 600));
+        let (width, height) = (size.0 as f32, size.1 as f32);
         let radius = (0.5 * high.distance(low)).max(f32::MIN_POSITIVE);
         let target = self.target.unwrap_or((low + high) * 0.5);
-        let half_height = libm::tanf((0.5 * self.fov).to_radians());
-        // From where a ball around the model fits the narrower way.
-        let fit = radius / (libm::sinf(libm::atanf(half_height)) * (width / height).min(1.0));
+        let half_height = libm::tanf((0.5 * self.fov.unwrap_or(30.0)).to_radians());
         let (axis, from) = match up {
             Up::Y => (Vec3::Y, Vec3::new(0.35, 0.45, 1.0)),
             Up::Z => (Vec3::Z, Vec3::new(0.35, -1.0, 0.45)),
         };
-        let eye = self.eye.unwrap_or(target + from.normalize() * (fit * 0.66));
+        let eye = self.eye.unwrap_or_else(|| {
+            let half = [half_height * width / height, half_height];
+            let away = from.normalize();
+            target + away * distance_to_fit(points, target, away, axis, half).max(radius * 0.1)
+        });
         let forward = (target - eye).normalize_or(Vec3::X);
         // Straight up or down, any direction may be the picture's top.
         let right = forward.cross(axis).normalize_or(forward.any_orthonormal_vector());
@@ -70,13 +87,24 @@ impl ViewArgs {
             row(forward, -near),
             row(forward, 0.0),
         );
-        View {
-            eye,
-            clip: rows.transpose(),
-            size: self.size,
-            pixels_per_unit: height / (2.0 * half_height),
+        View { eye, clip: rows.transpose(), size, pixels_per_unit: height / (2.0 * half_height) }
+    }
+}
+
+/// How far from `target`, in direction `away`, points fill the picture: all lie within [`FILLED`] of
+/// its half width and half height, which are `half` at distance 1.
+fn distance_to_fit(points: &[Vec3], target: Vec3, away: Vec3, axis: Vec3, half: [f32; 2]) -> f32 {
+    let right = axis.cross(away).normalize();
+    let top = away.cross(right);
+    let mut distance = 0.0f32;
+    for &point in points {
+        let point = point - target;
+        // From `distance`, the point is `distance - point.dot(away)` deep.
+        for (across, half) in [(right, half[0]), (top, half[1])] {
+            distance = distance.max(point.dot(across).abs() / (half * FILLED) + point.dot(away));
         }
     }
+    distance
 }
 
 fn point(text: &str) -> Result<Vec3, String> {
@@ -93,7 +121,12 @@ fn angle(text: &str) -> Result<f32, String> {
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {
-    let side = |text: &str| text.parse().ok().filter(|side: &u32| (1..=MAX_SIZE).contains(side));
+    let side = |text: &str| text.parse().ok().filter(|side: &u32| (1..=MAX_SIDE).contains(side));
     let sides = text.split_once('x').and_then(|(w, h)| Some((side(w)?, side(h)?)));
-    sides.ok_or_else(|| format!("a size is such as 800x600, each side 1 to {MAX_SIZE}"))
+    sides.filter(|(width, height)| width * height <= MAX_PIXELS).ok_or_else(|| {
+        format!(
+            "a size is such as 800x600, each side 1 to {MAX_SIDE}, at most {MAX_PIXELS} pixels in \
+             all (4096x4096)"
+        )
+    })
 }

@@ -3,10 +3,10 @@
 use crate::args::{name_of, shard};
 use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
-use crate::output::{progress, stdout};
-use std::io::{self, Write};
+use crate::output::{Frame, Rows, note, progress, stop_when_reader_leaves};
+use std::fmt::Write;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use tess_verify::backend::Backend;
 use tess_verify::generate::Shard;
 use tess_verify::names::Named;
@@ -20,7 +20,8 @@ Without --exhaustive: levels 1 and 2 of `tess gen`; level-2 is what level 2 has 
 it, also all 2^32 factors in every partitioning, all fixed-point factors with their contexts and
 locations, all transitions and all interiors. Shards are disjoint, and together they are
 everything, so any batch system can spread the work. A shard that has nothing of a subject, as
-there are fewer units than shards, says so on stderr; nothing differs then.
+there are fewer units than shards, says so on stderr; nothing differs then. The rows of a subject are
+printed when it is done.
 
 --random N compares N patches of each configuration (domain, partitioning, output, split order:
 96) instead, all kinds of factors in every position and most of the patches small. The same seed
@@ -34,7 +35,7 @@ Examples:
   tess verify --exhaustive --shard 3/64
   tess verify --backend gpu --random 100000")]
 pub(crate) struct Args {
-    /// Backend to compare; simd and gpu unless said. core is the model's second formulation
+    /// Backend to compare; core is the model's second formulation [default: simd and gpu]
     #[arg(long, value_name = "NAME")]
     backend: Vec<BackendName>,
     #[command(flatten)]
@@ -62,22 +63,33 @@ pub(crate) struct Args {
 /// # Errors
 /// A backend that is not available.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    args.options.fit(args.backends())?;
     let mut workers = args.workers()?;
-    let plan = args.plan();
+    let Plan { subjects, shard } = args.plan();
+    let unwritten = |error| Failure::write(Path::new("-"), error);
+    stop_when_reader_leaves();
+    let names = subjects.iter().map(|subject| subject.name().to_owned());
+    let rows = Rows::new(Frame { opening: heading(), ..Frame::default() }, names);
+    let rows = rows.map_err(unwritten)?;
     let bar = progress(0, "units");
     let started = Instant::now();
-    let table = verify(&mut workers, &plan, &|subject, done, all| {
-        bar.set_length(all);
-        bar.set_message(subject.name());
-        bar.set_position(done);
-    });
+    let mut all_equal = true;
+    for &subject in &subjects {
+        let one = Plan { subjects: vec![subject], shard };
+        let table = verify(&mut workers, &one, &|subject, done, all| {
+            bar.set_length(all);
+            bar.set_message(subject.name());
+            bar.set_position(done);
+        });
+        let table = table.inspect_err(|_| bar.finish_and_clear())?;
+        all_equal &= table.iter().all(|row| row.mismatches == 0);
+        rows.print(&bar, &lines(&table)).map_err(unwritten)?;
+        bar.suspend(|| report_empty(&table, shard));
+    }
     bar.finish_and_clear();
-    let table = table?;
-    report_empty(&table, args.shard);
-    show(&table, started.elapsed())
-        .map_err(|error| Failure::file("write", Path::new("-"), &error))?;
-    let equal = table.iter().all(|row| row.mismatches == 0);
-    Ok(if equal { Exit::Done } else { Exit::Different })
+    rows.print(&bar, &format!("in {} s\n", started.elapsed().as_secs())).map_err(unwritten)?;
+    rows.finish().map_err(unwritten)?;
+    Ok(if all_equal { Exit::Done } else { Exit::Different })
 }
 
 impl Args {
@@ -91,10 +103,16 @@ impl Args {
         Plan { subjects, shard: self.shard }
     }
 
+    fn backends(&self) -> &[BackendName] {
+        match &self.backend[..] {
+            [] => &[BackendName::Simd, BackendName::Gpu],
+            chosen => chosen,
+        }
+    }
+
     /// One thread with every backend that was asked for; a GPU is not shared.
     fn workers(&self) -> Result<Vec<Vec<Box<dyn Backend>>>, Failure> {
-        let all = [BackendName::Simd, BackendName::Gpu];
-        let names = if self.backend.is_empty() { &all[..] } else { &self.backend };
+        let names = self.backends();
         let threads = if names.contains(&BackendName::Gpu) {
             1
         } else {
@@ -102,10 +120,7 @@ impl Args {
         };
         let backend = |&name: &BackendName| -> Result<Box<dyn Backend>, Failure> {
             match name {
-                BackendName::Core => {
-                    self.options.only_32_bits()?;
-                    Ok(Box::new(SecondFormulation))
-                }
+                BackendName::Core => Ok(Box::new(SecondFormulation)),
                 _ => self.options.select(name),
             }
         };
@@ -121,26 +136,28 @@ fn report_empty(table: &[Row], shard: Shard) {
     empty.dedup();
     for subject in empty {
         let (part, of) = (shard.part + 1, shard.of);
-        // A closed stderr does not change the result.
-        _ = writeln!(
-            io::stderr(),
-            "tess: nothing to compare in shard {part}/{of}: {subject} has fewer than {part} units"
-        );
+        note(&format!(
+            "nothing to compare in shard {part}/{of}: {subject} has fewer than {part} units"
+        ));
     }
 }
 
-fn show(table: &[Row], took: Duration) -> io::Result<()> {
-    let mut out = stdout();
-    writeln!(out, "{:<12} {:<8} {:>15} {:>10}", "subject", "backend", "compared", "mismatches")?;
-    for row in table {
-        let Row { subject, backend, compared, mismatches, .. } = row;
-        writeln!(out, "{:<12} {backend:<8} {compared:>15} {mismatches:>10}", subject.name())?;
+fn heading() -> String {
+    format!("{:<12} {:<8} {:>15} {:>10}\n", "subject", "backend", "compared", "mismatches")
+}
+
+/// The rows of one subject, then the first difference of each.
+fn lines(table: &[Row]) -> String {
+    let mut text = String::new();
+    for Row { subject, backend, compared, mismatches, .. } in table {
+        let subject = subject.name();
+        // Writing to a String does not fail.
+        _ = writeln!(text, "{subject:<12} {backend:<8} {compared:>15} {mismatches:>10}");
     }
-    for row in table {
-        if let Some(first) = &row.first {
-            writeln!(out, "first of {} in {}: {first}", row.subject.name(), row.backend)?;
+    for Row { subject, backend, first, .. } in table {
+        if let Some(first) = first {
+            _ = writeln!(text, "first of {} in {backend}: {first}", subject.name());
         }
     }
-    writeln!(out, "in {} s", took.as_secs())?;
-    out.flush()
+    text
 }

@@ -1,6 +1,5 @@
 //! The compute shaders under the clock of their device.
 
-use super::measure::total;
 use super::runner::{Amount, Runner, RunnerOptions, WorkingSet};
 use crate::backends::gpu::{device_error, setup_of, split_by_patch};
 use crate::failure::Failure;
@@ -196,7 +195,7 @@ impl Runner for GpuRunner {
         }
         self.workload = Some((setup, workload.patches.clone()));
         let parts = self.batches.chunks(BATCHES_PER_PART);
-        Ok(parts.map(|part| total(part.iter().map(|timed| timed.amount))).collect())
+        Ok(parts.map(|part| part.iter().map(|timed| timed.amount).sum()).collect())
     }
 
     fn digest(&mut self) -> Result<u64, BackendError> {
@@ -237,5 +236,5 @@ fn totals(counts: &[Counts], range: &Range<usize>) -> Totals {
 }
 
 fn words_as_bytes(words: &[u32]) -> Vec<u8> {
-    words.iter().flat_map(|word| word.to_ne_bytes()).collect()
+    words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }

@@ -1,12 +1,12 @@
 //! GLB: JSON and binary part in one file.
 
 use super::binary::Binary;
-use super::{Options, Sink, partial, persist};
+use super::{Options, Sink};
 use crate::commands::mesh::pipeline::Block;
 use crate::failure::Failure;
+use crate::output::OutputFile;
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// Room for the JSON, which is known last and stands first; the rest is filled with blanks, as
 /// the format has it.
@@ -18,13 +18,13 @@ const BEFORE_BINARY: usize = 12 + 8 + JSON_ROOM + 8;
 /// The file while it grows.
 pub(super) struct Glb {
     path: PathBuf,
-    binary: Binary<NamedTempFile>,
+    binary: Binary<OutputFile>,
 }
 
 impl Glb {
     pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
-        let failure = |error: io::Error| Failure::file("write", path, &error);
-        let mut file = partial(path)?;
+        let failure = |error: io::Error| Failure::write(path, error);
+        let mut file = OutputFile::create(path)?;
         file.write_all(&[0; BEFORE_BINARY]).map_err(failure)?;
         let binary = Binary::new(file, options).map_err(failure)?;
         Ok(Self { path: path.to_owned(), binary })
@@ -55,18 +55,18 @@ fn beginning(json: &str, length: u64) -> io::Result<Vec<u8>> {
 
 impl Sink for Glb {
     fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
-        self.binary.block(block).map_err(|error| Failure::file("write", &self.path, &error))
+        self.binary.block(block).map_err(|error| Failure::write(&self.path, error))
     }
 
     fn finish(self: Box<Self>) -> Result<(), Failure> {
         let Self { path, binary } = *self;
-        let failure = |error: io::Error| Failure::file("write", &path, &error);
+        let failure = |error: io::Error| Failure::write(&path, error);
         let layout = binary.layout();
         let beginning =
             beginning(&layout.document(None).to_string(), layout.length()).map_err(failure)?;
         let mut file = binary.finish(&layout).map_err(failure)?;
         file.seek(SeekFrom::Start(0)).map_err(failure)?;
         file.write_all(&beginning).map_err(failure)?;
-        persist(file, &path)
+        file.finish().map_err(failure)
     }
 }

@@ -1,43 +1,83 @@
 //! glTF in two files: the JSON, and the binary part beside it with the extension `.bin`.
 
 use super::binary::Binary;
-use super::{Options, Sink, partial, persist};
+use super::{Options, Sink};
 use crate::commands::mesh::pipeline::Block;
 use crate::failure::Failure;
+use crate::output::OutputFile;
+use serde_json::Value;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
-/// The binary part while it grows.
+/// Both files while the binary part grows.
 pub(super) struct Gltf {
     path: PathBuf,
-    binary: Binary<NamedTempFile>,
+    /// What the JSON calls the binary part.
+    uri: String,
+    json: OutputFile,
+    binary: Binary<OutputFile>,
 }
 
 impl Gltf {
     pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
-        let binary = Binary::new(partial(path)?, options);
-        let binary = binary.map_err(|error| Failure::file("write", path, &error))?;
-        Ok(Self { path: path.to_owned(), binary })
+        let beside = path.with_extension("bin");
+        let uri = encode(&beside);
+        if !OutputFile::would_be_file(path) {
+            return Err(Failure::bad_input(format!(
+                "{} is no file, and glTF is two files; --format glb is one",
+                path.display()
+            )));
+        }
+        if beside.symlink_metadata().is_ok() && !refers_to(path, &uri) {
+            return Err(Failure::bad_input(format!(
+                "{} is there already and {} does not refer to it, so it may be something else; \
+                 remove it, or give another name",
+                beside.display(),
+                path.display()
+            )));
+        }
+        let json = OutputFile::create(path)?;
+        let binary = Binary::new(OutputFile::create(&beside)?, options);
+        let binary = binary.map_err(|error| Failure::write(&beside, error))?;
+        Ok(Self { path: path.to_owned(), uri, json, binary })
     }
+}
+
+/// The reference to a file beside: every byte percent-encoded that has a meaning in a URI (RFC 3986,
+/// section 2).
+fn encode(file: &Path) -> String {
+    let mut uri = String::new();
+    for &byte in file.file_name().unwrap_or_default().as_encoded_bytes() {
+        match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
+                uri.push(char::from(byte));
+            }
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
+}
+
+/// Whether a glTF file that is there already has this binary part.
+fn refers_to(gltf: &Path, uri: &str) -> bool {
+    let Ok(text) = std::fs::read(gltf) else { return false };
+    let document: Value = serde_json::from_slice(&text).unwrap_or_default();
+    let buffers = document["buffers"].as_array().cloned().unwrap_or_default();
+    buffers.iter().any(|buffer| buffer["uri"].as_str() == Some(uri))
 }
 
 impl Sink for Gltf {
     fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
-        self.binary.block(block).map_err(|error| Failure::file("write", &self.path, &error))
+        self.binary.block(block).map_err(|error| Failure::write(&self.path, error))
     }
 
     fn finish(self: Box<Self>) -> Result<(), Failure> {
-        let Self { path, binary } = *self;
-        let failure = |error: io::Error| Failure::file("write", &path, &error);
-        let beside = path.with_extension("bin");
+        let Self { path, uri, mut json, binary } = *self;
+        let failure = |error: io::Error| Failure::write(&path, error);
         let layout = binary.layout();
-        let uri = beside.file_name().unwrap_or_default().to_string_lossy().replace(' ', "%20");
-        let mut json = partial(&path)?;
         let document = crate::output::json(&layout.document(Some(&uri)));
         json.write_all(document.as_bytes()).map_err(failure)?;
         let binary = binary.finish(&layout).map_err(failure)?;
-        persist(binary, &beside)?;
-        persist(json, &path)
+        OutputFile::finish_both(binary, json).map_err(failure)
     }
 }

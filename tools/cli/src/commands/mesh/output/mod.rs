@@ -11,8 +11,8 @@ use super::input::Up;
 use super::pipeline::Block;
 use super::view::View;
 use crate::failure::Failure;
+use crate::output::form::Form;
 use std::path::Path;
-use tempfile::{Builder, NamedTempFile};
 
 /// Takes the result block by block.
 pub(crate) trait Sink {
@@ -55,43 +55,43 @@ pub(crate) struct Options {
     pub(crate) wireframe: bool,
 }
 
-/// The sink for a file, by its extension.
+/// The forms of the result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum ResultForm {
+    /// A mesh as text
+    Obj,
+    /// A mesh in two files: JSON, and the binary part beside it
+    Gltf,
+    /// A mesh in one binary file
+    Glb,
+    /// A picture
+    Png,
+}
+
+impl Form for ResultForm {
+    const DEFAULT: Option<Self> = None;
+}
+
+impl ResultForm {
+    /// Whether it is text, which a terminal can show.
+    pub(crate) const fn is_text(self) -> bool {
+        matches!(self, Self::Obj)
+    }
+}
+
+/// The sink for a file.
 ///
 /// # Errors
-/// An extension that is no known form; a folder that cannot be written to.
-pub(crate) fn open(path: &Path, options: &Options) -> Result<Box<dyn Sink>, Failure> {
-    let extension = path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    Ok(match extension.to_ascii_lowercase().as_str() {
-        "obj" => Box::new(obj::Obj::create(path)?),
-        "gltf" => Box::new(gltf::Gltf::create(path, options)?),
-        "glb" => Box::new(glb::Glb::create(path, options)?),
-        "png" => Box::new(picture::Picture::create(path, options)?),
-        _ => {
-            return Err(Failure::bad_input(format!(
-                "cannot tell what to write to {}: meshes are .obj, .gltf or .glb files, \
-                 pictures .png",
-                path.display()
-            )));
-        }
+/// A place that cannot be written to.
+pub(crate) fn open(
+    path: &Path,
+    form: ResultForm,
+    options: &Options,
+) -> Result<Box<dyn Sink>, Failure> {
+    Ok(match form {
+        ResultForm::Obj => Box::new(obj::Obj::create(path)?),
+        ResultForm::Gltf => Box::new(gltf::Gltf::create(path, options)?),
+        ResultForm::Glb => Box::new(glb::Glb::create(path, options)?),
+        ResultForm::Png => Box::new(picture::Picture::create(path, options)?),
     })
-}
-
-/// A file beside the output that becomes it when it is whole.
-fn partial(path: &Path) -> Result<NamedTempFile, Failure> {
-    let folder = match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    };
-    let mut builder = Builder::new();
-    // The permissions of ordinary files, less the user's mask.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.prefix(".tess-").tempfile_in(folder);
-    file.map_err(|error| Failure::file("write", path, &error))
-}
-
-/// Puts a whole file in its place.
-fn persist(file: NamedTempFile, path: &Path) -> Result<(), Failure> {
-    let persisted = file.persist(path);
-    persisted.map(drop).map_err(|error| Failure::file("write", path, &error.error))
 }

@@ -1,21 +1,21 @@
 //! OBJ: positions, texture coordinates, normals and triangles, block after block.
 
-use super::{Sink, partial, persist};
+use super::Sink;
 use crate::commands::mesh::pipeline::Block;
 use crate::failure::Failure;
+use crate::output::OutputFile;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// A text file that grows.
 pub(super) struct Obj {
     path: PathBuf,
-    file: BufWriter<NamedTempFile>,
+    file: BufWriter<OutputFile>,
 }
 
 impl Obj {
     pub(super) fn create(path: &Path) -> Result<Self, Failure> {
-        let file = BufWriter::with_capacity(1 << 20, partial(path)?);
+        let file = BufWriter::with_capacity(1 << 20, OutputFile::create(path)?);
         Ok(Self { path: path.to_owned(), file })
     }
 }
@@ -35,12 +35,11 @@ fn write(file: &mut impl Write, block: &Block<'_>) -> io::Result<()> {
 
 impl Sink for Obj {
     fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
-        write(&mut self.file, block).map_err(|error| Failure::file("write", &self.path, &error))
+        write(&mut self.file, block).map_err(|error| Failure::write(&self.path, error))
     }
 
     fn finish(self: Box<Self>) -> Result<(), Failure> {
-        let file = self.file.into_inner();
-        let file = file.map_err(|error| Failure::file("write", &self.path, error.error()))?;
-        persist(file, &self.path)
+        let file = self.file.into_inner().map_err(io::IntoInnerError::into_error);
+        file.and_then(OutputFile::finish).map_err(|error| Failure::write(&self.path, error))
     }
 }

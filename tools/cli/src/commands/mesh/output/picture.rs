@@ -1,15 +1,15 @@
 //! PNG pictures: shaded, or with the triangles' edges.
 
 use super::raster::{Fragment, Raster};
-use super::{Options, Sink, partial, persist};
+use super::{Options, Sink};
 use crate::commands::mesh::pipeline::Block;
 use crate::commands::mesh::view::View;
 use crate::failure::Failure;
+use crate::output::OutputFile;
 use glam::Vec3;
 use png::{BitDepth, ColorType, Compression, Encoder};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use tempfile::NamedTempFile;
 
 /// Samples per pixel along each axis.
 const SAMPLES: usize = 3;
@@ -20,7 +20,7 @@ const HALF_LINE: f32 = 0.5;
 /// A picture while it is drawn. Its memory is the picture's alone.
 pub(super) struct Picture {
     path: PathBuf,
-    file: NamedTempFile,
+    file: OutputFile,
     raster: Raster,
     light: Light,
     size: (u32, u32),
@@ -41,7 +41,7 @@ impl Picture {
         let row = |k: usize| clip.row(k).truncate().normalize_or_zero();
         Ok(Self {
             path: path.to_owned(),
-            file: partial(path)?,
+            file: OutputFile::create(path)?,
             raster: Raster::new(samples, clip, [250, 250, 252]),
             light: Light {
                 eye,
@@ -56,21 +56,24 @@ impl Picture {
     /// Encodes the picture, each pixel the mean of its samples.
     fn encode(&mut self) -> io::Result<()> {
         let size = self.size;
-        let mut bytes = Vec::with_capacity(size.0 as usize * size.1 as usize * 3);
-        let (width, pixels) = (size.0 as usize * SAMPLES, self.raster.pixels());
-        for y in 0..size.1 as usize {
-            for x in 0..size.0 as usize {
-                let first = y * SAMPLES * width + x * SAMPLES;
-                let rows = (0..SAMPLES).map(|row| &pixels[first + row * width..][..SAMPLES]);
-                bytes.extend(mean(rows.flatten()));
-            }
-        }
         let mut encoder = Encoder::new(&mut self.file, size.0, size.1);
         encoder.set_color(ColorType::Rgb);
         encoder.set_depth(BitDepth::Eight);
         encoder.set_compression(Compression::High);
         let mut writer = encoder.write_header()?;
-        writer.write_image_data(&bytes)?;
+        let mut stream = writer.stream_writer()?;
+        let (width, pixels) = (size.0 as usize * SAMPLES, self.raster.pixels());
+        let mut row = Vec::with_capacity(size.0 as usize * 3);
+        for y in 0..size.1 as usize {
+            row.clear();
+            for x in 0..size.0 as usize {
+                let first = y * SAMPLES * width + x * SAMPLES;
+                let rows = (0..SAMPLES).map(|row| &pixels[first + row * width..][..SAMPLES]);
+                row.extend(mean(rows.flatten()));
+            }
+            stream.write_all(&row)?;
+        }
+        stream.finish()?;
         writer.finish()?;
         self.file.flush()
     }
@@ -94,8 +97,9 @@ impl Light {
         // Inside of the surface, the other side of the normal is lit.
         let normal = if fragment.front { fragment.normal } else { -fragment.normal };
         let diffuse = 0.5 + 0.5 * normal.dot(self.towards);
-        let towards_both = (self.towards + to_eye).normalize_or(Vec3::Z);
-        let shine = libm::powf(normal.dot(towards_both).max(0.0), 48.0);
+        let shine = normal.dot((self.towards + to_eye).normalize_or(Vec3::Z)).max(0.0);
+        // To the 48th power, in the same way on every machine.
+        let shine = (0..4).fold(shine * shine * shine, |power, _| power * power);
         let base = match (fragment.front, self.wireframe) {
             (true, false) => Vec3::new(0.80, 0.47, 0.25),
             (true, true) => Vec3::new(0.93, 0.80, 0.68),
@@ -121,7 +125,8 @@ impl Sink for Picture {
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), Failure> {
-        self.encode().map_err(|error| Failure::file("write", &self.path, &error))?;
-        persist(self.file, &self.path)
+        let encoded = self.encode();
+        let Self { path, file, .. } = *self;
+        encoded.and_then(|()| file.finish()).map_err(|error| Failure::write(&path, error))
     }
 }

@@ -33,13 +33,14 @@ impl Placed<'_> {
         let count = self.check_attributes()?;
         room(mesh.positions.len(), count, most).map_err(|what| broken(path, what))?;
         let indices = self.indices(count, mesh.faces.len(), most)?;
+        let linear = Mat3::from_mat4(transform);
         let first = [mesh.positions.len(), mesh.normals.len(), mesh.texcoords.len()];
         if let Some(number) = self.attribute("POSITION") {
             let positions = data.read(number, float)?.into_iter().map(Vec3::from_array);
             mesh.positions.extend(positions.map(|p| transform.transform_point3(p)));
         }
         if let Some(number) = self.attribute("NORMAL") {
-            let to_normal = Mat3::from_mat4(transform).inverse().transpose();
+            let to_normal = linear.inverse().transpose();
             let normals = data.read(number, float)?.into_iter().map(Vec3::from_array);
             mesh.normals.extend(normals.map(|n| to_normal * n));
         }
@@ -48,7 +49,7 @@ impl Placed<'_> {
             // glTF has (0, 0) at the upper left of the image.
             mesh.texcoords.extend(texcoords.map(|[u, v]| Vec2::new(u, 1.0 - v)));
         }
-        let mirrored = transform.determinant() < 0.0;
+        let mirrored = linear.determinant() < 0.0;
         mesh.faces.extend(indices.as_chunks::<3>().0.iter().map(|&[a, b, c]| {
             let corners = if mirrored { [a, c, b] } else { [a, b, c] };
             let numbers = |first: usize| {

@@ -1,0 +1,266 @@
+//! glTF files, and a reader that walks the JSON as it comes, one number at a time.
+
+use super::{mesh_words, models};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use glam::{Vec2, Vec3};
+use serde_json::Value;
+use tess_program::fuzzing;
+use tess_surface::{Face, PolygonMesh, Sides};
+
+/// Most vertices and triangles: files of fuzz targets are small, but may repeat what they hold.
+const MOST: usize = 1 << 14;
+
+/// Compares one file.
+///
+/// # Errors
+/// The first difference, or a message that names no place.
+pub fn check(data: &[u8]) -> Result<(), String> {
+    let read = fuzzing::gltf(data, MOST);
+    if let Ok(mesh) = &read {
+        models(mesh.clone())?;
+    }
+    super::check(read, mesh_words, names_a_place, || naive(data))
+}
+
+/// A part of the binary form, a JSON path, or the line of text that is not JSON.
+fn names_a_place(message: &str) -> bool {
+    const MEMBERS: [&str; 9] = [
+        "asset",
+        "extensionsRequired",
+        "scenes",
+        "scene",
+        "nodes",
+        "meshes",
+        "accessors",
+        "bufferViews",
+        "buffers",
+    ];
+    let place = message.split(": ").next().unwrap_or_default();
+    let is_path = MEMBERS.iter().any(|name| {
+        place.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+    });
+    is_path || place.starts_with("GLB ") || message.contains(" at line ")
+}
+
+type Matrix = [[f32; 4]; 4];
+
+const IDENTITY: Matrix =
+    [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
+
+struct File {
+    json: Value,
+    buffers: Vec<Vec<u8>>,
+}
+
+fn naive(data: &[u8]) -> Option<PolygonMesh> {
+    let word = |at: usize| Some(u32::from_le_bytes(*data.get(at..)?.first_chunk()?) as usize);
+    let (json, blob) = if data.starts_with(b"glTF") {
+        let end = 20 + word(12)?;
+        (&data[20..end], data.get(end + 8..).unwrap_or_default())
+    } else {
+        (data, &[][..])
+    };
+    let json: Value = serde_json::from_slice(json).ok()?;
+    let buffers = list(&json["buffers"]).iter().map(|buffer| match buffer["uri"].as_str() {
+        Some(uri) => BASE64_STANDARD.decode(uri.split_once(";base64,")?.1).ok(),
+        None => Some(blob.to_vec()),
+    });
+    let buffers = buffers.collect::<Option<_>>()?;
+    let file = File { json, buffers };
+    let scene = file.json["scene"].as_u64().unwrap_or(0) as usize;
+    let mut mesh = PolygonMesh::default();
+    for root in list(&file.json["scenes"][scene]["nodes"]) {
+        file.node(index(root)?, &IDENTITY, &mut mesh)?;
+    }
+    Some(mesh)
+}
+
+fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+fn index(value: &Value) -> Option<usize> {
+    usize::try_from(value.as_u64()?).ok()
+}
+
+fn number(value: &Value) -> Option<f32> {
+    let whole = value.as_u64().map(|n| n as f32).or_else(|| value.as_i64().map(|n| n as f32));
+    whole.or_else(|| value.as_f64().map(|n| n as f32))
+}
+
+fn numbers(value: &Value) -> Option<Vec<f32>> {
+    value.as_array()?.iter().map(number).collect()
+}
+
+impl File {
+    fn node(&self, number: usize, parent: &Matrix, mesh: &mut PolygonMesh) -> Option<()> {
+        let node = &self.json["nodes"][number];
+        let own = match numbers(&node["matrix"]) {
+            Some(numbers) => *numbers.as_chunks::<4>().0.first_chunk()?,
+            None => transform(node)?,
+        };
+        let transform = own.map(|column| multiply(parent, column));
+        if let Some(number) = index(&node["mesh"]) {
+            for primitive in list(&self.json["meshes"][number]["primitives"]) {
+                self.primitive(primitive, &transform, mesh)?;
+            }
+        }
+        list(&node["children"])
+            .iter()
+            .try_for_each(|child| self.node(index(child)?, &transform, mesh))
+    }
+
+    fn primitive(
+        &self,
+        primitive: &Value,
+        transform: &Matrix,
+        mesh: &mut PolygonMesh,
+    ) -> Option<()> {
+        let attributes = &primitive["attributes"];
+        let first = [mesh.positions.len(), mesh.normals.len(), mesh.texcoords.len()];
+        let positions = self.accessor(index(&attributes["POSITION"])?)?;
+        let has_normals = attributes.get("NORMAL").is_some();
+        let has_texcoords = attributes.get("TEXCOORD_0").is_some();
+        for p in &positions {
+            let [x, y, z, _] = multiply(transform, [p[0] as f32, p[1] as f32, p[2] as f32, 1.0]);
+            mesh.positions.push(Vec3::new(x, y, z));
+        }
+        if has_normals {
+            for n in self.accessor(index(&attributes["NORMAL"])?)? {
+                mesh.normals.push(turn(transform, [n[0] as f32, n[1] as f32, n[2] as f32]));
+            }
+        }
+        if has_texcoords {
+            for t in self.accessor(index(&attributes["TEXCOORD_0"])?)? {
+                mesh.texcoords.push(Vec2::new(t[0] as f32, 1.0 - t[1] as f32));
+            }
+        }
+        let indices: Vec<usize> = match index(&primitive["indices"]) {
+            Some(number) => self.accessor(number)?.iter().map(|i| i[0] as usize).collect(),
+            None => (0..positions.len()).collect(),
+        };
+        let mirrored = determinant(transform) < 0.0;
+        for &[a, b, c] in indices.as_chunks().0 {
+            let corners = if mirrored { [a, c, b] } else { [a, b, c] };
+            let from =
+                |first: usize| Sides::Triangle(corners.map(|corner| (corner + first) as u32));
+            mesh.faces.push(Face {
+                positions: from(first[0]),
+                normals: has_normals.then(|| from(first[1])),
+                texcoords: has_texcoords.then(|| from(first[2])),
+            });
+        }
+        Some(())
+    }
+
+    /// Every element of an accessor; all numbers of 32 bits are exact in `f64`.
+    fn accessor(&self, number: usize) -> Option<Vec<Vec<f64>>> {
+        let accessor = &self.json["accessors"][number];
+        let components = match accessor["type"].as_str()? {
+            "SCALAR" => 1,
+            "VEC2" => 2,
+            "VEC3" => 3,
+            _ => return None,
+        };
+        let kind = accessor["componentType"].as_u64()?;
+        let normalized = accessor["normalized"] == true;
+        let count = index(&accessor["count"])?;
+        let mut elements = vec![vec![0.0; components]; count];
+        if accessor.get("bufferView").is_some() {
+            for (k, element) in elements.iter_mut().enumerate() {
+                *element = self.element(accessor, kind, normalized, components, k)?;
+            }
+        }
+        let sparse = &accessor["sparse"];
+        for k in 0..index(&sparse["count"]).unwrap_or(0) {
+            let indices = &sparse["indices"];
+            let at = self.element(indices, indices["componentType"].as_u64()?, false, 1, k)?[0];
+            elements[at as usize] =
+                self.element(&sparse["values"], kind, normalized, components, k)?;
+        }
+        Some(elements)
+    }
+
+    /// Element `k` of whatever has a `bufferView` and perhaps a `byteOffset`.
+    fn element(
+        &self,
+        source: &Value,
+        kind: u64,
+        normalized: bool,
+        components: usize,
+        k: usize,
+    ) -> Option<Vec<f64>> {
+        let view = &self.json["bufferViews"][index(&source["bufferView"])?];
+        let bytes = &self.buffers[index(&view["buffer"])?];
+        let size = match kind {
+            5121 => 1,
+            5123 => 2,
+            _ => 4,
+        };
+        let offset = |value: &Value| index(&value["byteOffset"]).unwrap_or(0);
+        let stride = index(&view["byteStride"]).unwrap_or(size * components);
+        let start = offset(view) + offset(source) + k * stride;
+        let component = |c: usize| {
+            let mut word = [0; 4];
+            word[..size].copy_from_slice(bytes.get(start + c * size..)?.get(..size)?);
+            let whole = u32::from_le_bytes(word);
+            Some(match (kind, normalized) {
+                (5126, _) => f64::from(f32::from_bits(whole)),
+                (5121, true) => f64::from(whole as f32 / 255.0),
+                (5123, true) => f64::from(whole as f32 / 65535.0),
+                _ => f64::from(whole),
+            })
+        };
+        (0..components).map(component).collect()
+    }
+}
+
+/// Translation times rotation times scale, column by column.
+fn transform(node: &Value) -> Option<Matrix> {
+    let or = |name: &str, default: &[f32]| match node.get(name) {
+        Some(value) => numbers(value),
+        None => Some(default.to_vec()),
+    };
+    let t = or("translation", &[0.0; 3])?;
+    let r = or("rotation", &[0.0, 0.0, 0.0, 1.0])?;
+    let s = or("scale", &[1.0; 3])?;
+    let (x, y, z, w) = (r[0], r[1], r[2], r[3]);
+    let (xx, yy, zz) = (x * (x + x), y * (y + y), z * (z + z));
+    let (xy, xz, yz) = (x * (y + y), x * (z + z), y * (z + z));
+    let (wx, wy, wz) = (w * (x + x), w * (y + y), w * (z + z));
+    let columns = [
+        [1.0 - (yy + zz), xy + wz, xz - wy, 0.0],
+        [xy - wz, 1.0 - (xx + zz), yz + wx, 0.0],
+        [xz + wy, yz - wx, 1.0 - (xx + yy), 0.0],
+    ];
+    let [a, b, c] = [0, 1, 2].map(|k| columns[k].map(|number| number * s[k]));
+    Some([a, b, c, [t[0], t[1], t[2], 1.0]])
+}
+
+fn multiply(matrix: &Matrix, v: [f32; 4]) -> [f32; 4] {
+    [0, 1, 2, 3].map(|row| {
+        let term = |column: usize| matrix[column][row] * v[column];
+        term(0) + term(1) + term(2) + term(3)
+    })
+}
+
+fn cross(a: [f32; 4], b: [f32; 4]) -> [f32; 3] {
+    [a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1]]
+}
+
+fn determinant(m: &Matrix) -> f32 {
+    let across = cross(m[1], m[2]);
+    m[0][0] * across[0] + m[0][1] * across[1] + m[0][2] * across[2]
+}
+
+/// A normal: the inverse of the transpose has the columns' cross products over the determinant.
+fn turn(m: &Matrix, normal: [f32; 3]) -> Vec3 {
+    let over = 1.0 / determinant(m);
+    let columns = [cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])];
+    let row = |row: usize| {
+        let term = |column: usize| columns[column][row] * over * normal[column];
+        term(0) + term(1) + term(2)
+    };
+    Vec3::new(row(0), row(1), row(2))
+}

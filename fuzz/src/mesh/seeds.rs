@@ -1,0 +1,299 @@
+//! Seeds of the readers of mesh files: small files of every form, all of them right.
+
+use super::height_png::{PASSES, channels};
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use serde_json::{Value, json};
+
+const CUBE: &str =
+    "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n";
+const FACES: &str = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+/// OBJ files.
+#[must_use]
+pub fn obj() -> Vec<Vec<u8>> {
+    let attributes = "vt 0 0\nvt 1 0 0\nvt 0.5\nvn 0 0 1\nvn 0 1e-3 -2.5E1\n";
+    let texts = [
+        format!("{CUBE}{FACES}"),
+        format!("\u{feff}{CUBE}{FACES}"),
+        format!("# a comment\r\no cube\r\n{}", format!("{CUBE}{FACES}").replace('\n', " # x\r\n")),
+        format!("{FACES}{CUBE}"),
+        format!("{CUBE}{attributes}f 1/1 2/2 3/3\nf 1//1 3//2 4//1\nf 1/1/1 2/2/2 6/3/1 5/1/2\n"),
+        format!("{CUBE}{attributes}f -8/-3/-2 -7/-2/-1 -6/-1/-2\nf -1 -2 -3 -4\n"),
+        format!("{CUBE}f 1 2 2\nf 1 1 2 3\nf 1 2 3 3\nf 4 4 4 4\nf 1 2 1 3\nf 5 6 7\n"),
+        format!("mtllib a.mtl\n{CUBE}g x y\nusemtl m\ns off\nl 1 2 3\np 1\n{FACES}"),
+        "v 0 0 0 1\nv 1 0 0 .5 .5 .5\nv\t0 1. -0\nf 1 2 3".to_owned(),
+    ];
+    let mut seeds: Vec<Vec<u8>> = texts.into_iter().map(String::into_bytes).collect();
+    seeds.push([b"# caf\xE9 \xFF\ng \xE9\n", CUBE.as_bytes(), FACES.as_bytes()].concat());
+    seeds
+}
+
+/// Bezier patch files.
+#[must_use]
+pub fn bpt() -> Vec<Vec<u8>> {
+    let rows = |end: &str, line_end: &str| {
+        let row = |k: usize| format!("{} {} {}{end}{line_end}", k % 4, k / 4, k % 3);
+        (0..16).map(row).collect::<String>()
+    };
+    let one = |end: &str, line_end: &str| format!("3 3{line_end}{}", rows(end, line_end));
+    let plain = one("", "\n");
+    [
+        format!("1\n{plain}"),
+        format!("2\n{plain}{plain}"),
+        format!("1\n{}", one(" 2", "\n")),
+        format!("1\n{}", one(" 0.5", "\n")),
+        format!("\u{feff}1\r\n{}", one("", "\r\n")),
+        format!("\n 1 \n\n{}\n", one("", " \n\t\n")),
+        format!("3\n{plain}{}{plain}", one(" 1e-3", "\n")),
+        format!("1\n{}", plain.replace(" 2 ", " -2.5e3 ")),
+    ]
+    .map(String::into_bytes)
+    .to_vec()
+}
+
+/// A file under construction.
+struct Builder {
+    document: Value,
+    bytes: Vec<u8>,
+}
+
+impl Builder {
+    /// Four vertices and their positions.
+    fn new() -> Self {
+        let document = json!({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {}}]}],
+            "accessors": [], "bufferViews": [], "buffers": [{"byteLength": 0}],
+        });
+        let mut builder = Self { document, bytes: Vec::new() };
+        let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.5, -1.0, -1.0, 2.0];
+        let number = builder.accessor(&floats(&positions), 5126, "VEC3", 4);
+        builder.document["accessors"][number]["min"] = json!([-1, -1, 0]);
+        builder.document["accessors"][number]["max"] = json!([1, 1, 2]);
+        builder.attribute("POSITION", number);
+        builder
+    }
+
+    fn view(&mut self, bytes: &[u8]) -> usize {
+        let views = self.document["bufferViews"].as_array_mut().expect("a list");
+        views.push(json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()}));
+        self.bytes.extend(bytes);
+        self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
+        views.len() - 1
+    }
+
+    fn accessor(&mut self, bytes: &[u8], component: u32, kind: &str, count: usize) -> usize {
+        let view = self.view(bytes);
+        let accessors = self.document["accessors"].as_array_mut().expect("a list");
+        accessors.push(json!({
+            "bufferView": view, "componentType": component, "type": kind, "count": count,
+        }));
+        accessors.len() - 1
+    }
+
+    fn attribute(&mut self, name: &str, accessor: usize) {
+        self.document["meshes"][0]["primitives"][0]["attributes"][name] = json!(accessor);
+    }
+
+    fn indices(mut self, bytes: &[u8], component: u32, size: usize) -> Self {
+        let number = self.accessor(bytes, component, "SCALAR", bytes.len() / size);
+        self.document["meshes"][0]["primitives"][0]["indices"] = json!(number);
+        self
+    }
+
+    fn with(mut self, change: impl FnOnce(&mut Self)) -> Self {
+        change(&mut self);
+        self
+    }
+
+    fn text(mut self) -> Vec<u8> {
+        let data = BASE64_STANDARD.encode(&self.bytes);
+        self.document["buffers"][0]["byteLength"] = json!(self.bytes.len());
+        self.document["buffers"][0]["uri"] = json!(format!("data:;base64,{data}"));
+        self.document.to_string().into_bytes()
+    }
+
+    fn binary(mut self) -> Vec<u8> {
+        self.document["buffers"][0]["byteLength"] = json!(self.bytes.len());
+        let mut json = self.document.to_string().into_bytes();
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let word = |length: usize| u32::try_from(length).unwrap_or(0).to_le_bytes();
+        let length = 28 + json.len() + self.bytes.len();
+        let (head, bin) = (word(json.len()), word(self.bytes.len()));
+        [b"glTF", &word(2)[..], &word(length), &head, b"JSON", &json, &bin, b"BIN\0", &self.bytes]
+            .concat()
+    }
+}
+
+fn floats(numbers: &[f32]) -> Vec<u8> {
+    numbers.iter().flat_map(|number| number.to_le_bytes()).collect()
+}
+
+/// glTF and GLB files.
+#[must_use]
+pub fn gltf() -> Vec<Vec<u8>> {
+    let bytes = [0u8, 1, 2, 0, 2, 3];
+    let shorts: Vec<u8> = bytes.iter().flat_map(|&byte| [byte, 0]).collect();
+    let words: Vec<u8> = bytes.iter().flat_map(|&byte| [byte, 0, 0, 0]).collect();
+    let small = || Builder::new().indices(&bytes, 5121, 1);
+    let normals = |b: &mut Builder| {
+        let numbers = [0.0, 0.0, 1.0].repeat(4);
+        let number = b.accessor(&floats(&numbers), 5126, "VEC3", 4);
+        b.attribute("NORMAL", number);
+    };
+    let texcoords =
+        |b: &mut Builder, data: &[u8], component: u32, normalized: bool, stride: u32| {
+            let number = b.accessor(data, component, "VEC2", 4);
+            b.document["accessors"][number]["normalized"] = json!(normalized);
+            let view = b.document["accessors"][number]["bufferView"].as_u64().unwrap_or(0) as usize;
+            b.document["bufferViews"][view]["byteStride"] = json!(stride);
+            b.attribute("TEXCOORD_0", number);
+        };
+    let placed = small().with(normals).with(|b| {
+        b.document["nodes"] = json!([
+            {"children": [1, 2], "rotation": [0, 0.6, 0, 0.8], "translation": [1, 2, 3.5]},
+            {"mesh": 0, "scale": [1, -2, 0.5]},
+            {"mesh": 0, "matrix": [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 2, 0, 5, 6, 7, 1], "children": [3]},
+            {"mesh": 0, "translation": [0, 0, 1e3]},
+        ]);
+        b.document["scene"] = json!(0);
+    });
+    let sparse = small().with(|b| {
+        let indices = b.view(&[1, 0, 3, 0]);
+        let values = b.view(&floats(&[9.0, 8.0, 7.0, 6.0, 5.0, 4.0]));
+        b.document["accessors"][0]["sparse"] = json!({
+            "count": 2, "indices": {"bufferView": indices, "componentType": 5123},
+            "values": {"bufferView": values},
+        });
+    });
+    let zeros = Builder::new().with(|b| {
+        let indices = b.view(&[0, 2, 5]);
+        let values = b.view(&floats(&[9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 1.0, 2.0, 4.0]));
+        b.document["accessors"][0] = json!({
+            "componentType": 5126, "type": "VEC3", "count": 6, "min": [0, 0, 0], "max": [9, 8, 7],
+            "sparse": {"count": 3, "indices": {"bufferView": indices, "componentType": 5121},
+                "values": {"bufferView": values}},
+        });
+    });
+    let interleaved = Builder::new().with(|b| {
+        let data: Vec<f32> = (0..32u16).map(|k| f32::from(k * k % 17) - 4.0).collect();
+        let number = b.accessor(&floats(&data), 5126, "VEC3", 3);
+        let view = b.document["accessors"][number]["bufferView"].clone();
+        b.document["bufferViews"][1]["byteStride"] = json!(32);
+        let range = json!({"min": [-4, -4, -4], "max": [12, 12, 12]});
+        for (name, at, kind) in [("POSITION", 0, "VEC3"), ("NORMAL", 12, "VEC3"), ("TEXCOORD_0", 24, "VEC2")] {
+            let accessors = b.document["accessors"].as_array_mut().expect("a list");
+            accessors.push(json!({
+                "bufferView": view, "byteOffset": at, "componentType": 5126, "type": kind, "count": 3,
+                "min": range["min"], "max": range["max"],
+            }));
+            let number = accessors.len() - 1;
+            b.attribute(name, number);
+        }
+    });
+    vec![
+        small().text(),
+        Builder::new().indices(&shorts, 5123, 2).with(normals).text(),
+        Builder::new().indices(&words, 5125, 4).with(normals).binary(),
+        small()
+            .with(|b| {
+                texcoords(b, &[0, 255, 9, 9, 1, 2, 0, 0, 128, 7, 0, 0, 5, 6, 0, 0], 5121, true, 4)
+            })
+            .text(),
+        small()
+            .with(|b| {
+                texcoords(b, &[0, 255, 1, 2, 128, 7, 5, 6, 0, 0, 9, 8, 7, 6, 5, 4], 5123, true, 4)
+            })
+            .binary(),
+        small()
+            .with(|b| {
+                texcoords(b, &floats(&[0.0, 1.0, 0.25, 2.0, -1.0, 0.5, 1.0, 1.0]), 5126, false, 8)
+            })
+            .text(),
+        placed.text(),
+        sparse.text(),
+        zeros.text(),
+        interleaved.binary(),
+    ]
+}
+
+/// PNG files: every colour type and depth, plain and interlaced, on random bytes.
+#[must_use]
+pub fn height_png() -> Vec<Vec<u8>> {
+    let kinds = [
+        (0, 1),
+        (0, 2),
+        (0, 4),
+        (0, 8),
+        (0, 16),
+        (2, 8),
+        (2, 16),
+        (3, 1),
+        (3, 2),
+        (3, 4),
+        (3, 8),
+        (4, 8),
+        (4, 16),
+        (6, 8),
+        (6, 16),
+    ];
+    let sizes = [(1u8, 1u8), (5, 3), (9, 10)];
+    let mut seeds = Vec::new();
+    for (number, &(colour, depth)) in kinds.iter().enumerate() {
+        for interlaced in [false, true] {
+            let (width, height) = sizes[(number + usize::from(interlaced)) % 3];
+            seeds.push(png(width, height, depth, colour, interlaced));
+        }
+    }
+    seeds
+}
+
+fn png(width: u8, height: u8, depth: u8, colour: u8, interlaced: bool) -> Vec<u8> {
+    let header = [0, 0, 0, width, 0, 0, 0, height, depth, colour, 0, 0, u8::from(interlaced)];
+    let mut state = u32::from_be_bytes([width, height, depth, colour]) | 1;
+    let mut random = || {
+        state ^= state << 13;
+        state ^= state >> 17;
+        state ^= state << 5;
+        state.to_le_bytes()[1]
+    };
+    let mut rows = Vec::new();
+    let passes = if interlaced { &PASSES[..] } else { &[[0, 0, 1, 1]] };
+    for &[x0, y0, dx, dy] in passes {
+        let columns = (x0..usize::from(width)).step_by(dx).count();
+        let bytes = (columns * channels(colour) * usize::from(depth)).div_ceil(8);
+        for _ in (y0..usize::from(height)).step_by(dy).filter(|_| columns > 0) {
+            rows.push(random() % 5);
+            rows.extend((0..bytes).map(|_| random()));
+        }
+    }
+    let mut file = b"\x89PNG\r\n\x1A\n".to_vec();
+    let palette: Vec<u8> = (0..3usize << depth.min(8)).map(|_| random()).collect();
+    chunk(&mut file, b"IHDR", &header);
+    if colour == 3 {
+        chunk(&mut file, b"PLTE", &palette);
+    }
+    if colour == 3 && !interlaced {
+        chunk(&mut file, b"tRNS", &[7]);
+    }
+    chunk(&mut file, b"IDAT", &miniz_oxide::deflate::compress_to_vec_zlib(&rows, 1));
+    chunk(&mut file, b"IEND", b"");
+    file
+}
+
+pub(super) fn chunk(file: &mut Vec<u8>, kind: &[u8], content: &[u8]) {
+    file.extend(u32::try_from(content.len()).unwrap_or(0).to_be_bytes());
+    let start = file.len();
+    file.extend(kind);
+    file.extend(content);
+    file.extend(checksum(&file[start..]).to_be_bytes());
+}
+
+/// CRC-32 of a chunk's type and content, bit by bit.
+fn checksum(bytes: &[u8]) -> u32 {
+    !bytes.iter().fold(u32::MAX, |crc, &byte| {
+        let step = |crc: u32, _| crc >> 1 ^ (crc & 1) * 0xEDB8_8320;
+        (0..8).fold(crc ^ u32::from(byte), step)
+    })
+}

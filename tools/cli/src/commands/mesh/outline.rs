@@ -1,0 +1,33 @@
+//! Points of a surface that a camera must have in its picture.
+
+use glam::Vec3;
+use rayon::prelude::*;
+use tess_core::Domain;
+use tess_surface::Model;
+use tess_surface::patch::Sample;
+
+/// About how many points are enough.
+const POINTS: usize = 1 << 18;
+
+/// Points of every patch: a grid, the finer the fewer patches there are, but the corners always. A
+/// surface that is displaced by up to `reach` has points on both sides.
+pub(super) fn outline(model: &Model, reach: f32) -> Vec<Vec3> {
+    let steps = (POINTS / model.len().max(1)).isqrt().clamp(1, 8);
+    let points = (0..model.len()).into_par_iter().flat_map_iter(|number| {
+        let patch = model.patch(number);
+        grid(patch.domain(), steps).map(move |point| patch.sample(point))
+    });
+    let sides = |Sample { position, normal, .. }: Sample| {
+        let side = if reach > 0.0 { normal * reach } else { Vec3::ZERO };
+        [position + side, position - side]
+    };
+    points.flat_map_iter(sides).collect()
+}
+
+/// Domain points `1 / steps` apart.
+fn grid(domain: Domain, steps: usize) -> impl Iterator<Item = [f32; 2]> {
+    let points = (0..=steps).flat_map(move |i| (0..=steps).map(move |j| (i, j)));
+    points
+        .filter(move |(i, j)| domain != Domain::Triangle || i + j <= steps)
+        .map(move |(i, j)| [i, j].map(|k| k as f32 / steps as f32))
+}

@@ -1,0 +1,254 @@
+//! Files that are there whole or not at all, and what is no regular file.
+
+use super::ending::{self, Guard};
+use super::stdout::stdout;
+use crate::failure::Failure;
+use std::fs::{self, File, Metadata, Permissions};
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile};
+
+/// What a path given to `-o` stands for.
+#[derive(Debug)]
+pub(super) enum Destination {
+    /// Standard output.
+    Stdout,
+    /// A pipe or a device, which is written as it is.
+    Stream(PathBuf),
+    /// A regular file, or one that is not there yet; no symbolic link.
+    File(PathBuf),
+}
+
+impl Destination {
+    /// Finds out what is there, following symbolic links.
+    ///
+    /// # Errors
+    /// A folder, a file that may not be written, a circle of links.
+    pub(super) fn of(path: &Path) -> io::Result<Self> {
+        const STDOUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
+        if STDOUT.iter().any(|name| path.as_os_str() == *name) {
+            return Ok(Self::Stdout);
+        }
+        let is_descriptor = ["/dev/fd", "/proc"].iter().any(|folder| path.starts_with(folder));
+        match path.metadata() {
+            Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
+            Ok(found) if is_descriptor || path == "/dev/stderr" || !found.is_file() => {
+                Ok(Self::Stream(path.to_owned()))
+            }
+            Ok(_) => {
+                // A file that may not be written is not replaced either.
+                File::options().write(true).open(path)?;
+                follow(path).map(Self::File)
+            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => follow(path).map(Self::File),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+/// The path that a chain of symbolic links ends at, whether anything is there or not.
+fn follow(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..40 {
+        match fs::read_link(&path) {
+            Ok(target) => path = folder_of(&path).join(target),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("too many symbolic links"))
+}
+
+pub(super) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Opens a pipe or a device; a file behind a descriptor is continued.
+pub(super) fn open_stream(path: &Path) -> io::Result<File> {
+    File::options().append(true).open(path)
+}
+
+/// Temporary files have names that are short wherever they are, and belong to this program.
+pub(super) fn temporary<'a, 'b>() -> Builder<'a, 'b> {
+    let mut builder = Builder::new();
+    builder.prefix(".tess-");
+    builder
+}
+
+/// The permissions of a new file or folder; the user's mask takes away from them.
+#[cfg(unix)]
+pub(super) fn permissions(mode: u32) -> Permissions {
+    std::os::unix::fs::PermissionsExt::from_mode(mode)
+}
+
+/// A file beside the one that it becomes when it is whole.
+#[derive(Debug)]
+pub(super) struct Partial {
+    file: NamedTempFile,
+    path: PathBuf,
+    guard: Guard,
+}
+
+impl Partial {
+    /// For a path that is no symbolic link.
+    ///
+    /// # Errors
+    /// The folder cannot be written.
+    pub(super) fn of(path: &Path) -> io::Result<Self> {
+        let replaced = path.metadata().ok();
+        let (file, guard) = ending::guarded(|| {
+            let file = Self::create(path, replaced.as_ref())?;
+            let temporary = file.path().to_owned();
+            Ok((file, Box::new(move || _ = fs::remove_file(temporary))))
+        })?;
+        Ok(Self { file, path: path.to_owned(), guard })
+    }
+
+    fn create(path: &Path, replaced: Option<&Metadata>) -> io::Result<NamedTempFile> {
+        let folder = folder_of(path);
+        if !folder.metadata()?.is_dir() {
+            return Err(io::ErrorKind::NotADirectory.into());
+        }
+        let mut builder = temporary();
+        let old = replaced.map(Metadata::permissions);
+        #[cfg(unix)]
+        builder.permissions(old.clone().unwrap_or_else(|| permissions(0o666)));
+        let file = builder.tempfile_in(folder)?;
+        if let Some(old) = old {
+            // The mask may have taken bits away that the file had.
+            file.as_file().set_permissions(old)?;
+        }
+        Ok(file)
+    }
+
+    /// Puts the whole file in its place.
+    ///
+    /// # Errors
+    /// It cannot be put there; then it is removed.
+    pub(super) fn persist(self) -> io::Result<()> {
+        self.file.persist(&self.path).map(drop).map_err(|error| error.error)
+    }
+}
+
+impl Write for Partial {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+/// An output that is written in any order and put in its place at the end.
+#[derive(Debug)]
+pub(crate) struct OutputFile {
+    content: Content,
+}
+
+#[derive(Debug)]
+enum Content {
+    /// Becomes the file.
+    Partial(Partial),
+    /// Copied to stdout at the end, or to a pipe or a device that is open already.
+    Spool(File, Option<File>),
+}
+
+impl OutputFile {
+    /// Begins an output.
+    ///
+    /// # Errors
+    /// The place cannot be written.
+    pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
+        let content = || -> io::Result<Content> {
+            Ok(match Destination::of(path)? {
+                Destination::Stdout => {
+                    drop(stdout()?); // closed?
+                    Content::Spool(tempfile::tempfile()?, None)
+                }
+                Destination::Stream(path) => {
+                    Content::Spool(tempfile::tempfile()?, Some(open_stream(&path)?))
+                }
+                Destination::File(path) => Content::Partial(Partial::of(&path)?),
+            })
+        };
+        let content = content().map_err(|error| Failure::write(path, error))?;
+        Ok(Self { content })
+    }
+
+    /// Whether a path is not that of a pipe, a device or stdout. It opens nothing, as opening a pipe
+    /// waits for its reader.
+    pub(crate) fn would_be_file(path: &Path) -> bool {
+        !matches!(Destination::of(path), Ok(Destination::Stdout | Destination::Stream(_)))
+    }
+
+    fn file(&mut self) -> &mut File {
+        match &mut self.content {
+            Content::Partial(partial) => partial.file.as_file_mut(),
+            Content::Spool(file, _) => file,
+        }
+    }
+
+    /// Puts the whole output in its place.
+    ///
+    /// # Errors
+    /// It cannot be put there; then nothing is, or what was there before.
+    pub(crate) fn finish(self) -> io::Result<()> {
+        match self.content {
+            Content::Partial(partial) => partial.persist(),
+            Content::Spool(file, Some(mut stream)) => copy(file, &mut stream),
+            Content::Spool(file, None) => copy(file, &mut stdout()?),
+        }
+    }
+
+    /// Puts two files in their places that belong together, without a signal in between.
+    ///
+    /// # Errors
+    /// One of them cannot be put there.
+    pub(crate) fn finish_both(first: Self, second: Self) -> io::Result<()> {
+        match (first.content, second.content) {
+            (Content::Partial(first), Content::Partial(second)) => {
+                let (_first, _second) = (first.guard, second.guard);
+                ending::undisturbed(|| {
+                    first.file.persist(&first.path).map_err(|error| error.error)?;
+                    second.file.persist(&second.path).map_err(|error| error.error)?;
+                    Ok(())
+                })
+            }
+            (first, second) => {
+                Self { content: first }.finish()?;
+                Self { content: second }.finish()
+            }
+        }
+    }
+}
+
+fn copy(mut from: File, to: &mut impl Write) -> io::Result<()> {
+    from.rewind()?;
+    let mut from = BufReader::with_capacity(1 << 20, from);
+    let mut buffer = vec![0; 1 << 20];
+    loop {
+        match from.read(&mut buffer)? {
+            0 => return to.flush(),
+            read => to.write_all(&buffer[..read])?,
+        }
+    }
+}
+
+impl Write for OutputFile {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file().write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file().flush()
+    }
+}
+
+impl Seek for OutputFile {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file().seek(to)
+    }
+}

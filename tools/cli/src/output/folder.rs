@@ -1,0 +1,56 @@
+//! A new folder of files, there whole or not at all.
+
+use super::ending::{self, Guard};
+use super::file::{folder_of, temporary};
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// A folder beside the one that it becomes when all its files are written.
+#[derive(Debug)]
+pub(crate) struct NewFolder {
+    folder: TempDir,
+    becomes: PathBuf,
+    _guard: Guard,
+}
+
+impl NewFolder {
+    /// Begins a folder.
+    ///
+    /// # Errors
+    /// It is there already, or cannot be made.
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
+        if path.symlink_metadata().is_ok() {
+            return Err(io::Error::new(
+                io::ErrorKind::AlreadyExists,
+                "it exists already; give a new folder",
+            ));
+        }
+        let (folder, guard) = ending::guarded(|| {
+            let mut builder = temporary();
+            #[cfg(unix)]
+            builder.permissions(super::file::permissions(0o777));
+            let folder = builder.tempdir_in(folder_of(path))?;
+            let temporary = folder.path().to_owned();
+            Ok((folder, Box::new(move || _ = fs::remove_dir_all(temporary))))
+        })?;
+        Ok(Self { folder, becomes: path.to_owned(), _guard: guard })
+    }
+
+    /// Where its files are written.
+    #[must_use]
+    pub(crate) fn path(&self) -> &Path {
+        self.folder.path()
+    }
+
+    /// Puts the whole folder in its place.
+    ///
+    /// # Errors
+    /// It cannot be put there; then it is removed.
+    pub(crate) fn finish(mut self) -> io::Result<()> {
+        fs::rename(self.folder.path(), &self.becomes)?;
+        self.folder.disable_cleanup(true);
+        Ok(())
+    }
+}

@@ -1,0 +1,53 @@
+//! The form of a file: as asked for, or as its name says, never against its name.
+
+use crate::failure::Failure;
+use clap::ValueEnum;
+use std::path::Path;
+
+/// A form that files can have; its names on the command line are extensions of files.
+pub(crate) trait Form: ValueEnum + PartialEq {
+    /// What a file without a telling name gets; `None` if it must be asked for.
+    const DEFAULT: Option<Self>;
+
+    /// Extensions that belong to [`Self::DEFAULT`] but that files of other forms may have too.
+    const COMMON_EXTENSIONS: &'static [&'static str] = &[];
+}
+
+/// The form that is asked for, else that of the file's name, else the default.
+///
+/// # Errors
+/// The name says another form than the one asked for, or one that there is not.
+pub(crate) fn choose<F: Form>(asked: Option<F>, file: &Path) -> Result<F, Failure> {
+    let extension = file.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    let extension = extension.unwrap_or_default();
+    let is_common =
+        extension.is_empty() || F::COMMON_EXTENSIONS.iter().any(|common| extension == *common);
+    let named = F::from_str(&extension, true).ok();
+    match (asked, named, F::DEFAULT) {
+        (Some(asked), Some(named), _) if asked != named => Err(Failure::bad_input(format!(
+            "--format {} does not go with the name {}",
+            name(&asked),
+            file.display()
+        ))),
+        (Some(form), _, _) | (None, Some(form), _) => Ok(form),
+        (None, None, Some(form)) if is_common || is_no_name(file) => Ok(form),
+        (None, None, _) => Err(Failure::bad_input(format!(
+            "cannot tell what to write to {}: name it .{}, or say --format",
+            file.display(),
+            names::<F>().join(", .")
+        ))),
+    }
+}
+
+/// Stdout, pipes and devices have names that say nothing.
+fn is_no_name(file: &Path) -> bool {
+    file.starts_with("/dev") || file.starts_with("/proc")
+}
+
+fn name<F: Form>(form: &F) -> String {
+    form.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+}
+
+fn names<F: Form>() -> Vec<String> {
+    F::value_variants().iter().map(name).collect()
+}

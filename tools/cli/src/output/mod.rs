@@ -1,0 +1,117 @@
+//! Where results go: stdout, a pipe, or a file that is there whole or not at all.
+//!
+//! [`file`] is the one way in which commands write files, [`stdout`] the one way to stdout. Both name
+//! [`ending`] what must not stay behind when a signal ends the process. [`form`] chooses the form of
+//! a file by its name.
+
+pub(crate) mod ending;
+mod file;
+mod folder;
+pub(crate) mod form;
+mod rows;
+mod stdout;
+
+use crate::failure::Failure;
+use file::Destination;
+pub(crate) use file::OutputFile;
+pub(crate) use folder::NewFolder;
+use indicatif::{ProgressBar, ProgressStyle};
+pub(crate) use rows::{Frame, Rows};
+use std::io::{self, BufWriter, Write};
+use std::path::PathBuf;
+use std::time::Duration;
+pub(crate) use stdout::{stdout, stop_when_reader_leaves};
+
+/// The `-o` option.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct OutputArgs {
+    /// File to write; - is stdout
+    ///
+    /// A file is written whole or not at all. A link is followed, and a pipe or a device is written
+    /// to as it is.
+    #[arg(short = 'o', long = "out", value_name = "FILE", default_value = "-")]
+    pub(crate) file: PathBuf,
+}
+
+impl OutputArgs {
+    /// Writes `content` to stdout or to the file.
+    ///
+    /// # Errors
+    /// The place cannot be written; a file that was there is then as it was.
+    pub(crate) fn write(&self, content: &[u8]) -> Result<(), Failure> {
+        self.stream(|out| out.write_all(content))
+    }
+
+    /// Writes to stdout or to the file what `content` writes, as it comes.
+    ///
+    /// # Errors
+    /// The place cannot be written; a file that was there is then as it was.
+    pub(crate) fn stream(
+        &self,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        self.stream_to(content).map_err(|error| Failure::write(&self.file, error))
+    }
+
+    fn stream_to(&self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
+        match Destination::of(&self.file)? {
+            Destination::Stdout => {
+                let mut out = stdout()?;
+                content(&mut out)?;
+                out.flush()
+            }
+            Destination::Stream(path) => {
+                let mut out = BufWriter::new(file::open_stream(&path)?);
+                content(&mut out)?;
+                out.flush()
+            }
+            Destination::File(path) => {
+                let mut out = BufWriter::new(file::Partial::of(&path)?);
+                content(&mut out)?;
+                out.into_inner().map_err(io::IntoInnerError::into_error)?.persist()
+            }
+        }
+    }
+
+    /// Whether the result goes to stdout.
+    #[must_use]
+    pub(crate) fn is_stdout(&self) -> bool {
+        matches!(Destination::of(&self.file), Ok(Destination::Stdout))
+    }
+
+    /// Refuses to write bytes that are no text to a terminal.
+    ///
+    /// # Errors
+    /// The result goes to stdout, and that is a terminal.
+    pub(crate) fn refuse_terminal(&self, what: &str) -> Result<(), Failure> {
+        if self.is_stdout() { stdout::refuse_terminal(what) } else { Ok(()) }
+    }
+}
+
+/// A progress bar over `length` of what `unit` names, on stderr if that is a terminal. Its message,
+/// if one is set, says what is being done.
+#[must_use]
+pub(crate) fn progress(length: u64, unit: &str) -> ProgressBar {
+    let template = format!("{{bar:30}} {{human_pos}}/{{human_len}} {unit}, {{eta}} left  {{msg}}");
+    let style = ProgressStyle::with_template(&template);
+    let bar = ProgressBar::new(length);
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}
+
+/// Says something on stderr that is no part of the result.
+pub(crate) fn note(message: &str) {
+    // A closed stderr does not change the result.
+    _ = writeln!(io::stderr(), "tess: {message}");
+}
+
+/// A document as indented JSON with a newline at its end.
+///
+/// # Panics
+/// If the document has a map whose keys are not text; none of this program's has.
+pub(crate) fn json(document: &impl serde::Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(document).expect("keys are text");
+    text.push('\n');
+    text
+}

@@ -1,0 +1,72 @@
+//! Stdout: closed, left by its reader, or a terminal.
+
+use super::ending;
+use crate::failure::{Exit, Failure};
+use std::io::{self, BufWriter, IsTerminal, StdoutLock};
+
+/// Stdout, buffered. It must be flushed, or errors are lost.
+///
+/// # Errors
+/// Stdout was closed when the program began. A write fails with [`io::ErrorKind::BrokenPipe`] when
+/// the reader has left; [`Failure::write`] makes that a quiet end.
+pub(crate) fn stdout() -> io::Result<BufWriter<StdoutLock<'static>>> {
+    if was_closed() {
+        return Err(io::Error::other("stdout is closed"));
+    }
+    Ok(BufWriter::new(io::stdout().lock()))
+}
+
+/// Refuses to write bytes that are no text to stdout if that is a terminal.
+pub(super) fn refuse_terminal(what: &str) -> Result<(), Failure> {
+    if io::stdout().is_terminal() {
+        return Err(Failure::bad_input(format!(
+            "{what} is no text for a terminal: add -o FILE, or redirect stdout"
+        )));
+    }
+    Ok(())
+}
+
+/// Ends the process, quietly, as soon as the reader of stdout leaves.
+///
+/// For commands that work for a long time between two lines: a write would notice only then.
+#[cfg(unix)]
+pub(crate) fn stop_when_reader_leaves() {
+    use rustix::event::{PollFd, PollFlags, poll};
+    let wait = || {
+        let stdout = io::stdout();
+        // Errors and a reader that leaves are reported whatever is asked for.
+        let mut asked = [PollFd::new(&stdout, PollFlags::empty())];
+        let left = PollFlags::ERR | PollFlags::HUP;
+        if poll(&mut asked, None).is_ok() && asked[0].revents().intersects(left) {
+            ending::end(|| signal_hook::low_level::exit(Exit::ReaderLeft as i32));
+        }
+    };
+    // Without the thread, the next write notices.
+    _ = std::thread::Builder::new().spawn(wait);
+}
+
+/// Elsewhere the next write notices.
+#[cfg(not(unix))]
+pub(crate) fn stop_when_reader_leaves() {}
+
+#[cfg(unix)]
+static WAS_CLOSED: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
+
+/// Runs before Rust's runtime, which opens `/dev/null` in the place of a closed stdout.
+#[cfg(unix)]
+#[ctor::ctor]
+fn look_at_stdout() {
+    let closed = rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err();
+    WAS_CLOSED.store(closed, std::sync::atomic::Ordering::Relaxed);
+}
+
+#[cfg(unix)]
+fn was_closed() -> bool {
+    WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)
+}
+
+/// Elsewhere a write to a closed stdout fails by itself.
+#[cfg(not(unix))]
+const fn was_closed() -> bool {
+    false
+}

@@ -1,0 +1,211 @@
+//! Where output goes: links, pipes, permissions, long names, a closed stdout, a terminal.
+
+use crate::support::{Run, command, directory, shell, tess};
+use std::fs;
+use std::os::unix::fs::{MetadataExt, PermissionsExt, symlink};
+use std::path::Path;
+
+const PATCH: &str = "patch tri --outer 2,3,4 --inner 5";
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("the folder");
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    names
+}
+
+fn done(run: &Run) {
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+}
+
+/// Every command writes its files in the same way: a link stays, and so does the mode of what it
+/// points to.
+#[test]
+fn links_and_modes_are_kept() {
+    let folder = directory("links_and_modes");
+    for (name, words) in [
+        ("patch.txt", PATCH.to_owned()),
+        ("patch.svg", PATCH.replace("patch", "draw")),
+        ("explain.txt", PATCH.replace("patch", "explain")),
+        ("vectors.csv", "gen --level 3 --count 5".to_owned()),
+        ("model.obj", "mesh --factor 1".to_owned()),
+        ("model.glb", "mesh --factor 1".to_owned()),
+        ("model.png", "mesh --factor 1 --size 8x8".to_owned()),
+    ] {
+        let (file, link) = (folder.join(format!("real-{name}")), folder.join(name));
+        fs::write(&file, "old").expect("an old file");
+        fs::set_permissions(&file, PermissionsExt::from_mode(0o600)).expect("a private file");
+        symlink(file.file_name().expect("a name"), &link).expect("a link");
+        done(&tess(&format!("{words} -o {}", link.display())));
+        assert!(link.is_symlink(), "{name}: the link stays");
+        assert_eq!(file.metadata().expect("the file").mode() & 0o777, 0o600, "{name}: its mode");
+        assert_ne!(fs::read(&file).expect("the file"), b"old", "{name}: it is written");
+    }
+    symlink("new.txt", folder.join("dangling.txt")).expect("a link to nothing");
+    done(&tess(&format!("{PATCH} -o {}/dangling.txt", folder.display())));
+    assert!(folder.join("new.txt").is_file(), "the target of a dangling link is made");
+    assert!(names(&folder).iter().all(|name| !name.starts_with('.')), "{:?}", names(&folder));
+}
+
+/// New files have the permissions that the user's mask leaves.
+#[test]
+fn new_files_follow_the_mask() {
+    let folder = directory("new_files_follow_the_mask");
+    let script = format!(
+        "umask 027; $TESS {PATCH} -o a.txt && $TESS mesh --factor 1 -o a.obj && \
+         $TESS gen --level 3 --count 3 --format readmemh -o images"
+    );
+    done(&shell(&script, &folder));
+    for (name, mode) in [("a.txt", 0o640), ("a.obj", 0o640), ("images", 0o750)] {
+        let found = folder.join(name).metadata().expect("it is there").mode() & 0o777;
+        assert_eq!(found, mode, "{name}: {found:o}");
+    }
+}
+
+/// A named pipe is written to, not replaced, by formats that are written from the front and by those
+/// that are not.
+#[test]
+fn pipes_are_streamed() {
+    let folder = directory("pipes_are_streamed");
+    for (name, words) in [("p.txt", PATCH), ("p.glb", "mesh --factor 1")] {
+        let script = format!(
+            "mkfifo {name}; cat {name} > got & $TESS {words} -o {name} && wait && test -p {name} && \
+             $TESS {words} -o file-{name} && cmp got file-{name}"
+        );
+        done(&shell(&script, &folder));
+    }
+}
+
+/// `-`, `/dev/stdout` and no option are the same: what stdout is redirected to goes on.
+#[test]
+fn stdout_by_any_name() {
+    let folder = directory("stdout_by_any_name");
+    let expected = tess(PATCH).stdout;
+    for option in ["", "-o -", "-o /dev/stdout", "-o /proc/self/fd/1"] {
+        let run = shell(&format!("(echo first; $TESS {PATCH} {option}) > got; cat got"), &folder);
+        assert_eq!(run.stdout, format!("first\n{expected}"), "{option}: {}", run.stderr);
+    }
+    let script = "$TESS mesh --factor 1 --format obj -o - > a.obj && $TESS mesh --factor 1 -o b.obj \
+                  && cmp a.obj b.obj";
+    done(&shell(script, &folder));
+    let run = tess("mesh --factor 1 -o -");
+    assert_eq!((run.code, run.stderr.contains("--format")), (Some(2), true), "{}", run.stderr);
+}
+
+/// A name may be as long as the system allows.
+#[test]
+fn long_names() {
+    let folder = directory("long_names");
+    let long = "x".repeat(246);
+    for (name, words) in [
+        (format!("{long}.txt"), PATCH),
+        (format!("{long}.obj"), "mesh --factor 1"),
+        (long.clone(), "gen --level 3 --count 3 --format readmemh"),
+    ] {
+        done(&tess(&format!("{words} -o {}", folder.join(&name).display())));
+    }
+    assert_eq!(names(&folder).len(), 3, "nothing else");
+}
+
+/// What cannot be written: exit code 2 and why, and what was there stays.
+#[test]
+fn failures_change_nothing() {
+    let folder = directory("failures_change_nothing");
+    fs::create_dir(folder.join("folder.txt")).expect("a folder");
+    symlink("circle.txt", folder.join("circle.txt")).expect("a circle");
+    fs::write(folder.join("file"), "file").expect("a file");
+    let before = names(&folder);
+    for name in ["folder.txt", "circle.txt", "nowhere/a.txt", "file/a.txt"] {
+        let run = tess(&format!("{PATCH} -o {}", folder.join(name).display()));
+        assert_eq!(run.code, Some(2), "{name}: {}", run.stderr);
+        assert!(run.stderr.contains("cannot write"), "{name}: {}", run.stderr);
+    }
+    assert_eq!(names(&folder), before, "nothing else");
+    let run = tess(&format!("{PATCH} -o /dev/full"));
+    assert_eq!(run.code, Some(2), "a full device: {}", run.stderr);
+}
+
+/// A result that nobody can get is an error; a reader who has seen enough is not.
+#[test]
+fn a_closed_stdout() {
+    let folder = directory("a_closed_stdout");
+    for words in [PATCH, "gen --level 3 --count 10", "explain tri --outer 1,1,1 --inner 1"] {
+        for (to, message) in [(">&-", "stdout is closed"), ("> /dev/full", "cannot write stdout")] {
+            let run = shell(&format!("$TESS {words} {to}"), &folder);
+            assert_eq!(run.code, Some(2), "{words} {to}: {}", run.stderr);
+            assert!(run.stderr.contains(message), "{words} {to}: {}", run.stderr);
+        }
+        let run = shell(&format!("$TESS {words} > /dev/null"), &folder);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{words}");
+    }
+}
+
+/// The binary part of a glTF file replaces nothing but the binary part of that glTF file.
+#[test]
+fn the_bin_of_a_gltf() {
+    let folder = directory("the_bin_of_a_gltf");
+    let [gltf, bin] = ["model.gltf", "model.bin"].map(|name| folder.join(name));
+    fs::write(&bin, "something else").expect("a file");
+    let mesh = format!("mesh --factor 1 -o {}", gltf.display());
+    let run = tess(&mesh);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("model.bin is there already"), "{}", run.stderr);
+    assert_eq!(fs::read(&bin).expect("the file"), b"something else", "as it was");
+    assert_eq!(names(&folder), ["model.bin"], "nothing else");
+
+    fs::remove_file(&bin).expect("removed");
+    done(&tess(&mesh));
+    let before = [&gltf, &bin].map(|path| fs::read(path).expect("written"));
+    let run = tess(&mesh.replace("--factor 1", "--factor 64 --indices 16"));
+    assert_eq!(run.code, Some(2), "too many vertices: {}", run.stderr);
+    let after = [&gltf, &bin].map(|path| fs::read(path).expect("still there"));
+    assert!(before == after, "both are as they were");
+    done(&tess(&mesh.replace("--factor 1", "--factor 2")));
+    assert_ne!(fs::read(&bin).expect("written"), before[1], "its own is replaced");
+    let run = shell("mkfifo p.gltf; $TESS mesh --factor 1 -o p.gltf", &folder);
+    assert_eq!((run.code, run.stderr.contains("--format glb")), (Some(2), true), "{}", run.stderr);
+}
+
+/// What has a meaning in a URI is encoded, and such a file reads back.
+#[test]
+fn uris_are_encoded() {
+    let folder = directory("uris_are_encoded");
+    let gltf = folder.join("a b#c?d%41.gltf");
+    let output = command("mesh --factor 2 -o").arg(&gltf).output().expect("tess runs");
+    done(&output.into());
+    let text = fs::read_to_string(&gltf).expect("the glTF");
+    assert!(text.contains("\"a%20b%23c%3Fd%2541.bin\""), "{text}");
+    let again = command("mesh --factor 1 -o").arg(folder.join("out.obj")).arg(&gltf).output();
+    done(&again.expect("tess runs").into());
+}
+
+/// A picture or a binary mesh does not go to a terminal; text does.
+#[test]
+fn no_pictures_on_terminals() {
+    for (words, code) in [
+        (format!("{PATCH} --format png"), 2),
+        (PATCH.replace("patch", "draw --format png"), 2),
+        ("mesh --factor 1 --format glb -o -".to_owned(), 2),
+        (PATCH.to_owned(), 0),
+    ] {
+        let (_keep, terminal) = terminal();
+        let output = command(&words).stdout(terminal).output().expect("tess runs");
+        let run = Run::from(output);
+        assert_eq!(run.code, Some(code), "{words}: {}", run.stderr);
+        assert_eq!(run.stderr.contains("-o FILE"), code == 2, "{words}: {}", run.stderr);
+    }
+}
+
+/// Both sides of a terminal; the second is what a program sees.
+fn terminal() -> (std::os::fd::OwnedFd, fs::File) {
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+    let ours = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a terminal");
+    grantpt(&ours).expect("granted");
+    unlockpt(&ours).expect("unlocked");
+    let name = ptsname(&ours, Vec::new()).expect("its name");
+    let path = Path::new(name.to_str().expect("a path"));
+    let theirs = fs::File::options().read(true).write(true).open(path).expect("its other side");
+    (ours, theirs)
+}

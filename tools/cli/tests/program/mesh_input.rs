@@ -1,0 +1,210 @@
+//! `tess mesh` on OBJ, Bezier patch and PNG files that are hostile or careless.
+
+use crate::mesh::{CUBE, counts, mesh, open_edges, write};
+use crate::support::{Run, directory, tess};
+use std::fs;
+use std::path::Path;
+
+/// Runs `tess mesh` on bad input: exit code 2, a message with the file's name and `message`, no output.
+pub(crate) fn refused(input: &Path, options: &str, message: &str) {
+    let out = input.with_file_name("refused.out.obj");
+    let run = tess(&format!("mesh {} {options} -o {}", input.display(), out.display()));
+    let name = input.file_name().unwrap_or_default().to_string_lossy();
+    assert_eq!(run.code, Some(2), "{name}: {message}: {}", run.stderr);
+    let names_both = run.stderr.contains(message) && run.stderr.contains(&*name);
+    assert!(names_both, "{name}: `{message}` is not in `{}`", run.stderr);
+    assert!(!out.exists(), "{name}: no output");
+}
+
+#[test]
+fn obj_lines_that_are_no_obj_are_named() {
+    let folder = directory("mesh_obj_lines");
+    for (line, message) in [
+        ("vv 1 2 3", "`vv 1 2 3`: `vv` is not a keyword that is read"),
+        ("V 1 2 3", "`V` is not a keyword"),
+        ("curv 0 1 1 2", "free-form curves and surfaces are not read"),
+        ("surf 0 1 0 1 1 2 3 4", "free-form"),
+        ("call other.obj", "`call` is not a keyword"),
+        ("f", "`f`: a face with 0 corners; only triangles and quads are read"),
+        ("f 1 2", "a face with 2 corners"),
+        ("f 1 2 0", "corner `0`: indices begin at 1"),
+        ("f 1 2 -9", "corner `-9`: position index -9 is out of range: there are 8 so far"),
+        ("f 1 2 99", "position index 99 is out of range: there are 8"),
+        ("f 1 2 99999999999999999999", "is not a position index"),
+        ("f 1/1 2/1 3/1", "texture coordinate index 1 is out of range: there are 0"),
+        ("f 1//1 2//1 3//1", "normal index 1 is out of range: there are 0"),
+        ("f 1// 2// 3//", "`` is not a normal index"),
+        ("f 1/ 2/ 3/", "`` is not a texture coordinate index"),
+        ("f 1/1/1/1 2 3", "it has more than three indices"),
+        ("f 1//-1 2 3", "normal index -1 is out of range: there are 0 so far"),
+        ("vt 0 0\nf 1/1 2/1 3", "the corners of a face must all have the same kinds of indices"),
+        ("v 1 2 3 0.5", "a position is three numbers, perhaps with weight 1"),
+        ("v 1 2 3 4 5 6 7", "a position is three numbers"),
+        ("v 1 2 1e39", "`1e39` is NaN, infinite or too large for 32 bits"),
+        ("vt", "texture coordinates are one to three numbers"),
+        ("vn 1 2", "a normal is three numbers"),
+        ("v 1 2 \u{e9}", "is not a number"),
+    ] {
+        let number = 14 + line.lines().count();
+        let input = write(&folder, "line.obj", format!("{CUBE}{line}\n# the end\n"));
+        refused(&input, "", message);
+        refused(&input, "", &format!("line.obj: line {number}: "));
+    }
+    let mut bytes = CUBE.as_bytes().to_vec();
+    bytes.extend(b"v 1 \xFC 2\n");
+    refused(
+        &write(&folder, "latin.obj", bytes),
+        "",
+        "line 15: `v 1 \u{fffd} 2`: `\u{fffd}` is not",
+    );
+}
+
+/// What other programs write around the same cube.
+#[test]
+fn obj_files_that_say_the_same() {
+    let folder = directory("mesh_obj_same");
+    let whole = |name: &str, content: &[u8]| {
+        let out = folder.join("out.obj");
+        let run = mesh(&write(&folder, name, content), "--factor 2", &out);
+        (run, fs::read(out).expect("it was written"))
+    };
+    let (_, expected) = whole("cube.obj", CUBE.as_bytes());
+    let mut comments = b"# caf\xE9 \xFF\xFE\ng caf\xE9\nusemtl na\xEFf\n".to_vec();
+    comments.extend(CUBE.replace("f 5", "s off\nf 5").replace('\n', " # x\r\n").bytes());
+    let extended: String = CUBE
+        .lines()
+        .map(|l| if l.starts_with('v') { format!("{l} 1\n") } else { format!("{l}\n") })
+        .collect();
+    let coloured = extended.replace(" 1\nv", " .5 .5 .5\nv");
+    let backwards = CUBE.replace("f 1 4 3 2", "f -8 -5 -6 -7");
+    let faces = CUBE.find("f ").expect("there are faces");
+    let faces_first = format!("{}{}", &CUBE[faces..], &CUBE[..faces]);
+    for (name, content) in [
+        ("mark.obj", [b"\xEF\xBB\xBF", CUBE.as_bytes()].concat()),
+        ("comments.obj", comments),
+        ("weights.obj", extended.into_bytes()),
+        ("colours.obj", coloured.into_bytes()),
+        ("backwards.obj", backwards.into_bytes()),
+        ("first.obj", faces_first.into_bytes()),
+        ("no-end.obj", CUBE.trim_end().as_bytes().to_vec()),
+    ] {
+        let (run, written) = whole(name, &content);
+        assert!(written == expected, "{name} is the same cube");
+        assert!(!run.stderr.contains("note"), "{name}: {}", run.stderr);
+    }
+    let (run, written) = whole("others.obj", format!("{CUBE}l 1 2 3\np 1\n").as_bytes());
+    assert!(written == expected, "lines and points change nothing");
+    assert!(
+        run.stderr.contains("points and lines have no surface: 2 are left out"),
+        "{}",
+        run.stderr
+    );
+}
+
+#[test]
+fn collapsed_faces_are_left_out() {
+    let folder = directory("mesh_collapsed");
+    let out = folder.join("out.obj");
+    // A cube whose upper face is a point: four quads that are triangles, and one that is nothing.
+    let roof = CUBE.replace("v -1 1", "v 0 1").replace("v 1 1", "v 0 1");
+    let pyramid = roof.replace("0 1 -1", "0 1 0").replace("0 1 1", "0 1 0");
+    let run = mesh(&write(&folder, "pyramid.obj", &pyramid), "--factor 3", &out);
+    let note = "tess: note: corners in the same place: 1 faces without area are left out, 4 quads \
+                become triangles";
+    assert!(run.stderr.starts_with(note), "{}", run.stderr);
+    assert_eq!((counts(&run)[0], open_edges(&out)), (5, 0), "patches, open edges");
+    // Places are those of the file, not those of the faces that are left.
+    let later = format!("{pyramid}v 0 1e17 0\nf 1 2 9\n");
+    refused(&write(&folder, "later.obj", later), "", "later.obj: line 16: a position is too large");
+    let straight = format!("{CUBE}v 0 9 0\nv 0 8 0\nv 0 7 0\nf 9 10 11\n");
+    let run = mesh(&write(&folder, "straight.obj", straight), "--factor 3", &out);
+    let note =
+        "tess: note: corners on one line: 1 faces without area are left out; cracks may open";
+    assert!(run.stderr.starts_with(note), "{}", run.stderr);
+    assert_eq!(counts(&run)[0], 6, "the cube is left");
+    let all = write(&folder, "all.obj", "v 0 0 0\nv 1 0 0\nf 1 2 2\nf 1 1 1\n");
+    refused(&all, "", "all.obj: all faces, 2, have no area");
+}
+
+/// The poles of the teapot are triangles with two corners in one place; at factor 1 the end of the
+/// spout is on one line.
+#[test]
+#[ignore = "known to fail: the OBJ of the teapot, whose faces collapse at the poles, is refused as not manifold"]
+fn the_teapot_reads_back() {
+    let folder = directory("mesh_teapot_back");
+    let (teapot, again) = (folder.join("teapot.obj"), folder.join("again.obj"));
+    for options in [
+        "--factor 1",
+        "--factor 8",
+        "--factor 2.1 --partitioning fractional_odd",
+        "--factor 5.01 --partitioning fractional_even",
+        "--tolerance 0.01 --partitioning pow2",
+        "--distance 40 --partitioning fractional_odd",
+    ] {
+        let first = mesh(Path::new(""), options, &teapot);
+        let second = mesh(&teapot, "--factor 1 --surface flat", &again);
+        let notes = second.stderr.lines().filter_map(|line| line.strip_prefix("tess: note: "));
+        let counts_of_notes = notes.filter_map(|note| note.split(": ").nth(1)?.split(' ').next());
+        let dropped: u64 = counts_of_notes.filter_map(|count| count.parse::<u64>().ok()).sum();
+        assert!(dropped > 0, "{options}: a note of the poles: {}", second.stderr);
+        assert_eq!(counts(&first)[2], counts(&second)[0] + dropped, "{options}: triangles");
+        if options != "--factor 1" {
+            assert_eq!(open_edges(&teapot), open_edges(&again), "{options}: open edges");
+        }
+    }
+}
+
+#[test]
+fn empty_patch_files_are_named_by_their_first_line() {
+    let folder = directory("mesh_bpt_empty");
+    let message = "the file is empty; the number of patches is missing";
+    for (name, content) in [("empty.bpt", ""), ("blank.bpt", "\n \n\n"), ("mark.bpt", "\u{feff}")] {
+        refused(&write(&folder, name, content), "", &format!("{name}: line 1: {message}"));
+    }
+    refused(&write(&folder, "x.bpt", "1\n3 3\n0 0 inf\n"), "", "line 3: `0 0 inf` is no point");
+    refused(&write(&folder, "many.bpt", "99999999999\n3 3\n"), "", "line 2: the file ends after");
+    let latin = write(&folder, "latin.bpt", b"1 \xE9\n");
+    refused(&latin, "", "line 1: `1 \u{fffd}` is no number of patches");
+}
+
+/// The header of a PNG of this size, grey, and nothing else that is right.
+fn header_of(width: u32, height: u32) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let encoder = {
+        let mut encoder = png::Encoder::new(&mut bytes, width, height);
+        encoder.set_color(png::ColorType::Grayscale);
+        encoder
+    };
+    let mut writer = encoder.write_header().expect("a header is written");
+    writer.write_chunk(png::chunk::IDAT, &[0x78, 0x9C]).expect("data begins");
+    drop(writer);
+    bytes
+}
+
+fn displaced(cube: &Path, image: &Path, options: &str) -> Run {
+    let out = cube.with_file_name("displaced.obj");
+    let (cube, image, out) = (cube.display(), image.display(), out.display());
+    tess(&format!("mesh {cube} --factor 1 --displace {image} {options} -o {out}"))
+}
+
+#[test]
+#[ignore = "known to fail: the size and the limit are not named where the decoder refuses first"]
+fn images_are_no_larger_than_the_limit() {
+    let folder = directory("mesh_png");
+    let cube = write(&folder, "cube.obj", CUBE);
+    for (width, height) in [(100_000, 100_000), (8001, 8000), (u32::MAX >> 1, 1)] {
+        let image = write(&folder, "huge.png", header_of(width, height));
+        let run = displaced(&cube, &image, "");
+        let message = format!("{width} x {height} are more than 64000000 pixels");
+        let refused = run.code == Some(2) && run.stderr.contains(&message);
+        assert!(refused && run.stderr.contains("--max-pixels"), "{:?} {}", run.code, run.stderr);
+    }
+    let small = folder.join("small.png");
+    mesh(&cube, "--factor 1 --size 8x8", &small);
+    let run = displaced(&cube, &small, "--max-pixels 63");
+    assert!(run.stderr.contains("8 x 8 are more than 63 pixels"), "{}", run.stderr);
+    assert_eq!(displaced(&cube, &small, "--max-pixels 64").code, Some(0), "64 are not");
+    let whole = fs::read(&small).expect("the image is there");
+    let cut = write(&folder, "cut.png", &whole[..whole.len() - 12]);
+    assert_eq!(displaced(&cube, &cut, "").code, Some(2), "a file without its end");
+}
