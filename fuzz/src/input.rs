@@ -79,7 +79,7 @@ impl Bytes<'_> {
 
 /// How many settings there are.
 pub const SETTINGS: u8 = 96;
-/// Where batches end: unoptimised, and at every CPU level, these take a tenth of a second.
+/// Where batches end, as unoptimised kernels run on them at every CPU level.
 const MOST_POINTS: u32 = 20_000;
 
 fn setting(byte: u8) -> (Domain, Config) {
