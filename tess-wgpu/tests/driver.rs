@@ -45,14 +45,13 @@ fn growth(space: &str) -> Result<u64, Error> {
     });
     let count = gpu.upload("count", &[0; 16], Usage::UNIFORM | Usage::STORAGE)?;
     let out = gpu.buffer("out", 4096, Usage::STORAGE)?;
-    let entry = |binding, buffer: &wgpu::Buffer| wgpu::BindGroupEntry {
-        binding,
-        resource: wgpu::BindingResource::Buffer(buffer.as_entire_buffer_binding()),
-    };
     let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: None,
         layout: &pipeline.get_bind_group_layout(0),
-        entries: &[entry(0, &count), entry(1, &out)],
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: count.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: out.as_entire_binding() },
+        ],
     });
     let run = || {
         let mut encoder = device.create_command_encoder(&Default::default());
