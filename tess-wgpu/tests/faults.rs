@@ -54,7 +54,7 @@ const FAULTS: &[(Domain, Partitioning, &[Fault])] = &[
             ("next * (form - scale * next) <= goal", "next * (form - scale * next) < goal"),
             ("begins[next] <= i32(element)", "begins[next] < i32(element)"),
             ("sums[SIXTEENS + (thread >> 4u)]", "sums[SIXTEENS + (thread >> 5u)]"),
-            ("return PatchFactors::from_fn(clamp(element, begin, end - 1u), kind);", "return 0u;"),
+            ("return patch_of(clamp(element, begin, end - 1u), kind);", "return 0u;"),
         ],
     ),
     (
