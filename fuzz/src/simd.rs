@@ -4,10 +4,8 @@ use crate::compare_with_model;
 use crate::input::Bytes;
 use std::cell::RefCell;
 use std::collections::HashMap;
-use tess_core::{
-    Config, DomainPoint, IsolineFactors, PatchFactors, QuadFactors, Tessellation, TriangleFactors,
-};
-use tess_simd::{Batch, ExactOutput, Level, Numbering, Output, Tessellator};
+use tess_core::{Config, DomainPoint, PatchFactors, Tessellation};
+use tess_simd::{ExactOutput, Level, Numbering, Output, OwnedBatch, Tessellator};
 use tess_verify::case::Case;
 
 /// Patches in a batch: more than three chunks of 64 patches, the last of which is not whole.
@@ -47,12 +45,11 @@ fn check_level(
     let mut narrow: Output<DomainPoint, u16> = Output::new();
     let mut numbered = ExactOutput::new();
     let across = Numbering::PerBatch { base_vertex: BASE };
-    with_batch(patches, |batch| {
-        tessellator.tessellate(batch, Numbering::PerPatch, &mut wide)?;
-        tessellator.tessellate(batch, Numbering::PerPatch, &mut narrow)?;
-        tessellator.tessellate(batch, across, &mut numbered)
-    })
-    .map_err(|error| format!("simd refused a batch: {error}"))?;
+    let refused = |error| format!("simd refused a batch: {error}");
+    let owned = OwnedBatch::try_from(patches).map_err(refused)?;
+    tessellator.tessellate(owned.batch(), Numbering::PerPatch, &mut wide).map_err(refused)?;
+    tessellator.tessellate(patches, Numbering::PerPatch, &mut narrow).map_err(refused)?;
+    tessellator.tessellate(owned.batch(), across, &mut numbered).map_err(refused)?;
     let (config, level) = (tessellator.config(), tessellator.level());
     for (i, (&factors, model)) in patches.iter().zip(model).enumerate() {
         let case = Case { config, factors };
@@ -74,23 +71,4 @@ fn check_level(
         compare_with_model(&format!("{name}, numbered across"), &case, observed, model)?;
     }
     Ok(())
-}
-
-/// Hands over patches of one domain as a batch.
-fn with_batch<T>(patches: &[PatchFactors], run: impl FnOnce(Batch<'_>) -> T) -> T {
-    let mut isolines: Vec<IsolineFactors> = Vec::new();
-    let mut triangles: Vec<TriangleFactors> = Vec::new();
-    let mut quads: Vec<QuadFactors> = Vec::new();
-    for patch in patches {
-        match *patch {
-            PatchFactors::Isoline(factors) => isolines.push(factors),
-            PatchFactors::Triangle(factors) => triangles.push(factors),
-            PatchFactors::Quad(factors) => quads.push(factors),
-        }
-    }
-    match patches.first() {
-        Some(PatchFactors::Isoline(_)) => run(Batch::Isolines(&isolines)),
-        Some(PatchFactors::Triangle(_)) => run(Batch::Triangles(&triangles)),
-        Some(PatchFactors::Quad(_)) | None => run(Batch::Quads(&quads)),
-    }
 }

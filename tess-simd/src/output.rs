@@ -6,8 +6,8 @@ use tess_core::DomainPoint;
 
 /// What an index counts from.
 ///
-/// `tess-gpu` has the same names; its batches count from 0. C calls them `TESS_NUMBERING_PER_PATCH` and
-/// `TESS_NUMBERING_PER_BATCH`.
+/// `tess-gpu` has the same names; its batches count from 0. C calls them
+/// `TESS_NUMBERING_PER_PATCH` and `TESS_NUMBERING_PER_BATCH`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Numbering {
     /// Each patch's indices count from its own first point and are those of the core. 16 bits are

@@ -58,7 +58,11 @@ impl PolygonMesh {
         }
     }
 
-    fn check_face(&self, face: &Face) -> Result<(), Fault> {
+    /// Checks one face, of this mesh or made for it.
+    ///
+    /// # Errors
+    /// Its first [`Fault`].
+    pub fn check_face(&self, face: &Face) -> Result<(), Fault> {
         let corners = face.positions.as_slice().len();
         let positions = gather(&self.positions, face.positions, corners, "position")?;
         for position in positions.as_slice() {

@@ -2,11 +2,11 @@
 
 #[path = "../examples/displaced_mesh.rs"]
 mod displaced_mesh;
-#[path = "../examples/teapot.rs"]
-mod teapot;
+#[path = "../examples/teapot_points.rs"]
+mod teapot_points;
 
 #[test]
 fn every_example_runs() {
-    teapot::main().expect("the teapot is sound");
+    teapot_points::main().expect("the teapot is sound");
     displaced_mesh::main().expect("the cube is sound");
 }

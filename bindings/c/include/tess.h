@@ -2,10 +2,12 @@
  * Bit-exact Direct3D 11 class tessellation.
  *
  * The caller owns all memory; a function on one patch allocates nothing. Every function returns
- * TESS_OK or the reason why it did nothing; tess_status_message() puts that in words.
- * Null and misaligned pointers, unknown numbers and small buffers are answers, never undefined
- * behaviour; that a pointer's memory is as large as said is the caller's part.
- * All functions may be called from any number of threads at the same time.
+ * TESS_OK or the reason why it did nothing; tess_status_message() puts it in words.
+ * Null and misaligned pointers, unknown numbers, buffers that are too small or overlap are refused
+ * with a status, never undefined behaviour. That the memory behind a pointer is as large as the call
+ * says cannot be checked: the caller must ensure it.
+ * All functions may be called from any number of threads at the same time, but for those on one
+ * batch: it may be in one call at a time.
  *
  * Factors are any binary32 numbers, NaN included, in the order of their domain:
  *   isoline   density, detail
@@ -133,57 +135,57 @@
 #define TESS_OUTCOME_REGULAR 2
 
 /**
- * Where a point comes from: corner `p` of a minimum patch.
+ * Origin of a point: corner `p` of a minimum patch.
  */
 #define TESS_POINT_ORIGIN_CORNER 0
 
 /**
- * Where a point comes from: point `p` of isoline `line`.
+ * Origin of a point: point `p` of isoline `line`.
  */
 #define TESS_POINT_ORIGIN_LINE 1
 
 /**
- * Where a point comes from: point `p` of outer edge `edge`.
+ * Origin of a point: point `p` of outer edge `edge`.
  */
 #define TESS_POINT_ORIGIN_OUTER_EDGE 2
 
 /**
- * Where a point comes from: point `p` of edge `edge` of interior ring `ring`.
+ * Origin of a point: point `p` of edge `edge` of interior ring `ring`.
  */
 #define TESS_POINT_ORIGIN_RING 3
 
 /**
- * Where a point comes from: point `p` of the point or row that ends an even interior.
+ * Origin of a point: point `p` of the point or row that ends an even interior.
  */
 #define TESS_POINT_ORIGIN_CENTRE 4
 
 /**
- * Where a primitive comes from: number `step` of point output or of all points joined in order.
+ * Origin of a primitive: number `step` of point output or of all points joined in order.
  */
 #define TESS_PRIMITIVE_ORIGIN_SEQUENCE 0
 
 /**
- * Where a primitive comes from: segment `step` of isoline `line`.
+ * Origin of a primitive: segment `step` of isoline `line`.
  */
 #define TESS_PRIMITIVE_ORIGIN_LINE 1
 
 /**
- * Where a primitive comes from: triangle `step` of a minimum patch.
+ * Origin of a primitive: triangle `step` of a minimum patch.
  */
 #define TESS_PRIMITIVE_ORIGIN_MINIMUM 2
 
 /**
- * Where a primitive comes from: triangle `step` of the transition stitch of edge `edge`.
+ * Origin of a primitive: triangle `step` of the transition stitch of edge `edge`.
  */
 #define TESS_PRIMITIVE_ORIGIN_TRANSITION 3
 
 /**
- * Where a primitive comes from: triangle `step` of the stitch of edge `edge` to ring `ring`.
+ * Origin of a primitive: triangle `step` of the stitch of edge `edge` to ring `ring`.
  */
 #define TESS_PRIMITIVE_ORIGIN_RING 4
 
 /**
- * Where a primitive comes from: triangle `step` inside the innermost ring.
+ * Origin of a primitive: triangle `step` inside the innermost ring.
  */
 #define TESS_PRIMITIVE_ORIGIN_CENTRE 5
 
@@ -238,17 +240,17 @@
 #define TESS_POINT_FIXED 0
 
 /**
- * Point format: two floats, exactly the 16.16 numbers.
+ * Point format: two floats, which have the values of the 16.16 numbers exactly.
  */
 #define TESS_POINT_F32 1
 
 /**
- * Index format: `uint32_t`.
+ * Index type: `uint32_t`.
  */
 #define TESS_INDEX_U32 0
 
 /**
- * Index format: `uint16_t`; always enough when each patch is numbered on its own.
+ * Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`.
  */
 #define TESS_INDEX_U16 1
 
@@ -258,7 +260,7 @@
 #define TESS_NUMBERING_PER_PATCH 0
 
 /**
- * Numbering: indices count from the first point of the batch, which has number `base_vertex`.
+ * Numbering: indices count from the first point of the batch, whose number is `base_vertex`.
  */
 #define TESS_NUMBERING_PER_BATCH 1
 
@@ -415,11 +417,11 @@ typedef struct TessPrimitive {
 } TessPrimitive;
 
 /**
- * Where a point comes from (specification, section 6). Fields without meaning are 0.
+ * The origin of a point (specification, section 6). Fields that its kind does not use are 0.
  */
 typedef struct TessPointOrigin {
   /**
-   * `TESS_POINT_...`
+   * `TESS_POINT_ORIGIN_...`
    */
   uint32_t kind;
   /**
@@ -441,11 +443,11 @@ typedef struct TessPointOrigin {
 } TessPointOrigin;
 
 /**
- * Where a primitive comes from (specification, sections 7, 8). Fields without meaning are 0.
+ * The origin of a primitive (specification, sections 7, 8). Fields that its kind does not use are 0.
  */
 typedef struct TessPrimitiveOrigin {
   /**
-   * `TESS_PRIMITIVE_...`
+   * `TESS_PRIMITIVE_ORIGIN_...`
    */
   uint32_t kind;
   /**
@@ -507,7 +509,8 @@ typedef struct TessBatchCounts {
 } TessBatchCounts;
 
 /**
- * Where one patch's output lies. A culled patch has no points and no indices.
+ * The part of a batch's output that belongs to one patch. A culled patch has no points and no
+ * indices.
  */
 typedef struct TessRange {
   /**
@@ -529,40 +532,40 @@ typedef struct TessRange {
 } TessRange;
 
 /**
- * Where and in what form a batch is written. Capacities count elements; a buffer of capacity 0
- * may be null.
+ * The buffers and formats that a batch is written in. Capacities count elements. A buffer of
+ * capacity 0 may be null.
  */
 typedef struct TessBatchOutput {
   /**
-   * Points of all patches, one patch after another.
+   * Receives the points of all patches, one patch after another.
    */
   void *points;
   /**
-   * Room in `points`.
+   * The elements that `points` has room for.
    */
   size_t point_capacity;
   /**
-   * Indices of all patches, one patch after another.
+   * Receives the indices of all patches, one patch after another.
    */
   void *indices;
   /**
-   * Room in `indices`.
+   * The elements that `indices` has room for.
    */
   size_t index_capacity;
   /**
-   * One range for each patch.
+   * Receives one range for each patch.
    */
   struct TessRange *ranges;
   /**
-   * Room in `ranges`.
+   * The elements that `ranges` has room for.
    */
   size_t range_capacity;
   /**
-   * `TESS_POINT_...`
+   * `TESS_POINT_FIXED` or `TESS_POINT_F32`
    */
   uint32_t point_format;
   /**
-   * `TESS_INDEX_...`
+   * `TESS_INDEX_U32` or `TESS_INDEX_U16`
    */
   uint32_t index_type;
   /**
@@ -570,7 +573,7 @@ typedef struct TessBatchOutput {
    */
   uint32_t numbering;
   /**
-   * Number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else without effect.
+   * The number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else ignored.
    */
   uint32_t base_vertex;
 } TessBatchOutput;
@@ -671,7 +674,7 @@ const char *tess_status_message(TessStatus status);
  *
  * Any bit pattern of any factor is valid; a culled patch has no points and no indices.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `config` for reading one configuration,
  * - `factors` for reading `factor_count` floats,
@@ -690,7 +693,7 @@ TessStatus tess_count(const struct TessConfig *config,
  * must not overlap (`TESS_OVERLAP`). A buffer of capacity 0 may be null. `TESS_MAX_POINTS` and
  * `TESS_MAX_INDICES` are enough for any patch. Allocates nothing.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `config` for reading one configuration,
  * - `factors` for reading `factor_count` floats,
@@ -712,7 +715,7 @@ TessStatus tess_patch(const struct TessConfig *config,
 /**
  * Processes the factors of a patch: cull, clamp, round, parity, conversion, context.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `config` for reading one configuration,
  * - `factors` for reading `factor_count` floats,
@@ -736,7 +739,7 @@ uint32_t tess_fixed_factor(uint32_t binary32_bits);
  * `parity` is `TESS_PARITY_...`, `split` is `TESS_SPLIT_...`. A factor outside 1..63 (odd) or
  * 1..64 (even) counts as the nearest end.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * - `context`, if not null and aligned, must be valid for writing one structure.
  */
 TessStatus tess_context(uint32_t fixed_factor,
@@ -750,7 +753,7 @@ TessStatus tess_context(uint32_t fixed_factor,
  * `p` is below the context's `points`, else `TESS_OUT_OF_RANGE`. A context that no factor has
  * gives `TESS_NOT_A_CONTEXT`. `location` is an unsigned 16.16 number, 0..0x10000.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `context` for reading one structure,
  * - `location` for writing one number.
@@ -760,7 +763,7 @@ TessStatus tess_place(const struct TessContext *context, uint32_t p, uint32_t *l
 /**
  * Point `i` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `config` for reading one configuration,
  * - `factors` for reading `factor_count` floats,
@@ -775,7 +778,7 @@ TessStatus tess_point(const struct TessConfig *config,
 /**
  * Primitive `t` of a patch, in constant time; `TESS_OUT_OF_RANGE` if it has fewer.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `config` for reading one configuration,
  * - `factors` for reading `factor_count` floats,
@@ -788,34 +791,34 @@ TessStatus tess_primitive(const struct TessConfig *config,
                           struct TessPrimitive *primitive);
 
 /**
- * Where point `i` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer points.
+ * The origin of point `i` of a patch; `TESS_OUT_OF_RANGE` if it has fewer points.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `config` for reading one configuration,
  * - `factors` for reading `factor_count` floats,
- * - `location` for writing one structure.
+ * - `origin` for writing one structure.
  */
 TessStatus tess_locate_point(const struct TessConfig *config,
                              const float *factors,
                              size_t factor_count,
                              uint32_t i,
-                             struct TessPointOrigin *location);
+                             struct TessPointOrigin *origin);
 
 /**
- * Where primitive `t` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer primitives.
+ * The origin of primitive `t` of a patch; `TESS_OUT_OF_RANGE` if it has fewer primitives.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `config` for reading one configuration,
  * - `factors` for reading `factor_count` floats,
- * - `location` for writing one structure.
+ * - `origin` for writing one structure.
  */
 TessStatus tess_locate_primitive(const struct TessConfig *config,
                                  const float *factors,
                                  size_t factor_count,
                                  uint32_t t,
-                                 struct TessPrimitiveOrigin *location);
+                                 struct TessPrimitiveOrigin *origin);
 
 /**
  * Prepares the factors of one patch.
@@ -825,7 +828,7 @@ TessStatus tess_locate_primitive(const struct TessConfig *config,
  * then tessellated. All three may be the same array or overlap: inputs are read first, and
  * `rounded` is written last.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `preparation` for reading one structure,
  * - `requested` for reading `factor_count` floats,
@@ -844,7 +847,7 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
  * gives `TESS_LEVEL_UNAVAILABLE`. Takes a few milliseconds and about a megabyte; make it once and
  * keep it. What is stored in `batch` is to be given to `tess_batch_free`.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `config` for reading one configuration,
  * - `batch` for writing one pointer.
@@ -856,7 +859,7 @@ TessStatus tess_batch_create(const struct TessConfig *config,
 /**
  * Frees what `tess_batch_create` made. Null is allowed and does nothing.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, is not in use and is not used again.
  */
 void tess_batch_free(struct TessBatch *batch);
@@ -864,7 +867,7 @@ void tess_batch_free(struct TessBatch *batch);
 /**
  * Says at which CPU level, `TESS_LEVEL_...`, a batch runs.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`.
  * - `level`, if not null and aligned, is valid for writing one number.
  */
@@ -876,7 +879,7 @@ TessStatus tess_batch_level(const struct TessBatch *batch, uint32_t *level);
  * `factors` holds the factors of one patch after another; `factor_count` counts floats and is a
  * multiple of the domain's number of factors, else `TESS_WRONG_FACTOR_COUNT`.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
  *
  * Other pointers that are not null and aligned must be valid:
@@ -896,7 +899,7 @@ TessStatus tess_batch_count(struct TessBatch *batch,
  * status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). After the first
  * call with a batch, none allocates.
  *
- * What the caller must see to:
+ * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
  *
  * Other pointers that are not null and aligned must be valid:

@@ -16,22 +16,22 @@ pub struct TessPrimitive {
     pub indices: [u32; 3],
 }
 
-/// Where a point comes from: corner `p` of a minimum patch.
+/// Origin of a point: corner `p` of a minimum patch.
 pub const TESS_POINT_ORIGIN_CORNER: u32 = 0;
-/// Where a point comes from: point `p` of isoline `line`.
+/// Origin of a point: point `p` of isoline `line`.
 pub const TESS_POINT_ORIGIN_LINE: u32 = 1;
-/// Where a point comes from: point `p` of outer edge `edge`.
+/// Origin of a point: point `p` of outer edge `edge`.
 pub const TESS_POINT_ORIGIN_OUTER_EDGE: u32 = 2;
-/// Where a point comes from: point `p` of edge `edge` of interior ring `ring`.
+/// Origin of a point: point `p` of edge `edge` of interior ring `ring`.
 pub const TESS_POINT_ORIGIN_RING: u32 = 3;
-/// Where a point comes from: point `p` of the point or row that ends an even interior.
+/// Origin of a point: point `p` of the point or row that ends an even interior.
 pub const TESS_POINT_ORIGIN_CENTRE: u32 = 4;
 
-/// Where a point comes from (specification, section 6). Fields without meaning are 0.
+/// The origin of a point (specification, section 6). Fields that its kind does not use are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessPointOrigin {
-    /// `TESS_POINT_...`
+    /// `TESS_POINT_ORIGIN_...`
     pub kind: u32,
     /// Number of the isoline, from v = 0.
     pub line: u32,
@@ -43,24 +43,24 @@ pub struct TessPointOrigin {
     pub p: u32,
 }
 
-/// Where a primitive comes from: number `step` of point output or of all points joined in order.
+/// Origin of a primitive: number `step` of point output or of all points joined in order.
 pub const TESS_PRIMITIVE_ORIGIN_SEQUENCE: u32 = 0;
-/// Where a primitive comes from: segment `step` of isoline `line`.
+/// Origin of a primitive: segment `step` of isoline `line`.
 pub const TESS_PRIMITIVE_ORIGIN_LINE: u32 = 1;
-/// Where a primitive comes from: triangle `step` of a minimum patch.
+/// Origin of a primitive: triangle `step` of a minimum patch.
 pub const TESS_PRIMITIVE_ORIGIN_MINIMUM: u32 = 2;
-/// Where a primitive comes from: triangle `step` of the transition stitch of edge `edge`.
+/// Origin of a primitive: triangle `step` of the transition stitch of edge `edge`.
 pub const TESS_PRIMITIVE_ORIGIN_TRANSITION: u32 = 3;
-/// Where a primitive comes from: triangle `step` of the stitch of edge `edge` to ring `ring`.
+/// Origin of a primitive: triangle `step` of the stitch of edge `edge` to ring `ring`.
 pub const TESS_PRIMITIVE_ORIGIN_RING: u32 = 4;
-/// Where a primitive comes from: triangle `step` inside the innermost ring.
+/// Origin of a primitive: triangle `step` inside the innermost ring.
 pub const TESS_PRIMITIVE_ORIGIN_CENTRE: u32 = 5;
 
-/// Where a primitive comes from (specification, sections 7, 8). Fields without meaning are 0.
+/// The origin of a primitive (specification, sections 7, 8). Fields that its kind does not use are 0.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessPrimitiveOrigin {
-    /// `TESS_PRIMITIVE_...`
+    /// `TESS_PRIMITIVE_ORIGIN_...`
     pub kind: u32,
     /// Number of the isoline, from v = 0.
     pub line: u32,
@@ -177,51 +177,51 @@ pub unsafe extern "C" fn tess_primitive(
     })
 }
 
-/// Where point `i` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer points.
+/// The origin of point `i` of a patch; `TESS_OUT_OF_RANGE` if it has fewer points.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
 /// - `config` for reading one configuration,
 /// - `factors` for reading `factor_count` floats,
-/// - `location` for writing one structure.
+/// - `origin` for writing one structure.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tess_locate_point(
     config: *const TessConfig,
     factors: *const f32,
     factor_count: usize,
     i: u32,
-    location: *mut TessPointOrigin,
+    origin: *mut TessPointOrigin,
 ) -> TessStatus {
     answer(|| {
         // SAFETY: `config` and `factors` are readable, as the caller promises.
         let patch = unsafe { types::patch(config, factors, factor_count) }?;
         let value = patch.locate_point(i).ok_or(TESS_OUT_OF_RANGE)?;
-        // SAFETY: `location` is writable, as the caller promises.
-        unsafe { boundary::write(location, value.into()) }
+        // SAFETY: `origin` is writable, as the caller promises.
+        unsafe { boundary::write(origin, value.into()) }
     })
 }
 
-/// Where primitive `t` of a patch comes from; `TESS_OUT_OF_RANGE` if it has fewer primitives.
+/// The origin of primitive `t` of a patch; `TESS_OUT_OF_RANGE` if it has fewer primitives.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
 /// - `config` for reading one configuration,
 /// - `factors` for reading `factor_count` floats,
-/// - `location` for writing one structure.
+/// - `origin` for writing one structure.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn tess_locate_primitive(
     config: *const TessConfig,
     factors: *const f32,
     factor_count: usize,
     t: u32,
-    location: *mut TessPrimitiveOrigin,
+    origin: *mut TessPrimitiveOrigin,
 ) -> TessStatus {
     answer(|| {
         // SAFETY: `config` and `factors` are readable, as the caller promises.
         let patch = unsafe { types::patch(config, factors, factor_count) }?;
         let value = patch.locate_primitive(t).ok_or(TESS_OUT_OF_RANGE)?;
-        // SAFETY: `location` is writable, as the caller promises.
-        unsafe { boundary::write(location, value.into()) }
+        // SAFETY: `origin` is writable, as the caller promises.
+        unsafe { boundary::write(origin, value.into()) }
     })
 }
 
@@ -236,9 +236,9 @@ impl From<tess_core::Primitive> for TessPrimitive {
 }
 
 impl From<PointOrigin> for TessPointOrigin {
-    fn from(location: PointOrigin) -> Self {
+    fn from(origin: PointOrigin) -> Self {
         let none = Self::default();
-        match location {
+        match origin {
             PointOrigin::Corner { corner } => {
                 Self { kind: TESS_POINT_ORIGIN_CORNER, p: corner, ..none }
             }
@@ -255,9 +255,9 @@ impl From<PointOrigin> for TessPointOrigin {
 }
 
 impl From<PrimitiveOrigin> for TessPrimitiveOrigin {
-    fn from(location: PrimitiveOrigin) -> Self {
+    fn from(origin: PrimitiveOrigin) -> Self {
         let none = Self::default();
-        match location {
+        match origin {
             PrimitiveOrigin::Sequence { step } => {
                 Self { kind: TESS_PRIMITIVE_ORIGIN_SEQUENCE, step, ..none }
             }

@@ -17,6 +17,7 @@ type Test = fn() -> Result<(), Failed>;
 const TESTS: &[(&str, &[&str], Test)] = &[
     ("header_is_c99", &["cc"], c::header_is_c99),
     ("header_is_cpp", &["c++"], c::header_is_cpp),
+    ("readme_program_runs", &["cc"], c::readme_program_runs),
     ("example_equals_golden_static", &["cc"], c::example_equals_golden_static),
     ("example_equals_golden_shared", &["cc"], c::example_equals_golden_shared),
     ("example_refuses_bad_usage", &["cc"], c::example_refuses_bad_usage),

@@ -27,7 +27,7 @@ fn header_is_generated_from_the_sources() {
     }
     sources.generate().expect("bindings").write(&mut generated);
     let generated = String::from_utf8(generated).expect("text");
-    let generated = generated.replace("# Safety", "What the caller must see to:");
+    let generated = generated.replace("# Safety", "The caller must ensure:");
 
     let header = root.join("include/tess.h");
     if std::env::var_os("TESS_BLESS").is_some() {

@@ -1,7 +1,7 @@
 //! `tess_batch_run`.
 
 use super::hostile::{CANARY, Wrongs};
-use super::patch::capacity;
+use super::patch::{capacity, is_possible};
 use crate::input::Bytes;
 use crate::{compare_with_model, repeatable};
 use std::cell::RefCell;
@@ -68,7 +68,7 @@ fn output(
     let mut sized = |needed: usize, size: usize| {
         let (capacity, room) = capacity(bytes, needed);
         wrongs.add_if(capacity < needed, TESS_BUFFER_TOO_SMALL);
-        let possible = capacity.checked_mul(size).is_some_and(|n| isize::try_from(n).is_ok());
+        let possible = is_possible(capacity, size);
         wrongs.add_if(!possible, TESS_TOO_LARGE);
         // A possible capacity must be there: the library may believe it.
         (capacity, if possible { capacity } else { room })
@@ -118,14 +118,16 @@ fn run(
         split: split as u32,
     };
     let mut counts = TessBatchCounts::default();
-    let batch = MADE.with_borrow_mut(|made| match made.entry((case.domain(), case.config)) {
-        Entry::Occupied(made) => Ok(made.get().0),
-        Entry::Vacant(place) => Ok(place.insert(Made::new(case, &config)?).0),
-    });
+    let batch: Result<_, String> =
+        MADE.with_borrow_mut(|made| match made.entry((case.domain(), case.config)) {
+            Entry::Occupied(made) => Ok(made.get().0),
+            Entry::Vacant(place) => Ok(place.insert(Made::new(case, &config)?).0),
+        });
+    let batch = batch?;
     // SAFETY: a batch that was made; buffers that are null, askew, impossibly large or as large as
     // they say.
     let status =
-        unsafe { tess_batch_run(batch?, factors.as_ptr(), factors.len(), output, &mut counts) };
+        unsafe { tess_batch_run(batch, factors.as_ptr(), factors.len(), output, &mut counts) };
     Ok((status, counts))
 }
 

@@ -177,7 +177,7 @@ pub fn gltf() -> Vec<Vec<u8>> {
         });
     });
     let interleaved = Builder::new().with(|b| {
-        let data: Vec<f32> = (0..32u8).map(|k| f32::from(k * k % 17) - 4.0).collect();
+        let data: Vec<f32> = (0..32u16).map(|k| f32::from(k * k % 17) - 4.0).collect();
         let number = b.accessor(&floats(&data), 5126, "VEC3", 3);
         let view = b.document["accessors"][number]["bufferView"].clone();
         b.document["bufferViews"][1]["byteStride"] = json!(32);

@@ -81,7 +81,7 @@ pub struct ChainRow {
     pub domain: Domain,
     /// Configuration of the patches; the split order is ruler.
     pub config: Config,
-    /// Which sequence; see [`crate::sequences`].
+    /// Which sequence: `golden/README.md` in the repository describes them.
     pub row: u8,
     /// The digest.
     pub chain: u64,

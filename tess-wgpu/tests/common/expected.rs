@@ -1,9 +1,9 @@
 //! What the golden model says the buffers of a batch must hold.
 
 use super::device::{POISON, Written};
-use tess_core::{Domain, DomainPoint, Patch, PatchFactors};
+use tess_core::{DomainPoint, Patch, PatchFactors};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
-use tess_simd::{Batch, Output, Tessellator};
+use tess_simd::{Output, Tessellator};
 
 /// The words of both buffers, and where each patch's begin.
 #[derive(Debug)]
@@ -94,26 +94,13 @@ impl<'a> Expected<'a> {
 
 /// The words of points and the indices of patches of one domain as tess-simd makes them.
 pub(crate) fn by_simd(setup: Setup, patches: &[PatchFactors]) -> (Vec<u32>, Vec<u32>) {
-    let (mut isolines, mut triangles, mut quads) = (Vec::new(), Vec::new(), Vec::new());
-    for patch in patches {
-        match *patch {
-            PatchFactors::Isoline(factors) => isolines.push(factors),
-            PatchFactors::Triangle(factors) => triangles.push(factors),
-            PatchFactors::Quad(factors) => quads.push(factors),
-        }
-    }
-    let batch = match setup.domain {
-        Domain::Isoline => Batch::Isolines(&isolines),
-        Domain::Triangle => Batch::Triangles(&triangles),
-        Domain::Quad => Batch::Quads(&quads),
-    };
     let numbering = match setup.numbering {
         Numbering::PerPatch => tess_simd::Numbering::PerPatch,
         Numbering::PerBatch => tess_simd::Numbering::PerBatch { base_vertex: 0 },
     };
     let mut output = Output::<DomainPoint, u32>::new();
     let mut tessellator = Tessellator::new(setup.config);
-    tessellator.tessellate(batch, numbering, &mut output).expect("it fits");
+    tessellator.tessellate(patches, numbering, &mut output).expect("it fits");
     let mut points = Vec::with_capacity(2 * output.points().len());
     for (number, range) in (0..).zip(output.ranges()) {
         let own = &output.points()[range.first_point as usize..][..range.points as usize];

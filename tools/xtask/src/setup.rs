@@ -138,15 +138,20 @@ fn rustup(arguments: &[&str]) -> Command {
 
 /// Installs a subcommand of cargo where it is missing; compiling it takes minutes.
 pub(crate) fn subcommand(name: &str) -> Result<(), String> {
-    let has_it = command::cargo(&format!("{name} --version"))
+    if has_subcommand(name) {
+        return Ok(());
+    }
+    // Without optimisation: building it takes longer than all of its runs here.
+    command::run(&mut command::cargo(&format!("install cargo-{name} --locked --debug")))
+}
+
+/// Whether `cargo NAME` is installed.
+pub(crate) fn has_subcommand(name: &str) -> bool {
+    command::cargo(&format!("{name} --version"))
         .stdout(Stdio::null())
         .stderr(Stdio::null())
         .status()
-        .is_ok_and(|status| status.success());
-    if has_it {
-        return Ok(());
-    }
-    command::run(&mut command::cargo(&format!("install cargo-{name} --locked")))
+        .is_ok_and(|status| status.success())
 }
 
 /// Whether the loader and any driver's manifest are where Vulkan looks for them.

@@ -1,4 +1,4 @@
-//! Where and in what form the output of a batch is written.
+//! The buffers and formats that the output of a batch is written in.
 
 use std::ffi::c_void;
 use std::mem::{align_of, offset_of, size_of};
@@ -7,17 +7,17 @@ use tess_simd::{BatchCounts, PatchRange};
 
 /// Point format: `TessPoint`, a pair of unsigned 16.16 numbers.
 pub const TESS_POINT_FIXED: u32 = 0;
-/// Point format: two floats, exactly the 16.16 numbers.
+/// Point format: two floats, which have the values of the 16.16 numbers exactly.
 pub const TESS_POINT_F32: u32 = 1;
 
-/// Index format: `uint32_t`.
+/// Index type: `uint32_t`.
 pub const TESS_INDEX_U32: u32 = 0;
-/// Index format: `uint16_t`; always enough when each patch is numbered on its own.
+/// Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`.
 pub const TESS_INDEX_U16: u32 = 1;
 
 /// Numbering: indices count from the first point of their patch.
 pub const TESS_NUMBERING_PER_PATCH: u32 = 0;
-/// Numbering: indices count from the first point of the batch, which has number `base_vertex`.
+/// Numbering: indices count from the first point of the batch, whose number is `base_vertex`.
 pub const TESS_NUMBERING_PER_BATCH: u32 = 1;
 
 /// Sizes of a batch's output.
@@ -32,7 +32,8 @@ pub struct TessBatchCounts {
     pub indices: usize,
 }
 
-/// Where one patch's output lies. A culled patch has no points and no indices.
+/// The part of a batch's output that belongs to one patch. A culled patch has no points and no
+/// indices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessRange {
@@ -46,30 +47,30 @@ pub struct TessRange {
     pub indices: u32,
 }
 
-/// Where and in what form a batch is written. Capacities count elements; a buffer of capacity 0
-/// may be null.
+/// The buffers and formats that a batch is written in. Capacities count elements. A buffer of
+/// capacity 0 may be null.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct TessBatchOutput {
-    /// Points of all patches, one patch after another.
+    /// Receives the points of all patches, one patch after another.
     pub points: *mut c_void,
-    /// Room in `points`.
+    /// The elements that `points` has room for.
     pub point_capacity: usize,
-    /// Indices of all patches, one patch after another.
+    /// Receives the indices of all patches, one patch after another.
     pub indices: *mut c_void,
-    /// Room in `indices`.
+    /// The elements that `indices` has room for.
     pub index_capacity: usize,
-    /// One range for each patch.
+    /// Receives one range for each patch.
     pub ranges: *mut TessRange,
-    /// Room in `ranges`.
+    /// The elements that `ranges` has room for.
     pub range_capacity: usize,
-    /// `TESS_POINT_...`
+    /// `TESS_POINT_FIXED` or `TESS_POINT_F32`
     pub point_format: u32,
-    /// `TESS_INDEX_...`
+    /// `TESS_INDEX_U32` or `TESS_INDEX_U16`
     pub index_type: u32,
     /// `TESS_NUMBERING_...`
     pub numbering: u32,
-    /// Number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else without effect.
+    /// The number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else ignored.
     pub base_vertex: u32,
 }
 

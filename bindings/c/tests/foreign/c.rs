@@ -32,6 +32,25 @@ fn header_compiles(compiler: &str, standard: &str, language: &str) -> Result<(),
     Ok(())
 }
 
+/// The program in the README compiles and prints what the README says.
+pub(crate) fn readme_program_runs() -> Result<(), Failed> {
+    let readme = std::fs::read_to_string(crate_folder().join("README.md"))?;
+    let (_, rest) = readme.split_once("```c\n").ok_or("the README has a program")?;
+    let (program, rest) = rest.split_once("```\n").ok_or("the program ends")?;
+    let source = build_folder().join("readme.c");
+    std::fs::write(&source, program)?;
+    let target = build_folder().join("readme");
+    let mut command = Command::new("cc");
+    command.arg("-std=c99").args(STRICT).arg("-I").arg(crate_folder().join("include"));
+    command.arg(&source).arg(libraries()?.archive).args(SYSTEM_LIBRARIES);
+    run(command.arg("-o").arg(&target))?;
+    let printed = run(&mut Command::new(target))?;
+    match rest.contains(&format!("`{}`", printed.trim_end())) {
+        true => Ok(()),
+        false => Err(format!("the README does not say that it prints {printed}").into()),
+    }
+}
+
 pub(crate) fn example_equals_golden_static() -> Result<(), Failed> {
     equals_golden(&static_example("patch-static")?)
 }

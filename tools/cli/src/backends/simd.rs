@@ -3,10 +3,10 @@
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use tess_core::{
-    Config, Domain, DomainPoint, FactorContext, FixedFactor, IsolineFactors, Parity, Partitioning,
-    PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
+    Config, DomainPoint, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors,
+    SplitOrder, Tessellation,
 };
-use tess_simd::{Batch, IndexFormat, Level, LevelUnavailable, Numbering, Output, Tessellator};
+use tess_simd::{IndexFormat, Level, LevelUnavailable, Numbering, Output, Tessellator};
 use tess_verify::backend::{Backend, BackendError};
 
 /// `tess-simd` at one CPU level, with indices of 16 or 32 bits.
@@ -52,12 +52,9 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
                 new.insert(Tessellator::with_level(config, *level).map_err(unavailable)?)
             }
         };
-        let patches = Patches::new(patches)?;
         let mut all = Vec::with_capacity(patches.len());
         // Small batches: a batch's points and indices must be countable in 32 bits.
-        const BATCH: usize = 4096;
-        for first in (0..patches.len()).step_by(BATCH) {
-            let batch = patches.batch(first, BATCH);
+        for batch in patches.chunks(4096) {
             tessellator
                 .tessellate(batch, Numbering::PerPatch, output)
                 .map_err(|error| BackendError::new(error.to_string()))?;
@@ -94,72 +91,4 @@ impl<I: IndexFormat + Into<u32>> Backend for Simd<I> {
 
 fn unavailable(error: LevelUnavailable) -> BackendError {
     BackendError::new(error.to_string())
-}
-
-/// Patches of one domain in the layout that the backend takes.
-#[derive(Debug)]
-pub(crate) enum Patches {
-    /// Isolines.
-    Isolines(Vec<IsolineFactors>),
-    /// Triangles.
-    Triangles(Vec<TriangleFactors>),
-    /// Quads.
-    Quads(Vec<QuadFactors>),
-}
-
-impl Patches {
-    /// Sorts patches into the layout of the first one's domain.
-    ///
-    /// # Errors
-    /// The patches are of several domains.
-    pub(crate) fn new(patches: &[PatchFactors]) -> Result<Self, BackendError> {
-        let mut all = match patches.first().map_or(Domain::Quad, PatchFactors::domain) {
-            Domain::Isoline => Self::Isolines(Vec::with_capacity(patches.len())),
-            Domain::Triangle => Self::Triangles(Vec::with_capacity(patches.len())),
-            Domain::Quad => Self::Quads(Vec::with_capacity(patches.len())),
-        };
-        for patch in patches {
-            match (&mut all, patch) {
-                (Self::Isolines(all), PatchFactors::Isoline(factors)) => all.push(*factors),
-                (Self::Triangles(all), PatchFactors::Triangle(factors)) => all.push(*factors),
-                (Self::Quads(all), PatchFactors::Quad(factors)) => all.push(*factors),
-                _ => return Err(BackendError::new("a batch has patches of one domain alone")),
-            }
-        }
-        Ok(all)
-    }
-
-    /// How many there are.
-    pub(crate) fn len(&self) -> usize {
-        self.batch(0, usize::MAX).len()
-    }
-
-    /// At most `count` of them, from `first` on, as a batch.
-    pub(crate) fn batch(&self, first: usize, count: usize) -> Batch<'_> {
-        match self {
-            Self::Isolines(all) => Batch::Isolines(part(all, first, count)),
-            Self::Triangles(all) => Batch::Triangles(part(all, first, count)),
-            Self::Quads(all) => Batch::Quads(part(all, first, count)),
-        }
-    }
-}
-
-fn part<T>(all: &[T], first: usize, count: usize) -> &[T] {
-    let rest = all.get(first..).unwrap_or_default();
-    &rest[..count.min(rest.len())]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn mixed_domains_are_refused() {
-        let isoline = IsolineFactors { density: 1.0, detail: 2.0 };
-        let triangle = TriangleFactors { u0: 1.0, v0: 1.0, w0: 1.0, inside: 2.0 };
-        let mixed = [PatchFactors::Isoline(isoline), PatchFactors::Triangle(triangle)];
-        let one = &mixed[..1];
-        assert_eq!(Patches::new(one).map(|patches| patches.len()).ok(), Some(1), "one domain");
-        assert!(Patches::new(&mixed).is_err(), "two domains");
-    }
 }

@@ -178,9 +178,10 @@ impl OutputFile {
         Ok(Self { content })
     }
 
-    /// Whether it becomes a regular file.
-    pub(crate) const fn is_file(&self) -> bool {
-        matches!(self.content, Content::Partial(_))
+    /// Whether a path is not that of a pipe, a device or stdout. It opens nothing, as opening a pipe
+    /// waits for its reader.
+    pub(crate) fn would_be_file(path: &Path) -> bool {
+        !matches!(Destination::of(path), Ok(Destination::Stdout | Destination::Stream(_)))
     }
 
     fn file(&mut self) -> &mut File {

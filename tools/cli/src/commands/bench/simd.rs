@@ -2,7 +2,6 @@
 
 use super::parts::parts;
 use super::runner::{Amount, Runner, RunnerOptions, WorkingSet};
-use crate::backends::simd::Patches;
 use crate::failure::Failure;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::hint::black_box;
@@ -10,7 +9,9 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 use tess_core::DomainPoint;
 use tess_core::fixed::types::U16F16;
-use tess_simd::{BatchCounts, Buffers, IndexFormat, Numbering, PatchRange, Tessellator};
+use tess_simd::{
+    BatchCounts, Buffers, IndexFormat, Numbering, OwnedBatch, PatchRange, Tessellator,
+};
 use tess_verify::backend::BackendError;
 use tess_verify::digest::Fnv1a;
 use tess_verify::workloads::{IndexType, Totals, Workload};
@@ -48,7 +49,7 @@ struct SimdRunner<I> {
 #[derive(Debug)]
 struct Prepared {
     tessellator: Tessellator,
-    patches: Patches,
+    patches: OwnedBatch,
     batches: Vec<Batch>,
     /// The batches of each part.
     parts: Vec<Range<usize>>,
@@ -104,7 +105,7 @@ impl<I: Index> SimdRunner<I> {
         let Batch { patches: range, start, .. } = &batches[batch];
         let (points, indices) = (&mut self.points[start.0..], &mut self.indices[start.1..]);
         let buffers = Buffers::new(points, indices).with_ranges(&mut self.ranges);
-        let batch = patches.batch(range.start, range.len());
+        let batch = part(patches, range)?;
         let write = || tessellator.write(batch, Numbering::PerPatch, buffers);
         let result = self.pool.install(write);
         result.map(|_| ()).map_err(|error| BackendError::new(error.to_string()))
@@ -153,7 +154,8 @@ impl<I: Index> Runner for SimdRunner<I> {
         let mut tessellator = Tessellator::with_level(workload.config, self.options.level)
             .map_err(|error| BackendError::new(error.to_string()))?
             .threads(threads);
-        let patches = Patches::new(&workload.patches)?;
+        let patches = OwnedBatch::try_from(&workload.patches[..])
+            .map_err(|error| BackendError::new(error.to_string()))?;
         let totals = workload.totals();
         let indices_each = totals.indices / totals.primitives.max(1);
         let mut batches = Vec::new();
@@ -190,7 +192,7 @@ impl<I: Index> Runner for SimdRunner<I> {
         let mut batch = 0;
         while let Some(Prepared { patches, batches, .. }) = &self.prepared {
             let Some(next) = batches.get(batch).cloned() else { break };
-            let last = next.patches.end == patches.len();
+            let last = next.patches.end == patches.batch().len();
             self.tessellate(batch)?;
             self.digest_batch(&next, &mut digest);
             batch += 1;
@@ -242,15 +244,24 @@ fn fill<I: Index>(points: &mut [[f32; 2]], indices: &mut [I], threads: u32) {
     }
 }
 
+/// The patches of a range.
+fn part<'a>(
+    patches: &'a OwnedBatch,
+    range: &Range<usize>,
+) -> Result<tess_simd::Batch<'a>, BackendError> {
+    let missing = || BackendError::new(format!("the workload has no patches {range:?}"));
+    patches.get(range.clone()).ok_or_else(missing)
+}
+
 /// A batch at the beginning of the buffers.
 fn counted_batch<I: Index>(
     tessellator: &mut Tessellator,
-    patches: &Patches,
+    patches: &OwnedBatch,
     range: Range<usize>,
     indices_each: u64,
 ) -> Result<Batch, BackendError> {
     let counts = tessellator
-        .count(patches.batch(range.start, range.len()))
+        .count(part(patches, &range)?)
         .map_err(|error| BackendError::new(error.to_string()))?
         .counts();
     let primitives = counts.indices as u64 / indices_each;

@@ -34,11 +34,11 @@ use view::{View, ViewArgs};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Neighbouring patches get the same factor on their common edge, and the same points to the bit, so
-no crack opens. Faces with more than four corners are refused, as are edges of more than two faces
-and faces whose corners lie on one line. Faces whose corners coincide, as at the pole of a sphere,
-are left out: their neighbours meet without them. Points and lines of OBJ files are left out. A note
-says how many. Buffers of glTF must be files in the model's folder or below it.
-Notes and statistics go to stderr.
+no crack opens. Faces with more than four corners are refused, as are edges of more than two faces.
+Faces without area are left out, and a note says how many: where corners coincide, as at the pole of
+a sphere, the neighbours meet without them; where corners lie on one line, cracks may open. Points
+and lines of OBJ files are left out too. Buffers of glTF must be files in the model's folder or below
+it. Notes and statistics go to stderr.
 
 Examples:
   tess mesh -o teapot.png                          the teapot, 64 segments to the patch edge

@@ -1,18 +1,20 @@
-//! Faces with corners in the same place, such as those at the pole of a sphere.
+//! Faces without area, such as those at the pole of a sphere.
 //!
-//! Such a triangle is an edge. Without it, the faces on its two sides meet at that edge, so it is
-//! dropped; a quad with one collapsed edge becomes a triangle. Faces whose distinct corners lie on
-//! one line stay, and are refused later: without them, the faces around would no longer meet.
+//! A triangle with corners in the same place is an edge. Without it, the faces on its two sides meet
+//! at that edge, so it is dropped; a quad with one collapsed edge becomes a triangle. Faces whose
+//! distinct corners lie on one line are dropped too, but the edges around them are then open.
 
 use glam::Vec3;
-use tess_surface::{Face, PolygonMesh, Sides};
+use tess_surface::{Face, Fault, PolygonMesh, Sides};
 
 /// What [`repair`] did.
 #[derive(Debug, Default)]
 pub(super) struct Collapsed {
-    /// How many faces are gone.
-    dropped: usize,
-    /// How many quads became triangles.
+    /// Dropped faces with corners in the same place.
+    repeated: usize,
+    /// Dropped faces with corners on one line.
+    straight: usize,
+    /// Quads that became triangles.
     narrowed: usize,
     /// The number that each face had before; empty if none is gone.
     originals: Vec<usize>,
@@ -24,54 +26,76 @@ impl Collapsed {
         self.originals.get(face).copied().unwrap_or(face)
     }
 
-    /// A sentence about what was done, if anything was.
-    pub(super) fn note(&self) -> Option<String> {
-        let Self { dropped, narrowed, .. } = self;
-        (dropped + narrowed > 0).then(|| {
-            format!(
-                "corners in the same place: {dropped} faces without area are left out, {narrowed} \
+    /// What was done, a sentence each.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let Self { repeated, straight, narrowed, .. } = self;
+        let mut notes = Vec::new();
+        if repeated + narrowed > 0 {
+            notes.push(format!(
+                "corners in the same place: {repeated} faces without area are left out, {narrowed} \
                  quads become triangles"
-            )
-        })
+            ));
+        }
+        if *straight > 0 {
+            notes.push(format!(
+                "corners on one line: {straight} faces without area are left out; cracks may open \
+                 where they joined others"
+            ));
+        }
+        notes
     }
 }
 
-/// Drops faces that have no area because corners coincide, and corners that coincide with the one
-/// before. Faces with an index out of range stay as they are.
+/// Drops faces that have no area, and corners that coincide with the one before. Faces with another
+/// fault stay as they are.
 pub(super) fn repair(mesh: &mut PolygonMesh) -> Collapsed {
     let mut collapsed = Collapsed::default();
-    let PolygonMesh { positions, faces, .. } = mesh;
-    if faces.iter().all(|face| without_repeats(positions, face) == Some(*face)) {
+    let without_area =
+        |face: &Face| matches!(mesh.check_face(face), Err(Fault::RepeatedCorner | Fault::NoArea));
+    if !mesh.faces.iter().any(without_area) {
         return collapsed;
     }
-    let mut kept = Vec::with_capacity(faces.len());
-    for (number, face) in faces.iter().enumerate() {
-        match without_repeats(positions, face) {
-            None => collapsed.dropped += 1,
-            Some(after) => {
-                collapsed.narrowed += usize::from(after != *face);
-                collapsed.originals.push(number);
-                kept.push(after);
-            }
+    let mut kept = Vec::with_capacity(mesh.faces.len());
+    for (number, face) in mesh.faces.iter().enumerate() {
+        if let Some(face) = collapsed.repaired(mesh, *face) {
+            collapsed.originals.push(number);
+            kept.push(face);
         }
     }
-    *faces = kept;
+    mesh.faces = kept;
     collapsed
 }
 
-/// The face without the corners that repeat the one before; `None` if nothing of it has an area.
+impl Collapsed {
+    /// The face without repeated corners; `None`, and counted, if it has no area.
+    fn repaired(&mut self, mesh: &PolygonMesh, face: Face) -> Option<Face> {
+        match mesh.check_face(&face) {
+            Err(Fault::NoArea) => {
+                self.straight += 1;
+                None
+            }
+            Err(Fault::RepeatedCorner) => {
+                let Some(narrow) = without_repeats(&mesh.positions, &face) else {
+                    self.repeated += 1;
+                    return None;
+                };
+                let narrow = self.repaired(mesh, narrow);
+                self.narrowed += usize::from(narrow.is_some());
+                narrow
+            }
+            _ => Some(face),
+        }
+    }
+}
+
+/// The triangle that a quad is without the corner that repeats the one before, if one does.
 fn without_repeats(positions: &[Vec3], face: &Face) -> Option<Face> {
-    let places = face.positions.map(|index| positions.get(index as usize));
+    let places = face.positions.map(|index| positions[index as usize]);
     let places = places.as_slice();
     let is_new = |&corner: &usize| {
         let before = if corner == 0 { places.len() - 1 } else { corner - 1 };
-        places[corner].is_none() || places[corner] != places[before]
+        places[corner] != places[before]
     };
-    if (0..places.len()).all(|corner| is_new(&corner)) {
-        let folded =
-            matches!(places, [a, b, c, d] if a.is_some() && a == c || b.is_some() && b == d);
-        return (!folded).then_some(*face);
-    }
     let kept: Vec<usize> = (0..places.len()).filter(is_new).collect();
     let &[a, b, c] = kept.as_slice() else { return None };
     let three = |sides: Sides<u32>| Sides::Triangle([a, b, c].map(|k| sides.as_slice()[k]));

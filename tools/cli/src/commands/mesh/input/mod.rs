@@ -129,12 +129,12 @@ fn polygons(mut mesh: PolygonMesh, places: &Places, style: Option<Style>) -> Res
     let count = mesh.faces.len();
     let collapsed = collapsed::repair(&mut mesh);
     if mesh.faces.is_empty() && count > 0 {
-        return Err(format!("all faces, {count}, have corners in the same place and no area"));
+        return Err(format!("all faces, {count}, have no area"));
     }
     let place = |face| places.of(collapsed.original(face));
     let model = Model::polygons(mesh, style.unwrap_or(Style::PointNormal));
     let model = model.map_err(|error| refused(error, place))?;
-    Ok(Input { model, up: Up::Y, notes: collapsed.note().into_iter().collect() })
+    Ok(Input { model, up: Up::Y, notes: collapsed.notes() })
 }
 
 /// The message about a model whose faces are named by `place`, such as `line 12`.

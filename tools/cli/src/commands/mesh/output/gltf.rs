@@ -20,10 +20,9 @@ pub(super) struct Gltf {
 
 impl Gltf {
     pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
-        let json = OutputFile::create(path)?;
         let beside = path.with_extension("bin");
         let uri = encode(&beside);
-        if !json.is_file() {
+        if !OutputFile::would_be_file(path) {
             return Err(Failure::bad_input(format!(
                 "{} is no file, and glTF is two files; --format glb is one",
                 path.display()
@@ -37,6 +36,7 @@ impl Gltf {
                 path.display()
             )));
         }
+        let json = OutputFile::create(path)?;
         let binary = Binary::new(OutputFile::create(&beside)?, options);
         let binary = binary.map_err(|error| Failure::write(&beside, error))?;
         Ok(Self { path: path.to_owned(), uri, json, binary })
