@@ -82,11 +82,3 @@ fn a_branch_on_a_uniform_takes_no_memory() {
     let uniform = growth("uniform").expect("it runs");
     assert!(uniform < most, "a uniform: {uniform} bytes in 200 runs");
 }
-
-/// A whole buffer as a binding.
-fn entry(binding: u32, buffer: &wgpu::Buffer) -> wgpu::BindGroupEntry<'_> {
-    wgpu::BindGroupEntry {
-        binding,
-        resource: wgpu::BindingResource::Buffer(buffer.as_entire_buffer_binding()),
-    }
-}
