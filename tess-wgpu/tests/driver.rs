@@ -48,7 +48,10 @@ fn growth(space: &str) -> Result<u64, Error> {
     let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: None,
         layout: &pipeline.get_bind_group_layout(0),
-        entries: &[entry(0, &count), entry(1, &out)],
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: count.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: out.as_entire_binding() },
+        ],
     });
     let run = || {
         let mut encoder = device.create_command_encoder(&Default::default());
@@ -78,12 +81,4 @@ fn a_branch_on_a_uniform_takes_no_memory() {
     assert!(storage < most, "a storage buffer: {storage} bytes in 200 runs");
     let uniform = growth("uniform").expect("it runs");
     assert!(uniform < most, "a uniform: {uniform} bytes in 200 runs");
-}
-
-/// A whole buffer as a binding.
-fn entry(binding: u32, buffer: &wgpu::Buffer) -> wgpu::BindGroupEntry<'_> {
-    wgpu::BindGroupEntry {
-        binding,
-        resource: wgpu::BindingResource::Buffer(buffer.as_entire_buffer_binding()),
-    }
 }
