@@ -1,22 +1,29 @@
 //! The few binary32 operations that factors go through before they become integers.
 //!
-//! Comparisons and bit patterns are enough for them; a NaN is not greater than anything.
+//! Comparisons are made on bit patterns, which order as numbers do where they are not negative. A NaN is
+//! not greater than anything. Float comparisons would not do: compilers may turn them into maximum
+//! instructions, and AArch64's `fmaxnm` returns a signalling NaN where a comparison takes the other number.
+
+/// The bit pattern of infinity. Greater patterns are NaNs or have a sign.
+const INFINITY: u32 = f32::INFINITY.to_bits();
 
 /// Whether a patch with these outer factors is culled: one is zero, negative or NaN.
 /// Positive denormals are greater than zero.
 pub(crate) fn is_culled(mut outer: impl Iterator<Item = f32>) -> bool {
-    !outer.all(|factor| factor > 0.0)
+    !outer.all(|factor| is_greater(factor, 0.0))
 }
 
-/// Clamps to `low..=high`; NaN gives `low`.
+/// Whether `x > low`, which is not negative.
+pub(crate) fn is_greater(x: f32, low: f32) -> bool {
+    let bits = x.to_bits();
+    low.to_bits() < bits && bits <= INFINITY
+}
+
+/// Clamps to `low..=high`, both not negative; NaN gives `low`.
 pub(crate) fn clamp(x: f32, (low, high): (f32, f32)) -> f32 {
-    if x >= high {
-        high
-    } else if x > low {
-        x
-    } else {
-        low
-    }
+    let bits = x.to_bits();
+    let bits = if bits > INFINITY { 0 } else { bits };
+    f32::from_bits(bits.max(low.to_bits()).min(high.to_bits()))
 }
 
 /// The ceiling of a number of at least 1, infinity included.
@@ -67,7 +74,9 @@ mod tests {
 
     #[test]
     fn clamping_takes_nan_to_the_low_end() {
-        for bits in [0x7FC0_0000, 0xFFC0_0000, 0x7F80_0001, 0xFF80_0000, 0x8000_0000, 1] {
+        // Hidden from the compiler, which would compute the results itself.
+        let low_ones = [0x7FC0_0000, 0xFFC0_0000, 0x7F80_0001, 0xFF80_0000, 0x8000_0000, 1];
+        for bits in core::hint::black_box(low_ones) {
             let clamped = clamp(f32::from_bits(bits), (2.0, 64.0));
             assert_eq!(clamped.to_bits(), 2.0f32.to_bits(), "binary32 {bits:#010x}");
         }

@@ -1,6 +1,6 @@
 //! Factor processing: from raw binary32 factors to contexts (spec section 3).
 
-use crate::d3d_float::{ceil, clamp, is_culled};
+use crate::d3d_float::{ceil, clamp, is_culled, is_greater};
 use crate::factor_context::FactorContext;
 use crate::fixed_point::FixedFactor;
 use crate::patch_factors::{IsolineFactors, PatchFactors};
@@ -113,7 +113,7 @@ fn inside_low(partitioning: Partitioning, mut all: impl Iterator<Item = f32>) ->
     const ONE_PLUS_2_POW_MINUS_17: f32 = f32::from_bits(0x3F80_0040);
     const ONE_PLUS_2_POW_MINUS_16: f32 = f32::from_bits(0x3F80_0080);
     let needs_picture_frame = partitioning == Partitioning::FractionalOdd
-        && all.any(|factor| factor > ONE_PLUS_2_POW_MINUS_17);
+        && all.any(|factor| is_greater(factor, ONE_PLUS_2_POW_MINUS_17));
     if needs_picture_frame { ONE_PLUS_2_POW_MINUS_16 } else { partitioning.range().0 }
 }
 

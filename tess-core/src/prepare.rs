@@ -185,13 +185,7 @@ fn clean(factor: f32) -> f32 {
 
 /// Scales are at least 0, which NaN counts as, and at most 1.
 fn clean_scale(scale: f32) -> f32 {
-    if scale > 1.0 {
-        1.0
-    } else if scale >= 0.0 {
-        scale
-    } else {
-        0.0
-    }
+    clamp(scale, (0.0, 1.0))
 }
 
 fn round_outer(partitioning: Partitioning, factor: f32) -> f32 {

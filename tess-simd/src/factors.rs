@@ -79,17 +79,32 @@ fn alive<const OUTER: usize>(raw: &Column<f32>) -> Lanes {
     let mut alive = [1; LANES];
     for factors in raw[..OUTER].as_chunks::<LANES>().0 {
         for (alive, &factor) in alive.iter_mut().zip(factors) {
-            *alive &= u32::from(factor > 0.0);
+            *alive &= u32::from(is_greater(factor, 0.0));
         }
     }
     alive
 }
 
-/// Steps 2 and 5; NaN gives `low`.
+/// The bit pattern of infinity. As signed integers, NaN patterns are greater and patterns with a sign
+/// are negative.
+///
+/// Factors are compared as integers for the reason that `tess-core` gives (`d3d_float`); signed
+/// ones, as every level has instructions for them.
+const INFINITY: i32 = f32::INFINITY.to_bits().cast_signed();
+
+/// Whether `x > low`, which is not negative.
+#[inline(always)]
+fn is_greater(x: f32, low: f32) -> bool {
+    let bits = x.to_bits().cast_signed();
+    (bits > low.to_bits().cast_signed()) & (bits <= INFINITY)
+}
+
+/// Steps 2 and 5, for `0.0 <= low <= high`; NaN gives `low`.
 #[inline(always)]
 fn clamp(x: f32, low: f32, high: f32) -> f32 {
-    let from_below = if x > low { x } else { low };
-    if from_below < high { from_below } else { high }
+    let [bits, low, high] = [x, low, high].map(|number| number.to_bits().cast_signed());
+    let bits = if bits > INFINITY { 0 } else { bits };
+    f32::from_bits(bits.max(low).min(high).cast_unsigned())
 }
 
 /// Step 4: the lower bound of the inside factors.
@@ -101,7 +116,7 @@ fn inside_low<const ALL: usize>(partitioning: Partitioning, raw: &Column<f32>) -
     if partitioning == Partitioning::FractionalOdd {
         for factors in raw[..ALL].as_chunks::<LANES>().0 {
             for (low, &factor) in low.iter_mut().zip(factors) {
-                let above = factor > ONE_PLUS_2_POW_MINUS_17;
+                let above = is_greater(factor, ONE_PLUS_2_POW_MINUS_17);
                 *low = if above { ONE_PLUS_2_POW_MINUS_16 } else { *low };
             }
         }
