@@ -1,9 +1,11 @@
 //! What continuous integration runs, in the order of what fails fastest.
 
 use crate::command::{self, cargo};
+use crate::ports::{self, Extent};
 use crate::{fuzz, levels, publish, test};
 
-/// Formatting, lints, documentation, features, the fuzz targets, packages, then every test.
+/// Formatting, lints, documentation, features, the fuzz targets, other
+/// compilers and processors, packages, then every test.
 pub(crate) fn run() -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
         return Err("continuous integration on x86-64 needs a processor with AVX2".into());
@@ -20,9 +22,7 @@ pub(crate) fn run() -> Result<(), String> {
     }
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
     fuzz::run(fuzz::BRIEFLY)?;
-    println!(
-        "\nNOT CHECKED: other compilers and processors; `cargo xtask ports brief` checks them"
-    );
+    ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;
     publish::dry_run()?;
     publish::deny_if_installed()?;
     test::run()

@@ -24,8 +24,8 @@ usage: cargo xtask <command>
 
   test    set up what the tests need, then run every test of the workspace
   ci      what continuous integration runs: formatting, lints, documentation, features,
-          the fuzz targets' oracles on their seeds, `fuzz`, `publish`,
-          `deny` if cargo-deny is installed, then `test`
+          the fuzz targets' oracles on their seeds, `fuzz`, `ports brief` (msrv, s390x, wasm,
+          miri), `publish`, `deny` if cargo-deny is installed, then `test`
   setup   only set up: a Vulkan driver, C and C++ compilers, Verilator
   ports [brief] [NAME...]
           check other compilers, processors and hosts: msrv, i686, aarch64, s390x, wasm,

@@ -32,7 +32,7 @@ impl Destination {
         let is_descriptor = ["/dev/fd", "/proc"].iter().any(|folder| path.starts_with(folder));
         match path.metadata() {
             Ok(found) if found.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
-            Ok(found) if is_descriptor || path == "/dev/stderr" || !found.is_file() => {
+            Ok(found) if is_descriptor || path == Path::new("/dev/stderr") || !found.is_file() => {
                 Ok(Self::Stream(path.to_owned()))
             }
             Ok(_) => {
