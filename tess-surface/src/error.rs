@@ -43,7 +43,8 @@ pub enum Fault {
     NoArea,
     /// A weight is not greater than zero.
     Weight,
-    /// An edge of this face already belongs to two other faces.
+    /// An edge of this face already belongs to two other faces, and not as many of all its faces run
+    /// one way along it as the other.
     NonManifold {
         /// The numbers of the other faces.
         others: [usize; 2],

@@ -1,13 +1,13 @@
 //! Patches that know their neighbours.
 
 use crate::bezier::BezierPatch;
-use crate::curve::Edge;
+use crate::curve::{Direction, Edge};
 use crate::error::{Fault, MeshError};
 use crate::math::{is_in_range, unit};
 use crate::mesh::{Face, PolygonMesh};
 use crate::patch::{Patch, Surface};
 use crate::pn::{PnCorner, PnQuad, PnTriangle, edge_points};
-use crate::sides::{Sides, edge_corners};
+use crate::sides::{Sides, edge_corners, runs_onwards};
 use crate::topology::{HalfEdge, Topology, check_count, hash, weld};
 use alloc::vec::Vec;
 use glam::Vec3;
@@ -42,7 +42,8 @@ impl Model {
     /// coordinates, whatever their indices.
     ///
     /// # Errors
-    /// What [`PolygonMesh::check`] finds, and edges of more than two faces.
+    /// What [`PolygonMesh::check`] finds, and edges of more than two faces, unless as many of them
+    /// run one way along the edge as the other ([`Model::crowded_edges`]).
     pub fn polygons(mut mesh: PolygonMesh, style: Style) -> Result<Self, MeshError> {
         mesh.check()?;
         mesh.normalize();
@@ -58,7 +59,11 @@ impl Model {
             (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
         });
         let hashes = edges.map(|half| (key(half), half.slot())).collect();
-        let topology = Topology::pair(mesh.faces.len(), hashes, |_, _| true)?;
+        let is_forward = |half: HalfEdge| {
+            let onwards = runs_onwards(&mesh.faces[half.patch].positions, half.edge);
+            ends(half).is_sorted() == onwards
+        };
+        let topology = Topology::pair(mesh.faces.len(), hashes, |_, _| true, is_forward)?;
         Ok(Self { source: Source::Polygons { mesh, vertices, normals, style }, topology })
     }
 
@@ -68,7 +73,8 @@ impl Model {
     /// # Errors
     /// The first patch with a control point that is not finite or too large to be evaluated
     /// ([`Fault::TooLarge`]), with a weight that is not greater than zero, with no area, or with an
-    /// edge of two other patches; no patch, or 2^30. A boundary collapsed to a point is no error, and
+    /// edge of two other patches, unless as many run one way along it as the other
+    /// ([`Model::crowded_edges`]); no patch, or 2^30. A boundary collapsed to a point is no error, and
     /// no edge.
     pub fn bezier(patches: Vec<BezierPatch>) -> Result<Self, MeshError> {
         check_count(patches.len())?;
@@ -83,9 +89,13 @@ impl Model {
                 }
             }
         }
-        let canonical = |half: HalfEdge| Edge::new(patches[half.patch].boundary()[half.edge]).curve;
-        let same = |a, b| canonical(a).key() == canonical(b).key();
-        let topology = Topology::pair(patches.len(), hashes, same)?;
+        let edge = |half: HalfEdge| Edge::new(patches[half.patch].boundary()[half.edge]);
+        let same = |a, b| edge(a).curve.key() == edge(b).curve.key();
+        let is_forward = |half: HalfEdge| {
+            let onwards = runs_onwards(&Sides::Quad([(); 4]), half.edge);
+            (edge(half).direction == Direction::Along) == onwards
+        };
+        let topology = Topology::pair(patches.len(), hashes, same, is_forward)?;
         Ok(Self { source: Source::Bezier(patches), topology })
     }
 
@@ -104,6 +114,14 @@ impl Model {
     #[must_use]
     pub fn twin(&self, half: HalfEdge) -> Option<HalfEdge> {
         self.topology.twin(half)
+    }
+
+    /// How many edges have more than two patches, as where two cubes stand edge to edge. As many run
+    /// one way along such an edge as the other; each is the neighbour of one that runs the other way.
+    /// So the surfaces that touch there have no cracks, but one may be divided otherwise than the other.
+    #[must_use]
+    pub const fn crowded_edges(&self) -> usize {
+        self.topology.crowded()
     }
 
     /// The shape of patch `number`, triangle or quad, without its surface.

@@ -61,6 +61,12 @@ pub const fn edge_corners<T>(sides: &Sides<T>) -> &'static [[usize; 2]] {
     }
 }
 
+/// Whether an edge's running coordinate grows from a corner to the next, not to the one before.
+pub(crate) fn runs_onwards<T>(sides: &Sides<T>, edge: usize) -> bool {
+    let [start, end] = edge_corners(sides)[edge];
+    end == (start + 1) % sides.as_slice().len()
+}
+
 /// The domain coordinates (u, v) of the corners.
 #[must_use]
 pub const fn corner_coordinates<T>(sides: &Sides<T>) -> Sides<[f32; 2]> {

@@ -19,6 +19,8 @@ pub struct HalfEdge {
 pub(crate) struct Topology {
     /// Indexed by slot; `ALONE` for edges of the model's border and collapsed edges.
     twins: Vec<u32>,
+    /// How many edges have more than two sides.
+    crowded: usize,
 }
 
 const ALONE: u32 = u32::MAX;
@@ -49,33 +51,63 @@ impl HalfEdge {
 
 impl Topology {
     /// Pairs the half-edges that are equal. `hashes` has each one's hash and slot; `same` decides
-    /// about those with equal hashes.
+    /// about those with equal hashes, and `is_forward` which way one runs along its edge.
+    ///
+    /// More than two are pairs if as many run one way as the other: sheets that touch, as where two
+    /// cubes stand edge to edge. Every sheet keeps its sides together, whichever they are (A. Guéziec
+    /// et al., *Cutting and Stitching*, IEEE TVCG 7(2), 2001).
     pub(crate) fn pair(
         patches: usize,
         mut hashes: Vec<(u64, u32)>,
         same: impl Fn(HalfEdge, HalfEdge) -> bool,
+        is_forward: impl Fn(HalfEdge) -> bool,
     ) -> Result<Self, MeshError> {
         hashes.sort_unstable();
-        let mut twins = vec![ALONE; patches * 4];
+        let mut topology = Self { twins: vec![ALONE; patches * 4], crowded: 0 };
+        let mut sides: Vec<HalfEdge> = Vec::new();
+        let mut others: Vec<HalfEdge> = Vec::new();
         for run in hashes.chunk_by(|a, b| a.0 == b.0) {
-            for (i, &(_, slot)) in run.iter().enumerate() {
-                let half = HalfEdge::of_slot(slot);
-                let before = run[..i].iter().map(|&(_, slot)| HalfEdge::of_slot(slot));
-                let mut equal = before.filter(|&other| same(half, other));
-                match (equal.next(), equal.next()) {
-                    (None, _) => {}
-                    (Some(twin), None) => {
-                        twins[half.slot() as usize] = twin.slot();
-                        twins[twin.slot() as usize] = half.slot();
-                    }
-                    (Some(a), Some(b)) => {
-                        let fault = Fault::NonManifold { others: [a.patch, b.patch] };
-                        return Err(MeshError::face(half.patch, fault));
-                    }
-                }
+            others.extend(run.iter().map(|&(_, slot)| HalfEdge::of_slot(slot)));
+            while let Some(&first) = others.first() {
+                sides.extend(others.extract_if(.., |&mut half| half == first || same(half, first)));
+                topology.join(&sides, &is_forward)?;
+                sides.clear();
             }
         }
-        Ok(Self { twins })
+        Ok(topology)
+    }
+
+    /// Pairs all sides of one edge.
+    fn join(
+        &mut self,
+        sides: &[HalfEdge],
+        is_forward: impl Fn(HalfEdge) -> bool,
+    ) -> Result<(), MeshError> {
+        let [first, second, third, ..] = *sides else {
+            if let [one, other] = *sides {
+                self.connect(one, other);
+            }
+            return Ok(());
+        };
+        let (forward, backward): (Vec<_>, Vec<_>) =
+            sides.iter().partition(|&&half| is_forward(half));
+        if forward.len() != backward.len() {
+            let fault = Fault::NonManifold { others: [first.patch, second.patch] };
+            return Err(MeshError::face(third.patch, fault));
+        }
+        self.crowded += 1;
+        forward.into_iter().zip(backward).for_each(|(one, other)| self.connect(one, other));
+        Ok(())
+    }
+
+    fn connect(&mut self, one: HalfEdge, other: HalfEdge) {
+        self.twins[one.slot() as usize] = other.slot();
+        self.twins[other.slot() as usize] = one.slot();
+    }
+
+    /// How many edges have more than two sides.
+    pub(crate) const fn crowded(&self) -> usize {
+        self.crowded
     }
 
     /// The other side of an edge, if there is one.

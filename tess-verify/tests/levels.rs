@@ -68,6 +68,13 @@ fn shards_are_disjoint_and_complete() {
         }
     }
     assert!(owners.iter().all(|&owner| owner == 1), "every item has one owner");
+    for part in 0..parts {
+        let shard = Shard { part, of: parts };
+        let mine: Vec<u64> = (0..1000).filter(|&i| shard.has(i)).collect();
+        let numbered: Option<Vec<u64>> = (0..shard.items(1000)).map(|n| shard.item(n)).collect();
+        assert_eq!(numbered, Some(mine), "part {part}, item by item");
+    }
+    assert_eq!(Shard { part: 9, of: 20 }.items(9), 0, "no item for this part");
 }
 
 #[test]

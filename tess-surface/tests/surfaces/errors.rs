@@ -47,6 +47,37 @@ fn polygons() {
     let three = mesh(&points, &[&[0, 1, 3], &[1, 4, 5], &[3, 2, 1], &[3, 0, 5], &[0, 3, 2]]);
     let fault = Fault::NonManifold { others: [0, 3] };
     assert_eq!(refused(three), at(4, fault), "the third face at an edge");
+    let four = mesh(&points, &[&[0, 1, 3], &[3, 0, 5], &[0, 3, 2], &[3, 0, 1], &[1, 2, 5]]);
+    let fault = Fault::NonManifold { others: [0, 1] };
+    assert_eq!(refused(four), at(2, fault), "three one way, one the other");
+}
+
+/// Two cubes that stand edge to edge: the four faces there are neighbours in pairs.
+#[test]
+fn surfaces_that_touch() {
+    let mut mesh = cube();
+    assert_eq!(Model::polygons(mesh.clone(), Style::Flat).map(|one| one.crowded_edges()), Ok(0));
+    let shift = Vec3::new(extent(&mesh).x, extent(&mesh).y, 0.0);
+    let beside: Vec<Vec3> = mesh.positions.iter().map(|&position| position + shift).collect();
+    let first = u32::try_from(beside.len()).expect("a cube");
+    mesh.positions.extend(beside);
+    let moved = mesh.faces.clone().into_iter().map(|mut face| {
+        face.positions = face.positions.map(|position| position + first);
+        face
+    });
+    mesh.faces.extend(moved);
+    let model = Model::polygons(mesh, Style::Flat).expect("as many one way as the other");
+    assert_eq!((model.len(), model.crowded_edges()), (12, 1), "faces, edges where cubes touch");
+    for half in (0..12).flat_map(|patch| (0..4).map(move |edge| HalfEdge { patch, edge })) {
+        let twin = model.twin(half).expect("two cubes have no border");
+        assert_eq!(model.twin(twin), Some(half), "{half:?} and {twin:?} are neighbours");
+    }
+}
+
+/// The size of a mesh along each axis.
+fn extent(mesh: &PolygonMesh) -> Vec3 {
+    let corners = |join: fn(Vec3, Vec3) -> Vec3| mesh.positions.iter().copied().reduce(join);
+    corners(Vec3::max).zip(corners(Vec3::min)).map(|(high, low)| high - low).expect("positions")
 }
 
 #[test]

@@ -71,8 +71,8 @@ fn pipes_are_streamed() {
     let folder = directory("pipes_are_streamed");
     for (name, words) in [("p.txt", PATCH), ("p.glb", "mesh --factor 1")] {
         let script = format!(
-            "mkfifo {name}; cat {name} > got & $TESS {words} -o {name} && wait && test -p {name} && \
-             $TESS {words} -o file-{name} && cmp got file-{name}"
+            "mkfifo {name}; cat {name} > got & $TESS {words} -o {name} && test -p {name} && wait && \
+             $TESS {words} -o file-{name} && cmp got file-{name} || {{ kill $!; exit 1; }}"
         );
         done(&shell(&script, &folder));
     }

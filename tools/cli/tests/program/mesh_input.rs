@@ -127,9 +127,8 @@ fn collapsed_faces_are_left_out() {
 }
 
 /// The poles of the teapot are triangles with two corners in one place; at factor 1 the end of the
-/// spout is on one line.
+/// spout is on one line, and the handle is folded flat at one of its joints.
 #[test]
-#[ignore = "known to fail: the OBJ of the teapot, whose faces collapse at the poles, is refused as not manifold"]
 fn the_teapot_reads_back() {
     let folder = directory("mesh_teapot_back");
     let (teapot, again) = (folder.join("teapot.obj"), folder.join("again.obj"));
@@ -148,7 +147,9 @@ fn the_teapot_reads_back() {
         let dropped: u64 = counts_of_notes.filter_map(|count| count.parse::<u64>().ok()).sum();
         assert!(dropped > 0, "{options}: a note of the poles: {}", second.stderr);
         assert_eq!(counts(&first)[2], counts(&second)[0] + dropped, "{options}: triangles");
-        if options != "--factor 1" {
+        let folded = second.stderr.contains("surfaces touch at edges: each of 1 has more than two");
+        assert_eq!(folded, options == "--factor 1", "{options}: {}", second.stderr);
+        if !folded {
             assert_eq!(open_edges(&teapot), open_edges(&again), "{options}: open edges");
         }
     }
@@ -188,7 +189,6 @@ fn displaced(cube: &Path, image: &Path, options: &str) -> Run {
 }
 
 #[test]
-#[ignore = "known to fail: the size and the limit are not named where the decoder refuses first"]
 fn images_are_no_larger_than_the_limit() {
     let folder = directory("mesh_png");
     let cube = write(&folder, "cube.obj", CUBE);

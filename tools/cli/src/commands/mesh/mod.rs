@@ -34,7 +34,8 @@ use view::{View, ViewArgs};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Neighbouring patches get the same factor on their common edge, and the same points to the bit, so
-no crack opens. Faces with more than four corners are refused, as are edges of more than two faces.
+no crack opens. Faces with more than four corners are refused, as are edges of more than two faces,
+unless surfaces touch there: as many faces run one way along the edge as the other.
 Faces without area are left out, and a note says how many: where corners coincide, as at the pole of
 a sphere, the neighbours meet without them; where corners lie on one line, cracks may open. Points
 and lines of OBJ files are left out too. Buffers of glTF must be files in the model's folder or below

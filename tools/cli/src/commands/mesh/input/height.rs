@@ -7,8 +7,11 @@ use std::io::{BufRead, BufReader, Seek};
 use std::path::Path;
 use tess_surface::HeightMap;
 
-/// Most bytes that decoding takes beside the pixels: rows, tables and text of the file.
+/// Most bytes that decoding takes beside the pixels and a row of them: tables and text of the file.
 const MOST_BESIDE: usize = 16 << 20;
+
+/// Most bytes of a pixel: four channels of 16 bits.
+const MOST_OF_PIXEL: usize = 8;
 
 /// A grey image, row by row from the top.
 #[derive(Debug)]
@@ -36,14 +39,17 @@ pub(crate) fn load(path: &Path, most: u64) -> Result<HeightMap, Failure> {
 pub(crate) fn decode(file: impl BufRead + Seek, most: u64) -> Result<Heights, String> {
     let mut decoder = Decoder::new_with_limits(file, Limits { bytes: MOST_BESIDE });
     decoder.set_transformations(Transformations::EXPAND);
-    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
-    let (width, height) = reader.info().size();
+    let header = decoder.read_header_info().map_err(|error| error.to_string())?;
+    let (width, height) = header.size();
     if u64::from(width) * u64::from(height) > most {
         return Err(format!(
             "{width} x {height} are more than {most} pixels; scale the image down, or raise \
              --max-pixels"
         ));
     }
+    let row = (width as usize).saturating_mul(MOST_OF_PIXEL);
+    decoder.set_limits(Limits { bytes: MOST_BESIDE.saturating_add(row) });
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let size = reader.output_buffer_size().ok_or("the image does not fit into memory")?;
     let mut bytes = vec![0; size];
     let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;

@@ -134,7 +134,14 @@ fn polygons(mut mesh: PolygonMesh, places: &Places, style: Option<Style>) -> Res
     let place = |face| places.of(collapsed.original(face));
     let model = Model::polygons(mesh, style.unwrap_or(Style::PointNormal));
     let model = model.map_err(|error| refused(error, place))?;
-    Ok(Input { model, up: Up::Y, notes: collapsed.notes() })
+    let mut notes = collapsed.notes();
+    if model.crowded_edges() > 0 {
+        notes.push(format!(
+            "surfaces touch at edges: each of {} has more than two faces, which are neighbours in pairs",
+            model.crowded_edges()
+        ));
+    }
+    Ok(Input { model, up: Up::Y, notes })
 }
 
 /// The message about a model whose faces are named by `place`, such as `line 12`.
@@ -142,7 +149,7 @@ fn refused(error: MeshError, place: impl Fn(usize) -> String) -> String {
     match error {
         MeshError::Face { face, fault: Fault::NonManifold { others: [a, b] } } => format!(
             "{}: an edge of this face belongs to two other faces already ({} and {}); \
-             a mesh must be manifold",
+             a mesh must be manifold, or as many faces must run one way along an edge as the other",
             place(face),
             place(a),
             place(b)
