@@ -127,7 +127,7 @@ fn expand_points(
     let range = status.ranges[job.chunk];
     let number = workgroup.x + workgroup.y * workgroups.x;
     let tile = tile_of(number, range.points_begin, range.points_end, 0u);
-    if tile.end == 0u {
+    if tile.end == 0u || status.overflow != 0u {
         return;
     }
     let out = tile.base - job.window_first * TILE;

@@ -180,7 +180,7 @@ fn expand_primitives(
     let number = workgroup.x + workgroup.y * workgroups.x;
     let tile = tile_of(
         number, range.primitives_begin, range.primitives_end, job.primitive_tiles_at);
-    if tile.end == 0u {
+    if tile.end == 0u || status.overflow != 0u {
         return;
     }
     let out = tile.base - job.window_first * TILE;

@@ -3,5 +3,5 @@
 
 fn patch_offset(patch_index: u32) -> vec2<u32> {
     return offsets[patch_index] + offsets[job.blocks_at + (patch_index >> BLOCK_BITS)]
-        + offsets[job.groups_at + (patch_index >> GROUP_BITS)];
+        + offsets[job.sections_at + (patch_index >> SECTION_BITS)];
 }

@@ -1,7 +1,7 @@
 // needs: prefix_sum, state
 // The upper levels of the prefix sums over all patches. A patch's place in the output is the sum
 // of three numbers: its offset within its block (the stage `factors` wrote it), the block's
-// offset within its group, and the group's offset in the output.
+// offset within its section, and the section's offset in the output.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read_write> offsets: array<vec2<u32>>;
@@ -10,16 +10,16 @@ fn block_count() -> u32 {
     return (job.patches + BLOCK - 1u) / BLOCK;
 }
 
-// One workgroup per group: sums of blocks become offsets within the group.
-// No overflow: the 65536 patches of a group have at most 2^29 triangles.
+// One workgroup per section: sums of blocks become offsets within the section.
+// No overflow: the 65536 patches of a section have at most 2^29 triangles.
 @compute @workgroup_size(SUMMED)
 fn scan(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let group = workgroup.x + workgroup.y * workgroups.x;
-    let block = group * GROUP_BLOCKS + thread;
+    let section = workgroup.x + workgroup.y * workgroups.x;
+    let block = section * SECTION_BLOCKS + thread;
     var own = vec2<u32>(0u, 0u);
     if block < block_count() {
         own = offsets[job.blocks_at + block];
@@ -28,8 +28,8 @@ fn scan(
     if block < block_count() {
         offsets[job.blocks_at + block] = sums.before;
     }
-    // The last row of workgroups can have more than there are groups.
+    // The last row of workgroups can have more than there are sections.
     if thread == 0u && block < block_count() {
-        offsets[job.groups_at + group] = sums.all;
+        offsets[job.sections_at + section] = sums.all;
     }
 }

@@ -49,7 +49,7 @@ struct Job {
     stride: u32,
     blocks_at: u32,
     alike_at: u32,
-    groups_at: u32,
+    sections_at: u32,
     primitive_tiles_at: u32,
     window_first: u32,
     window_tiles: u32,

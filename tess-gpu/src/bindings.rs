@@ -14,16 +14,20 @@ pub enum Resource {
     /// Two words for each factor ([`crate::layout::pack_context`]): in each chunk the first factor
     /// of all patches, then the second of all patches, and so on.
     Contexts,
-    /// Where the output of patches, blocks and groups begins: [`crate::Plan::offset_entries`].
+    /// Where the output of patches, blocks and sections begins: [`crate::Plan::offset_entries`].
     Offsets,
-    /// A [`crate::layout::Status`], then a [`crate::layout::Range`] for each chunk. All zeros before
-    /// the batch runs.
+    /// A [`crate::layout::Status`], then a [`crate::layout::Range`] for each chunk.
     Status,
     /// The number of the patch that each tile of the output begins with.
     Tiles,
     /// A [`crate::layout::DrawIndexed`], then the sizes of indirect dispatches. Needs the usage
     /// `INDIRECT`.
     Arguments,
+    /// For each group the number of its first patch, ascending and at most the batch's number of
+    /// patches. A group ends where the next one begins, the last one at the end of the batch.
+    Groups,
+    /// A [`crate::layout::DrawIndexed`] for each group. Needs the usage `INDIRECT`.
+    Draws,
     /// The caller's points: [`crate::PointFormat`].
     Points,
     /// The caller's indices: [`crate::IndexType`], [`crate::Numbering`].
@@ -32,7 +36,7 @@ pub enum Resource {
 
 impl Resource {
     /// Every resource.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 13] = [
         Self::Job,
         Self::Factors,
         Self::Tables,
@@ -42,6 +46,8 @@ impl Resource {
         Self::Status,
         Self::Tiles,
         Self::Arguments,
+        Self::Groups,
+        Self::Draws,
         Self::Points,
         Self::Indices,
     ];

@@ -21,8 +21,8 @@ pub struct Job {
     /// First entry of the offsets that holds the topology which all patches of a block have, 0 if
     /// they differ.
     pub alike_at: u32,
-    /// First entry of the offsets that belongs to a group of blocks.
-    pub groups_at: u32,
+    /// First entry of the offsets that belongs to a section of blocks.
+    pub sections_at: u32,
     /// First entry of the table of tiles that belongs to the primitives.
     pub primitive_tiles_at: u32,
     /// First tile of the window that is bound.
@@ -114,7 +114,7 @@ pub struct DrawIndexed {
     pub index_count: u32,
     /// Always 1.
     pub instance_count: u32,
-    /// Always 0.
+    /// First index of the group; 0 for a whole batch.
     pub first_index: u32,
     /// Always 0.
     pub base_vertex: u32,

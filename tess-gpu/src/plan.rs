@@ -5,10 +5,11 @@
 //! and its output into *windows* for the same reason. Within a window output is made in *tiles*.
 
 use crate::bindings::Resource;
-use crate::layout::{Range, Status, Topology};
+use crate::layout::{DrawIndexed, Range, Status, Topology};
 use crate::setup::Setup;
 use crate::sizes::{
-    ALIGNMENT, BLOCK, Capacity, DISPATCHES_AT, GROUP, Limits, MAX_CHUNK, SUMMED, Span, TILE,
+    ALIGNMENT, BLOCK, Capacity, DISPATCHES_AT, Limits, MAX_CHUNK, SECTION, SMALL_PATCHES,
+    SMALL_TILES, SUMMED, Span, TILE,
 };
 use crate::tables;
 
@@ -25,6 +26,7 @@ pub use dispatches::{Dispatch, Workgroups};
 pub struct Plan {
     setup: Setup,
     patches: u32,
+    groups: u32,
     capacity: Capacity,
     chunk_patches: u32,
     point_window_tiles: u32,
@@ -38,17 +40,41 @@ impl Plan {
     pub fn new(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         let context_bytes = 8 * u64::from(setup.factors());
         let bound = limits.storage_binding.max(4 << 20);
-        let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / GROUP * GROUP;
+        let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / SECTION * SECTION;
         let primitive_bytes = u64::from(setup.primitive_bytes());
         Self {
             setup,
             patches,
+            groups: 0,
             capacity,
             chunk_patches: patches.max(1).checked_next_multiple_of(BLOCK).unwrap_or(most).min(most),
             point_window_tiles: to_u32(bound / (8 * u64::from(TILE))),
             primitive_window_tiles: to_u32(bound / (primitive_bytes * u64::from(TILE))),
             max_workgroups: limits.workgroups.max(1),
         }
+    }
+
+    /// The same batch in so many groups of patches, each with draw arguments of its own
+    /// ([`Resource::Groups`], [`Resource::Draws`]).
+    #[must_use]
+    pub const fn with_groups(mut self, groups: u32) -> Self {
+        self.groups = groups;
+        self
+    }
+
+    /// How many groups the patches are in; 0 if nobody asked for groups.
+    #[must_use]
+    pub const fn groups(&self) -> u32 {
+        self.groups
+    }
+
+    /// Whether one workgroup does everything in front of the expansions, because there are few patches
+    /// and little room for output.
+    #[must_use]
+    pub fn is_small(&self) -> bool {
+        let tiles = |elements: u32| elements.div_ceil(TILE);
+        let room = tiles(self.capacity.points) + tiles(self.capacity.primitives);
+        (1..=SMALL_PATCHES).contains(&self.patches) && room <= SMALL_TILES
     }
 
     /// Patches of the batch.
@@ -94,6 +120,8 @@ impl Plan {
                 4 * (tiles(self.capacity.points) + tiles(self.capacity.primitives))
             }
             Resource::Arguments => self.arguments_at(self.job_count()),
+            Resource::Groups => size::<u32>() * u64::from(self.groups),
+            Resource::Draws => size::<DrawIndexed>() * u64::from(self.groups),
             Resource::Points => 8 * u64::from(self.capacity.points),
             Resource::Indices => {
                 let each = u64::from(self.setup.primitive_bytes());
@@ -103,12 +131,12 @@ impl Plan {
     }
 
     /// The entries of the buffer of offsets whose sum is where a patch's output begins: its own,
-    /// its block's and its group's. Each is a number of points and one of primitives.
+    /// its block's and its section's. Each is a number of points and one of primitives.
     #[must_use]
     pub fn offset_entries(&self, patch: u32) -> [u64; 3] {
         let (chunk, in_chunk) = (patch / self.chunk_patches, patch % self.chunk_patches);
         let first = self.offsets(chunk).offset / 8;
-        [in_chunk, self.blocks_at() + in_chunk / BLOCK, self.groups_at() + in_chunk / GROUP]
+        [in_chunk, self.blocks_at() + in_chunk / BLOCK, self.sections_at() + in_chunk / SECTION]
             .map(|entry| first + u64::from(entry))
     }
 
@@ -135,8 +163,8 @@ impl Plan {
         self.blocks_at() + self.chunk_patches / BLOCK
     }
 
-    /// Where in a chunk's offsets those of the groups begin.
-    const fn groups_at(&self) -> u32 {
+    /// Where in a chunk's offsets those of the sections begin.
+    const fn sections_at(&self) -> u32 {
         self.alike_at() + self.chunk_patches / BLOCK
     }
 
@@ -169,8 +197,8 @@ impl Plan {
 
     /// The bytes of a chunk's offsets.
     fn offsets(&self, chunk: u32) -> Span {
-        let groups = self.chunk_patches.div_ceil(BLOCK).div_ceil(SUMMED);
-        region(chunk, 8 * u64::from(self.groups_at() + groups))
+        let sections = self.chunk_patches.div_ceil(BLOCK).div_ceil(SUMMED);
+        region(chunk, 8 * u64::from(self.sections_at() + sections))
     }
 
     /// The bytes of a window of the points.

@@ -15,28 +15,47 @@ pub use pull::Pull;
 /// One of the compute shaders that a batch runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
+    /// The next four in one workgroup, for a small batch.
+    Small,
     /// Raw factors to topologies, contexts, counts and offsets within blocks of 256 patches.
     Factors,
-    /// Offsets of blocks within groups of 256 blocks.
+    /// Offsets of blocks within sections of 256 blocks.
     Scan,
-    /// Offsets of groups in the output, and what the batch needs so far. After the last chunk:
+    /// Offsets of sections in the output, and what the batch needs so far. After the last chunk:
     /// whether the output fits, draw arguments and dispatch sizes.
     Totals,
     /// The patch that each tile of the output begins with.
     Partition,
+    /// The draw arguments of each group of patches.
+    Groups,
     /// Tiles of points.
     ExpandPoints,
     /// Tiles of indices.
     ExpandPrimitives,
 }
 
+/// The bindings of [`Stage::Small`]; the first six are those of [`Stage::Factors`].
+const FRONT: [Binding; 9] = [
+    Binding(Resource::Job, Access::Read),
+    Binding(Resource::Factors, Access::Read),
+    Binding(Resource::Tables, Access::Read),
+    Binding(Resource::Topologies, Access::ReadWrite),
+    Binding(Resource::Contexts, Access::ReadWrite),
+    Binding(Resource::Offsets, Access::ReadWrite),
+    Binding(Resource::Status, Access::ReadWrite),
+    Binding(Resource::Tiles, Access::ReadWrite),
+    Binding(Resource::Arguments, Access::ReadWrite),
+];
+
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
+        Self::Small,
         Self::Factors,
         Self::Scan,
         Self::Totals,
         Self::Partition,
+        Self::Groups,
         Self::ExpandPoints,
         Self::ExpandPrimitives,
     ];
@@ -45,10 +64,12 @@ impl Stage {
     #[must_use]
     pub const fn entry_point(self) -> &'static str {
         match self {
+            Self::Small => "small",
             Self::Factors => "factors",
             Self::Scan => "scan",
             Self::Totals => "totals",
             Self::Partition => "partition_tiles",
+            Self::Groups => "groups",
             Self::ExpandPoints => "expand_points",
             Self::ExpandPrimitives => "expand_primitives",
         }
@@ -59,18 +80,12 @@ impl Stage {
     pub const fn bindings(self) -> &'static [Binding] {
         use Access::{Read, ReadWrite};
         use Resource::{
-            Arguments, Contexts, Factors, Indices, Job, Offsets, Points, Status, Tables, Tiles,
-            Topologies,
+            Arguments, Contexts, Draws, Groups, Indices, Job, Offsets, Points, Status, Tables,
+            Tiles, Topologies,
         };
         match self {
-            Self::Factors => &[
-                Binding(Job, Read),
-                Binding(Factors, Read),
-                Binding(Tables, Read),
-                Binding(Topologies, ReadWrite),
-                Binding(Contexts, ReadWrite),
-                Binding(Offsets, ReadWrite),
-            ],
+            Self::Small => &FRONT,
+            Self::Factors => FRONT.split_at(6).0,
             Self::Scan => &[Binding(Job, Read), Binding(Offsets, ReadWrite)],
             Self::Totals => &[
                 Binding(Job, Read),
@@ -83,6 +98,13 @@ impl Stage {
                 Binding(Offsets, Read),
                 Binding(Status, Read),
                 Binding(Tiles, ReadWrite),
+            ],
+            Self::Groups => &[
+                Binding(Job, Read),
+                Binding(Offsets, Read),
+                Binding(Status, Read),
+                Binding(Groups, Read),
+                Binding(Draws, ReadWrite),
             ],
             Self::ExpandPoints => &[
                 Binding(Job, Read),
@@ -110,10 +132,12 @@ impl Stage {
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
         let (file, scratch) = match self {
+            Self::Small => ("small", None),
             Self::Factors => ("factors", None),
             Self::Scan => ("scan", None),
             Self::Totals => ("totals", None),
             Self::Partition => ("partition", None),
+            Self::Groups => ("groups", None),
             Self::ExpandPoints => ("expand_points", Some(sizes::POINT_SCRATCH)),
             Self::ExpandPrimitives => ("expand_primitives", Some(sizes::PRIMITIVE_SCRATCH)),
         };
@@ -134,8 +158,8 @@ impl Stage {
             ..setup
         };
         match self {
-            Self::Factors => plain,
-            Self::Scan | Self::Totals | Self::Partition => any_factors(plain),
+            Self::Small | Self::Factors => plain,
+            Self::Scan | Self::Totals | Self::Partition | Self::Groups => any_factors(plain),
             Self::ExpandPoints => {
                 let mut own = any_factors(Setup { point_format: setup.point_format, ..plain });
                 own.config.output = OutputPrimitive::Point;

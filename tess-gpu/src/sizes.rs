@@ -8,17 +8,21 @@ pub const WORKGROUP: u32 = 64;
 pub const TILE: u32 = 2048;
 /// Patches of a tile that are expanded together.
 pub const ROUND: u32 = 128;
-/// Numbers that one workgroup sums, one for each thread: patches of a block, blocks of a group,
-/// groups of a chunk.
+/// Numbers that one workgroup sums, one for each thread: patches of a block, blocks of a section,
+/// sections of a chunk.
 pub const SUMMED: u32 = 256;
 /// Patches of a block.
 pub const BLOCK: u32 = SUMMED;
-/// Blocks of a group.
-pub const GROUP_BLOCKS: u32 = SUMMED;
-/// Patches of a group.
-pub const GROUP: u32 = GROUP_BLOCKS * BLOCK;
+/// Blocks of a section.
+pub const SECTION_BLOCKS: u32 = SUMMED;
+/// Patches of a section.
+pub const SECTION: u32 = SECTION_BLOCKS * BLOCK;
 /// The most patches of a chunk.
-pub const MAX_CHUNK: u32 = SUMMED * GROUP;
+pub const MAX_CHUNK: u32 = SUMMED * SECTION;
+/// A batch of so many patches at most is small: one workgroup does everything in front of the expansions.
+pub const SMALL_PATCHES: u32 = 1024;
+/// A small batch has room for so many tiles at most, points and primitives together.
+pub const SMALL_TILES: u32 = 2048;
 /// Entries of 8 bytes in the workgroup memory of the stage `expand_points`: a tile's patches are
 /// copies of one if it has at most so many points. That is a quad of factor 16, and some more.
 pub const POINT_SCRATCH: u32 = 320;

@@ -20,6 +20,15 @@ pub enum Outputs<'a> {
     },
 }
 
+/// What a batch reads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patches<'a> {
+    pub(crate) count: u32,
+    /// The first patch of each group.
+    pub(crate) groups: &'a [u32],
+    pub(crate) factors: &'a wgpu::Buffer,
+}
+
 /// Patches of one [`Setup`] with the caller's buffers, and every buffer and bind group in between.
 ///
 /// The number of patches is fixed. Their factors are read anew each time the batch runs.
@@ -28,6 +37,7 @@ pub struct Batch {
     plan: Plan,
     status: wgpu::Buffer,
     arguments: wgpu::Buffer,
+    draws: wgpu::Buffer,
     topologies: wgpu::Buffer,
     contexts: wgpu::Buffer,
     offsets: wgpu::Buffer,
@@ -38,16 +48,17 @@ impl Batch {
     pub(crate) fn new(
         tessellator: &mut Tessellator,
         setup: Setup,
-        patches: u32,
-        factors: &wgpu::Buffer,
+        patches: Patches<'_>,
         outputs: Outputs<'_>,
     ) -> Result<Self, Error> {
-        let plan = Plan::new(setup, patches, capacity(setup, outputs), tessellator.limits());
+        let Patches { count, groups, factors } = patches;
+        let plan = Plan::new(setup, count, capacity(setup, outputs), tessellator.limits())
+            .with_groups(check_groups(count, groups)?);
         check(&plan, factors, outputs)?;
-        let buffers = Buffers::new(tessellator, &plan, setup, factors, outputs)?;
+        let buffers = Buffers::new(tessellator, &plan, setup, patches, outputs)?;
         let dispatches = dispatches(tessellator, setup, &plan, &buffers)?;
-        let Buffers { status, arguments, topologies, contexts, offsets, .. } = buffers;
-        Ok(Self { plan, status, arguments, topologies, contexts, offsets, dispatches })
+        let Buffers { status, arguments, draws, topologies, contexts, offsets, .. } = buffers;
+        Ok(Self { plan, status, arguments, draws, topologies, contexts, offsets, dispatches })
     }
 
     /// Records everything, from factors to draw arguments, into one compute pass.
@@ -70,7 +81,6 @@ impl Batch {
         encoder: &mut wgpu::CommandEncoder,
         mut after: impl FnMut(&mut wgpu::ComputePass<'_>, Stage),
     ) {
-        encoder.clear_buffer(&self.status, 0, None);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("tessellate"),
             timestamp_writes: None,
@@ -107,6 +117,13 @@ impl Batch {
         &self.arguments
     }
 
+    /// The arguments of one `draw_indexed_indirect` for each group, 20 bytes each and in order, after
+    /// the batch has run. A batch without groups has none.
+    #[must_use]
+    pub const fn group_arguments(&self) -> &wgpu::Buffer {
+        &self.draws
+    }
+
     /// The [`tess_gpu::layout::Topology`] of each patch, after the batch has run.
     #[must_use]
     pub const fn topologies(&self) -> &wgpu::Buffer {
@@ -119,11 +136,23 @@ impl Batch {
         &self.contexts
     }
 
-    /// The offsets of patches, blocks and groups, after the batch has run.
+    /// The offsets of patches, blocks and sections, after the batch has run.
     #[must_use]
     pub const fn offsets(&self) -> &wgpu::Buffer {
         &self.offsets
     }
+}
+
+/// How many groups there are; refuses those that do not ascend within the batch.
+fn check_groups(patches: u32, groups: &[u32]) -> Result<u32, Error> {
+    let mut least = 0;
+    for (group, &begin) in groups.iter().enumerate() {
+        if begin < least || begin > patches {
+            return Err(Error::MisplacedGroup { group, begin, range: [least, patches] });
+        }
+        least = begin;
+    }
+    u32::try_from(groups.len()).map_err(|_| Error::TooManyGroups { got: groups.len() })
 }
 
 /// Refuses buffers that the batch cannot use.

@@ -1,5 +1,6 @@
 //! The buffers of a batch: the caller's and those in between.
 
+use crate::batch::Patches;
 use crate::error::Error;
 use crate::{Outputs, Tessellator, gpu};
 use tess_gpu::{Plan, Resource, Setup, Span};
@@ -15,6 +16,8 @@ pub(crate) struct Buffers {
     pub(crate) status: wgpu::Buffer,
     pub(crate) tiles: wgpu::Buffer,
     pub(crate) arguments: wgpu::Buffer,
+    pub(crate) groups: wgpu::Buffer,
+    pub(crate) draws: wgpu::Buffer,
     pub(crate) points: wgpu::Buffer,
     pub(crate) indices: wgpu::Buffer,
 }
@@ -24,10 +27,11 @@ impl Buffers {
         tessellator: &mut Tessellator,
         plan: &Plan,
         setup: Setup,
-        factors: &wgpu::Buffer,
+        patches: Patches<'_>,
         outputs: Outputs<'_>,
     ) -> Result<Self, Error> {
         use wgpu::BufferUsages as Usage;
+        let Patches { groups, factors, .. } = patches;
         let tables = tessellator.tables(setup.config.split)?;
         let device = tessellator.device();
         let make = |resource, more| {
@@ -46,9 +50,11 @@ impl Buffers {
             topologies: make(Resource::Topologies, Usage::empty())?,
             contexts: make(Resource::Contexts, Usage::empty())?,
             offsets: make(Resource::Offsets, Usage::empty())?,
-            status: make(Resource::Status, Usage::COPY_DST)?,
+            status: make(Resource::Status, Usage::empty())?,
             tiles: make(Resource::Tiles, Usage::empty())?,
             arguments: make(Resource::Arguments, Usage::INDIRECT)?,
+            groups: gpu::filled(device, "Groups", bytemuck::cast_slice(groups), Usage::STORAGE)?,
+            draws: make(Resource::Draws, Usage::INDIRECT)?,
             points: points.clone(),
             indices: indices.clone(),
         })
@@ -66,6 +72,8 @@ impl Buffers {
             Resource::Status => &self.status,
             Resource::Tiles => &self.tiles,
             Resource::Arguments => &self.arguments,
+            Resource::Groups => &self.groups,
+            Resource::Draws => &self.draws,
             Resource::Points => &self.points,
             Resource::Indices => &self.indices,
         };

@@ -65,6 +65,21 @@ pub enum Error {
         /// Patches of the batch.
         got: usize,
     },
+    /// A group begins before the one in front of it or behind the batch. Put the groups in ascending
+    /// order.
+    MisplacedGroup {
+        /// Number of the group.
+        group: usize,
+        /// The patch that it begins with.
+        begin: u32,
+        /// The least and the greatest number that this could be.
+        range: [u32; 2],
+    },
+    /// A batch has at most 2^32 - 1 groups.
+    TooManyGroups {
+        /// Groups of the batch.
+        got: usize,
+    },
     /// The output of a batch exceeds 2^32 - 1 points or primitives, or more points than indices of
     /// 16 bits can number. Tessellate fewer patches at a time.
     OutputTooLarge {
@@ -113,6 +128,14 @@ impl fmt::Display for Error {
             ),
             Self::TooManyPatches { got } => {
                 write!(f, "{got} patches are more than a batch can have, 2^30")
+            }
+            Self::MisplacedGroup { group, begin, range: [least, greatest] } => write!(
+                f,
+                "group {group} begins at patch {begin}; it must begin at one of {least} to \
+                 {greatest}, as groups ascend and lie within the batch"
+            ),
+            Self::TooManyGroups { got } => {
+                write!(f, "{got} groups are more than a batch can have, 2^32 - 1")
             }
             Self::OutputTooLarge { points, primitives } => write!(
                 f,

@@ -1,5 +1,6 @@
 //! Pipelines and tables of one device.
 
+use crate::batch::Patches;
 use crate::error::{Error, checked};
 use crate::{Batch, Outputs, gpu, pipeline};
 use std::collections::HashMap;
@@ -68,7 +69,27 @@ impl Tessellator {
         factors: &wgpu::Buffer,
         outputs: Outputs<'_>,
     ) -> Result<Batch, Error> {
-        Batch::new(self, setup, patches, factors, outputs)
+        self.batch_in_groups(setup, patches, &[], factors, outputs)
+    }
+
+    /// The same, with draw arguments for each group of patches ([`Batch::group_arguments`]), so that
+    /// several meshes of one setup are tessellated in one go and drawn one by one.
+    ///
+    /// `groups` holds the number of each group's first patch. A group ends where the next one begins, the
+    /// last one at the end of the batch; a group may be empty. The numbers ascend and are at most `patches`.
+    ///
+    /// # Errors
+    /// [`Error::MisplacedGroup`] or [`Error::TooManyGroups`] for these groups, and the errors of
+    /// [`Self::batch`].
+    pub fn batch_in_groups(
+        &mut self,
+        setup: Setup,
+        patches: u32,
+        groups: &[u32],
+        factors: &wgpu::Buffer,
+        outputs: Outputs<'_>,
+    ) -> Result<Batch, Error> {
+        Batch::new(self, setup, Patches { count: patches, groups, factors }, outputs)
     }
 
     pub(crate) const fn limits(&self) -> Limits {

@@ -89,7 +89,7 @@ fn no_patches_and_culled_patches() {
 }
 
 /// Counts that are hard on prefix sums: nothing, everything at the ends, alternation, and numbers
-/// of patches around the sizes of blocks and groups.
+/// of patches around the sizes of blocks and sections.
 #[test]
 fn adversarial_counts() {
     let mut machine = Machine::open();

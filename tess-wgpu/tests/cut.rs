@@ -5,7 +5,7 @@ mod common;
 use common::device::Machine;
 use common::expected::{Expected, by_simd};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
-use tess_gpu::sizes::{BLOCK, GROUP, TILE};
+use tess_gpu::sizes::{BLOCK, SECTION, TILE};
 use tess_gpu::{Capacity, Dispatch, IndexType, Limits, Numbering, Plan, Setup, Stage, Workgroups};
 use tess_verify::random::SplitMix64;
 use tess_wgpu::{Gpu, Outputs, Tessellator, Wanted};
@@ -47,9 +47,9 @@ fn chunks_windows_and_rows() {
     machine.assert_equal(Setup { numbering, index_type, ..setup }, &patches);
 }
 
-/// Three groups of blocks in rows of two, with a workgroup too many.
+/// Three sections of blocks in rows of two, with a workgroup too many.
 #[test]
-fn rows_of_groups() {
+fn rows_of_sections() {
     let mut machine = Machine::open();
     machine.limit(TWO);
     let patches = small(Domain::Triangle, 150_000);
@@ -75,7 +75,11 @@ fn wrong_windows_and_rows_are_seen() {
             "let number = workgroup.x;",
         ),
         (LOW, "let block = workgroup.x + workgroup.y * workgroups.x;", "let block = workgroup.x;"),
-        (TWO, "let group = workgroup.x + workgroup.y * workgroups.x;", "let group = workgroup.x;"),
+        (
+            TWO,
+            "let section = workgroup.x + workgroup.y * workgroups.x;",
+            "let section = workgroup.x;",
+        ),
     ] {
         machine.plant(setup, right, wrong);
         machine.tessellator = machine.tessellator.limited(limits);
@@ -201,17 +205,17 @@ fn compare_sums(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) {
         let first = usize::try_from(2 * entry).expect("in memory");
         [observed[first], observed[first + 1]]
     };
-    // Sums so far of the whole batch, and at the beginning of the group and of the block.
-    let (mut all, mut group, mut block) = ([0; 2], [0; 2], [0; 2]);
+    // Sums so far of the whole batch, and at the beginning of the section and of the block.
+    let (mut all, mut section, mut block) = ([0; 2], [0; 2], [0; 2]);
     for (patch, &raw) in (0..).zip(patches) {
-        if patch % GROUP == 0 {
-            group = all;
+        if patch % SECTION == 0 {
+            section = all;
         }
         if patch % BLOCK == 0 {
             block = all;
         }
         let less = |a: [u32; 2], b: [u32; 2]| [a[0] - b[0], a[1] - b[1]];
-        let expected = [less(all, block), less(block, group), group];
+        let expected = [less(all, block), less(block, section), section];
         assert_eq!(batch.plan().offset_entries(patch).map(at), expected, "patch {patch}");
         let counts = Patch::new(setup.config, raw).counts();
         all = [all[0] + counts.points, all[1] + counts.primitives];

@@ -5,7 +5,7 @@ use super::jobs::Part;
 use crate::bindings::{Binding, Resource};
 use crate::layout::Job;
 use crate::shaders::Stage;
-use crate::sizes::{ALIGNMENT, BLOCK, GROUP, Span};
+use crate::sizes::{ALIGNMENT, BLOCK, SECTION, Span, TILE, WORKGROUP};
 
 /// One stage over one part of the batch: bind [`Dispatch::bindings`], then dispatch
 /// [`Dispatch::workgroups`].
@@ -31,26 +31,28 @@ impl Plan {
     /// Everything that a batch runs, in order. Each dispatch reads what earlier ones wrote.
     ///
     /// All chunks are counted before any is expanded, so that nothing is written if not all fits.
-    /// [`Resource::Status`] has to be all zeros before the first one.
     pub fn dispatches(&self) -> impl Iterator<Item = Dispatch> + use<> {
         let plan = *self;
-        // The totals of a batch of no patches are totals too.
-        let is_empty = self.chunks() == 0;
-        let counting = (0..self.chunks().max(1)).flat_map(move |chunk| {
-            let stages = [Stage::Factors, Stage::Scan, Stage::Totals];
-            stages
-                .into_iter()
-                .filter(move |&stage| !is_empty || stage == Stage::Totals)
-                .map(move |stage| Dispatch { plan, stage, chunk, part: Part::Whole })
-        });
-        counting.chain((0..self.chunks()).flat_map(move |chunk| plan.expansion(chunk)))
+        let chunks = 0..self.chunks().max(1);
+        let counting: &[Stage] = match self.patches {
+            0 => &[Stage::Totals],
+            _ if self.is_small() => &[Stage::Small],
+            _ => &[Stage::Factors, Stage::Scan, Stage::Totals],
+        };
+        let groups: &[Stage] = if self.groups == 0 { &[] } else { &[Stage::Groups] };
+        let whole = move |chunk| move |&stage| Dispatch { plan, stage, chunk, part: Part::Whole };
+        let counting = chunks.clone().flat_map(move |chunk| counting.iter().map(whole(chunk)));
+        let groups = chunks.flat_map(move |chunk| groups.iter().map(whole(chunk)));
+        let expansion = (0..self.chunks()).flat_map(move |chunk| plan.expansion(chunk));
+        counting.chain(groups).chain(expansion)
     }
 
     /// What writes the output of a chunk; nothing if there is no room for any.
     fn expansion(self, chunk: u32) -> impl Iterator<Item = Dispatch> + use<> {
         let (points, primitives) = (self.point_windows(), self.primitive_windows());
         let dispatch = move |stage, part| Dispatch { plan: self, stage, chunk, part };
-        let partition = (points + primitives > 0).then(|| dispatch(Stage::Partition, Part::Whole));
+        let partition = (points + primitives > 0 && !self.is_small())
+            .then(|| dispatch(Stage::Partition, Part::Whole));
         let points =
             (0..points).map(move |window| dispatch(Stage::ExpandPoints, Part::Points { window }));
         let primitives = (0..primitives)
@@ -84,12 +86,32 @@ impl Dispatch {
         let patches = self.plan.patches_in(self.chunk);
         match self.stage {
             Stage::Factors => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(BLOCK))),
-            Stage::Scan => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(GROUP))),
-            Stage::Totals => Workgroups::Direct([1; 3]),
+            Stage::Scan => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(SECTION))),
+            Stage::Small | Stage::Totals => Workgroups::Direct([1; 3]),
+            Stage::Groups => {
+                Workgroups::Direct(self.plan.in_rows(self.plan.groups.div_ceil(WORKGROUP)))
+            }
+            Stage::ExpandPoints | Stage::ExpandPrimitives if self.plan.is_small() => {
+                Workgroups::Direct(self.plan.in_rows(self.tiles_of_room()))
+            }
             Stage::Partition | Stage::ExpandPoints | Stage::ExpandPrimitives => {
                 Workgroups::Indirect(self.plan.arguments_at(self.job()))
             }
         }
+    }
+
+    /// The tiles that the window has room for.
+    fn tiles_of_room(&self) -> u32 {
+        let (capacity, first, most) = match self.part {
+            Part::Whole => return 0,
+            Part::Points { window } => {
+                (self.plan.capacity.points, window, self.plan.point_window_tiles)
+            }
+            Part::Primitives { window } => {
+                (self.plan.capacity.primitives, window, self.plan.primitive_window_tiles)
+            }
+        };
+        (capacity.div_ceil(TILE) - first * most).min(most)
     }
 
     fn span(&self, resource: Resource) -> Span {

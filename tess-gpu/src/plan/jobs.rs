@@ -79,7 +79,7 @@ impl Plan {
             stride: self.chunk_patches,
             blocks_at: self.blocks_at(),
             alike_at: self.alike_at(),
-            groups_at: self.groups_at(),
+            sections_at: self.sections_at(),
             primitive_tiles_at: self.primitive_tiles_at(),
             window_first,
             window_tiles,

@@ -13,8 +13,9 @@ macro_rules! files {
     };
 }
 
-const FILES: [(&str, &str); 35] = files![
+const FILES: [(&str, &str); 40] = files![
     "alike",
+    "block",
     "connect",
     "counts",
     "d3d_float",
@@ -23,7 +24,9 @@ const FILES: [(&str, &str); 35] = files![
     "expand_primitives",
     "factor_context",
     "factors",
+    "finish",
     "fixed_point",
+    "groups",
     "indices_u16",
     "indices_u32",
     "locate",
@@ -43,6 +46,8 @@ const FILES: [(&str, &str); 35] = files![
     "pulled_contexts",
     "rings",
     "scan",
+    "search",
+    "small",
     "state",
     "stitch",
     "stored_contexts",

@@ -2,8 +2,8 @@
 
 use std::error::Error;
 use tess_gpu::Setup;
-use tess_gpu::layout::Status;
-use tess_wgpu::{Gpu, Outputs, Tessellator};
+use tess_gpu::layout::{DrawIndexed, Status};
+use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 
 /// Pixels across.
@@ -29,10 +29,21 @@ pub(crate) struct Scene<'a> {
     pub(crate) source: &'a str,
     /// What the shaders read as binding 0 of group 0, if anything.
     pub(crate) read: Option<&'a wgpu::Buffer>,
+    /// The meshes that the patches belong to; if there are none, all patches are drawn at once.
+    pub(crate) meshes: &'a [Mesh<'a>],
     /// Triangles that are not drawn; the front is counter-clockwise.
     pub(crate) cull: Option<wgpu::Face>,
     /// The colour behind everything.
     pub(crate) background: wgpu::Color,
+}
+
+/// Some of a scene's patches, drawn with a material of their own.
+#[derive(Debug)]
+pub(crate) struct Mesh<'a> {
+    /// The first patch. The mesh ends where the next one begins.
+    pub(crate) first_patch: u32,
+    /// What the shaders read as binding 0 of group 1, with the usage `UNIFORM`.
+    pub(crate) material: &'a wgpu::Buffer,
 }
 
 /// Tessellates and draws a scene behind what `encoder` has recorded, and submits it. The pixels
@@ -49,8 +60,10 @@ pub(crate) fn render(
     let points = gpu.buffer("points", point_bytes, Usage::STORAGE | Usage::VERTEX)?;
     let indices = gpu.buffer("indices", index_bytes, Usage::STORAGE | Usage::INDEX)?;
     let outputs = Outputs::Buffers { points: &points, indices: &indices };
-    let batch =
-        Tessellator::new(&gpu.device).batch(scene.setup, scene.patches, scene.factors, outputs)?;
+    let groups: Vec<u32> = scene.meshes.iter().map(|mesh| mesh.first_patch).collect();
+    let mut tessellator = Tessellator::new(&gpu.device);
+    let Scene { setup, patches, factors, .. } = *scene;
+    let batch = tessellator.batch_in_groups(setup, patches, &groups, factors, outputs)?;
     let color = texture(gpu, COLOR, wgpu::TextureUsages::COPY_SRC);
     let depth = texture(gpu, DEPTH, wgpu::TextureUsages::empty());
     let pixels =
@@ -67,7 +80,7 @@ pub(crate) fn render(
         }
         pass.set_vertex_buffer(0, points.slice(..));
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed_indirect(batch.draw_arguments(), 0);
+        draw(gpu, &mut pass, &pipeline, &batch, scene.meshes);
     }
     copy_pixels(&mut encoder, &color, &pixels);
     gpu.run(encoder)?;
@@ -76,6 +89,25 @@ pub(crate) fn render(
         return Err(format!("the output does not fit {point_bytes} and {index_bytes} bytes").into());
     }
     Ok(gpu.read(&pixels, pixels.size())?)
+}
+
+/// Draws each mesh with its material, or everything if there are no meshes.
+fn draw(
+    gpu: &Gpu,
+    pass: &mut wgpu::RenderPass<'_>,
+    pipeline: &wgpu::RenderPipeline,
+    batch: &Batch,
+    meshes: &[Mesh<'_>],
+) {
+    if meshes.is_empty() {
+        pass.draw_indexed_indirect(batch.draw_arguments(), 0);
+    }
+    for (number, mesh) in (0..).zip(meshes) {
+        let layout = pipeline.get_bind_group_layout(1);
+        pass.set_bind_group(1, &bind_group(gpu, &layout, &[mesh.material]), &[]);
+        let offset = number * size_of::<DrawIndexed>() as u64;
+        pass.draw_indexed_indirect(batch.group_arguments(), offset);
+    }
 }
 
 /// A shader module of WGSL text.

@@ -1,4 +1,4 @@
-// Packed domain points to the shaded teapot. Needs bezier.wgsl in front.
+// Packed domain points to the shaded teapot. Needs bezier.wgsl and the function `material`.
 
 const EYE = vec3f(3.2, -7.6, 5.0);
 const TARGET = vec3f(0.3, 0.0, 1.45);
@@ -64,6 +64,5 @@ fn shade(vertex: Vertex) -> @location(0) vec4f {
     let to_light = normalize(vec3f(0.6, -0.7, 1.1));
     let diffuse = 0.3 + 0.7 * max(dot(normal, to_light), 0.0);
     let shine = pow(max(dot(normal, normalize(to_light + to_eye)), 0.0), 60.0);
-    let color = vec3f(0.36, 0.52, 0.70);
-    return vec4f(diffuse * color + 0.45 * shine, 1.0);
+    return vec4f(diffuse * material() + 0.45 * shine, 1.0);
 }

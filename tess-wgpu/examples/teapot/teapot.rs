@@ -19,7 +19,8 @@ use wgpu::BufferUsages as Usage;
 pub(crate) const PATCHES: u32 = 32;
 /// The eye, as draw.wgsl has it.
 const EYE: Vec3 = Vec3::new(3.2, -7.6, 5.0);
-const BACKGROUND: wgpu::Color = wgpu::Color { r: 0.93, g: 0.94, b: 0.96, a: 1.0 };
+/// The colour behind it.
+pub(crate) const BACKGROUND: wgpu::Color = wgpu::Color { r: 0.93, g: 0.94, b: 0.96, a: 1.0 };
 
 /// How the teapot is tessellated.
 pub(crate) fn setup() -> Setup {
@@ -43,7 +44,7 @@ pub(crate) fn nets() -> Vec<[f32; 4]> {
 
 /// The shaders: the formulas of tess-surface, and draw.wgsl, which calls them.
 pub(crate) fn source() -> String {
-    [shaders::BEZIER, include_str!("draw.wgsl")].join("\n")
+    [shaders::BEZIER, include_str!("draw.wgsl"), include_str!("material.wgsl")].join("\n")
 }
 
 /// Renders the teapot. The pixels are RGBA, row by row.
@@ -58,6 +59,7 @@ pub(crate) fn render(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn Error>> {
         room: [2 << 20, 4 << 20],
         source: &source(),
         read: Some(&nets),
+        meshes: &[],
         // One sees into the spout.
         cull: None,
         background: BACKGROUND,

@@ -34,6 +34,7 @@ pub(crate) fn render(gpu: &Gpu, wrong_patch: Option<u32>) -> Result<Vec<u8>, Box
         room: [16 << 20, 48 << 20],
         source: DRAW,
         read: None,
+        meshes: &[],
         // The underside is not drawn, so a crack shows the background through it.
         cull: Some(wgpu::Face::Back),
         background: MAGENTA,

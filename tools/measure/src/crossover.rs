@@ -96,8 +96,9 @@ fn on_both(gpu: &Gpu, batch: &Batch) -> Result<Duration> {
     Ok(start.elapsed())
 }
 
+/// The middle of these times, in microseconds.
 #[expect(clippy::float_arithmetic, reason = "a unit of time")]
-fn median(mut times: Vec<Duration>) -> f64 {
+pub(crate) fn median(mut times: Vec<Duration>) -> f64 {
     times.sort_unstable();
     times.get(times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6)
 }

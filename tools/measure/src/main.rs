@@ -3,6 +3,7 @@
 
 mod ablation;
 mod crossover;
+mod groups;
 
 use clap::{Parser, Subcommand};
 
@@ -20,6 +21,8 @@ struct Arguments {
 enum Command {
     /// Compare the device with one CPU thread, for batches of 1 to 4096 patches
     Crossover,
+    /// Compare many meshes in one batch with as many batches
+    Groups,
     /// Time each stage with parts of the shaders changed or left out
     Ablation(ablation::Arguments),
 }
@@ -27,6 +30,7 @@ enum Command {
 fn main() -> Result<()> {
     match Arguments::parse().command {
         Command::Crossover => crossover::run(),
+        Command::Groups => groups::run(),
         Command::Ablation(arguments) => ablation::run(&arguments),
     }
 }

@@ -10,7 +10,7 @@ fn roots() -> Vec<(&'static str, Vec<Choice>)> {
             let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
             let setup = Setup { index_type, ..Setup::new(Domain::Quad, config) };
             let stored = [placing(setup, "stored_contexts").as_slice(), &[indices(setup)]].concat();
-            for stage in ["factors", "scan", "totals", "partition"] {
+            for stage in ["factors", "scan", "totals", "partition", "small", "groups"] {
                 all.push((stage, stored.clone()));
             }
             all.extend([("expand_points", stored.clone()), ("expand_primitives", stored)]);
@@ -104,8 +104,17 @@ fn complaints(root: &'static str, choices: &[Choice]) -> Vec<String> {
 }
 
 /// Every name of a binding that a file leaves to others.
-const BINDINGS: [&str; 7] =
-    ["job", "offsets", "status", "tables", "tiles", "topologies", "contexts"];
+const BINDINGS: [&str; 9] = [
+    "job",
+    "offsets",
+    "status",
+    "tables",
+    "tiles",
+    "topologies",
+    "contexts",
+    "raw_factors",
+    "arguments",
+];
 
 #[test]
 fn first_lines_name_what_a_file_uses() {

@@ -1,0 +1,64 @@
+// needs: state; bindings: arguments, job, status
+// What depends on the totals of a batch: whether the output fits, the draw arguments and the sizes of
+// the dispatches. The arguments are draw_indexed_indirect's five numbers, three reserved, then
+// dispatch sizes of three numbers: for each chunk its partition, its windows of points, its windows
+// of primitives.
+
+fn write_dispatch(number: u32, workgroups: u32) {
+    let rows = (workgroups + job.max_workgroups - 1u) / job.max_workgroups;
+    let at = DISPATCHES_AT + 3u * number;
+    arguments[at] = select(job.max_workgroups, workgroups, rows <= 1u);
+    arguments[at + 1u] = max(rows, 1u);
+    arguments[at + 2u] = 1u;
+}
+
+// Tiles that begin..end touches.
+fn tiles_between(begin: u32, end: u32) -> u32 {
+    return select(0u, (end + TILE - 1u) / TILE - begin / TILE, end > begin);
+}
+
+// Tiles of begin..end in a window.
+fn tiles_in_window(begin: u32, end: u32, window: u32, window_tiles: u32) -> u32 {
+    let first = max(begin / TILE, window * window_tiles);
+    let last = min((end + TILE - 1u) / TILE, (window + 1u) * window_tiles);
+    return select(0u, last - first, last > first && end > begin);
+}
+
+fn workgroups_of(slot: u32, range: Range) -> u32 {
+    if slot == 0u {
+        let count = tiles_between(range.points_begin, range.points_end)
+            + tiles_between(range.primitives_begin, range.primitives_end);
+        return (count + 2u + WORKGROUP - 1u) / WORKGROUP; // one more entry for each output: see partition.wgsl
+    }
+    if slot <= job.point_windows {
+        return tiles_in_window(
+            range.points_begin, range.points_end, slot - 1u, job.point_window_tiles);
+    }
+    return tiles_in_window(
+        range.primitives_begin, range.primitives_end,
+        slot - 1u - job.point_windows, job.primitive_window_tiles);
+}
+
+fn overflow() -> u32 {
+    let points = status.points_high != 0u || status.points > job.point_capacity;
+    let primitives = status.primitives_high != 0u || status.primitives > job.primitive_capacity;
+    return select(0u, 1u, points) | select(0u, 2u, primitives);
+}
+
+// For the whole batch: the draw arguments, and the workgroups of every chunk in every window.
+fn finish(thread: u32) {
+    let slots = 1u + job.point_windows + job.primitive_windows;
+    let is_overflow = overflow();
+    for (var slot = thread; slot < job.chunks * slots; slot += SUMMED) {
+        let workgroups = workgroups_of(slot % slots, status.ranges[slot / slots]);
+        write_dispatch(slot, select(workgroups, 0u, is_overflow != 0u));
+    }
+    if thread == 0u {
+        status.overflow = is_overflow;
+        arguments[0] = select(status.primitives * INDICES, 0u, is_overflow != 0u);
+        arguments[1] = 1u; // instances
+        arguments[2] = 0u; // first index
+        arguments[3] = 0u; // base vertex
+        arguments[4] = 0u; // first instance
+    }
+}

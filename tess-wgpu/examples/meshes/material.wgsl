@@ -1,0 +1,7 @@
+// The colour of the mesh that is drawn.
+
+@group(1) @binding(0) var<uniform> colour: vec4f;
+
+fn material() -> vec3f {
+    return colour.xyz;
+}

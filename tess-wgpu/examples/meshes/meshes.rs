@@ -1,0 +1,66 @@
+//! The picture: the patches of all meshes in one buffer, one batch in groups, one draw for each group.
+
+#[allow(dead_code, reason = "its own picture is not drawn here")]
+#[path = "../teapot/teapot.rs"]
+pub(crate) mod teapot;
+
+use std::error::Error;
+use teapot::PATCHES;
+use teapot::picture::{self, Mesh, Scene};
+use tess_gpu::layout::factor_words;
+use tess_surface::shaders;
+use tess_wgpu::Gpu;
+use wgpu::BufferUsages as Usage;
+
+/// Where each teapot stands, and its colour.
+pub(crate) const TEAPOTS: [([f32; 3], [f32; 4]); 3] = [
+    ([-1.9, -0.6, 0.2], [0.80, 0.15, 0.10, 1.0]),
+    ([0.3, 1.4, 0.9], [0.10, 0.60, 0.15, 1.0]),
+    ([2.3, -0.4, 0.2], [0.10, 0.20, 0.80, 1.0]),
+];
+/// How large a teapot is, 1 in the example `teapot`.
+const SCALE: f32 = 0.45;
+
+/// The control nets of all teapots, one after another.
+#[expect(clippy::float_arithmetic, reason = "control points are floats")]
+fn nets() -> Vec<[f32; 4]> {
+    let nets = teapot::nets();
+    let placed = |at: [f32; 3]| {
+        let place = move |&[x, y, z, w]: &[f32; 4]| {
+            [SCALE * x + w * at[0], SCALE * y + w * at[1], SCALE * z + w * at[2], w]
+        };
+        nets.iter().map(place).collect::<Vec<_>>()
+    };
+    TEAPOTS.iter().flat_map(|&(at, _)| placed(at)).collect()
+}
+
+/// Renders the teapots. The pixels are RGBA, row by row.
+pub(crate) fn render(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn Error>> {
+    let words = factor_words(&teapot::factors()?).repeat(TEAPOTS.len());
+    let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)?;
+    let nets = gpu.upload("nets", bytemuck::cast_slice(&nets()), Usage::STORAGE)?;
+    let colours = TEAPOTS
+        .iter()
+        .map(|(_, colour)| gpu.upload("colour", bytemuck::cast_slice(colour), Usage::UNIFORM));
+    let colours = colours.collect::<Result<Vec<_>, _>>()?;
+    let meshes: Vec<Mesh<'_>> = (0..)
+        .zip(&colours)
+        .map(|(number, material)| Mesh { first_patch: number * PATCHES, material })
+        .collect();
+    let source =
+        [shaders::BEZIER, include_str!("../teapot/draw.wgsl"), include_str!("material.wgsl")];
+    let scene = Scene {
+        setup: teapot::setup(),
+        patches: PATCHES * u32::try_from(TEAPOTS.len())?,
+        factors: &factors,
+        room: [6 << 20, 12 << 20],
+        source: &source.join("\n"),
+        read: Some(&nets),
+        meshes: &meshes,
+        // One sees into the spouts.
+        cull: None,
+        background: teapot::BACKGROUND,
+    };
+    let encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    picture::render(gpu, encoder, &scene)
+}
