@@ -50,10 +50,9 @@ var<workgroup> differs: atomic<u32>;
 @compute @workgroup_size(BLOCK)
 fn factors(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let block = workgroup.x + workgroup.y * workgroups.x;
+    let block = workgroup.x + workgroup.y * job.max_workgroups;
     let patch_index = block * BLOCK + thread;
     var own = vec2<u32>(0u, 0u);
     var topology = vec2<u32>(0u, 0u);

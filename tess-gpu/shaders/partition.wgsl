@@ -63,10 +63,9 @@ fn entry(number: u32, begin: u32, end: u32, kind: u32) -> u32 {
 @compute @workgroup_size(WORKGROUP)
 fn partition_tiles(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let number = (workgroup.x + workgroup.y * workgroups.x) * WORKGROUP + thread;
+    let number = (workgroup.x + workgroup.y * job.max_workgroups) * WORKGROUP + thread;
     let range = status.ranges[job.chunk];
     let point_entries = entries(range.points_begin, range.points_end);
     let primitive_entries = entries(range.primitives_begin, range.primitives_end);
