@@ -121,11 +121,10 @@ fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
 @compute @workgroup_size(WORKGROUP)
 fn expand_points(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
     let range = status.ranges[job.chunk];
-    let number = workgroup.x + workgroup.y * workgroups.x;
+    let number = workgroup.x + workgroup.y * job.max_workgroups;
     let tile = tile_of(number, range.points_begin, range.points_end, 0u);
     if tile.end == 0u || status.overflow != 0u {
         return;

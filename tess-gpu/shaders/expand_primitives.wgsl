@@ -173,11 +173,10 @@ fn copy_triangles(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
 @compute @workgroup_size(WORKGROUP)
 fn expand_primitives(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
     let range = status.ranges[job.chunk];
-    let number = workgroup.x + workgroup.y * workgroups.x;
+    let number = workgroup.x + workgroup.y * job.max_workgroups;
     let tile = tile_of(
         number, range.primitives_begin, range.primitives_end, job.primitive_tiles_at);
     if tile.end == 0u || status.overflow != 0u {

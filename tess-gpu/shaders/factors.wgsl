@@ -11,10 +11,9 @@
 @compute @workgroup_size(BLOCK)
 fn factors(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let block = workgroup.x + workgroup.y * workgroups.x;
+    let block = workgroup.x + workgroup.y * job.max_workgroups;
     let all = process_block(block, thread);
     if thread == 0u && block * BLOCK < job.patches {
         offsets[job.blocks_at + block] = all;

@@ -30,10 +30,9 @@ fn first_index_of(patch_number: u32) -> u32 {
 @compute @workgroup_size(WORKGROUP)
 fn groups(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let group = (workgroup.x + workgroup.y * workgroups.x) * WORKGROUP + thread;
+    let group = (workgroup.x + workgroup.y * job.max_workgroups) * WORKGROUP + thread;
     let count = arrayLength(&group_begins);
     if group >= count {
         return;

@@ -9,9 +9,8 @@
 @compute @workgroup_size(WORKGROUP)
 fn partition_tiles(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let number = (workgroup.x + workgroup.y * workgroups.x) * WORKGROUP + thread;
+    let number = (workgroup.x + workgroup.y * job.max_workgroups) * WORKGROUP + thread;
     write_entry(number, status.ranges[job.chunk]);
 }

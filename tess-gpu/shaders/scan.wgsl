@@ -15,10 +15,9 @@ fn block_count() -> u32 {
 @compute @workgroup_size(SUMMED)
 fn scan(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let section = workgroup.x + workgroup.y * workgroups.x;
+    let section = workgroup.x + workgroup.y * job.max_workgroups;
     let block = section * SECTION_BLOCKS + thread;
     var own = vec2<u32>(0u, 0u);
     if block < block_count() {

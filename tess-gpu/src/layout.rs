@@ -43,7 +43,7 @@ pub struct Job {
     pub point_window_tiles: u32,
     /// Tiles of a window of the primitives.
     pub primitive_window_tiles: u32,
-    /// The most workgroups in a row of an indirect dispatch.
+    /// The most workgroups in a row of a dispatch: its size along x if it has more than one row.
     pub max_workgroups: u32,
 }
 

@@ -26,7 +26,7 @@ usage: cargo xtask <command>
   ci      what continuous integration runs: formatting, lints, documentation, features,
           the fuzz targets' oracles on their seeds, `fuzz`, `ports brief` (msrv, s390x, wasm,
           miri), `publish`, `deny` if cargo-deny is installed, then `test`
-  setup   only set up: a Vulkan driver, C and C++ compilers, Verilator
+  setup   only set up: a Vulkan driver, C and C++ and shader compilers, Verilator
   ports [brief] [NAME...]
           check other compilers, processors and hosts: msrv, i686, aarch64, s390x, wasm,
           miri; installs emulators and compilers. `brief` runs the tests that take seconds

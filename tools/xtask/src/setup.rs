@@ -27,6 +27,14 @@ const TESTS: &[Need] = &[
         is_there: || ["cc", "c++", "make"].into_iter().all(has_program),
     },
     Need {
+        what: "compilers of shaders and Vulkan's header (tests of `tess shaders` and `tess probe`)",
+        packages: &["spirv-tools", "glslang-tools", "libvulkan-dev"],
+        is_there: || {
+            ["spirv-val", "glslangValidator"].into_iter().all(has_program)
+                && Path::new("/usr/include/vulkan/vulkan.h").exists()
+        },
+    },
+    Need {
         what: "Verilator (tests of the SystemVerilog interface)",
         packages: &["verilator"],
         is_there: || has_program("verilator"),

@@ -7,6 +7,8 @@ mod explain;
 mod r#gen;
 mod mesh;
 mod patch;
+#[cfg(feature = "shaders")]
+mod shaders;
 mod verify;
 
 #[cfg(feature = "fuzzing")]
@@ -25,6 +27,8 @@ pub(crate) enum Command {
     Bench(bench::Args),
     Mesh(mesh::Args),
     Gen(r#gen::Args),
+    #[cfg(feature = "shaders")]
+    Shaders(shaders::Args),
     Verify(verify::Args),
 }
 
@@ -41,6 +45,8 @@ pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
         Command::Bench(args) => bench::run(args),
         Command::Mesh(args) => mesh::run(args),
         Command::Gen(args) => r#gen::run(args),
+        #[cfg(feature = "shaders")]
+        Command::Shaders(args) => shaders::run(args),
         Command::Verify(args) => verify::run(args),
     }
 }

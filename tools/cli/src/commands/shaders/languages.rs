@@ -1,0 +1,279 @@
+//! A stage in each language, through naga's writers.
+
+use super::manifest::{Binding, Kind, Sizes, Stage as Described};
+use clap::ValueEnum;
+use naga::back::{glsl, hlsl, msl, spv};
+use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
+use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
+use naga::{Module, ResourceBinding, ShaderStage, TypeInner};
+use serde::Serialize;
+use tess_gpu::{Access, Resource, Setup, Stage};
+
+/// The languages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Target {
+    /// WebGPU
+    Wgsl,
+    /// Vulkan 1.1, OpenGL 4.6: SPIR-V 1.3
+    Spirv,
+    /// OpenGL 4.3
+    Glsl,
+    /// Direct3D 11 and 12: shader model 5.1
+    Hlsl,
+    /// Metal 2.0; no compiler has checked it
+    Msl,
+}
+
+/// Which accesses and loops a shader checks itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(super) enum Checks {
+    /// All: even a buffer that is too small is not overrun, and every loop ends
+    Full,
+    /// None: buffers must have the sizes that the manifest says
+    None,
+}
+
+/// How stages are written.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub(super) struct Translation {
+    pub(super) target: Target,
+    pub(super) checks: Checks,
+}
+
+/// A stage in its language.
+pub(super) struct Written {
+    pub(super) file: String,
+    pub(super) text: Vec<u8>,
+    pub(super) stage: Described,
+}
+
+impl Translation {
+    /// Writes a stage.
+    ///
+    /// # Errors
+    /// The language has no words for something in the stage.
+    pub(super) fn write(self, stage: Stage, setup: Setup) -> Result<Written, String> {
+        let source = stage.source(setup);
+        let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", stage.entry_point());
+        let module = naga::front::wgsl::parse_str(&source)
+            .map_err(|error| failed(&error.emit_to_string(&source)))?;
+        let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+        let info =
+            validator.validate(&module).map_err(|error| failed(&error.emit_to_string(&source)))?;
+        let parsed = Parsed { module: &module, info: &info, stage };
+        let (text, entry_point) = match self.target {
+            Target::Wgsl => (source.clone().into_bytes(), stage.entry_point().to_owned()),
+            Target::Spirv => self.spirv(parsed)?,
+            Target::Glsl => self.glsl(parsed)?,
+            Target::Hlsl => self.hlsl(parsed)?,
+            Target::Msl => self.msl(parsed)?,
+        };
+        let file = format!("{}.{}", stage.entry_point(), self.target.extension());
+        let described = self.describe(parsed, file.clone(), entry_point);
+        Ok(Written { file, text, stage: described })
+    }
+
+    fn describe(self, parsed: Parsed<'_>, file: String, entry_point: String) -> Described {
+        let sizes = (self.target == Target::Msl && self.checks == Checks::Full)
+            .then(|| Sizes { buffer: parsed.sizes_slot(), of_bindings: parsed.unsized_bindings() })
+            .filter(|sizes| !sizes.of_bindings.is_empty());
+        Described {
+            name: parsed.stage.entry_point(),
+            file,
+            entry_point,
+            workgroup_size: parsed.module.entry_points[0].workgroup_size,
+            bindings: parsed.bindings().collect(),
+            msl_sizes: sizes,
+        }
+    }
+
+    fn policies(self) -> BoundsCheckPolicies {
+        let policy = match self.checks {
+            Checks::Full => BoundsCheckPolicy::Restrict,
+            Checks::None => BoundsCheckPolicy::Unchecked,
+        };
+        BoundsCheckPolicies {
+            index: policy,
+            buffer: policy,
+            image_load: policy,
+            binding_array: policy,
+        }
+    }
+
+    fn is_checked(self) -> bool {
+        self.checks == Checks::Full
+    }
+
+    fn spirv(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
+        let options = spv::Options {
+            lang_version: (1, 3),
+            flags: spv::WriterFlags::empty(),
+            bounds_check_policies: self.policies(),
+            zero_initialize_workgroup_memory: spv::ZeroInitializeWorkgroupMemoryMode::None,
+            force_loop_bounding: self.is_checked(),
+            emit_int_div_checks: self.is_checked(),
+            ..spv::Options::default()
+        };
+        let words = spv::write_vec(parsed.module, parsed.info, &options, None)
+            .map_err(|error| parsed.failed("SPIR-V", &error))?;
+        let bytes = words.iter().flat_map(|word| word.to_le_bytes()).collect();
+        Ok((bytes, parsed.stage.entry_point().to_owned()))
+    }
+
+    fn glsl(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
+        let options = glsl::Options {
+            version: glsl::Version::Desktop(430),
+            writer_flags: glsl::WriterFlags::empty(),
+            binding_map: parsed.map(|binding| u8::try_from(binding).unwrap_or(u8::MAX)).collect(),
+            zero_initialize_workgroup_memory: false,
+        };
+        let pipeline = glsl::PipelineOptions {
+            shader_stage: ShaderStage::Compute,
+            entry_point: parsed.stage.entry_point().to_owned(),
+            multiview: None,
+        };
+        let mut text = String::new();
+        glsl::Writer::new(
+            &mut text,
+            parsed.module,
+            parsed.info,
+            &options,
+            &pipeline,
+            self.policies(),
+        )
+        .and_then(|mut writer| writer.write())
+        .map_err(|error| parsed.failed("GLSL", &error))?;
+        Ok((text.into_bytes(), "main".to_owned()))
+    }
+
+    fn hlsl(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
+        let target = |register| hlsl::BindTarget { register, ..Default::default() };
+        let options = hlsl::Options {
+            shader_model: hlsl::ShaderModel::V5_1,
+            binding_map: parsed.map(target).collect(),
+            fake_missing_bindings: false,
+            zero_initialize_workgroup_memory: false,
+            restrict_indexing: self.is_checked(),
+            force_loop_bounding: self.is_checked(),
+            ..hlsl::Options::default()
+        };
+        let mut text = String::new();
+        let pipeline = hlsl::PipelineOptions::default();
+        let info = hlsl::Writer::new(&mut text, &options, &pipeline)
+            .write(parsed.module, parsed.info, None)
+            .map_err(|error| parsed.failed("HLSL", &error))?;
+        let name = parsed.named("HLSL", &info.entry_point_names)?;
+        Ok((text.into_bytes(), name))
+    }
+
+    fn msl(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
+        let target = |slot: u32| msl::BindTarget {
+            buffer: u8::try_from(slot).ok(),
+            mutable: true,
+            ..Default::default()
+        };
+        let resources = msl::EntryPointResources {
+            resources: parsed.map(target).collect(),
+            sizes_buffer: u8::try_from(parsed.sizes_slot()).ok(),
+            ..Default::default()
+        };
+        let options = msl::Options {
+            lang_version: (2, 0),
+            per_entry_point_map: [(parsed.stage.entry_point().to_owned(), resources)].into(),
+            fake_missing_bindings: false,
+            bounds_check_policies: self.policies(),
+            zero_initialize_workgroup_memory: false,
+            force_loop_bounding: self.is_checked(),
+            emit_int_div_checks: self.is_checked(),
+            ..msl::Options::default()
+        };
+        let pipeline = msl::PipelineOptions::default();
+        let (text, info) = msl::write_string(parsed.module, parsed.info, &options, &pipeline)
+            .map_err(|error| parsed.failed("MSL", &error))?;
+        let name = parsed.named("MSL", &info.entry_point_names)?;
+        Ok((text.into_bytes(), name))
+    }
+}
+
+impl Target {
+    const fn extension(self) -> &'static str {
+        match self {
+            Self::Wgsl => "wgsl",
+            Self::Spirv => "spv",
+            Self::Glsl => "comp",
+            Self::Hlsl => "hlsl",
+            Self::Msl => "metal",
+        }
+    }
+}
+
+/// A stage that naga has read.
+#[derive(Clone, Copy)]
+struct Parsed<'a> {
+    module: &'a Module,
+    info: &'a ModuleInfo,
+    stage: Stage,
+}
+
+impl Parsed<'_> {
+    /// Each binding with what stands for it in a language that numbers bindings of all kinds together.
+    fn map<T>(self, target: impl Fn(u32) -> T) -> impl Iterator<Item = (ResourceBinding, T)> {
+        let count = u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX);
+        (0..count).map(move |binding| (ResourceBinding { group: 0, binding }, target(binding)))
+    }
+
+    fn bindings(self) -> impl Iterator<Item = Binding> {
+        (0..).zip(self.stage.bindings()).map(|(binding, of)| {
+            let is_written = of.1 == Access::ReadWrite;
+            let kind = if of.0 == Resource::Job { Kind::Uniform } else { Kind::Storage };
+            let register = match kind {
+                Kind::Uniform => 'b',
+                Kind::Storage if is_written => 'u',
+                Kind::Storage => 't',
+            };
+            let hlsl_register = format!("{register}{binding}");
+            Binding { set: 0, binding, kind, is_written, resource: of.0, hlsl_register }
+        })
+    }
+
+    /// The buffer slot of Metal behind those of the bindings.
+    fn sizes_slot(self) -> u32 {
+        u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX)
+    }
+
+    /// The bindings whose length only the host knows, in the order in which naga's MSL asks for them.
+    fn unsized_bindings(self) -> Vec<u32> {
+        let ends_open = |inner: &TypeInner| match inner {
+            TypeInner::Array { size: naga::ArraySize::Dynamic, .. } => true,
+            TypeInner::Struct { members, .. } => members.last().is_some_and(|member| {
+                let inner = &self.module.types[member.ty].inner;
+                matches!(inner, TypeInner::Array { size: naga::ArraySize::Dynamic, .. })
+            }),
+            _ => false,
+        };
+        let globals = self.module.global_variables.iter();
+        globals
+            .filter(|(_, variable)| ends_open(&self.module.types[variable.ty].inner))
+            .filter_map(|(_, variable)| variable.binding.map(|binding| binding.binding))
+            .collect()
+    }
+
+    fn failed(self, language: &str, error: &dyn std::fmt::Display) -> String {
+        format!("{} has no words for {}: {error}", language, self.stage.entry_point())
+    }
+
+    /// The name that the entry point has in a language.
+    fn named<E: std::fmt::Display>(
+        self,
+        language: &str,
+        names: &[Result<String, E>],
+    ) -> Result<String, String> {
+        match names.first() {
+            Some(Ok(name)) => Ok(name.clone()),
+            Some(Err(error)) => Err(self.failed(language, error)),
+            None => Err(self.failed(language, &"no entry point")),
+        }
+    }
+}

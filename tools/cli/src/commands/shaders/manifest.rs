@@ -1,0 +1,180 @@
+//! The manifest: what a host needs to run the shaders. docs/shaders.md explains each entry.
+
+use super::languages::Translation;
+use super::plan::{Variant, name_of};
+use super::structures::Structure;
+use serde::Serialize;
+use tess_gpu::sizes::ALIGNMENT;
+use tess_gpu::{IndexType, Numbering, PointFormat, Resource, Setup};
+use tess_verify::names::Named;
+
+/// The file of the tables' contents.
+pub(super) const TABLES_FILE: &str = "tables.bin";
+
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Manifest {
+    pub(super) format: &'static str,
+    pub(super) version: &'static str,
+    #[serde(flatten)]
+    pub(super) translation: Translation,
+    pub(super) setup: Described,
+    pub(super) stages: Vec<Stage>,
+    pub(super) resources: Vec<Role>,
+    /// Bytes between two jobs in their buffer.
+    pub(super) job_stride: u64,
+    pub(super) plans: Vec<Variant>,
+    pub(super) structures: Vec<Structure>,
+}
+
+/// A setup in names and numbers.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Described {
+    pub(super) domain: &'static str,
+    pub(super) partitioning: &'static str,
+    pub(super) output: &'static str,
+    pub(super) split: &'static str,
+    pub(super) points: &'static str,
+    pub(super) index_type: &'static str,
+    pub(super) numbering: &'static str,
+    pub(super) factors_per_patch: u32,
+    pub(super) indices_per_primitive: u32,
+    pub(super) bytes_per_index: u32,
+    pub(super) bytes_per_point: u32,
+}
+
+/// A shader.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Stage {
+    pub(super) name: &'static str,
+    pub(super) file: String,
+    pub(super) entry_point: String,
+    pub(super) workgroup_size: [u32; 3],
+    pub(super) bindings: Vec<Binding>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) msl_sizes: Option<Sizes>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Binding {
+    pub(super) set: u32,
+    pub(super) binding: u32,
+    pub(super) kind: Kind,
+    pub(super) is_written: bool,
+    #[serde(serialize_with = "lower_case")]
+    pub(super) resource: Resource,
+    pub(super) hlsl_register: String,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Kind {
+    Uniform,
+    Storage,
+}
+
+/// The buffer of Metal in which the host says how long others are: a word for each binding.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Sizes {
+    pub(super) buffer: u32,
+    pub(super) of_bindings: Vec<u32>,
+}
+
+/// What the host does with a buffer.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Role {
+    #[serde(serialize_with = "lower_case")]
+    pub(super) resource: Resource,
+    pub(super) host: Host,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(super) enum Host {
+    /// Writes the jobs.
+    WritesJobs,
+    /// Writes the raw factors.
+    WritesFactors,
+    /// Writes the contents of `tables.bin`, once.
+    WritesTables,
+    /// Fills it with zeros before each run, and may read the status behind it.
+    Clears,
+    /// Dispatches and draws with it.
+    UsesIndirectly,
+    /// Takes the result.
+    Reads,
+    /// Only keeps it: its contents pass from one dispatch to another.
+    Keeps,
+}
+
+fn lower_case<S: serde::Serializer>(resource: &Resource, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(&name_of(*resource))
+}
+
+impl Manifest {
+    pub(super) fn new(
+        setup: Setup,
+        translation: Translation,
+        stages: Vec<Stage>,
+        plans: Vec<Variant>,
+        structures: Vec<Structure>,
+    ) -> Self {
+        let resources = Resource::ALL.map(|resource| Role { resource, host: Host::of(resource) });
+        Self {
+            format: "tess-shaders 1",
+            version: env!("CARGO_PKG_VERSION"),
+            translation,
+            setup: Described::new(setup),
+            stages,
+            resources: resources.to_vec(),
+            job_stride: ALIGNMENT,
+            plans,
+            structures,
+        }
+    }
+}
+
+impl Described {
+    fn new(setup: Setup) -> Self {
+        let point = match setup.point_format {
+            PointFormat::Packed => "packed",
+            PointFormat::F32 => "f32",
+        };
+        let index = match setup.index_type {
+            IndexType::U16 => "u16",
+            IndexType::U32 => "u32",
+        };
+        let numbering = match setup.numbering {
+            Numbering::PerBatch => "per-batch",
+            Numbering::PerPatch => "per-patch",
+        };
+        Self {
+            domain: setup.domain.name(),
+            partitioning: setup.config.partitioning.name(),
+            output: setup.config.output.name(),
+            split: setup.config.split.name(),
+            points: point,
+            index_type: index,
+            numbering,
+            factors_per_patch: setup.factors(),
+            indices_per_primitive: setup.indices_per_primitive(),
+            bytes_per_index: setup.index_type.bytes(),
+            bytes_per_point: 8,
+        }
+    }
+}
+
+impl Host {
+    const fn of(resource: Resource) -> Self {
+        match resource {
+            Resource::Job => Self::WritesJobs,
+            Resource::Factors => Self::WritesFactors,
+            Resource::Tables => Self::WritesTables,
+            Resource::Status => Self::Clears,
+            Resource::Arguments => Self::UsesIndirectly,
+            Resource::Points | Resource::Indices => Self::Reads,
+            Resource::Topologies | Resource::Contexts | Resource::Offsets | Resource::Tiles => {
+                Self::Keeps
+            }
+        }
+    }
+}

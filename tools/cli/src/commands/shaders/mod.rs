@@ -1,0 +1,175 @@
+//! `tess shaders`: the compute shaders in any language, and what a host needs to run them.
+
+mod formula;
+mod header;
+mod languages;
+mod manifest;
+mod plan;
+mod structures;
+#[cfg(test)]
+mod tests;
+
+use crate::args::name_of;
+use crate::failure::{Exit, Failure};
+use crate::output::{NewFolder, json};
+use clap::ValueEnum;
+use languages::{Checks, Target, Translation};
+use manifest::Manifest;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_gpu::tables::tables;
+use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+
+/// Write the compute shaders for any API, with a manifest that says how to run them
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The folder gets a file for each stage, tables.bin with the constants that they look up, and the same
+manifest twice: manifest.json, and tess_shaders.h for C99. bindings/vulkan is a host in C that needs
+nothing else. MSL is written but compiled by none of this project's tests; spirv, glsl and hlsl are.
+
+Examples:
+  tess shaders --target spirv --domain quad -o shaders/
+  tess shaders --target hlsl --domain tri --partitioning fractional_odd --points f32 -o shaders/
+  tess shaders --target spirv --checks none -o shaders/   faster; see docs/performance.md")]
+pub(crate) struct Args {
+    /// Language of the shaders
+    #[arg(long, value_name = "NAME")]
+    target: Target,
+    /// Domain of the patches
+    #[arg(long, value_name = "NAME", default_value = "tri", value_parser = name_of::<Domain>())]
+    domain: Domain,
+    /// Spacing of the cuts
+    #[arg(long, value_name = "NAME", default_value = "integer")]
+    #[arg(value_parser = name_of::<Partitioning>())]
+    partitioning: Partitioning,
+    /// What the indices describe
+    #[arg(long, value_name = "NAME", default_value = "triangle_cw")]
+    #[arg(value_parser = name_of::<OutputPrimitive>())]
+    output: OutputPrimitive,
+    /// Order in which points join an edge
+    #[arg(long, value_name = "NAME", default_value = "ruler")]
+    #[arg(value_parser = name_of::<SplitOrder>())]
+    split: SplitOrder,
+    /// Form of the points, 8 bytes each
+    #[arg(long, value_name = "FORM", default_value = "packed")]
+    points: PointsName,
+    /// Width of the indices
+    #[arg(long, value_name = "TYPE", default_value = "u32")]
+    index_type: IndexName,
+    /// Which point has index 0
+    #[arg(long, value_name = "NAME", default_value = "per-batch")]
+    numbering: NumberingName,
+    /// Whether the shaders check every access and every loop
+    #[arg(long, value_name = "WHICH", default_value = "full")]
+    checks: Checks,
+    /// New folder to write
+    #[arg(short = 'o', long = "out", value_name = "FOLDER")]
+    folder: PathBuf,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum PointsName {
+    /// 16.16 coordinates and the number of the patch
+    Packed,
+    /// Two binary32 coordinates
+    F32,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum IndexName {
+    /// 16 bits
+    U16,
+    /// 32 bits
+    U32,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum NumberingName {
+    /// The first point of the batch, for one draw of everything
+    PerBatch,
+    /// The first point of each patch
+    PerPatch,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// The folder is there already or cannot be written.
+pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    let setup = args.setup();
+    let translation = Translation { target: args.target, checks: args.checks };
+    let shaders = Shaders::new(setup, translation)?;
+    let write = || {
+        let new = NewFolder::create(&args.folder)?;
+        shaders.write(new.path())?;
+        new.finish()
+    };
+    write().map_err(|error| Failure::write(&args.folder, error))?;
+    Ok(Exit::Done)
+}
+
+impl Args {
+    fn setup(&self) -> Setup {
+        let config =
+            Config { partitioning: self.partitioning, output: self.output, split: self.split };
+        Setup {
+            point_format: match self.points {
+                PointsName::Packed => PointFormat::Packed,
+                PointsName::F32 => PointFormat::F32,
+            },
+            numbering: match self.numbering {
+                NumberingName::PerBatch => Numbering::PerBatch,
+                NumberingName::PerPatch => Numbering::PerPatch,
+            },
+            index_type: match self.index_type {
+                IndexName::U16 => IndexType::U16,
+                IndexName::U32 => IndexType::U32,
+            },
+            ..Setup::new(self.domain, config)
+        }
+    }
+}
+
+/// Everything that the folder gets.
+struct Shaders {
+    manifest: Manifest,
+    files: Vec<(String, Vec<u8>)>,
+    tables: Vec<u8>,
+}
+
+impl Shaders {
+    /// The shaders of a setup.
+    ///
+    /// # Errors
+    /// Exit code 3 if the plan or a shader has something that the manifest or the language cannot say.
+    fn new(setup: Setup, translation: Translation) -> Result<Self, Failure> {
+        let plans = plan::variants(setup).map_err(Failure::unavailable)?;
+        let mut files = Vec::new();
+        let mut stages = Vec::new();
+        for stage in plan::stages(&plans) {
+            let written = translation.write(stage, setup).map_err(Failure::unavailable)?;
+            files.push((written.file.clone(), written.text));
+            stages.push(written.stage);
+        }
+        let structures = structures::all(setup);
+        let manifest = Manifest::new(setup, translation, stages, plans, structures);
+        let words = tables(setup.config.split);
+        Ok(Self {
+            manifest,
+            files,
+            tables: words.iter().flat_map(|word| word.to_le_bytes()).collect(),
+        })
+    }
+
+    /// Writes every file into the folder.
+    fn write(&self, folder: &Path) -> io::Result<()> {
+        for (name, text) in &self.files {
+            fs::write(folder.join(name), text)?;
+        }
+        fs::write(folder.join(manifest::TABLES_FILE), &self.tables)?;
+        fs::write(folder.join("manifest.json"), json(&self.manifest))?;
+        fs::write(folder.join("tess_shaders.h"), header::text(&self.manifest))
+    }
+}

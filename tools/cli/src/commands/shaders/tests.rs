@@ -1,0 +1,141 @@
+//! The formulas against the plan, and every language against a compiler that is not naga.
+
+use super::languages::{Checks, Target, Translation};
+use super::plan::{self, Count, Variant};
+use super::{Shaders, header};
+use std::mem::offset_of;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+use tess_gpu::layout::Job;
+use tess_gpu::{Capacity, IndexType, Limits, Numbering, Plan, Setup, Workgroups};
+use tess_verify::generate::configurations;
+use tess_verify::random::SplitMix64;
+
+fn setups() -> impl Iterator<Item = Setup> {
+    configurations().map(|(domain, config)| Setup::new(domain, config))
+}
+
+fn small() -> Setup {
+    Setup::new(Domain::Quad, Config::new(Partitioning::Pow2, OutputPrimitive::Line))
+}
+
+/// What the manifest says of a batch, against what the plan says under a device's limits.
+#[test]
+fn the_manifest_says_what_the_plan_says() {
+    let mut random = SplitMix64::new(7);
+    for setup in setups().step_by(5) {
+        let variants = plan::variants(setup).expect("every size has a formula");
+        for _ in 0..40 {
+            let patches = 1 + random.below(70_000);
+            let room = [1 + random.below(200_000), 1 + random.below(200_000)];
+            let workgroups = 1 << random.below(17);
+            compare(setup, &variants, [patches, room[0], room[1], workgroups]);
+        }
+    }
+}
+
+fn compare(setup: Setup, variants: &[Variant], batch: [u32; 4]) {
+    let [patches, points, primitives, workgroups] = batch;
+    let limits = Limits { storage_binding: 128 << 20, workgroups };
+    let plan = Plan::new(setup, patches, Capacity { points, primitives }, limits);
+    let mut own = variants.iter().filter(|v| (v.min_patches..=v.max_patches).contains(&patches));
+    let variant = own.next().expect("every number of patches has a plan");
+    assert!(own.next().is_none(), "{patches} patches have one plan");
+    for buffer in &variant.buffers {
+        let bytes = plan.buffer_size(buffer.resource);
+        assert_eq!(buffer.bytes.value(batch), bytes, "{:?} of {batch:?}", buffer.resource);
+    }
+    let all: Vec<_> = plan.dispatches().collect();
+    assert_eq!(variant.dispatches.len(), all.len(), "dispatches of {batch:?}");
+    for (said, dispatch) in variant.dispatches.iter().zip(&all) {
+        assert_eq!((said.stage, said.job), (dispatch.stage(), dispatch.job()), "{batch:?}");
+        assert_eq!(said.bindings.len(), dispatch.bindings().len(), "{dispatch:?}");
+        for (bound, (resource, span)) in said.bindings.iter().zip(dispatch.bindings()) {
+            let (offset, bytes) = (bound.offset.value(batch), bound.bytes.value(batch));
+            assert_eq!((bound.resource, offset, bytes), (resource, span.offset, span.size));
+        }
+        let count = match &said.workgroups {
+            Count::Direct(count) => {
+                let count = u32::try_from(count.value(batch)).expect("a number of workgroups");
+                let x = count.min(workgroups);
+                Workgroups::Direct([x, count.div_ceil(x), 1])
+            }
+            Count::IndirectAt(at) => Workgroups::Indirect(at.value(batch)),
+        };
+        assert_eq!(count, dispatch.workgroups(), "{dispatch:?}");
+    }
+    let jobs = plan.jobs();
+    assert_eq!(variant.jobs.len() * 256, jobs.len(), "jobs of {batch:?}");
+    for (job, words) in jobs.chunks(256).zip(&variant.jobs) {
+        let written = words.iter().map(|word| word.value(batch));
+        let read = job.as_chunks().0.iter().map(|bytes| u32::from_le_bytes(*bytes));
+        assert_windows(read.zip(written), words.len(), batch);
+    }
+}
+
+/// The words of a job but for the tiles of a window, which only tell windows apart.
+fn assert_windows(pairs: impl Iterator<Item = (u32, u64)>, words: usize, batch: [u32; 4]) {
+    const WINDOW_TILES: [usize; 3] = [
+        offset_of!(Job, window_tiles) / 4,
+        offset_of!(Job, point_window_tiles) / 4,
+        offset_of!(Job, primitive_window_tiles) / 4,
+    ];
+    for (number, (plan, manifest)) in pairs.take(words).enumerate() {
+        let plan = u64::from(plan);
+        if WINDOW_TILES.contains(&number) {
+            assert!(plan == 0 && manifest == 0 || plan > 0 && manifest >= plan, "word {number}");
+        } else {
+            assert_eq!(plan, manifest, "word {number} of {batch:?}");
+        }
+    }
+}
+
+#[test]
+fn a_formula_that_does_not_hold_is_none() {
+    use super::formula::Formula;
+    let bounds = [(1, 1 << 20), (1, 1 << 20), (1, 1 << 20), (1, 1 << 16)];
+    let linear = Formula::of(bounds, |b| 8 * u64::from(b[0]) + 5 * u64::from(b[1].div_ceil(2048)));
+    assert_eq!(linear.expect("it has one").value([3, 2049, 1, 1]), 24 + 10);
+    assert_eq!(Formula::of(bounds, |b| u64::from(b[0]) * u64::from(b[1])), None, "a product");
+    assert_eq!(Formula::of(bounds, |b| u64::from(b[0] / 3)), None, "a quotient");
+    assert_eq!(Formula::of(bounds, |b| u64::from(b[2] > 70_000)), None, "a threshold");
+}
+
+/// Every language writes every stage of every configuration, and no writer needs constants from the
+/// host that the manifest does not have.
+#[test]
+fn every_language_has_words_for_every_stage() {
+    for (number, setup) in setups().enumerate() {
+        let index_type = if number % 2 == 0 { IndexType::U32 } else { IndexType::U16 };
+        let setup = Setup { numbering: Numbering::PerPatch, index_type, ..setup };
+        for target in [Target::Glsl, Target::Hlsl, Target::Msl, Target::Spirv] {
+            for checks in [Checks::Full, Checks::None] {
+                let translation = Translation { target, checks };
+                for stage in tess_gpu::Stage::ALL {
+                    let written = translation.write(stage, setup).expect("it has words");
+                    let text = String::from_utf8_lossy(&written.text);
+                    assert!(!text.contains("NagaConstants"), "{target:?} {stage:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_header_has_what_the_manifest_has() {
+    let translation = Translation { target: Target::Spirv, checks: Checks::Full };
+    let shaders = Shaders::new(small(), translation).expect("it can be written");
+    let text = header::text(&shaders.manifest);
+    for stage in &shaders.manifest.stages {
+        assert!(text.contains(&format!("\"{}\"", stage.file)), "{}", stage.file);
+    }
+    for structure in ["struct tess_job {", "struct tess_status {", "struct tess_draw_indexed {"] {
+        assert!(text.contains(structure), "{structure}");
+    }
+    let most_terms = "struct tess_term term[6];";
+    assert!(text.contains(most_terms), "the header declares {most_terms}");
+    let formulas = shaders.manifest.plans.iter().flat_map(|plan| plan.jobs.iter().flatten());
+    assert!(
+        formulas.clone().count() > 0 && formulas.into_iter().all(|f| f.terms.len() <= 6),
+        "fit"
+    );
+}

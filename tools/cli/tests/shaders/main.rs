@@ -1,0 +1,92 @@
+//! What `tess shaders` writes, in the hands of others: compilers that are not naga, and the host in C
+//! of `bindings/vulkan`, whose output must be the model's.
+//!
+//! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the
+//! environment variable `CI` set they fail.
+
+mod batches;
+mod compilers;
+mod host;
+mod metal;
+
+use libtest_mimic::{Arguments, Failed, Trial};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+type Test = fn() -> Result<(), Failed>;
+
+const TESTS: &[(&str, &[&str], Test)] = &[
+    ("spirv_is_valid", &["spirv-val"], compilers::spirv_is_valid),
+    ("glsl_compiles", &["spirv-val", "glslangValidator"], compilers::glsl_compiles),
+    ("hlsl_compiles", &["spirv-val", "glslangValidator"], compilers::hlsl_compiles),
+    ("invalid_shaders_are_refused", &["spirv-val", "glslangValidator"], compilers::faults_are_seen),
+    ("metal_is_as_recorded", &[], metal::is_as_recorded),
+    ("host_equals_the_model", &["cc"], host::spirv_equals_the_model),
+    ("glsl_equals_the_model", &["cc", "glslangValidator"], host::glsl_equals_the_model),
+    ("hlsl_equals_the_model", &["cc", "glslangValidator"], host::hlsl_equals_the_model),
+    ("unchecked_equals_the_model", &["cc"], host::unchecked_equals_the_model),
+    ("host_faults_are_seen", &["cc"], host::faults_are_seen),
+    ("host_refuses_bad_usage", &["cc"], host::bad_usage_is_refused),
+];
+
+fn main() {
+    let in_ci = std::env::var_os("CI").is_some();
+    let trials = TESTS.iter().map(|&(name, needed, test)| {
+        let missing: Vec<&str> = needed.iter().copied().filter(|tool| !has(tool)).collect();
+        if missing.is_empty() {
+            return Trial::test(name, test);
+        }
+        let missing = format!("not run, missing: {}", missing.join(" "));
+        let failing = missing.clone();
+        Trial::test(name, move || Err(failing.into())).with_kind(missing).with_ignored_flag(!in_ci)
+    });
+    libtest_mimic::run(&Arguments::from_args(), trials.collect()).exit();
+}
+
+/// Whether a tool can be run.
+fn has(tool: &str) -> bool {
+    let mut command = Command::new(tool);
+    command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
+/// Runs a command that must succeed; gives its standard output.
+fn run(command: &mut Command) -> Result<String, String> {
+    let output = command.output().map_err(|error| format!("cannot run {command:?}: {error}"))?;
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let (out, err) = (text(&output.stdout), text(&output.stderr));
+    if output.status.success() {
+        Ok(out)
+    } else {
+        Err(format!("{command:?} ended with {}\n{out}\n{err}", output.status))
+    }
+}
+
+/// Writes the shaders of these options into an empty folder of this name.
+fn shaders(name: &str, options: &str) -> Result<PathBuf, String> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shaders").join(name);
+    _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(folder.parent().unwrap_or(&folder)).map_err(|e| e.to_string())?;
+    let mut command = Command::new(env!("CARGO_BIN_EXE_tess"));
+    command.arg("shaders").args(options.split_whitespace()).arg("-o").arg(&folder);
+    run(&mut command)?;
+    Ok(folder)
+}
+
+/// The files of a folder that end so, without the ending; there must be some.
+fn stages(folder: &Path, ending: &str) -> Result<Vec<String>, String> {
+    let entries = std::fs::read_dir(folder).map_err(|error| error.to_string())?;
+    let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let mut stages: Vec<_> =
+        names.filter_map(|name| name.strip_suffix(ending).map(str::to_owned)).collect();
+    stages.sort();
+    if stages.is_empty() { Err(format!("no {ending} in {}", folder.display())) } else { Ok(stages) }
+}
+
+/// Options of one setup of each domain that together have every form of shader.
+const SETUPS: [&str; 4] = [
+    "--domain tri --partitioning fractional_odd --output triangle_cw",
+    "--domain quad --partitioning integer --output triangle_ccw --split center --points f32",
+    "--domain isoline --partitioning fractional_even --output line --index-type u16 --numbering per-patch",
+    "--domain quad --partitioning pow2 --output point --numbering per-patch",
+];

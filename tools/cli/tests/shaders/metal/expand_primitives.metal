@@ -1,0 +1,1415 @@
+// language: metal2.0
+#include <metal_stdlib>
+#include <simd/simd.h>
+
+using metal::uint;
+
+struct _mslBufferSizes {
+    uint size0;
+    uint size2;
+    uint size3;
+    uint size6;
+    uint size7;
+    uint size8;
+};
+
+typedef metal::uint2 type_2[1];
+struct Job {
+    uint patches;
+    uint first_patch;
+    uint chunk;
+    uint stride;
+    uint blocks_at;
+    uint alike_at;
+    uint groups_at;
+    uint primitive_tiles_at;
+    uint window_first;
+    uint window_tiles;
+    uint chunks;
+    uint point_capacity;
+    uint primitive_capacity;
+    uint point_windows;
+    uint primitive_windows;
+    uint point_window_tiles;
+    uint primitive_window_tiles;
+    uint max_workgroups;
+};
+struct Tile {
+    uint base;
+    uint begin;
+    uint end;
+    uint first_patch;
+    uint last_patch;
+};
+typedef uint type_3[1];
+struct Range {
+    uint points_begin;
+    uint points_end;
+    uint primitives_begin;
+    uint primitives_end;
+};
+typedef Range type_5[1];
+struct Status {
+    uint points;
+    uint points_high;
+    uint primitives;
+    uint primitives_high;
+    uint overflow;
+    uint reserved_0_;
+    uint reserved_1_;
+    uint reserved_2_;
+    type_5 ranges;
+};
+struct Repeat {
+    metal::uint2 topology;
+    uint size;
+    uint before;
+    uint inverse;
+    uint base;
+    uint points;
+    char _pad6[4];
+};
+struct Rings {
+    uint outer;
+    uint before_1_;
+    uint before_2_;
+    uint before_3_;
+    uint u;
+    uint v;
+    uint short_;
+    uint sides;
+    uint boundary;
+    uint along;
+};
+struct RingLocation {
+    uint ring;
+    uint edge;
+    uint step;
+};
+struct Stitch {
+    uint size;
+    uint steps_at;
+    uint outer;
+    uint inner;
+    bool turns;
+    char _pad5[3];
+    uint outer_turn;
+    uint outer_mirror;
+    uint inner_turn;
+    uint inner_mirror;
+};
+struct Pair {
+    metal::uint3 first;
+    metal::uint3 second;
+};
+struct Round {
+    uint first;
+    uint count;
+    uint begin;
+    uint end;
+};
+struct type_8 {
+    int inner[128];
+};
+struct type_9 {
+    metal::uint2 inner[128];
+};
+struct Source {
+    uint number;
+    uint begin;
+    uint base;
+    bool is_regular;
+    char _pad4[3];
+    Rings rings;
+};
+struct Corner {
+    uint number;
+    uint i;
+    uint corner;
+};
+constant uint DOMAIN = 2u;
+constant uint PARTITIONING = 2u;
+constant uint OUTPUT = 2u;
+constant uint SPLIT = 0u;
+constant uint POINT_FORMAT = 0u;
+constant uint NUMBERING = 0u;
+constant uint FACTORS = 6u;
+constant uint WORKGROUP = 64u;
+constant uint TILE = 2048u;
+constant uint ROUND = 128u;
+constant uint SUMMED = 256u;
+constant uint BLOCK = 256u;
+constant uint BLOCK_BITS = 8u;
+constant uint GROUP_BLOCKS = 256u;
+constant uint GROUP_BLOCK_BITS = 8u;
+constant uint GROUP = 65536u;
+constant uint GROUP_BITS = 16u;
+constant uint DISPATCHES_AT = 8u;
+constant uint RECIPROCALS_AT = 0u;
+constant uint STITCHES_AT = 64u;
+constant uint STITCH_WORDS = 128u;
+constant uint TRANSITION_STRIDE = 64u;
+constant uint FAN_STITCH = 65u;
+constant uint RING_STITCH = 4096u;
+constant uint MIRRORED_STRIP = 4160u;
+constant uint PLAIN_STRIP = 4224u;
+constant uint SCRATCH = 128u;
+constant uint ISOLINE = 0u;
+constant uint TRIANGLE = 1u;
+constant uint QUAD = 2u;
+constant uint INTEGER = 0u;
+constant uint POW2_ = 1u;
+constant uint FRACTIONAL_ODD = 2u;
+constant uint FRACTIONAL_EVEN = 3u;
+constant uint OUTPUT_POINT = 0u;
+constant uint OUTPUT_LINE = 1u;
+constant uint OUTPUT_TRIANGLE_CW = 2u;
+constant uint OUTPUT_TRIANGLE_CCW = 3u;
+constant uint RULER = 0u;
+constant uint CENTER = 1u;
+constant uint PACKED = 0u;
+constant uint F32_ = 1u;
+constant uint PER_BATCH = 0u;
+constant uint PER_PATCH = 1u;
+constant uint POINTS = 0u;
+constant uint PRIMITIVES = 1u;
+constant uint NEVER = 4294967295u;
+constant bool IS_INTEGER = false;
+constant uint EDGES = 4u;
+constant bool IS_TRIANGLES = true;
+constant uint INDICES = 3u;
+constant uint CULLED = 0u;
+constant uint MINIMUM = 1u;
+constant uint REGULAR = 2u;
+
+metal::uint2 patch_offset(
+    uint patch_index,
+    device type_2 const& offsets,
+    constant Job& job,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    metal::uint2 _e3 = offsets[metal::min(unsigned(patch_index), (_buffer_sizes.size0 - 0 - 8) / 8)];
+    uint _e7 = job.blocks_at;
+    metal::uint2 _e12 = offsets[metal::min(unsigned(_e7 + (patch_index >> BLOCK_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
+    uint _e17 = job.groups_at;
+    metal::uint2 _e22 = offsets[metal::min(unsigned(_e17 + (patch_index >> GROUP_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
+    return (_e3 + _e12) + _e22;
+}
+
+uint naga_div(uint lhs, uint rhs) {
+    return lhs / metal::select(rhs, 1u, rhs == 0u);
+}
+
+Tile tile_of(
+    uint workgroup_1,
+    uint begin,
+    uint end,
+    uint table_at,
+    constant Job& job,
+    device type_3 const& tiles,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    bool local = {};
+    uint chunk_first = naga_div(begin, TILE);
+    uint _e8 = job.window_first;
+    uint first_4 = metal::max(chunk_first, _e8);
+    uint _e18 = job.window_first;
+    uint _e21 = job.window_tiles;
+    uint last_1 = metal::min(naga_div((end + TILE) - 1u, TILE), _e18 + _e21);
+    uint number_6 = first_4 + workgroup_1;
+    if (!((end <= begin))) {
+        local = number_6 >= last_1;
+    } else {
+        local = true;
+    }
+    bool _e31 = local;
+    if (_e31) {
+        return Tile {0u, 0u, 0u, 0u, 0u};
+    }
+    uint base_6 = number_6 * TILE;
+    uint at_8 = (table_at + number_6) - chunk_first;
+    uint _e48 = tiles[metal::min(unsigned(at_8), (_buffer_sizes.size2 - 0 - 4) / 4)];
+    uint _e53 = tiles[metal::min(unsigned(at_8 + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
+    return Tile {base_6, metal::max(base_6, begin), metal::min(base_6 + TILE, end), _e48, _e53};
+}
+
+uint state_of(
+    metal::uint2 topology
+) {
+    return topology.x >> 28u;
+}
+
+uint outer_points(
+    metal::uint2 topology_1,
+    uint edge
+) {
+    return (topology_1.x >> (7u * edge)) & 127u;
+}
+
+uint inside_u(
+    metal::uint2 topology_2
+) {
+    return topology_2.y & 127u;
+}
+
+uint inside_v(
+    metal::uint2 topology_3
+) {
+    return topology_3.y >> 7u;
+}
+
+uint along_points(
+    metal::uint2 topology_4,
+    uint edge_1
+) {
+    return (topology_4.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
+}
+
+uint outer_before(
+    metal::uint2 topology_5,
+    uint edge_2
+) {
+    uint _e4 = outer_points(topology_5, 0u);
+    uint _e10 = outer_points(topology_5, 1u);
+    uint _e17 = outer_points(topology_5, 2u);
+    return (((edge_2 > 0u) ? _e4 : 0u) + ((edge_2 > 1u) ? _e10 : 0u)) + ((edge_2 > 2u) ? _e17 : 0u);
+}
+
+uint along_before(
+    metal::uint2 topology_6,
+    uint edge_3
+) {
+    uint _e6 = inside_v(topology_6);
+    uint _e10 = inside_u(topology_6);
+    return (((edge_3 + 1u) >> 1u) * _e6) + ((edge_3 >> 1u) * _e10);
+}
+
+uint boundary(
+    metal::uint2 topology_7
+) {
+    uint _e2 = outer_before(topology_7, 3u);
+    uint _e4 = outer_points(topology_7, 3u);
+    return (_e2 + _e4) - EDGES;
+}
+
+metal::uint2 common_topology(
+    Tile tile,
+    device type_2 const& offsets,
+    constant Job& job,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint block = {};
+    uint _e3 = job.alike_at;
+    uint first_5 = _e3 + (tile.first_patch >> BLOCK_BITS);
+    uint _e10 = job.alike_at;
+    uint last_2 = _e10 + (tile.last_patch >> BLOCK_BITS);
+    metal::uint2 topology_10 = offsets[metal::min(unsigned(first_5), (_buffer_sizes.size0 - 0 - 8) / 8)];
+    block = first_5 + 1u;
+    uint2 loop_bound = uint2(4294967295u);
+    bool loop_init = true;
+    while(true) {
+        if (metal::all(loop_bound == uint2(0u))) { break; }
+        loop_bound -= uint2(loop_bound.y == 0u, 1u);
+        if (!loop_init) {
+            uint _e33 = block;
+            block = _e33 + 1u;
+        }
+        loop_init = false;
+        uint _e21 = block;
+        if (_e21 <= last_2) {
+        } else {
+            break;
+        }
+        {
+            uint _e24 = block;
+            metal::uint2 _e26 = offsets[metal::min(unsigned(_e24), (_buffer_sizes.size0 - 0 - 8) / 8)];
+            if (metal::any(_e26 != topology_10)) {
+                return metal::uint2(0u, 0u);
+            }
+        }
+    }
+    return topology_10;
+}
+
+Repeat repeat_of(
+    Tile tile_1,
+    uint kind,
+    uint most,
+    device type_2 const& offsets,
+    constant Job& job,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    Repeat none = {};
+    bool local_1 = {};
+    none.size = 0u;
+    metal::uint2 _e6 = common_topology(tile_1, offsets, job, _buffer_sizes);
+    if (!((tile_1.first_patch == tile_1.last_patch))) {
+        uint _e13 = state_of(_e6);
+        local_1 = _e13 == CULLED;
+    } else {
+        local_1 = true;
+    }
+    bool _e17 = local_1;
+    if (_e17) {
+        Repeat _e18 = none;
+        return _e18;
+    }
+    metal::uint2 _e20 = patch_offset(tile_1.first_patch, offsets, job, _buffer_sizes);
+    metal::uint2 _e24 = patch_offset(tile_1.first_patch + 1u, offsets, job, _buffer_sizes);
+    metal::uint2 size_2 = _e24 - _e20;
+    if (size_2[metal::min(unsigned(kind), 1u)] > most) {
+        Repeat _e28 = none;
+        return _e28;
+    }
+    return Repeat {_e6, size_2[metal::min(unsigned(kind), 1u)], tile_1.base - _e20[metal::min(unsigned(kind), 1u)], naga_div(2097151u + size_2[metal::min(unsigned(kind), 1u)], size_2[metal::min(unsigned(kind), 1u)]), _e20.x, size_2.x};
+}
+
+uint patch_at(
+    Repeat repeat,
+    uint position
+) {
+    return (position * repeat.inverse) >> 21u;
+}
+
+Rings rings_of(
+    metal::uint2 topology_8
+) {
+    uint _e2 = outer_points(topology_8, 0u);
+    uint _e4 = outer_points(topology_8, 1u);
+    uint before_2_ = _e2 + _e4;
+    uint _e7 = outer_points(topology_8, 2u);
+    uint before_3_ = before_2_ + _e7;
+    uint _e9 = inside_u(topology_8);
+    uint _e10 = inside_v(topology_8);
+    uint sides = _e9 + _e10;
+    uint _e15 = outer_points(topology_8, 3u);
+    return Rings {topology_8.x, _e2, before_2_, before_3_, _e9, _e10, metal::min(_e9, _e10), sides, before_3_ + (false ? 4294967293u : (_e15 - 4u)), false ? (sides + _e9) : (2u * sides)};
+}
+
+uint outer_of(
+    Rings rings,
+    uint edge_4
+) {
+    return (rings.outer >> (7u * edge_4)) & 127u;
+}
+
+uint outer_sum(
+    Rings rings_1,
+    uint edge_5
+) {
+    uint high = (edge_5 == 3u) ? rings_1.before_3_ : rings_1.before_2_;
+    return (edge_5 >= 2u) ? high : ((edge_5 == 1u) ? rings_1.before_1_ : 0u);
+}
+
+uint along_of(
+    Rings rings_2,
+    uint edge_6
+) {
+    return ((edge_6 & 1u) == 1u) ? rings_2.u : rings_2.v;
+}
+
+uint along_sum(
+    Rings rings_3,
+    uint edge_7
+) {
+    return (((edge_7 & 1u) == 1u) ? rings_3.v : 0u) + ((edge_7 >= 2u) ? rings_3.sides : 0u);
+}
+
+uint ring_points(
+    Rings rings_4,
+    uint ring
+) {
+    return (rings_4.along - EDGES) - (8u * ring);
+}
+
+uint first_of_ring(
+    Rings rings_5,
+    uint ring_1
+) {
+    return rings_5.boundary + ((ring_1 - 1u) * ((rings_5.along - EDGES) - (EDGES * ring_1)));
+}
+
+uint point_ring_end(
+    Rings rings_6
+) {
+    return rings_6.short_ >> 1u;
+}
+
+uint stitch_ring_end(
+    Rings rings_7
+) {
+    return (rings_7.short_ + 1u) >> 1u;
+}
+
+uint nearer_ring(
+    uint k,
+    uint reach,
+    uint goal,
+    uint end_1,
+    uint form,
+    uint scale
+) {
+    uint next_1 = metal::min(k + reach, end_1);
+    return ((next_1 * (form - (scale * next_1))) <= goal) ? next_1 : k;
+}
+
+uint last_before(
+    uint goal_1,
+    uint end_2,
+    uint form_1,
+    uint scale_1
+) {
+    uint k_1 = 0u;
+    if (end_2 > 3u) {
+        uint _e8 = k_1;
+        uint _e10 = nearer_ring(_e8, 16u, goal_1, end_2, form_1, scale_1);
+        k_1 = _e10;
+        uint _e11 = k_1;
+        uint _e13 = nearer_ring(_e11, 8u, goal_1, end_2, form_1, scale_1);
+        k_1 = _e13;
+        uint _e14 = k_1;
+        uint _e16 = nearer_ring(_e14, 4u, goal_1, end_2, form_1, scale_1);
+        k_1 = _e16;
+    }
+    uint _e17 = k_1;
+    uint _e19 = nearer_ring(_e17, 2u, goal_1, end_2, form_1, scale_1);
+    k_1 = _e19;
+    uint _e20 = k_1;
+    uint _e22 = nearer_ring(_e20, 1u, goal_1, end_2, form_1, scale_1);
+    return _e22;
+}
+
+RingLocation location_on_edges(
+    uint ring_2,
+    uint rest,
+    uint begin_1_,
+    uint begin_2_,
+    uint size_2_
+) {
+    bool is_high = rest >= begin_2_;
+    uint low = rest - (is_high ? begin_2_ : 0u);
+    uint size_3 = is_high ? (false ? NEVER : size_2_) : begin_1_;
+    bool is_odd = low >= size_3;
+    return RingLocation {ring_2, (is_high ? 2u : 0u) + (is_odd ? 1u : 0u), low - (is_odd ? size_3 : 0u)};
+}
+
+RingLocation location_on_ring(
+    uint ring_3,
+    uint rest_1,
+    uint size_0_,
+    uint size_1_
+) {
+    RingLocation _e5 = location_on_edges(ring_3, rest_1, size_0_, size_0_ + size_1_, size_0_);
+    return _e5;
+}
+
+RingLocation next_edge(
+    RingLocation location
+) {
+    bool is_last = (location.edge + 1u) == EDGES;
+    return RingLocation {is_last ? (location.ring + 1u) : location.ring, is_last ? 0u : (location.edge + 1u), 0u};
+}
+
+uint outer_vertex(
+    Stitch stitch,
+    uint at
+) {
+    return (at >= stitch.outer_turn) ? (stitch.outer_mirror - at) : at;
+}
+
+uint inner_vertex(
+    Stitch stitch_1,
+    uint at_1
+) {
+    return (at_1 >= stitch_1.inner_turn) ? (stitch_1.inner_mirror - at_1) : at_1;
+}
+
+metal::uint3 oriented(
+    uint a,
+    uint b,
+    uint c,
+    bool begins_inner
+) {
+    uint first_6 = begins_inner ? b : a;
+    uint second_2 = begins_inner ? a : c;
+    uint third = begins_inner ? c : b;
+    if (false) {
+        return metal::uint3(first_6, third, second_2);
+    }
+    return metal::uint3(first_6, second_2, third);
+}
+
+Pair stitch_triangles(
+    Stitch stitch_2,
+    uint number,
+    device type_3 const& tables,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint a_1 = {};
+    uint b_1 = {};
+    uint c_1 = {};
+    uint d = {};
+    uint steps = tables[metal::min(unsigned(stitch_2.steps_at + number), (_buffer_sizes.size3 - 0 - 4) / 4)];
+    bool first_inner = (steps & 128u) != 0u;
+    bool second_inner = (steps & 8388608u) != 0u;
+    a_1 = stitch_2.outer + (steps & 127u);
+    b_1 = (stitch_2.inner + number) - (steps & 127u);
+    uint _e26 = a_1;
+    uint _e27 = b_1;
+    c_1 = (first_inner ? _e27 : _e26) + 1u;
+    uint _e32 = c_1;
+    uint _e33 = a_1;
+    uint _e35 = b_1;
+    uint _e36 = c_1;
+    d = (second_inner ? (first_inner ? _e36 : _e35) : (first_inner ? _e33 : _e32)) + 1u;
+    if (stitch_2.turns) {
+        uint _e43 = c_1;
+        uint _e44 = outer_vertex(stitch_2, _e43);
+        uint _e45 = c_1;
+        uint _e46 = inner_vertex(stitch_2, _e45);
+        c_1 = first_inner ? _e46 : _e44;
+        uint _e48 = d;
+        uint _e49 = outer_vertex(stitch_2, _e48);
+        uint _e50 = d;
+        uint _e51 = inner_vertex(stitch_2, _e50);
+        d = second_inner ? _e51 : _e49;
+        uint _e53 = a_1;
+        uint _e54 = outer_vertex(stitch_2, _e53);
+        a_1 = _e54;
+        uint _e55 = b_1;
+        uint _e56 = inner_vertex(stitch_2, _e55);
+        b_1 = _e56;
+    }
+    uint _e57 = a_1;
+    uint _e58 = b_1;
+    uint _e59 = c_1;
+    metal::uint3 _e64 = oriented(_e57, _e58, _e59, (steps & 256u) != 0u);
+    uint _e65 = c_1;
+    uint _e66 = a_1;
+    uint _e68 = b_1;
+    uint _e69 = c_1;
+    uint _e71 = d;
+    metal::uint3 _e76 = oriented(first_inner ? _e66 : _e65, first_inner ? _e69 : _e68, _e71, (steps & 16777216u) != 0u);
+    return Pair {_e64, _e76};
+}
+
+RingLocation triangle_location(
+    Rings rings_8,
+    uint t
+) {
+    uint transitions = (rings_8.boundary + rings_8.along) - 12u;
+    if (t < transitions) {
+        uint _e20 = outer_of(rings_8, 2u);
+        RingLocation _e25 = location_on_edges(1u, t, (rings_8.before_1_ + rings_8.v) - 4u, (rings_8.before_2_ + rings_8.sides) - 8u, (_e20 + rings_8.v) - 4u);
+        return _e25;
+    }
+    uint _e26 = stitch_ring_end(rings_8);
+    uint end_4 = _e26 - 2u;
+    uint form_2 = (2u * rings_8.along) - 24u;
+    uint _e36 = last_before(t - transitions, end_4, form_2, 8u);
+    uint rest_2 = (t - transitions) - (_e36 * (form_2 - (8u * _e36)));
+    if (_e36 == end_4) {
+        return RingLocation {_e36 + 2u, 0u, rest_2};
+    }
+    RingLocation _e66 = location_on_ring(_e36 + 2u, rest_2, (2u * rings_8.v) - (4u * (_e36 + 2u)), (2u * rings_8.u) - (4u * (_e36 + 2u)));
+    return _e66;
+}
+
+uint steps_of(
+    uint number_1
+) {
+    return STITCHES_AT + (STITCH_WORDS * number_1);
+}
+
+Stitch rows(
+    Rings rings_9,
+    uint ring_4,
+    uint edge_8,
+    uint size,
+    uint number_2,
+    uint outer_ring,
+    uint outer,
+    uint inner_ring,
+    uint inner
+) {
+    bool local_2 = {};
+    uint _e9 = ring_points(rings_9, ring_4);
+    bool walks_back = rings_9.short_ == ((2u * ring_4) + 1u);
+    uint _e16 = steps_of(number_2);
+    if (!((edge_8 == 3u))) {
+        local_2 = walks_back;
+    } else {
+        local_2 = true;
+    }
+    bool _e23 = local_2;
+    return Stitch {size, _e16, outer, inner, _e23, {}, inner_ring, inner_ring + outer_ring, inner_ring + (walks_back ? (_e9 >> 1u) : _e9), (2u * inner_ring) + _e9};
+}
+
+Stitch transition_stitch(
+    Rings rings_10,
+    uint edge_9,
+    uint base
+) {
+    uint _e3 = outer_of(rings_10, edge_9);
+    uint _e4 = along_of(rings_10, edge_9);
+    uint inner_points = _e4 - 2u;
+    uint ring_5 = base + rings_10.boundary;
+    uint _e18 = outer_sum(rings_10, edge_9);
+    uint _e21 = along_sum(rings_10, edge_9);
+    Stitch _e26 = rows(rings_10, 1u, edge_9, (_e3 + inner_points) - 2u, ((TRANSITION_STRIDE * _e3) + inner_points) - 128u, base, (base + _e18) - edge_9, ring_5, (ring_5 + _e21) - (3u * edge_9));
+    return _e26;
+}
+
+Stitch straight(
+    uint size_1,
+    uint number_3,
+    uint outer_1,
+    uint inner_1
+) {
+    uint _e4 = steps_of(number_3);
+    return Stitch {size_1, _e4, outer_1, inner_1, false, {}, 0u, 0u, 0u, 0u};
+}
+
+Stitch centre_stitch(
+    Rings rings_11,
+    uint base_1
+) {
+    bool local_3 = {};
+    uint _e2 = stitch_ring_end(rings_11);
+    uint _e5 = first_of_ring(rings_11, _e2 - 1u);
+    uint first_7 = base_1 + _e5;
+    if (false) {
+        Stitch _e12 = straight(1u, FAN_STITCH, first_7, first_7 + 2u);
+        return _e12;
+    }
+    uint quads = (metal::max(rings_11.u, rings_11.v) - rings_11.short_) + 1u;
+    uint along_u = (rings_11.u > rings_11.v) ? 1u : 0u;
+    if (rings_11.u <= rings_11.v) {
+        local_3 = (rings_11.v & 1u) == 0u;
+    } else {
+        local_3 = false;
+    }
+    bool is_mirrored = local_3;
+    uint _e44 = steps_of(is_mirrored ? (MIRRORED_STRIP + quads) : PLAIN_STRIP);
+    return Stitch {2u * quads, _e44, first_7 + along_u, first_7, true, {}, NEVER, 0u, first_7 + along_u, (((2u * first_7) + (2u * quads)) + 1u) + along_u};
+}
+
+Stitch ring_stitch(
+    Rings rings_12,
+    RingLocation location_1,
+    uint base_2
+) {
+    uint ring_6 = location_1.ring;
+    uint _e5 = along_of(rings_12, location_1.edge);
+    uint inner_points_1 = _e5 - (2u * ring_6);
+    uint _e9 = first_of_ring(rings_12, ring_6);
+    uint inner_ring_1 = base_2 + _e9;
+    uint _e13 = ring_points(rings_12, ring_6 - 1u);
+    uint outer_ring_1 = inner_ring_1 - _e13;
+    uint _e16 = along_sum(rings_12, location_1.edge);
+    uint skip = _e16 - ((2u * ring_6) * location_1.edge);
+    Stitch _e33 = rows(rings_12, ring_6, location_1.edge, 2u * inner_points_1, RING_STITCH + inner_points_1, outer_ring_1, (outer_ring_1 + skip) + location_1.edge, inner_ring_1, (inner_ring_1 + skip) - location_1.edge);
+    return _e33;
+}
+
+Stitch stitch_at(
+    Rings rings_13,
+    RingLocation location_2,
+    uint base_3
+) {
+    if (location_2.ring == 1u) {
+        Stitch _e7 = transition_stitch(rings_13, location_2.edge, base_3);
+        return _e7;
+    }
+    uint _e9 = stitch_ring_end(rings_13);
+    if (location_2.ring == _e9) {
+        Stitch _e11 = centre_stitch(rings_13, base_3);
+        return _e11;
+    }
+    Stitch _e12 = ring_stitch(rings_13, location_2, base_3);
+    return _e12;
+}
+
+Stitch minimum_stitch(
+    uint base_4
+) {
+    Stitch _e7 = straight(2u, FAN_STITCH, base_4, (base_4 + EDGES) - 1u);
+    return _e7;
+}
+
+uint sequence_first(
+    metal::uint2 topology_9,
+    uint t_1,
+    uint base_5
+) {
+    bool local_4 = {};
+    if (false) {
+        local_4 = true;
+    } else {
+        local_4 = false;
+    }
+    bool _e8 = local_4;
+    if (_e8) {
+        uint _e11 = outer_points(topology_9, 1u);
+        return (base_5 + t_1) + naga_div(t_1, _e11 - 1u);
+    }
+    return base_5 + t_1;
+}
+
+Round load_round(
+    Tile tile_2,
+    uint first_1,
+    uint kind_1,
+    uint thread_1,
+    device type_2 const& offsets,
+    constant Job& job,
+    threadgroup type_8& begins,
+    threadgroup type_9& scratch,
+    device type_2 const& topologies,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint i = {};
+    uint end_3 = {};
+    uint count = metal::min(ROUND, (tile_2.last_patch - first_1) + 1u);
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    i = thread_1;
+    uint2 loop_bound_1 = uint2(4294967295u);
+    bool loop_init_1 = true;
+    while(true) {
+        if (metal::all(loop_bound_1 == uint2(0u))) { break; }
+        loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
+        if (!loop_init_1) {
+            uint _e31 = i;
+            i = _e31 + WORKGROUP;
+        }
+        loop_init_1 = false;
+        uint _e11 = i;
+        if (_e11 < count) {
+        } else {
+            break;
+        }
+        {
+            uint _e14 = i;
+            uint _e16 = i;
+            metal::uint2 _e18 = patch_offset(first_1 + _e16, offsets, job, _buffer_sizes);
+            begins.inner[metal::min(unsigned(_e14), 127u)] = static_cast<int>(_e18[metal::min(unsigned(kind_1), 1u)] - tile_2.base);
+            uint _e24 = i;
+            uint _e27 = i;
+            metal::uint2 _e30 = topologies[metal::min(unsigned(first_1 + _e27), (_buffer_sizes.size6 - 0 - 8) / 8)];
+            scratch.inner[metal::min(unsigned(_e24), 127u)] = _e30;
+        }
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    int _e36 = begins.inner[0];
+    uint begin_1 = static_cast<uint>(metal::max(_e36, static_cast<int>(tile_2.begin - tile_2.base)));
+    end_3 = tile_2.end - tile_2.base;
+    if ((first_1 + count) <= tile_2.last_patch) {
+        metal::uint2 _e51 = patch_offset(first_1 + count, offsets, job, _buffer_sizes);
+        end_3 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
+    }
+    uint _e55 = end_3;
+    return Round {first_1, count, begin_1, _e55};
+}
+
+uint nearer_patch(
+    uint found,
+    uint reach_1,
+    uint last,
+    uint element,
+    threadgroup type_8& begins
+) {
+    uint next_2 = metal::min(found + reach_1, last);
+    int _e8 = begins.inner[metal::min(unsigned(next_2), 127u)];
+    return (_e8 <= static_cast<int>(element)) ? next_2 : found;
+}
+
+uint find_patch(
+    Round round,
+    uint element_1,
+    threadgroup type_8& begins
+) {
+    uint found_1 = 0u;
+    if (round.count == 1u) {
+        uint _e7 = found_1;
+        return _e7;
+    }
+    uint last_3 = round.count - 1u;
+    if (round.count > 32u) {
+        uint _e14 = found_1;
+        uint _e16 = nearer_patch(_e14, 64u, last_3, element_1, begins);
+        found_1 = _e16;
+        uint _e17 = found_1;
+        uint _e19 = nearer_patch(_e17, 32u, last_3, element_1, begins);
+        found_1 = _e19;
+    }
+    if (round.count > 8u) {
+        uint _e23 = found_1;
+        uint _e25 = nearer_patch(_e23, 16u, last_3, element_1, begins);
+        found_1 = _e25;
+        uint _e26 = found_1;
+        uint _e28 = nearer_patch(_e26, 8u, last_3, element_1, begins);
+        found_1 = _e28;
+    }
+    if (round.count > 4u) {
+        uint _e32 = found_1;
+        uint _e34 = nearer_patch(_e32, 4u, last_3, element_1, begins);
+        found_1 = _e34;
+    }
+    uint _e35 = found_1;
+    uint _e37 = nearer_patch(_e35, 2u, last_3, element_1, begins);
+    found_1 = _e37;
+    uint _e38 = found_1;
+    uint _e40 = nearer_patch(_e38, 1u, last_3, element_1, begins);
+    return _e40;
+}
+
+uint next_patch(
+    Round round_1,
+    uint number_4,
+    uint element_2,
+    threadgroup type_8& begins
+) {
+    uint found_2 = {};
+    bool local_5 = {};
+    found_2 = number_4;
+    uint2 loop_bound_2 = uint2(4294967295u);
+    while(true) {
+        if (metal::all(loop_bound_2 == uint2(0u))) { break; }
+        loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
+        uint _e4 = found_2;
+        if ((_e4 + 1u) < round_1.count) {
+            uint _e12 = found_2;
+            int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
+            local_5 = _e16 <= static_cast<int>(element_2);
+        } else {
+            local_5 = false;
+        }
+        bool _e20 = local_5;
+        if (_e20) {
+        } else {
+            break;
+        }
+        {
+            uint _e22 = found_2;
+            found_2 = _e22 + 1u;
+        }
+    }
+    uint _e24 = found_2;
+    return _e24;
+}
+
+void write_triangle_pair(
+    uint at_2,
+    metal::uint3 first_2,
+    metal::uint3 second,
+    device type_2& indices_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    indices_out[metal::min(unsigned(3u * at_2), (_buffer_sizes.size7 - 0 - 8) / 8)] = first_2.xy;
+    indices_out[metal::min(unsigned((3u * at_2) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)] = metal::uint2(first_2.z, second.x);
+    indices_out[metal::min(unsigned((3u * at_2) + 2u), (_buffer_sizes.size7 - 0 - 8) / 8)] = second.yz;
+    return;
+}
+
+void write_triangle(
+    uint at_3,
+    bool is_second,
+    metal::uint3 triangle,
+    device type_2& indices_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    if (is_second) {
+        indices_out[metal::min(unsigned((3u * at_3) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)].y = triangle.x;
+        indices_out[metal::min(unsigned((3u * at_3) + 2u), (_buffer_sizes.size7 - 0 - 8) / 8)] = triangle.yz;
+        return;
+    } else {
+        indices_out[metal::min(unsigned(3u * at_3), (_buffer_sizes.size7 - 0 - 8) / 8)] = triangle.xy;
+        indices_out[metal::min(unsigned((3u * at_3) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)].x = triangle.z;
+        return;
+    }
+}
+
+void write_two(
+    uint at_4,
+    uint first_3,
+    uint second_1,
+    device type_2& indices_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    indices_out[metal::min(unsigned(at_4), (_buffer_sizes.size7 - 0 - 8) / 8)] = metal::uint2(first_3, second_1);
+    return;
+}
+
+void write_single(
+    uint at_5,
+    uint index,
+    device type_2& indices_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    if ((at_5 & 1u) == 0u) {
+        indices_out[metal::min(unsigned(at_5 >> 1u), (_buffer_sizes.size7 - 0 - 8) / 8)].x = index;
+        return;
+    } else {
+        indices_out[metal::min(unsigned(at_5 >> 1u), (_buffer_sizes.size7 - 0 - 8) / 8)].y = index;
+        return;
+    }
+}
+
+Source load_source(
+    Round round_2,
+    uint number_5,
+    device type_2 const& offsets,
+    constant Job& job,
+    threadgroup type_8& begins,
+    threadgroup type_9& scratch,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint patch_index_1 = round_2.first + number_5;
+    metal::uint2 topology_11 = scratch.inner[metal::min(unsigned(number_5), 127u)];
+    metal::uint2 _e8 = patch_offset(patch_index_1, offsets, job, _buffer_sizes);
+    uint base_7 = true ? _e8.x : 0u;
+    int _e14 = begins.inner[metal::min(unsigned(number_5), 127u)];
+    uint _e16 = state_of(topology_11);
+    Rings _e19 = rings_of(topology_11);
+    return Source {number_5, static_cast<uint>(_e14), base_7, _e16 == REGULAR, {}, _e19};
+}
+
+RingLocation location_of(
+    Source source,
+    uint t_2
+) {
+    if (source.is_regular) {
+        RingLocation _e4 = triangle_location(source.rings, t_2);
+        return _e4;
+    }
+    return RingLocation {1u, 0u, t_2};
+}
+
+Stitch stitch_from(
+    Source source_1,
+    RingLocation location_3
+) {
+    if (!(source_1.is_regular)) {
+        Stitch _e5 = minimum_stitch(source_1.base);
+        return _e5;
+    }
+    Stitch _e8 = stitch_at(source_1.rings, location_3, source_1.base);
+    return _e8;
+}
+
+metal::uint3 first_triangle(
+    Round round_3,
+    Source before,
+    RingLocation location_4,
+    uint element_3,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& tables,
+    threadgroup type_8& begins,
+    threadgroup type_9& scratch,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    Source source_2 = {};
+    RingLocation next = {};
+    source_2 = before;
+    RingLocation _e5 = next_edge(location_4);
+    next = _e5;
+    uint _e8 = next_patch(round_3, before.number, element_3, begins);
+    if (_e8 != before.number) {
+        Source _e11 = load_source(round_3, _e8, offsets, job, begins, scratch, _buffer_sizes);
+        source_2 = _e11;
+        next = RingLocation {1u, 0u, 0u};
+    }
+    Source _e16 = source_2;
+    RingLocation _e17 = next;
+    Stitch _e18 = stitch_from(_e16, _e17);
+    Pair _e20 = stitch_triangles(_e18, 0u, tables, _buffer_sizes);
+    return _e20.first;
+}
+
+void write_triangles(
+    Round round_4,
+    uint thread_2,
+    uint out,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& tables,
+    threadgroup type_8& begins,
+    threadgroup type_9& scratch,
+    device type_2& indices_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    Source source_3 = {};
+    uint element_4 = {};
+    bool local_6 = {};
+    bool local_7 = {};
+    bool local_8 = {};
+    source_3.number = NEVER;
+    element_4 = 2u * thread_2;
+    uint2 loop_bound_3 = uint2(4294967295u);
+    bool loop_init_2 = true;
+    while(true) {
+        if (metal::all(loop_bound_3 == uint2(0u))) { break; }
+        loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
+        if (!loop_init_2) {
+            uint _e77 = element_4;
+            element_4 = _e77 + 128u;
+        }
+        loop_init_2 = false;
+        uint _e9 = element_4;
+        if (_e9 < TILE) {
+        } else {
+            break;
+        }
+        {
+            uint _e12 = element_4;
+            if (!(((_e12 + 1u) < round_4.begin))) {
+                uint _e20 = element_4;
+                local_6 = _e20 >= round_4.end;
+            } else {
+                local_6 = true;
+            }
+            bool _e24 = local_6;
+            if (_e24) {
+                continue;
+            }
+            uint _e25 = element_4;
+            uint first_8 = metal::max(_e25, round_4.begin);
+            uint _e28 = find_patch(round_4, first_8, begins);
+            uint _e30 = source_3.number;
+            if (_e28 != _e30) {
+                Source _e32 = load_source(round_4, _e28, offsets, job, begins, scratch, _buffer_sizes);
+                source_3 = _e32;
+            }
+            Source _e33 = source_3;
+            uint _e35 = source_3.begin;
+            RingLocation _e37 = location_of(_e33, first_8 - _e35);
+            Source _e38 = source_3;
+            Stitch _e39 = stitch_from(_e38, _e37);
+            Pair _e41 = stitch_triangles(_e39, _e37.step, tables, _buffer_sizes);
+            uint _e42 = element_4;
+            uint at_9 = (out + _e42) >> 1u;
+            uint _e46 = element_4;
+            if (first_8 == _e46) {
+                uint _e50 = element_4;
+                local_7 = (_e50 + 1u) < round_4.end;
+            } else {
+                local_7 = false;
+            }
+            bool is_whole = local_7;
+            if (is_whole) {
+                local_8 = (_e37.step + 1u) < _e39.size;
+            } else {
+                local_8 = false;
+            }
+            bool _e65 = local_8;
+            if (_e65) {
+                write_triangle_pair(at_9, _e41.first, _e41.second, indices_out, _buffer_sizes);
+            } else {
+                uint _e68 = element_4;
+                write_triangle(at_9, first_8 != _e68, _e41.first, indices_out, _buffer_sizes);
+                if (is_whole) {
+                    Source _e72 = source_3;
+                    uint _e73 = element_4;
+                    metal::uint3 _e76 = first_triangle(round_4, _e72, _e37, _e73 + 1u, offsets, job, tables, begins, scratch, _buffer_sizes);
+                    write_triangle(at_9, true, _e76, indices_out, _buffer_sizes);
+                }
+            }
+        }
+    }
+    return;
+}
+
+void write_sequences(
+    Round round_5,
+    uint thread_3,
+    uint out_1,
+    device type_2 const& offsets,
+    constant Job& job,
+    threadgroup type_8& begins,
+    threadgroup type_9& scratch,
+    device type_2& indices_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint pair = {};
+    uint element_5 = {};
+    bool local_9 = {};
+    pair = 2u * thread_3;
+    uint2 loop_bound_4 = uint2(4294967295u);
+    bool loop_init_3 = true;
+    while(true) {
+        if (metal::all(loop_bound_4 == uint2(0u))) { break; }
+        loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
+        if (!loop_init_3) {
+            uint _e56 = pair;
+            pair = _e56 + 128u;
+        }
+        loop_init_3 = false;
+        uint _e6 = pair;
+        if (_e6 < TILE) {
+        } else {
+            break;
+        }
+        {
+            uint _e9 = pair;
+            element_5 = _e9;
+            uint2 loop_bound_5 = uint2(4294967295u);
+            bool loop_init_4 = true;
+            while(true) {
+                if (metal::all(loop_bound_5 == uint2(0u))) { break; }
+                loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
+                if (!loop_init_4) {
+                    uint _e54 = element_5;
+                    element_5 = _e54 + 1u;
+                }
+                loop_init_4 = false;
+                uint _e11 = element_5;
+                uint _e12 = pair;
+                if (_e11 < (_e12 + 2u)) {
+                } else {
+                    break;
+                }
+                {
+                    uint _e16 = element_5;
+                    if (!((_e16 < round_5.begin))) {
+                        uint _e22 = element_5;
+                        local_9 = _e22 >= round_5.end;
+                    } else {
+                        local_9 = true;
+                    }
+                    bool _e26 = local_9;
+                    if (_e26) {
+                        continue;
+                    }
+                    uint _e27 = element_5;
+                    uint _e28 = find_patch(round_5, _e27, begins);
+                    metal::uint2 _e32 = patch_offset(round_5.first + _e28, offsets, job, _buffer_sizes);
+                    uint base_8 = true ? _e32.x : 0u;
+                    uint _e36 = element_5;
+                    int _e39 = begins.inner[metal::min(unsigned(_e28), 127u)];
+                    uint t_3 = _e36 - static_cast<uint>(_e39);
+                    metal::uint2 _e44 = scratch.inner[metal::min(unsigned(_e28), 127u)];
+                    uint _e45 = sequence_first(_e44, t_3, base_8);
+                    if (false) {
+                        uint _e47 = element_5;
+                        write_two(out_1 + _e47, _e45, _e45 + 1u, indices_out, _buffer_sizes);
+                    } else {
+                        uint _e51 = element_5;
+                        write_single(out_1 + _e51, _e45, indices_out, _buffer_sizes);
+                    }
+                }
+            }
+        }
+    }
+    return;
+}
+
+void keep_triangles(
+    Repeat repeat_1,
+    uint thread_4,
+    device type_3 const& tables,
+    threadgroup type_9& scratch,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint i_1 = {};
+    uint _e3 = state_of(repeat_1.topology);
+    bool is_regular = _e3 == REGULAR;
+    Rings _e10 = rings_of(repeat_1.topology);
+    Source source_4 = Source {0u, 0u, 0u, is_regular, {}, _e10};
+    i_1 = thread_4;
+    uint2 loop_bound_6 = uint2(4294967295u);
+    bool loop_init_5 = true;
+    while(true) {
+        if (metal::all(loop_bound_6 == uint2(0u))) { break; }
+        loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
+        if (!loop_init_5) {
+            uint _e44 = i_1;
+            i_1 = _e44 + WORKGROUP;
+        }
+        loop_init_5 = false;
+        uint _e13 = i_1;
+        if (_e13 < repeat_1.size) {
+        } else {
+            break;
+        }
+        {
+            uint _e16 = i_1;
+            RingLocation _e17 = location_of(source_4, _e16);
+            Stitch _e18 = stitch_from(source_4, _e17);
+            Pair _e20 = stitch_triangles(_e18, _e17.step, tables, _buffer_sizes);
+            metal::uint3 triangle_1 = _e20.first;
+            uint packed = (_e20.first.x | (_e20.first.y << 10u)) | (_e20.first.z << 20u);
+            uint _e31 = i_1;
+            if (_e31 < SCRATCH) {
+                uint _e35 = i_1;
+                scratch.inner[metal::min(unsigned(_e35), 127u)].x = packed;
+            } else {
+                uint _e39 = i_1;
+                scratch.inner[metal::min(unsigned(_e39 - SCRATCH), 127u)].y = packed;
+            }
+        }
+    }
+    return;
+}
+
+Corner corner_at(
+    Repeat repeat_2,
+    uint at_6
+) {
+    uint element_6 = (at_6 * 43691u) >> 17u;
+    uint position_1 = element_6 + repeat_2.before;
+    uint _e8 = patch_at(repeat_2, position_1);
+    return Corner {_e8, position_1 - (_e8 * repeat_2.size), at_6 - (3u * element_6)};
+}
+
+Corner next_corner(
+    Repeat repeat_3,
+    Corner it
+) {
+    bool local_10 = {};
+    bool is_last_corner = it.corner == 2u;
+    if (is_last_corner) {
+        local_10 = (it.i + 1u) == repeat_3.size;
+    } else {
+        local_10 = false;
+    }
+    bool is_last_1 = local_10;
+    return Corner {it.number + (is_last_1 ? 1u : 0u), is_last_1 ? 0u : (it.i + (is_last_corner ? 1u : 0u)), is_last_corner ? 0u : (it.corner + 1u)};
+}
+
+uint kept_index(
+    Repeat repeat_4,
+    Corner it_1,
+    threadgroup type_9& scratch
+) {
+    bool is_low = it_1.i < SCRATCH;
+    metal::uint2 two = scratch.inner[metal::min(unsigned(is_low ? it_1.i : (it_1.i - SCRATCH)), 127u)];
+    uint vertex_ = ((is_low ? two.x : two.y) >> (10u * it_1.corner)) & 1023u;
+    return vertex_ + (true ? (repeat_4.base + (it_1.number * repeat_4.points)) : 0u);
+}
+
+void copy_triangles(
+    Tile tile_3,
+    Repeat repeat_5,
+    uint thread_5,
+    uint out_2,
+    device type_3 const& tables,
+    threadgroup type_9& scratch,
+    device type_2& indices_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint at_7 = {};
+    bool local_11 = {};
+    keep_triangles(repeat_5, thread_5, tables, scratch, _buffer_sizes);
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    uint begin_2 = 3u * (tile_3.begin - tile_3.base);
+    uint end_5 = 3u * (tile_3.end - tile_3.base);
+    at_7 = 2u * thread_5;
+    uint2 loop_bound_7 = uint2(4294967295u);
+    bool loop_init_6 = true;
+    while(true) {
+        if (metal::all(loop_bound_7 == uint2(0u))) { break; }
+        loop_bound_7 -= uint2(loop_bound_7.y == 0u, 1u);
+        if (!loop_init_6) {
+            uint _e48 = at_7;
+            at_7 = _e48 + 128u;
+        }
+        loop_init_6 = false;
+        uint _e17 = at_7;
+        if (_e17 < end_5) {
+        } else {
+            break;
+        }
+        {
+            uint _e19 = at_7;
+            if ((_e19 + 1u) < begin_2) {
+                continue;
+            }
+            uint _e23 = at_7;
+            uint first_9 = metal::max(_e23, begin_2);
+            Corner _e25 = corner_at(repeat_5, first_9);
+            uint _e26 = kept_index(repeat_5, _e25, scratch);
+            uint _e27 = at_7;
+            if (first_9 == _e27) {
+                uint _e31 = at_7;
+                local_11 = (_e31 + 1u) < end_5;
+            } else {
+                local_11 = false;
+            }
+            bool _e36 = local_11;
+            if (_e36) {
+                Corner _e37 = next_corner(repeat_5, _e25);
+                uint _e38 = kept_index(repeat_5, _e37, scratch);
+                uint _e41 = at_7;
+                write_two(((3u * out_2) + _e41) >> 1u, _e26, _e38, indices_out, _buffer_sizes);
+            } else {
+                write_single((3u * out_2) + first_9, _e26, indices_out, _buffer_sizes);
+            }
+        }
+    }
+    return;
+}
+
+struct expand_primitivesInput {
+};
+kernel void expand_primitives(
+  metal::uint3 workgroup [[threadgroup_position_in_grid]]
+, uint thread_ [[thread_index_in_threadgroup]]
+, device type_2 const& offsets [[buffer(3)]]
+, constant Job& job [[buffer(0)]]
+, device type_3 const& tiles [[buffer(5)]]
+, device type_3 const& tables [[buffer(2)]]
+, threadgroup type_8& begins
+, threadgroup type_9& scratch
+, device type_2 const& topologies [[buffer(1)]]
+, device type_2& indices_out [[buffer(6)]]
+, device Status const& status [[buffer(4)]]
+, constant _mslBufferSizes& _buffer_sizes [[buffer(7)]]
+) {
+    uint first = {};
+    uint _e6 = job.chunk;
+    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
+    uint _e13 = job.max_workgroups;
+    uint number_7 = workgroup.x + (workgroup.y * _e13);
+    uint _e20 = job.primitive_tiles_at;
+    Tile _e21 = tile_of(number_7, range.primitives_begin, range.primitives_end, _e20, job, tiles, _buffer_sizes);
+    if (_e21.end == 0u) {
+        return;
+    }
+    uint _e28 = job.window_first;
+    uint out_3 = _e21.base - (_e28 * TILE);
+    if (IS_TRIANGLES) {
+        Repeat _e35 = repeat_of(_e21, PRIMITIVES, 256u, offsets, job, _buffer_sizes);
+        if (_e35.size > 0u) {
+            copy_triangles(_e21, _e35, thread_, out_3, tables, scratch, indices_out, _buffer_sizes);
+            return;
+        }
+    }
+    first = _e21.first_patch;
+    uint2 loop_bound_8 = uint2(4294967295u);
+    bool loop_init_7 = true;
+    while(true) {
+        if (metal::all(loop_bound_8 == uint2(0u))) { break; }
+        loop_bound_8 -= uint2(loop_bound_8.y == 0u, 1u);
+        if (!loop_init_7) {
+            uint _e48 = first;
+            first = _e48 + ROUND;
+        }
+        loop_init_7 = false;
+        uint _e41 = first;
+        if (_e41 <= _e21.last_patch) {
+        } else {
+            break;
+        }
+        {
+            uint _e44 = first;
+            Round _e46 = load_round(_e21, _e44, PRIMITIVES, thread_, offsets, job, begins, scratch, topologies, _buffer_sizes);
+            if (IS_TRIANGLES) {
+                write_triangles(_e46, thread_, out_3, offsets, job, tables, begins, scratch, indices_out, _buffer_sizes);
+            } else {
+                write_sequences(_e46, thread_, out_3, offsets, job, begins, scratch, indices_out, _buffer_sizes);
+            }
+        }
+    }
+    return;
+}

@@ -1,0 +1,937 @@
+// language: metal2.0
+#include <metal_stdlib>
+#include <simd/simd.h>
+
+using metal::uint;
+
+struct _mslBufferSizes {
+    uint size0;
+    uint size3;
+    uint size4;
+    uint size5;
+    uint size6;
+};
+
+struct Job {
+    uint patches;
+    uint first_patch;
+    uint chunk;
+    uint stride;
+    uint blocks_at;
+    uint alike_at;
+    uint groups_at;
+    uint primitive_tiles_at;
+    uint window_first;
+    uint window_tiles;
+    uint chunks;
+    uint point_capacity;
+    uint primitive_capacity;
+    uint point_windows;
+    uint primitive_windows;
+    uint point_window_tiles;
+    uint primitive_window_tiles;
+    uint max_workgroups;
+};
+struct Range {
+    uint points_begin;
+    uint points_end;
+    uint primitives_begin;
+    uint primitives_end;
+};
+typedef Range type_2[1];
+struct Status {
+    uint points;
+    uint points_high;
+    uint primitives;
+    uint primitives_high;
+    uint overflow;
+    uint reserved_0_;
+    uint reserved_1_;
+    uint reserved_2_;
+    type_2 ranges;
+};
+typedef uint type_4[1];
+struct type_5 {
+    metal::uint2 inner[341];
+};
+struct Sums {
+    metal::uint2 before;
+    metal::uint2 all;
+};
+struct Processed {
+    metal::uint4 outer;
+    metal::uint4 outer_odd;
+    metal::uint2 inside;
+    metal::uint2 inside_odd;
+    metal::uint2 topology;
+    char _pad5[8];
+};
+typedef metal::uint2 type_7[1];
+constant uint DOMAIN = 2u;
+constant uint PARTITIONING = 2u;
+constant uint OUTPUT = 2u;
+constant uint SPLIT = 0u;
+constant uint POINT_FORMAT = 0u;
+constant uint NUMBERING = 0u;
+constant uint FACTORS = 6u;
+constant uint WORKGROUP = 64u;
+constant uint TILE = 2048u;
+constant uint ROUND = 128u;
+constant uint SUMMED = 256u;
+constant uint BLOCK = 256u;
+constant uint BLOCK_BITS = 8u;
+constant uint GROUP_BLOCKS = 256u;
+constant uint GROUP_BLOCK_BITS = 8u;
+constant uint GROUP = 65536u;
+constant uint GROUP_BITS = 16u;
+constant uint DISPATCHES_AT = 8u;
+constant uint RECIPROCALS_AT = 0u;
+constant uint STITCHES_AT = 64u;
+constant uint STITCH_WORDS = 128u;
+constant uint TRANSITION_STRIDE = 64u;
+constant uint FAN_STITCH = 65u;
+constant uint RING_STITCH = 4096u;
+constant uint MIRRORED_STRIP = 4160u;
+constant uint PLAIN_STRIP = 4224u;
+constant uint ISOLINE = 0u;
+constant uint TRIANGLE = 1u;
+constant uint QUAD = 2u;
+constant uint INTEGER = 0u;
+constant uint POW2_ = 1u;
+constant uint FRACTIONAL_ODD = 2u;
+constant uint FRACTIONAL_EVEN = 3u;
+constant uint OUTPUT_POINT = 0u;
+constant uint OUTPUT_LINE = 1u;
+constant uint OUTPUT_TRIANGLE_CW = 2u;
+constant uint OUTPUT_TRIANGLE_CCW = 3u;
+constant uint RULER = 0u;
+constant uint CENTER = 1u;
+constant uint PACKED = 0u;
+constant uint F32_ = 1u;
+constant uint PER_BATCH = 0u;
+constant uint PER_PATCH = 1u;
+constant uint POINTS = 0u;
+constant uint PRIMITIVES = 1u;
+constant uint NEVER = 4294967295u;
+constant bool IS_INTEGER = false;
+constant uint EDGES = 4u;
+constant bool IS_TRIANGLES = true;
+constant uint INDICES = 3u;
+constant uint CULLED = 0u;
+constant uint MINIMUM = 1u;
+constant uint REGULAR = 2u;
+constant uint ONE = 65536u;
+constant uint HALF = 32768u;
+constant uint ONE_THIRD = 21845u;
+constant uint TWO_THIRDS = 43690u;
+constant uint FOURS = 256u;
+constant uint SIXTEENS = 320u;
+constant uint SIXTY_FOURS = 336u;
+constant uint WHOLE = 340u;
+constant uint INFINITY_ = 2139095040u;
+constant uint BITS_1_ = 1065353216u;
+constant uint BITS_2_ = 1073741824u;
+constant uint BITS_63_ = 1115422720u;
+constant uint BITS_64_ = 1115684864u;
+constant uint BITS_1_PLUS_2_POW_MINUS_17_ = 1065353280u;
+constant uint BITS_1_PLUS_2_POW_MINUS_16_ = 1065353344u;
+constant uint LOW = 1065353216u;
+constant uint HIGH = 1115422720u;
+
+uint state_of(
+    metal::uint2 topology_1
+) {
+    return topology_1.x >> 28u;
+}
+
+uint outer_points(
+    metal::uint2 topology_2,
+    uint edge
+) {
+    return (topology_2.x >> (7u * edge)) & 127u;
+}
+
+uint inside_u(
+    metal::uint2 topology_3
+) {
+    return topology_3.y & 127u;
+}
+
+uint inside_v(
+    metal::uint2 topology_4
+) {
+    return topology_4.y >> 7u;
+}
+
+uint along_points(
+    metal::uint2 topology_5,
+    uint edge_1
+) {
+    return (topology_5.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
+}
+
+uint outer_before(
+    metal::uint2 topology_6,
+    uint edge_2
+) {
+    uint _e4 = outer_points(topology_6, 0u);
+    uint _e10 = outer_points(topology_6, 1u);
+    uint _e17 = outer_points(topology_6, 2u);
+    return (((edge_2 > 0u) ? _e4 : 0u) + ((edge_2 > 1u) ? _e10 : 0u)) + ((edge_2 > 2u) ? _e17 : 0u);
+}
+
+uint along_before(
+    metal::uint2 topology_7,
+    uint edge_3
+) {
+    uint _e6 = inside_v(topology_7);
+    uint _e10 = inside_u(topology_7);
+    return (((edge_3 + 1u) >> 1u) * _e6) + ((edge_3 >> 1u) * _e10);
+}
+
+uint boundary(
+    metal::uint2 topology_8
+) {
+    uint _e2 = outer_before(topology_8, 3u);
+    uint _e4 = outer_points(topology_8, 3u);
+    return (_e2 + _e4) - EDGES;
+}
+
+uint interior_points(
+    metal::uint2 topology_9
+) {
+    uint _e1 = inside_u(topology_9);
+    if (true) {
+        uint _e5 = inside_v(topology_9);
+        return (_e1 - 2u) * (_e5 - 2u);
+    }
+    uint half_ = _e1 >> 1u;
+    return ((_e1 & 1u) == 1u) ? (((3u * half_) * (half_ - 1u)) + 1u) : ((3u * (half_ - 1u)) * (half_ - 1u));
+}
+
+uint triangles_of(
+    uint points,
+    metal::uint2 topology_10
+) {
+    uint _e6 = boundary(topology_10);
+    return ((2u * points) - 2u) - _e6;
+}
+
+metal::uint2 counts(
+    metal::uint2 topology_11
+) {
+    uint points_1 = EDGES;
+    uint triangles = 2u;
+    uint _e1 = state_of(topology_11);
+    if (_e1 == CULLED) {
+        return metal::uint2(0u, 0u);
+    }
+    if (false) {
+        uint _e9 = outer_points(topology_11, 0u);
+        uint lines = _e9 - 1u;
+        uint _e13 = outer_points(topology_11, 1u);
+        return lines * metal::uint2(_e13, _e13 - 1u);
+    }
+    uint _e22 = state_of(topology_11);
+    if (_e22 == REGULAR) {
+        uint _e25 = boundary(topology_11);
+        uint _e26 = interior_points(topology_11);
+        points_1 = _e25 + _e26;
+        uint _e28 = points_1;
+        uint _e29 = triangles_of(_e28, topology_11);
+        triangles = _e29;
+    }
+    if (false) {
+        uint _e31 = points_1;
+        uint _e32 = points_1;
+        return metal::uint2(_e31, _e32);
+    }
+    uint _e34 = points_1;
+    uint _e35 = triangles;
+    uint _e36 = points_1;
+    return metal::uint2(_e34, false ? (_e36 - 1u) : _e35);
+}
+
+uint fixed_from_bits(
+    uint bits
+) {
+    bool local_2 = {};
+    bool local_3 = {};
+    uint shift = 134u - (bits >> 23u);
+    uint mantissa = (bits & 8388607u) | 8388608u;
+    uint quotient = mantissa >> shift;
+    uint remainder = mantissa & ((1u << shift) - 1u);
+    uint half_1 = 1u << (shift - 1u);
+    if (!((remainder > half_1))) {
+        if (remainder == half_1) {
+            local_3 = (quotient & 1u) == 1u;
+        } else {
+            local_3 = false;
+        }
+        bool _e31 = local_3;
+        local_2 = _e31;
+    } else {
+        local_2 = true;
+    }
+    bool up = local_2;
+    return quotient + (up ? 1u : 0u);
+}
+
+uint float_bits_from_coordinate(
+    uint coordinate
+) {
+    if (coordinate == 0u) {
+        return 0u;
+    }
+    uint top = metal::select(31 - metal::clz(coordinate), uint(-1), coordinate == 0);
+    uint mantissa_1 = (coordinate << (23u - top)) & 8388607u;
+    return ((top + 111u) << 23u) | mantissa_1;
+}
+
+uint reciprocal(
+    uint n,
+    device type_4 const& tables,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint _e7 = tables[metal::min(unsigned((RECIPROCALS_AT + n) - 1u), (_buffer_sizes.size0 - 0 - 4) / 4)];
+    return _e7;
+}
+
+uint half_factor(
+    uint factor,
+    uint odd
+) {
+    bool local_4 = {};
+    uint rounded = (factor + 1u) >> 1u;
+    if (!((odd == 1u))) {
+        local_4 = rounded == HALF;
+    } else {
+        local_4 = true;
+    }
+    bool _e16 = local_4;
+    return rounded + (_e16 ? HALF : 0u);
+}
+
+uint edge_points(
+    uint factor_1,
+    uint odd_1
+) {
+    bool local_5 = {};
+    if (IS_INTEGER) {
+        if (factor_1 == ONE) {
+            local_5 = odd_1 == 0u;
+        } else {
+            local_5 = false;
+        }
+        bool _e15 = local_5;
+        return _e15 ? 3u : ((factor_1 >> 16u) + 1u);
+    }
+    uint _e17 = half_factor(factor_1, odd_1);
+    uint half_points = (_e17 + 65535u) >> 16u;
+    return ((2u * half_points) + 1u) - odd_1;
+}
+
+uint drop_most_significant_bit(
+    uint x
+) {
+    return x ^ (1u << metal::select(31 - metal::clz(x), uint(-1), x == 0));
+}
+
+uint split_position(
+    uint floor_points,
+    uint ceil_points,
+    uint odd_2
+) {
+    bool local_6 = {};
+    if (floor_points == ceil_points) {
+        return ceil_points + 1u;
+    }
+    if (false) {
+        return (ceil_points - 1u) - odd_2;
+    }
+    if (odd_2 == 1u) {
+        local_6 = floor_points == 1u;
+    } else {
+        local_6 = false;
+    }
+    bool _e17 = local_6;
+    if (_e17) {
+        return 0u;
+    }
+    uint _e21 = drop_most_significant_bit(floor_points - odd_2);
+    return (2u * _e21) + 1u;
+}
+
+metal::uint2 make_context(
+    uint factor_2,
+    uint odd_3,
+    device type_4 const& tables,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint _e2 = half_factor(factor_2, odd_3);
+    uint floor_points_1 = _e2 >> 16u;
+    uint ceil_points_1 = (_e2 + 65535u) >> 16u;
+    uint _e12 = reciprocal((2u * ceil_points_1) - odd_3, tables, _buffer_sizes);
+    uint _e16 = reciprocal((2u * floor_points_1) - odd_3, tables, _buffer_sizes);
+    uint _e20 = split_position(floor_points_1, ceil_points_1, odd_3);
+    return metal::uint2((((_e16 | (ceil_points_1 << 17u)) | (_e20 << 23u)) | (odd_3 << 29u)) | ((_e12 >> 16u) << 30u), (_e12 & 65535u) | ((_e2 & 65535u) << 16u));
+}
+
+void add_four(
+    uint from_at,
+    uint to_at,
+    threadgroup type_5& sums
+) {
+    metal::uint2 first = sums.inner[metal::min(unsigned(from_at), 340u)];
+    metal::uint2 _e9 = sums.inner[metal::min(unsigned(from_at + 1u), 340u)];
+    metal::uint2 second = first + _e9;
+    metal::uint2 _e15 = sums.inner[metal::min(unsigned(from_at + 2u), 340u)];
+    metal::uint2 third = second + _e15;
+    metal::uint2 _e23 = sums.inner[metal::min(unsigned(from_at + 3u), 340u)];
+    sums.inner[metal::min(unsigned(to_at), 340u)] = third + _e23;
+    sums.inner[metal::min(unsigned(from_at), 340u)] = metal::uint2(0u);
+    sums.inner[metal::min(unsigned(from_at + 1u), 340u)] = first;
+    sums.inner[metal::min(unsigned(from_at + 2u), 340u)] = second;
+    sums.inner[metal::min(unsigned(from_at + 3u), 340u)] = third;
+    return;
+}
+
+Sums prefix_sums(
+    uint thread_1,
+    metal::uint2 own_1,
+    threadgroup type_5& sums
+) {
+    sums.inner[metal::min(unsigned(thread_1), 340u)] = own_1;
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 < 64u) {
+        add_four(4u * thread_1, FOURS + thread_1, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 < 16u) {
+        add_four(FOURS + (4u * thread_1), SIXTEENS + thread_1, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 < 4u) {
+        add_four(SIXTEENS + (4u * thread_1), SIXTY_FOURS + thread_1, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 == 0u) {
+        add_four(SIXTY_FOURS, WHOLE, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    metal::uint2 _e32 = sums.inner[metal::min(unsigned(thread_1), 340u)];
+    metal::uint2 _e39 = sums.inner[metal::min(unsigned(FOURS + (thread_1 >> 2u)), 340u)];
+    metal::uint2 _e47 = sums.inner[metal::min(unsigned(SIXTEENS + (thread_1 >> 4u)), 340u)];
+    metal::uint2 _e55 = sums.inner[metal::min(unsigned(SIXTY_FOURS + (thread_1 >> 6u)), 340u)];
+    metal::uint2 before = ((_e32 + _e39) + _e47) + _e55;
+    metal::uint2 all = sums.inner[340];
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    return Sums {before, all};
+}
+
+bool is_greater_than_zero(
+    uint bits_1
+) {
+    return (bits_1 - 1u) < INFINITY_;
+}
+
+bool is_greater(
+    uint bits_2,
+    uint low
+) {
+    bool local_7 = {};
+    if (bits_2 > low) {
+        local_7 = bits_2 <= INFINITY_;
+    } else {
+        local_7 = false;
+    }
+    bool _e8 = local_7;
+    return _e8;
+}
+
+uint clamp_factor(
+    uint bits_3,
+    uint low_1,
+    uint high
+) {
+    return (bits_3 > INFINITY_) ? low_1 : metal::clamp(bits_3, low_1, high);
+}
+
+uint ceil_factor(
+    uint bits_4
+) {
+    uint shift_1 = 150u - (bits_4 >> 23u);
+    uint mantissa_2 = (bits_4 & 8388607u) | 8388608u;
+    return ((mantissa_2 + (1u << shift_1)) - 1u) >> shift_1;
+}
+
+uint fixed_factor(
+    uint bits_5,
+    uint low_2,
+    uint high_1,
+    bool rounds
+) {
+    uint _e4 = clamp_factor(bits_5, low_2, high_1);
+    if (rounds) {
+        uint _e5 = ceil_factor(_e4);
+        return _e5 << 16u;
+    }
+    uint _e8 = fixed_from_bits(_e4);
+    return _e8;
+}
+
+uint edge_parity(
+    uint factor_3,
+    bool rounds_1
+) {
+    return rounds_1 ? ((factor_3 >> 16u) & 1u) : 1u;
+}
+
+uint inside_parity(
+    uint factor_4
+) {
+    bool local_8 = {};
+    uint _e2 = edge_parity(factor_4, IS_INTEGER);
+    if (IS_INTEGER) {
+        local_8 = factor_4 == ONE;
+    } else {
+        local_8 = false;
+    }
+    bool _e10 = local_8;
+    return _e10 ? 0u : _e2;
+}
+
+metal::uint2 process_edge(
+    uint bits_6
+) {
+    uint _e4 = fixed_factor(bits_6, LOW, HIGH, IS_INTEGER);
+    uint _e6 = edge_parity(_e4, IS_INTEGER);
+    return metal::uint2(_e4, _e6);
+}
+
+metal::uint2 process_inside(
+    uint bits_7,
+    uint low_3
+) {
+    uint _e4 = fixed_factor(bits_7, low_3, HIGH, IS_INTEGER);
+    uint _e5 = inside_parity(_e4);
+    return metal::uint2(_e4, _e5);
+}
+
+uint inside_low(
+    bool any_above
+) {
+    bool local_9 = {};
+    if (true) {
+        local_9 = any_above;
+    } else {
+        local_9 = false;
+    }
+    bool _e7 = local_9;
+    return _e7 ? BITS_1_PLUS_2_POW_MINUS_16_ : LOW;
+}
+
+bool is_above(
+    uint bits_8
+) {
+    bool _e2 = is_greater(bits_8, BITS_1_PLUS_2_POW_MINUS_17_);
+    return _e2;
+}
+
+Processed process_isoline(
+    metal::uint2 raw
+) {
+    Processed out = {};
+    bool local_10 = {};
+    uint _e6 = fixed_factor(raw.x, BITS_1_, BITS_64_, true);
+    uint _e8 = edge_parity(_e6, true);
+    metal::uint2 _e10 = process_edge(raw.y);
+    out.outer = metal::uint4(_e6, _e10.x, 0u, 0u);
+    out.outer_odd = metal::uint4(_e8, _e10.y, 0u, 0u);
+    bool _e22 = is_greater_than_zero(raw.x);
+    if (_e22) {
+        bool _e26 = is_greater_than_zero(raw.y);
+        local_10 = _e26;
+    } else {
+        local_10 = false;
+    }
+    bool _e28 = local_10;
+    bool is_culled_1 = !(_e28);
+    uint _e30 = edge_points(_e6, _e8);
+    uint _e33 = edge_points(_e10.x, _e10.y);
+    uint points_2 = _e30 | (_e33 << 7u);
+    out.topology = metal::uint2(points_2 | ((is_culled_1 ? CULLED : REGULAR) << 28u), 0u);
+    Processed _e46 = out;
+    return _e46;
+}
+
+metal::uint2 make_topology(
+    Processed processed,
+    bool is_culled,
+    bool is_minimum
+) {
+    uint outer = {};
+    metal::uint4 f = processed.outer;
+    metal::uint4 odd_4 = processed.outer_odd;
+    uint _e7 = edge_points(processed.outer.x, processed.outer_odd.x);
+    uint _e10 = edge_points(processed.outer.y, processed.outer_odd.y);
+    uint _e16 = edge_points(processed.outer.z, processed.outer_odd.z);
+    outer = (_e7 | (_e10 << 7u)) | (_e16 << 14u);
+    if (true) {
+        uint _e22 = outer;
+        uint _e25 = edge_points(processed.outer.w, processed.outer_odd.w);
+        outer = _e22 | (_e25 << 21u);
+    }
+    uint _e33 = edge_points(processed.inside.x, processed.inside_odd.x);
+    uint _e38 = edge_points(processed.inside.y, processed.inside_odd.y);
+    uint state = is_culled ? CULLED : (is_minimum ? MINIMUM : REGULAR);
+    uint _e44 = outer;
+    return metal::uint2(_e44 | (state << 28u), _e33 | (_e38 << 7u));
+}
+
+Processed process_triangle(
+    metal::uint4 raw_1
+) {
+    Processed out_1 = {};
+    bool local_11 = {};
+    bool local_12 = {};
+    bool local_13 = {};
+    bool local_14 = {};
+    bool local_15 = {};
+    bool local_16 = {};
+    bool local_17 = {};
+    bool local_18 = {};
+    metal::uint2 _e3 = process_edge(raw_1.x);
+    metal::uint2 _e5 = process_edge(raw_1.y);
+    metal::uint2 _e7 = process_edge(raw_1.z);
+    bool _e9 = is_above(raw_1.x);
+    if (!(_e9)) {
+        bool _e14 = is_above(raw_1.y);
+        local_11 = _e14;
+    } else {
+        local_11 = true;
+    }
+    bool _e16 = local_11;
+    if (!(_e16)) {
+        bool _e21 = is_above(raw_1.z);
+        local_12 = _e21;
+    } else {
+        local_12 = true;
+    }
+    bool _e23 = local_12;
+    if (!(_e23)) {
+        bool _e28 = is_above(raw_1.w);
+        local_13 = _e28;
+    } else {
+        local_13 = true;
+    }
+    bool any_above_1 = local_13;
+    uint _e32 = inside_low(any_above_1);
+    metal::uint2 _e33 = process_inside(raw_1.w, _e32);
+    out_1.outer = metal::uint4(_e3.x, _e5.x, _e7.x, 0u);
+    out_1.outer_odd = metal::uint4(_e3.y, _e5.y, _e7.y, 0u);
+    out_1.inside = metal::uint2(_e33.x, _e33.x);
+    out_1.inside_odd = metal::uint2(_e33.y, _e33.y);
+    bool _e55 = is_greater_than_zero(raw_1.x);
+    if (_e55) {
+        bool _e59 = is_greater_than_zero(raw_1.y);
+        local_14 = _e59;
+    } else {
+        local_14 = false;
+    }
+    bool _e61 = local_14;
+    if (_e61) {
+        bool _e65 = is_greater_than_zero(raw_1.z);
+        local_15 = _e65;
+    } else {
+        local_15 = false;
+    }
+    bool _e67 = local_15;
+    bool is_culled_2 = !(_e67);
+    if (_e3.x == ONE) {
+        local_16 = _e5.x == ONE;
+    } else {
+        local_16 = false;
+    }
+    bool _e78 = local_16;
+    if (_e78) {
+        local_17 = _e7.x == ONE;
+    } else {
+        local_17 = false;
+    }
+    bool _e85 = local_17;
+    if (_e85) {
+        local_18 = _e33.x == ONE;
+    } else {
+        local_18 = false;
+    }
+    bool is_minimum_1 = local_18;
+    Processed _e94 = out_1;
+    metal::uint2 _e95 = make_topology(_e94, is_culled_2, is_minimum_1);
+    out_1.topology = _e95;
+    Processed _e96 = out_1;
+    return _e96;
+}
+
+Processed process_quad(
+    metal::uint4 raw_2,
+    metal::uint2 raw_inside
+) {
+    Processed out_2 = {};
+    bool local_19 = {};
+    bool local_20 = {};
+    bool local_21 = {};
+    bool local_22 = {};
+    bool local_23 = {};
+    bool local_24 = {};
+    bool local_25 = {};
+    bool local_26 = {};
+    bool local_27 = {};
+    bool local_28 = {};
+    bool local_29 = {};
+    bool local_30 = {};
+    bool local_31 = {};
+    metal::uint2 _e4 = process_edge(raw_2.x);
+    metal::uint2 _e6 = process_edge(raw_2.y);
+    metal::uint2 _e8 = process_edge(raw_2.z);
+    metal::uint2 _e10 = process_edge(raw_2.w);
+    bool _e12 = is_above(raw_2.x);
+    if (!(_e12)) {
+        bool _e17 = is_above(raw_2.y);
+        local_19 = _e17;
+    } else {
+        local_19 = true;
+    }
+    bool _e19 = local_19;
+    if (!(_e19)) {
+        bool _e24 = is_above(raw_2.z);
+        local_20 = _e24;
+    } else {
+        local_20 = true;
+    }
+    bool _e26 = local_20;
+    if (!(_e26)) {
+        bool _e31 = is_above(raw_2.w);
+        local_21 = _e31;
+    } else {
+        local_21 = true;
+    }
+    bool _e33 = local_21;
+    if (!(_e33)) {
+        bool _e38 = is_above(raw_inside.x);
+        local_22 = _e38;
+    } else {
+        local_22 = true;
+    }
+    bool _e40 = local_22;
+    if (!(_e40)) {
+        bool _e45 = is_above(raw_inside.y);
+        local_23 = _e45;
+    } else {
+        local_23 = true;
+    }
+    bool any_above_2 = local_23;
+    uint _e48 = inside_low(any_above_2);
+    metal::uint2 _e50 = process_inside(raw_inside.x, _e48);
+    metal::uint2 _e52 = process_inside(raw_inside.y, _e48);
+    out_2.outer = metal::uint4(_e4.x, _e6.x, _e8.x, _e10.x);
+    out_2.outer_odd = metal::uint4(_e4.y, _e6.y, _e8.y, _e10.y);
+    out_2.inside = metal::uint2(_e50.x, _e52.x);
+    out_2.inside_odd = metal::uint2(_e50.y, _e52.y);
+    bool _e74 = is_greater_than_zero(raw_2.x);
+    if (_e74) {
+        bool _e78 = is_greater_than_zero(raw_2.y);
+        local_24 = _e78;
+    } else {
+        local_24 = false;
+    }
+    bool _e80 = local_24;
+    if (_e80) {
+        bool _e84 = is_greater_than_zero(raw_2.z);
+        local_25 = _e84;
+    } else {
+        local_25 = false;
+    }
+    bool _e86 = local_25;
+    if (_e86) {
+        bool _e90 = is_greater_than_zero(raw_2.w);
+        local_26 = _e90;
+    } else {
+        local_26 = false;
+    }
+    bool _e92 = local_26;
+    bool is_culled_3 = !(_e92);
+    if (_e4.x == ONE) {
+        local_27 = _e6.x == ONE;
+    } else {
+        local_27 = false;
+    }
+    bool _e103 = local_27;
+    if (_e103) {
+        local_28 = _e8.x == ONE;
+    } else {
+        local_28 = false;
+    }
+    bool _e110 = local_28;
+    if (_e110) {
+        local_29 = _e10.x == ONE;
+    } else {
+        local_29 = false;
+    }
+    bool _e117 = local_29;
+    if (_e117) {
+        local_30 = _e50.x == ONE;
+    } else {
+        local_30 = false;
+    }
+    bool _e124 = local_30;
+    if (_e124) {
+        local_31 = _e52.x == ONE;
+    } else {
+        local_31 = false;
+    }
+    bool is_minimum_2 = local_31;
+    Processed _e133 = out_2;
+    metal::uint2 _e134 = make_topology(_e133, is_culled_3, is_minimum_2);
+    out_2.topology = _e134;
+    Processed _e135 = out_2;
+    return _e135;
+}
+
+Processed process(
+    uint patch_index,
+    device type_7 const& raw_factors,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    if (false) {
+        metal::uint2 _e4 = raw_factors[metal::min(unsigned(patch_index), (_buffer_sizes.size3 - 0 - 8) / 8)];
+        Processed _e5 = process_isoline(_e4);
+        return _e5;
+    }
+    if (false) {
+        uint at = 2u * patch_index;
+        metal::uint2 _e11 = raw_factors[metal::min(unsigned(at), (_buffer_sizes.size3 - 0 - 8) / 8)];
+        metal::uint2 _e16 = raw_factors[metal::min(unsigned(at + 1u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+        Processed _e18 = process_triangle(metal::uint4(_e11, _e16));
+        return _e18;
+    }
+    uint at_1 = 3u * patch_index;
+    metal::uint2 _e23 = raw_factors[metal::min(unsigned(at_1), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    metal::uint2 _e28 = raw_factors[metal::min(unsigned(at_1 + 1u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    metal::uint4 outer_1 = metal::uint4(_e23, _e28);
+    metal::uint2 _e34 = raw_factors[metal::min(unsigned(at_1 + 2u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    Processed _e35 = process_quad(outer_1, _e34);
+    return _e35;
+}
+
+void write_contexts(
+    uint patch_index_1,
+    Processed processed_1,
+    device type_4 const& tables,
+    constant Job& job,
+    device type_7& contexts,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint step = job.stride;
+    metal::uint2 _e11 = make_context(processed_1.outer.x, processed_1.outer_odd.x, tables, _buffer_sizes);
+    contexts[metal::min(unsigned(patch_index_1), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e11;
+    metal::uint2 _e19 = make_context(processed_1.outer.y, processed_1.outer_odd.y, tables, _buffer_sizes);
+    contexts[metal::min(unsigned(patch_index_1 + step), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e19;
+    if (false) {
+        return;
+    }
+    metal::uint2 _e30 = make_context(processed_1.outer.z, processed_1.outer_odd.z, tables, _buffer_sizes);
+    contexts[metal::min(unsigned(patch_index_1 + (2u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e30;
+    if (false) {
+        metal::uint2 _e41 = make_context(processed_1.inside.x, processed_1.inside_odd.x, tables, _buffer_sizes);
+        contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e41;
+        return;
+    }
+    metal::uint2 _e51 = make_context(processed_1.outer.w, processed_1.outer_odd.w, tables, _buffer_sizes);
+    contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e51;
+    metal::uint2 _e61 = make_context(processed_1.inside.x, processed_1.inside_odd.x, tables, _buffer_sizes);
+    contexts[metal::min(unsigned(patch_index_1 + (4u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e61;
+    metal::uint2 _e71 = make_context(processed_1.inside.y, processed_1.inside_odd.y, tables, _buffer_sizes);
+    contexts[metal::min(unsigned(patch_index_1 + (5u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e71;
+    return;
+}
+
+struct factorsInput {
+};
+kernel void factors(
+  metal::uint3 workgroup [[threadgroup_position_in_grid]]
+, uint thread_ [[thread_index_in_threadgroup]]
+, device type_4 const& tables [[buffer(2)]]
+, threadgroup type_5& sums
+, constant Job& job [[buffer(0)]]
+, device type_7 const& raw_factors [[buffer(1)]]
+, device type_7& topologies [[buffer(3)]]
+, device type_7& contexts [[buffer(4)]]
+, device type_7& offsets [[buffer(5)]]
+, threadgroup metal::uint2& first_topology
+, threadgroup metal::atomic_uint& differs
+, constant _mslBufferSizes& _buffer_sizes [[buffer(6)]]
+) {
+    metal::uint2 own = metal::uint2(0u, 0u);
+    metal::uint2 topology = metal::uint2(0u, 0u);
+    bool local = {};
+    bool local_1 = {};
+    uint _e6 = job.max_workgroups;
+    uint block = workgroup.x + (workgroup.y * _e6);
+    uint patch_index_2 = (block * BLOCK) + thread_;
+    uint _e22 = job.patches;
+    if (patch_index_2 < _e22) {
+        Processed _e24 = process(patch_index_2, raw_factors, _buffer_sizes);
+        topology = _e24.topology;
+        metal::uint2 _e28 = topology;
+        topologies[metal::min(unsigned(patch_index_2), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e28;
+        metal::uint2 _e29 = topology;
+        metal::uint2 _e30 = counts(_e29);
+        own = _e30;
+        if (true) {
+            uint _e35 = state_of(_e24.topology);
+            local = _e35 == REGULAR;
+        } else {
+            local = false;
+        }
+        bool _e39 = local;
+        if (_e39) {
+            write_contexts(patch_index_2, _e24, tables, job, contexts, _buffer_sizes);
+        }
+    }
+    if (thread_ == 0u) {
+        metal::uint2 _e43 = topology;
+        first_topology = _e43;
+        metal::atomic_store_explicit(&differs, 0u, metal::memory_order_relaxed);
+    }
+    metal::uint2 _e46 = own;
+    Sums _e47 = prefix_sums(thread_, _e46, sums);
+    uint _e50 = job.patches;
+    if (patch_index_2 < _e50) {
+        offsets[metal::min(unsigned(patch_index_2), (_buffer_sizes.size6 - 0 - 8) / 8)] = _e47.before;
+        metal::uint2 _e55 = topology;
+        metal::uint2 _e57 = first_topology;
+        if (metal::any(_e55 != _e57)) {
+            metal::atomic_store_explicit(&differs, 1u, metal::memory_order_relaxed);
+        }
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_ == 0u) {
+        uint _e70 = job.patches;
+        local_1 = (block * BLOCK) < _e70;
+    } else {
+        local_1 = false;
+    }
+    bool _e73 = local_1;
+    if (_e73) {
+        uint _e77 = job.blocks_at;
+        offsets[metal::min(unsigned(_e77 + block), (_buffer_sizes.size6 - 0 - 8) / 8)] = _e47.all;
+        uint _e84 = job.alike_at;
+        metal::uint2 _e87 = topology;
+        uint _e90 = metal::atomic_load_explicit(&differs, metal::memory_order_relaxed);
+        offsets[metal::min(unsigned(_e84 + block), (_buffer_sizes.size6 - 0 - 8) / 8)] = _e87 * (1u - _e90);
+        return;
+    } else {
+        return;
+    }
+}

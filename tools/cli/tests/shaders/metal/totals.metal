@@ -1,0 +1,385 @@
+// language: metal2.0
+#include <metal_stdlib>
+#include <simd/simd.h>
+
+using metal::uint;
+
+struct _mslBufferSizes {
+    uint size2;
+    uint size3;
+    uint size4;
+};
+
+struct type_2 {
+    metal::uint2 inner[341];
+};
+struct Sums {
+    metal::uint2 before;
+    metal::uint2 all;
+};
+struct Job {
+    uint patches;
+    uint first_patch;
+    uint chunk;
+    uint stride;
+    uint blocks_at;
+    uint alike_at;
+    uint groups_at;
+    uint primitive_tiles_at;
+    uint window_first;
+    uint window_tiles;
+    uint chunks;
+    uint point_capacity;
+    uint primitive_capacity;
+    uint point_windows;
+    uint primitive_windows;
+    uint point_window_tiles;
+    uint primitive_window_tiles;
+    uint max_workgroups;
+};
+struct Range {
+    uint points_begin;
+    uint points_end;
+    uint primitives_begin;
+    uint primitives_end;
+};
+typedef Range type_4[1];
+struct Status {
+    uint points;
+    uint points_high;
+    uint primitives;
+    uint primitives_high;
+    uint overflow;
+    uint reserved_0_;
+    uint reserved_1_;
+    uint reserved_2_;
+    type_4 ranges;
+};
+typedef metal::uint2 type_5[1];
+typedef uint type_6[1];
+struct type_8 {
+    metal::atomic_uint inner[2];
+};
+constant uint DOMAIN = 2u;
+constant uint PARTITIONING = 2u;
+constant uint OUTPUT = 2u;
+constant uint SPLIT = 0u;
+constant uint POINT_FORMAT = 0u;
+constant uint NUMBERING = 0u;
+constant uint FACTORS = 6u;
+constant uint WORKGROUP = 64u;
+constant uint TILE = 2048u;
+constant uint ROUND = 128u;
+constant uint SUMMED = 256u;
+constant uint BLOCK = 256u;
+constant uint BLOCK_BITS = 8u;
+constant uint GROUP_BLOCKS = 256u;
+constant uint GROUP_BLOCK_BITS = 8u;
+constant uint GROUP = 65536u;
+constant uint GROUP_BITS = 16u;
+constant uint DISPATCHES_AT = 8u;
+constant uint RECIPROCALS_AT = 0u;
+constant uint STITCHES_AT = 64u;
+constant uint STITCH_WORDS = 128u;
+constant uint TRANSITION_STRIDE = 64u;
+constant uint FAN_STITCH = 65u;
+constant uint RING_STITCH = 4096u;
+constant uint MIRRORED_STRIP = 4160u;
+constant uint PLAIN_STRIP = 4224u;
+constant uint FOURS = 256u;
+constant uint SIXTEENS = 320u;
+constant uint SIXTY_FOURS = 336u;
+constant uint WHOLE = 340u;
+constant uint ISOLINE = 0u;
+constant uint TRIANGLE = 1u;
+constant uint QUAD = 2u;
+constant uint INTEGER = 0u;
+constant uint POW2_ = 1u;
+constant uint FRACTIONAL_ODD = 2u;
+constant uint FRACTIONAL_EVEN = 3u;
+constant uint OUTPUT_POINT = 0u;
+constant uint OUTPUT_LINE = 1u;
+constant uint OUTPUT_TRIANGLE_CW = 2u;
+constant uint OUTPUT_TRIANGLE_CCW = 3u;
+constant uint RULER = 0u;
+constant uint CENTER = 1u;
+constant uint PACKED = 0u;
+constant uint F32_ = 1u;
+constant uint PER_BATCH = 0u;
+constant uint PER_PATCH = 1u;
+constant uint POINTS = 0u;
+constant uint PRIMITIVES = 1u;
+constant uint NEVER = 4294967295u;
+constant bool IS_INTEGER = false;
+constant uint EDGES = 4u;
+constant bool IS_TRIANGLES = true;
+constant uint INDICES = 3u;
+
+void add_four(
+    uint from_at,
+    uint to_at,
+    threadgroup type_2& sums
+) {
+    metal::uint2 first = sums.inner[metal::min(unsigned(from_at), 340u)];
+    metal::uint2 _e9 = sums.inner[metal::min(unsigned(from_at + 1u), 340u)];
+    metal::uint2 second = first + _e9;
+    metal::uint2 _e15 = sums.inner[metal::min(unsigned(from_at + 2u), 340u)];
+    metal::uint2 third = second + _e15;
+    metal::uint2 _e23 = sums.inner[metal::min(unsigned(from_at + 3u), 340u)];
+    sums.inner[metal::min(unsigned(to_at), 340u)] = third + _e23;
+    sums.inner[metal::min(unsigned(from_at), 340u)] = metal::uint2(0u);
+    sums.inner[metal::min(unsigned(from_at + 1u), 340u)] = first;
+    sums.inner[metal::min(unsigned(from_at + 2u), 340u)] = second;
+    sums.inner[metal::min(unsigned(from_at + 3u), 340u)] = third;
+    return;
+}
+
+Sums prefix_sums(
+    uint thread_1,
+    metal::uint2 own_1,
+    threadgroup type_2& sums
+) {
+    sums.inner[metal::min(unsigned(thread_1), 340u)] = own_1;
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 < 64u) {
+        add_four(4u * thread_1, FOURS + thread_1, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 < 16u) {
+        add_four(FOURS + (4u * thread_1), SIXTEENS + thread_1, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 < 4u) {
+        add_four(SIXTEENS + (4u * thread_1), SIXTY_FOURS + thread_1, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 == 0u) {
+        add_four(SIXTY_FOURS, WHOLE, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    metal::uint2 _e32 = sums.inner[metal::min(unsigned(thread_1), 340u)];
+    metal::uint2 _e39 = sums.inner[metal::min(unsigned(FOURS + (thread_1 >> 2u)), 340u)];
+    metal::uint2 _e47 = sums.inner[metal::min(unsigned(SIXTEENS + (thread_1 >> 4u)), 340u)];
+    metal::uint2 _e55 = sums.inner[metal::min(unsigned(SIXTY_FOURS + (thread_1 >> 6u)), 340u)];
+    metal::uint2 before = ((_e32 + _e39) + _e47) + _e55;
+    metal::uint2 all = sums.inner[340];
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    return Sums {before, all};
+}
+
+uint naga_div(uint lhs, uint rhs) {
+    return lhs / metal::select(rhs, 1u, rhs == 0u);
+}
+
+void write_dispatch(
+    uint number,
+    uint workgroups,
+    constant Job& job,
+    device type_6& arguments,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint _e4 = job.max_workgroups;
+    uint _e10 = job.max_workgroups;
+    uint rows = naga_div((workgroups + _e4) - 1u, _e10);
+    uint at = DISPATCHES_AT + (3u * number);
+    uint _e20 = job.max_workgroups;
+    arguments[metal::min(unsigned(at), (_buffer_sizes.size4 - 0 - 4) / 4)] = (rows <= 1u) ? workgroups : _e20;
+    arguments[metal::min(unsigned(at + 1u), (_buffer_sizes.size4 - 0 - 4) / 4)] = metal::max(rows, 1u);
+    arguments[metal::min(unsigned(at + 2u), (_buffer_sizes.size4 - 0 - 4) / 4)] = 1u;
+    return;
+}
+
+uint tiles_between(
+    uint begin,
+    uint end
+) {
+    return (end > begin) ? (naga_div((end + TILE) - 1u, TILE) - naga_div(begin, TILE)) : 0u;
+}
+
+uint tiles_in_window(
+    uint begin_1,
+    uint end_1,
+    uint window,
+    uint window_tiles
+) {
+    bool local = {};
+    uint first_1 = metal::max(naga_div(begin_1, TILE), window * window_tiles);
+    uint last = metal::min(naga_div((end_1 + TILE) - 1u, TILE), (window + 1u) * window_tiles);
+    if (last > first_1) {
+        local = end_1 > begin_1;
+    } else {
+        local = false;
+    }
+    bool _e25 = local;
+    return _e25 ? (last - first_1) : 0u;
+}
+
+uint workgroups_of(
+    uint slot,
+    Range range,
+    constant Job& job
+) {
+    if (slot == 0u) {
+        uint _e6 = tiles_between(range.points_begin, range.points_end);
+        uint _e9 = tiles_between(range.primitives_begin, range.primitives_end);
+        uint count = _e6 + _e9;
+        return naga_div(((count + 2u) + WORKGROUP) - 1u, WORKGROUP);
+    }
+    uint _e21 = job.point_windows;
+    if (slot <= _e21) {
+        uint _e29 = job.point_window_tiles;
+        uint _e30 = tiles_in_window(range.points_begin, range.points_end, slot - 1u, _e29);
+        return _e30;
+    }
+    uint _e37 = job.point_windows;
+    uint _e41 = job.primitive_window_tiles;
+    uint _e42 = tiles_in_window(range.primitives_begin, range.primitives_end, (slot - 1u) - _e37, _e41);
+    return _e42;
+}
+
+uint overflow(
+    constant Job& job,
+    device Status const& status,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    bool local_1 = {};
+    bool local_2 = {};
+    uint _e2 = status.points_high;
+    if (!((_e2 != 0u))) {
+        uint _e10 = status.points;
+        uint _e13 = job.point_capacity;
+        local_1 = _e10 > _e13;
+    } else {
+        local_1 = true;
+    }
+    bool points = local_1;
+    uint _e19 = status.primitives_high;
+    if (!((_e19 != 0u))) {
+        uint _e27 = status.primitives;
+        uint _e30 = job.primitive_capacity;
+        local_2 = _e27 > _e30;
+    } else {
+        local_2 = true;
+    }
+    bool primitives = local_2;
+    return (points ? 1u : 0u) | (primitives ? 2u : 0u);
+}
+
+uint naga_mod(uint lhs, uint rhs) {
+    return lhs % metal::select(rhs, 1u, rhs == 0u);
+}
+
+void finish(
+    uint thread_2,
+    constant Job& job,
+    device Status& status,
+    device type_6& arguments,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint slot_1 = {};
+    uint _e4 = job.point_windows;
+    uint _e8 = job.primitive_windows;
+    uint slots = (1u + _e4) + _e8;
+    uint _e10 = overflow(job, status, _buffer_sizes);
+    slot_1 = thread_2;
+    uint2 loop_bound = uint2(4294967295u);
+    bool loop_init = true;
+    while(true) {
+        if (metal::all(loop_bound == uint2(0u))) { break; }
+        loop_bound -= uint2(loop_bound.y == 0u, 1u);
+        if (!loop_init) {
+            uint _e32 = slot_1;
+            slot_1 = _e32 + SUMMED;
+        }
+        loop_init = false;
+        uint _e12 = slot_1;
+        uint _e15 = job.chunks;
+        if (_e12 < (_e15 * slots)) {
+        } else {
+            break;
+        }
+        {
+            uint _e18 = slot_1;
+            uint _e22 = slot_1;
+            Range _e25 = status.ranges[metal::min(unsigned(naga_div(_e22, slots)), (_buffer_sizes.size3 - 32 - 16) / 16)];
+            uint _e26 = workgroups_of(naga_mod(_e18, slots), _e25, job);
+            uint _e27 = slot_1;
+            write_dispatch(_e27, (_e10 != 0u) ? 0u : _e26, job, arguments, _buffer_sizes);
+        }
+    }
+    if (thread_2 == 0u) {
+        status.overflow = _e10;
+        uint _e43 = status.primitives;
+        arguments[metal::min(unsigned(0), (_buffer_sizes.size4 - 0 - 4) / 4)] = (_e10 != 0u) ? 0u : (_e43 * INDICES);
+        arguments[metal::min(unsigned(1), (_buffer_sizes.size4 - 0 - 4) / 4)] = 1u;
+        arguments[metal::min(unsigned(2), (_buffer_sizes.size4 - 0 - 4) / 4)] = 0u;
+        arguments[metal::min(unsigned(3), (_buffer_sizes.size4 - 0 - 4) / 4)] = 0u;
+        arguments[metal::min(unsigned(4), (_buffer_sizes.size4 - 0 - 4) / 4)] = 0u;
+        return;
+    } else {
+        return;
+    }
+}
+
+struct totalsInput {
+};
+kernel void totals(
+  uint thread_ [[thread_index_in_threadgroup]]
+, threadgroup type_2& sums
+, constant Job& job [[buffer(0)]]
+, device type_5& offsets [[buffer(1)]]
+, device Status& status [[buffer(2)]]
+, device type_6& arguments [[buffer(3)]]
+, threadgroup type_8& carries
+, constant _mslBufferSizes& _buffer_sizes [[buffer(4)]]
+) {
+    metal::uint2 own = metal::uint2(0u, 0u);
+    uint _e3 = job.patches;
+    uint groups = naga_div((_e3 + GROUP) - 1u, GROUP);
+    if (thread_ < groups) {
+        uint _e18 = job.groups_at;
+        metal::uint2 _e21 = offsets[metal::min(unsigned(_e18 + thread_), (_buffer_sizes.size2 - 0 - 8) / 8)];
+        own = _e21;
+    }
+    if (thread_ < 2u) {
+        metal::atomic_store_explicit(&carries.inner[metal::min(unsigned(thread_), 1u)], 0u, metal::memory_order_relaxed);
+    }
+    metal::uint2 _e27 = own;
+    Sums _e28 = prefix_sums(thread_, _e27, sums);
+    uint _e31 = status.points;
+    uint _e34 = status.primitives;
+    metal::uint2 begin_2 = metal::uint2(_e31, _e34);
+    metal::uint2 own_begin = begin_2 + _e28.before;
+    metal::uint2 _e38 = own;
+    metal::uint2 carry = static_cast<metal::uint2>((own_begin + _e38) < own_begin);
+    uint _e45 = metal::atomic_fetch_add_explicit(&carries.inner[0], carry.x, metal::memory_order_relaxed);
+    uint _e49 = metal::atomic_fetch_add_explicit(&carries.inner[1], carry.y, metal::memory_order_relaxed);
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    metal::threadgroup_barrier(metal::mem_flags::mem_device);
+    if (thread_ < groups) {
+        uint _e54 = job.groups_at;
+        offsets[metal::min(unsigned(_e54 + thread_), (_buffer_sizes.size2 - 0 - 8) / 8)] = own_begin;
+    }
+    if (thread_ == 0u) {
+        metal::uint2 end_2 = begin_2 + _e28.all;
+        uint _e65 = job.chunk;
+        status.ranges[metal::min(unsigned(_e65), (_buffer_sizes.size3 - 32 - 16) / 16)] = Range {begin_2.x, end_2.x, begin_2.y, end_2.y};
+        status.points = end_2.x;
+        uint _e77 = status.points_high;
+        uint _e80 = metal::atomic_load_explicit(&carries.inner[0], metal::memory_order_relaxed);
+        status.points_high = _e77 + _e80;
+        status.primitives = end_2.y;
+        uint _e87 = status.primitives_high;
+        uint _e90 = metal::atomic_load_explicit(&carries.inner[1], metal::memory_order_relaxed);
+        status.primitives_high = _e87 + _e90;
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_device);
+    uint _e94 = job.chunk;
+    uint _e99 = job.chunks;
+    if ((_e94 + 1u) >= _e99) {
+        finish(thread_, job, status, arguments, _buffer_sizes);
+        return;
+    } else {
+        return;
+    }
+}
