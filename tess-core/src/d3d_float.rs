@@ -2,7 +2,7 @@
 //!
 //! Comparisons are made on bit patterns, which order as numbers do where they are not negative. A NaN is
 //! not greater than anything. Float comparisons would not do: compilers may turn them into maximum
-//! instructions, and AArch64's `fmaxnm` returns a signalling NaN where a comparison takes the other number.
+//! instructions, and `fmaxnm` of ARM returns a signalling NaN where a comparison takes the other number.
 
 /// The bit pattern of infinity. Greater patterns are NaNs or have a sign.
 const INFINITY: u32 = f32::INFINITY.to_bits();

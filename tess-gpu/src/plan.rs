@@ -27,6 +27,7 @@ pub struct Plan {
     setup: Setup,
     patches: u32,
     groups: u32,
+    one_front: bool,
     capacity: Capacity,
     chunk_patches: u32,
     point_window_tiles: u32,
@@ -46,6 +47,7 @@ impl Plan {
             setup,
             patches,
             groups: 0,
+            one_front: true,
             capacity,
             chunk_patches: patches.max(1).checked_next_multiple_of(BLOCK).unwrap_or(most).min(most),
             point_window_tiles: to_u32(bound / (8 * u64::from(TILE))),
@@ -62,6 +64,13 @@ impl Plan {
         self
     }
 
+    /// The same batch in the stages of a large one, whatever its size: a host then has one path.
+    #[must_use]
+    pub const fn in_large_stages(mut self) -> Self {
+        self.one_front = false;
+        self
+    }
+
     /// How many groups the patches are in; 0 if nobody asked for groups.
     #[must_use]
     pub const fn groups(&self) -> u32 {
@@ -69,12 +78,12 @@ impl Plan {
     }
 
     /// Whether one workgroup does everything in front of the expansions, because there are few patches
-    /// and little room for output.
+    /// and little room for output, and nobody asked for [`Plan::in_large_stages`].
     #[must_use]
     pub fn is_small(&self) -> bool {
         let tiles = |elements: u32| elements.div_ceil(TILE);
         let room = tiles(self.capacity.points) + tiles(self.capacity.primitives);
-        (1..=SMALL_PATCHES).contains(&self.patches) && room <= SMALL_TILES
+        self.one_front && (1..=SMALL_PATCHES).contains(&self.patches) && room <= SMALL_TILES
     }
 
     /// Patches of the batch.

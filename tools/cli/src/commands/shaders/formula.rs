@@ -1,7 +1,7 @@
 //! Sizes as functions of a batch, found by asking the plan, so that nothing is stated twice.
 
 use serde::{Serialize, Serializer};
-use tess_gpu::sizes::{BLOCK, GROUP, TILE};
+use tess_gpu::sizes::{BLOCK, SECTION, TILE};
 use tess_verify::random::SplitMix64;
 
 /// What sizes depend on.
@@ -31,7 +31,7 @@ impl Variable {
     /// The numbers by which sizes can grow in steps, each a multiple of the one before.
     const fn steps(self) -> &'static [u32] {
         match self {
-            Self::Patches => &[1, BLOCK, GROUP],
+            Self::Patches => &[1, BLOCK, SECTION],
             Self::Points | Self::Primitives => &[1, TILE],
             Self::MaxWorkgroups => &[1],
         }

@@ -2,7 +2,7 @@
 
 use super::formula::{Formula, Variable};
 use super::manifest::{Host, Kind, Manifest, Stage, TABLES_FILE};
-use super::plan::{Bound, Count, Dispatch, Variant, name_of};
+use super::plan::{Bound, Count, Dispatch, Variant, name_of, resources};
 use super::structures::Structure;
 use std::fmt::{Display, Write};
 use tess_gpu::Resource;
@@ -22,7 +22,7 @@ pub(super) fn text(manifest: &Manifest) -> String {
     );
     line("#ifndef TESS_SHADERS_H\n#define TESS_SHADERS_H\n\n#include <stdint.h>\n".into());
     constants(manifest).into_iter().for_each(&mut line);
-    line(enumeration("tess_resource", resources().chain(["TESS_RESOURCES".to_owned()])));
+    line(enumeration("tess_resource", resource_names().chain(["TESS_RESOURCES".to_owned()])));
     line(enumeration("tess_host", HOSTS.iter().map(|host| host_name(*host))));
     line(enumeration("tess_variable", Variable::ALL.iter().map(|v| variable_name(*v))));
     line(DECLARATIONS.trim_end().to_owned());
@@ -94,8 +94,8 @@ fn table(ty: &str, name: &str, size: &str, rows: impl Iterator<Item = String>) -
     format!("\nstatic const {ty} {name}[{size}] = {{\n    {rows}\n}};")
 }
 
-fn resources() -> impl Iterator<Item = String> {
-    Resource::ALL.into_iter().map(resource_name)
+fn resource_names() -> impl Iterator<Item = String> {
+    resources().map(resource_name)
 }
 
 fn resource_name(resource: Resource) -> String {

@@ -1,7 +1,7 @@
 //! The manifest: what a host needs to run the shaders. docs/shaders.md explains each entry.
 
 use super::languages::Translation;
-use super::plan::{Variant, name_of};
+use super::plan::{Variant, name_of, resources};
 use super::structures::Structure;
 use serde::Serialize;
 use tess_gpu::sizes::ALIGNMENT;
@@ -118,14 +118,14 @@ impl Manifest {
         plans: Vec<Variant>,
         structures: Vec<Structure>,
     ) -> Self {
-        let resources = Resource::ALL.map(|resource| Role { resource, host: Host::of(resource) });
+        let role = |resource| Role { resource, host: Host::of(resource) };
         Self {
             format: "tess-shaders 1",
             version: env!("CARGO_PKG_VERSION"),
             translation,
             setup: Described::new(setup),
             stages,
-            resources: resources.to_vec(),
+            resources: resources().map(role).collect(),
             job_stride: ALIGNMENT,
             plans,
             structures,
@@ -170,11 +170,13 @@ impl Host {
             Resource::Factors => Self::WritesFactors,
             Resource::Tables => Self::WritesTables,
             Resource::Status => Self::Clears,
-            Resource::Arguments => Self::UsesIndirectly,
+            Resource::Arguments | Resource::Draws => Self::UsesIndirectly,
             Resource::Points | Resource::Indices => Self::Reads,
-            Resource::Topologies | Resource::Contexts | Resource::Offsets | Resource::Tiles => {
-                Self::Keeps
-            }
+            Resource::Topologies
+            | Resource::Contexts
+            | Resource::Offsets
+            | Resource::Tiles
+            | Resource::Groups => Self::Keeps,
         }
     }
 }

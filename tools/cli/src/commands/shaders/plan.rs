@@ -15,7 +15,7 @@ pub(super) struct Variant {
     pub(super) max_patches: u32,
     pub(super) max_points: u32,
     pub(super) max_primitives: u32,
-    /// Bytes of each resource's buffer, in the order of [`Resource::ALL`].
+    /// Bytes of each resource's buffer, in the order of [`resources`].
     pub(super) buffers: Vec<Buffer>,
     /// The words of each job.
     pub(super) jobs: Vec<Vec<Formula>>,
@@ -108,10 +108,17 @@ fn shape(setup: Setup, patches: u32) -> Vec<(Stage, u32, bool)> {
         .collect()
 }
 
-/// The plan of a batch, bound by nothing but the number of workgroups in a row.
+/// The resources of a batch without groups, which is what manifests describe.
+pub(super) fn resources() -> impl Iterator<Item = Resource> {
+    let is_of_groups = |resource: &Resource| matches!(resource, Resource::Groups | Resource::Draws);
+    Resource::ALL.into_iter().filter(move |resource| !is_of_groups(resource))
+}
+
+/// The plan of a batch in the stages that every batch can have, bound by nothing but the number of
+/// workgroups in a row.
 pub(super) fn with(setup: Setup, [patches, points, primitives, workgroups]: Batch) -> Plan {
     let limits = Limits { storage_binding: 1 << 35, workgroups };
-    Plan::new(setup, patches, Capacity { points, primitives }, limits)
+    Plan::new(setup, patches, Capacity { points, primitives }, limits).in_large_stages()
 }
 
 /// The largest of `0..=most` that is `good`; all up to it are, and 0 need not be.
@@ -145,10 +152,7 @@ impl Variant {
             max_patches,
             max_points,
             max_primitives,
-            buffers: Resource::ALL
-                .into_iter()
-                .map(|r| asked.buffer(r))
-                .collect::<Result<_, _>>()?,
+            buffers: resources().map(|r| asked.buffer(r)).collect::<Result<_, _>>()?,
             jobs: asked.jobs()?,
             dispatches: (0..dispatches).map(|i| asked.dispatch(i)).collect::<Result<_, _>>()?,
         })
