@@ -36,7 +36,8 @@ fn the_manifest_says_what_the_plan_says() {
 fn compare(setup: Setup, variants: &[Variant], batch: [u32; 4]) {
     let [patches, points, primitives, workgroups] = batch;
     let limits = Limits { storage_binding: 128 << 20, workgroups };
-    let plan = Plan::new(setup, patches, Capacity { points, primitives }, limits);
+    let room = Capacity { points, primitives };
+    let plan = Plan::new(setup, patches, room, limits).in_large_stages();
     let mut own = variants.iter().filter(|v| (v.min_patches..=v.max_patches).contains(&patches));
     let variant = own.next().expect("every number of patches has a plan");
     assert!(own.next().is_none(), "{patches} patches have one plan");
