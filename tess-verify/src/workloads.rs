@@ -5,7 +5,10 @@
 
 mod scenes;
 
-pub use scenes::{SEED, UNIFORM_FACTORS, character, seed_table, terrain, uniform, worst};
+pub use scenes::{
+    SEED, UNIFORM_FACTORS, character, meshes, mosaic, mosaic_even, seed_table, terrain, uniform,
+    worst,
+};
 
 use crate::digest::Fnv1a;
 use std::ops::Range;
@@ -20,6 +23,9 @@ pub struct Workload {
     pub config: Config,
     /// The patches, all of one domain.
     pub patches: Vec<PatchFactors>,
+    /// The numbers of the patches at which groups begin, ascending from 0; empty if the patches are
+    /// not grouped.
+    pub groups: Vec<u32>,
     /// How a consumer hands them over.
     pub calls: Calls,
 }
@@ -27,10 +33,14 @@ pub struct Workload {
 /// How many patches a call to the tessellator has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Calls {
-    /// Many at once.
+    /// As many as suit what is measured.
     Batch,
     /// One patch at a time, as interfaces without batches do.
     SinglePatch,
+    /// One group at a time, as a renderer does that draws mesh by mesh.
+    Group,
+    /// All groups in one call, whose result says where each group's output lies.
+    AllGroups,
 }
 
 /// Width of the indices in a consumer's buffer.
@@ -83,11 +93,18 @@ pub const STREAM_BYTES: u64 = 1 << 30;
 
 impl Workload {
     fn batch(name: impl Into<String>, config: Config, patches: Vec<PatchFactors>) -> Self {
-        Self { name: name.into(), config, patches, calls: Calls::Batch }
+        Self { name: name.into(), config, patches, groups: Vec::new(), calls: Calls::Batch }
     }
 
     fn single(name: impl Into<String>, config: Config, patches: Vec<PatchFactors>) -> Self {
-        Self { name: name.into(), config, patches, calls: Calls::SinglePatch }
+        Self { calls: Calls::SinglePatch, ..Self::batch(name, config, patches) }
+    }
+
+    /// The patches of each group, in order; none if the patches are not grouped.
+    pub fn group_ranges(&self) -> impl Iterator<Item = Range<usize>> {
+        let starts = self.groups.iter().map(|&start| start as usize);
+        let ends = starts.clone().skip(1).chain([self.patches.len()]);
+        starts.zip(ends).map(|(start, end)| start..end)
     }
 
     /// Output sizes of each patch, from the model.
@@ -115,16 +132,24 @@ impl Workload {
     }
 
     /// The working set `cache`: consecutive batches that cover all patches, each of about 1 MiB of
-    /// output and of at least 8 patches; one patch each if that is how the workload is called.
+    /// output and of at least 8 patches; the patches of one call each if the workload says what that
+    /// is.
     ///
     /// A remainder that would make a batch of its own too small joins the batch before it.
     #[must_use]
     pub fn cache_batches(&self, index_type: IndexType) -> Vec<Range<usize>> {
-        let is_full = |range: &Range<usize>, totals: &Totals| match self.calls {
-            Calls::SinglePatch => true,
-            Calls::Batch => {
-                range.len() >= CACHE_BATCH_PATCHES && totals.bytes(index_type) >= CACHE_BATCH_BYTES
-            }
+        match self.calls {
+            Calls::Batch => self.mebibytes(index_type),
+            Calls::SinglePatch => (0..self.patches.len()).map(|patch| patch..patch + 1).collect(),
+            Calls::Group => self.group_ranges().collect(),
+            Calls::AllGroups => std::iter::once(0..self.patches.len()).collect(),
+        }
+    }
+
+    /// Consecutive batches of about 1 MiB.
+    fn mebibytes(&self, index_type: IndexType) -> Vec<Range<usize>> {
+        let is_full = |range: &Range<usize>, totals: &Totals| {
+            range.len() >= CACHE_BATCH_PATCHES && totals.bytes(index_type) >= CACHE_BATCH_BYTES
         };
         let mut batches: Vec<Range<usize>> = Vec::new();
         let mut batch = 0..0;
@@ -157,19 +182,25 @@ impl Workload {
 pub fn all() -> Vec<Workload> {
     let mut workloads: Vec<_> = UNIFORM_FACTORS.into_iter().map(uniform).collect();
     workloads.extend(seed_table());
-    workloads.extend([terrain(), character(), worst()]);
+    workloads.extend([terrain(), character(), mosaic(), mosaic_even()]);
+    workloads.extend(meshes());
+    workloads.push(worst());
     workloads
 }
 
-/// The workloads that a name stands for: one, or all of a family such as `uniform` or
+/// The workloads that a name stands for: the one of that name, or all of a family such as `uniform` or
 /// `seed-table`; none for an unknown name.
 #[must_use]
 pub fn named(name: &str) -> Vec<Workload> {
+    let all = all();
+    if let Some(workload) = all.iter().find(|workload| workload.name == name) {
+        return vec![workload.clone()];
+    }
     let family = |workload: &Workload| {
         let rest = workload.name.strip_prefix(name);
-        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['-', '/']))
+        rest.is_some_and(|rest| rest.starts_with(['-', '/']))
     };
-    all().into_iter().filter(family).collect()
+    all.into_iter().filter(family).collect()
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
               binary64, each correctly rounded, and rounded to binary32 at the end"
 )]
 
-use super::Workload;
+use super::{Calls, Workload};
 use crate::random::SplitMix64;
 use tess_core::{
     Config, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
@@ -92,15 +92,71 @@ pub fn terrain() -> Workload {
 #[must_use]
 pub fn character() -> Workload {
     let mut random = SplitMix64::new(SEED);
-    let patches = (0..20_000)
-        .map(|_| {
-            let [u0, v0, w0] = std::array::from_fn(|_| power_of_two(3.0 * random.unit()));
-            let mean = (u0 + v0 + w0) / 3.0;
-            TriangleFactors { u0, v0, w0, inside: mean }.map(|factor| factor as f32).into()
-        })
-        .collect();
+    let patches = (0..20_000).map(|_| character_triangle(&mut random)).collect();
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     Workload::batch("character", config, patches)
+}
+
+/// `mosaic`: 20000 quads, every factor 1, 2, 3 or 4 at random on its own, integer. Hardly any two
+/// neighbours are alike.
+#[must_use]
+pub fn mosaic() -> Workload {
+    let mut random = SplitMix64::new(SEED);
+    let patches =
+        (0..20_000).map(|_| quad(std::array::from_fn(|_| (1 + random.below(4)) as f32))).collect();
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    Workload::batch("mosaic", config, patches)
+}
+
+/// `mosaic-even`: 20000 quads, every factor uniform in 1..6 on its own, `fractional_even`.
+#[must_use]
+pub fn mosaic_even() -> Workload {
+    let mut random = SplitMix64::new(SEED);
+    let patches = (0..20_000)
+        .map(|_| quad(std::array::from_fn(|_| (1.0 + 5.0 * random.unit()) as f32)))
+        .collect();
+    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+    Workload::batch("mosaic-even", config, patches)
+}
+
+/// `meshes/...`: 256 meshes of 40 to 400 patches, `fractional_odd`, their edge factors as in
+/// `character`; an inside factor is the mean of the edges. Of `triangles` and of `quads`, each mesh a
+/// call, and (`-at-once`) all of them in one call.
+#[must_use]
+pub fn meshes() -> Vec<Workload> {
+    let triangles = meshes_of("triangles", character_triangle);
+    triangles.into_iter().chain(meshes_of("quads", character_quad)).collect()
+}
+
+/// The two workloads of the same meshes.
+fn meshes_of(name: &str, patch: fn(&mut SplitMix64) -> PatchFactors) -> [Workload; 2] {
+    let mut random = SplitMix64::new(SEED);
+    let (mut groups, mut patches) = (Vec::new(), Vec::new());
+    for _ in 0..256 {
+        groups.push(patches.len() as u32);
+        let size = 40 + random.below(361);
+        patches.extend((0..size).map(|_| patch(&mut random)));
+    }
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    let all = Workload::batch(format!("meshes/{name}"), config, patches);
+    let each = Workload { groups, calls: Calls::Group, ..all };
+    let name = format!("meshes/{name}-at-once");
+    let at_once = Workload { name, calls: Calls::AllGroups, ..each.clone() };
+    [each, at_once]
+}
+
+/// A triangle with edge factors log-uniform in 1..8.
+fn character_triangle(random: &mut SplitMix64) -> PatchFactors {
+    let [u0, v0, w0] = std::array::from_fn(|_| power_of_two(3.0 * random.unit()));
+    let inside = (u0 + v0 + w0) / 3.0;
+    TriangleFactors { u0, v0, w0, inside }.map(|factor| factor as f32).into()
+}
+
+/// A quad with edge factors log-uniform in 1..8.
+fn character_quad(random: &mut SplitMix64) -> PatchFactors {
+    let [u0, v0, u1, v1] = std::array::from_fn(|_| power_of_two(3.0 * random.unit()));
+    let mean = (u0 + v0 + u1 + v1) / 4.0;
+    quad([u0, v0, u1, v1, mean, mean].map(|factor| factor as f32))
 }
 
 /// `worst`: 1024 quads, every factor uniform in 1..64 on its own, `fractional_odd`.

@@ -48,13 +48,46 @@ fn patches_are_the_recorded_ones() {
         }
         digest.finish()
     };
-    let digests =
-        [terrain(), character(), worst()].map(|w| format!("{:016x}", digest_of_factors(&w)));
-    assert_eq!(
-        digests,
-        ["7882a688b5a89231", "4a0aa6c8d93bdb91", "c9fbe51766e01c87"],
-        "terrain, character, worst"
-    );
+    let [triangles, _, quads, _] = <[_; 4]>::try_from(meshes()).expect("four workloads");
+    let workloads = [terrain(), character(), worst(), mosaic(), mosaic_even(), triangles, quads];
+    let expected = [
+        "7882a688b5a89231",
+        "4a0aa6c8d93bdb91",
+        "c9fbe51766e01c87",
+        "4adce9ab57ef8035",
+        "4a7e91d85cffc977",
+        "3ff5ec126ce0a534",
+        "1b59cb60ed8e7701",
+    ];
+    let digests = workloads.each_ref().map(|w| format!("{:016x}", digest_of_factors(w)));
+    assert_eq!(digests, expected, "{:?}", workloads.map(|w| w.name));
+}
+
+#[test]
+fn meshes_are_groups() {
+    let workloads = meshes();
+    for pair in workloads.chunks(2) {
+        let [each, at_once] = pair else { panic!("pairs") };
+        assert_eq!(each.patches, at_once.patches, "{}", each.name);
+        let sizes: Vec<_> = each.group_ranges().map(|range| range.len()).collect();
+        assert_eq!(sizes.len(), 256, "{}", each.name);
+        assert_eq!(sizes.iter().sum::<usize>(), each.patches.len(), "{}", each.name);
+        assert!(sizes.iter().all(|size| (40..=400).contains(size)), "{sizes:?}");
+        assert_eq!(each.cache_batches(IndexType::U32).len(), 256, "a call for each group");
+        assert_eq!(at_once.cache_batches(IndexType::U32).len(), 1, "one call for all");
+    }
+    assert_eq!(mosaic().group_ranges().count(), 0, "no groups");
+}
+
+#[test]
+fn mosaics_have_the_factors_they_say() {
+    for patch in quads(&mosaic()) {
+        let mut factors = patch.outer().into_iter().chain(patch.inside());
+        assert!(factors.all(|f| [1.0, 2.0, 3.0, 4.0].contains(&f)), "{patch:?}");
+    }
+    let even = quads(&mosaic_even());
+    let mean = even.iter().flat_map(QuadFactors::outer).map(f64::from).sum::<f64>() / 80_000.0;
+    assert!((3.4..3.6).contains(&mean), "uniform in 1..6: mean {mean}");
 }
 
 #[test]
@@ -110,6 +143,8 @@ fn cache_batches_cover_every_patch_once() {
                 let bytes = part.totals().bytes(index_type);
                 let expected = match workload.calls {
                     Calls::SinglePatch => batch.len() == 1,
+                    Calls::Group => workload.group_ranges().any(|group| group == *batch),
+                    Calls::AllGroups => batch.len() == workload.patches.len(),
                     Calls::Batch if batches.len() == 1 => true,
                     Calls::Batch => {
                         bytes >= CACHE_BATCH_BYTES && batch.len() >= CACHE_BATCH_PATCHES
@@ -136,5 +171,7 @@ fn families_and_unknown_names() {
     assert_eq!(named("seed-table").len(), 7, "seed-table is a family");
     assert_eq!(named("uniform-6").len(), 0, "not a prefix of uniform-64");
     assert_eq!(named("nothing").len(), 0, "unknown");
-    assert_eq!(all().len(), 17, "all");
+    assert_eq!(named("mosaic").len(), 1, "mosaic is a workload and no family");
+    assert_eq!(named("meshes").len(), 4, "meshes is a family");
+    assert_eq!(all().len(), 23, "all");
 }

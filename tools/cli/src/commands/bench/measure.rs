@@ -31,44 +31,49 @@ impl fmt::Display for Plan<'_> {
     }
 }
 
-/// Checks the digest, then times backend, fill and core in turn, part by part.
+/// Checks the digest, then times backend, fill and core in turn, part by part; the core alone first,
+/// if the backend has a device of its own.
 ///
 /// A part's time is the median over the samples; the workload's is the sum over its parts.
 ///
 /// # Errors
 /// The output differs from the model's (exit code 1), or a run failed.
 pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Failure> {
+    let mut core = Core::prepare(runner, plan)?;
+    if runner.is_device() {
+        for _ in 0..plan.samples {
+            (0..core.parts.len()).try_for_each(|part| core.take(part))?;
+        }
+    }
     let parts = runner.prepare(plan.workload, plan.working_set)?;
     check_digest(runner, plan.workload)?;
-    let (mut core, core_parts) = prepared_core(runner, plan)?;
     let mut run = Times::new(parts.len());
     let mut fill = Times::new(parts.len());
-    let mut core_run = Times::new(core_parts.len());
+    let in_turn = if runner.is_device() { 0 } else { core.parts.len() };
+    let threads = runner.threads();
     for _ in 0..plan.samples {
-        for part in 0..parts.len().max(core_parts.len()) {
-            let threads = runner.threads();
+        for part in 0..parts.len().max(in_turn) {
             run.take(part, threads, || runner.run(part))?;
             fill.take(part, threads, || runner.fill(part))?;
-            core_run.take(part, 1, || core.run(part))?;
+            if part < in_turn {
+                core.take(part)?;
+            }
         }
     }
     let (amount, seconds) = (parts.into_iter().sum::<Amount>(), run.seconds());
-    let core_rate = match &core_parts[..] {
-        [] => amount.patches as f64 / seconds,
-        parts => parts.iter().copied().sum::<Amount>().patches as f64 / core_run.seconds(),
-    };
+    let patches_per_s = amount.patches as f64 / seconds;
     Ok(Row {
         workload: plan.workload.name.clone(),
         backend: runner.backend(),
         level: runner.level(),
         working_set: plan.working_set.name(),
-        threads: runner.threads(),
+        threads,
         index_type: name_of(runner.index_type()),
-        patches_per_s: amount.patches as f64 / seconds,
+        patches_per_s,
         triangles_per_s: amount.triangles as f64 / seconds,
         bytes_per_s: amount.bytes as f64 / seconds,
         fill_ratio: fill.seconds() / seconds,
-        core_ratio: amount.patches as f64 / seconds / core_rate,
+        core_ratio: patches_per_s / core.patches_per_s().unwrap_or(patches_per_s),
     })
 }
 
@@ -84,16 +89,35 @@ fn check_digest(runner: &mut dyn Runner, workload: &Workload) -> Result<(), Fail
 }
 
 /// The core beside another backend; without any parts beside itself.
-fn prepared_core(
-    runner: &dyn Runner,
-    plan: Plan<'_>,
-) -> Result<(CoreRunner, Vec<Amount>), Failure> {
-    let mut core = CoreRunner::single();
-    let parts = match runner.backend() {
-        "core" => Vec::new(),
-        _ => core.prepare(plan.workload, plan.working_set)?,
-    };
-    Ok((core, parts))
+struct Core {
+    runner: CoreRunner,
+    parts: Vec<Amount>,
+    times: Times,
+}
+
+impl Core {
+    /// Gets ready to run a workload in the working set of the plan; beside a device, whose memory is not
+    /// the core's, in the working set `cache`.
+    fn prepare(beside: &dyn Runner, plan: Plan<'_>) -> Result<Self, Failure> {
+        let set = if beside.is_device() { WorkingSet::Cache } else { plan.working_set };
+        let mut runner = CoreRunner::single();
+        let parts = match beside.backend() {
+            "core" => Vec::new(),
+            _ => runner.prepare(plan.workload, set)?,
+        };
+        Ok(Self { runner, times: Times::new(parts.len()), parts })
+    }
+
+    /// Takes one more sample of a part.
+    fn take(&mut self, part: usize) -> Result<(), BackendError> {
+        self.times.take(part, 1, || self.runner.run(part))
+    }
+
+    /// Its speed; `None` beside itself.
+    fn patches_per_s(&self) -> Option<f64> {
+        let amount = self.parts.iter().copied().sum::<Amount>();
+        (amount.patches > 0).then(|| amount.patches as f64 / self.times.seconds())
+    }
 }
 
 /// The samples of each part, in seconds.

@@ -67,6 +67,12 @@ pub(crate) trait Runner {
     /// Width of the indices it writes.
     fn index_type(&self) -> IndexType;
 
+    /// Whether it runs on a device of its own, so that the core's times need not be taken in turn
+    /// with its own, nor in the same working set.
+    fn is_device(&self) -> bool {
+        false
+    }
+
     /// Gets everything ready to run a workload in a working set, buffers included, and says what
     /// each part amounts to.
     ///

@@ -14,7 +14,7 @@ use tess_simd::{
 };
 use tess_verify::backend::BackendError;
 use tess_verify::digest::Fnv1a;
-use tess_verify::workloads::{IndexType, Totals, Workload};
+use tess_verify::workloads::{Calls, IndexType, Totals, Workload};
 
 /// The runner for these options.
 ///
@@ -159,7 +159,9 @@ impl<I: Index> Runner for SimdRunner<I> {
         let totals = workload.totals();
         let indices_each = totals.indices / totals.primitives.max(1);
         let mut batches = Vec::new();
-        for ranges in workload.cache_batches(I::TYPE).chunks(threads) {
+        // Where the workload does not say what a call is, it has a mebibyte for each thread.
+        let together = if workload.calls == Calls::Batch { threads } else { 1 };
+        for ranges in workload.cache_batches(I::TYPE).chunks(together) {
             let (Some(first), Some(last)) = (ranges.first(), ranges.last()) else { continue };
             let range = first.start..last.end;
             batches.push(counted_batch::<I>(&mut tessellator, &patches, range, indices_each)?);

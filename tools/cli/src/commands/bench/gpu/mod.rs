@@ -11,7 +11,7 @@ use tess_gpu::Setup;
 use tess_gpu::layout::factor_words;
 use tess_verify::backend::BackendError;
 use tess_verify::digest::Fnv1a;
-use tess_verify::workloads::{IndexType, Totals, Workload};
+use tess_verify::workloads::{Calls, IndexType, Totals, Workload};
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 
 mod fill;
@@ -77,12 +77,10 @@ impl GpuRunner {
         amount: (Totals, u64),
     ) -> Result<Timed, BackendError> {
         let (totals, repeats) = amount;
-        let words = factor_words(patches).repeat(usize::try_from(repeats).unwrap_or(1));
+        let words = words_as_bytes(&factor_words(patches));
+        let words = words.repeat(usize::try_from(repeats).unwrap_or(1));
         let usage = wgpu::BufferUsages::STORAGE;
-        let factors = self
-            .gpu
-            .upload("factors", words_as_bytes(&words).as_slice(), usage)
-            .map_err(device_error)?;
+        let factors = self.gpu.upload("factors", &words, usage).map_err(device_error)?;
         let (points, indices) = outputs;
         let count = u32::try_from(totals.patches * repeats)
             .map_err(|_| BackendError::new("more patches than 32 bits count"))?;
@@ -166,6 +164,10 @@ impl Runner for GpuRunner {
         self.index_type
     }
 
+    fn is_device(&self) -> bool {
+        true
+    }
+
     fn prepare(
         &mut self,
         workload: &Workload,
@@ -174,9 +176,11 @@ impl Runner for GpuRunner {
         let first = workload.patches.first().ok_or_else(|| BackendError::new("no patches"))?;
         let setup = setup_of(first.domain(), workload.config, self.index_type);
         let counts: Vec<_> = workload.counts().collect();
-        let (ranges, repeats) = match working_set {
-            WorkingSet::Cache => (workload.cache_batches(self.index_type), 1),
-            WorkingSet::Stream => {
+        let (ranges, repeats) = match (working_set, workload.calls) {
+            (WorkingSet::Cache, _) | (_, Calls::Group) => {
+                (workload.cache_batches(self.index_type), 1)
+            }
+            (WorkingSet::Stream, _) => {
                 let whole = std::iter::once(0..workload.patches.len()).collect();
                 (whole, workload.stream_repeats(self.index_type))
             }
