@@ -8,8 +8,8 @@ use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
 use crate::setup::Setup;
 use crate::sizes::{
-    ALIGNMENT, BLOCK, Capacity, DISPATCHES_AT, Limits, MAX_CHUNK, SECTION, SMALL_PATCHES,
-    SMALL_TILES, SUMMED, Span, TILE,
+    ALIGNMENT, BLOCK, Capacity, DISPATCHES_AT, LEAST_TILE_BITS, Limits, MAX_CHUNK, SECTION,
+    SMALL_PATCHES, SMALL_TILES, SUMMED, Span, TILE, TILE_BITS,
 };
 use crate::tables;
 
@@ -32,6 +32,7 @@ pub struct Plan {
     point_window_tiles: u32,
     primitive_window_tiles: u32,
     max_workgroups: u32,
+    tile_bits: u32,
 }
 
 impl Plan {
@@ -42,15 +43,18 @@ impl Plan {
         let bound = limits.storage_binding.max(4 << 20);
         let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / SECTION * SECTION;
         let primitive_bytes = u64::from(setup.primitive_bytes());
+        let tile_bits =
+            if is_small(patches, capacity) { small_tile_bits(capacity) } else { TILE_BITS };
         Self {
             setup,
             patches,
             groups: 0,
             capacity,
             chunk_patches: patches.max(1).checked_next_multiple_of(BLOCK).unwrap_or(most).min(most),
-            point_window_tiles: to_u32(bound / (8 * u64::from(TILE))),
-            primitive_window_tiles: to_u32(bound / (primitive_bytes * u64::from(TILE))),
+            point_window_tiles: to_u32((bound / 8) >> tile_bits),
+            primitive_window_tiles: to_u32((bound / primitive_bytes) >> tile_bits),
             max_workgroups: limits.workgroups.max(1),
+            tile_bits,
         }
     }
 
@@ -72,9 +76,13 @@ impl Plan {
     /// and little room for output.
     #[must_use]
     pub fn is_small(&self) -> bool {
-        let tiles = |elements: u32| elements.div_ceil(TILE);
-        let room = tiles(self.capacity.points) + tiles(self.capacity.primitives);
-        (1..=SMALL_PATCHES).contains(&self.patches) && room <= SMALL_TILES
+        is_small(self.patches, self.capacity)
+    }
+
+    /// Elements of a tile: points or primitives.
+    #[must_use]
+    pub const fn tile(&self) -> u32 {
+        1 << self.tile_bits
     }
 
     /// Patches of the batch.
@@ -92,13 +100,13 @@ impl Plan {
     /// How many windows the points have.
     #[must_use]
     pub const fn point_windows(&self) -> u32 {
-        self.capacity.points.div_ceil(TILE).div_ceil(self.point_window_tiles)
+        self.capacity.points.div_ceil(self.tile()).div_ceil(self.point_window_tiles)
     }
 
     /// How many windows the primitives have.
     #[must_use]
     pub const fn primitive_windows(&self) -> u32 {
-        self.capacity.primitives.div_ceil(TILE).div_ceil(self.primitive_window_tiles)
+        self.capacity.primitives.div_ceil(self.tile()).div_ceil(self.primitive_window_tiles)
     }
 
     /// The bytes that the buffer of a resource must have for this batch; of the caller's own
@@ -116,7 +124,7 @@ impl Plan {
             Resource::Offsets => end(self.offsets(chunks - 1)),
             Resource::Status => size::<Status>() + size::<Range>() * u64::from(chunks),
             Resource::Tiles => {
-                let tiles = |elements: u32| u64::from(elements.div_ceil(TILE) + 2);
+                let tiles = |elements: u32| u64::from(elements.div_ceil(self.tile()) + 2);
                 4 * (tiles(self.capacity.points) + tiles(self.capacity.primitives))
             }
             Resource::Arguments => self.arguments_at(self.job_count()),
@@ -170,7 +178,7 @@ impl Plan {
 
     /// Where in the table of tiles those of the primitives begin.
     const fn primitive_tiles_at(&self) -> u32 {
-        self.capacity.points.div_ceil(TILE) + 2
+        self.capacity.points.div_ceil(self.tile()) + 2
     }
 
     /// Bytes of one patch's raw factors.
@@ -203,13 +211,22 @@ impl Plan {
 
     /// The bytes of a window of the points.
     fn point_window(&self, window: u32) -> Span {
-        window_span(self.capacity.points, 8, self.point_window_tiles, window)
+        self.window_span(self.capacity.points, 8, self.point_window_tiles, window)
     }
 
     /// The bytes of a window of the indices.
     fn primitive_window(&self, window: u32) -> Span {
         let each = self.setup.primitive_bytes();
-        window_span(self.capacity.primitives, each, self.primitive_window_tiles, window)
+        self.window_span(self.capacity.primitives, each, self.primitive_window_tiles, window)
+    }
+
+    /// `capacity` elements of `each` bytes, cut into windows.
+    fn window_span(&self, capacity: u32, each: u32, window_tiles: u32, window: u32) -> Span {
+        let most = u64::from(window_tiles) * u64::from(self.tile());
+        let first = u64::from(window) * most;
+        let elements = (u64::from(capacity) - first).min(most);
+        let size = (elements * u64::from(each)).next_multiple_of(8);
+        Span { offset: first * u64::from(each), size }
     }
 
     /// Where in the arguments the size of the indirect dispatch with job `job` is.
@@ -224,17 +241,23 @@ impl Plan {
     }
 }
 
+/// See [`Plan::is_small`].
+fn is_small(patches: u32, capacity: Capacity) -> bool {
+    let tiles = |elements: u32| elements.div_ceil(TILE);
+    (1..=SMALL_PATCHES).contains(&patches)
+        && tiles(capacity.points).saturating_add(tiles(capacity.primitives)) <= SMALL_TILES
+}
+
+/// The size of a small batch's tiles as a power of two.
+fn small_tile_bits(capacity: Capacity) -> u32 {
+    let elements = u64::from(capacity.points) + u64::from(capacity.primitives);
+    let tile = elements.div_ceil(u64::from(SMALL_TILES)).next_power_of_two();
+    tile.ilog2().clamp(LEAST_TILE_BITS, TILE_BITS)
+}
+
 /// The bytes of a chunk in a buffer that has `size` for each.
 fn region(chunk: u32, size: u64) -> Span {
     Span { offset: u64::from(chunk) * size.next_multiple_of(ALIGNMENT), size }
-}
-
-/// `capacity` elements of `each` bytes, cut into windows.
-fn window_span(capacity: u32, each: u32, window_tiles: u32, window: u32) -> Span {
-    let first = u64::from(window) * u64::from(window_tiles) * u64::from(TILE);
-    let elements = (u64::from(capacity) - first).min(u64::from(window_tiles) * u64::from(TILE));
-    let size = (elements * u64::from(each)).next_multiple_of(8);
-    Span { offset: first * u64::from(each), size }
 }
 
 const fn end(span: Span) -> u64 {
