@@ -56,7 +56,7 @@ fn write_points(round: Round, thread: u32, out: u32) {
     var source: Source;
     source.number = NEVER;
     let patch_number = job.first_patch + round.first;
-    for (var element = 2u * thread; element < TILE; element += 2u * WORKGROUP) {
+    for (var element = 2u * thread; element < 1u << job.tile_bits; element += 2u * WORKGROUP) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
@@ -129,7 +129,7 @@ fn expand_points(
     if tile.end == 0u || status.overflow != 0u {
         return;
     }
-    let out = tile.base - job.window_first * TILE;
+    let out = tile.base - (job.window_first << job.tile_bits);
     let repeat = repeat_of(tile, POINTS, SCRATCH);
     if repeat.size > 0u && has_same_points(repeat.topology) {
         copy_points(tile, repeat, thread, out);

@@ -44,7 +44,7 @@ fn stitch_from(source: Source, location: RingLocation) -> Stitch {
 fn write_triangles(round: Round, thread: u32, out: u32) {
     var source: Source;
     source.number = NEVER;
-    for (var element = 2u * thread; element < TILE; element += 2u * WORKGROUP) {
+    for (var element = 2u * thread; element < 1u << job.tile_bits; element += 2u * WORKGROUP) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
@@ -82,7 +82,7 @@ fn first_triangle(round: Round, before: Source, location: RingLocation, element:
 }
 
 fn write_sequences(round: Round, thread: u32, out: u32) {
-    for (var pair = 2u * thread; pair < TILE; pair += 2u * WORKGROUP) {
+    for (var pair = 2u * thread; pair < 1u << job.tile_bits; pair += 2u * WORKGROUP) {
         for (var element = pair; element < pair + 2u; element++) {
             if element < round.begin || element >= round.end {
                 continue;
@@ -182,7 +182,7 @@ fn expand_primitives(
     if tile.end == 0u || status.overflow != 0u {
         return;
     }
-    let out = tile.base - job.window_first * TILE;
+    let out = tile.base - (job.window_first << job.tile_bits);
     if IS_TRIANGLES {
         let repeat = repeat_of(tile, PRIMITIVES, 2u * SCRATCH);
         if repeat.size > 0u {

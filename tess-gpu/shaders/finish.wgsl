@@ -1,4 +1,4 @@
-// needs: state; bindings: arguments, job, status
+// needs: state, tile_size; bindings: arguments, job, status
 // What depends on the totals of a batch: whether the output fits, the draw arguments and the sizes of
 // the dispatches. The arguments are draw_indexed_indirect's five numbers, three reserved, then
 // dispatch sizes of three numbers: for each chunk its partition, its windows of points, its windows
@@ -14,13 +14,13 @@ fn write_dispatch(number: u32, workgroups: u32) {
 
 // Tiles that begin..end touches.
 fn tiles_between(begin: u32, end: u32) -> u32 {
-    return select(0u, (end + TILE - 1u) / TILE - begin / TILE, end > begin);
+    return select(0u, tile_end(end) - tile_at(begin), end > begin);
 }
 
 // Tiles of begin..end in a window.
 fn tiles_in_window(begin: u32, end: u32, window: u32, window_tiles: u32) -> u32 {
-    let first = max(begin / TILE, window * window_tiles);
-    let last = min((end + TILE - 1u) / TILE, (window + 1u) * window_tiles);
+    let first = max(tile_at(begin), window * window_tiles);
+    let last = min(tile_end(end), (window + 1u) * window_tiles);
     return select(0u, last - first, last > first && end > begin);
 }
 

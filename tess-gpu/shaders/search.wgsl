@@ -1,4 +1,4 @@
-// needs: state; bindings: job, offsets, tiles
+// needs: state, tile_size; bindings: job, offsets, tiles
 // For each tile of the output, the patch that its first element belongs to: a binary search on each
 // level of the offsets. One more entry says to whom the last element belongs.
 
@@ -47,11 +47,11 @@ fn patch_of(goal: u32, kind: u32) -> u32 {
 
 // Entries for begin..end: one per tile and one for the last element.
 fn entries(begin: u32, end: u32) -> u32 {
-    return select(0u, (end + TILE - 1u) / TILE - begin / TILE + 1u, end > begin);
+    return select(0u, tile_end(end) - tile_at(begin) + 1u, end > begin);
 }
 
 fn entry_of(number: u32, begin: u32, end: u32, kind: u32) -> u32 {
-    let element = (begin / TILE + number) * TILE;
+    let element = (tile_at(begin) + number) << job.tile_bits;
     return patch_of(clamp(element, begin, end - 1u), kind);
 }
 

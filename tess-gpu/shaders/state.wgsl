@@ -61,6 +61,7 @@ struct Job {
     point_window_tiles: u32,
     primitive_window_tiles: u32,
     max_workgroups: u32,
+    tile_bits: u32,
 }
 
 // Where a chunk's output lies within the batch's.

@@ -1,5 +1,5 @@
-// needs: nothing; bindings: job, tiles
-// A tile: TILE consecutive elements of the output, expanded by one workgroup, and its patches.
+// needs: tile_size; bindings: job, tiles
+// A tile: consecutive elements of the output, expanded by one workgroup, and its patches.
 
 struct Tile {
     // Its first element and the elements begin..end that are to be written.
@@ -14,14 +14,14 @@ struct Tile {
 // The tile of a workgroup; `end` is 0 if there is none for it. `begin..end` is the chunk's range,
 // whose table of tiles begins at `table_at`.
 fn tile_of(workgroup: u32, begin: u32, end: u32, table_at: u32) -> Tile {
-    let chunk_first = begin / TILE;
+    let chunk_first = tile_at(begin);
     let first = max(chunk_first, job.window_first);
-    let last = min((end + TILE - 1u) / TILE, job.window_first + job.window_tiles);
+    let last = min(tile_end(end), job.window_first + job.window_tiles);
     let number = first + workgroup;
     if end <= begin || number >= last {
         return Tile(0u, 0u, 0u, 0u, 0u);
     }
-    let base = number * TILE;
+    let base = number << job.tile_bits;
     let at = table_at + number - chunk_first;
-    return Tile(base, max(base, begin), min(base + TILE, end), tiles[at], tiles[at + 1u]);
+    return Tile(base, max(base, begin), min(base + (1u << job.tile_bits), end), tiles[at], tiles[at + 1u]);
 }

@@ -45,6 +45,8 @@ pub struct Job {
     pub primitive_window_tiles: u32,
     /// The most workgroups in a row of a dispatch: its size along x if it has more than one row.
     pub max_workgroups: u32,
+    /// A tile has 2^`tile_bits` elements.
+    pub tile_bits: u32,
 }
 
 /// What a batch needs and whether it fits: the first 32 bytes of [`crate::Resource::Status`].

@@ -8,8 +8,8 @@ use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
 use crate::setup::Setup;
 use crate::sizes::{
-    ALIGNMENT, BLOCK, Capacity, DISPATCHES_AT, Limits, MAX_CHUNK, SECTION, SMALL_PATCHES,
-    SMALL_TILES, SUMMED, Span, TILE,
+    ALIGNMENT, BLOCK, Capacity, DISPATCHES_AT, LEAST_TILE_BITS, Limits, MAX_CHUNK, SECTION,
+    SMALL_PATCHES, SMALL_TILES, SUMMED, Span, TILE, TILE_BITS,
 };
 use crate::tables;
 
@@ -27,32 +27,45 @@ pub struct Plan {
     setup: Setup,
     patches: u32,
     groups: u32,
-    one_front: bool,
+    is_small: bool,
     capacity: Capacity,
     chunk_patches: u32,
     point_window_tiles: u32,
     primitive_window_tiles: u32,
     max_workgroups: u32,
+    tile_bits: u32,
 }
 
 impl Plan {
     /// Cuts up a batch of `patches` patches with room for `capacity`.
     #[must_use]
     pub fn new(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
+        Self::cut(setup, patches, capacity, limits, is_small(patches, capacity))
+    }
+
+    /// The same batch in the stages of a large one, whatever its size: a host then has one path.
+    #[must_use]
+    pub fn in_large_stages(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
+        Self::cut(setup, patches, capacity, limits, false)
+    }
+
+    fn cut(setup: Setup, patches: u32, capacity: Capacity, limits: Limits, is_small: bool) -> Self {
         let context_bytes = 8 * u64::from(setup.factors());
         let bound = limits.storage_binding.max(4 << 20);
         let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / SECTION * SECTION;
         let primitive_bytes = u64::from(setup.primitive_bytes());
+        let tile_bits = if is_small { small_tile_bits(capacity) } else { TILE_BITS };
         Self {
             setup,
             patches,
             groups: 0,
-            one_front: true,
+            is_small,
             capacity,
             chunk_patches: patches.max(1).checked_next_multiple_of(BLOCK).unwrap_or(most).min(most),
-            point_window_tiles: to_u32(bound / (8 * u64::from(TILE))),
-            primitive_window_tiles: to_u32(bound / (primitive_bytes * u64::from(TILE))),
+            point_window_tiles: to_u32((bound / 8) >> tile_bits),
+            primitive_window_tiles: to_u32((bound / primitive_bytes) >> tile_bits),
             max_workgroups: limits.workgroups.max(1),
+            tile_bits,
         }
     }
 
@@ -64,13 +77,6 @@ impl Plan {
         self
     }
 
-    /// The same batch in the stages of a large one, whatever its size: a host then has one path.
-    #[must_use]
-    pub const fn in_large_stages(mut self) -> Self {
-        self.one_front = false;
-        self
-    }
-
     /// How many groups the patches are in; 0 if nobody asked for groups.
     #[must_use]
     pub const fn groups(&self) -> u32 {
@@ -78,12 +84,16 @@ impl Plan {
     }
 
     /// Whether one workgroup does everything in front of the expansions, because there are few patches
-    /// and little room for output, and nobody asked for [`Plan::in_large_stages`].
+    /// and little room for output, and the plan is not [`Plan::in_large_stages`].
     #[must_use]
     pub fn is_small(&self) -> bool {
-        let tiles = |elements: u32| elements.div_ceil(TILE);
-        let room = tiles(self.capacity.points) + tiles(self.capacity.primitives);
-        self.one_front && (1..=SMALL_PATCHES).contains(&self.patches) && room <= SMALL_TILES
+        self.is_small
+    }
+
+    /// Elements of a tile: points or primitives.
+    #[must_use]
+    pub const fn tile(&self) -> u32 {
+        1 << self.tile_bits
     }
 
     /// Patches of the batch.
@@ -101,13 +111,13 @@ impl Plan {
     /// How many windows the points have.
     #[must_use]
     pub const fn point_windows(&self) -> u32 {
-        self.capacity.points.div_ceil(TILE).div_ceil(self.point_window_tiles)
+        self.capacity.points.div_ceil(self.tile()).div_ceil(self.point_window_tiles)
     }
 
     /// How many windows the primitives have.
     #[must_use]
     pub const fn primitive_windows(&self) -> u32 {
-        self.capacity.primitives.div_ceil(TILE).div_ceil(self.primitive_window_tiles)
+        self.capacity.primitives.div_ceil(self.tile()).div_ceil(self.primitive_window_tiles)
     }
 
     /// The bytes that the buffer of a resource must have for this batch; of the caller's own
@@ -125,7 +135,7 @@ impl Plan {
             Resource::Offsets => end(self.offsets(chunks - 1)),
             Resource::Status => size::<Status>() + size::<Range>() * u64::from(chunks),
             Resource::Tiles => {
-                let tiles = |elements: u32| u64::from(elements.div_ceil(TILE) + 2);
+                let tiles = |elements: u32| u64::from(elements.div_ceil(self.tile()) + 2);
                 4 * (tiles(self.capacity.points) + tiles(self.capacity.primitives))
             }
             Resource::Arguments => self.arguments_at(self.job_count()),
@@ -179,7 +189,7 @@ impl Plan {
 
     /// Where in the table of tiles those of the primitives begin.
     const fn primitive_tiles_at(&self) -> u32 {
-        self.capacity.points.div_ceil(TILE) + 2
+        self.capacity.points.div_ceil(self.tile()) + 2
     }
 
     /// Bytes of one patch's raw factors.
@@ -212,13 +222,22 @@ impl Plan {
 
     /// The bytes of a window of the points.
     fn point_window(&self, window: u32) -> Span {
-        window_span(self.capacity.points, 8, self.point_window_tiles, window)
+        self.window_span(self.capacity.points, 8, self.point_window_tiles, window)
     }
 
     /// The bytes of a window of the indices.
     fn primitive_window(&self, window: u32) -> Span {
         let each = self.setup.primitive_bytes();
-        window_span(self.capacity.primitives, each, self.primitive_window_tiles, window)
+        self.window_span(self.capacity.primitives, each, self.primitive_window_tiles, window)
+    }
+
+    /// `capacity` elements of `each` bytes, cut into windows.
+    fn window_span(&self, capacity: u32, each: u32, window_tiles: u32, window: u32) -> Span {
+        let most = u64::from(window_tiles) * u64::from(self.tile());
+        let first = u64::from(window) * most;
+        let elements = (u64::from(capacity) - first).min(most);
+        let size = (elements * u64::from(each)).next_multiple_of(8);
+        Span { offset: first * u64::from(each), size }
     }
 
     /// Where in the arguments the size of the indirect dispatch with job `job` is.
@@ -233,17 +252,23 @@ impl Plan {
     }
 }
 
+/// See [`Plan::is_small`].
+fn is_small(patches: u32, capacity: Capacity) -> bool {
+    let tiles = |elements: u32| elements.div_ceil(TILE);
+    (1..=SMALL_PATCHES).contains(&patches)
+        && tiles(capacity.points).saturating_add(tiles(capacity.primitives)) <= SMALL_TILES
+}
+
+/// The size of a small batch's tiles as a power of two.
+fn small_tile_bits(capacity: Capacity) -> u32 {
+    let elements = u64::from(capacity.points) + u64::from(capacity.primitives);
+    let tile = elements.div_ceil(u64::from(SMALL_TILES)).next_power_of_two();
+    tile.ilog2().clamp(LEAST_TILE_BITS, TILE_BITS)
+}
+
 /// The bytes of a chunk in a buffer that has `size` for each.
 fn region(chunk: u32, size: u64) -> Span {
     Span { offset: u64::from(chunk) * size.next_multiple_of(ALIGNMENT), size }
-}
-
-/// `capacity` elements of `each` bytes, cut into windows.
-fn window_span(capacity: u32, each: u32, window_tiles: u32, window: u32) -> Span {
-    let first = u64::from(window) * u64::from(window_tiles) * u64::from(TILE);
-    let elements = (u64::from(capacity) - first).min(u64::from(window_tiles) * u64::from(TILE));
-    let size = (elements * u64::from(each)).next_multiple_of(8);
-    Span { offset: first * u64::from(each), size }
 }
 
 const fn end(span: Span) -> u64 {

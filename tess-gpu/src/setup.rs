@@ -116,9 +116,8 @@ impl Setup {
 }
 
 /// The constants of [`sizes`] and [`tables`], which every shader has.
-const SHARED: [(&str, u32); 19] = [
+const SHARED: [(&str, u32); 18] = [
     ("WORKGROUP", sizes::WORKGROUP),
-    ("TILE", sizes::TILE),
     ("ROUND", sizes::ROUND),
     ("SUMMED", sizes::SUMMED),
     ("BLOCK", sizes::BLOCK),

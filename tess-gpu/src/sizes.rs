@@ -4,8 +4,13 @@ use crate::layout::DrawIndexed;
 
 /// Threads of a workgroup that expands a tile, partitions tiles or runs probes.
 pub const WORKGROUP: u32 = 64;
-/// Elements of a tile: points or primitives.
-pub const TILE: u32 = 2048;
+/// Elements of a tile, points or primitives, unless the batch is small.
+pub const TILE: u32 = 1 << TILE_BITS;
+/// As a power of two.
+pub const TILE_BITS: u32 = 11;
+/// A small batch has smaller tiles, so that many workgroups share its output, down to 2^7 elements: two for each
+/// thread.
+pub const LEAST_TILE_BITS: u32 = 7;
 /// Patches of a tile that are expanded together.
 pub const ROUND: u32 = 128;
 /// Numbers that one workgroup sums, one for each thread: patches of a block, blocks of a section,
@@ -21,7 +26,8 @@ pub const SECTION: u32 = SECTION_BLOCKS * BLOCK;
 pub const MAX_CHUNK: u32 = SUMMED * SECTION;
 /// A batch of so many patches at most is small: one workgroup does everything in front of the expansions.
 pub const SMALL_PATCHES: u32 = 1024;
-/// A small batch has room for so many tiles at most, points and primitives together.
+/// A small batch has room for so many tiles of [`TILE`] elements at most, points and primitives together; it is
+/// cut into about as many tiles, or fewer.
 pub const SMALL_TILES: u32 = 2048;
 /// Entries of 8 bytes in the workgroup memory of the stage `expand_points`: a tile's patches are
 /// copies of one if it has at most so many points. That is a quad of factor 16, and some more.

@@ -3,7 +3,7 @@
 mod common;
 
 use tess_gpu::layout::Job;
-use tess_gpu::sizes::{ALIGNMENT, TILE};
+use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{Capacity, Dispatch, Limits, Plan, Resource, Setup, Span, Stage, Workgroups};
 
 /// Limits that cut batches often.
@@ -50,7 +50,7 @@ fn default_limits_need_no_rows() {
                         }
                         _ => continue,
                     };
-                    assert!(elements.div_ceil(u64::from(TILE)) <= 65535, "{dispatch:?}");
+                    assert!(elements.div_ceil(u64::from(plan.tile())) <= 65535, "{dispatch:?}");
                 }
             }
         }
@@ -129,7 +129,7 @@ fn jobs_are_those_of_the_dispatches() {
                 }
                 _ => 0,
             };
-            assert_eq!(u64::from(job.window_first * TILE), window, "{dispatch:?}");
+            assert_eq!(u64::from(job.window_first * plan.tile()), window, "{dispatch:?}");
             if let Workgroups::Indirect(at) = dispatch.workgroups() {
                 assert!(at + 12 <= plan.buffer_size(Resource::Arguments), "{dispatch:?}");
                 sizes.push(at);

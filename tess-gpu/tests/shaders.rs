@@ -138,6 +138,7 @@ fn layouts_are_those_of_the_shaders() {
         "point_window_tiles",
         "primitive_window_tiles",
         "max_workgroups",
+        "tile_bits",
     ];
     let fields = layout::Job {
         patches: 0,
@@ -158,9 +159,10 @@ fn layouts_are_those_of_the_shaders() {
         point_window_tiles: 15,
         primitive_window_tiles: 16,
         max_workgroups: 17,
+        tile_bits: 18,
     };
     let words: &[u32] = bytemuck::cast_slice(bytemuck::bytes_of(&fields));
-    assert_eq!(words, (0..18).collect::<Vec<_>>(), "the host's members are in this order");
+    assert_eq!(words, (0..19).collect::<Vec<_>>(), "the host's members are in this order");
     assert_eq!(members(&module, "Job"), (0..).map(|n| 4 * n).zip(expected).collect::<Vec<_>>());
     let ranges = members(&module, "Status").into_iter().find(|&(_, name)| name == "ranges");
     assert_eq!(ranges, Some((size_of::<layout::Status>(), "ranges")));

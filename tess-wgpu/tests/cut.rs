@@ -68,7 +68,7 @@ fn wrong_windows_and_rows_are_seen() {
     let (points, indices) = expected.words();
     let mut machine = Machine::open();
     for (limits, right, wrong) in [
-        (LOW, "tile.base - job.window_first * TILE;", "tile.base;"),
+        (LOW, "tile.base - (job.window_first << job.tile_bits);", "tile.base;"),
         (
             LOW,
             "let number = workgroup.x + workgroup.y * workgroups.x;",

@@ -5,7 +5,7 @@ use super::jobs::Part;
 use crate::bindings::{Binding, Resource};
 use crate::layout::Job;
 use crate::shaders::Stage;
-use crate::sizes::{ALIGNMENT, BLOCK, SECTION, Span, TILE, WORKGROUP};
+use crate::sizes::{ALIGNMENT, BLOCK, SECTION, Span, WORKGROUP};
 
 /// One stage over one part of the batch: bind [`Dispatch::bindings`], then dispatch
 /// [`Dispatch::workgroups`].
@@ -111,7 +111,7 @@ impl Dispatch {
                 (self.plan.capacity.primitives, window, self.plan.primitive_window_tiles)
             }
         };
-        (capacity.div_ceil(TILE) - first * most).min(most)
+        (capacity.div_ceil(self.plan.tile()) - first * most).min(most)
     }
 
     fn span(&self, resource: Resource) -> Span {

@@ -91,6 +91,7 @@ impl Plan {
             point_window_tiles: self.point_window_tiles,
             primitive_window_tiles: self.primitive_window_tiles,
             max_workgroups: self.max_workgroups,
+            tile_bits: self.tile_bits,
         }
     }
 }

@@ -13,7 +13,7 @@ macro_rules! files {
     };
 }
 
-const FILES: [(&str, &str); 40] = files![
+const FILES: [(&str, &str); 41] = files![
     "alike",
     "block",
     "connect",
@@ -52,6 +52,7 @@ const FILES: [(&str, &str); 40] = files![
     "stitch",
     "stored_contexts",
     "tile",
+    "tile_size",
     "topology",
     "totals",
 ];

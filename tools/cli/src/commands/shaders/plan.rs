@@ -118,7 +118,7 @@ pub(super) fn resources() -> impl Iterator<Item = Resource> {
 /// workgroups in a row.
 pub(super) fn with(setup: Setup, [patches, points, primitives, workgroups]: Batch) -> Plan {
     let limits = Limits { storage_binding: 1 << 35, workgroups };
-    Plan::new(setup, patches, Capacity { points, primitives }, limits).in_large_stages()
+    Plan::in_large_stages(setup, patches, Capacity { points, primitives }, limits)
 }
 
 /// The largest of `0..=most` that is `good`; all up to it are, and 0 need not be.

@@ -22,7 +22,7 @@ struct Job {
     uint stride;
     uint blocks_at;
     uint alike_at;
-    uint groups_at;
+    uint sections_at;
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
@@ -34,6 +34,7 @@ struct Job {
     uint point_window_tiles;
     uint primitive_window_tiles;
     uint max_workgroups;
+    uint tile_bits;
 };
 struct Tile {
     uint base;
@@ -129,15 +130,14 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint WORKGROUP = 64u;
-constant uint TILE = 2048u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
 constant uint BLOCK = 256u;
 constant uint BLOCK_BITS = 8u;
-constant uint GROUP_BLOCKS = 256u;
-constant uint GROUP_BLOCK_BITS = 8u;
-constant uint GROUP = 65536u;
-constant uint GROUP_BITS = 16u;
+constant uint SECTION_BLOCKS = 256u;
+constant uint SECTION_BLOCK_BITS = 8u;
+constant uint SECTION = 65536u;
+constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
@@ -194,46 +194,62 @@ metal::uint2 patch_offset(
     metal::uint2 _e3 = offsets[metal::min(unsigned(patch_index), (_buffer_sizes.size0 - 0 - 8) / 8)];
     uint _e7 = job.blocks_at;
     metal::uint2 _e12 = offsets[metal::min(unsigned(_e7 + (patch_index >> BLOCK_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
-    uint _e17 = job.groups_at;
-    metal::uint2 _e22 = offsets[metal::min(unsigned(_e17 + (patch_index >> GROUP_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
+    uint _e17 = job.sections_at;
+    metal::uint2 _e22 = offsets[metal::min(unsigned(_e17 + (patch_index >> SECTION_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
     return (_e3 + _e12) + _e22;
 }
 
-uint naga_div(uint lhs, uint rhs) {
-    return lhs / metal::select(rhs, 1u, rhs == 0u);
+uint tile_at(
+    uint element,
+    constant Job& job
+) {
+    uint _e3 = job.tile_bits;
+    return element >> _e3;
+}
+
+uint tile_end(
+    uint end,
+    constant Job& job
+) {
+    uint _e4 = job.tile_bits;
+    uint _e11 = job.tile_bits;
+    return ((end + (1u << _e4)) - 1u) >> _e11;
 }
 
 Tile tile_of(
     uint workgroup_1,
     uint begin,
-    uint end,
+    uint end_1,
     uint table_at,
     constant Job& job,
     device type_3 const& tiles,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local_1 = {};
-    uint chunk_first = naga_div(begin, TILE);
-    uint _e8 = job.window_first;
-    uint first_2 = metal::max(chunk_first, _e8);
-    uint _e18 = job.window_first;
-    uint _e21 = job.window_tiles;
-    uint last_1 = metal::min(naga_div((end + TILE) - 1u, TILE), _e18 + _e21);
+    bool local_2 = {};
+    uint _e4 = tile_at(begin, job);
+    uint _e7 = job.window_first;
+    uint first_2 = metal::max(_e4, _e7);
+    uint _e9 = tile_end(end_1, job);
+    uint _e12 = job.window_first;
+    uint _e15 = job.window_tiles;
+    uint last_1 = metal::min(_e9, _e12 + _e15);
     uint number_3 = first_2 + workgroup_1;
-    if (!((end <= begin))) {
-        local_1 = number_3 >= last_1;
+    if (!((end_1 <= begin))) {
+        local_2 = number_3 >= last_1;
     } else {
-        local_1 = true;
+        local_2 = true;
     }
-    bool _e31 = local_1;
-    if (_e31) {
+    bool _e25 = local_2;
+    if (_e25) {
         return Tile {0u, 0u, 0u, 0u, 0u};
     }
-    uint base = number_3 * TILE;
-    uint at = (table_at + number_3) - chunk_first;
+    uint _e34 = job.tile_bits;
+    uint base = number_3 << _e34;
+    uint at = (table_at + number_3) - _e4;
+    uint _e42 = job.tile_bits;
     uint _e48 = tiles[metal::min(unsigned(at), (_buffer_sizes.size2 - 0 - 4) / 4)];
     uint _e53 = tiles[metal::min(unsigned(at + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
-    return Tile {base, metal::max(base, begin), metal::min(base + TILE, end), _e48, _e53};
+    return Tile {base, metal::max(base, begin), metal::min(base + (1u << _e42), end_1), _e48, _e53};
 }
 
 uint state_of(
@@ -334,6 +350,10 @@ metal::uint2 common_topology(
     return topology_13;
 }
 
+uint naga_div(uint lhs, uint rhs) {
+    return lhs / metal::select(rhs, 1u, rhs == 0u);
+}
+
 Repeat repeat_of(
     Tile tile_1,
     uint kind,
@@ -343,16 +363,16 @@ Repeat repeat_of(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     Repeat none = {};
-    bool local_2 = {};
+    bool local_3 = {};
     none.size = 0u;
     metal::uint2 _e6 = common_topology(tile_1, offsets, job, _buffer_sizes);
     if (!((tile_1.first_patch == tile_1.last_patch))) {
         uint _e13 = state_of(_e6);
-        local_2 = _e13 == CULLED;
+        local_3 = _e13 == CULLED;
     } else {
-        local_2 = true;
+        local_3 = true;
     }
-    bool _e17 = local_2;
+    bool _e17 = local_3;
     if (_e17) {
         Repeat _e18 = none;
         return _e18;
@@ -387,7 +407,7 @@ Round load_round(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint i = {};
-    uint end_1 = {};
+    uint end_2 = {};
     uint count = metal::min(ROUND, (tile_2.last_patch - first_1) + 1u);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     i = thread_1;
@@ -420,12 +440,12 @@ Round load_round(
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     int _e36 = begins.inner[0];
     uint begin_1 = static_cast<uint>(metal::max(_e36, static_cast<int>(tile_2.begin - tile_2.base)));
-    end_1 = tile_2.end - tile_2.base;
+    end_2 = tile_2.end - tile_2.base;
     if ((first_1 + count) <= tile_2.last_patch) {
         metal::uint2 _e51 = patch_offset(first_1 + count, offsets, job, _buffer_sizes);
-        end_1 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
+        end_2 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
     }
-    uint _e55 = end_1;
+    uint _e55 = end_2;
     return Round {first_1, count, begin_1, _e55};
 }
 
@@ -433,17 +453,17 @@ uint nearer_patch(
     uint found,
     uint reach,
     uint last,
-    uint element,
+    uint element_1,
     threadgroup type_7& begins
 ) {
     uint next_1 = metal::min(found + reach, last);
     int _e8 = begins.inner[metal::min(unsigned(next_1), 127u)];
-    return (_e8 <= static_cast<int>(element)) ? next_1 : found;
+    return (_e8 <= static_cast<int>(element_1)) ? next_1 : found;
 }
 
 uint find_patch(
     Round round,
-    uint element_1,
+    uint element_2,
     threadgroup type_7& begins
 ) {
     uint found_1 = 0u;
@@ -454,41 +474,41 @@ uint find_patch(
     uint last_3 = round.count - 1u;
     if (round.count > 32u) {
         uint _e14 = found_1;
-        uint _e16 = nearer_patch(_e14, 64u, last_3, element_1, begins);
+        uint _e16 = nearer_patch(_e14, 64u, last_3, element_2, begins);
         found_1 = _e16;
         uint _e17 = found_1;
-        uint _e19 = nearer_patch(_e17, 32u, last_3, element_1, begins);
+        uint _e19 = nearer_patch(_e17, 32u, last_3, element_2, begins);
         found_1 = _e19;
     }
     if (round.count > 8u) {
         uint _e23 = found_1;
-        uint _e25 = nearer_patch(_e23, 16u, last_3, element_1, begins);
+        uint _e25 = nearer_patch(_e23, 16u, last_3, element_2, begins);
         found_1 = _e25;
         uint _e26 = found_1;
-        uint _e28 = nearer_patch(_e26, 8u, last_3, element_1, begins);
+        uint _e28 = nearer_patch(_e26, 8u, last_3, element_2, begins);
         found_1 = _e28;
     }
     if (round.count > 4u) {
         uint _e32 = found_1;
-        uint _e34 = nearer_patch(_e32, 4u, last_3, element_1, begins);
+        uint _e34 = nearer_patch(_e32, 4u, last_3, element_2, begins);
         found_1 = _e34;
     }
     uint _e35 = found_1;
-    uint _e37 = nearer_patch(_e35, 2u, last_3, element_1, begins);
+    uint _e37 = nearer_patch(_e35, 2u, last_3, element_2, begins);
     found_1 = _e37;
     uint _e38 = found_1;
-    uint _e40 = nearer_patch(_e38, 1u, last_3, element_1, begins);
+    uint _e40 = nearer_patch(_e38, 1u, last_3, element_2, begins);
     return _e40;
 }
 
 uint next_patch(
     Round round_1,
     uint number,
-    uint element_2,
+    uint element_3,
     threadgroup type_7& begins
 ) {
     uint found_2 = {};
-    bool local_3 = {};
+    bool local_4 = {};
     found_2 = number;
     uint2 loop_bound_2 = uint2(4294967295u);
     while(true) {
@@ -498,11 +518,11 @@ uint next_patch(
         if ((_e4 + 1u) < round_1.count) {
             uint _e12 = found_2;
             int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
-            local_3 = _e16 <= static_cast<int>(element_2);
+            local_4 = _e16 <= static_cast<int>(element_3);
         } else {
-            local_3 = false;
+            local_4 = false;
         }
-        bool _e20 = local_3;
+        bool _e20 = local_4;
         if (_e20) {
         } else {
             break;
@@ -519,8 +539,8 @@ uint next_patch(
 uint fixed_from_bits(
     uint bits
 ) {
-    bool local_4 = {};
     bool local_5 = {};
+    bool local_6 = {};
     uint shift = 134u - (bits >> 23u);
     uint mantissa = (bits & 8388607u) | 8388608u;
     uint quotient = mantissa >> shift;
@@ -528,16 +548,16 @@ uint fixed_from_bits(
     uint half_ = 1u << (shift - 1u);
     if (!((remainder > half_))) {
         if (remainder == half_) {
-            local_5 = (quotient & 1u) == 1u;
+            local_6 = (quotient & 1u) == 1u;
         } else {
-            local_5 = false;
+            local_6 = false;
         }
-        bool _e31 = local_5;
-        local_4 = _e31;
+        bool _e31 = local_6;
+        local_5 = _e31;
     } else {
-        local_4 = true;
+        local_5 = true;
     }
-    bool up = local_4;
+    bool up = local_5;
     return quotient + (up ? 1u : 0u);
 }
 
@@ -725,37 +745,37 @@ uint nearer_ring(
     uint k,
     uint reach_1,
     uint goal,
-    uint end_2,
+    uint end_3,
     uint form,
     uint scale
 ) {
-    uint next_2 = metal::min(k + reach_1, end_2);
+    uint next_2 = metal::min(k + reach_1, end_3);
     return ((next_2 * (form - (scale * next_2))) <= goal) ? next_2 : k;
 }
 
 uint last_before(
     uint goal_1,
-    uint end_3,
+    uint end_4,
     uint form_1,
     uint scale_1
 ) {
     uint k_1 = 0u;
-    if (end_3 > 3u) {
+    if (end_4 > 3u) {
         uint _e8 = k_1;
-        uint _e10 = nearer_ring(_e8, 16u, goal_1, end_3, form_1, scale_1);
+        uint _e10 = nearer_ring(_e8, 16u, goal_1, end_4, form_1, scale_1);
         k_1 = _e10;
         uint _e11 = k_1;
-        uint _e13 = nearer_ring(_e11, 8u, goal_1, end_3, form_1, scale_1);
+        uint _e13 = nearer_ring(_e11, 8u, goal_1, end_4, form_1, scale_1);
         k_1 = _e13;
         uint _e14 = k_1;
-        uint _e16 = nearer_ring(_e14, 4u, goal_1, end_3, form_1, scale_1);
+        uint _e16 = nearer_ring(_e14, 4u, goal_1, end_4, form_1, scale_1);
         k_1 = _e16;
     }
     uint _e17 = k_1;
-    uint _e19 = nearer_ring(_e17, 2u, goal_1, end_3, form_1, scale_1);
+    uint _e19 = nearer_ring(_e17, 2u, goal_1, end_4, form_1, scale_1);
     k_1 = _e19;
     uint _e20 = k_1;
-    uint _e22 = nearer_ring(_e20, 1u, goal_1, end_3, form_1, scale_1);
+    uint _e22 = nearer_ring(_e20, 1u, goal_1, end_4, form_1, scale_1);
     return _e22;
 }
 
@@ -824,7 +844,7 @@ RingLocation point_location(
     uint size_2_1 = {};
     bool is_outer = i_1 < rings_8.boundary;
     uint _e4 = point_ring_end(rings_8);
-    uint end_4 = _e4 - 1u;
+    uint end_5 = _e4 - 1u;
     rest_2 = i_1;
     begin_1_1 = rings_8.before_1_ - 1u;
     begin_2_1 = rings_8.before_2_ - 2u;
@@ -832,15 +852,15 @@ RingLocation point_location(
     size_2_1 = _e19 - 1u;
     if (!(is_outer)) {
         uint form_3 = rings_8.along - 8u;
-        uint _e30 = last_before(i_1 - rings_8.boundary, end_4, form_3, EDGES);
+        uint _e30 = last_before(i_1 - rings_8.boundary, end_5, form_3, EDGES);
         ring_4 = _e30 + 1u;
         rest_2 = (i_1 - rings_8.boundary) - (_e30 * (form_3 - (EDGES * _e30)));
         uint _e44 = ring_4;
         size_2_1 = (rings_8.v - 1u) - (2u * _e44);
         uint _e47 = size_2_1;
-        begin_1_1 = (_e30 == end_4) ? NEVER : _e47;
+        begin_1_1 = (_e30 == end_5) ? NEVER : _e47;
         uint _e55 = ring_4;
-        begin_2_1 = (_e30 == end_4) ? NEVER : ((rings_8.sides - 2u) - (4u * _e55));
+        begin_2_1 = (_e30 == end_5) ? NEVER : ((rings_8.sides - 2u) - (4u * _e55));
     }
     uint _e61 = ring_4;
     uint _e62 = rest_2;
@@ -860,7 +880,7 @@ PointRun run_of(
 ) {
     uint fixed = {};
     uint form_2 = {};
-    bool local_6 = {};
+    bool local_7 = {};
     bool descends = {};
     metal::uint2 context_8 = {};
     Rings rings_9 = axes_1.rings;
@@ -878,11 +898,11 @@ PointRun run_of(
     fixed = _e25;
     form_2 = edge_9 & 1u;
     if (!((edge_9 == 0u))) {
-        local_6 = edge_9 == 3u;
+        local_7 = edge_9 == 3u;
     } else {
-        local_6 = true;
+        local_7 = true;
     }
-    bool _e38 = local_6;
+    bool _e38 = local_7;
     descends = _e38;
     if (false) {
         uint _e41 = fixed;
@@ -937,7 +957,7 @@ metal::uint2 corner(
     uint fixed_1,
     uint number_1
 ) {
-    bool local_7 = {};
+    bool local_8 = {};
     if (fixed_1 != 0u) {
         return metal::uint2(fixed_1, fixed_1);
     }
@@ -945,11 +965,11 @@ metal::uint2 corner(
         return metal::uint2((number_1 == 2u) ? ONE : 0u, (number_1 == 0u) ? ONE : 0u);
     }
     if (!((number_1 == 1u))) {
-        local_7 = number_1 == 2u;
+        local_8 = number_1 == 2u;
     } else {
-        local_7 = true;
+        local_8 = true;
     }
-    bool _e27 = local_7;
+    bool _e27 = local_8;
     return metal::uint2(_e27 ? ONE : 0u, (number_1 >= 2u) ? ONE : 0u);
 }
 
@@ -987,15 +1007,15 @@ Source source_of(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     Source source = {};
-    bool local_8 = {};
+    bool local_9 = {};
     source.topology = topology_11;
     if (true) {
         uint _e7 = state_of(topology_11);
-        local_8 = _e7 == REGULAR;
+        local_9 = _e7 == REGULAR;
     } else {
-        local_8 = false;
+        local_9 = false;
     }
-    bool _e11 = local_8;
+    bool _e11 = local_9;
     if (_e11) {
         PatchAxes _e13 = axes_of(patch_index_4, topology_11, job, contexts, _buffer_sizes);
         source.axes = _e13;
@@ -1028,14 +1048,14 @@ RingLocation location_of(
     Source source_2,
     uint i_4
 ) {
-    bool local_9 = {};
+    bool local_10 = {};
     if (true) {
         uint _e6 = state_of(source_2.topology);
-        local_9 = _e6 == REGULAR;
+        local_10 = _e6 == REGULAR;
     } else {
-        local_9 = false;
+        local_10 = false;
     }
-    bool _e10 = local_9;
+    bool _e10 = local_10;
     if (_e10) {
         RingLocation _e13 = point_location(source_2.axes.rings, i_4);
         return _e13;
@@ -1069,14 +1089,14 @@ PointRun first_run(
     Source source_4,
     RingLocation location_3,
     bool is_next_patch,
-    uint element_3,
+    uint element_4,
     constant Job& job,
     device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     RingLocation next = {};
     if (false) {
-        PointRun _e11 = run_at(round_4, source_4, RingLocation {0u, 0u, element_3 - source_4.begin}, job, contexts, _buffer_sizes);
+        PointRun _e11 = run_at(round_4, source_4, RingLocation {0u, 0u, element_4 - source_4.begin}, job, contexts, _buffer_sizes);
         return _e11;
     }
     RingLocation _e12 = next_edge(location_3);
@@ -1101,92 +1121,93 @@ void write_points(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     Source source_5 = {};
-    uint element_4 = {};
-    bool local_10 = {};
-    PointRun run_1 = {};
+    uint element_5 = {};
     bool local_11 = {};
+    PointRun run_1 = {};
+    bool local_12 = {};
     source_5.number = NEVER;
     uint _e8 = job.first_patch;
     uint patch_number_2 = _e8 + round_5.first;
-    element_4 = 2u * thread_2;
+    element_5 = 2u * thread_2;
     uint2 loop_bound_3 = uint2(4294967295u);
     bool loop_init_2 = true;
     while(true) {
         if (metal::all(loop_bound_3 == uint2(0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_2) {
-            uint _e101 = element_4;
-            element_4 = _e101 + 128u;
+            uint _e105 = element_5;
+            element_5 = _e105 + 128u;
         }
         loop_init_2 = false;
-        uint _e14 = element_4;
-        if (_e14 < TILE) {
+        uint _e14 = element_5;
+        uint _e18 = job.tile_bits;
+        if (_e14 < (1u << _e18)) {
         } else {
             break;
         }
         {
-            uint _e17 = element_4;
-            if (!(((_e17 + 1u) < round_5.begin))) {
-                uint _e25 = element_4;
-                local_10 = _e25 >= round_5.end;
+            uint _e21 = element_5;
+            if (!(((_e21 + 1u) < round_5.begin))) {
+                uint _e29 = element_5;
+                local_11 = _e29 >= round_5.end;
             } else {
-                local_10 = true;
+                local_11 = true;
             }
-            bool _e29 = local_10;
-            if (_e29) {
+            bool _e33 = local_11;
+            if (_e33) {
                 continue;
             }
-            uint _e30 = element_4;
-            uint first_4 = metal::max(_e30, round_5.begin);
-            uint _e33 = find_patch(round_5, first_4, begins);
-            uint _e35 = source_5.number;
-            if (_e33 != _e35) {
-                Source _e37 = load_source(round_5, _e33, job, begins, scratch, contexts, _buffer_sizes);
-                source_5 = _e37;
+            uint _e34 = element_5;
+            uint first_4 = metal::max(_e34, round_5.begin);
+            uint _e37 = find_patch(round_5, first_4, begins);
+            uint _e39 = source_5.number;
+            if (_e37 != _e39) {
+                Source _e41 = load_source(round_5, _e37, job, begins, scratch, contexts, _buffer_sizes);
+                source_5 = _e41;
             }
-            Source _e38 = source_5;
-            uint _e40 = source_5.begin;
-            RingLocation _e42 = location_of(_e38, first_4 - _e40);
-            Source _e43 = source_5;
-            PointRun _e44 = run_at(round_5, _e43, _e42, job, contexts, _buffer_sizes);
-            run_1 = _e44;
-            PointRun _e49 = run_1;
-            uint _e51 = run_1.step;
-            metal::uint2 _e52 = point_of_run(_e49, _e51);
-            metal::uint2 _e54 = format_point(_e52, patch_number_2 + _e33);
-            points_out[metal::min(unsigned(out + first_4), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e54;
-            uint _e55 = element_4;
-            if (first_4 == _e55) {
-                uint _e59 = element_4;
-                local_11 = (_e59 + 1u) < round_5.end;
+            Source _e42 = source_5;
+            uint _e44 = source_5.begin;
+            RingLocation _e46 = location_of(_e42, first_4 - _e44);
+            Source _e47 = source_5;
+            PointRun _e48 = run_at(round_5, _e47, _e46, job, contexts, _buffer_sizes);
+            run_1 = _e48;
+            PointRun _e53 = run_1;
+            uint _e55 = run_1.step;
+            metal::uint2 _e56 = point_of_run(_e53, _e55);
+            metal::uint2 _e58 = format_point(_e56, patch_number_2 + _e37);
+            points_out[metal::min(unsigned(out + first_4), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e58;
+            uint _e59 = element_5;
+            if (first_4 == _e59) {
+                uint _e63 = element_5;
+                local_12 = (_e63 + 1u) < round_5.end;
             } else {
-                local_11 = false;
+                local_12 = false;
             }
-            bool _e65 = local_11;
-            if (_e65) {
-                uint _e68 = run_1.step;
-                run_1.step = _e68 + 1u;
-                uint _e71 = run_1.step;
-                uint _e73 = run_1.size;
-                if (_e71 == _e73) {
-                    uint _e75 = element_4;
-                    uint _e78 = next_patch(round_5, _e33, _e75 + 1u, begins);
-                    if (_e78 != _e33) {
-                        Source _e80 = load_source(round_5, _e78, job, begins, scratch, contexts, _buffer_sizes);
-                        source_5 = _e80;
+            bool _e69 = local_12;
+            if (_e69) {
+                uint _e72 = run_1.step;
+                run_1.step = _e72 + 1u;
+                uint _e75 = run_1.step;
+                uint _e77 = run_1.size;
+                if (_e75 == _e77) {
+                    uint _e79 = element_5;
+                    uint _e82 = next_patch(round_5, _e37, _e79 + 1u, begins);
+                    if (_e82 != _e37) {
+                        Source _e84 = load_source(round_5, _e82, job, begins, scratch, contexts, _buffer_sizes);
+                        source_5 = _e84;
                     }
-                    Source _e81 = source_5;
-                    uint _e83 = element_4;
-                    PointRun _e86 = first_run(round_5, _e81, _e42, _e78 != _e33, _e83 + 1u, job, contexts, _buffer_sizes);
-                    run_1 = _e86;
+                    Source _e85 = source_5;
+                    uint _e87 = element_5;
+                    PointRun _e90 = first_run(round_5, _e85, _e46, _e82 != _e37, _e87 + 1u, job, contexts, _buffer_sizes);
+                    run_1 = _e90;
                 }
-                uint _e88 = element_4;
-                PointRun _e93 = run_1;
-                uint _e95 = run_1.step;
-                metal::uint2 _e96 = point_of_run(_e93, _e95);
-                uint _e98 = source_5.number;
-                metal::uint2 _e100 = format_point(_e96, patch_number_2 + _e98);
-                points_out[metal::min(unsigned((out + _e88) + 1u), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e100;
+                uint _e92 = element_5;
+                PointRun _e97 = run_1;
+                uint _e99 = run_1.step;
+                metal::uint2 _e100 = point_of_run(_e97, _e99);
+                uint _e102 = source_5.number;
+                metal::uint2 _e104 = format_point(_e100, patch_number_2 + _e102);
+                points_out[metal::min(unsigned((out + _e92) + 1u), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e104;
             }
         }
     }
@@ -1196,14 +1217,14 @@ void write_points(
 bool has_same_points(
     metal::uint2 topology_12
 ) {
-    bool local_12 = {};
+    bool local_13 = {};
     if (true) {
         uint _e4 = state_of(topology_12);
-        local_12 = _e4 == MINIMUM;
+        local_13 = _e4 == MINIMUM;
     } else {
-        local_12 = true;
+        local_13 = true;
     }
-    bool _e8 = local_12;
+    bool _e8 = local_13;
     return _e8;
 }
 
@@ -1219,7 +1240,7 @@ void copy_points(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint i_5 = {};
-    uint element_5 = {};
+    uint element_6 = {};
     Source _e6 = source_of(tile_3.first_patch, repeat_1.topology, job, contexts, _buffer_sizes);
     Round round_6 = Round {tile_3.first_patch, 1u, 0u, 0u};
     i_5 = thread_3;
@@ -1249,28 +1270,28 @@ void copy_points(
         }
     }
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    uint end_5 = tile_3.end - tile_3.base;
-    element_5 = (tile_3.begin - tile_3.base) + thread_3;
+    uint end_6 = tile_3.end - tile_3.base;
+    element_6 = (tile_3.begin - tile_3.base) + thread_3;
     uint2 loop_bound_5 = uint2(4294967295u);
     bool loop_init_4 = true;
     while(true) {
         if (metal::all(loop_bound_5 == uint2(0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_4) {
-            uint _e60 = element_5;
-            element_5 = _e60 + WORKGROUP;
+            uint _e60 = element_6;
+            element_6 = _e60 + WORKGROUP;
         }
         loop_init_4 = false;
-        uint _e37 = element_5;
-        if (_e37 < end_5) {
+        uint _e37 = element_6;
+        if (_e37 < end_6) {
         } else {
             break;
         }
         {
-            uint _e39 = element_5;
+            uint _e39 = element_6;
             uint position_3 = _e39 + repeat_1.before;
             uint _e42 = patch_at(repeat_1, position_3);
-            uint _e44 = element_5;
+            uint _e44 = element_6;
             metal::uint2 _e52 = scratch.inner[metal::min(unsigned(position_3 - (_e42 * repeat_1.size)), 319u)];
             uint _e55 = job.first_patch;
             metal::uint2 _e59 = numbered(_e52, (_e55 + tile_3.first_patch) + _e42);
@@ -1297,27 +1318,36 @@ kernel void expand_points(
 , constant _mslBufferSizes& _buffer_sizes [[buffer(8)]]
 ) {
     bool local = {};
+    bool local_1 = {};
     uint first = {};
     uint _e6 = job.chunk;
     Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
     uint _e13 = job.max_workgroups;
     uint number_4 = workgroup.x + (workgroup.y * _e13);
     Tile _e19 = tile_of(number_4, range.points_begin, range.points_end, 0u, job, tiles, _buffer_sizes);
-    if (_e19.end == 0u) {
+    if (!((_e19.end == 0u))) {
+        uint _e28 = status.overflow;
+        local = _e28 != 0u;
+    } else {
+        local = true;
+    }
+    bool _e32 = local;
+    if (_e32) {
         return;
     }
-    uint _e26 = job.window_first;
-    uint out_2 = _e19.base - (_e26 * TILE);
-    Repeat _e32 = repeat_of(_e19, POINTS, SCRATCH, offsets, job, _buffer_sizes);
-    if (_e32.size > 0u) {
-        bool _e39 = has_same_points(_e32.topology);
-        local = _e39;
+    uint _e36 = job.window_first;
+    uint _e39 = job.tile_bits;
+    uint out_2 = _e19.base - (_e36 << _e39);
+    Repeat _e44 = repeat_of(_e19, POINTS, SCRATCH, offsets, job, _buffer_sizes);
+    if (_e44.size > 0u) {
+        bool _e51 = has_same_points(_e44.topology);
+        local_1 = _e51;
     } else {
-        local = false;
+        local_1 = false;
     }
-    bool _e41 = local;
-    if (_e41) {
-        copy_points(_e19, _e32, thread_, out_2, job, scratch, contexts, points_out, _buffer_sizes);
+    bool _e53 = local_1;
+    if (_e53) {
+        copy_points(_e19, _e44, thread_, out_2, job, scratch, contexts, points_out, _buffer_sizes);
         return;
     }
     first = _e19.first_patch;
@@ -1327,19 +1357,19 @@ kernel void expand_points(
         if (metal::all(loop_bound_6 == uint2(0u))) { break; }
         loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
         if (!loop_init_5) {
-            uint _e50 = first;
-            first = _e50 + ROUND;
+            uint _e62 = first;
+            first = _e62 + ROUND;
         }
         loop_init_5 = false;
-        uint _e44 = first;
-        if (_e44 <= _e19.last_patch) {
+        uint _e56 = first;
+        if (_e56 <= _e19.last_patch) {
         } else {
             break;
         }
         {
-            uint _e47 = first;
-            Round _e49 = load_round(_e19, _e47, POINTS, thread_, offsets, job, begins, scratch, topologies, _buffer_sizes);
-            write_points(_e49, thread_, out_2, job, begins, scratch, contexts, points_out, _buffer_sizes);
+            uint _e59 = first;
+            Round _e61 = load_round(_e19, _e59, POINTS, thread_, offsets, job, begins, scratch, topologies, _buffer_sizes);
+            write_points(_e61, thread_, out_2, job, begins, scratch, contexts, points_out, _buffer_sizes);
         }
     }
     return;

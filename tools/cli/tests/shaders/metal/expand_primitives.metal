@@ -21,7 +21,7 @@ struct Job {
     uint stride;
     uint blocks_at;
     uint alike_at;
-    uint groups_at;
+    uint sections_at;
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
@@ -33,6 +33,7 @@ struct Job {
     uint point_window_tiles;
     uint primitive_window_tiles;
     uint max_workgroups;
+    uint tile_bits;
 };
 struct Tile {
     uint base;
@@ -135,15 +136,14 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint WORKGROUP = 64u;
-constant uint TILE = 2048u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
 constant uint BLOCK = 256u;
 constant uint BLOCK_BITS = 8u;
-constant uint GROUP_BLOCKS = 256u;
-constant uint GROUP_BLOCK_BITS = 8u;
-constant uint GROUP = 65536u;
-constant uint GROUP_BITS = 16u;
+constant uint SECTION_BLOCKS = 256u;
+constant uint SECTION_BLOCK_BITS = 8u;
+constant uint SECTION = 65536u;
+constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
@@ -191,46 +191,62 @@ metal::uint2 patch_offset(
     metal::uint2 _e3 = offsets[metal::min(unsigned(patch_index), (_buffer_sizes.size0 - 0 - 8) / 8)];
     uint _e7 = job.blocks_at;
     metal::uint2 _e12 = offsets[metal::min(unsigned(_e7 + (patch_index >> BLOCK_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
-    uint _e17 = job.groups_at;
-    metal::uint2 _e22 = offsets[metal::min(unsigned(_e17 + (patch_index >> GROUP_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
+    uint _e17 = job.sections_at;
+    metal::uint2 _e22 = offsets[metal::min(unsigned(_e17 + (patch_index >> SECTION_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
     return (_e3 + _e12) + _e22;
 }
 
-uint naga_div(uint lhs, uint rhs) {
-    return lhs / metal::select(rhs, 1u, rhs == 0u);
+uint tile_at(
+    uint element,
+    constant Job& job
+) {
+    uint _e3 = job.tile_bits;
+    return element >> _e3;
+}
+
+uint tile_end(
+    uint end,
+    constant Job& job
+) {
+    uint _e4 = job.tile_bits;
+    uint _e11 = job.tile_bits;
+    return ((end + (1u << _e4)) - 1u) >> _e11;
 }
 
 Tile tile_of(
     uint workgroup_1,
     uint begin,
-    uint end,
+    uint end_1,
     uint table_at,
     constant Job& job,
     device type_3 const& tiles,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local = {};
-    uint chunk_first = naga_div(begin, TILE);
-    uint _e8 = job.window_first;
-    uint first_4 = metal::max(chunk_first, _e8);
-    uint _e18 = job.window_first;
-    uint _e21 = job.window_tiles;
-    uint last_1 = metal::min(naga_div((end + TILE) - 1u, TILE), _e18 + _e21);
+    bool local_1 = {};
+    uint _e4 = tile_at(begin, job);
+    uint _e7 = job.window_first;
+    uint first_4 = metal::max(_e4, _e7);
+    uint _e9 = tile_end(end_1, job);
+    uint _e12 = job.window_first;
+    uint _e15 = job.window_tiles;
+    uint last_1 = metal::min(_e9, _e12 + _e15);
     uint number_6 = first_4 + workgroup_1;
-    if (!((end <= begin))) {
-        local = number_6 >= last_1;
+    if (!((end_1 <= begin))) {
+        local_1 = number_6 >= last_1;
     } else {
-        local = true;
+        local_1 = true;
     }
-    bool _e31 = local;
-    if (_e31) {
+    bool _e25 = local_1;
+    if (_e25) {
         return Tile {0u, 0u, 0u, 0u, 0u};
     }
-    uint base_6 = number_6 * TILE;
-    uint at_8 = (table_at + number_6) - chunk_first;
+    uint _e34 = job.tile_bits;
+    uint base_6 = number_6 << _e34;
+    uint at_8 = (table_at + number_6) - _e4;
+    uint _e42 = job.tile_bits;
     uint _e48 = tiles[metal::min(unsigned(at_8), (_buffer_sizes.size2 - 0 - 4) / 4)];
     uint _e53 = tiles[metal::min(unsigned(at_8 + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
-    return Tile {base_6, metal::max(base_6, begin), metal::min(base_6 + TILE, end), _e48, _e53};
+    return Tile {base_6, metal::max(base_6, begin), metal::min(base_6 + (1u << _e42), end_1), _e48, _e53};
 }
 
 uint state_of(
@@ -331,6 +347,10 @@ metal::uint2 common_topology(
     return topology_10;
 }
 
+uint naga_div(uint lhs, uint rhs) {
+    return lhs / metal::select(rhs, 1u, rhs == 0u);
+}
+
 Repeat repeat_of(
     Tile tile_1,
     uint kind,
@@ -340,16 +360,16 @@ Repeat repeat_of(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     Repeat none = {};
-    bool local_1 = {};
+    bool local_2 = {};
     none.size = 0u;
     metal::uint2 _e6 = common_topology(tile_1, offsets, job, _buffer_sizes);
     if (!((tile_1.first_patch == tile_1.last_patch))) {
         uint _e13 = state_of(_e6);
-        local_1 = _e13 == CULLED;
+        local_2 = _e13 == CULLED;
     } else {
-        local_1 = true;
+        local_2 = true;
     }
-    bool _e17 = local_1;
+    bool _e17 = local_2;
     if (_e17) {
         Repeat _e18 = none;
         return _e18;
@@ -445,37 +465,37 @@ uint nearer_ring(
     uint k,
     uint reach,
     uint goal,
-    uint end_1,
+    uint end_2,
     uint form,
     uint scale
 ) {
-    uint next_1 = metal::min(k + reach, end_1);
+    uint next_1 = metal::min(k + reach, end_2);
     return ((next_1 * (form - (scale * next_1))) <= goal) ? next_1 : k;
 }
 
 uint last_before(
     uint goal_1,
-    uint end_2,
+    uint end_3,
     uint form_1,
     uint scale_1
 ) {
     uint k_1 = 0u;
-    if (end_2 > 3u) {
+    if (end_3 > 3u) {
         uint _e8 = k_1;
-        uint _e10 = nearer_ring(_e8, 16u, goal_1, end_2, form_1, scale_1);
+        uint _e10 = nearer_ring(_e8, 16u, goal_1, end_3, form_1, scale_1);
         k_1 = _e10;
         uint _e11 = k_1;
-        uint _e13 = nearer_ring(_e11, 8u, goal_1, end_2, form_1, scale_1);
+        uint _e13 = nearer_ring(_e11, 8u, goal_1, end_3, form_1, scale_1);
         k_1 = _e13;
         uint _e14 = k_1;
-        uint _e16 = nearer_ring(_e14, 4u, goal_1, end_2, form_1, scale_1);
+        uint _e16 = nearer_ring(_e14, 4u, goal_1, end_3, form_1, scale_1);
         k_1 = _e16;
     }
     uint _e17 = k_1;
-    uint _e19 = nearer_ring(_e17, 2u, goal_1, end_2, form_1, scale_1);
+    uint _e19 = nearer_ring(_e17, 2u, goal_1, end_3, form_1, scale_1);
     k_1 = _e19;
     uint _e20 = k_1;
-    uint _e22 = nearer_ring(_e20, 1u, goal_1, end_2, form_1, scale_1);
+    uint _e22 = nearer_ring(_e20, 1u, goal_1, end_3, form_1, scale_1);
     return _e22;
 }
 
@@ -604,11 +624,11 @@ RingLocation triangle_location(
         return _e25;
     }
     uint _e26 = stitch_ring_end(rings_8);
-    uint end_4 = _e26 - 2u;
+    uint end_5 = _e26 - 2u;
     uint form_2 = (2u * rings_8.along) - 24u;
-    uint _e36 = last_before(t - transitions, end_4, form_2, 8u);
+    uint _e36 = last_before(t - transitions, end_5, form_2, 8u);
     uint rest_2 = (t - transitions) - (_e36 * (form_2 - (8u * _e36)));
-    if (_e36 == end_4) {
+    if (_e36 == end_5) {
         return RingLocation {_e36 + 2u, 0u, rest_2};
     }
     RingLocation _e66 = location_on_ring(_e36 + 2u, rest_2, (2u * rings_8.v) - (4u * (_e36 + 2u)), (2u * rings_8.u) - (4u * (_e36 + 2u)));
@@ -632,16 +652,16 @@ Stitch rows(
     uint inner_ring,
     uint inner
 ) {
-    bool local_2 = {};
+    bool local_3 = {};
     uint _e9 = ring_points(rings_9, ring_4);
     bool walks_back = rings_9.short_ == ((2u * ring_4) + 1u);
     uint _e16 = steps_of(number_2);
     if (!((edge_8 == 3u))) {
-        local_2 = walks_back;
+        local_3 = walks_back;
     } else {
-        local_2 = true;
+        local_3 = true;
     }
-    bool _e23 = local_2;
+    bool _e23 = local_3;
     return Stitch {size, _e16, outer, inner, _e23, {}, inner_ring, inner_ring + outer_ring, inner_ring + (walks_back ? (_e9 >> 1u) : _e9), (2u * inner_ring) + _e9};
 }
 
@@ -674,7 +694,7 @@ Stitch centre_stitch(
     Rings rings_11,
     uint base_1
 ) {
-    bool local_3 = {};
+    bool local_4 = {};
     uint _e2 = stitch_ring_end(rings_11);
     uint _e5 = first_of_ring(rings_11, _e2 - 1u);
     uint first_7 = base_1 + _e5;
@@ -685,11 +705,11 @@ Stitch centre_stitch(
     uint quads = (metal::max(rings_11.u, rings_11.v) - rings_11.short_) + 1u;
     uint along_u = (rings_11.u > rings_11.v) ? 1u : 0u;
     if (rings_11.u <= rings_11.v) {
-        local_3 = (rings_11.v & 1u) == 0u;
+        local_4 = (rings_11.v & 1u) == 0u;
     } else {
-        local_3 = false;
+        local_4 = false;
     }
-    bool is_mirrored = local_3;
+    bool is_mirrored = local_4;
     uint _e44 = steps_of(is_mirrored ? (MIRRORED_STRIP + quads) : PLAIN_STRIP);
     return Stitch {2u * quads, _e44, first_7 + along_u, first_7, true, {}, NEVER, 0u, first_7 + along_u, (((2u * first_7) + (2u * quads)) + 1u) + along_u};
 }
@@ -742,13 +762,13 @@ uint sequence_first(
     uint t_1,
     uint base_5
 ) {
-    bool local_4 = {};
+    bool local_5 = {};
     if (false) {
-        local_4 = true;
+        local_5 = true;
     } else {
-        local_4 = false;
+        local_5 = false;
     }
-    bool _e8 = local_4;
+    bool _e8 = local_5;
     if (_e8) {
         uint _e11 = outer_points(topology_9, 1u);
         return (base_5 + t_1) + naga_div(t_1, _e11 - 1u);
@@ -769,7 +789,7 @@ Round load_round(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint i = {};
-    uint end_3 = {};
+    uint end_4 = {};
     uint count = metal::min(ROUND, (tile_2.last_patch - first_1) + 1u);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     i = thread_1;
@@ -802,12 +822,12 @@ Round load_round(
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     int _e36 = begins.inner[0];
     uint begin_1 = static_cast<uint>(metal::max(_e36, static_cast<int>(tile_2.begin - tile_2.base)));
-    end_3 = tile_2.end - tile_2.base;
+    end_4 = tile_2.end - tile_2.base;
     if ((first_1 + count) <= tile_2.last_patch) {
         metal::uint2 _e51 = patch_offset(first_1 + count, offsets, job, _buffer_sizes);
-        end_3 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
+        end_4 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
     }
-    uint _e55 = end_3;
+    uint _e55 = end_4;
     return Round {first_1, count, begin_1, _e55};
 }
 
@@ -815,17 +835,17 @@ uint nearer_patch(
     uint found,
     uint reach_1,
     uint last,
-    uint element,
+    uint element_1,
     threadgroup type_8& begins
 ) {
     uint next_2 = metal::min(found + reach_1, last);
     int _e8 = begins.inner[metal::min(unsigned(next_2), 127u)];
-    return (_e8 <= static_cast<int>(element)) ? next_2 : found;
+    return (_e8 <= static_cast<int>(element_1)) ? next_2 : found;
 }
 
 uint find_patch(
     Round round,
-    uint element_1,
+    uint element_2,
     threadgroup type_8& begins
 ) {
     uint found_1 = 0u;
@@ -836,41 +856,41 @@ uint find_patch(
     uint last_3 = round.count - 1u;
     if (round.count > 32u) {
         uint _e14 = found_1;
-        uint _e16 = nearer_patch(_e14, 64u, last_3, element_1, begins);
+        uint _e16 = nearer_patch(_e14, 64u, last_3, element_2, begins);
         found_1 = _e16;
         uint _e17 = found_1;
-        uint _e19 = nearer_patch(_e17, 32u, last_3, element_1, begins);
+        uint _e19 = nearer_patch(_e17, 32u, last_3, element_2, begins);
         found_1 = _e19;
     }
     if (round.count > 8u) {
         uint _e23 = found_1;
-        uint _e25 = nearer_patch(_e23, 16u, last_3, element_1, begins);
+        uint _e25 = nearer_patch(_e23, 16u, last_3, element_2, begins);
         found_1 = _e25;
         uint _e26 = found_1;
-        uint _e28 = nearer_patch(_e26, 8u, last_3, element_1, begins);
+        uint _e28 = nearer_patch(_e26, 8u, last_3, element_2, begins);
         found_1 = _e28;
     }
     if (round.count > 4u) {
         uint _e32 = found_1;
-        uint _e34 = nearer_patch(_e32, 4u, last_3, element_1, begins);
+        uint _e34 = nearer_patch(_e32, 4u, last_3, element_2, begins);
         found_1 = _e34;
     }
     uint _e35 = found_1;
-    uint _e37 = nearer_patch(_e35, 2u, last_3, element_1, begins);
+    uint _e37 = nearer_patch(_e35, 2u, last_3, element_2, begins);
     found_1 = _e37;
     uint _e38 = found_1;
-    uint _e40 = nearer_patch(_e38, 1u, last_3, element_1, begins);
+    uint _e40 = nearer_patch(_e38, 1u, last_3, element_2, begins);
     return _e40;
 }
 
 uint next_patch(
     Round round_1,
     uint number_4,
-    uint element_2,
+    uint element_3,
     threadgroup type_8& begins
 ) {
     uint found_2 = {};
-    bool local_5 = {};
+    bool local_6 = {};
     found_2 = number_4;
     uint2 loop_bound_2 = uint2(4294967295u);
     while(true) {
@@ -880,11 +900,11 @@ uint next_patch(
         if ((_e4 + 1u) < round_1.count) {
             uint _e12 = found_2;
             int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
-            local_5 = _e16 <= static_cast<int>(element_2);
+            local_6 = _e16 <= static_cast<int>(element_3);
         } else {
-            local_5 = false;
+            local_6 = false;
         }
-        bool _e20 = local_5;
+        bool _e20 = local_6;
         if (_e20) {
         } else {
             break;
@@ -1001,7 +1021,7 @@ metal::uint3 first_triangle(
     Round round_3,
     Source before,
     RingLocation location_4,
-    uint element_3,
+    uint element_4,
     device type_2 const& offsets,
     constant Job& job,
     device type_3 const& tables,
@@ -1014,7 +1034,7 @@ metal::uint3 first_triangle(
     source_2 = before;
     RingLocation _e5 = next_edge(location_4);
     next = _e5;
-    uint _e8 = next_patch(round_3, before.number, element_3, begins);
+    uint _e8 = next_patch(round_3, before.number, element_4, begins);
     if (_e8 != before.number) {
         Source _e11 = load_source(round_3, _e8, offsets, job, begins, scratch, _buffer_sizes);
         source_2 = _e11;
@@ -1040,79 +1060,80 @@ void write_triangles(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     Source source_3 = {};
-    uint element_4 = {};
-    bool local_6 = {};
+    uint element_5 = {};
     bool local_7 = {};
     bool local_8 = {};
+    bool local_9 = {};
     source_3.number = NEVER;
-    element_4 = 2u * thread_2;
+    element_5 = 2u * thread_2;
     uint2 loop_bound_3 = uint2(4294967295u);
     bool loop_init_2 = true;
     while(true) {
         if (metal::all(loop_bound_3 == uint2(0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_2) {
-            uint _e77 = element_4;
-            element_4 = _e77 + 128u;
+            uint _e81 = element_5;
+            element_5 = _e81 + 128u;
         }
         loop_init_2 = false;
-        uint _e9 = element_4;
-        if (_e9 < TILE) {
+        uint _e9 = element_5;
+        uint _e13 = job.tile_bits;
+        if (_e9 < (1u << _e13)) {
         } else {
             break;
         }
         {
-            uint _e12 = element_4;
-            if (!(((_e12 + 1u) < round_4.begin))) {
-                uint _e20 = element_4;
-                local_6 = _e20 >= round_4.end;
+            uint _e16 = element_5;
+            if (!(((_e16 + 1u) < round_4.begin))) {
+                uint _e24 = element_5;
+                local_7 = _e24 >= round_4.end;
             } else {
-                local_6 = true;
+                local_7 = true;
             }
-            bool _e24 = local_6;
-            if (_e24) {
+            bool _e28 = local_7;
+            if (_e28) {
                 continue;
             }
-            uint _e25 = element_4;
-            uint first_8 = metal::max(_e25, round_4.begin);
-            uint _e28 = find_patch(round_4, first_8, begins);
-            uint _e30 = source_3.number;
-            if (_e28 != _e30) {
-                Source _e32 = load_source(round_4, _e28, offsets, job, begins, scratch, _buffer_sizes);
-                source_3 = _e32;
+            uint _e29 = element_5;
+            uint first_8 = metal::max(_e29, round_4.begin);
+            uint _e32 = find_patch(round_4, first_8, begins);
+            uint _e34 = source_3.number;
+            if (_e32 != _e34) {
+                Source _e36 = load_source(round_4, _e32, offsets, job, begins, scratch, _buffer_sizes);
+                source_3 = _e36;
             }
-            Source _e33 = source_3;
-            uint _e35 = source_3.begin;
-            RingLocation _e37 = location_of(_e33, first_8 - _e35);
-            Source _e38 = source_3;
-            Stitch _e39 = stitch_from(_e38, _e37);
-            Pair _e41 = stitch_triangles(_e39, _e37.step, tables, _buffer_sizes);
-            uint _e42 = element_4;
-            uint at_9 = (out + _e42) >> 1u;
-            uint _e46 = element_4;
-            if (first_8 == _e46) {
-                uint _e50 = element_4;
-                local_7 = (_e50 + 1u) < round_4.end;
-            } else {
-                local_7 = false;
-            }
-            bool is_whole = local_7;
-            if (is_whole) {
-                local_8 = (_e37.step + 1u) < _e39.size;
+            Source _e37 = source_3;
+            uint _e39 = source_3.begin;
+            RingLocation _e41 = location_of(_e37, first_8 - _e39);
+            Source _e42 = source_3;
+            Stitch _e43 = stitch_from(_e42, _e41);
+            Pair _e45 = stitch_triangles(_e43, _e41.step, tables, _buffer_sizes);
+            uint _e46 = element_5;
+            uint at_9 = (out + _e46) >> 1u;
+            uint _e50 = element_5;
+            if (first_8 == _e50) {
+                uint _e54 = element_5;
+                local_8 = (_e54 + 1u) < round_4.end;
             } else {
                 local_8 = false;
             }
-            bool _e65 = local_8;
-            if (_e65) {
-                write_triangle_pair(at_9, _e41.first, _e41.second, indices_out, _buffer_sizes);
+            bool is_whole = local_8;
+            if (is_whole) {
+                local_9 = (_e41.step + 1u) < _e43.size;
             } else {
-                uint _e68 = element_4;
-                write_triangle(at_9, first_8 != _e68, _e41.first, indices_out, _buffer_sizes);
+                local_9 = false;
+            }
+            bool _e69 = local_9;
+            if (_e69) {
+                write_triangle_pair(at_9, _e45.first, _e45.second, indices_out, _buffer_sizes);
+            } else {
+                uint _e72 = element_5;
+                write_triangle(at_9, first_8 != _e72, _e45.first, indices_out, _buffer_sizes);
                 if (is_whole) {
-                    Source _e72 = source_3;
-                    uint _e73 = element_4;
-                    metal::uint3 _e76 = first_triangle(round_4, _e72, _e37, _e73 + 1u, offsets, job, tables, begins, scratch, _buffer_sizes);
-                    write_triangle(at_9, true, _e76, indices_out, _buffer_sizes);
+                    Source _e76 = source_3;
+                    uint _e77 = element_5;
+                    metal::uint3 _e80 = first_triangle(round_4, _e76, _e41, _e77 + 1u, offsets, job, tables, begins, scratch, _buffer_sizes);
+                    write_triangle(at_9, true, _e80, indices_out, _buffer_sizes);
                 }
             }
         }
@@ -1132,8 +1153,8 @@ void write_sequences(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint pair = {};
-    uint element_5 = {};
-    bool local_9 = {};
+    uint element_6 = {};
+    bool local_10 = {};
     pair = 2u * thread_3;
     uint2 loop_bound_4 = uint2(4294967295u);
     bool loop_init_3 = true;
@@ -1141,61 +1162,62 @@ void write_sequences(
         if (metal::all(loop_bound_4 == uint2(0u))) { break; }
         loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
         if (!loop_init_3) {
-            uint _e56 = pair;
-            pair = _e56 + 128u;
+            uint _e60 = pair;
+            pair = _e60 + 128u;
         }
         loop_init_3 = false;
         uint _e6 = pair;
-        if (_e6 < TILE) {
+        uint _e10 = job.tile_bits;
+        if (_e6 < (1u << _e10)) {
         } else {
             break;
         }
         {
-            uint _e9 = pair;
-            element_5 = _e9;
+            uint _e13 = pair;
+            element_6 = _e13;
             uint2 loop_bound_5 = uint2(4294967295u);
             bool loop_init_4 = true;
             while(true) {
                 if (metal::all(loop_bound_5 == uint2(0u))) { break; }
                 loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
                 if (!loop_init_4) {
-                    uint _e54 = element_5;
-                    element_5 = _e54 + 1u;
+                    uint _e58 = element_6;
+                    element_6 = _e58 + 1u;
                 }
                 loop_init_4 = false;
-                uint _e11 = element_5;
-                uint _e12 = pair;
-                if (_e11 < (_e12 + 2u)) {
+                uint _e15 = element_6;
+                uint _e16 = pair;
+                if (_e15 < (_e16 + 2u)) {
                 } else {
                     break;
                 }
                 {
-                    uint _e16 = element_5;
-                    if (!((_e16 < round_5.begin))) {
-                        uint _e22 = element_5;
-                        local_9 = _e22 >= round_5.end;
+                    uint _e20 = element_6;
+                    if (!((_e20 < round_5.begin))) {
+                        uint _e26 = element_6;
+                        local_10 = _e26 >= round_5.end;
                     } else {
-                        local_9 = true;
+                        local_10 = true;
                     }
-                    bool _e26 = local_9;
-                    if (_e26) {
+                    bool _e30 = local_10;
+                    if (_e30) {
                         continue;
                     }
-                    uint _e27 = element_5;
-                    uint _e28 = find_patch(round_5, _e27, begins);
-                    metal::uint2 _e32 = patch_offset(round_5.first + _e28, offsets, job, _buffer_sizes);
-                    uint base_8 = true ? _e32.x : 0u;
-                    uint _e36 = element_5;
-                    int _e39 = begins.inner[metal::min(unsigned(_e28), 127u)];
-                    uint t_3 = _e36 - static_cast<uint>(_e39);
-                    metal::uint2 _e44 = scratch.inner[metal::min(unsigned(_e28), 127u)];
-                    uint _e45 = sequence_first(_e44, t_3, base_8);
+                    uint _e31 = element_6;
+                    uint _e32 = find_patch(round_5, _e31, begins);
+                    metal::uint2 _e36 = patch_offset(round_5.first + _e32, offsets, job, _buffer_sizes);
+                    uint base_8 = true ? _e36.x : 0u;
+                    uint _e40 = element_6;
+                    int _e43 = begins.inner[metal::min(unsigned(_e32), 127u)];
+                    uint t_3 = _e40 - static_cast<uint>(_e43);
+                    metal::uint2 _e48 = scratch.inner[metal::min(unsigned(_e32), 127u)];
+                    uint _e49 = sequence_first(_e48, t_3, base_8);
                     if (false) {
-                        uint _e47 = element_5;
-                        write_two(out_1 + _e47, _e45, _e45 + 1u, indices_out, _buffer_sizes);
+                        uint _e51 = element_6;
+                        write_two(out_1 + _e51, _e49, _e49 + 1u, indices_out, _buffer_sizes);
                     } else {
-                        uint _e51 = element_5;
-                        write_single(out_1 + _e51, _e45, indices_out, _buffer_sizes);
+                        uint _e55 = element_6;
+                        write_single(out_1 + _e55, _e49, indices_out, _buffer_sizes);
                     }
                 }
             }
@@ -1256,24 +1278,24 @@ Corner corner_at(
     Repeat repeat_2,
     uint at_6
 ) {
-    uint element_6 = (at_6 * 43691u) >> 17u;
-    uint position_1 = element_6 + repeat_2.before;
+    uint element_7 = (at_6 * 43691u) >> 17u;
+    uint position_1 = element_7 + repeat_2.before;
     uint _e8 = patch_at(repeat_2, position_1);
-    return Corner {_e8, position_1 - (_e8 * repeat_2.size), at_6 - (3u * element_6)};
+    return Corner {_e8, position_1 - (_e8 * repeat_2.size), at_6 - (3u * element_7)};
 }
 
 Corner next_corner(
     Repeat repeat_3,
     Corner it
 ) {
-    bool local_10 = {};
+    bool local_11 = {};
     bool is_last_corner = it.corner == 2u;
     if (is_last_corner) {
-        local_10 = (it.i + 1u) == repeat_3.size;
+        local_11 = (it.i + 1u) == repeat_3.size;
     } else {
-        local_10 = false;
+        local_11 = false;
     }
-    bool is_last_1 = local_10;
+    bool is_last_1 = local_11;
     return Corner {it.number + (is_last_1 ? 1u : 0u), is_last_1 ? 0u : (it.i + (is_last_corner ? 1u : 0u)), is_last_corner ? 0u : (it.corner + 1u)};
 }
 
@@ -1299,11 +1321,11 @@ void copy_triangles(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint at_7 = {};
-    bool local_11 = {};
+    bool local_12 = {};
     keep_triangles(repeat_5, thread_5, tables, scratch, _buffer_sizes);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     uint begin_2 = 3u * (tile_3.begin - tile_3.base);
-    uint end_5 = 3u * (tile_3.end - tile_3.base);
+    uint end_6 = 3u * (tile_3.end - tile_3.base);
     at_7 = 2u * thread_5;
     uint2 loop_bound_7 = uint2(4294967295u);
     bool loop_init_6 = true;
@@ -1316,7 +1338,7 @@ void copy_triangles(
         }
         loop_init_6 = false;
         uint _e17 = at_7;
-        if (_e17 < end_5) {
+        if (_e17 < end_6) {
         } else {
             break;
         }
@@ -1332,11 +1354,11 @@ void copy_triangles(
             uint _e27 = at_7;
             if (first_9 == _e27) {
                 uint _e31 = at_7;
-                local_11 = (_e31 + 1u) < end_5;
+                local_12 = (_e31 + 1u) < end_6;
             } else {
-                local_11 = false;
+                local_12 = false;
             }
-            bool _e36 = local_11;
+            bool _e36 = local_12;
             if (_e36) {
                 Corner _e37 = next_corner(repeat_5, _e25);
                 uint _e38 = kept_index(repeat_5, _e37, scratch);
@@ -1366,6 +1388,7 @@ kernel void expand_primitives(
 , device Status const& status [[buffer(4)]]
 , constant _mslBufferSizes& _buffer_sizes [[buffer(7)]]
 ) {
+    bool local = {};
     uint first = {};
     uint _e6 = job.chunk;
     Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
@@ -1373,15 +1396,23 @@ kernel void expand_primitives(
     uint number_7 = workgroup.x + (workgroup.y * _e13);
     uint _e20 = job.primitive_tiles_at;
     Tile _e21 = tile_of(number_7, range.primitives_begin, range.primitives_end, _e20, job, tiles, _buffer_sizes);
-    if (_e21.end == 0u) {
+    if (!((_e21.end == 0u))) {
+        uint _e30 = status.overflow;
+        local = _e30 != 0u;
+    } else {
+        local = true;
+    }
+    bool _e34 = local;
+    if (_e34) {
         return;
     }
-    uint _e28 = job.window_first;
-    uint out_3 = _e21.base - (_e28 * TILE);
+    uint _e38 = job.window_first;
+    uint _e41 = job.tile_bits;
+    uint out_3 = _e21.base - (_e38 << _e41);
     if (IS_TRIANGLES) {
-        Repeat _e35 = repeat_of(_e21, PRIMITIVES, 256u, offsets, job, _buffer_sizes);
-        if (_e35.size > 0u) {
-            copy_triangles(_e21, _e35, thread_, out_3, tables, scratch, indices_out, _buffer_sizes);
+        Repeat _e47 = repeat_of(_e21, PRIMITIVES, 256u, offsets, job, _buffer_sizes);
+        if (_e47.size > 0u) {
+            copy_triangles(_e21, _e47, thread_, out_3, tables, scratch, indices_out, _buffer_sizes);
             return;
         }
     }
@@ -1392,22 +1423,22 @@ kernel void expand_primitives(
         if (metal::all(loop_bound_8 == uint2(0u))) { break; }
         loop_bound_8 -= uint2(loop_bound_8.y == 0u, 1u);
         if (!loop_init_7) {
-            uint _e48 = first;
-            first = _e48 + ROUND;
+            uint _e60 = first;
+            first = _e60 + ROUND;
         }
         loop_init_7 = false;
-        uint _e41 = first;
-        if (_e41 <= _e21.last_patch) {
+        uint _e53 = first;
+        if (_e53 <= _e21.last_patch) {
         } else {
             break;
         }
         {
-            uint _e44 = first;
-            Round _e46 = load_round(_e21, _e44, PRIMITIVES, thread_, offsets, job, begins, scratch, topologies, _buffer_sizes);
+            uint _e56 = first;
+            Round _e58 = load_round(_e21, _e56, PRIMITIVES, thread_, offsets, job, begins, scratch, topologies, _buffer_sizes);
             if (IS_TRIANGLES) {
-                write_triangles(_e46, thread_, out_3, offsets, job, tables, begins, scratch, indices_out, _buffer_sizes);
+                write_triangles(_e58, thread_, out_3, offsets, job, tables, begins, scratch, indices_out, _buffer_sizes);
             } else {
-                write_sequences(_e46, thread_, out_3, offsets, job, begins, scratch, indices_out, _buffer_sizes);
+                write_sequences(_e58, thread_, out_3, offsets, job, begins, scratch, indices_out, _buffer_sizes);
             }
         }
     }

@@ -6,10 +6,10 @@ using metal::uint;
 
 struct _mslBufferSizes {
     uint size0;
-    uint size3;
+    uint size2;
     uint size4;
-    uint size5;
-    uint size6;
+    uint size7;
+    uint size8;
 };
 
 struct Job {
@@ -19,7 +19,7 @@ struct Job {
     uint stride;
     uint blocks_at;
     uint alike_at;
-    uint groups_at;
+    uint sections_at;
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
@@ -31,6 +31,7 @@ struct Job {
     uint point_window_tiles;
     uint primitive_window_tiles;
     uint max_workgroups;
+    uint tile_bits;
 };
 struct Range {
     uint points_begin;
@@ -75,15 +76,14 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint WORKGROUP = 64u;
-constant uint TILE = 2048u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
 constant uint BLOCK = 256u;
 constant uint BLOCK_BITS = 8u;
-constant uint GROUP_BLOCKS = 256u;
-constant uint GROUP_BLOCK_BITS = 8u;
-constant uint GROUP = 65536u;
-constant uint GROUP_BITS = 16u;
+constant uint SECTION_BLOCKS = 256u;
+constant uint SECTION_BLOCK_BITS = 8u;
+constant uint SECTION = 65536u;
+constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
@@ -139,70 +139,70 @@ constant uint LOW = 1065353216u;
 constant uint HIGH = 1115422720u;
 
 uint state_of(
-    metal::uint2 topology_1
+    metal::uint2 topology
 ) {
-    return topology_1.x >> 28u;
+    return topology.x >> 28u;
 }
 
 uint outer_points(
-    metal::uint2 topology_2,
+    metal::uint2 topology_1,
     uint edge
 ) {
-    return (topology_2.x >> (7u * edge)) & 127u;
+    return (topology_1.x >> (7u * edge)) & 127u;
 }
 
 uint inside_u(
-    metal::uint2 topology_3
+    metal::uint2 topology_2
 ) {
-    return topology_3.y & 127u;
+    return topology_2.y & 127u;
 }
 
 uint inside_v(
-    metal::uint2 topology_4
+    metal::uint2 topology_3
 ) {
-    return topology_4.y >> 7u;
+    return topology_3.y >> 7u;
 }
 
 uint along_points(
-    metal::uint2 topology_5,
+    metal::uint2 topology_4,
     uint edge_1
 ) {
-    return (topology_5.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
+    return (topology_4.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
 }
 
 uint outer_before(
-    metal::uint2 topology_6,
+    metal::uint2 topology_5,
     uint edge_2
 ) {
-    uint _e4 = outer_points(topology_6, 0u);
-    uint _e10 = outer_points(topology_6, 1u);
-    uint _e17 = outer_points(topology_6, 2u);
+    uint _e4 = outer_points(topology_5, 0u);
+    uint _e10 = outer_points(topology_5, 1u);
+    uint _e17 = outer_points(topology_5, 2u);
     return (((edge_2 > 0u) ? _e4 : 0u) + ((edge_2 > 1u) ? _e10 : 0u)) + ((edge_2 > 2u) ? _e17 : 0u);
 }
 
 uint along_before(
-    metal::uint2 topology_7,
+    metal::uint2 topology_6,
     uint edge_3
 ) {
-    uint _e6 = inside_v(topology_7);
-    uint _e10 = inside_u(topology_7);
+    uint _e6 = inside_v(topology_6);
+    uint _e10 = inside_u(topology_6);
     return (((edge_3 + 1u) >> 1u) * _e6) + ((edge_3 >> 1u) * _e10);
 }
 
 uint boundary(
-    metal::uint2 topology_8
+    metal::uint2 topology_7
 ) {
-    uint _e2 = outer_before(topology_8, 3u);
-    uint _e4 = outer_points(topology_8, 3u);
+    uint _e2 = outer_before(topology_7, 3u);
+    uint _e4 = outer_points(topology_7, 3u);
     return (_e2 + _e4) - EDGES;
 }
 
 uint interior_points(
-    metal::uint2 topology_9
+    metal::uint2 topology_8
 ) {
-    uint _e1 = inside_u(topology_9);
+    uint _e1 = inside_u(topology_8);
     if (true) {
-        uint _e5 = inside_v(topology_9);
+        uint _e5 = inside_v(topology_8);
         return (_e1 - 2u) * (_e5 - 2u);
     }
     uint half_ = _e1 >> 1u;
@@ -211,34 +211,34 @@ uint interior_points(
 
 uint triangles_of(
     uint points,
-    metal::uint2 topology_10
+    metal::uint2 topology_9
 ) {
-    uint _e6 = boundary(topology_10);
+    uint _e6 = boundary(topology_9);
     return ((2u * points) - 2u) - _e6;
 }
 
 metal::uint2 counts(
-    metal::uint2 topology_11
+    metal::uint2 topology_10
 ) {
     uint points_1 = EDGES;
     uint triangles = 2u;
-    uint _e1 = state_of(topology_11);
+    uint _e1 = state_of(topology_10);
     if (_e1 == CULLED) {
         return metal::uint2(0u, 0u);
     }
     if (false) {
-        uint _e9 = outer_points(topology_11, 0u);
+        uint _e9 = outer_points(topology_10, 0u);
         uint lines = _e9 - 1u;
-        uint _e13 = outer_points(topology_11, 1u);
+        uint _e13 = outer_points(topology_10, 1u);
         return lines * metal::uint2(_e13, _e13 - 1u);
     }
-    uint _e22 = state_of(topology_11);
+    uint _e22 = state_of(topology_10);
     if (_e22 == REGULAR) {
-        uint _e25 = boundary(topology_11);
-        uint _e26 = interior_points(topology_11);
+        uint _e25 = boundary(topology_10);
+        uint _e26 = interior_points(topology_10);
         points_1 = _e25 + _e26;
         uint _e28 = points_1;
-        uint _e29 = triangles_of(_e28, topology_11);
+        uint _e29 = triangles_of(_e28, topology_10);
         triangles = _e29;
     }
     if (false) {
@@ -255,8 +255,8 @@ metal::uint2 counts(
 uint fixed_from_bits(
     uint bits
 ) {
+    bool local_1 = {};
     bool local_2 = {};
-    bool local_3 = {};
     uint shift = 134u - (bits >> 23u);
     uint mantissa = (bits & 8388607u) | 8388608u;
     uint quotient = mantissa >> shift;
@@ -264,16 +264,16 @@ uint fixed_from_bits(
     uint half_1 = 1u << (shift - 1u);
     if (!((remainder > half_1))) {
         if (remainder == half_1) {
-            local_3 = (quotient & 1u) == 1u;
+            local_2 = (quotient & 1u) == 1u;
         } else {
-            local_3 = false;
+            local_2 = false;
         }
-        bool _e31 = local_3;
-        local_2 = _e31;
+        bool _e31 = local_2;
+        local_1 = _e31;
     } else {
-        local_2 = true;
+        local_1 = true;
     }
-    bool up = local_2;
+    bool up = local_1;
     return quotient + (up ? 1u : 0u);
 }
 
@@ -301,14 +301,14 @@ uint half_factor(
     uint factor,
     uint odd
 ) {
-    bool local_4 = {};
+    bool local_3 = {};
     uint rounded = (factor + 1u) >> 1u;
     if (!((odd == 1u))) {
-        local_4 = rounded == HALF;
+        local_3 = rounded == HALF;
     } else {
-        local_4 = true;
+        local_3 = true;
     }
-    bool _e16 = local_4;
+    bool _e16 = local_3;
     return rounded + (_e16 ? HALF : 0u);
 }
 
@@ -316,14 +316,14 @@ uint edge_points(
     uint factor_1,
     uint odd_1
 ) {
-    bool local_5 = {};
+    bool local_4 = {};
     if (IS_INTEGER) {
         if (factor_1 == ONE) {
-            local_5 = odd_1 == 0u;
+            local_4 = odd_1 == 0u;
         } else {
-            local_5 = false;
+            local_4 = false;
         }
-        bool _e15 = local_5;
+        bool _e15 = local_4;
         return _e15 ? 3u : ((factor_1 >> 16u) + 1u);
     }
     uint _e17 = half_factor(factor_1, odd_1);
@@ -342,7 +342,7 @@ uint split_position(
     uint ceil_points,
     uint odd_2
 ) {
-    bool local_6 = {};
+    bool local_5 = {};
     if (floor_points == ceil_points) {
         return ceil_points + 1u;
     }
@@ -350,11 +350,11 @@ uint split_position(
         return (ceil_points - 1u) - odd_2;
     }
     if (odd_2 == 1u) {
-        local_6 = floor_points == 1u;
+        local_5 = floor_points == 1u;
     } else {
-        local_6 = false;
+        local_5 = false;
     }
-    bool _e17 = local_6;
+    bool _e17 = local_5;
     if (_e17) {
         return 0u;
     }
@@ -398,10 +398,10 @@ void add_four(
 
 Sums prefix_sums(
     uint thread_1,
-    metal::uint2 own_1,
+    metal::uint2 own,
     threadgroup type_5& sums
 ) {
-    sums.inner[metal::min(unsigned(thread_1), 340u)] = own_1;
+    sums.inner[metal::min(unsigned(thread_1), 340u)] = own;
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     if (thread_1 < 64u) {
         add_four(4u * thread_1, FOURS + thread_1, sums);
@@ -439,13 +439,13 @@ bool is_greater(
     uint bits_2,
     uint low
 ) {
-    bool local_7 = {};
+    bool local_6 = {};
     if (bits_2 > low) {
-        local_7 = bits_2 <= INFINITY_;
+        local_6 = bits_2 <= INFINITY_;
     } else {
-        local_7 = false;
+        local_6 = false;
     }
-    bool _e8 = local_7;
+    bool _e8 = local_6;
     return _e8;
 }
 
@@ -490,14 +490,14 @@ uint edge_parity(
 uint inside_parity(
     uint factor_4
 ) {
-    bool local_8 = {};
+    bool local_7 = {};
     uint _e2 = edge_parity(factor_4, IS_INTEGER);
     if (IS_INTEGER) {
-        local_8 = factor_4 == ONE;
+        local_7 = factor_4 == ONE;
     } else {
-        local_8 = false;
+        local_7 = false;
     }
-    bool _e10 = local_8;
+    bool _e10 = local_7;
     return _e10 ? 0u : _e2;
 }
 
@@ -521,13 +521,13 @@ metal::uint2 process_inside(
 uint inside_low(
     bool any_above
 ) {
-    bool local_9 = {};
+    bool local_8 = {};
     if (true) {
-        local_9 = any_above;
+        local_8 = any_above;
     } else {
-        local_9 = false;
+        local_8 = false;
     }
-    bool _e7 = local_9;
+    bool _e7 = local_8;
     return _e7 ? BITS_1_PLUS_2_POW_MINUS_16_ : LOW;
 }
 
@@ -542,7 +542,7 @@ Processed process_isoline(
     metal::uint2 raw
 ) {
     Processed out = {};
-    bool local_10 = {};
+    bool local_9 = {};
     uint _e6 = fixed_factor(raw.x, BITS_1_, BITS_64_, true);
     uint _e8 = edge_parity(_e6, true);
     metal::uint2 _e10 = process_edge(raw.y);
@@ -551,11 +551,11 @@ Processed process_isoline(
     bool _e22 = is_greater_than_zero(raw.x);
     if (_e22) {
         bool _e26 = is_greater_than_zero(raw.y);
-        local_10 = _e26;
+        local_9 = _e26;
     } else {
-        local_10 = false;
+        local_9 = false;
     }
-    bool _e28 = local_10;
+    bool _e28 = local_9;
     bool is_culled_1 = !(_e28);
     uint _e30 = edge_points(_e6, _e8);
     uint _e33 = edge_points(_e10.x, _e10.y);
@@ -593,6 +593,7 @@ Processed process_triangle(
     metal::uint4 raw_1
 ) {
     Processed out_1 = {};
+    bool local_10 = {};
     bool local_11 = {};
     bool local_12 = {};
     bool local_13 = {};
@@ -600,32 +601,31 @@ Processed process_triangle(
     bool local_15 = {};
     bool local_16 = {};
     bool local_17 = {};
-    bool local_18 = {};
     metal::uint2 _e3 = process_edge(raw_1.x);
     metal::uint2 _e5 = process_edge(raw_1.y);
     metal::uint2 _e7 = process_edge(raw_1.z);
     bool _e9 = is_above(raw_1.x);
     if (!(_e9)) {
         bool _e14 = is_above(raw_1.y);
-        local_11 = _e14;
+        local_10 = _e14;
+    } else {
+        local_10 = true;
+    }
+    bool _e16 = local_10;
+    if (!(_e16)) {
+        bool _e21 = is_above(raw_1.z);
+        local_11 = _e21;
     } else {
         local_11 = true;
     }
-    bool _e16 = local_11;
-    if (!(_e16)) {
-        bool _e21 = is_above(raw_1.z);
-        local_12 = _e21;
+    bool _e23 = local_11;
+    if (!(_e23)) {
+        bool _e28 = is_above(raw_1.w);
+        local_12 = _e28;
     } else {
         local_12 = true;
     }
-    bool _e23 = local_12;
-    if (!(_e23)) {
-        bool _e28 = is_above(raw_1.w);
-        local_13 = _e28;
-    } else {
-        local_13 = true;
-    }
-    bool any_above_1 = local_13;
+    bool any_above_1 = local_12;
     uint _e32 = inside_low(any_above_1);
     metal::uint2 _e33 = process_inside(raw_1.w, _e32);
     out_1.outer = metal::uint4(_e3.x, _e5.x, _e7.x, 0u);
@@ -635,37 +635,37 @@ Processed process_triangle(
     bool _e55 = is_greater_than_zero(raw_1.x);
     if (_e55) {
         bool _e59 = is_greater_than_zero(raw_1.y);
-        local_14 = _e59;
+        local_13 = _e59;
+    } else {
+        local_13 = false;
+    }
+    bool _e61 = local_13;
+    if (_e61) {
+        bool _e65 = is_greater_than_zero(raw_1.z);
+        local_14 = _e65;
     } else {
         local_14 = false;
     }
-    bool _e61 = local_14;
-    if (_e61) {
-        bool _e65 = is_greater_than_zero(raw_1.z);
-        local_15 = _e65;
+    bool _e67 = local_14;
+    bool is_culled_2 = !(_e67);
+    if (_e3.x == ONE) {
+        local_15 = _e5.x == ONE;
     } else {
         local_15 = false;
     }
-    bool _e67 = local_15;
-    bool is_culled_2 = !(_e67);
-    if (_e3.x == ONE) {
-        local_16 = _e5.x == ONE;
+    bool _e78 = local_15;
+    if (_e78) {
+        local_16 = _e7.x == ONE;
     } else {
         local_16 = false;
     }
-    bool _e78 = local_16;
-    if (_e78) {
-        local_17 = _e7.x == ONE;
+    bool _e85 = local_16;
+    if (_e85) {
+        local_17 = _e33.x == ONE;
     } else {
         local_17 = false;
     }
-    bool _e85 = local_17;
-    if (_e85) {
-        local_18 = _e33.x == ONE;
-    } else {
-        local_18 = false;
-    }
-    bool is_minimum_1 = local_18;
+    bool is_minimum_1 = local_17;
     Processed _e94 = out_1;
     metal::uint2 _e95 = make_topology(_e94, is_culled_2, is_minimum_1);
     out_1.topology = _e95;
@@ -678,6 +678,7 @@ Processed process_quad(
     metal::uint2 raw_inside
 ) {
     Processed out_2 = {};
+    bool local_18 = {};
     bool local_19 = {};
     bool local_20 = {};
     bool local_21 = {};
@@ -690,7 +691,6 @@ Processed process_quad(
     bool local_28 = {};
     bool local_29 = {};
     bool local_30 = {};
-    bool local_31 = {};
     metal::uint2 _e4 = process_edge(raw_2.x);
     metal::uint2 _e6 = process_edge(raw_2.y);
     metal::uint2 _e8 = process_edge(raw_2.z);
@@ -698,39 +698,39 @@ Processed process_quad(
     bool _e12 = is_above(raw_2.x);
     if (!(_e12)) {
         bool _e17 = is_above(raw_2.y);
-        local_19 = _e17;
+        local_18 = _e17;
+    } else {
+        local_18 = true;
+    }
+    bool _e19 = local_18;
+    if (!(_e19)) {
+        bool _e24 = is_above(raw_2.z);
+        local_19 = _e24;
     } else {
         local_19 = true;
     }
-    bool _e19 = local_19;
-    if (!(_e19)) {
-        bool _e24 = is_above(raw_2.z);
-        local_20 = _e24;
+    bool _e26 = local_19;
+    if (!(_e26)) {
+        bool _e31 = is_above(raw_2.w);
+        local_20 = _e31;
     } else {
         local_20 = true;
     }
-    bool _e26 = local_20;
-    if (!(_e26)) {
-        bool _e31 = is_above(raw_2.w);
-        local_21 = _e31;
+    bool _e33 = local_20;
+    if (!(_e33)) {
+        bool _e38 = is_above(raw_inside.x);
+        local_21 = _e38;
     } else {
         local_21 = true;
     }
-    bool _e33 = local_21;
-    if (!(_e33)) {
-        bool _e38 = is_above(raw_inside.x);
-        local_22 = _e38;
+    bool _e40 = local_21;
+    if (!(_e40)) {
+        bool _e45 = is_above(raw_inside.y);
+        local_22 = _e45;
     } else {
         local_22 = true;
     }
-    bool _e40 = local_22;
-    if (!(_e40)) {
-        bool _e45 = is_above(raw_inside.y);
-        local_23 = _e45;
-    } else {
-        local_23 = true;
-    }
-    bool any_above_2 = local_23;
+    bool any_above_2 = local_22;
     uint _e48 = inside_low(any_above_2);
     metal::uint2 _e50 = process_inside(raw_inside.x, _e48);
     metal::uint2 _e52 = process_inside(raw_inside.y, _e48);
@@ -741,56 +741,56 @@ Processed process_quad(
     bool _e74 = is_greater_than_zero(raw_2.x);
     if (_e74) {
         bool _e78 = is_greater_than_zero(raw_2.y);
-        local_24 = _e78;
+        local_23 = _e78;
+    } else {
+        local_23 = false;
+    }
+    bool _e80 = local_23;
+    if (_e80) {
+        bool _e84 = is_greater_than_zero(raw_2.z);
+        local_24 = _e84;
     } else {
         local_24 = false;
     }
-    bool _e80 = local_24;
-    if (_e80) {
-        bool _e84 = is_greater_than_zero(raw_2.z);
-        local_25 = _e84;
+    bool _e86 = local_24;
+    if (_e86) {
+        bool _e90 = is_greater_than_zero(raw_2.w);
+        local_25 = _e90;
     } else {
         local_25 = false;
     }
-    bool _e86 = local_25;
-    if (_e86) {
-        bool _e90 = is_greater_than_zero(raw_2.w);
-        local_26 = _e90;
+    bool _e92 = local_25;
+    bool is_culled_3 = !(_e92);
+    if (_e4.x == ONE) {
+        local_26 = _e6.x == ONE;
     } else {
         local_26 = false;
     }
-    bool _e92 = local_26;
-    bool is_culled_3 = !(_e92);
-    if (_e4.x == ONE) {
-        local_27 = _e6.x == ONE;
+    bool _e103 = local_26;
+    if (_e103) {
+        local_27 = _e8.x == ONE;
     } else {
         local_27 = false;
     }
-    bool _e103 = local_27;
-    if (_e103) {
-        local_28 = _e8.x == ONE;
+    bool _e110 = local_27;
+    if (_e110) {
+        local_28 = _e10.x == ONE;
     } else {
         local_28 = false;
     }
-    bool _e110 = local_28;
-    if (_e110) {
-        local_29 = _e10.x == ONE;
+    bool _e117 = local_28;
+    if (_e117) {
+        local_29 = _e50.x == ONE;
     } else {
         local_29 = false;
     }
-    bool _e117 = local_29;
-    if (_e117) {
-        local_30 = _e50.x == ONE;
+    bool _e124 = local_29;
+    if (_e124) {
+        local_30 = _e52.x == ONE;
     } else {
         local_30 = false;
     }
-    bool _e124 = local_30;
-    if (_e124) {
-        local_31 = _e52.x == ONE;
-    } else {
-        local_31 = false;
-    }
-    bool is_minimum_2 = local_31;
+    bool is_minimum_2 = local_30;
     Processed _e133 = out_2;
     metal::uint2 _e134 = make_topology(_e133, is_culled_3, is_minimum_2);
     out_2.topology = _e134;
@@ -804,22 +804,22 @@ Processed process(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     if (false) {
-        metal::uint2 _e4 = raw_factors[metal::min(unsigned(patch_index), (_buffer_sizes.size3 - 0 - 8) / 8)];
+        metal::uint2 _e4 = raw_factors[metal::min(unsigned(patch_index), (_buffer_sizes.size2 - 0 - 8) / 8)];
         Processed _e5 = process_isoline(_e4);
         return _e5;
     }
     if (false) {
         uint at = 2u * patch_index;
-        metal::uint2 _e11 = raw_factors[metal::min(unsigned(at), (_buffer_sizes.size3 - 0 - 8) / 8)];
-        metal::uint2 _e16 = raw_factors[metal::min(unsigned(at + 1u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+        metal::uint2 _e11 = raw_factors[metal::min(unsigned(at), (_buffer_sizes.size2 - 0 - 8) / 8)];
+        metal::uint2 _e16 = raw_factors[metal::min(unsigned(at + 1u), (_buffer_sizes.size2 - 0 - 8) / 8)];
         Processed _e18 = process_triangle(metal::uint4(_e11, _e16));
         return _e18;
     }
     uint at_1 = 3u * patch_index;
-    metal::uint2 _e23 = raw_factors[metal::min(unsigned(at_1), (_buffer_sizes.size3 - 0 - 8) / 8)];
-    metal::uint2 _e28 = raw_factors[metal::min(unsigned(at_1 + 1u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    metal::uint2 _e23 = raw_factors[metal::min(unsigned(at_1), (_buffer_sizes.size2 - 0 - 8) / 8)];
+    metal::uint2 _e28 = raw_factors[metal::min(unsigned(at_1 + 1u), (_buffer_sizes.size2 - 0 - 8) / 8)];
     metal::uint4 outer_1 = metal::uint4(_e23, _e28);
-    metal::uint2 _e34 = raw_factors[metal::min(unsigned(at_1 + 2u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    metal::uint2 _e34 = raw_factors[metal::min(unsigned(at_1 + 2u), (_buffer_sizes.size2 - 0 - 8) / 8)];
     Processed _e35 = process_quad(outer_1, _e34);
     return _e35;
 }
@@ -834,26 +834,98 @@ void write_contexts(
 ) {
     uint step = job.stride;
     metal::uint2 _e11 = make_context(processed_1.outer.x, processed_1.outer_odd.x, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e11;
+    contexts[metal::min(unsigned(patch_index_1), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e11;
     metal::uint2 _e19 = make_context(processed_1.outer.y, processed_1.outer_odd.y, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + step), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e19;
+    contexts[metal::min(unsigned(patch_index_1 + step), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e19;
     if (false) {
         return;
     }
     metal::uint2 _e30 = make_context(processed_1.outer.z, processed_1.outer_odd.z, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + (2u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e30;
+    contexts[metal::min(unsigned(patch_index_1 + (2u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e30;
     if (false) {
         metal::uint2 _e41 = make_context(processed_1.inside.x, processed_1.inside_odd.x, tables, _buffer_sizes);
-        contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e41;
+        contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e41;
         return;
     }
     metal::uint2 _e51 = make_context(processed_1.outer.w, processed_1.outer_odd.w, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e51;
+    contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e51;
     metal::uint2 _e61 = make_context(processed_1.inside.x, processed_1.inside_odd.x, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + (4u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e61;
+    contexts[metal::min(unsigned(patch_index_1 + (4u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e61;
     metal::uint2 _e71 = make_context(processed_1.inside.y, processed_1.inside_odd.y, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + (5u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e71;
+    contexts[metal::min(unsigned(patch_index_1 + (5u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e71;
     return;
+}
+
+metal::uint2 process_block(
+    uint block,
+    uint thread_2,
+    device type_4 const& tables,
+    threadgroup type_5& sums,
+    device type_7 const& raw_factors,
+    constant Job& job,
+    device type_7& contexts,
+    threadgroup metal::uint2& first_topology,
+    threadgroup metal::atomic_uint& differs,
+    device type_7& topologies,
+    device type_7& offsets,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    metal::uint2 own_1 = metal::uint2(0u, 0u);
+    metal::uint2 topology_11 = metal::uint2(0u, 0u);
+    bool local_31 = {};
+    bool local_32 = {};
+    uint patch_index_2 = (block * BLOCK) + thread_2;
+    uint _e15 = job.patches;
+    if (patch_index_2 < _e15) {
+        Processed _e17 = process(patch_index_2, raw_factors, _buffer_sizes);
+        topology_11 = _e17.topology;
+        metal::uint2 _e21 = topology_11;
+        topologies[metal::min(unsigned(patch_index_2), (_buffer_sizes.size7 - 0 - 8) / 8)] = _e21;
+        metal::uint2 _e22 = topology_11;
+        metal::uint2 _e23 = counts(_e22);
+        own_1 = _e23;
+        if (true) {
+            uint _e28 = state_of(_e17.topology);
+            local_31 = _e28 == REGULAR;
+        } else {
+            local_31 = false;
+        }
+        bool _e32 = local_31;
+        if (_e32) {
+            write_contexts(patch_index_2, _e17, tables, job, contexts, _buffer_sizes);
+        }
+    }
+    if (thread_2 == 0u) {
+        metal::uint2 _e36 = topology_11;
+        first_topology = _e36;
+        metal::atomic_store_explicit(&differs, 0u, metal::memory_order_relaxed);
+    }
+    metal::uint2 _e39 = own_1;
+    Sums _e40 = prefix_sums(thread_2, _e39, sums);
+    uint _e43 = job.patches;
+    if (patch_index_2 < _e43) {
+        offsets[metal::min(unsigned(patch_index_2), (_buffer_sizes.size8 - 0 - 8) / 8)] = _e40.before;
+        metal::uint2 _e48 = topology_11;
+        metal::uint2 _e50 = first_topology;
+        if (metal::any(_e48 != _e50)) {
+            metal::atomic_store_explicit(&differs, 1u, metal::memory_order_relaxed);
+        }
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_2 == 0u) {
+        uint _e63 = job.patches;
+        local_32 = (block * BLOCK) < _e63;
+    } else {
+        local_32 = false;
+    }
+    bool _e66 = local_32;
+    if (_e66) {
+        uint _e70 = job.alike_at;
+        metal::uint2 _e73 = topology_11;
+        uint _e76 = metal::atomic_load_explicit(&differs, metal::memory_order_relaxed);
+        offsets[metal::min(unsigned(_e70 + block), (_buffer_sizes.size8 - 0 - 8) / 8)] = _e73 * (1u - _e76);
+    }
+    return _e40.all;
 }
 
 struct factorsInput {
@@ -863,73 +935,29 @@ kernel void factors(
 , uint thread_ [[thread_index_in_threadgroup]]
 , device type_4 const& tables [[buffer(2)]]
 , threadgroup type_5& sums
-, constant Job& job [[buffer(0)]]
 , device type_7 const& raw_factors [[buffer(1)]]
-, device type_7& topologies [[buffer(3)]]
+, constant Job& job [[buffer(0)]]
 , device type_7& contexts [[buffer(4)]]
-, device type_7& offsets [[buffer(5)]]
 , threadgroup metal::uint2& first_topology
 , threadgroup metal::atomic_uint& differs
+, device type_7& topologies [[buffer(3)]]
+, device type_7& offsets [[buffer(5)]]
 , constant _mslBufferSizes& _buffer_sizes [[buffer(6)]]
 ) {
-    metal::uint2 own = metal::uint2(0u, 0u);
-    metal::uint2 topology = metal::uint2(0u, 0u);
     bool local = {};
-    bool local_1 = {};
     uint _e6 = job.max_workgroups;
-    uint block = workgroup.x + (workgroup.y * _e6);
-    uint patch_index_2 = (block * BLOCK) + thread_;
-    uint _e22 = job.patches;
-    if (patch_index_2 < _e22) {
-        Processed _e24 = process(patch_index_2, raw_factors, _buffer_sizes);
-        topology = _e24.topology;
-        metal::uint2 _e28 = topology;
-        topologies[metal::min(unsigned(patch_index_2), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e28;
-        metal::uint2 _e29 = topology;
-        metal::uint2 _e30 = counts(_e29);
-        own = _e30;
-        if (true) {
-            uint _e35 = state_of(_e24.topology);
-            local = _e35 == REGULAR;
-        } else {
-            local = false;
-        }
-        bool _e39 = local;
-        if (_e39) {
-            write_contexts(patch_index_2, _e24, tables, job, contexts, _buffer_sizes);
-        }
-    }
+    uint block_1 = workgroup.x + (workgroup.y * _e6);
+    metal::uint2 _e9 = process_block(block_1, thread_, tables, sums, raw_factors, job, contexts, first_topology, differs, topologies, offsets, _buffer_sizes);
     if (thread_ == 0u) {
-        metal::uint2 _e43 = topology;
-        first_topology = _e43;
-        metal::atomic_store_explicit(&differs, 0u, metal::memory_order_relaxed);
-    }
-    metal::uint2 _e46 = own;
-    Sums _e47 = prefix_sums(thread_, _e46, sums);
-    uint _e50 = job.patches;
-    if (patch_index_2 < _e50) {
-        offsets[metal::min(unsigned(patch_index_2), (_buffer_sizes.size6 - 0 - 8) / 8)] = _e47.before;
-        metal::uint2 _e55 = topology;
-        metal::uint2 _e57 = first_topology;
-        if (metal::any(_e55 != _e57)) {
-            metal::atomic_store_explicit(&differs, 1u, metal::memory_order_relaxed);
-        }
-    }
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    if (thread_ == 0u) {
-        uint _e70 = job.patches;
-        local_1 = (block * BLOCK) < _e70;
+        uint _e18 = job.patches;
+        local = (block_1 * BLOCK) < _e18;
     } else {
-        local_1 = false;
+        local = false;
     }
-    bool _e73 = local_1;
-    if (_e73) {
-        uint _e77 = job.blocks_at;
-        offsets[metal::min(unsigned(_e77 + block), (_buffer_sizes.size6 - 0 - 8) / 8)] = _e47.all;
-        uint _e84 = job.alike_at;
-        metal::uint2 _e87 = topology;
-        uint _e90 = metal::atomic_load_explicit(&differs, metal::memory_order_relaxed);
-        offsets[metal::min(unsigned(_e84 + block), (_buffer_sizes.size6 - 0 - 8) / 8)] = _e87 * (1u - _e90);
+    bool _e21 = local;
+    if (_e21) {
+        uint _e25 = job.blocks_at;
+        offsets[metal::min(unsigned(_e25 + block_1), (_buffer_sizes.size8 - 0 - 8) / 8)] = _e9;
         return;
     } else {
         return;

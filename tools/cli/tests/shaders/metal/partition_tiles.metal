@@ -17,7 +17,7 @@ struct Job {
     uint stride;
     uint blocks_at;
     uint alike_at;
-    uint groups_at;
+    uint sections_at;
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
@@ -29,6 +29,7 @@ struct Job {
     uint point_window_tiles;
     uint primitive_window_tiles;
     uint max_workgroups;
+    uint tile_bits;
 };
 struct Range {
     uint points_begin;
@@ -58,15 +59,14 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint WORKGROUP = 64u;
-constant uint TILE = 2048u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
 constant uint BLOCK = 256u;
 constant uint BLOCK_BITS = 8u;
-constant uint GROUP_BLOCKS = 256u;
-constant uint GROUP_BLOCK_BITS = 8u;
-constant uint GROUP = 65536u;
-constant uint GROUP_BITS = 16u;
+constant uint SECTION_BLOCKS = 256u;
+constant uint SECTION_BLOCK_BITS = 8u;
+constant uint SECTION = 65536u;
+constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
@@ -100,6 +100,23 @@ constant bool IS_INTEGER = false;
 constant uint EDGES = 4u;
 constant bool IS_TRIANGLES = true;
 constant uint INDICES = 3u;
+
+uint tile_at(
+    uint element,
+    constant Job& job
+) {
+    uint _e3 = job.tile_bits;
+    return element >> _e3;
+}
+
+uint tile_end(
+    uint end,
+    constant Job& job
+) {
+    uint _e4 = job.tile_bits;
+    uint _e11 = job.tile_bits;
+    return ((end + (1u << _e4)) - 1u) >> _e11;
+}
 
 uint offset_at(
     uint index,
@@ -176,49 +193,77 @@ uint patch_of(
 ) {
     uint _e4 = job.patches;
     uint blocks = ((_e4 + BLOCK) - 1u) >> BLOCK_BITS;
-    uint groups = ((blocks + GROUP_BLOCKS) - 1u) >> GROUP_BLOCK_BITS;
-    uint _e19 = job.groups_at;
-    uint _e20 = last_at_or_before(_e19, groups, kind_3, goal_2, offsets, _buffer_sizes);
-    uint _e23 = job.groups_at;
+    uint sections = ((blocks + SECTION_BLOCKS) - 1u) >> SECTION_BLOCK_BITS;
+    uint _e19 = job.sections_at;
+    uint _e20 = last_at_or_before(_e19, sections, kind_3, goal_2, offsets, _buffer_sizes);
+    uint _e23 = job.sections_at;
     uint _e25 = offset_at(_e23 + _e20, kind_3, offsets, _buffer_sizes);
-    uint in_group = goal_2 - _e25;
+    uint in_section = goal_2 - _e25;
     uint _e29 = job.blocks_at;
-    uint first_block = _e29 + (_e20 << GROUP_BLOCK_BITS);
-    uint count_2 = metal::min(GROUP_BLOCKS, blocks - (_e20 << GROUP_BLOCK_BITS));
-    uint _e40 = last_at_or_before(first_block, count_2, kind_3, in_group, offsets, _buffer_sizes);
-    uint block = (_e20 << GROUP_BLOCK_BITS) + _e40;
+    uint first_block = _e29 + (_e20 << SECTION_BLOCK_BITS);
+    uint count_2 = metal::min(SECTION_BLOCKS, blocks - (_e20 << SECTION_BLOCK_BITS));
+    uint _e40 = last_at_or_before(first_block, count_2, kind_3, in_section, offsets, _buffer_sizes);
+    uint block = (_e20 << SECTION_BLOCK_BITS) + _e40;
     uint _e44 = job.blocks_at;
     uint _e46 = offset_at(_e44 + block, kind_3, offsets, _buffer_sizes);
-    uint in_block = in_group - _e46;
+    uint in_block = in_section - _e46;
     uint _e51 = job.patches;
     uint patches = metal::min(BLOCK, _e51 - (block << BLOCK_BITS));
     uint _e60 = last_at_or_before(block << BLOCK_BITS, patches, kind_3, in_block, offsets, _buffer_sizes);
     return (block << BLOCK_BITS) + _e60;
 }
 
-uint naga_div(uint lhs, uint rhs) {
-    return lhs / metal::select(rhs, 1u, rhs == 0u);
-}
-
 uint entries(
     uint begin,
-    uint end
+    uint end_1,
+    constant Job& job
 ) {
-    return (end > begin) ? ((naga_div((end + TILE) - 1u, TILE) - naga_div(begin, TILE)) + 1u) : 0u;
+    uint _e3 = tile_end(end_1, job);
+    uint _e4 = tile_at(begin, job);
+    return (end_1 > begin) ? ((_e3 - _e4) + 1u) : 0u;
 }
 
-uint entry(
+uint entry_of(
     uint number,
     uint begin_1,
-    uint end_1,
+    uint end_2,
     uint kind_4,
     constant Job& job,
     device type_4 const& offsets,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint element = (naga_div(begin_1, TILE) + number) * TILE;
-    uint _e12 = patch_of(metal::clamp(element, begin_1, end_1 - 1u), kind_4, job, offsets, _buffer_sizes);
-    return _e12;
+    uint _e4 = tile_at(begin_1, job);
+    uint _e8 = job.tile_bits;
+    uint element_1 = (_e4 + number) << _e8;
+    uint _e13 = patch_of(metal::clamp(element_1, begin_1, end_2 - 1u), kind_4, job, offsets, _buffer_sizes);
+    return _e13;
+}
+
+void write_entry(
+    uint number_1,
+    Range range,
+    constant Job& job,
+    device type_4 const& offsets,
+    device type_5& tiles,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint _e4 = entries(range.points_begin, range.points_end, job);
+    uint _e7 = entries(range.primitives_begin, range.primitives_end, job);
+    if (number_1 < _e4) {
+        uint _e14 = entry_of(number_1, range.points_begin, range.points_end, POINTS, job, offsets, _buffer_sizes);
+        tiles[metal::min(unsigned(number_1), (_buffer_sizes.size2 - 0 - 4) / 4)] = _e14;
+        return;
+    } else {
+        if ((number_1 - _e4) < _e7) {
+            uint own = number_1 - _e4;
+            uint _e21 = job.primitive_tiles_at;
+            uint _e27 = entry_of(own, range.primitives_begin, range.primitives_end, PRIMITIVES, job, offsets, _buffer_sizes);
+            tiles[metal::min(unsigned(_e21 + own), (_buffer_sizes.size2 - 0 - 4) / 4)] = _e27;
+            return;
+        } else {
+            return;
+        }
+    }
 }
 
 struct partition_tilesInput {
@@ -228,29 +273,14 @@ kernel void partition_tiles(
 , uint thread_ [[thread_index_in_threadgroup]]
 , constant Job& job [[buffer(0)]]
 , device type_4 const& offsets [[buffer(1)]]
-, device Status const& status [[buffer(2)]]
 , device type_5& tiles [[buffer(3)]]
+, device Status const& status [[buffer(2)]]
 , constant _mslBufferSizes& _buffer_sizes [[buffer(4)]]
 ) {
     uint _e6 = job.max_workgroups;
-    uint number_1 = ((workgroup.x + (workgroup.y * _e6)) * WORKGROUP) + thread_;
+    uint number_2 = ((workgroup.x + (workgroup.y * _e6)) * WORKGROUP) + thread_;
     uint _e16 = job.chunk;
-    Range range = status.ranges[metal::min(unsigned(_e16), (_buffer_sizes.size2 - 32 - 16) / 16)];
-    uint _e21 = entries(range.points_begin, range.points_end);
-    uint _e24 = entries(range.primitives_begin, range.primitives_end);
-    if (number_1 < _e21) {
-        uint _e31 = entry(number_1, range.points_begin, range.points_end, POINTS, job, offsets, _buffer_sizes);
-        tiles[metal::min(unsigned(number_1), (_buffer_sizes.size3 - 0 - 4) / 4)] = _e31;
-        return;
-    } else {
-        if ((number_1 - _e21) < _e24) {
-            uint own = number_1 - _e21;
-            uint _e38 = job.primitive_tiles_at;
-            uint _e44 = entry(own, range.primitives_begin, range.primitives_end, PRIMITIVES, job, offsets, _buffer_sizes);
-            tiles[metal::min(unsigned(_e38 + own), (_buffer_sizes.size3 - 0 - 4) / 4)] = _e44;
-            return;
-        } else {
-            return;
-        }
-    }
+    Range _e18 = status.ranges[metal::min(unsigned(_e16), (_buffer_sizes.size3 - 32 - 16) / 16)];
+    write_entry(number_2, _e18, job, offsets, tiles, _buffer_sizes);
+    return;
 }

@@ -22,7 +22,7 @@ struct Job {
     uint stride;
     uint blocks_at;
     uint alike_at;
-    uint groups_at;
+    uint sections_at;
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
@@ -34,6 +34,7 @@ struct Job {
     uint point_window_tiles;
     uint primitive_window_tiles;
     uint max_workgroups;
+    uint tile_bits;
 };
 struct Range {
     uint points_begin;
@@ -62,15 +63,14 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint WORKGROUP = 64u;
-constant uint TILE = 2048u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
 constant uint BLOCK = 256u;
 constant uint BLOCK_BITS = 8u;
-constant uint GROUP_BLOCKS = 256u;
-constant uint GROUP_BLOCK_BITS = 8u;
-constant uint GROUP = 65536u;
-constant uint GROUP_BITS = 16u;
+constant uint SECTION_BLOCKS = 256u;
+constant uint SECTION_BLOCK_BITS = 8u;
+constant uint SECTION = 65536u;
+constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
@@ -185,8 +185,8 @@ kernel void scan(
     metal::uint2 own = metal::uint2(0u, 0u);
     bool local = {};
     uint _e6 = job.max_workgroups;
-    uint group = workgroup.x + (workgroup.y * _e6);
-    uint block = (group * GROUP_BLOCKS) + thread_;
+    uint section = workgroup.x + (workgroup.y * _e6);
+    uint block = (section * SECTION_BLOCKS) + thread_;
     uint _e16 = block_count(job);
     if (block < _e16) {
         uint _e21 = job.blocks_at;
@@ -208,8 +208,8 @@ kernel void scan(
     }
     bool _e43 = local;
     if (_e43) {
-        uint _e47 = job.groups_at;
-        offsets[metal::min(unsigned(_e47 + group), (_buffer_sizes.size2 - 0 - 8) / 8)] = _e26.all;
+        uint _e47 = job.sections_at;
+        offsets[metal::min(unsigned(_e47 + section), (_buffer_sizes.size2 - 0 - 8) / 8)] = _e26.all;
         return;
     } else {
         return;

@@ -5,18 +5,11 @@
 using metal::uint;
 
 struct _mslBufferSizes {
+    uint size1;
     uint size2;
-    uint size3;
     uint size4;
 };
 
-struct type_2 {
-    metal::uint2 inner[341];
-};
-struct Sums {
-    metal::uint2 before;
-    metal::uint2 all;
-};
 struct Job {
     uint patches;
     uint first_patch;
@@ -24,7 +17,7 @@ struct Job {
     uint stride;
     uint blocks_at;
     uint alike_at;
-    uint groups_at;
+    uint sections_at;
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
@@ -36,6 +29,7 @@ struct Job {
     uint point_window_tiles;
     uint primitive_window_tiles;
     uint max_workgroups;
+    uint tile_bits;
 };
 struct Range {
     uint points_begin;
@@ -43,7 +37,7 @@ struct Range {
     uint primitives_begin;
     uint primitives_end;
 };
-typedef Range type_4[1];
+typedef Range type_2[1];
 struct Status {
     uint points;
     uint points_high;
@@ -53,10 +47,17 @@ struct Status {
     uint reserved_0_;
     uint reserved_1_;
     uint reserved_2_;
-    type_4 ranges;
+    type_2 ranges;
 };
-typedef metal::uint2 type_5[1];
-typedef uint type_6[1];
+typedef uint type_3[1];
+struct type_5 {
+    metal::uint2 inner[341];
+};
+struct Sums {
+    metal::uint2 before;
+    metal::uint2 all;
+};
+typedef metal::uint2 type_6[1];
 struct type_8 {
     metal::atomic_uint inner[2];
 };
@@ -68,15 +69,14 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint WORKGROUP = 64u;
-constant uint TILE = 2048u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
 constant uint BLOCK = 256u;
 constant uint BLOCK_BITS = 8u;
-constant uint GROUP_BLOCKS = 256u;
-constant uint GROUP_BLOCK_BITS = 8u;
-constant uint GROUP = 65536u;
-constant uint GROUP_BITS = 16u;
+constant uint SECTION_BLOCKS = 256u;
+constant uint SECTION_BLOCK_BITS = 8u;
+constant uint SECTION = 65536u;
+constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
@@ -86,10 +86,6 @@ constant uint FAN_STITCH = 65u;
 constant uint RING_STITCH = 4096u;
 constant uint MIRRORED_STRIP = 4160u;
 constant uint PLAIN_STRIP = 4224u;
-constant uint FOURS = 256u;
-constant uint SIXTEENS = 320u;
-constant uint SIXTY_FOURS = 336u;
-constant uint WHOLE = 340u;
 constant uint ISOLINE = 0u;
 constant uint TRIANGLE = 1u;
 constant uint QUAD = 2u;
@@ -114,57 +110,26 @@ constant bool IS_INTEGER = false;
 constant uint EDGES = 4u;
 constant bool IS_TRIANGLES = true;
 constant uint INDICES = 3u;
+constant uint FOURS = 256u;
+constant uint SIXTEENS = 320u;
+constant uint SIXTY_FOURS = 336u;
+constant uint WHOLE = 340u;
 
-void add_four(
-    uint from_at,
-    uint to_at,
-    threadgroup type_2& sums
+uint tile_at(
+    uint element,
+    constant Job& job
 ) {
-    metal::uint2 first = sums.inner[metal::min(unsigned(from_at), 340u)];
-    metal::uint2 _e9 = sums.inner[metal::min(unsigned(from_at + 1u), 340u)];
-    metal::uint2 second = first + _e9;
-    metal::uint2 _e15 = sums.inner[metal::min(unsigned(from_at + 2u), 340u)];
-    metal::uint2 third = second + _e15;
-    metal::uint2 _e23 = sums.inner[metal::min(unsigned(from_at + 3u), 340u)];
-    sums.inner[metal::min(unsigned(to_at), 340u)] = third + _e23;
-    sums.inner[metal::min(unsigned(from_at), 340u)] = metal::uint2(0u);
-    sums.inner[metal::min(unsigned(from_at + 1u), 340u)] = first;
-    sums.inner[metal::min(unsigned(from_at + 2u), 340u)] = second;
-    sums.inner[metal::min(unsigned(from_at + 3u), 340u)] = third;
-    return;
+    uint _e3 = job.tile_bits;
+    return element >> _e3;
 }
 
-Sums prefix_sums(
-    uint thread_1,
-    metal::uint2 own_1,
-    threadgroup type_2& sums
+uint tile_end(
+    uint end,
+    constant Job& job
 ) {
-    sums.inner[metal::min(unsigned(thread_1), 340u)] = own_1;
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    if (thread_1 < 64u) {
-        add_four(4u * thread_1, FOURS + thread_1, sums);
-    }
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    if (thread_1 < 16u) {
-        add_four(FOURS + (4u * thread_1), SIXTEENS + thread_1, sums);
-    }
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    if (thread_1 < 4u) {
-        add_four(SIXTEENS + (4u * thread_1), SIXTY_FOURS + thread_1, sums);
-    }
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    if (thread_1 == 0u) {
-        add_four(SIXTY_FOURS, WHOLE, sums);
-    }
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    metal::uint2 _e32 = sums.inner[metal::min(unsigned(thread_1), 340u)];
-    metal::uint2 _e39 = sums.inner[metal::min(unsigned(FOURS + (thread_1 >> 2u)), 340u)];
-    metal::uint2 _e47 = sums.inner[metal::min(unsigned(SIXTEENS + (thread_1 >> 4u)), 340u)];
-    metal::uint2 _e55 = sums.inner[metal::min(unsigned(SIXTY_FOURS + (thread_1 >> 6u)), 340u)];
-    metal::uint2 before = ((_e32 + _e39) + _e47) + _e55;
-    metal::uint2 all = sums.inner[340];
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    return Sums {before, all};
+    uint _e4 = job.tile_bits;
+    uint _e11 = job.tile_bits;
+    return ((end + (1u << _e4)) - 1u) >> _e11;
 }
 
 uint naga_div(uint lhs, uint rhs) {
@@ -175,7 +140,7 @@ void write_dispatch(
     uint number,
     uint workgroups,
     constant Job& job,
-    device type_6& arguments,
+    device type_3& arguments,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint _e4 = job.max_workgroups;
@@ -183,35 +148,41 @@ void write_dispatch(
     uint rows = naga_div((workgroups + _e4) - 1u, _e10);
     uint at = DISPATCHES_AT + (3u * number);
     uint _e20 = job.max_workgroups;
-    arguments[metal::min(unsigned(at), (_buffer_sizes.size4 - 0 - 4) / 4)] = (rows <= 1u) ? workgroups : _e20;
-    arguments[metal::min(unsigned(at + 1u), (_buffer_sizes.size4 - 0 - 4) / 4)] = metal::max(rows, 1u);
-    arguments[metal::min(unsigned(at + 2u), (_buffer_sizes.size4 - 0 - 4) / 4)] = 1u;
+    arguments[metal::min(unsigned(at), (_buffer_sizes.size1 - 0 - 4) / 4)] = (rows <= 1u) ? workgroups : _e20;
+    arguments[metal::min(unsigned(at + 1u), (_buffer_sizes.size1 - 0 - 4) / 4)] = metal::max(rows, 1u);
+    arguments[metal::min(unsigned(at + 2u), (_buffer_sizes.size1 - 0 - 4) / 4)] = 1u;
     return;
 }
 
 uint tiles_between(
-    uint begin,
-    uint end
+    uint begin_1,
+    uint end_1,
+    constant Job& job
 ) {
-    return (end > begin) ? (naga_div((end + TILE) - 1u, TILE) - naga_div(begin, TILE)) : 0u;
+    uint _e3 = tile_end(end_1, job);
+    uint _e4 = tile_at(begin_1, job);
+    return (end_1 > begin_1) ? (_e3 - _e4) : 0u;
 }
 
 uint tiles_in_window(
-    uint begin_1,
-    uint end_1,
+    uint begin_2,
+    uint end_2,
     uint window,
-    uint window_tiles
+    uint window_tiles,
+    constant Job& job
 ) {
     bool local = {};
-    uint first_1 = metal::max(naga_div(begin_1, TILE), window * window_tiles);
-    uint last = metal::min(naga_div((end_1 + TILE) - 1u, TILE), (window + 1u) * window_tiles);
-    if (last > first_1) {
-        local = end_1 > begin_1;
+    uint _e4 = tile_at(begin_2, job);
+    uint first = metal::max(_e4, window * window_tiles);
+    uint _e7 = tile_end(end_2, job);
+    uint last = metal::min(_e7, (window + 1u) * window_tiles);
+    if (last > first) {
+        local = end_2 > begin_2;
     } else {
         local = false;
     }
-    bool _e25 = local;
-    return _e25 ? (last - first_1) : 0u;
+    bool _e19 = local;
+    return _e19 ? (last - first) : 0u;
 }
 
 uint workgroups_of(
@@ -220,20 +191,20 @@ uint workgroups_of(
     constant Job& job
 ) {
     if (slot == 0u) {
-        uint _e6 = tiles_between(range.points_begin, range.points_end);
-        uint _e9 = tiles_between(range.primitives_begin, range.primitives_end);
+        uint _e6 = tiles_between(range.points_begin, range.points_end, job);
+        uint _e9 = tiles_between(range.primitives_begin, range.primitives_end, job);
         uint count = _e6 + _e9;
         return naga_div(((count + 2u) + WORKGROUP) - 1u, WORKGROUP);
     }
     uint _e21 = job.point_windows;
     if (slot <= _e21) {
         uint _e29 = job.point_window_tiles;
-        uint _e30 = tiles_in_window(range.points_begin, range.points_end, slot - 1u, _e29);
+        uint _e30 = tiles_in_window(range.points_begin, range.points_end, slot - 1u, _e29, job);
         return _e30;
     }
     uint _e37 = job.point_windows;
     uint _e41 = job.primitive_window_tiles;
-    uint _e42 = tiles_in_window(range.primitives_begin, range.primitives_end, (slot - 1u) - _e37, _e41);
+    uint _e42 = tiles_in_window(range.primitives_begin, range.primitives_end, (slot - 1u) - _e37, _e41, job);
     return _e42;
 }
 
@@ -270,10 +241,10 @@ uint naga_mod(uint lhs, uint rhs) {
 }
 
 void finish(
-    uint thread_2,
+    uint thread_1,
     constant Job& job,
+    device type_3& arguments,
     device Status& status,
-    device type_6& arguments,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint slot_1 = {};
@@ -281,7 +252,7 @@ void finish(
     uint _e8 = job.primitive_windows;
     uint slots = (1u + _e4) + _e8;
     uint _e10 = overflow(job, status, _buffer_sizes);
-    slot_1 = thread_2;
+    slot_1 = thread_1;
     uint2 loop_bound = uint2(4294967295u);
     bool loop_init = true;
     while(true) {
@@ -301,44 +272,98 @@ void finish(
         {
             uint _e18 = slot_1;
             uint _e22 = slot_1;
-            Range _e25 = status.ranges[metal::min(unsigned(naga_div(_e22, slots)), (_buffer_sizes.size3 - 32 - 16) / 16)];
+            Range _e25 = status.ranges[metal::min(unsigned(naga_div(_e22, slots)), (_buffer_sizes.size2 - 32 - 16) / 16)];
             uint _e26 = workgroups_of(naga_mod(_e18, slots), _e25, job);
             uint _e27 = slot_1;
             write_dispatch(_e27, (_e10 != 0u) ? 0u : _e26, job, arguments, _buffer_sizes);
         }
     }
-    if (thread_2 == 0u) {
+    if (thread_1 == 0u) {
         status.overflow = _e10;
         uint _e43 = status.primitives;
-        arguments[metal::min(unsigned(0), (_buffer_sizes.size4 - 0 - 4) / 4)] = (_e10 != 0u) ? 0u : (_e43 * INDICES);
-        arguments[metal::min(unsigned(1), (_buffer_sizes.size4 - 0 - 4) / 4)] = 1u;
-        arguments[metal::min(unsigned(2), (_buffer_sizes.size4 - 0 - 4) / 4)] = 0u;
-        arguments[metal::min(unsigned(3), (_buffer_sizes.size4 - 0 - 4) / 4)] = 0u;
-        arguments[metal::min(unsigned(4), (_buffer_sizes.size4 - 0 - 4) / 4)] = 0u;
+        arguments[metal::min(unsigned(0), (_buffer_sizes.size1 - 0 - 4) / 4)] = (_e10 != 0u) ? 0u : (_e43 * INDICES);
+        arguments[metal::min(unsigned(1), (_buffer_sizes.size1 - 0 - 4) / 4)] = 1u;
+        arguments[metal::min(unsigned(2), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
+        arguments[metal::min(unsigned(3), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
+        arguments[metal::min(unsigned(4), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
         return;
     } else {
         return;
     }
 }
 
+void add_four(
+    uint from_at,
+    uint to_at,
+    threadgroup type_5& sums
+) {
+    metal::uint2 first_1 = sums.inner[metal::min(unsigned(from_at), 340u)];
+    metal::uint2 _e9 = sums.inner[metal::min(unsigned(from_at + 1u), 340u)];
+    metal::uint2 second = first_1 + _e9;
+    metal::uint2 _e15 = sums.inner[metal::min(unsigned(from_at + 2u), 340u)];
+    metal::uint2 third = second + _e15;
+    metal::uint2 _e23 = sums.inner[metal::min(unsigned(from_at + 3u), 340u)];
+    sums.inner[metal::min(unsigned(to_at), 340u)] = third + _e23;
+    sums.inner[metal::min(unsigned(from_at), 340u)] = metal::uint2(0u);
+    sums.inner[metal::min(unsigned(from_at + 1u), 340u)] = first_1;
+    sums.inner[metal::min(unsigned(from_at + 2u), 340u)] = second;
+    sums.inner[metal::min(unsigned(from_at + 3u), 340u)] = third;
+    return;
+}
+
+Sums prefix_sums(
+    uint thread_2,
+    metal::uint2 own_1,
+    threadgroup type_5& sums
+) {
+    sums.inner[metal::min(unsigned(thread_2), 340u)] = own_1;
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_2 < 64u) {
+        add_four(4u * thread_2, FOURS + thread_2, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_2 < 16u) {
+        add_four(FOURS + (4u * thread_2), SIXTEENS + thread_2, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_2 < 4u) {
+        add_four(SIXTEENS + (4u * thread_2), SIXTY_FOURS + thread_2, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_2 == 0u) {
+        add_four(SIXTY_FOURS, WHOLE, sums);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    metal::uint2 _e32 = sums.inner[metal::min(unsigned(thread_2), 340u)];
+    metal::uint2 _e39 = sums.inner[metal::min(unsigned(FOURS + (thread_2 >> 2u)), 340u)];
+    metal::uint2 _e47 = sums.inner[metal::min(unsigned(SIXTEENS + (thread_2 >> 4u)), 340u)];
+    metal::uint2 _e55 = sums.inner[metal::min(unsigned(SIXTY_FOURS + (thread_2 >> 6u)), 340u)];
+    metal::uint2 before = ((_e32 + _e39) + _e47) + _e55;
+    metal::uint2 all = sums.inner[340];
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    return Sums {before, all};
+}
+
 struct totalsInput {
 };
 kernel void totals(
   uint thread_ [[thread_index_in_threadgroup]]
-, threadgroup type_2& sums
 , constant Job& job [[buffer(0)]]
-, device type_5& offsets [[buffer(1)]]
+, device type_3& arguments [[buffer(3)]]
 , device Status& status [[buffer(2)]]
-, device type_6& arguments [[buffer(3)]]
+, threadgroup type_5& sums
+, device type_6& offsets [[buffer(1)]]
 , threadgroup type_8& carries
 , constant _mslBufferSizes& _buffer_sizes [[buffer(4)]]
 ) {
     metal::uint2 own = metal::uint2(0u, 0u);
+    metal::uint2 begin = metal::uint2(0u, 0u);
+    metal::uint2 high = metal::uint2(0u, 0u);
     uint _e3 = job.patches;
-    uint groups = naga_div((_e3 + GROUP) - 1u, GROUP);
-    if (thread_ < groups) {
-        uint _e18 = job.groups_at;
-        metal::uint2 _e21 = offsets[metal::min(unsigned(_e18 + thread_), (_buffer_sizes.size2 - 0 - 8) / 8)];
+    uint sections = naga_div((_e3 + SECTION) - 1u, SECTION);
+    if (thread_ < sections) {
+        uint _e18 = job.sections_at;
+        metal::uint2 _e21 = offsets[metal::min(unsigned(_e18 + thread_), (_buffer_sizes.size4 - 0 - 8) / 8)];
         own = _e21;
     }
     if (thread_ < 2u) {
@@ -346,38 +371,48 @@ kernel void totals(
     }
     metal::uint2 _e27 = own;
     Sums _e28 = prefix_sums(thread_, _e27, sums);
-    uint _e31 = status.points;
-    uint _e34 = status.primitives;
-    metal::uint2 begin_2 = metal::uint2(_e31, _e34);
-    metal::uint2 own_begin = begin_2 + _e28.before;
-    metal::uint2 _e38 = own;
-    metal::uint2 carry = static_cast<metal::uint2>((own_begin + _e38) < own_begin);
-    uint _e45 = metal::atomic_fetch_add_explicit(&carries.inner[0], carry.x, metal::memory_order_relaxed);
-    uint _e49 = metal::atomic_fetch_add_explicit(&carries.inner[1], carry.y, metal::memory_order_relaxed);
+    uint _e39 = job.chunk;
+    if (_e39 > 0u) {
+        uint _e44 = status.points;
+        uint _e47 = status.primitives;
+        begin = metal::uint2(_e44, _e47);
+        uint _e51 = status.points_high;
+        uint _e54 = status.primitives_high;
+        high = metal::uint2(_e51, _e54);
+    }
+    metal::uint2 _e56 = begin;
+    metal::uint2 own_begin = _e56 + _e28.before;
+    metal::uint2 _e59 = own;
+    metal::uint2 carry = static_cast<metal::uint2>((own_begin + _e59) < own_begin);
+    uint _e66 = metal::atomic_fetch_add_explicit(&carries.inner[0], carry.x, metal::memory_order_relaxed);
+    uint _e70 = metal::atomic_fetch_add_explicit(&carries.inner[1], carry.y, metal::memory_order_relaxed);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     metal::threadgroup_barrier(metal::mem_flags::mem_device);
-    if (thread_ < groups) {
-        uint _e54 = job.groups_at;
-        offsets[metal::min(unsigned(_e54 + thread_), (_buffer_sizes.size2 - 0 - 8) / 8)] = own_begin;
+    if (thread_ < sections) {
+        uint _e75 = job.sections_at;
+        offsets[metal::min(unsigned(_e75 + thread_), (_buffer_sizes.size4 - 0 - 8) / 8)] = own_begin;
     }
     if (thread_ == 0u) {
-        metal::uint2 end_2 = begin_2 + _e28.all;
-        uint _e65 = job.chunk;
-        status.ranges[metal::min(unsigned(_e65), (_buffer_sizes.size3 - 32 - 16) / 16)] = Range {begin_2.x, end_2.x, begin_2.y, end_2.y};
-        status.points = end_2.x;
-        uint _e77 = status.points_high;
-        uint _e80 = metal::atomic_load_explicit(&carries.inner[0], metal::memory_order_relaxed);
-        status.points_high = _e77 + _e80;
-        status.primitives = end_2.y;
-        uint _e87 = status.primitives_high;
-        uint _e90 = metal::atomic_load_explicit(&carries.inner[1], metal::memory_order_relaxed);
-        status.primitives_high = _e87 + _e90;
+        metal::uint2 _e80 = begin;
+        metal::uint2 end_3 = _e80 + _e28.all;
+        uint _e87 = job.chunk;
+        uint _e90 = begin.x;
+        uint _e93 = begin.y;
+        status.ranges[metal::min(unsigned(_e87), (_buffer_sizes.size2 - 32 - 16) / 16)] = Range {_e90, end_3.x, _e93, end_3.y};
+        status.points = end_3.x;
+        uint _e102 = high.x;
+        uint _e105 = metal::atomic_load_explicit(&carries.inner[0], metal::memory_order_relaxed);
+        status.points_high = _e102 + _e105;
+        status.primitives = end_3.y;
+        uint _e113 = high.y;
+        uint _e116 = metal::atomic_load_explicit(&carries.inner[1], metal::memory_order_relaxed);
+        status.primitives_high = _e113 + _e116;
     }
     metal::threadgroup_barrier(metal::mem_flags::mem_device);
-    uint _e94 = job.chunk;
-    uint _e99 = job.chunks;
-    if ((_e94 + 1u) >= _e99) {
-        finish(thread_, job, status, arguments, _buffer_sizes);
+    uint _e120 = job.chunk;
+    uint _e125 = job.chunks;
+    if ((_e120 + 1u) >= _e125) {
+        finish(thread_, job, arguments, status, _buffer_sizes);
         return;
     } else {
         return;
