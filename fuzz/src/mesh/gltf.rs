@@ -19,6 +19,9 @@ pub fn check(data: &[u8]) -> Result<(), String> {
     let read = fuzzing::gltf(data, MOST);
     if let Ok(mesh) = &read {
         models(mesh.clone())?;
+        if is_only_skipped(data) {
+            return Ok(());
+        }
     }
     super::check(read, mesh_words, names_a_place, || naive(data))
 }
@@ -43,6 +46,32 @@ fn names_a_place(message: &str) -> bool {
     is_path || place.starts_with("GLB ") || message.contains(" at line ")
 }
 
+/// Whether the JSON has what serde_json refuses in a value that it keeps, as the independent reading
+/// does with all, but not in one that it skips.
+fn is_only_skipped(data: &[u8]) -> bool {
+    const FAULTS: [&str; 4] = [
+        "number out of range",
+        "recursion limit",
+        "lone leading surrogate",
+        "unexpected end of hex",
+    ];
+    let message = serde_json::from_slice::<Value>(json_and_blob(data).0);
+    let message = message.map_or_else(|error| error.to_string(), |_| String::new());
+    FAULTS.iter().any(|fault| message.starts_with(fault))
+}
+
+/// The JSON of a file in either form, and the bytes of its binary chunk.
+fn json_and_blob(data: &[u8]) -> (&[u8], &[u8]) {
+    let length = data.get(12..16).and_then(|bytes| bytes.first_chunk().copied());
+    let end = length.map(|length| 20 + u32::from_le_bytes(length) as usize);
+    match end {
+        Some(end) if data.starts_with(b"glTF") && end <= data.len() => {
+            (&data[20..end], data.get(end + 8..).unwrap_or_default())
+        }
+        _ => (data, &[]),
+    }
+}
+
 type Matrix = [[f32; 4]; 4];
 
 const IDENTITY: Matrix =
@@ -54,13 +83,7 @@ struct File {
 }
 
 fn naive(data: &[u8]) -> Option<PolygonMesh> {
-    let word = |at: usize| Some(u32::from_le_bytes(*data.get(at..)?.first_chunk()?) as usize);
-    let (json, blob) = if data.starts_with(b"glTF") {
-        let end = 20 + word(12)?;
-        (&data[20..end], data.get(end + 8..).unwrap_or_default())
-    } else {
-        (data, &[][..])
-    };
+    let (json, blob) = json_and_blob(data);
     let json: Value = serde_json::from_slice(json).ok()?;
     let buffers = list(&json["buffers"]).iter().map(|buffer| match buffer["uri"].as_str() {
         Some(uri) => BASE64_STANDARD.decode(uri.split_once(";base64,")?.1).ok(),

@@ -190,7 +190,7 @@ fn no_pictures_on_terminals() {
         ("mesh --factor 1 --format glb -o -".to_owned(), 2),
         (PATCH.to_owned(), 0),
     ] {
-        let (_keep, terminal) = terminal();
+        let terminal = terminal();
         let output = command(&words).stdout(terminal).output().expect("tess runs");
         let run = Run::from(output);
         assert_eq!(run.code, Some(code), "{words}: {}", run.stderr);
@@ -198,8 +198,8 @@ fn no_pictures_on_terminals() {
     }
 }
 
-/// Both sides of a terminal; the second is what a program sees.
-fn terminal() -> (std::os::fd::OwnedFd, fs::File) {
+/// A terminal, as a program sees it. What is written there is read, and forgotten.
+fn terminal() -> fs::File {
     use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
     let ours = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a terminal");
     grantpt(&ours).expect("granted");
@@ -207,5 +207,7 @@ fn terminal() -> (std::os::fd::OwnedFd, fs::File) {
     let name = ptsname(&ours, Vec::new()).expect("its name");
     let path = Path::new(name.to_str().expect("a path"));
     let theirs = fs::File::options().read(true).write(true).open(path).expect("its other side");
-    (ours, theirs)
+    // The copy ends, with an error, when nobody has the other side.
+    std::thread::spawn(move || std::io::copy(&mut fs::File::from(ours), &mut std::io::sink()));
+    theirs
 }

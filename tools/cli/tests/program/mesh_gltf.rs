@@ -197,6 +197,20 @@ fn bytes_that_are_not_there() {
     );
 }
 
+/// JSON is UTF-8, also in the members that nobody reads.
+#[test]
+fn text_that_is_not_utf8() {
+    let folder = directory("mesh_gltf_utf8");
+    let (mut document, bytes) = triangle();
+    document["extras"] = json!("caf\u{e9}");
+    let input = write_gltf(&folder, "text.gltf", document, &bytes);
+    mesh(&input, "--factor 1", &folder.join("out.obj"));
+    let text = fs::read(&input).expect("it was written");
+    let at = text.windows(2).position(|pair| pair == "\u{e9}".as_bytes()).expect("an e acute");
+    let latin = [b"\n", &text[..at], b"\xE9", &text[at + 2..]].concat();
+    refused(&write(&folder, "latin.gltf", latin), "", "the JSON is not UTF-8 at line 2");
+}
+
 #[test]
 fn documents_for_other_readers() {
     check(

@@ -208,3 +208,34 @@ fn images_are_no_larger_than_the_limit() {
     let cut = write(&folder, "cut.png", &whole[..whole.len() - 12]);
     assert_eq!(displaced(&cube, &cut, "").code, Some(2), "a file without its end");
 }
+
+/// Palettes that end within a colour, and those with none or with more than a byte can name.
+#[test]
+fn palettes_are_whole_colours() {
+    let folder = directory("mesh_png_palette");
+    let cube = write(&folder, "cube.obj", CUBE);
+    let with_palette = |length: usize| {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
+        encoder.set_color(png::ColorType::Indexed);
+        encoder.set_palette(vec![7; length]);
+        let mut writer = encoder.write_header().expect("a header is written");
+        writer.write_image_data(&[0]).expect("one pixel");
+        drop(writer);
+        displaced(&cube, &write(&folder, "palette.png", bytes), "")
+    };
+    for length in [4, 5, 53, 767] {
+        let run = with_palette(length);
+        let message = format!("the palette has {length} bytes; it must be whole colours");
+        let refused = run.code == Some(2) && run.stderr.contains(&message);
+        assert!(refused, "{length}: {:?} {}", run.code, run.stderr);
+    }
+    for length in [1, 2, 769, 771] {
+        let run = with_palette(length);
+        let refused = run.code == Some(2) && run.stderr.contains("PLTE");
+        assert!(refused, "{length}: {:?} {}", run.code, run.stderr);
+    }
+    for length in [3, 6, 768] {
+        assert_eq!(with_palette(length).code, Some(0), "{length} bytes are whole colours");
+    }
+}

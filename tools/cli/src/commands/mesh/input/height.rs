@@ -50,6 +50,7 @@ pub(crate) fn decode(file: impl BufRead + Seek, most: u64) -> Result<Heights, St
     let row = (width as usize).saturating_mul(MOST_OF_PIXEL);
     decoder.set_limits(Limits { bytes: MOST_BESIDE.saturating_add(row) });
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    check_palette(reader.info().palette.as_deref())?;
     let size = reader.output_buffer_size().ok_or("the image does not fit into memory")?;
     let mut bytes = vec![0; size];
     let info = reader.next_frame(&mut bytes).map_err(|error| error.to_string())?;
@@ -73,6 +74,16 @@ pub(crate) fn decode(file: impl BufRead + Seek, most: u64) -> Result<Heights, St
         }
     };
     Ok(Heights { width: info.width as usize, height: info.height as usize, texels })
+}
+
+/// The decoder panics where a palette ends within a colour. It refuses those that are too long.
+fn check_palette(palette: Option<&[u8]>) -> Result<(), String> {
+    match palette.map(<[u8]>::len) {
+        Some(length) if !length.is_multiple_of(3) => {
+            Err(format!("the palette has {length} bytes; it must be whole colours of three bytes"))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn luma<T>(pixel: &[T], value: impl Fn(&T) -> f32) -> f32 {

@@ -231,7 +231,12 @@ fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Op
 /// # Errors
 /// Text that is not JSON, a value of the wrong type, a document for other readers than this.
 pub(super) fn parse(json: &[u8]) -> Result<Document, String> {
-    let mut text = serde_json::Deserializer::from_slice(json);
+    // The parser would not look at strings that nobody asks for.
+    let json = str::from_utf8(json).map_err(|error| {
+        let lines = json[..error.valid_up_to()].split(|&byte| byte == b'\n').count();
+        format!("the JSON is not UTF-8 at line {lines}")
+    })?;
+    let mut text = serde_json::Deserializer::from_str(json);
     let document: Document = serde_path_to_error::deserialize(&mut text)
         .map_err(|error| broken(error.path(), error.inner()))?;
     text.end().map_err(|error| error.to_string())?;
