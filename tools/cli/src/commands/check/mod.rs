@@ -3,7 +3,6 @@
 mod strength;
 
 use crate::backends::{BackendName, BackendOptions};
-use crate::explanation::{PointReport, PrimitiveReport};
 use crate::failure::{Exit, Failure};
 use crate::output::{progress, stdout, stop_when_reader_leaves};
 use std::fs::File;
@@ -14,6 +13,7 @@ use strength::StrengthArgs;
 use tess_verify::backend::Backend;
 use tess_verify::checker::{self, CheckError, Difference, Report, Tested};
 use tess_verify::compare::Element;
+use tess_verify::explanation::{PointReport, PrimitiveReport};
 use tess_verify::vectors::VectorFile;
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
