@@ -2,12 +2,13 @@
 //!
 //! `commands` has a folder for each command. What they share lies beside it: `args` (a patch on the
 //! command line), `backends` (who tessellates it), `formats` and `png` (what it is shown as), `output`
-//! (where results go) and `failure` (how a command ends). Drawings and explanations are made by
+//! and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and explanations are made by
 //! `tess-verify`.
 
 mod args;
 mod backends;
 mod commands;
+mod coverage_file;
 mod failure;
 mod formats;
 mod output;
