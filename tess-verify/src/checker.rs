@@ -34,8 +34,8 @@ pub enum Tested {
 /// Checks every record of a file.
 ///
 /// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
-/// to use; the report does not depend on their number. `progress` is called from any thread, with the
-/// number of records that were checked since its last call.
+/// to use; the report does not depend on their number. `checked` is called from any thread, with the
+/// records that were checked since its last call; each comes once.
 ///
 /// # Errors
 /// A file that is malformed, truncated or too long, which is known at its end: the report of a
@@ -45,7 +45,7 @@ pub fn check<R: BufRead + Send>(
     file: VectorFile<R>,
     backends: &mut [Box<dyn Backend>],
     tested: Tested,
-    progress: &(dyn Fn(u64) + Sync),
+    checked: &(dyn Fn(&[Record]) + Sync),
 ) -> Result<Report, CheckError> {
     if backends.is_empty() {
         return Err(BackendError::new("no backend to check with").into());
@@ -57,7 +57,7 @@ pub fn check<R: BufRead + Send>(
     let how = How { header, tested };
     let source = Mutex::new(Source { file, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
-        let result = run(&how, &source, backend.as_mut(), progress);
+        let result = run(&how, &source, backend.as_mut(), checked);
         if result.is_err() {
             lock(&source).stopped.get_or_insert(Ok(()));
         }
@@ -148,7 +148,7 @@ fn run<R: BufRead>(
     how: &How,
     source: &Mutex<Source<R>>,
     backend: &mut dyn Backend,
-    progress: &(dyn Fn(u64) + Sync),
+    checked: &(dyn Fn(&[Record]) + Sync),
 ) -> Result<Findings, BackendError> {
     let mut findings = Findings::default();
     loop {
@@ -159,7 +159,7 @@ fn run<R: BufRead>(
             let file = || report::file_of(&how.header, record);
             findings.add(number, Some(record.line()), found, file);
         }
-        progress(unit.records.len() as u64);
+        checked(&unit.records);
     }
 }
 

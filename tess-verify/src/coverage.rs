@@ -5,13 +5,17 @@
 
 mod bins;
 mod observe;
+mod ucis;
 
 use crate::case::Case;
 use std::collections::BTreeMap;
+use std::fmt;
+use tess_core::{FactorContext, SplitOrder};
+pub use ucis::UcisError;
 
 /// How often each bin was hit. A bin is a path such as `middle/oddxeven`; the part before the
 /// first `/` is its group.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coverage {
     hits: BTreeMap<String, u64>,
 }
@@ -46,10 +50,56 @@ impl Coverage {
     /// # Panics
     /// In debug builds, if a case hits a bin that was not declared: a fault of this module.
     pub fn record(&mut self, case: &Case) {
-        observe::observe(case, |bin| match self.hits.get_mut(&bin) {
-            Some(hits) => *hits += 1,
-            None => debug_assert!(false, "bin {bin} is not declared ({case})"),
+        observe::observe(case, |bin| {
+            let declared = self.add(&bin, 1);
+            debug_assert!(declared, "bin {bin} is not declared ({case})");
         });
+    }
+
+    /// Counts the bins that one factor's context hits, for the bench of a stage that sees no patch:
+    /// those of the groups `context` and `exceptional`.
+    ///
+    /// # Panics
+    /// In debug builds, if the context is none that a factor has.
+    pub fn record_context(&mut self, split: SplitOrder, context: &FactorContext) {
+        observe::context(split, context, &mut |bin| {
+            let declared = self.add(&bin, 1);
+            debug_assert!(declared, "bin {bin} is not declared ({context:?})");
+        });
+    }
+
+    /// Adds to the hits of a bin, up to the largest `u64`; whether there is such a bin.
+    pub fn add(&mut self, bin: &str, more: u64) -> bool {
+        let hits = self.hits.get_mut(bin);
+        let found = hits.is_some();
+        hits.into_iter().for_each(|hits| *hits = hits.saturating_add(more));
+        found
+    }
+
+    /// Adds the hits of other vectors, such as those of another shard.
+    pub fn merge(&mut self, other: &Self) {
+        other.bins().for_each(|(bin, hits)| _ = self.add(bin, hits));
+    }
+
+    /// The hits of a bin; `None` if there is no such bin.
+    #[must_use]
+    pub fn hits(&self, bin: &str) -> Option<u64> {
+        self.hits.get(bin).copied()
+    }
+
+    /// The coverage as UCIS XML, which the tools of verification read. Equal coverage gives equal
+    /// bytes.
+    #[must_use]
+    pub fn to_ucis(&self) -> String {
+        ucis::write(self)
+    }
+
+    /// Reads what [`Coverage::to_ucis`] gave.
+    ///
+    /// # Errors
+    /// Any other text, and files of a version with other bins: [`UcisError`] names the line.
+    pub fn from_ucis(text: &str) -> Result<Self, UcisError> {
+        ucis::read(text)
     }
 
     /// The bins that were never hit, in alphabetical order.
@@ -77,5 +127,19 @@ impl Coverage {
             group.hit += usize::from(hits > 0);
         }
         groups.into_values().collect()
+    }
+}
+
+/// The report: a line for each group and for all, then every bin that was missed.
+impl fmt::Display for Coverage {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let groups = self.groups();
+        for group in &groups {
+            writeln!(f, "{:<16} {:>5} of {:>5}", group.name, group.hit, group.bins)?;
+        }
+        let (hit, bins) =
+            groups.iter().fold((0, 0), |(h, b), group| (h + group.hit, b + group.bins));
+        writeln!(f, "{:<16} {hit:>5} of {bins:>5}", "all")?;
+        self.missed().try_for_each(|bin| writeln!(f, "missed {bin}"))
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn single(
     if let Tested::Listings(strength) = how.tested {
         return Ok(listings(records, strength));
     }
-    let cases: Vec<Case> = records.iter().filter_map(case_of).collect();
+    let cases: Vec<Case> = records.iter().filter_map(Record::case).collect();
     let outputs = tessellate(backend, &cases)?;
     let mut found = Vec::with_capacity(records.len());
     for ((record, case), output) in records.iter().zip(&cases).zip(&outputs) {
@@ -37,18 +37,6 @@ fn listings(records: &[Record], strength: Strength) -> Vec<Found> {
         _ => None,
     };
     records.iter().filter_map(listing).collect()
-}
-
-/// The patch that a record tessellates; `None` for a record that has several.
-fn case_of(record: &Record) -> Option<Case> {
-    match record {
-        Record::Listing(listing) => Some(listing.case),
-        Record::Patch(row) => Some(row.case),
-        Record::Preparation(row) => {
-            Some(Case { config: row.config, factors: row.prepared.rounded })
-        }
-        _ => None,
-    }
 }
 
 fn compare_one(

@@ -4,7 +4,7 @@ use crate::case::Case;
 use crate::names::Named;
 use tess_core::{
     Domain, FactorContext, Parity, Partitioning, PatchFactors, ProcessedFactor, ProcessedPatch,
-    QuadFactors, place,
+    QuadFactors, SplitOrder, place,
 };
 
 /// Sends the bins of a case to `hit`; a bin may come more than once.
@@ -51,7 +51,7 @@ fn processing(case: &Case, factors: &PatchFactors<ProcessedFactor>, hit: &mut im
             hit(format!("denormal/{}/{}", domain.name(), domain.factor_names()[i]));
         }
         clamping_and_rounding(partitioning, role, raw, &factor, hit);
-        context(case, &factor.context, hit);
+        context(case.config.split, &factor.context, hit);
     }
     if case.config.partitioning == Partitioning::FractionalOdd {
         picture_frame(factors, &case.factors, hit);
@@ -113,8 +113,9 @@ fn picture_frame(
     }
 }
 
-fn context(case: &Case, context: &FactorContext, hit: &mut impl FnMut(String)) {
-    let (split, parity) = (case.config.split.name(), context.parity.name());
+/// What spec sections 4 and 5 make of one factor.
+pub(super) fn context(split: SplitOrder, context: &FactorContext, hit: &mut impl FnMut(String)) {
+    let (split, parity) = (split.name(), context.parity.name());
     let kind = if context.fraction == 0 { "whole" } else { "split" };
     hit(format!("context/{split}/{parity}/{}/{kind}", context.half_points));
     let locations: Vec<_> = (0..context.points).map(|p| place(context, p)).collect();

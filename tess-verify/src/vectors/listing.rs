@@ -22,6 +22,13 @@ pub struct Listing {
     pub output: Tessellation,
 }
 
+impl Listing {
+    /// The index list, primitive by primitive.
+    pub fn primitives(&self) -> impl Iterator<Item = &[u32]> {
+        self.output.indices.chunks(primitive_size(&self.case))
+    }
+}
+
 /// How many indices a primitive of a case has: 1, 2 or 3.
 #[must_use]
 pub fn primitive_size(case: &Case) -> usize {
@@ -40,7 +47,7 @@ impl fmt::Display for Listing {
             writeln!(f, "{:05x} {:05x}", point.u.to_bits(), point.v.to_bits())?;
         }
         writeln!(f, "indices {}", indices.len())?;
-        for primitive in indices.chunks(primitive_size(&self.case)) {
+        for primitive in self.primitives() {
             let words: Vec<_> = primitive.iter().map(u32::to_string).collect();
             writeln!(f, "{}", words.join(" "))?;
         }

@@ -44,6 +44,19 @@ impl Record {
         }
     }
 
+    /// The patch that the record tessellates; `None` for a row of digests over many.
+    #[must_use]
+    pub const fn case(&self) -> Option<Case> {
+        match self {
+            Self::Listing(listing) => Some(listing.case),
+            Self::Patch(row) => Some(row.row.case),
+            Self::Preparation(row) => {
+                Some(Case { config: row.row.config, factors: row.row.prepared.rounded })
+            }
+            Self::Sweep(_) | Self::Uniform(_) | Self::Locations(_) | Self::Factors(_) => None,
+        }
+    }
+
     /// The row as it stands in the file; `None` for a listing, which has no row.
     #[must_use]
     pub fn text(&self) -> Option<&str> {

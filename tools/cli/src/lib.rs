@@ -1,18 +1,18 @@
 //! The library behind the program `tess`: [`main`] is all of it that others can call.
 //!
 //! `commands` has a folder for each command. What they share lies beside it: `args` (a patch on the
-//! command line), `backends` (who tessellates it), `formats`, `drawing`, `picture` and `explanation`
-//! (what it is shown as), `output` (where results go) and `failure` (how a command ends).
+//! command line), `backends` (who tessellates it), `formats` and `png` (what it is shown as), `output`
+//! and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and explanations are made by
+//! `tess-verify`.
 
 mod args;
 mod backends;
 mod commands;
-mod drawing;
-mod explanation;
+mod coverage_file;
 mod failure;
 mod formats;
 mod output;
-mod picture;
+mod png;
 
 #[cfg(feature = "fuzzing")]
 #[doc(hidden)]

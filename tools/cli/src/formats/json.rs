@@ -45,7 +45,7 @@ pub(super) fn render(patch: &OnePatch) -> String {
         backend: patch.backend,
         factors: named.map(factor).collect(),
         points: points(patch),
-        primitives: patch.primitives().collect(),
+        primitives: patch.listing.primitives().collect(),
     };
     crate::output::json(&document)
 }

@@ -4,14 +4,16 @@ mod csv;
 mod json;
 mod obj;
 
-use crate::drawing::DrawOptions;
 use crate::failure::Failure;
 use crate::output::form::Form;
+use crate::png;
 use clap::ValueEnum;
 use tess_core::Tessellation;
 use tess_verify::backend::Backend;
 use tess_verify::case::Case;
-use tess_verify::vectors::{Header, Kind, Listing, primitive_size};
+use tess_verify::drawing::{DrawOptions, draw};
+use tess_verify::picture::Picture;
+use tess_verify::vectors::{Header, Kind, Listing};
 
 /// The forms of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -82,11 +84,6 @@ impl OnePatch {
     fn to_text(&self) -> String {
         format!("{}\n{}", self.header(Kind::Listings), self.listing)
     }
-
-    /// The index list, primitive by primitive.
-    pub(crate) fn primitives(&self) -> impl Iterator<Item = &[u32]> {
-        self.output().indices.chunks(primitive_size(self.case()))
-    }
 }
 
 impl Format {
@@ -101,12 +98,11 @@ impl Format {
             Self::Json => json::render(patch).into_bytes(),
             Self::Obj => obj::render(patch).into_bytes(),
             Self::Svg => picture(patch).to_svg().into_bytes(),
-            Self::Png => picture(patch).to_png()?,
+            Self::Png => png::render(&picture(patch))?,
         })
     }
 }
 
-fn picture(patch: &OnePatch) -> crate::picture::Picture {
-    let options = DrawOptions { size: 800, ..DrawOptions::default() };
-    crate::drawing::draw(patch, &options).picture
+fn picture(patch: &OnePatch) -> Picture {
+    draw(&patch.listing, &DrawOptions::default()).picture
 }

@@ -12,7 +12,7 @@ pub(super) fn render(patch: &OnePatch) -> String {
         _ = writeln!(text, "v {u} {v} 0");
     }
     let element = ["p", "l", "f"][primitive_size(patch.case()) - 1];
-    for primitive in patch.primitives() {
+    for primitive in patch.listing.primitives() {
         let indices: Vec<_> = primitive.iter().map(|index| (index + 1).to_string()).collect();
         _ = writeln!(text, "{element} {}", indices.join(" "));
     }

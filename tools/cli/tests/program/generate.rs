@@ -3,6 +3,8 @@
 use crate::support::{directory, tess, tess_with_input};
 use std::fs;
 
+const PLACE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/place.csv");
+
 /// Both text formats go back in, and a changed number does not pass.
 #[test]
 fn vectors_can_be_checked() {
@@ -64,6 +66,38 @@ fn memory_images_and_coverage() {
     assert_eq!(tess("gen --shard 9/3").code, Some(2), "no such part");
     assert_eq!(tess("gen --level 4").code, Some(2), "no such level");
     assert_eq!(tess("gen --format readmemh").code, Some(2), "images need a folder");
+}
+
+/// Two shards in one file are the whole, and so is a check of the vectors.
+#[test]
+fn coverage_files_merge() {
+    let folder = directory("coverage");
+    let file = |name: &str| folder.join(name).display().to_string();
+    let of = |what: &str, name: &str| {
+        let run = tess(&format!("{what} --coverage {}", file(name)));
+        assert_eq!(run.code, Some(0), "{what}: {}", run.stderr);
+        run.stdout
+    };
+    let cases = "gen --level 3 --count 60";
+    of(&format!("{cases} --shard 1/2"), "shards.xml");
+    let merged = of(&format!("{cases} --shard 2/2"), "shards.xml");
+    assert_eq!(merged, tess(&format!("{cases} --coverage")).stdout, "the report of the sum");
+    of(cases, "whole.xml");
+    let vectors = file("vectors.csv");
+    assert_eq!(tess(&format!("{cases} -o {vectors}")).code, Some(0), "vectors");
+    of(&format!("check {vectors}"), "checked.xml");
+    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a coverage file");
+    let whole = read("whole.xml");
+    assert!(whole.contains("<coverpoint name=\"transition\""), "bins: {whole:.400}");
+    assert_eq!((read("shards.xml"), read("checked.xml")), (whole.clone(), whole), "one coverage");
+    of(&format!("{cases} --seed 2"), "other.xml");
+    assert_ne!(read("whole.xml"), read("other.xml"), "other cases hit other bins");
+    let run = tess(&format!("{cases} --coverage {vectors}"));
+    assert_eq!(run.code, Some(2), "no coverage file");
+    assert!(run.stderr.contains("vectors.csv: line 1: "), "{}", run.stderr);
+    let run = tess(&format!("check {} --coverage {}", PLACE, file("x.xml")));
+    assert_eq!(run.code, Some(2), "no patches");
+    assert!(run.stderr.contains("this file's kind is locations"), "{}", run.stderr);
 }
 
 /// The first line notes every option that the cases depend on, so that it makes the file again.

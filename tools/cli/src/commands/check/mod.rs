@@ -3,18 +3,21 @@
 mod strength;
 
 use crate::backends::{BackendName, BackendOptions};
-use crate::explanation::{PointReport, PrimitiveReport};
+use crate::coverage_file::CoverageFile;
 use crate::failure::{Exit, Failure};
 use crate::output::{progress, stdout, stop_when_reader_leaves};
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use strength::StrengthArgs;
 use tess_verify::backend::Backend;
 use tess_verify::checker::{self, CheckError, Difference, Report, Tested};
 use tess_verify::compare::Element;
-use tess_verify::vectors::VectorFile;
+use tess_verify::explanation::{PointReport, PrimitiveReport};
+use tess_verify::names::Named;
+use tess_verify::vectors::{Kind, Record, VectorFile};
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
@@ -49,6 +52,9 @@ pub(crate) struct Args {
     options: BackendOptions,
     #[command(flatten)]
     strength: StrengthArgs,
+    /// Add the coverage bins that the file's patches hit to this file of UCIS XML
+    #[arg(long, value_name = "FILE")]
+    coverage: Option<PathBuf>,
 }
 
 /// Runs the command.
@@ -61,11 +67,21 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
     let file = VectorFile::new(&name, open(&args.file)?).map_err(|e| failure(e.into()))?;
     let tested = args.strength.tested(file.header().kind, args.backend)?;
+    let coverage = args.coverage(file.header().kind)?;
     stop_when_reader_leaves();
     let bar = progress(file.header().count, "records");
-    let report = checker::check(file, &mut backends, tested, &|records| bar.inc(records));
+    let report = checker::check(file, &mut backends, tested, &|records| {
+        bar.inc(records.len() as u64);
+        if let Some(coverage) = &coverage {
+            let coverage = &mut coverage.lock().unwrap_or_else(PoisonError::into_inner).coverage;
+            records.iter().filter_map(Record::case).for_each(|case| coverage.record(&case));
+        }
+    });
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
+    if let Some(coverage) = coverage {
+        coverage.into_inner().unwrap_or_else(PoisonError::into_inner).write()?;
+    }
     let backend = backends.first().map_or("core", |backend| backend.name());
     let sides = match tested {
         Tested::Listings(_) => format!("tested: {name}; right: the model"),
@@ -74,6 +90,24 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let backend = args.options.words(backend);
     show(&report, &sides, &backend).map_err(|error| Failure::write(Path::new("-"), error))?;
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
+}
+
+impl Args {
+    /// The coverage file, if one is given.
+    ///
+    /// # Errors
+    /// It cannot be read, or the file to check has no patches to count.
+    fn coverage(&self, kind: Kind) -> Result<Option<Mutex<CoverageFile>>, Failure> {
+        let Some(path) = &self.coverage else { return Ok(None) };
+        if !matches!(kind, Kind::Listings | Kind::Patches | Kind::Preparation) {
+            return Err(Failure::bad_input(format!(
+                "--coverage counts single patches: the kinds listings, patches and preparation have \
+                 them; this file's kind is {}",
+                kind.name()
+            )));
+        }
+        CoverageFile::open(path.clone()).map(|file| Some(Mutex::new(file)))
+    }
 }
 
 /// One backend for each thread: the model runs on every core, the others use them by themselves.

@@ -2,16 +2,18 @@
 
 use crate::args::{PatchArgs, note_large_factors};
 use crate::backends::{BackendArgs, BackendName};
-use crate::drawing::{self, DrawOptions, Drawing};
 use crate::failure::{Exit, Failure};
 use crate::formats::OnePatch;
 use crate::output::form::{self, Form};
 use crate::output::{OutputArgs, note};
+use crate::png;
 use clap::ValueEnum;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
+use tess_core::{Domain, OutputPrimitive};
 use tess_verify::backend::Backend;
+use tess_verify::drawing::{self, Colours, DrawOptions, Drawing};
 use tess_verify::vectors::{Record, VectorFile};
 
 /// Draw one patch as SVG or PNG
@@ -28,7 +30,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     backend: BackendArgs,
     #[command(flatten)]
-    options: DrawOptions,
+    options: DrawArgs,
     /// Form of the picture [default: that of the file's name, else svg]
     #[arg(long, value_name = "NAME")]
     format: Option<PictureFormat>,
@@ -40,6 +42,24 @@ pub(crate) struct Args {
     overlay: Option<PathBuf>,
     #[command(flatten)]
     output: OutputArgs,
+}
+
+/// What a picture shows beside the primitives and points themselves.
+#[derive(Clone, Copy, Debug, clap::Args)]
+struct DrawArgs {
+    /// Number the points
+    #[arg(long)]
+    indices: bool,
+    /// Colour the primitives by their order and number them
+    #[arg(long)]
+    order: bool,
+    /// Colour the triangles by the ring that they are stitched to
+    #[arg(long, conflicts_with = "order")]
+    rings: bool,
+    /// Width and height in pixels, 64 to 8192
+    #[arg(long, value_name = "PIXELS", default_value_t = 800)]
+    #[arg(value_parser = clap::value_parser!(u32).range(64..=8192))]
+    size: u32,
 }
 
 /// The forms of a picture.
@@ -78,15 +98,39 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         (None, None) => None,
     };
     let (drawing, exit) = match pair {
-        Some((expected, observed)) => draw_overlay(&expected, &observed, &args.options),
-        None => (drawing::draw(&patch, &args.options), Exit::Done),
+        Some((expected, observed)) => draw_overlay(&expected, &observed, &args.options.options()),
+        None => (drawing::draw(&patch.listing, &args.options.options()), Exit::Done),
     };
     report_left_out(&drawing);
     args.output.write(&match format {
         PictureFormat::Svg => drawing.picture.to_svg().into_bytes(),
-        PictureFormat::Png => drawing.picture.to_png()?,
+        PictureFormat::Png => png::render(&drawing.picture)?,
     })?;
     Ok(exit)
+}
+
+impl DrawArgs {
+    /// Refuses to show what a patch does not have.
+    ///
+    /// # Errors
+    /// Rings without triangles.
+    fn fit(&self, domain: Domain, output: OutputPrimitive) -> Result<(), Failure> {
+        if self.rings && !drawing::has_rings(domain, output) {
+            return Err(Failure::bad_input(
+                "--rings colours the triangles of a tri or quad patch; this one has none",
+            ));
+        }
+        Ok(())
+    }
+
+    fn options(&self) -> DrawOptions {
+        let colours = match (self.order, self.rings) {
+            (true, _) => Colours::Order,
+            (_, true) => Colours::Rings,
+            _ => Colours::Plain,
+        };
+        DrawOptions { indices: self.indices, colours, size: self.size }
+    }
 }
 
 impl Args {
@@ -110,7 +154,7 @@ fn draw_overlay(
     observed: &OnePatch,
     options: &DrawOptions,
 ) -> (Drawing, Exit) {
-    let (drawing, differences) = drawing::overlay(expected, observed, options);
+    let (drawing, differences) = drawing::overlay(&expected.listing, &observed.listing, options);
     let (points, primitives) = (differences.points, differences.primitives);
     note(&format!(
         "{points} points and {primitives} primitives differ between {} and {}",

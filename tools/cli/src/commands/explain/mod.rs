@@ -1,12 +1,12 @@
 //! `tess explain`: every stage of one patch.
 
 use crate::args::PatchArgs;
-use crate::explanation::{Explanation, PointReport, PrimitiveReport};
 use crate::failure::{Exit, Failure};
 use crate::output::{self, OutputArgs};
 use serde::Serialize;
 use std::fmt::{self, Display};
 use tess_core::Patch;
+use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
 
 /// Show every stage of one patch: factors, contexts, counts, rings, stitches
 #[derive(Debug, clap::Args)]

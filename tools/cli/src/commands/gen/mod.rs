@@ -1,13 +1,14 @@
 //! `tess gen`: test vectors with expected results from the model.
 
 use crate::args::{name_of, shard};
+use crate::coverage_file::CoverageFile;
 use crate::failure::{Exit, Failure};
 use crate::output::{NewFolder, OutputArgs, note, progress, stop_when_reader_leaves};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tess_core::{Domain, Partitioning};
 use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
@@ -26,7 +27,8 @@ Examples:
   tess gen --level 1 | tess check - --backend simd
   tess gen --level 1 --domain tri --format listing -o level1.txt
   tess gen --level 3 --seed 7 --count 1000 --format readmemh -o vectors/
-  tess gen --level 1 --coverage")]
+  tess gen --level 1 --coverage
+  tess gen --level 2 --shard 1/8 --coverage coverage.xml")]
 pub(crate) struct Args {
     /// How thorough: 1, 2 or 3
     #[arg(long, value_name = "N", default_value_t = 1)]
@@ -51,8 +53,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", default_value = "csv")]
     format: Format,
     /// Instead of vectors, report which coverage bins they hit
-    #[arg(long, conflicts_with = "format")]
-    coverage: bool,
+    ///
+    /// With a FILE, add the hits to what that file holds, as UCIS XML, and report the sum. Shards may
+    /// add to one file, one after another.
+    #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with = "format")]
+    coverage: Option<Option<PathBuf>>,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -84,11 +89,13 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
             "these arguments select no case; give --level 1 or 2, or a --count",
         ));
     }
+    if let Some(file) = &args.coverage {
+        return args.report(file.clone(), count);
+    }
     let header = args.header(count);
     let bar = args.progress(count);
     let cases = bar.wrap_iter(args.cases());
     let written = match args.format {
-        _ if args.coverage => args.output.stream(|out| report(out, cases)),
         Format::Csv => args.output.stream(|out| write_patches(out, &header, cases)),
         Format::Listing => args.output.stream(|out| write_listings(out, &header, cases)),
         Format::Readmemh => images(&args.output.file, cases),
@@ -116,6 +123,19 @@ impl Args {
         let shard = self.shard;
         let numbered = (0..).zip(self.selection().cases());
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
+    }
+
+    /// Reports the coverage of the cases, added to what a file holds if one is given.
+    fn report(&self, file: Option<PathBuf>, count: u64) -> Result<Exit, Failure> {
+        let mut file = file.map(CoverageFile::open).transpose()?;
+        let mut alone = Coverage::new();
+        let coverage = file.as_mut().map_or(&mut alone, |file| &mut file.coverage);
+        let bar = self.progress(count);
+        bar.wrap_iter(self.cases()).for_each(|case| coverage.record(&case));
+        bar.finish_and_clear();
+        self.output.write(coverage.to_string().as_bytes())?;
+        file.map_or(Ok(()), |file| file.write())?;
+        Ok(Exit::Done)
     }
 
     /// How many cases there are in all shards.
@@ -153,22 +173,6 @@ impl Args {
         }
         Header { kind: Kind::Patches, count, source: "tess-core".to_owned(), notes }
     }
-}
-
-/// Prints the coverage of cases: a line for each group, then every bin that was missed.
-fn report(out: &mut dyn Write, cases: impl Iterator<Item = Case>) -> io::Result<()> {
-    let mut coverage = Coverage::new();
-    cases.for_each(|case| coverage.record(&case));
-    let groups = coverage.groups();
-    for group in &groups {
-        writeln!(out, "{:<16} {:>5} of {:>5}", group.name, group.hit, group.bins)?;
-    }
-    let (hit, bins) = groups.iter().fold((0, 0), |(h, b), group| (h + group.hit, b + group.bins));
-    writeln!(out, "{:<16} {hit:>5} of {bins:>5}", "all")?;
-    for bin in coverage.missed() {
-        writeln!(out, "missed {bin}")?;
-    }
-    Ok(())
 }
 
 /// Writes the memory images into a new folder.

@@ -3,6 +3,7 @@
 use super::Fixed;
 use super::factors::{name, named};
 use super::placement::Placement;
+#[cfg(feature = "serde")]
 use serde::Serialize;
 use std::fmt;
 use tess_core::fixed_point::{HALF, TWO_THIRDS};
@@ -10,8 +11,9 @@ use tess_core::{Patch, PatchFactors, PointOrigin};
 use tess_core::{ProcessedFactor, QuadFactors, TriangleFactors};
 
 /// One point: its place in the walk, and the placements that its coordinates are made of.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct PointReport {
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
+pub struct PointReport {
     point: u32,
     location: String,
     u: Fixed,
@@ -24,7 +26,7 @@ pub(crate) struct PointReport {
 impl PointReport {
     /// Explains point `i`; `None` if the patch has no such point.
     #[must_use]
-    pub(crate) fn new(patch: &Patch, i: u32) -> Option<Self> {
+    pub fn new(patch: &Patch, i: u32) -> Option<Self> {
         let location = patch.locate_point(i)?;
         let point = patch.point(i)?;
         let (placements, rule) = match patch.processed().factors()? {

@@ -1,5 +1,6 @@
 //! One placement in one dimension with its intermediate values (spec section 5).
 
+#[cfg(feature = "serde")]
 use serde::Serialize;
 use std::fmt;
 use tess_core::FactorContext;
@@ -7,7 +8,8 @@ use tess_core::fixed_point::{HALF, ONE};
 use tess_core::place::{Blend, steps};
 
 /// `place(context of factor, position)` and how it came about.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub(super) struct Placement {
     factor: &'static str,
     position: u32,
@@ -17,7 +19,8 @@ pub(super) struct Placement {
 }
 
 /// What is blended on the half edge.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 struct HalfEdge {
     /// Whether the location is ONE minus that of the mirrored position.
     flipped: bool,

@@ -3,19 +3,19 @@
 use super::colours::{DIFFERENT, DIFFERENT_FILL, GRID};
 use super::layout::{self, Layout};
 use super::{DrawOptions, Drawing, corners};
-use crate::formats::OnePatch;
 use crate::picture::{Colour, Position, Shape};
+use crate::vectors::Listing;
 
 /// How many elements differ between two results of one case.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Differences {
+pub struct Differences {
     /// Points whose bits differ, and points that one result lacks.
-    pub(crate) points: usize,
+    pub points: usize,
     /// Primitives whose indices differ, and primitives that one result lacks.
-    pub(crate) primitives: usize,
+    pub primitives: usize,
     /// What a picture cannot show as it is, a line each: primitives that are missing, have no
     /// extent or name points that are not there.
-    pub(crate) in_words: Vec<String>,
+    pub in_words: Vec<String>,
 }
 
 /// Draws the expected result in grey and what is observed differently in red.
@@ -23,14 +23,14 @@ pub(crate) struct Differences {
 /// A primitive that is missing or cannot be drawn is marked by a red outline of the expected one,
 /// one without extent by discs at its corners.
 #[must_use]
-pub(crate) fn overlay(
-    expected: &OnePatch,
-    observed: &OnePatch,
+pub fn overlay(
+    expected: &Listing,
+    observed: &Listing,
     options: &DrawOptions,
 ) -> (Drawing, Differences) {
     let mut drawing = super::draw(expected, options);
-    let layout = Layout::new(expected.case().domain(), options.size);
-    let both = [expected, observed].map(|patch| layout.place_all(&patch.output().points));
+    let layout = Layout::new(expected.case.domain(), options.size);
+    let both = [expected, observed].map(|patch| layout.place_all(&patch.output.points));
     let shapes = &mut drawing.picture.shapes;
     let mut differences = Differences::default();
     for_each_difference(expected.primitives(), observed.primitives(), |t, from, to| {
@@ -39,7 +39,7 @@ pub(crate) fn overlay(
         shapes.extend(marks);
         differences.in_words.extend(words);
     });
-    let points = |patch: &OnePatch| patch.output().points.clone();
+    let points = |patch: &Listing| patch.output.points.clone();
     for_each_difference(points(expected), points(observed), |i, _, _| {
         differences.points += 1;
         shapes.extend(mark_point(both[0].get(i).copied(), both[1].get(i).copied(), both[0].len()));

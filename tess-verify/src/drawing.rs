@@ -1,4 +1,6 @@
 //! A patch as a picture: what `tess draw` and the picture formats of `tess patch` show.
+//!
+//! [`draw`] makes shapes of a listing; [`Picture::to_svg`] writes them.
 
 mod colours;
 mod labels;
@@ -6,54 +8,71 @@ mod layout;
 mod overlay;
 mod rings;
 
-use crate::failure::Failure;
-use crate::formats::OnePatch;
 use crate::picture::{Colour, Picture, Position, Shape};
+use crate::vectors::{Listing, primitive_size};
 use colours::{GRID, INK, PAPER, POINT};
 use layout::Layout;
-pub(crate) use overlay::overlay;
+pub use overlay::{Differences, overlay};
 use tess_core::{Domain, OutputPrimitive};
-use tess_verify::vectors::primitive_size;
 
 /// What a picture shows beside the primitives and points themselves.
-#[derive(Clone, Copy, Debug, Default, clap::Args)]
-pub(crate) struct DrawOptions {
-    /// Number the points
-    #[arg(long)]
-    pub(crate) indices: bool,
-    /// Colour the primitives by their order and number them
-    #[arg(long)]
-    pub(crate) order: bool,
-    /// Colour the triangles by the ring that they are stitched to
-    #[arg(long, conflicts_with = "order")]
-    pub(crate) rings: bool,
-    /// Width and height in pixels, 64 to 8192
-    #[arg(long, value_name = "PIXELS", default_value_t = 800)]
-    #[arg(value_parser = clap::value_parser!(u32).range(64..=8192))]
-    pub(crate) size: u32,
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DrawOptions {
+    /// Number the points.
+    pub indices: bool,
+    /// What the colours of the primitives say.
+    pub colours: Colours,
+    /// Width and height in pixels.
+    pub size: u32,
+}
+
+/// What the colours of the primitives say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Colours {
+    /// Nothing: one colour.
+    #[default]
+    Plain,
+    /// The order of the primitives, which are numbered too.
+    Order,
+    /// The ring that a triangle is stitched to; one colour where [`has_rings`] is false.
+    Rings,
+}
+
+impl Default for DrawOptions {
+    /// Nothing but primitives and points, on 800 x 800 pixels.
+    fn default() -> Self {
+        Self { indices: false, colours: Colours::Plain, size: 800 }
+    }
+}
+
+/// Whether the triangles of a patch can be coloured by ring: isolines, points and lines have none.
+#[must_use]
+pub const fn has_rings(domain: Domain, output: OutputPrimitive) -> bool {
+    matches!(output, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw)
+        && !matches!(domain, Domain::Isoline)
 }
 
 /// A picture and how many numbers it had no room for.
 #[derive(Clone, Debug)]
-pub(crate) struct Drawing {
+pub struct Drawing {
     /// The picture.
-    pub(crate) picture: Picture,
+    pub picture: Picture,
     /// Numbers asked for that would have been too small to read.
-    pub(crate) labels_left_out: usize,
+    pub labels_left_out: usize,
 }
 
 /// Draws a patch.
 #[must_use]
-pub(crate) fn draw(patch: &OnePatch, options: &DrawOptions) -> Drawing {
-    let layout = Layout::new(patch.case().domain(), options.size);
-    let points = layout.place_all(&patch.output().points);
+pub fn draw(patch: &Listing, options: &DrawOptions) -> Drawing {
+    let layout = Layout::new(patch.case.domain(), options.size);
+    let points = layout.place_all(&patch.output.points);
     let mut drawing = Drawing::new(patch, options, &layout);
     drawing.primitives(patch, options, &points);
     // Primitives that are points have their numbers where the points have theirs.
-    let are_points = options.order && primitive_size(patch.case()) == 1;
+    let are_points = options.colours == Colours::Order && primitive_size(&patch.case) == 1;
     if are_points {
         drawing.ordered_points(patch, options, &points);
-    } else if options.order {
+    } else if options.colours == Colours::Order {
         drawing.primitive_numbers(patch, &points);
     }
     match (are_points, options.indices) {
@@ -64,35 +83,18 @@ pub(crate) fn draw(patch: &OnePatch, options: &DrawOptions) -> Drawing {
     drawing
 }
 
-impl DrawOptions {
-    /// Refuses to show what a patch does not have.
-    ///
-    /// # Errors
-    /// Rings without triangles.
-    pub(crate) fn fit(&self, domain: Domain, output: OutputPrimitive) -> Result<(), Failure> {
-        let is_triangles =
-            matches!(output, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw);
-        if self.rings && (domain == Domain::Isoline || !is_triangles) {
-            return Err(Failure::bad_input(
-                "--rings colours the triangles of a tri or quad patch; this one has none",
-            ));
-        }
-        Ok(())
-    }
-}
-
 impl Drawing {
     /// An empty picture with the outline of the domain.
-    fn new(patch: &OnePatch, options: &DrawOptions, layout: &Layout) -> Self {
+    fn new(patch: &Listing, options: &DrawOptions, layout: &Layout) -> Self {
         let mut outline = layout.corners();
         outline.extend(outline.first().copied());
         let shapes = vec![Shape::Line { points: outline, width: 1.0, stroke: GRID }];
-        let picture = Picture { size: options.size, title: patch.case().command(), shapes };
+        let picture = Picture { size: options.size, title: patch.case.command(), shapes };
         Self { picture, labels_left_out: 0 }
     }
 
     /// Fills first, edges over all of them.
-    fn primitives(&mut self, patch: &OnePatch, options: &DrawOptions, points: &[Position]) {
+    fn primitives(&mut self, patch: &Listing, options: &DrawOptions, points: &[Position]) {
         let fills = fills(patch, options);
         let shapes = &mut self.picture.shapes;
         let edge_width = layout::edge_width(points.len());
@@ -105,14 +107,17 @@ impl Drawing {
             if let Some(mut line) = corners(primitive, points).filter(|line| line.len() > 1) {
                 let is_segment = line.len() == 2;
                 line.extend(line.first().copied().filter(|_| !is_segment));
-                let (width, stroke) =
-                    if is_segment && options.order { (3.0, fill) } else { (edge_width, INK) };
+                let (width, stroke) = if is_segment && options.colours == Colours::Order {
+                    (3.0, fill)
+                } else {
+                    (edge_width, INK)
+                };
                 shapes.push(Shape::Line { points: line, width, stroke });
             }
         }
     }
 
-    fn primitive_numbers(&mut self, patch: &OnePatch, points: &[Position]) {
+    fn primitive_numbers(&mut self, patch: &Listing, points: &[Position]) {
         for (number, primitive) in (0..).zip(patch.primitives()) {
             let corners = corners(primitive, points).unwrap_or_default();
             match labels::in_primitive(number, &corners) {
@@ -143,7 +148,7 @@ impl Drawing {
     }
 
     /// The points in the order of the primitives that they are.
-    fn ordered_points(&mut self, patch: &OnePatch, options: &DrawOptions, points: &[Position]) {
+    fn ordered_points(&mut self, patch: &Listing, options: &DrawOptions, points: &[Position]) {
         let (mut places, mut colours) = (Vec::new(), Vec::new());
         for (primitive, fill) in patch.primitives().zip(fills(patch, options)) {
             if let Some([place]) = corners(primitive, points).as_deref() {
@@ -177,14 +182,14 @@ impl Drawing {
 }
 
 /// A colour for each primitive.
-fn fills(patch: &OnePatch, options: &DrawOptions) -> Vec<Colour> {
+fn fills(patch: &Listing, options: &DrawOptions) -> Vec<Colour> {
     let count = patch.primitives().count();
-    if options.order {
-        (0..count).map(|t| colours::along_scale(t, count)).collect()
-    } else if options.rings {
-        rings::rings(&patch.case().patch(), count).into_iter().map(colours::of_ring).collect()
-    } else {
-        vec![colours::PLAIN; count]
+    match options.colours {
+        Colours::Plain => vec![colours::PLAIN; count],
+        Colours::Order => (0..count).map(|t| colours::along_scale(t, count)).collect(),
+        Colours::Rings => {
+            rings::rings(&patch.case.patch(), count).into_iter().map(colours::of_ring).collect()
+        }
     }
 }
 

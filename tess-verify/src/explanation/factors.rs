@@ -1,11 +1,13 @@
 //! Each factor after each step of factor processing (spec sections 2 to 4).
 
 use super::Fixed;
+#[cfg(feature = "serde")]
 use serde::Serialize;
 use tess_core::{FactorContext, Parity, Patch, PatchFactors, ProcessedFactor};
 
 /// A binary32 number; NaN and infinities have no `value` in JSON.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub(super) struct Float {
     pub(super) bits: u32,
     pub(super) value: f32,
@@ -18,15 +20,17 @@ impl Float {
 }
 
 /// One factor on its way. A culled patch has raw factors alone.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub(super) struct FactorReport {
     pub(super) name: &'static str,
     pub(super) raw: Float,
-    #[serde(flatten)]
+    #[cfg_attr(feature = "serde", serde(flatten))]
     pub(super) processed: Option<Processed>,
 }
 
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub(super) struct Processed {
     pub(super) clamped: Float,
     pub(super) rounded: Float,
@@ -36,7 +40,8 @@ pub(super) struct Processed {
 }
 
 /// The six numbers of spec section 4, and the half edge that a transition stitch walks.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub(super) struct Context {
     pub(super) half_points: u32,
     pub(super) split: u32,

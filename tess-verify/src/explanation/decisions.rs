@@ -1,10 +1,10 @@
 //! What factor processing decided, and why (spec section 3).
 
 use super::factors::named;
+use crate::names::Named;
 use tess_core::{
     Domain, FixedFactor, Parity, Partitioning, Patch, PatchFactors, ProcessedFactor, ProcessedPatch,
 };
-use tess_verify::names::Named;
 
 /// One sentence for each decision, in the order of the specification's steps.
 pub(super) fn decisions(patch: &Patch, raw: &PatchFactors) -> Vec<String> {

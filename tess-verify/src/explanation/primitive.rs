@@ -1,13 +1,15 @@
 //! Where one primitive comes from (spec sections 7 and 8).
 
 use super::{PointReport, structure};
+#[cfg(feature = "serde")]
 use serde::Serialize;
 use std::fmt;
 use tess_core::{Patch, PrimitiveOrigin};
 
 /// One primitive: its place in the walk, and its vertices.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct PrimitiveReport {
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
+pub struct PrimitiveReport {
     primitive: u32,
     location: String,
     /// Number of the primitive within its line, stitch or centre.
@@ -18,7 +20,7 @@ pub(crate) struct PrimitiveReport {
 impl PrimitiveReport {
     /// Explains primitive `t`; `None` if the patch has no such primitive.
     #[must_use]
-    pub(crate) fn new(patch: &Patch, t: u32) -> Option<Self> {
+    pub fn new(patch: &Patch, t: u32) -> Option<Self> {
         let location = patch.locate_primitive(t)?;
         let primitive = patch.primitive(t)?;
         let vertices = primitive.indices().iter().map(|&index| PointReport::new(patch, index));

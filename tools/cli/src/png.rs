@@ -1,10 +1,14 @@
 //! A picture as PNG.
 
-use super::{Colour, Picture, Position, Shape};
 use crate::failure::Failure;
+use tess_verify::picture::{Colour, Picture, Position, Shape};
 use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-pub(super) fn render(picture: &Picture) -> Result<Vec<u8>, Failure> {
+/// The picture as a PNG file.
+///
+/// # Errors
+/// A size of 0, or one that memory does not hold.
+pub(crate) fn render(picture: &Picture) -> Result<Vec<u8>, Failure> {
     let size = picture.size;
     let mut pixels = Pixmap::new(size, size).ok_or_else(|| {
         Failure::bad_input(format!("a picture of {size} x {size} pixels cannot be made"))

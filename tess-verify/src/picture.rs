@@ -1,21 +1,18 @@
-//! A flat drawing, written as SVG or PNG from the same shapes.
+//! A flat drawing: shapes, and the SVG file that they make.
 
 mod digits;
-mod png;
 mod svg;
 
-use crate::failure::Failure;
-
 /// A position in pixels, y down.
-pub(crate) type Position = [f64; 2];
+pub type Position = [f64; 2];
 
 /// A colour, opaque red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Colour(pub(crate) u8, pub(crate) u8, pub(crate) u8);
+pub struct Colour(pub u8, pub u8, pub u8);
 
 /// What is drawn, in painter's order.
 #[derive(Clone, Debug)]
-pub(crate) enum Shape {
+pub enum Shape {
     /// A filled polygon.
     Polygon {
         /// Its corners.
@@ -47,18 +44,18 @@ pub(crate) enum Shape {
 
 /// A square drawing.
 #[derive(Clone, Debug)]
-pub(crate) struct Picture {
+pub struct Picture {
     /// Width and height in pixels.
-    pub(crate) size: u32,
+    pub size: u32,
     /// What it shows, for people who cannot see it.
-    pub(crate) title: String,
+    pub title: String,
     /// The shapes, back to front.
-    pub(crate) shapes: Vec<Shape>,
+    pub shapes: Vec<Shape>,
 }
 
 impl Picture {
     /// A number, centred at a position; `height` is that of its digits, in pixels.
-    pub(crate) fn number(&mut self, number: u32, centre: Position, height: f64, stroke: Colour) {
+    pub fn number(&mut self, number: u32, centre: Position, height: f64, stroke: Colour) {
         let strokes = digits::strokes(number, centre, height);
         let width = digits::stroke_width(height);
         let lines = strokes.into_iter().map(|points| Shape::Line { points, width, stroke });
@@ -67,16 +64,8 @@ impl Picture {
 
     /// The picture as an SVG file.
     #[must_use]
-    pub(crate) fn to_svg(&self) -> String {
+    pub fn to_svg(&self) -> String {
         svg::render(self)
-    }
-
-    /// The picture as a PNG file.
-    ///
-    /// # Errors
-    /// A size of 0, or one that memory does not hold.
-    pub(crate) fn to_png(&self) -> Result<Vec<u8>, Failure> {
-        png::render(self)
     }
 }
 

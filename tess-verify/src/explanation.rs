@@ -1,4 +1,4 @@
-//! One patch, stage by stage, as data: what `tess explain` prints as text or JSON.
+//! One patch, stage by stage: what `tess explain` prints as text or, with the feature `serde`, JSON.
 
 mod decisions;
 mod factors;
@@ -8,18 +8,24 @@ mod primitive;
 mod structure;
 mod text;
 
+use crate::case::Case;
+use crate::names::Named;
 use factors::FactorReport;
-pub(crate) use point::PointReport;
-pub(crate) use primitive::PrimitiveReport;
+pub use point::PointReport;
+pub use primitive::PrimitiveReport;
+#[cfg(feature = "serde")]
 use serde::Serialize;
 use structure::{PointRun, Stitch};
 use tess_core::ProcessedPatch;
-use tess_verify::case::Case;
-use tess_verify::names::Named;
 
 /// Every stage of one patch.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct Explanation {
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(
+    not(feature = "serde"),
+    expect(dead_code, reason = "the text repeats them in its command")
+)]
+pub struct Explanation {
     command: String,
     domain: &'static str,
     partitioning: &'static str,
@@ -39,7 +45,7 @@ pub(crate) struct Explanation {
 impl Explanation {
     /// Explains a patch.
     #[must_use]
-    pub(crate) fn new(case: &Case) -> Self {
+    pub fn new(case: &Case) -> Self {
         let (patch, raw, config) = (&case.patch(), &case.factors, case.config);
         let counts = patch.counts();
         Self {
@@ -65,7 +71,8 @@ impl Explanation {
 }
 
 /// A 16.16 or 15.16 number, exactly: hex bits and decimal value.
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
 pub(crate) struct Fixed {
     /// The bits.
     pub(crate) bits: u32,

@@ -1,4 +1,4 @@
-//! Numbers as strokes, so that SVG and PNG look the same without a font.
+//! Numbers as strokes, so that every form of a picture looks the same without a font.
 #![expect(clippy::float_arithmetic, reason = "positions of a drawing, in pixels")]
 
 use super::Position;
