@@ -5,7 +5,9 @@ mod mismatch;
 pub use mismatch::{Element, Mismatch, Stage};
 
 use crate::case::Case;
+use crate::strength::vertices;
 use crate::vectors::primitive_size;
+use std::collections::BTreeSet;
 use tess_core::{DomainPoint, FactorContext, FixedFactor, Tessellation};
 
 /// The first difference between two outputs of a case: counts, then points, then indices.
@@ -26,6 +28,33 @@ pub fn tessellations(
 pub(crate) fn points_alone(observed: &Tessellation, expected: &Tessellation) -> Option<Mismatch> {
     count("points", &observed.points, &expected.points)
         .or_else(|| points(&observed.points, &expected.points))
+}
+
+/// The first difference between the vertices of two outputs' primitives, by their coordinates.
+pub(crate) fn sequences(
+    case: &Case,
+    observed: &Tessellation,
+    expected: &Tessellation,
+) -> Option<Mismatch> {
+    let size = primitive_size(case);
+    let places = |output: &Tessellation| -> Vec<Option<[u32; 2]>> {
+        let bits = |point: DomainPoint| [point.u.to_bits(), point.v.to_bits()];
+        vertices(output).map(|point| point.map(bits)).collect()
+    };
+    let (observed, expected) = (places(observed), places(expected));
+    count("vertices", &observed, &expected).or_else(|| {
+        let at = observed.iter().zip(&expected).position(|(o, e)| o != e)?;
+        let known: BTreeSet<_> = expected.iter().collect();
+        let is_moved = observed.iter().any(|place| !known.contains(place));
+        let stage = if is_moved { Stage::Location } else { Stage::Stitch };
+        let element = Element::Index { primitive: at / size, position: at % size };
+        let show = |place: Option<[u32; 2]>| match place {
+            Some([u, v]) => format!("({u:05x}, {v:05x})"),
+            None => "no point".to_owned(),
+        };
+        let (observed, expected) = (show(observed[at]), show(expected[at]));
+        Some(Mismatch { element, observed, expected, stage })
+    })
 }
 
 fn count<T>(what: &'static str, observed: &[T], expected: &[T]) -> Option<Mismatch> {

@@ -8,8 +8,9 @@ mod conversions;
 mod unordered;
 
 use crate::case::Case;
-use tess_core::Tessellation;
+use tess_core::{DomainPoint, Tessellation};
 
+pub use conversions::flushed;
 pub(crate) use conversions::{Alternatives, Ambiguous, Conversions};
 pub(crate) use unordered::{Difference, first_difference};
 
@@ -20,6 +21,9 @@ pub enum Order {
     /// The model's order, index for index.
     #[default]
     Exact,
+    /// The model's order of primitives and of their vertices, each vertex by its coordinates: however
+    /// points are numbered. Points alone are compared in the model's order.
+    Sequence,
     /// Any order, and any leading vertex of a triangle; its orientation counts.
     Any,
 }
@@ -95,10 +99,21 @@ impl Strength {
     ) -> bool {
         match (self.order, self.elements) {
             (Order::Exact, Elements::Primitives) => observed == expected,
-            (Order::Exact, Elements::Points) => observed.points == expected.points,
+            (Order::Sequence, Elements::Primitives) => {
+                observed.indices.len() == expected.indices.len()
+                    && vertices(observed).eq(vertices(expected))
+            }
+            (Order::Exact | Order::Sequence, Elements::Points) => {
+                observed.points == expected.points
+            }
             (Order::Any, elements) => {
                 first_difference(elements, case, observed, expected).is_none()
             }
         }
     }
+}
+
+/// The point of each vertex of each primitive, in order; `None` for an index out of range.
+pub(crate) fn vertices(output: &Tessellation) -> impl Iterator<Item = Option<DomainPoint>> {
+    output.indices.iter().map(|&index| output.points.get(index as usize).copied())
 }

@@ -22,7 +22,10 @@ fn first_mismatch(case: &Case, observed: &Tessellation, strength: Strength) -> O
     let expected = case.patch().tessellate();
     let found = match (strength.order, strength.elements) {
         (Order::Exact, Elements::Primitives) => compare::tessellations(&case, observed, &expected),
-        (Order::Exact, Elements::Points) => compare::points_alone(observed, &expected),
+        (Order::Sequence, Elements::Primitives) => compare::sequences(&case, observed, &expected),
+        (Order::Exact | Order::Sequence, Elements::Points) => {
+            compare::points_alone(observed, &expected)
+        }
         (Order::Any, elements) => {
             first_difference(elements, &case, observed, &expected).map(unordered)
         }
@@ -43,7 +46,7 @@ fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
             Order::Exact => {
                 observed.points.iter().zip(&expected.points).filter(|(a, b)| a != b).count()
             }
-            Order::Any => {
+            Order::Sequence | Order::Any => {
                 observed.points.iter().filter(|point| !expected.points.contains(point)).count()
             }
         }

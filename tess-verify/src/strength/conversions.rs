@@ -93,7 +93,8 @@ fn ambiguous(factor: &ProcessedFactor) -> Option<Ambiguous> {
 }
 
 /// The case with its denormal outer factors flushed to zero, which culls it; `None` if there are none.
-fn flushed(case: &Case) -> Option<Case> {
+#[must_use]
+pub fn flushed(case: &Case) -> Option<Case> {
     let is_denormal = |factor: f32| factor.is_subnormal() && factor > 0.0;
     let flush = case.factors.outer().any(is_denormal);
     flush.then(|| {

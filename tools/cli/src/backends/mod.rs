@@ -4,7 +4,7 @@
 
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;
-#[cfg(feature = "gpu")]
+#[cfg(any(feature = "gpu", feature = "probe"))]
 pub(crate) mod quiet;
 pub(crate) mod simd;
 #[cfg(test)]

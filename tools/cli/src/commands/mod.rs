@@ -7,6 +7,8 @@ mod explain;
 mod r#gen;
 mod mesh;
 mod patch;
+#[cfg(feature = "probe")]
+mod probe;
 #[cfg(feature = "shaders")]
 mod shaders;
 mod verify;
@@ -27,6 +29,8 @@ pub(crate) enum Command {
     Bench(bench::Args),
     Mesh(mesh::Args),
     Gen(r#gen::Args),
+    #[cfg(feature = "probe")]
+    Probe(probe::Args),
     #[cfg(feature = "shaders")]
     Shaders(shaders::Args),
     Verify(verify::Args),
@@ -45,6 +49,8 @@ pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
         Command::Bench(args) => bench::run(args),
         Command::Mesh(args) => mesh::run(args),
         Command::Gen(args) => r#gen::run(args),
+        #[cfg(feature = "probe")]
+        Command::Probe(args) => probe::run(args),
         #[cfg(feature = "shaders")]
         Command::Shaders(args) => shaders::run(args),
         Command::Verify(args) => verify::run(args),

@@ -2,6 +2,9 @@
 
 mod strength;
 
+#[cfg(feature = "probe")]
+pub(crate) use strength::{ConversionName, DenormalsName};
+
 use crate::backends::{BackendName, BackendOptions};
 use crate::coverage_file::CoverageFile;
 use crate::failure::{Exit, Failure};

@@ -33,12 +33,14 @@ pub(crate) struct StrengthArgs {
 enum OrderName {
     /// The model's, index for index
     Exact,
+    /// The model's, each vertex by its coordinates
+    Sequence,
     /// Any, and any leading vertex of a triangle
     Any,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum ConversionName {
+pub(crate) enum ConversionName {
     /// To the nearest, ties to even
     Exact,
     /// Either neighbour where the fraction lies in 0.4 to 0.6
@@ -47,7 +49,7 @@ enum ConversionName {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum DenormalsName {
+pub(crate) enum DenormalsName {
     /// Greater than zero
     Keep,
     /// Maybe zero, which culls the patch
@@ -84,17 +86,30 @@ impl StrengthArgs {
         Strength {
             order: match self.order {
                 OrderName::Exact => Order::Exact,
+                OrderName::Sequence => Order::Sequence,
                 OrderName::Any => Order::Any,
             },
             elements: if self.points { Elements::Points } else { Elements::Primitives },
-            conversion: match self.conversion {
-                ConversionName::Exact => Conversion::Exact,
-                ConversionName::Within06Ulp => Conversion::Within06Ulp,
-            },
-            denormals: match self.denormals {
-                DenormalsName::Keep => Denormals::Keep,
-                DenormalsName::Flush => Denormals::Flush,
-            },
+            conversion: self.conversion.into(),
+            denormals: self.denormals.into(),
+        }
+    }
+}
+
+impl From<ConversionName> for Conversion {
+    fn from(name: ConversionName) -> Self {
+        match name {
+            ConversionName::Exact => Self::Exact,
+            ConversionName::Within06Ulp => Self::Within06Ulp,
+        }
+    }
+}
+
+impl From<DenormalsName> for Denormals {
+    fn from(name: DenormalsName) -> Self {
+        match name {
+            DenormalsName::Keep => Self::Keep,
+            DenormalsName::Flush => Self::Flush,
         }
     }
 }

@@ -1,0 +1,203 @@
+//! `tess probe`: a Vulkan device's fixed-function tessellator against the model.
+
+use super::check::{ConversionName, DenormalsName};
+use super::draw::PictureFormat;
+use crate::args::{name_of, shard};
+use crate::backends::quiet;
+use crate::drawing::{self, DrawOptions};
+use crate::failure::{Exit, Failure};
+use crate::formats::OnePatch;
+use crate::output::form;
+use crate::output::{OutputArgs, json, note, progress};
+use clap::ValueEnum;
+use std::fmt::Write;
+use std::path::PathBuf;
+use tess_core::{Domain, Partitioning};
+use tess_probe::{First, Prober, Report, cases, list, probe};
+use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::strength::{Order, Strength};
+use tess_verify::vectors::Listing;
+
+/// Compare the tessellator of a Vulkan device with the model
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Sends the patches of `tess gen` through the fixed-function tessellator of a device, captures the domain
+points of every primitive, and compares them bit by bit. The table counts, for each configuration, the
+patches whose primitives are the model's in order, with another leading vertex (leading), in another
+order (reorder), with other connections (connected), with other points (points, and by how many units of
+2^-16), culled by one of the two alone (culling), and with a wrong third coordinate (third). Below it
+stands what explains the differences, and the first that no freedom of the specification explains.
+
+Exit code 0: equal, or equal under the freedoms asked for; 1: different; 2: bad usage; 3: no such device.
+
+Examples:
+  tess probe                            is this device exact?
+  tess probe --list
+  tess probe --device 1 --level 2 --denormals flush
+  tess probe --level 3 --seed 7 --count 100000 --shard 1/8
+  tess probe --json -o device.json --picture first.png")]
+pub(crate) struct Args {
+    /// List the devices and end
+    #[arg(long)]
+    list: bool,
+    /// Number of the device, as --list shows it
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    device: usize,
+    /// How thorough: 1, 2 or 3, as for `tess gen`
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u8).range(1..=3))]
+    level: u8,
+    /// Seed of everything random
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Number of random cases at the end
+    #[arg(long, value_name = "N")]
+    count: Option<u64>,
+    /// One domain only
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Domain>())]
+    domain: Option<Domain>,
+    /// One partitioning only
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Partitioning>())]
+    partitioning: Option<Partitioning>,
+    /// One of N disjoint parts, counted from 1
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
+    shard: Shard,
+    /// Order of primitives that counts as equal
+    #[arg(long, value_name = "NAME", default_value = "any")]
+    order: OrderName,
+    /// Conversion of factors that counts as equal
+    #[arg(long, value_name = "NAME", default_value = "exact")]
+    conversion: ConversionName,
+    /// What may happen to positive denormal outer factors
+    #[arg(long, value_name = "NAME", default_value = "keep")]
+    denormals: DenormalsName,
+    /// Capture domain points alone, as is done on devices without transform feedback
+    #[arg(long)]
+    points: bool,
+    /// Write the report as JSON (docs/probe.md explains it)
+    #[arg(long)]
+    json: bool,
+    /// Draw the first unexplained patch, the model in grey and the device in red: .svg or .png
+    #[arg(long, value_name = "FILE")]
+    picture: Option<PathBuf>,
+    #[command(flatten)]
+    output: OutputArgs,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum OrderName {
+    /// The model's
+    Sequence,
+    /// Any, and any leading vertex of a triangle
+    Any,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// No Vulkan, no such device, one that cannot be captured, or one that fails; no case to ask; an
+/// output that cannot be written.
+pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    quiet::start_again_for_loader();
+    if args.list {
+        return args.list_devices();
+    }
+    let cases = cases(args.selection(), args.shard);
+    if cases.is_empty() {
+        return Err(Failure::bad_input("these arguments select no case"));
+    }
+    let open = if args.points { Prober::open_for_points } else { Prober::open };
+    let mut prober = open(args.device).map_err(unavailable)?;
+    let bar = progress(cases.len() as u64, "patches");
+    let report = probe(&mut prober, &cases, args.strength(), |patches| bar.inc(patches));
+    bar.finish_and_clear();
+    let report = report.map_err(unavailable)?;
+    if let (Some(file), Some(first)) = (&args.picture, &report.unexplained.first) {
+        draw(file, first)?;
+    }
+    let text = if args.json { json(&report) } else { report.to_string() };
+    args.output.write(text.as_bytes())?;
+    Ok(conclude(&report))
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "for map_err")]
+fn unavailable(error: tess_probe::Error) -> Failure {
+    Failure::unavailable(error.to_string())
+}
+
+impl Args {
+    fn list_devices(&self) -> Result<Exit, Failure> {
+        let devices = list().map_err(unavailable)?;
+        if devices.is_empty() {
+            return Err(Failure::unavailable("Vulkan is here, but no driver has a device"));
+        }
+        let mut text = String::new();
+        for device in &devices {
+            // Writing to a String cannot fail.
+            _ = writeln!(text, "{device}");
+        }
+        let text = if self.json { json(&devices) } else { text };
+        self.output.write(text.as_bytes())?;
+        Ok(Exit::Done)
+    }
+
+    fn selection(&self) -> Selection {
+        Selection {
+            level: match self.level {
+                1 => Level::One,
+                2 => Level::Two,
+                _ => Level::Three,
+            },
+            seed: self.seed,
+            random: self.count,
+            domain: self.domain,
+            partitioning: self.partitioning,
+        }
+    }
+
+    fn strength(&self) -> Strength {
+        Strength {
+            order: match self.order {
+                OrderName::Sequence => Order::Sequence,
+                OrderName::Any => Order::Any,
+            },
+            conversion: self.conversion.into(),
+            denormals: self.denormals.into(),
+            ..Strength::default()
+        }
+    }
+}
+
+/// Says on stderr how it ends.
+fn conclude(report: &Report) -> Exit {
+    let Report { patches, different, .. } = report;
+    if *different == 0 {
+        note(&format!("equal: all {patches} patches, as far as they were compared"));
+        Exit::Done
+    } else {
+        note(&format!("different: {different} of {patches} patches"));
+        Exit::Different
+    }
+}
+
+/// The model's patch with what the device gave over it.
+fn draw(file: &std::path::Path, first: &First) -> Result<(), Failure> {
+    let Some(output) = first.output() else {
+        note("no picture: a coordinate of the device is no number that can be drawn");
+        return Ok(());
+    };
+    let case = first.case;
+    let patch = |output, backend| OnePatch { listing: Listing { case, output, line: 0 }, backend };
+    let expected = patch(case.patch().tessellate(), "the model");
+    let observed = patch(output, "the device");
+    let (drawing, _) = drawing::overlay(
+        &expected,
+        &observed,
+        &DrawOptions { size: 800, ..DrawOptions::default() },
+    );
+    let content = match form::choose(None, file)? {
+        PictureFormat::Svg => drawing.picture.to_svg().into_bytes(),
+        PictureFormat::Png => drawing.picture.to_png()?,
+    };
+    OutputArgs { file: file.to_owned() }.write(&content)
+}

@@ -1,0 +1,47 @@
+//! The cases that a Vulkan device can be asked.
+
+use std::collections::HashSet;
+use tess_core::{Config, Domain, OutputPrimitive, SplitOrder};
+use tess_verify::case::Case;
+use tess_verify::generate::{Selection, Shard};
+
+/// The cases of a selection, with what Vulkan does not have replaced by what it has: one split order,
+/// lines from isolines alone, and from isolines no triangles. Each case comes once. Then one shard of
+/// them is taken.
+#[must_use]
+pub fn cases(selection: Selection, shard: Shard) -> Vec<Case> {
+    let mut seen = HashSet::new();
+    let asked = selection.cases().map(|case| asked(&case)).filter(|case| seen.insert(*case));
+    (0..).zip(asked).filter(|(number, _)| shard.has(*number)).map(|(_, case)| case).collect()
+}
+
+fn asked(case: &Case) -> Case {
+    let output = match (case.domain(), case.config.output) {
+        (_, OutputPrimitive::Point) => OutputPrimitive::Point,
+        (Domain::Isoline, _) => OutputPrimitive::Line,
+        (_, OutputPrimitive::TriangleCcw) => OutputPrimitive::TriangleCcw,
+        (_, OutputPrimitive::TriangleCw | OutputPrimitive::Line) => OutputPrimitive::TriangleCw,
+    };
+    let config = Config { output, split: SplitOrder::Ruler, ..case.config };
+    Case { config, factors: case.factors }
+}
+
+/// Cases of one configuration, as many as one capture takes.
+pub(crate) type Group = Vec<Case>;
+
+/// The same cases by domain and configuration.
+pub(crate) fn groups(cases: &[Case]) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for case in cases {
+        let own = groups.iter_mut().find(|group| {
+            group
+                .first()
+                .is_some_and(|first| (first.domain(), first.config) == (case.domain(), case.config))
+        });
+        match own {
+            Some(group) => group.push(*case),
+            None => groups.push(vec![*case]),
+        }
+    }
+    groups
+}

@@ -1,0 +1,159 @@
+//! Adds up what captured patches show.
+
+use crate::capture::{Captured, Method};
+use crate::digests::Digests;
+use crate::fixed::output;
+use crate::freedoms::Way;
+use crate::info::Info;
+use crate::report::{Explanation, First, Report, Row, Unexplained};
+use crate::verdict::{Verdict, any_order, third_is_right, verdict};
+use tess_core::Tessellation;
+use tess_verify::case::Case;
+use tess_verify::checker::check_device;
+use tess_verify::names::Named;
+use tess_verify::strength::{Elements, Strength};
+use tess_verify::vectors::primitive_size;
+
+/// Compares what a device gave, patch by patch, and says in the end what explains the differences.
+#[derive(Clone, Debug)]
+pub struct Judge {
+    info: Info,
+    method: Method,
+    /// What counts as equal.
+    strength: Strength,
+    rows: Vec<(Row, Digests)>,
+    different: u64,
+    /// Patches that are not the model's in any order, by what explains them.
+    ways: [u64; Way::ALL.len()],
+    odd: u64,
+    unexplained: u64,
+    first: Option<First>,
+}
+
+impl Judge {
+    /// A judge of captures of a device. `strength` says what counts as equal; its elements are those
+    /// that the method captures.
+    #[must_use]
+    pub fn new(info: &Info, method: Method, strength: Strength) -> Self {
+        let elements = match method {
+            Method::Primitives => strength.elements,
+            Method::Points => Elements::Points,
+        };
+        Self {
+            info: info.clone(),
+            method,
+            strength: Strength { elements, ..strength },
+            rows: Vec::new(),
+            different: 0,
+            ways: [0; Way::ALL.len()],
+            odd: 0,
+            unexplained: 0,
+            first: None,
+        }
+    }
+
+    /// Adds a patch: what was asked, and what the device gave.
+    pub fn add(&mut self, case: &Case, captured: &Captured) {
+        let observed = output(captured);
+        let verdict = verdict(case, captured, observed.as_ref(), self.method);
+        let third = third_is_right(case, captured);
+        let row = self.row(case);
+        row.0.add(verdict, third);
+        if let Some(observed) = &observed {
+            row.1.add(observed, primitive_size(case));
+        }
+        let equal = observed.as_ref().is_some_and(|o| self.strength.accepts(case, o)) && third;
+        self.different += u64::from(!equal);
+        let in_any_order = matches!(verdict, Verdict::Sequence | Verdict::Leading | Verdict::Order);
+        if !in_any_order || !third {
+            self.explain(case, captured, observed.as_ref(), third);
+        }
+    }
+
+    fn explain(
+        &mut self,
+        case: &Case,
+        captured: &Captured,
+        observed: Option<&Tessellation>,
+        third: bool,
+    ) {
+        self.odd += 1;
+        let (method, max_level) = (self.method, self.info.max_level);
+        let explains =
+            |way: Way| third && observed.is_some_and(|o| way.explains(case, o, method, max_level));
+        let explained = Way::ALL.map(explains);
+        for (count, explained) in self.ways.iter_mut().zip(explained) {
+            *count += u64::from(explained);
+        }
+        let allowed = Way::ALL.into_iter().zip(explained).any(|(way, yes)| yes && way.is_allowed());
+        if !allowed {
+            self.unexplained += 1;
+            if self.first.is_none() {
+                self.first = Some(self.describe(case, captured, observed));
+            }
+        }
+    }
+
+    /// A difference in full.
+    fn describe(&self, case: &Case, captured: &Captured, observed: Option<&Tessellation>) -> First {
+        let mismatch = observed.and_then(|observed| {
+            let report = check_device([(*case, observed.clone())], any_order(self.method));
+            report.differences.into_iter().next().map(|difference| difference.mismatch)
+        });
+        let (difference, stage) = match (mismatch, observed) {
+            (Some(found), _) => (found.to_string(), found.stage.to_string()),
+            (None, Some(_)) => ("the third coordinate is wrong".to_owned(), "location".to_owned()),
+            (None, None) => {
+                let odd = captured.vertices.iter().flat_map(|[u, v, _]| [u, v]);
+                let odd = odd.copied().find(|bits| crate::fixed::fixed(*bits).is_none());
+                let bits = odd.unwrap_or_default();
+                let float = f32::from_bits(bits);
+                let text = format!(
+                    "a coordinate is {float} (0x{bits:08x}), no multiple of 2^-16 in 0..=1"
+                );
+                (text, "location".to_owned())
+            }
+        };
+        let (line, command) = (case.to_string(), case.command());
+        First { line, command, difference, stage, case: *case, captured: captured.clone() }
+    }
+
+    fn row(&mut self, case: &Case) -> &mut (Row, Digests) {
+        let names =
+            (case.domain().name(), case.config.partitioning.name(), case.config.output.name());
+        let known = self.rows.iter().position(|(row, _)| row.names() == names);
+        let at = known.unwrap_or_else(|| {
+            self.rows.push((Row::new(names), Digests::default()));
+            self.rows.len() - 1
+        });
+        &mut self.rows[at]
+    }
+
+    /// What all patches showed.
+    #[must_use]
+    pub fn finish(self) -> Report {
+        let explanations = Way::ALL.into_iter().zip(self.ways).filter(|&(_, patches)| patches > 0);
+        let explanation = |(way, patches): (Way, u64)| Explanation {
+            way,
+            words: way.words(),
+            is_allowed: way.is_allowed(),
+            patches,
+            is_all: patches == self.odd,
+        };
+        let mut rows: Vec<Row> = self.rows.into_iter().map(|(row, d)| row.with(&d)).collect();
+        rows.sort_by(|a, b| a.names().cmp(&b.names()));
+        Report {
+            device: self.info,
+            method: match self.method {
+                Method::Primitives => "primitives",
+                Method::Points => "points",
+            },
+            patches: rows.iter().map(|row| row.patches).sum(),
+            different: self.different,
+            odd: self.odd,
+            explanations: explanations.map(explanation).collect(),
+            unexplained: Unexplained { patches: self.unexplained, first: self.first },
+            rows,
+        }
+    }
+}

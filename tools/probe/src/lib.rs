@@ -1,0 +1,26 @@
+#![doc = include_str!("../README.md")]
+
+mod capture;
+mod cases;
+mod digests;
+mod error;
+mod fixed;
+mod freedoms;
+mod info;
+mod judge;
+mod modes;
+mod probe;
+mod report;
+mod shaders;
+mod verdict;
+mod vulkan;
+
+pub use capture::{Captured, Method, Prober};
+pub use cases::cases;
+pub use digests::Digests;
+pub use error::Error;
+pub use freedoms::Way;
+pub use info::{Info, list};
+pub use judge::Judge;
+pub use probe::probe;
+pub use report::{Explanation, First, Report, Row, Unexplained};

@@ -1,0 +1,38 @@
+//! A whole probe: cases in, a report out.
+
+use crate::capture::Prober;
+use crate::cases::groups;
+use crate::error::Error;
+use crate::judge::Judge;
+use crate::report::Report;
+use tess_core::PatchFactors;
+use tess_verify::case::Case;
+use tess_verify::strength::Strength;
+
+/// Patches that are captured before they are compared.
+const AT_ONCE: usize = 4096;
+
+/// Asks a device every case and compares what it gives. `progress` is called with the number of cases
+/// that were compared since its last call.
+///
+/// # Errors
+/// The device fails.
+pub fn probe(
+    prober: &mut Prober,
+    cases: &[Case],
+    strength: Strength,
+    mut progress: impl FnMut(u64),
+) -> Result<Report, Error> {
+    let mut judge = Judge::new(prober.info(), prober.method(), strength);
+    for group in groups(cases) {
+        for part in group.chunks(AT_ONCE) {
+            let factors: Vec<PatchFactors> = part.iter().map(|case| case.factors).collect();
+            let captured = prober.capture(part[0].domain(), part[0].config, &factors)?;
+            for (case, captured) in part.iter().zip(&captured) {
+                judge.add(case, captured);
+            }
+            progress(part.len() as u64);
+        }
+    }
+    Ok(judge.finish())
+}

@@ -1,0 +1,225 @@
+//! What a probe found. docs/probe.md explains each entry of its JSON.
+
+use crate::capture::Captured;
+use crate::digests::Digests;
+use crate::fixed::output;
+use crate::freedoms::Way;
+use crate::info::Info;
+use crate::verdict::Verdict;
+use serde::Serialize;
+use std::fmt;
+use tess_core::Tessellation;
+use tess_verify::case::Case;
+
+/// The result of a probe.
+#[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+pub struct Report {
+    /// The device.
+    pub device: Info,
+    /// What was captured: `primitives`, or `points` alone.
+    pub method: &'static str,
+    /// Patches that were compared.
+    pub patches: u64,
+    /// Patches that differ in the strength that was asked for.
+    pub different: u64,
+    /// Patches that are not the model's in any order.
+    pub odd: u64,
+    /// What explains some of the odd ones.
+    pub explanations: Vec<Explanation>,
+    /// Odd patches that no freedom of the specification explains.
+    pub unexplained: Unexplained,
+    /// A row for each configuration.
+    pub rows: Vec<Row>,
+}
+
+/// Something that makes odd patches equal.
+#[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+pub struct Explanation {
+    /// Which.
+    pub way: Way,
+    /// What the device does.
+    pub words: &'static str,
+    /// Whether the specification leaves it to a device.
+    pub is_allowed: bool,
+    /// Odd patches that it explains.
+    pub patches: u64,
+    /// Whether these are all.
+    pub is_all: bool,
+}
+
+/// What no freedom explains.
+#[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+pub struct Unexplained {
+    /// How many patches.
+    pub patches: u64,
+    /// The first of them.
+    pub first: Option<First>,
+}
+
+/// One difference in full.
+#[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
+pub struct First {
+    /// The case as a line.
+    pub line: String,
+    /// The command that shows what the model gives.
+    pub command: String,
+    /// The first difference, in any order.
+    pub difference: String,
+    /// The stage that it points to.
+    pub stage: String,
+    /// The case.
+    #[serde(skip)]
+    pub case: Case,
+    /// What the device gave.
+    #[serde(skip)]
+    pub captured: Captured,
+}
+
+impl First {
+    /// What the device gave as an output; `None` if a coordinate is no 16.16 number.
+    #[must_use]
+    pub fn output(&self) -> Option<Tessellation> {
+        output(&self.captured)
+    }
+}
+
+/// How the patches of one configuration compare with the model.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct Row {
+    /// Domain.
+    pub domain: &'static str,
+    /// Partitioning.
+    pub partitioning: &'static str,
+    /// Output primitive.
+    pub output: &'static str,
+    /// Patches.
+    pub patches: u64,
+    /// The model's primitives in the model's order.
+    pub sequence: u64,
+    /// The same with another leading vertex.
+    pub leading: u64,
+    /// The model's primitives in another order.
+    pub order: u64,
+    /// The model's points, other primitives.
+    pub connectivity: u64,
+    /// Other points.
+    pub coordinates: u64,
+    /// The most units of 2^-16 by which a coordinate differs.
+    pub max_units: u32,
+    /// Patches that only one of the two culls.
+    pub culling: u64,
+    /// Patches whose third coordinates are wrong.
+    pub third: u64,
+    /// Digest of all patches in the device's order.
+    pub sequence_digest: String,
+    /// Digest that does not depend on the order.
+    pub set_digest: String,
+}
+
+impl Row {
+    pub(crate) fn new(
+        (domain, partitioning, output): (&'static str, &'static str, &'static str),
+    ) -> Self {
+        Self { domain, partitioning, output, ..Self::default() }
+    }
+
+    pub(crate) const fn names(&self) -> (&'static str, &'static str, &'static str) {
+        (self.domain, self.partitioning, self.output)
+    }
+
+    pub(crate) fn add(&mut self, verdict: Verdict, third_is_right: bool) {
+        self.patches += 1;
+        self.third += u64::from(!third_is_right);
+        let count = match verdict {
+            Verdict::Sequence => &mut self.sequence,
+            Verdict::Leading => &mut self.leading,
+            Verdict::Order => &mut self.order,
+            Verdict::Connectivity => &mut self.connectivity,
+            Verdict::Coordinates(units) => {
+                self.max_units = self.max_units.max(units);
+                &mut self.coordinates
+            }
+            Verdict::Culling => &mut self.culling,
+        };
+        *count += 1;
+    }
+
+    pub(crate) fn with(self, digests: &Digests) -> Self {
+        Self { sequence_digest: digests.sequence(), set_digest: digests.set(), ..self }
+    }
+}
+
+/// The table for people, then what explains the differences.
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "device {}", self.device)?;
+        if self.method == "points" {
+            writeln!(f, "domain points alone: the device does not capture primitives")?;
+        }
+        writeln!(
+            f,
+            "{:<8} {:<15} {:<12} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8} {:>6} {:>8} {:>6}",
+            "domain",
+            "partitioning",
+            "output",
+            "patches",
+            "in order",
+            "leading",
+            "reorder",
+            "connected",
+            "points",
+            "units",
+            "culling",
+            "third"
+        )?;
+        for row in &self.rows {
+            writeln!(
+                f,
+                "{:<8} {:<15} {:<12} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8} {:>6} {:>8} {:>6}",
+                row.domain,
+                row.partitioning,
+                row.output,
+                row.patches,
+                row.sequence,
+                row.leading,
+                row.order,
+                row.connectivity,
+                row.coordinates,
+                row.max_units,
+                row.culling,
+                row.third
+            )?;
+        }
+        self.write_explanations(f)
+    }
+}
+
+impl Report {
+    fn write_explanations(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { patches, odd, unexplained, .. } = self;
+        if self.rows.iter().any(|row| row.partitioning == "pow2") {
+            writeln!(f, "pow2: Vulkan has none; the factors were rounded beforehand")?;
+        }
+        if *odd == 0 {
+            return writeln!(f, "all {patches} patches are the model's");
+        }
+        writeln!(f, "{odd} of {patches} patches are not the model's in any order")?;
+        for one in &self.explanations {
+            let all = if one.is_all { "all" } else { "some" };
+            let allowed = if one.is_allowed { "allowed" } else { "not allowed" };
+            let (count, words) = (one.patches, one.words);
+            writeln!(f, "explains {all} ({count}), {allowed}: {words}")?;
+        }
+        if let Some(first) = &unexplained.first {
+            let count = unexplained.patches;
+            writeln!(f, "no freedom explains {count} of them; the first:")?;
+            writeln!(f, "  {}\n  {}\n  {}", first.line, first.difference, first.command)?;
+        }
+        Ok(())
+    }
+}

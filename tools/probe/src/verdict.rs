@@ -1,0 +1,118 @@
+//! How one captured patch compares with the model.
+
+use crate::capture::{Captured, Method};
+use crate::fixed::fixed;
+use tess_core::fixed_point::ONE;
+use tess_core::{Domain, DomainPoint, Tessellation};
+use tess_verify::case::Case;
+use tess_verify::strength::{Elements, Order, Strength};
+use tess_verify::vectors::primitive_size;
+
+/// The nearest to the model that a captured patch is; the first is the nearest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// The model's primitives in the model's order, vertex for vertex.
+    Sequence,
+    /// The same, but for the vertex that leads a triangle.
+    Leading,
+    /// The model's primitives in another order. All that points alone can show.
+    Order,
+    /// The model's points, other primitives.
+    Connectivity,
+    /// Points that the model does not have, or fewer: so many units of 2^-16 from the nearest.
+    Coordinates(u32),
+    /// A patch that the model culls, or one that only the device culls.
+    Culling,
+}
+
+/// The strength in which only the order is free.
+pub(crate) fn any_order(method: Method) -> Strength {
+    let elements = match method {
+        Method::Primitives => Elements::Primitives,
+        Method::Points => Elements::Points,
+    };
+    Strength { order: Order::Any, elements, ..Strength::default() }
+}
+
+/// Compares a patch. `None` instead of an output if it has coordinates that are no 16.16 numbers.
+pub(crate) fn verdict(
+    case: &Case,
+    captured: &Captured,
+    observed: Option<&Tessellation>,
+    method: Method,
+) -> Verdict {
+    let expected = case.patch().tessellate();
+    if captured.vertices.is_empty() != expected.points.is_empty() {
+        return Verdict::Culling;
+    }
+    let Some(observed) = observed else { return Verdict::Coordinates(units(captured, &expected)) };
+    if any_order(method).accepts(case, observed) {
+        return if method == Method::Points {
+            Verdict::Order
+        } else {
+            order(case, observed, &expected)
+        };
+    }
+    if method == Method::Primitives && any_order(Method::Points).accepts(case, observed) {
+        return Verdict::Connectivity;
+    }
+    Verdict::Coordinates(units(captured, &expected))
+}
+
+/// What is kept of the order of the model's primitives.
+fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Verdict {
+    let size = primitive_size(case);
+    let vertices = |output: &Tessellation| -> Vec<DomainPoint> {
+        output.indices.iter().filter_map(|&i| output.points.get(i as usize).copied()).collect()
+    };
+    let (observed, expected) = (vertices(observed), vertices(expected));
+    if observed == expected {
+        return Verdict::Sequence;
+    }
+    let rotated = |(a, b): (&[DomainPoint], &[DomainPoint])| {
+        (0..size).any(|by| (0..size).all(|i| a[(i + by) % size] == b[i]))
+    };
+    let same_length = observed.len() == expected.len();
+    if same_length && observed.chunks(size).zip(expected.chunks(size)).all(rotated) {
+        Verdict::Leading
+    } else {
+        Verdict::Order
+    }
+}
+
+/// The most units of 2^-16, rounded up, by which a captured coordinate is away from the nearest point
+/// of the model; 0 if the device only lacks points.
+fn units(captured: &Captured, expected: &Tessellation) -> u32 {
+    let distance = |vertex: &[u32; 3]| {
+        let to = |point: &DomainPoint| {
+            let [u, v] = [point.u.to_bits(), point.v.to_bits()];
+            scaled_distance(vertex[0], u).max(scaled_distance(vertex[1], v))
+        };
+        expected.points.iter().map(to).min().unwrap_or(0)
+    };
+    captured.vertices.iter().map(distance).max().unwrap_or(0)
+}
+
+/// The distance between a binary32 of these bits and a 16.16 number, in units of 2^-16 rounded up;
+/// at most 2^17.
+#[expect(
+    clippy::float_arithmetic,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a figure for people; a NaN becomes 2^17"
+)]
+fn scaled_distance(bits: u32, number: u32) -> u32 {
+    let distance = (f64::from(f32::from_bits(bits)) * 65536.0 - f64::from(number)).abs();
+    distance.ceil().min(f64::from(2 * ONE)) as u32
+}
+
+/// Whether the third coordinates are right: 1 - u - v on triangles, 0 elsewhere.
+pub(crate) fn third_is_right(case: &Case, captured: &Captured) -> bool {
+    let right = |&[u, v, w]: &[u32; 3]| match (case.domain(), fixed(u), fixed(v)) {
+        (Domain::Triangle, Some(u), Some(v)) => fixed(w) == ONE.checked_sub(u + v),
+        // Reported already.
+        (Domain::Triangle, _, _) => true,
+        (Domain::Isoline | Domain::Quad, _, _) => w == 0,
+    };
+    captured.vertices.iter().all(right)
+}

@@ -1,0 +1,123 @@
+//! Buffers in memory that the host or the device is near to.
+
+use super::Gpu;
+use crate::error::Error;
+use ash::vk;
+use std::sync::Arc;
+
+/// A buffer with memory of its own.
+#[derive(Debug)]
+pub(crate) struct Buffer {
+    gpu: Arc<Gpu>,
+    pub(crate) handle: vk::Buffer,
+    memory: vk::DeviceMemory,
+    pub(crate) bytes: u64,
+    is_mapped: bool,
+}
+
+impl Buffer {
+    /// A buffer that the host reads and writes.
+    pub(crate) fn shared(
+        gpu: &Arc<Gpu>,
+        bytes: u64,
+        usage: vk::BufferUsageFlags,
+    ) -> Result<Self, Error> {
+        let visible =
+            vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
+        // Reading memory that is not cached is slow.
+        let cached = visible | vk::MemoryPropertyFlags::HOST_CACHED;
+        Self::new(gpu, bytes, usage, &[cached, visible], true)
+    }
+
+    /// A buffer that only the device uses.
+    pub(crate) fn local(
+        gpu: &Arc<Gpu>,
+        bytes: u64,
+        usage: vk::BufferUsageFlags,
+    ) -> Result<Self, Error> {
+        let local = vk::MemoryPropertyFlags::DEVICE_LOCAL;
+        Self::new(gpu, bytes, usage, &[local, vk::MemoryPropertyFlags::empty()], false)
+    }
+
+    fn new(
+        gpu: &Arc<Gpu>,
+        bytes: u64,
+        usage: vk::BufferUsageFlags,
+        wanted: &[vk::MemoryPropertyFlags],
+        is_mapped: bool,
+    ) -> Result<Self, Error> {
+        let bytes = bytes.max(16).next_multiple_of(16);
+        let create = vk::BufferCreateInfo::default().size(bytes).usage(usage);
+        // SAFETY: the device is alive, as `gpu` is.
+        let handle = unsafe { gpu.device.create_buffer(&create, None) }
+            .map_err(Error::of("vkCreateBuffer"))?;
+        let memory = vk::DeviceMemory::null();
+        // From here on dropping it frees the handle.
+        let mut buffer = Self { gpu: Arc::clone(gpu), handle, memory, bytes, is_mapped };
+        // SAFETY: the buffer is the device's.
+        let needs = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
+        let memory_type = wanted
+            .iter()
+            .find_map(|&wanted| memory_type(gpu, needs.memory_type_bits, wanted))
+            .ok_or(Error::Missing("memory of the kind"))?;
+        let allocate = vk::MemoryAllocateInfo::default()
+            .allocation_size(needs.size)
+            .memory_type_index(memory_type);
+        // SAFETY: the type is one of the device's.
+        buffer.memory = unsafe { gpu.device.allocate_memory(&allocate, None) }
+            .map_err(Error::of("vkAllocateMemory"))?;
+        // SAFETY: both are new, of this device, and the memory is as large as the buffer needs.
+        unsafe { gpu.device.bind_buffer_memory(handle, buffer.memory, 0) }
+            .map_err(Error::of("vkBindBufferMemory"))?;
+        Ok(buffer)
+    }
+
+    /// Writes words at the beginning.
+    ///
+    /// # Panics
+    /// If they do not fit, or the buffer is not shared.
+    pub(crate) fn write(&self, words: &[u32]) -> Result<(), Error> {
+        self.mapped(words.len(), |mapped| mapped.copy_from_slice(words))
+    }
+
+    /// The first words.
+    ///
+    /// # Panics
+    /// If the buffer does not have as many, or is not shared.
+    pub(crate) fn read(&self, words: usize) -> Result<Vec<u32>, Error> {
+        self.mapped(words, |mapped| mapped.to_vec())
+    }
+
+    fn mapped<T>(&self, words: usize, with: impl FnOnce(&mut [u32]) -> T) -> Result<T, Error> {
+        assert!(self.is_mapped && 4 * words as u64 <= self.bytes, "words of a shared buffer");
+        let flags = vk::MemoryMapFlags::empty();
+        // SAFETY: the memory is visible to the host and not mapped: this is the only place that maps
+        // it, and it unmaps it below.
+        let start = unsafe { self.gpu.device.map_memory(self.memory, 0, vk::WHOLE_SIZE, flags) }
+            .map_err(Error::of("vkMapMemory"))?;
+        // SAFETY: mapped memory is aligned to 64 bytes and as large as the buffer, and any bits are
+        // words; the device does not use it, since each submission is waited for.
+        let mapped = unsafe { std::slice::from_raw_parts_mut(start.cast::<u32>(), words) };
+        let result = with(mapped);
+        // SAFETY: it was mapped above, and no reference to it is left.
+        unsafe { self.gpu.device.unmap_memory(self.memory) };
+        Ok(result)
+    }
+}
+
+fn memory_type(gpu: &Gpu, among: u32, wanted: vk::MemoryPropertyFlags) -> Option<u32> {
+    let types = (0..).zip(gpu.memory.memory_types_as_slice());
+    let mut fitting =
+        types.filter(|(number, ty)| among >> number & 1 == 1 && ty.property_flags.contains(wanted));
+    fitting.next().map(|(number, _)| number)
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        // SAFETY: nothing that runs uses them, as each submission is waited for; null is allowed.
+        unsafe {
+            self.gpu.device.destroy_buffer(self.handle, None);
+            self.gpu.device.free_memory(self.memory, None);
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Recording commands and waiting for them.
+
+use super::Gpu;
+use crate::error::Error;
+use ash::vk;
+use std::sync::Arc;
+
+/// One command buffer, recorded anew for each submission, and queries.
+#[derive(Debug)]
+pub(crate) struct Commands {
+    gpu: Arc<Gpu>,
+    pool: vk::CommandPool,
+    buffer: vk::CommandBuffer,
+    queries: vk::QueryPool,
+    count: u32,
+}
+
+impl Commands {
+    /// A command buffer with `count` queries of this type.
+    pub(crate) fn new(gpu: &Arc<Gpu>, queries: vk::QueryType, count: u32) -> Result<Self, Error> {
+        let create = vk::CommandPoolCreateInfo::default()
+            .queue_family_index(gpu.family)
+            .flags(vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER);
+        // SAFETY: the device is alive and has this family.
+        let pool = unsafe { gpu.device.create_command_pool(&create, None) }
+            .map_err(Error::of("vkCreateCommandPool"))?;
+        let (buffer, none) = (vk::CommandBuffer::null(), vk::QueryPool::null());
+        // From here on dropping it frees the pool.
+        let mut commands = Self { gpu: Arc::clone(gpu), pool, buffer, queries: none, count };
+        let allocate =
+            vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+        // SAFETY: the pool is the device's.
+        let buffers = unsafe { gpu.device.allocate_command_buffers(&allocate) }
+            .map_err(Error::of("vkAllocateCommandBuffers"))?;
+        commands.buffer = buffers[0];
+        let create = vk::QueryPoolCreateInfo::default().query_type(queries).query_count(count);
+        // SAFETY: the type is core, or that of an extension that the caller has made sure of.
+        commands.queries = unsafe { gpu.device.create_query_pool(&create, None) }
+            .map_err(Error::of("vkCreateQueryPool"))?;
+        Ok(commands)
+    }
+
+    /// The pool of queries, all of which are reset when a submission begins.
+    pub(crate) const fn queries(&self) -> vk::QueryPool {
+        self.queries
+    }
+
+    /// Records what `record` calls, submits it and waits for its end.
+    ///
+    /// # Errors
+    /// The device is lost or out of memory.
+    pub(crate) fn run(
+        &self,
+        record: impl FnOnce(&ash::Device, vk::CommandBuffer),
+    ) -> Result<(), Error> {
+        let device = &self.gpu.device;
+        let begin = vk::CommandBufferBeginInfo::default()
+            .flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // SAFETY: the buffer is not in use, as the submission before was waited for; beginning
+        // resets it. The queries are the device's.
+        unsafe {
+            device
+                .begin_command_buffer(self.buffer, &begin)
+                .map_err(Error::of("vkBeginCommandBuffer"))?;
+            device.cmd_reset_query_pool(self.buffer, self.queries, 0, self.count);
+        }
+        record(device, self.buffer);
+        let buffers = [self.buffer];
+        let submit = [vk::SubmitInfo::default().command_buffers(&buffers)];
+        // SAFETY: the queue is used by this thread alone, because `Prober` and `Bench` are not shared
+        // between threads; what the commands use outlives the wait.
+        unsafe {
+            device.end_command_buffer(self.buffer).map_err(Error::of("vkEndCommandBuffer"))?;
+            device
+                .queue_submit(self.gpu.queue, &submit, vk::Fence::null())
+                .map_err(Error::of("vkQueueSubmit"))?;
+            device.queue_wait_idle(self.gpu.queue).map_err(Error::of("vkQueueWaitIdle"))
+        }
+    }
+
+    /// The results of the queries: `words` numbers of 64 bits for each.
+    pub(crate) fn results<const N: usize>(&self) -> Result<Vec<[u64; N]>, Error> {
+        let mut results = vec![[0; N]; self.count as usize];
+        let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
+        // SAFETY: every query of the pool was begun and ended by the submission before.
+        unsafe { self.gpu.device.get_query_pool_results(self.queries, 0, &mut results, flags) }
+            .map_err(Error::of("vkGetQueryPoolResults"))?;
+        Ok(results)
+    }
+}
+
+impl Drop for Commands {
+    fn drop(&mut self) {
+        // SAFETY: nothing runs, as each submission is waited for; null is allowed.
+        unsafe {
+            self.gpu.device.destroy_query_pool(self.queries, None);
+            self.gpu.device.destroy_command_pool(self.pool, None);
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! The calls of Vulkan that a probe makes, each object freed when it is dropped.
+
+mod buffer;
+mod commands;
+mod gpu;
+mod pipeline;
+
+pub(crate) use buffer::Buffer;
+pub(crate) use commands::Commands;
+pub(crate) use gpu::{Gpu, list};
+pub(crate) use pipeline::{Pass, Pipeline, Program, STAGES, Vertices};
