@@ -33,6 +33,7 @@ pub struct Plan {
     primitive_window_tiles: u32,
     max_workgroups: u32,
     tile_bits: u32,
+    is_small: bool,
 }
 
 impl Plan {
@@ -43,8 +44,10 @@ impl Plan {
         let bound = limits.storage_binding.max(4 << 20);
         let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / SECTION * SECTION;
         let primitive_bytes = u64::from(setup.primitive_bytes());
-        let tile_bits =
-            if is_small(patches, capacity) { small_tile_bits(capacity) } else { TILE_BITS };
+        let is_small = is_small(patches, capacity)
+            && u64::from(capacity.points) * 8 <= bound
+            && u64::from(capacity.primitives) * primitive_bytes <= bound;
+        let tile_bits = if is_small { small_tile_bits(capacity) } else { TILE_BITS };
         Self {
             setup,
             patches,
@@ -55,6 +58,7 @@ impl Plan {
             primitive_window_tiles: to_u32((bound / primitive_bytes) >> tile_bits),
             max_workgroups: limits.workgroups.max(1),
             tile_bits,
+            is_small,
         }
     }
 
@@ -72,11 +76,11 @@ impl Plan {
         self.groups
     }
 
-    /// Whether one workgroup does everything in front of the expansions, because there are few patches
-    /// and little room for output.
+    /// Whether the batch runs two dispatches, because there are few patches and little room for output: one
+    /// workgroup does everything in front of the expansions, and these are one dispatch.
     #[must_use]
-    pub fn is_small(&self) -> bool {
-        is_small(self.patches, self.capacity)
+    pub const fn is_small(&self) -> bool {
+        self.is_small
     }
 
     /// Elements of a tile: points or primitives.
@@ -241,10 +245,12 @@ impl Plan {
     }
 }
 
-/// See [`Plan::is_small`].
+/// See [`Plan::is_small`]; the output also has to be bound at once.
 fn is_small(patches: u32, capacity: Capacity) -> bool {
     let tiles = |elements: u32| elements.div_ceil(TILE);
+    let has_output = capacity.points > 0 && capacity.primitives > 0;
     (1..=SMALL_PATCHES).contains(&patches)
+        && (has_output || capacity == Capacity::default())
         && tiles(capacity.points).saturating_add(tiles(capacity.primitives)) <= SMALL_TILES
 }
 
