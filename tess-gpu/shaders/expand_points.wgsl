@@ -1,5 +1,5 @@
-// needs: alike, expand, point_format, points, rings, state, tile, topology
-// One workgroup per tile of points: each thread makes pairs of them, from their numbers alone.
+// needs: point_tile, state
+// One workgroup per tile of points.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> topologies: array<vec2<u32>>;
@@ -10,132 +10,11 @@
 @group(0) @binding(6) var<storage, read> tiles: array<u32>;
 @group(0) @binding(7) var<storage, read_write> points_out: array<vec2<u32>>;
 
-// The patch that points are taken from.
-struct Source {
-    // Within the round.
-    number: u32,
-    begin: u32,
-    topology: vec2<u32>,
-    axes: PatchAxes,
-}
-
-fn load_source(round: Round, number: u32) -> Source {
-    var source = source_of(round.first + number, scratch[number]);
-    source.number = number;
-    source.begin = u32(begins[number]);
-    return source;
-}
-
-fn source_of(patch_index: u32, topology: vec2<u32>) -> Source {
-    var source: Source;
-    source.topology = topology;
-    if DOMAIN != ISOLINE && state_of(topology) == REGULAR {
-        source.axes = axes_of(patch_index, topology);
-    }
-    return source;
-}
-
-fn location_of(source: Source, i: u32) -> RingLocation {
-    if DOMAIN != ISOLINE && state_of(source.topology) == REGULAR {
-        return point_location(source.axes.rings, i);
-    }
-    return RingLocation(0u, 0u, i);
-}
-
-fn run_at(round: Round, source: Source, location: RingLocation) -> PointRun {
-    if DOMAIN == ISOLINE {
-        return line_run(round.first + source.number, source.topology, location.step);
-    }
-    if state_of(source.topology) == MINIMUM {
-        return minimum_run(location.step);
-    }
-    return run_of(source.axes, location);
-}
-
-fn write_points(round: Round, thread: u32, out: u32) {
-    var source: Source;
-    source.number = NEVER;
-    let patch_number = job.first_patch + round.first;
-    for (var element = 2u * thread; element < 1u << job.tile_bits; element += 2u * WORKGROUP) {
-        if element + 1u < round.begin || element >= round.end {
-            continue;
-        }
-        let first = max(element, round.begin);
-        let number = find_patch(round, first);
-        if number != source.number {
-            source = load_source(round, number);
-        }
-        let location = location_of(source, first - source.begin);
-        var run = run_at(round, source, location);
-        points_out[out + first] = format_point(point_of_run(run, run.step), patch_number + number);
-        if first == element && element + 1u < round.end {
-            run.step++;
-            if run.step == run.size {
-                let next = next_patch(round, number, element + 1u);
-                if next != number {
-                    source = load_source(round, next);
-                }
-                run = first_run(round, source, location, next != number, element + 1u);
-            }
-            points_out[out + element + 1u] =
-                format_point(point_of_run(run, run.step), patch_number + source.number);
-        }
-    }
-}
-
-// The run that an element begins, the one behind a location or the first of a patch.
-fn first_run(round: Round, source: Source, location: RingLocation, is_next_patch: bool, element: u32) -> PointRun {
-    if DOMAIN == ISOLINE {
-        return run_at(round, source, RingLocation(0u, 0u, element - source.begin));
-    }
-    var next = next_edge(location);
-    if is_next_patch {
-        next = RingLocation(0u, 0u, 0u);
-    }
-    return run_at(round, source, next);
-}
-
-// Whether patches of one topology have the same points.
-fn has_same_points(topology: vec2<u32>) -> bool {
-    return IS_INTEGER || state_of(topology) == MINIMUM;
-}
-
-fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
-    let source = source_of(tile.first_patch, repeat.topology);
-    let round = Round(tile.first_patch, 1u, 0u, 0u);
-    for (var i = thread; i < repeat.size; i += WORKGROUP) {
-        let run = run_at(round, source, location_of(source, i));
-        scratch[i] = format_point(point_of_run(run, run.step), 0u);
-    }
-    workgroupBarrier();
-    let end = tile.end - tile.base;
-    for (var element = tile.begin - tile.base + thread; element < end; element += WORKGROUP) {
-        let position = element + repeat.before;
-        let number = patch_at(repeat, position);
-        points_out[out + element] = numbered(
-            scratch[position - number * repeat.size],
-            job.first_patch + tile.first_patch + number);
-    }
-}
-
 @compute @workgroup_size(WORKGROUP)
 fn expand_points(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let range = status.ranges[job.chunk];
     let number = workgroup.x + workgroup.y * job.max_workgroups;
-    let tile = tile_of(number, range.points_begin, range.points_end, 0u);
-    if tile.end == 0u || status.overflow != 0u {
-        return;
-    }
-    let out = tile.base - (job.window_first << job.tile_bits);
-    let repeat = repeat_of(tile, POINTS, SCRATCH);
-    if repeat.size > 0u && has_same_points(repeat.topology) {
-        copy_points(tile, repeat, thread, out);
-        return;
-    }
-    for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
-        write_points(load_round(tile, first, POINTS, thread), thread, out);
-    }
+    write_point_tile(number, thread);
 }

@@ -27,20 +27,20 @@ pub struct Plan {
     setup: Setup,
     patches: u32,
     groups: u32,
-    is_small: bool,
     capacity: Capacity,
     chunk_patches: u32,
     point_window_tiles: u32,
     primitive_window_tiles: u32,
     max_workgroups: u32,
     tile_bits: u32,
+    is_small: bool,
 }
 
 impl Plan {
     /// Cuts up a batch of `patches` patches with room for `capacity`.
     #[must_use]
     pub fn new(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
-        Self::cut(setup, patches, capacity, limits, is_small(patches, capacity))
+        Self::cut(setup, patches, capacity, limits, true)
     }
 
     /// The same batch in the stages of a large one, whatever its size: a host then has one path.
@@ -49,23 +49,33 @@ impl Plan {
         Self::cut(setup, patches, capacity, limits, false)
     }
 
-    fn cut(setup: Setup, patches: u32, capacity: Capacity, limits: Limits, is_small: bool) -> Self {
+    fn cut(
+        setup: Setup,
+        patches: u32,
+        capacity: Capacity,
+        limits: Limits,
+        may_be_small: bool,
+    ) -> Self {
         let context_bytes = 8 * u64::from(setup.factors());
         let bound = limits.storage_binding.max(4 << 20);
         let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / SECTION * SECTION;
         let primitive_bytes = u64::from(setup.primitive_bytes());
+        let is_small = may_be_small
+            && is_small(patches, capacity)
+            && u64::from(capacity.points) * 8 <= bound
+            && u64::from(capacity.primitives) * primitive_bytes <= bound;
         let tile_bits = if is_small { small_tile_bits(capacity) } else { TILE_BITS };
         Self {
             setup,
             patches,
             groups: 0,
-            is_small,
             capacity,
             chunk_patches: patches.max(1).checked_next_multiple_of(BLOCK).unwrap_or(most).min(most),
             point_window_tiles: to_u32((bound / 8) >> tile_bits),
             primitive_window_tiles: to_u32((bound / primitive_bytes) >> tile_bits),
             max_workgroups: limits.workgroups.max(1),
             tile_bits,
+            is_small,
         }
     }
 
@@ -83,10 +93,11 @@ impl Plan {
         self.groups
     }
 
-    /// Whether one workgroup does everything in front of the expansions, because there are few patches
-    /// and little room for output, and the plan is not [`Plan::in_large_stages`].
+    /// Whether the batch runs two dispatches, because there are few patches and little room for output: one
+    /// workgroup does everything in front of the expansions, and these are one dispatch.
+    /// Never of [`Plan::in_large_stages`].
     #[must_use]
-    pub fn is_small(&self) -> bool {
+    pub const fn is_small(&self) -> bool {
         self.is_small
     }
 
@@ -252,10 +263,12 @@ impl Plan {
     }
 }
 
-/// See [`Plan::is_small`].
+/// See [`Plan::is_small`]; the output also has to be bound at once.
 fn is_small(patches: u32, capacity: Capacity) -> bool {
     let tiles = |elements: u32| elements.div_ceil(TILE);
+    let has_output = capacity.points > 0 && capacity.primitives > 0;
     (1..=SMALL_PATCHES).contains(&patches)
+        && (has_output || capacity == Capacity::default())
         && tiles(capacity.points).saturating_add(tiles(capacity.primitives)) <= SMALL_TILES
 }
 

@@ -32,6 +32,8 @@ pub enum Stage {
     ExpandPoints,
     /// Tiles of indices.
     ExpandPrimitives,
+    /// Both expansions of a small batch.
+    ExpandSmall,
 }
 
 /// The bindings of [`Stage::Small`]; the first six are those of [`Stage::Factors`].
@@ -49,7 +51,7 @@ const FRONT: [Binding; 9] = [
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Small,
         Self::Factors,
         Self::Scan,
@@ -58,6 +60,7 @@ impl Stage {
         Self::Groups,
         Self::ExpandPoints,
         Self::ExpandPrimitives,
+        Self::ExpandSmall,
     ];
 
     /// The name of its entry point.
@@ -72,6 +75,7 @@ impl Stage {
             Self::Groups => "groups",
             Self::ExpandPoints => "expand_points",
             Self::ExpandPrimitives => "expand_primitives",
+            Self::ExpandSmall => "expand_small",
         }
     }
 
@@ -125,6 +129,17 @@ impl Stage {
                 Binding(Tiles, Read),
                 Binding(Indices, ReadWrite),
             ],
+            Self::ExpandSmall => &[
+                Binding(Job, Read),
+                Binding(Topologies, Read),
+                Binding(Contexts, Read),
+                Binding(Tables, Read),
+                Binding(Offsets, Read),
+                Binding(Status, Read),
+                Binding(Indices, ReadWrite),
+                Binding(Tiles, Read),
+                Binding(Points, ReadWrite),
+            ],
         }
     }
 
@@ -140,6 +155,7 @@ impl Stage {
             Self::Groups => ("groups", None),
             Self::ExpandPoints => ("expand_points", Some(sizes::POINT_SCRATCH)),
             Self::ExpandPrimitives => ("expand_primitives", Some(sizes::PRIMITIVE_SCRATCH)),
+            Self::ExpandSmall => ("expand_small", Some(sizes::POINT_SCRATCH)),
         };
         let scratch = scratch.map(|entries| constants(&[("SCRATCH", entries)]));
         let [place, contexts] = files::placing(setup, "stored_contexts");
@@ -163,17 +179,23 @@ impl Stage {
             Self::ExpandPoints => {
                 let mut own = any_factors(Setup { point_format: setup.point_format, ..plain });
                 own.config.output = OutputPrimitive::Point;
-                if !setup.has_integer_factors() {
-                    own.config.partitioning = Partitioning::FractionalOdd;
-                }
-                own
+                placed_as(setup, own)
             }
+            Self::ExpandSmall => placed_as(setup, any_factors(setup)),
             Self::ExpandPrimitives => {
                 let Setup { numbering, index_type, .. } = setup;
                 any_factors(Setup { numbering, index_type, ..plain })
             }
         }
     }
+}
+
+/// Points lie evenly or not.
+fn placed_as(setup: Setup, mut own: Setup) -> Setup {
+    if !setup.has_integer_factors() {
+        own.config.partitioning = Partitioning::FractionalOdd;
+    }
+    own
 }
 
 /// Once factors are processed, partitioning and split order are in contexts and tables.

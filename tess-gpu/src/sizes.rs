@@ -42,7 +42,7 @@ pub const ALIGNMENT: u64 = 256;
 const _: () = {
     assert!(ROUND <= POINT_SCRATCH && ROUND <= PRIMITIVE_SCRATCH, "it holds a round's topologies");
     // alike.wgsl divides by multiplying, which is exact for patches of so many elements.
-    assert!(POINT_SCRATCH <= 640 && 2 * PRIMITIVE_SCRATCH <= 640, "the division is exact");
+    assert!(2 * POINT_SCRATCH <= 640 && 2 * PRIMITIVE_SCRATCH <= 640, "the division is exact");
     assert!(size_of::<DrawIndexed>() <= 4 * DISPATCHES_AT as usize, "they don't overlap");
 };
 

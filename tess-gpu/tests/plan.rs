@@ -84,12 +84,12 @@ fn bindings_lie_within_buffers_and_limits() {
 #[test]
 fn chunks_and_windows_cover_everything_once() {
     for plan in some_setups().flat_map(|setup| plans(setup, LOW)) {
-        let counting = if plan.is_small() { Stage::Small } else { Stage::Factors };
-        for (stage, resource) in [
-            (counting, Resource::Factors),
-            (Stage::ExpandPoints, Resource::Points),
-            (Stage::ExpandPrimitives, Resource::Indices),
-        ] {
+        let stages = match plan.is_small() {
+            true => [Stage::Small, Stage::ExpandSmall, Stage::ExpandSmall],
+            false => [Stage::Factors, Stage::ExpandPoints, Stage::ExpandPrimitives],
+        };
+        let resources = [Resource::Factors, Resource::Points, Resource::Indices];
+        for (stage, resource) in stages.into_iter().zip(resources) {
             let own = plan.dispatches().filter(|dispatch| dispatch.stage() == stage);
             let mut end = plan.buffer_size(resource);
             for Span { offset, size } in own.map(|dispatch| span(&dispatch, resource)) {

@@ -5,7 +5,7 @@ use super::jobs::Part;
 use crate::bindings::{Binding, Resource};
 use crate::layout::Job;
 use crate::shaders::Stage;
-use crate::sizes::{ALIGNMENT, BLOCK, SECTION, Span, WORKGROUP};
+use crate::sizes::{ALIGNMENT, BLOCK, Capacity, SECTION, Span, WORKGROUP};
 
 /// One stage over one part of the batch: bind [`Dispatch::bindings`], then dispatch
 /// [`Dispatch::workgroups`].
@@ -49,15 +49,19 @@ impl Plan {
 
     /// What writes the output of a chunk; nothing if there is no room for any.
     fn expansion(self, chunk: u32) -> impl Iterator<Item = Dispatch> + use<> {
-        let (points, primitives) = (self.point_windows(), self.primitive_windows());
+        let has_room = self.point_windows() + self.primitive_windows() > 0;
+        let (points, primitives) = match self.is_small() {
+            true => (0, 0),
+            false => (self.point_windows(), self.primitive_windows()),
+        };
         let dispatch = move |stage, part| Dispatch { plan: self, stage, chunk, part };
-        let partition = (points + primitives > 0 && !self.is_small())
-            .then(|| dispatch(Stage::Partition, Part::Whole));
+        let first = if self.is_small() { Stage::ExpandSmall } else { Stage::Partition };
+        let first = has_room.then(|| dispatch(first, Part::Whole));
         let points =
             (0..points).map(move |window| dispatch(Stage::ExpandPoints, Part::Points { window }));
         let primitives = (0..primitives)
             .map(move |window| dispatch(Stage::ExpandPrimitives, Part::Primitives { window }));
-        partition.into_iter().chain(points).chain(primitives)
+        first.into_iter().chain(points).chain(primitives)
     }
 }
 
@@ -91,27 +95,15 @@ impl Dispatch {
             Stage::Groups => {
                 Workgroups::Direct(self.plan.in_rows(self.plan.groups.div_ceil(WORKGROUP)))
             }
-            Stage::ExpandPoints | Stage::ExpandPrimitives if self.plan.is_small() => {
-                Workgroups::Direct(self.plan.in_rows(self.tiles_of_room()))
+            Stage::ExpandSmall => {
+                let tiles = |elements: u32| elements.div_ceil(self.plan.tile());
+                let Capacity { points, primitives } = self.plan.capacity;
+                Workgroups::Direct(self.plan.in_rows(tiles(points) + tiles(primitives)))
             }
             Stage::Partition | Stage::ExpandPoints | Stage::ExpandPrimitives => {
                 Workgroups::Indirect(self.plan.arguments_at(self.job()))
             }
         }
-    }
-
-    /// The tiles that the window has room for.
-    fn tiles_of_room(&self) -> u32 {
-        let (capacity, first, most) = match self.part {
-            Part::Whole => return 0,
-            Part::Points { window } => {
-                (self.plan.capacity.points, window, self.plan.point_window_tiles)
-            }
-            Part::Primitives { window } => {
-                (self.plan.capacity.primitives, window, self.plan.primitive_window_tiles)
-            }
-        };
-        (capacity.div_ceil(self.plan.tile()) - first * most).min(most)
     }
 
     fn span(&self, resource: Resource) -> Span {

@@ -7,7 +7,7 @@ use crate::sizes::ALIGNMENT;
 /// Which part of a chunk's work a job is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// All of it: counting and partitioning.
+    /// All of it: counting, partitioning, and the expansions of a small batch.
     Whole,
     /// The points in a window.
     Points {
@@ -66,7 +66,7 @@ impl Plan {
 
     fn job(&self, chunk: u32, part: Part) -> Job {
         let (window_first, window_tiles) = match part {
-            Part::Whole => (0, 0),
+            Part::Whole => (0, u32::MAX),
             Part::Points { window } => (window * self.point_window_tiles, self.point_window_tiles),
             Part::Primitives { window } => {
                 (window * self.primitive_window_tiles, self.primitive_window_tiles)

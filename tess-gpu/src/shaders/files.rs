@@ -13,7 +13,7 @@ macro_rules! files {
     };
 }
 
-const FILES: [(&str, &str); 41] = files![
+const FILES: [(&str, &str); 44] = files![
     "alike",
     "block",
     "connect",
@@ -22,6 +22,7 @@ const FILES: [(&str, &str); 41] = files![
     "expand",
     "expand_points",
     "expand_primitives",
+    "expand_small",
     "factor_context",
     "factors",
     "finish",
@@ -36,8 +37,10 @@ const FILES: [(&str, &str); 41] = files![
     "place",
     "place_evenly",
     "point_format",
+    "point_tile",
     "points",
     "prefix_sum",
+    "primitive_tile",
     "probe",
     "probe_contexts",
     "probe_factors",

@@ -13,7 +13,10 @@ fn roots() -> Vec<(&'static str, Vec<Choice>)> {
             for stage in ["factors", "scan", "totals", "partition", "small", "groups"] {
                 all.push((stage, stored.clone()));
             }
-            all.extend([("expand_points", stored.clone()), ("expand_primitives", stored)]);
+            for stage in ["expand_points", "expand_primitives"] {
+                all.push((stage, stored.clone()));
+            }
+            all.push(("expand_small", stored));
             all.push(("locate", placing(setup, "pulled_contexts").to_vec()));
         }
     }
@@ -104,7 +107,7 @@ fn complaints(root: &'static str, choices: &[Choice]) -> Vec<String> {
 }
 
 /// Every name of a binding that a file leaves to others.
-const BINDINGS: [&str; 9] = [
+const BINDINGS: [&str; 10] = [
     "job",
     "offsets",
     "status",
@@ -114,6 +117,7 @@ const BINDINGS: [&str; 9] = [
     "contexts",
     "raw_factors",
     "arguments",
+    "points_out",
 ];
 
 #[test]
