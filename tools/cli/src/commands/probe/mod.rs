@@ -4,16 +4,16 @@ use super::check::{ConversionName, DenormalsName};
 use super::draw::PictureFormat;
 use crate::args::{name_of, shard};
 use crate::backends::quiet;
-use crate::drawing::{self, DrawOptions};
 use crate::failure::{Exit, Failure};
-use crate::formats::OnePatch;
 use crate::output::form;
 use crate::output::{OutputArgs, json, note, progress};
+use crate::png;
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::PathBuf;
 use tess_core::{Domain, Partitioning};
 use tess_probe::{First, Prober, Report, cases, list, probe};
+use tess_verify::drawing::{self, DrawOptions};
 use tess_verify::generate::{Level, Selection, Shard};
 use tess_verify::strength::{Order, Strength};
 use tess_verify::vectors::Listing;
@@ -187,17 +187,13 @@ fn draw(file: &std::path::Path, first: &First) -> Result<(), Failure> {
         return Ok(());
     };
     let case = first.case;
-    let patch = |output, backend| OnePatch { listing: Listing { case, output, line: 0 }, backend };
-    let expected = patch(case.patch().tessellate(), "the model");
-    let observed = patch(output, "the device");
-    let (drawing, _) = drawing::overlay(
-        &expected,
-        &observed,
-        &DrawOptions { size: 800, ..DrawOptions::default() },
-    );
+    let listing = |output| Listing { case, output, line: 0 };
+    let expected = listing(case.patch().tessellate());
+    let options = DrawOptions { size: 800, ..DrawOptions::default() };
+    let (drawing, _) = drawing::overlay(&expected, &listing(output), &options);
     let content = match form::choose(None, file)? {
         PictureFormat::Svg => drawing.picture.to_svg().into_bytes(),
-        PictureFormat::Png => drawing.picture.to_png()?,
+        PictureFormat::Png => png::render(&drawing.picture)?,
     };
     OutputArgs { file: file.to_owned() }.write(&content)
 }

@@ -116,7 +116,7 @@ struct PatchAxes {
     metal::uint2 along_u;
     metal::uint2 along_v;
 };
-struct Source {
+struct PointSource {
     uint number;
     uint begin;
     metal::uint2 topology;
@@ -225,7 +225,7 @@ Tile tile_of(
     device type_3 const& tiles,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local_2 = {};
+    bool local = {};
     uint _e4 = tile_at(begin, job);
     uint _e7 = job.window_first;
     uint first_2 = metal::max(_e4, _e7);
@@ -233,19 +233,19 @@ Tile tile_of(
     uint _e12 = job.window_first;
     uint _e15 = job.window_tiles;
     uint last_1 = metal::min(_e9, _e12 + _e15);
-    uint number_3 = first_2 + workgroup_1;
+    uint number_4 = first_2 + workgroup_1;
     if (!((end_1 <= begin))) {
-        local_2 = number_3 >= last_1;
+        local = number_4 >= last_1;
     } else {
-        local_2 = true;
+        local = true;
     }
-    bool _e25 = local_2;
+    bool _e25 = local;
     if (_e25) {
         return Tile {0u, 0u, 0u, 0u, 0u};
     }
     uint _e34 = job.tile_bits;
-    uint base = number_3 << _e34;
-    uint at = (table_at + number_3) - _e4;
+    uint base = number_4 << _e34;
+    uint at = (table_at + number_4) - _e4;
     uint _e42 = job.tile_bits;
     uint _e48 = tiles[metal::min(unsigned(at), (_buffer_sizes.size2 - 0 - 4) / 4)];
     uint _e53 = tiles[metal::min(unsigned(at + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
@@ -363,16 +363,16 @@ Repeat repeat_of(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     Repeat none = {};
-    bool local_3 = {};
+    bool local_1 = {};
     none.size = 0u;
     metal::uint2 _e6 = common_topology(tile_1, offsets, job, _buffer_sizes);
     if (!((tile_1.first_patch == tile_1.last_patch))) {
         uint _e13 = state_of(_e6);
-        local_3 = _e13 == CULLED;
+        local_1 = _e13 == CULLED;
     } else {
-        local_3 = true;
+        local_1 = true;
     }
-    bool _e17 = local_3;
+    bool _e17 = local_1;
     if (_e17) {
         Repeat _e18 = none;
         return _e18;
@@ -396,7 +396,7 @@ uint patch_at(
 
 Round load_round(
     Tile tile_2,
-    uint first_1,
+    uint first,
     uint kind_1,
     uint thread_1,
     device type_2 const& offsets,
@@ -408,7 +408,7 @@ Round load_round(
 ) {
     uint i = {};
     uint end_2 = {};
-    uint count = metal::min(ROUND, (tile_2.last_patch - first_1) + 1u);
+    uint count = metal::min(ROUND, (tile_2.last_patch - first) + 1u);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     i = thread_1;
     uint2 loop_bound_1 = uint2(4294967295u);
@@ -429,11 +429,11 @@ Round load_round(
         {
             uint _e14 = i;
             uint _e16 = i;
-            metal::uint2 _e18 = patch_offset(first_1 + _e16, offsets, job, _buffer_sizes);
+            metal::uint2 _e18 = patch_offset(first + _e16, offsets, job, _buffer_sizes);
             begins.inner[metal::min(unsigned(_e14), 127u)] = static_cast<int>(_e18[metal::min(unsigned(kind_1), 1u)] - tile_2.base);
             uint _e24 = i;
             uint _e27 = i;
-            metal::uint2 _e30 = topologies[metal::min(unsigned(first_1 + _e27), (_buffer_sizes.size5 - 0 - 8) / 8)];
+            metal::uint2 _e30 = topologies[metal::min(unsigned(first + _e27), (_buffer_sizes.size5 - 0 - 8) / 8)];
             scratch.inner[metal::min(unsigned(_e24), 319u)] = _e30;
         }
     }
@@ -441,12 +441,12 @@ Round load_round(
     int _e36 = begins.inner[0];
     uint begin_1 = static_cast<uint>(metal::max(_e36, static_cast<int>(tile_2.begin - tile_2.base)));
     end_2 = tile_2.end - tile_2.base;
-    if ((first_1 + count) <= tile_2.last_patch) {
-        metal::uint2 _e51 = patch_offset(first_1 + count, offsets, job, _buffer_sizes);
+    if ((first + count) <= tile_2.last_patch) {
+        metal::uint2 _e51 = patch_offset(first + count, offsets, job, _buffer_sizes);
         end_2 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
     }
     uint _e55 = end_2;
-    return Round {first_1, count, begin_1, _e55};
+    return Round {first, count, begin_1, _e55};
 }
 
 uint nearer_patch(
@@ -508,7 +508,7 @@ uint next_patch(
     threadgroup type_7& begins
 ) {
     uint found_2 = {};
-    bool local_4 = {};
+    bool local_2 = {};
     found_2 = number;
     uint2 loop_bound_2 = uint2(4294967295u);
     while(true) {
@@ -518,11 +518,11 @@ uint next_patch(
         if ((_e4 + 1u) < round_1.count) {
             uint _e12 = found_2;
             int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
-            local_4 = _e16 <= static_cast<int>(element_3);
+            local_2 = _e16 <= static_cast<int>(element_3);
         } else {
-            local_4 = false;
+            local_2 = false;
         }
-        bool _e20 = local_4;
+        bool _e20 = local_2;
         if (_e20) {
         } else {
             break;
@@ -539,8 +539,8 @@ uint next_patch(
 uint fixed_from_bits(
     uint bits
 ) {
-    bool local_5 = {};
-    bool local_6 = {};
+    bool local_3 = {};
+    bool local_4 = {};
     uint shift = 134u - (bits >> 23u);
     uint mantissa = (bits & 8388607u) | 8388608u;
     uint quotient = mantissa >> shift;
@@ -548,16 +548,16 @@ uint fixed_from_bits(
     uint half_ = 1u << (shift - 1u);
     if (!((remainder > half_))) {
         if (remainder == half_) {
-            local_6 = (quotient & 1u) == 1u;
+            local_4 = (quotient & 1u) == 1u;
         } else {
-            local_6 = false;
+            local_4 = false;
         }
-        bool _e31 = local_6;
-        local_5 = _e31;
+        bool _e31 = local_4;
+        local_3 = _e31;
     } else {
-        local_5 = true;
+        local_3 = true;
     }
-    bool up = local_5;
+    bool up = local_3;
     return quotient + (up ? 1u : 0u);
 }
 
@@ -880,7 +880,7 @@ PointRun run_of(
 ) {
     uint fixed = {};
     uint form_2 = {};
-    bool local_7 = {};
+    bool local_5 = {};
     bool descends = {};
     metal::uint2 context_8 = {};
     Rings rings_9 = axes_1.rings;
@@ -898,11 +898,11 @@ PointRun run_of(
     fixed = _e25;
     form_2 = edge_9 & 1u;
     if (!((edge_9 == 0u))) {
-        local_7 = edge_9 == 3u;
+        local_5 = edge_9 == 3u;
     } else {
-        local_7 = true;
+        local_5 = true;
     }
-    bool _e38 = local_7;
+    bool _e38 = local_5;
     descends = _e38;
     if (false) {
         uint _e41 = fixed;
@@ -957,7 +957,7 @@ metal::uint2 corner(
     uint fixed_1,
     uint number_1
 ) {
-    bool local_8 = {};
+    bool local_6 = {};
     if (fixed_1 != 0u) {
         return metal::uint2(fixed_1, fixed_1);
     }
@@ -965,11 +965,11 @@ metal::uint2 corner(
         return metal::uint2((number_1 == 2u) ? ONE : 0u, (number_1 == 0u) ? ONE : 0u);
     }
     if (!((number_1 == 1u))) {
-        local_8 = number_1 == 2u;
+        local_6 = number_1 == 2u;
     } else {
-        local_8 = true;
+        local_6 = true;
     }
-    bool _e27 = local_8;
+    bool _e27 = local_6;
     return metal::uint2(_e27 ? ONE : 0u, (number_1 >= 2u) ? ONE : 0u);
 }
 
@@ -999,32 +999,32 @@ metal::uint2 point_of_run(
     return (run.form == FORM_Q_FIXED) ? metal::uint2(_e32, fixed_2) : metal::uint2(fixed_2, _e30);
 }
 
-Source source_of(
+PointSource point_source_of(
     uint patch_index_4,
     metal::uint2 topology_11,
     constant Job& job,
     device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    Source source = {};
-    bool local_9 = {};
+    PointSource source = {};
+    bool local_7 = {};
     source.topology = topology_11;
     if (true) {
         uint _e7 = state_of(topology_11);
-        local_9 = _e7 == REGULAR;
+        local_7 = _e7 == REGULAR;
     } else {
-        local_9 = false;
+        local_7 = false;
     }
-    bool _e11 = local_9;
+    bool _e11 = local_7;
     if (_e11) {
         PatchAxes _e13 = axes_of(patch_index_4, topology_11, job, contexts, _buffer_sizes);
         source.axes = _e13;
     }
-    Source _e14 = source;
+    PointSource _e14 = source;
     return _e14;
 }
 
-Source load_source(
+PointSource load_point_source(
     Round round_2,
     uint number_2,
     constant Job& job,
@@ -1033,29 +1033,29 @@ Source load_source(
     device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    Source source_1 = {};
+    PointSource source_1 = {};
     metal::uint2 _e6 = scratch.inner[metal::min(unsigned(number_2), 319u)];
-    Source _e7 = source_of(round_2.first + number_2, _e6, job, contexts, _buffer_sizes);
+    PointSource _e7 = point_source_of(round_2.first + number_2, _e6, job, contexts, _buffer_sizes);
     source_1 = _e7;
     source_1.number = number_2;
     int _e13 = begins.inner[metal::min(unsigned(number_2), 127u)];
     source_1.begin = static_cast<uint>(_e13);
-    Source _e15 = source_1;
+    PointSource _e15 = source_1;
     return _e15;
 }
 
-RingLocation location_of(
-    Source source_2,
+RingLocation location_of_point(
+    PointSource source_2,
     uint i_4
 ) {
-    bool local_10 = {};
+    bool local_8 = {};
     if (true) {
         uint _e6 = state_of(source_2.topology);
-        local_10 = _e6 == REGULAR;
+        local_8 = _e6 == REGULAR;
     } else {
-        local_10 = false;
+        local_8 = false;
     }
-    bool _e10 = local_10;
+    bool _e10 = local_8;
     if (_e10) {
         RingLocation _e13 = point_location(source_2.axes.rings, i_4);
         return _e13;
@@ -1065,7 +1065,7 @@ RingLocation location_of(
 
 PointRun run_at(
     Round round_3,
-    Source source_3,
+    PointSource source_3,
     RingLocation location_2,
     constant Job& job,
     device type_2 const& contexts,
@@ -1086,7 +1086,7 @@ PointRun run_at(
 
 PointRun first_run(
     Round round_4,
-    Source source_4,
+    PointSource source_4,
     RingLocation location_3,
     bool is_next_patch,
     uint element_4,
@@ -1120,11 +1120,11 @@ void write_points(
     device type_2& points_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    Source source_5 = {};
+    PointSource source_5 = {};
     uint element_5 = {};
-    bool local_11 = {};
+    bool local_9 = {};
     PointRun run_1 = {};
-    bool local_12 = {};
+    bool local_10 = {};
     source_5.number = NEVER;
     uint _e8 = job.first_patch;
     uint patch_number_2 = _e8 + round_5.first;
@@ -1149,11 +1149,11 @@ void write_points(
             uint _e21 = element_5;
             if (!(((_e21 + 1u) < round_5.begin))) {
                 uint _e29 = element_5;
-                local_11 = _e29 >= round_5.end;
+                local_9 = _e29 >= round_5.end;
             } else {
-                local_11 = true;
+                local_9 = true;
             }
-            bool _e33 = local_11;
+            bool _e33 = local_9;
             if (_e33) {
                 continue;
             }
@@ -1162,28 +1162,28 @@ void write_points(
             uint _e37 = find_patch(round_5, first_4, begins);
             uint _e39 = source_5.number;
             if (_e37 != _e39) {
-                Source _e41 = load_source(round_5, _e37, job, begins, scratch, contexts, _buffer_sizes);
+                PointSource _e41 = load_point_source(round_5, _e37, job, begins, scratch, contexts, _buffer_sizes);
                 source_5 = _e41;
             }
-            Source _e42 = source_5;
+            PointSource _e42 = source_5;
             uint _e44 = source_5.begin;
-            RingLocation _e46 = location_of(_e42, first_4 - _e44);
-            Source _e47 = source_5;
+            RingLocation _e46 = location_of_point(_e42, first_4 - _e44);
+            PointSource _e47 = source_5;
             PointRun _e48 = run_at(round_5, _e47, _e46, job, contexts, _buffer_sizes);
             run_1 = _e48;
             PointRun _e53 = run_1;
             uint _e55 = run_1.step;
             metal::uint2 _e56 = point_of_run(_e53, _e55);
             metal::uint2 _e58 = format_point(_e56, patch_number_2 + _e37);
-            points_out[metal::min(unsigned(out + first_4), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e58;
+            points_out[metal::min(unsigned(out + first_4), (_buffer_sizes.size7 - 0 - 8) / 8)] = _e58;
             uint _e59 = element_5;
             if (first_4 == _e59) {
                 uint _e63 = element_5;
-                local_12 = (_e63 + 1u) < round_5.end;
+                local_10 = (_e63 + 1u) < round_5.end;
             } else {
-                local_12 = false;
+                local_10 = false;
             }
-            bool _e69 = local_12;
+            bool _e69 = local_10;
             if (_e69) {
                 uint _e72 = run_1.step;
                 run_1.step = _e72 + 1u;
@@ -1193,10 +1193,10 @@ void write_points(
                     uint _e79 = element_5;
                     uint _e82 = next_patch(round_5, _e37, _e79 + 1u, begins);
                     if (_e82 != _e37) {
-                        Source _e84 = load_source(round_5, _e82, job, begins, scratch, contexts, _buffer_sizes);
+                        PointSource _e84 = load_point_source(round_5, _e82, job, begins, scratch, contexts, _buffer_sizes);
                         source_5 = _e84;
                     }
-                    Source _e85 = source_5;
+                    PointSource _e85 = source_5;
                     uint _e87 = element_5;
                     PointRun _e90 = first_run(round_5, _e85, _e46, _e82 != _e37, _e87 + 1u, job, contexts, _buffer_sizes);
                     run_1 = _e90;
@@ -1207,7 +1207,7 @@ void write_points(
                 metal::uint2 _e100 = point_of_run(_e97, _e99);
                 uint _e102 = source_5.number;
                 metal::uint2 _e104 = format_point(_e100, patch_number_2 + _e102);
-                points_out[metal::min(unsigned((out + _e92) + 1u), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e104;
+                points_out[metal::min(unsigned((out + _e92) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)] = _e104;
             }
         }
     }
@@ -1217,14 +1217,14 @@ void write_points(
 bool has_same_points(
     metal::uint2 topology_12
 ) {
-    bool local_13 = {};
+    bool local_11 = {};
     if (true) {
         uint _e4 = state_of(topology_12);
-        local_13 = _e4 == MINIMUM;
+        local_11 = _e4 == MINIMUM;
     } else {
-        local_13 = true;
+        local_11 = true;
     }
-    bool _e8 = local_13;
+    bool _e8 = local_11;
     return _e8;
 }
 
@@ -1241,7 +1241,7 @@ void copy_points(
 ) {
     uint i_5 = {};
     uint element_6 = {};
-    Source _e6 = source_of(tile_3.first_patch, repeat_1.topology, job, contexts, _buffer_sizes);
+    PointSource _e6 = point_source_of(tile_3.first_patch, repeat_1.topology, job, contexts, _buffer_sizes);
     Round round_6 = Round {tile_3.first_patch, 1u, 0u, 0u};
     i_5 = thread_3;
     uint2 loop_bound_4 = uint2(4294967295u);
@@ -1261,7 +1261,7 @@ void copy_points(
         }
         {
             uint _e16 = i_5;
-            RingLocation _e17 = location_of(_e6, _e16);
+            RingLocation _e17 = location_of_point(_e6, _e16);
             PointRun _e18 = run_at(round_6, _e6, _e17, job, contexts, _buffer_sizes);
             uint _e20 = i_5;
             metal::uint2 _e23 = point_of_run(_e18, _e18.step);
@@ -1295,7 +1295,77 @@ void copy_points(
             metal::uint2 _e52 = scratch.inner[metal::min(unsigned(position_3 - (_e42 * repeat_1.size)), 319u)];
             uint _e55 = job.first_patch;
             metal::uint2 _e59 = numbered(_e52, (_e55 + tile_3.first_patch) + _e42);
-            points_out[metal::min(unsigned(out_1 + _e44), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e59;
+            points_out[metal::min(unsigned(out_1 + _e44), (_buffer_sizes.size7 - 0 - 8) / 8)] = _e59;
+        }
+    }
+    return;
+}
+
+void write_point_tile(
+    uint number_3,
+    uint thread_4,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& tiles,
+    threadgroup type_7& begins,
+    threadgroup type_8& scratch,
+    device type_2 const& topologies,
+    device type_2 const& contexts,
+    device type_2& points_out,
+    device Status const& status,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    bool local_12 = {};
+    bool local_13 = {};
+    uint first_1 = {};
+    uint _e6 = job.chunk;
+    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
+    Tile _e12 = tile_of(number_3, range.points_begin, range.points_end, 0u, job, tiles, _buffer_sizes);
+    if (!((_e12.end == 0u))) {
+        uint _e21 = status.overflow;
+        local_12 = _e21 != 0u;
+    } else {
+        local_12 = true;
+    }
+    bool _e25 = local_12;
+    if (_e25) {
+        return;
+    }
+    uint _e29 = job.window_first;
+    uint _e32 = job.tile_bits;
+    uint out_2 = _e12.base - (_e29 << _e32);
+    Repeat _e37 = repeat_of(_e12, POINTS, SCRATCH, offsets, job, _buffer_sizes);
+    if (_e37.size > 0u) {
+        bool _e44 = has_same_points(_e37.topology);
+        local_13 = _e44;
+    } else {
+        local_13 = false;
+    }
+    bool _e46 = local_13;
+    if (_e46) {
+        copy_points(_e12, _e37, thread_4, out_2, job, scratch, contexts, points_out, _buffer_sizes);
+        return;
+    }
+    first_1 = _e12.first_patch;
+    uint2 loop_bound_6 = uint2(4294967295u);
+    bool loop_init_5 = true;
+    while(true) {
+        if (metal::all(loop_bound_6 == uint2(0u))) { break; }
+        loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
+        if (!loop_init_5) {
+            uint _e55 = first_1;
+            first_1 = _e55 + ROUND;
+        }
+        loop_init_5 = false;
+        uint _e49 = first_1;
+        if (_e49 <= _e12.last_patch) {
+        } else {
+            break;
+        }
+        {
+            uint _e52 = first_1;
+            Round _e54 = load_round(_e12, _e52, POINTS, thread_4, offsets, job, begins, scratch, topologies, _buffer_sizes);
+            write_points(_e54, thread_4, out_2, job, begins, scratch, contexts, points_out, _buffer_sizes);
         }
     }
     return;
@@ -1313,64 +1383,12 @@ kernel void expand_points(
 , threadgroup type_8& scratch
 , device type_2 const& topologies [[buffer(1)]]
 , device type_2 const& contexts [[buffer(2)]]
-, device Status const& status [[buffer(5)]]
 , device type_2& points_out [[buffer(7)]]
+, device Status const& status [[buffer(5)]]
 , constant _mslBufferSizes& _buffer_sizes [[buffer(8)]]
 ) {
-    bool local = {};
-    bool local_1 = {};
-    uint first = {};
-    uint _e6 = job.chunk;
-    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
-    uint _e13 = job.max_workgroups;
-    uint number_4 = workgroup.x + (workgroup.y * _e13);
-    Tile _e19 = tile_of(number_4, range.points_begin, range.points_end, 0u, job, tiles, _buffer_sizes);
-    if (!((_e19.end == 0u))) {
-        uint _e28 = status.overflow;
-        local = _e28 != 0u;
-    } else {
-        local = true;
-    }
-    bool _e32 = local;
-    if (_e32) {
-        return;
-    }
-    uint _e36 = job.window_first;
-    uint _e39 = job.tile_bits;
-    uint out_2 = _e19.base - (_e36 << _e39);
-    Repeat _e44 = repeat_of(_e19, POINTS, SCRATCH, offsets, job, _buffer_sizes);
-    if (_e44.size > 0u) {
-        bool _e51 = has_same_points(_e44.topology);
-        local_1 = _e51;
-    } else {
-        local_1 = false;
-    }
-    bool _e53 = local_1;
-    if (_e53) {
-        copy_points(_e19, _e44, thread_, out_2, job, scratch, contexts, points_out, _buffer_sizes);
-        return;
-    }
-    first = _e19.first_patch;
-    uint2 loop_bound_6 = uint2(4294967295u);
-    bool loop_init_5 = true;
-    while(true) {
-        if (metal::all(loop_bound_6 == uint2(0u))) { break; }
-        loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
-        if (!loop_init_5) {
-            uint _e62 = first;
-            first = _e62 + ROUND;
-        }
-        loop_init_5 = false;
-        uint _e56 = first;
-        if (_e56 <= _e19.last_patch) {
-        } else {
-            break;
-        }
-        {
-            uint _e59 = first;
-            Round _e61 = load_round(_e19, _e59, POINTS, thread_, offsets, job, begins, scratch, topologies, _buffer_sizes);
-            write_points(_e61, thread_, out_2, job, begins, scratch, contexts, points_out, _buffer_sizes);
-        }
-    }
+    uint _e6 = job.max_workgroups;
+    uint number_5 = workgroup.x + (workgroup.y * _e6);
+    write_point_tile(number_5, thread_, offsets, job, tiles, begins, scratch, topologies, contexts, points_out, status, _buffer_sizes);
     return;
 }

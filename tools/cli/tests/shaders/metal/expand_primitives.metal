@@ -222,7 +222,7 @@ Tile tile_of(
     device type_3 const& tiles,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local_1 = {};
+    bool local = {};
     uint _e4 = tile_at(begin, job);
     uint _e7 = job.window_first;
     uint first_4 = metal::max(_e4, _e7);
@@ -230,19 +230,19 @@ Tile tile_of(
     uint _e12 = job.window_first;
     uint _e15 = job.window_tiles;
     uint last_1 = metal::min(_e9, _e12 + _e15);
-    uint number_6 = first_4 + workgroup_1;
+    uint number_7 = first_4 + workgroup_1;
     if (!((end_1 <= begin))) {
-        local_1 = number_6 >= last_1;
+        local = number_7 >= last_1;
     } else {
-        local_1 = true;
+        local = true;
     }
-    bool _e25 = local_1;
+    bool _e25 = local;
     if (_e25) {
         return Tile {0u, 0u, 0u, 0u, 0u};
     }
     uint _e34 = job.tile_bits;
-    uint base_6 = number_6 << _e34;
-    uint at_8 = (table_at + number_6) - _e4;
+    uint base_6 = number_7 << _e34;
+    uint at_8 = (table_at + number_7) - _e4;
     uint _e42 = job.tile_bits;
     uint _e48 = tiles[metal::min(unsigned(at_8), (_buffer_sizes.size2 - 0 - 4) / 4)];
     uint _e53 = tiles[metal::min(unsigned(at_8 + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
@@ -360,16 +360,16 @@ Repeat repeat_of(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     Repeat none = {};
-    bool local_2 = {};
+    bool local_1 = {};
     none.size = 0u;
     metal::uint2 _e6 = common_topology(tile_1, offsets, job, _buffer_sizes);
     if (!((tile_1.first_patch == tile_1.last_patch))) {
         uint _e13 = state_of(_e6);
-        local_2 = _e13 == CULLED;
+        local_1 = _e13 == CULLED;
     } else {
-        local_2 = true;
+        local_1 = true;
     }
-    bool _e17 = local_2;
+    bool _e17 = local_1;
     if (_e17) {
         Repeat _e18 = none;
         return _e18;
@@ -652,16 +652,16 @@ Stitch rows(
     uint inner_ring,
     uint inner
 ) {
-    bool local_3 = {};
+    bool local_2 = {};
     uint _e9 = ring_points(rings_9, ring_4);
     bool walks_back = rings_9.short_ == ((2u * ring_4) + 1u);
     uint _e16 = steps_of(number_2);
     if (!((edge_8 == 3u))) {
-        local_3 = walks_back;
+        local_2 = walks_back;
     } else {
-        local_3 = true;
+        local_2 = true;
     }
-    bool _e23 = local_3;
+    bool _e23 = local_2;
     return Stitch {size, _e16, outer, inner, _e23, {}, inner_ring, inner_ring + outer_ring, inner_ring + (walks_back ? (_e9 >> 1u) : _e9), (2u * inner_ring) + _e9};
 }
 
@@ -694,7 +694,7 @@ Stitch centre_stitch(
     Rings rings_11,
     uint base_1
 ) {
-    bool local_4 = {};
+    bool local_3 = {};
     uint _e2 = stitch_ring_end(rings_11);
     uint _e5 = first_of_ring(rings_11, _e2 - 1u);
     uint first_7 = base_1 + _e5;
@@ -705,11 +705,11 @@ Stitch centre_stitch(
     uint quads = (metal::max(rings_11.u, rings_11.v) - rings_11.short_) + 1u;
     uint along_u = (rings_11.u > rings_11.v) ? 1u : 0u;
     if (rings_11.u <= rings_11.v) {
-        local_4 = (rings_11.v & 1u) == 0u;
+        local_3 = (rings_11.v & 1u) == 0u;
     } else {
-        local_4 = false;
+        local_3 = false;
     }
-    bool is_mirrored = local_4;
+    bool is_mirrored = local_3;
     uint _e44 = steps_of(is_mirrored ? (MIRRORED_STRIP + quads) : PLAIN_STRIP);
     return Stitch {2u * quads, _e44, first_7 + along_u, first_7, true, {}, NEVER, 0u, first_7 + along_u, (((2u * first_7) + (2u * quads)) + 1u) + along_u};
 }
@@ -762,13 +762,13 @@ uint sequence_first(
     uint t_1,
     uint base_5
 ) {
-    bool local_5 = {};
+    bool local_4 = {};
     if (false) {
-        local_5 = true;
+        local_4 = true;
     } else {
-        local_5 = false;
+        local_4 = false;
     }
-    bool _e8 = local_5;
+    bool _e8 = local_4;
     if (_e8) {
         uint _e11 = outer_points(topology_9, 1u);
         return (base_5 + t_1) + naga_div(t_1, _e11 - 1u);
@@ -778,7 +778,7 @@ uint sequence_first(
 
 Round load_round(
     Tile tile_2,
-    uint first_1,
+    uint first,
     uint kind_1,
     uint thread_1,
     device type_2 const& offsets,
@@ -790,7 +790,7 @@ Round load_round(
 ) {
     uint i = {};
     uint end_4 = {};
-    uint count = metal::min(ROUND, (tile_2.last_patch - first_1) + 1u);
+    uint count = metal::min(ROUND, (tile_2.last_patch - first) + 1u);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     i = thread_1;
     uint2 loop_bound_1 = uint2(4294967295u);
@@ -811,11 +811,11 @@ Round load_round(
         {
             uint _e14 = i;
             uint _e16 = i;
-            metal::uint2 _e18 = patch_offset(first_1 + _e16, offsets, job, _buffer_sizes);
+            metal::uint2 _e18 = patch_offset(first + _e16, offsets, job, _buffer_sizes);
             begins.inner[metal::min(unsigned(_e14), 127u)] = static_cast<int>(_e18[metal::min(unsigned(kind_1), 1u)] - tile_2.base);
             uint _e24 = i;
             uint _e27 = i;
-            metal::uint2 _e30 = topologies[metal::min(unsigned(first_1 + _e27), (_buffer_sizes.size6 - 0 - 8) / 8)];
+            metal::uint2 _e30 = topologies[metal::min(unsigned(first + _e27), (_buffer_sizes.size6 - 0 - 8) / 8)];
             scratch.inner[metal::min(unsigned(_e24), 127u)] = _e30;
         }
     }
@@ -823,12 +823,12 @@ Round load_round(
     int _e36 = begins.inner[0];
     uint begin_1 = static_cast<uint>(metal::max(_e36, static_cast<int>(tile_2.begin - tile_2.base)));
     end_4 = tile_2.end - tile_2.base;
-    if ((first_1 + count) <= tile_2.last_patch) {
-        metal::uint2 _e51 = patch_offset(first_1 + count, offsets, job, _buffer_sizes);
+    if ((first + count) <= tile_2.last_patch) {
+        metal::uint2 _e51 = patch_offset(first + count, offsets, job, _buffer_sizes);
         end_4 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
     }
     uint _e55 = end_4;
-    return Round {first_1, count, begin_1, _e55};
+    return Round {first, count, begin_1, _e55};
 }
 
 uint nearer_patch(
@@ -890,7 +890,7 @@ uint next_patch(
     threadgroup type_8& begins
 ) {
     uint found_2 = {};
-    bool local_6 = {};
+    bool local_5 = {};
     found_2 = number_4;
     uint2 loop_bound_2 = uint2(4294967295u);
     while(true) {
@@ -900,11 +900,11 @@ uint next_patch(
         if ((_e4 + 1u) < round_1.count) {
             uint _e12 = found_2;
             int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
-            local_6 = _e16 <= static_cast<int>(element_3);
+            local_5 = _e16 <= static_cast<int>(element_3);
         } else {
-            local_6 = false;
+            local_5 = false;
         }
-        bool _e20 = local_6;
+        bool _e20 = local_5;
         if (_e20) {
         } else {
             break;
@@ -920,13 +920,13 @@ uint next_patch(
 
 void write_triangle_pair(
     uint at_2,
-    metal::uint3 first_2,
+    metal::uint3 first_1,
     metal::uint3 second,
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    indices_out[metal::min(unsigned(3u * at_2), (_buffer_sizes.size7 - 0 - 8) / 8)] = first_2.xy;
-    indices_out[metal::min(unsigned((3u * at_2) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)] = metal::uint2(first_2.z, second.x);
+    indices_out[metal::min(unsigned(3u * at_2), (_buffer_sizes.size7 - 0 - 8) / 8)] = first_1.xy;
+    indices_out[metal::min(unsigned((3u * at_2) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)] = metal::uint2(first_1.z, second.x);
     indices_out[metal::min(unsigned((3u * at_2) + 2u), (_buffer_sizes.size7 - 0 - 8) / 8)] = second.yz;
     return;
 }
@@ -951,12 +951,12 @@ void write_triangle(
 
 void write_two(
     uint at_4,
-    uint first_3,
+    uint first_2,
     uint second_1,
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    indices_out[metal::min(unsigned(at_4), (_buffer_sizes.size7 - 0 - 8) / 8)] = metal::uint2(first_3, second_1);
+    indices_out[metal::min(unsigned(at_4), (_buffer_sizes.size7 - 0 - 8) / 8)] = metal::uint2(first_2, second_1);
     return;
 }
 
@@ -1061,9 +1061,9 @@ void write_triangles(
 ) {
     Source source_3 = {};
     uint element_5 = {};
+    bool local_6 = {};
     bool local_7 = {};
     bool local_8 = {};
-    bool local_9 = {};
     source_3.number = NEVER;
     element_5 = 2u * thread_2;
     uint2 loop_bound_3 = uint2(4294967295u);
@@ -1086,11 +1086,11 @@ void write_triangles(
             uint _e16 = element_5;
             if (!(((_e16 + 1u) < round_4.begin))) {
                 uint _e24 = element_5;
-                local_7 = _e24 >= round_4.end;
+                local_6 = _e24 >= round_4.end;
             } else {
-                local_7 = true;
+                local_6 = true;
             }
-            bool _e28 = local_7;
+            bool _e28 = local_6;
             if (_e28) {
                 continue;
             }
@@ -1113,17 +1113,17 @@ void write_triangles(
             uint _e50 = element_5;
             if (first_8 == _e50) {
                 uint _e54 = element_5;
-                local_8 = (_e54 + 1u) < round_4.end;
+                local_7 = (_e54 + 1u) < round_4.end;
+            } else {
+                local_7 = false;
+            }
+            bool is_whole = local_7;
+            if (is_whole) {
+                local_8 = (_e41.step + 1u) < _e43.size;
             } else {
                 local_8 = false;
             }
-            bool is_whole = local_8;
-            if (is_whole) {
-                local_9 = (_e41.step + 1u) < _e43.size;
-            } else {
-                local_9 = false;
-            }
-            bool _e69 = local_9;
+            bool _e69 = local_8;
             if (_e69) {
                 write_triangle_pair(at_9, _e45.first, _e45.second, indices_out, _buffer_sizes);
             } else {
@@ -1154,7 +1154,7 @@ void write_sequences(
 ) {
     uint pair = {};
     uint element_6 = {};
-    bool local_10 = {};
+    bool local_9 = {};
     pair = 2u * thread_3;
     uint2 loop_bound_4 = uint2(4294967295u);
     bool loop_init_3 = true;
@@ -1195,11 +1195,11 @@ void write_sequences(
                     uint _e20 = element_6;
                     if (!((_e20 < round_5.begin))) {
                         uint _e26 = element_6;
-                        local_10 = _e26 >= round_5.end;
+                        local_9 = _e26 >= round_5.end;
                     } else {
-                        local_10 = true;
+                        local_9 = true;
                     }
-                    bool _e30 = local_10;
+                    bool _e30 = local_9;
                     if (_e30) {
                         continue;
                     }
@@ -1288,14 +1288,14 @@ Corner next_corner(
     Repeat repeat_3,
     Corner it
 ) {
-    bool local_11 = {};
+    bool local_10 = {};
     bool is_last_corner = it.corner == 2u;
     if (is_last_corner) {
-        local_11 = (it.i + 1u) == repeat_3.size;
+        local_10 = (it.i + 1u) == repeat_3.size;
     } else {
-        local_11 = false;
+        local_10 = false;
     }
-    bool is_last_1 = local_11;
+    bool is_last_1 = local_10;
     return Corner {it.number + (is_last_1 ? 1u : 0u), is_last_1 ? 0u : (it.i + (is_last_corner ? 1u : 0u)), is_last_corner ? 0u : (it.corner + 1u)};
 }
 
@@ -1321,7 +1321,7 @@ void copy_triangles(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint at_7 = {};
-    bool local_12 = {};
+    bool local_11 = {};
     keep_triangles(repeat_5, thread_5, tables, scratch, _buffer_sizes);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     uint begin_2 = 3u * (tile_3.begin - tile_3.base);
@@ -1354,11 +1354,11 @@ void copy_triangles(
             uint _e27 = at_7;
             if (first_9 == _e27) {
                 uint _e31 = at_7;
-                local_12 = (_e31 + 1u) < end_6;
+                local_11 = (_e31 + 1u) < end_6;
             } else {
-                local_12 = false;
+                local_11 = false;
             }
-            bool _e36 = local_12;
+            bool _e36 = local_11;
             if (_e36) {
                 Corner _e37 = next_corner(repeat_5, _e25);
                 uint _e38 = kept_index(repeat_5, _e37, scratch);
@@ -1366,6 +1366,75 @@ void copy_triangles(
                 write_two(((3u * out_2) + _e41) >> 1u, _e26, _e38, indices_out, _buffer_sizes);
             } else {
                 write_single((3u * out_2) + first_9, _e26, indices_out, _buffer_sizes);
+            }
+        }
+    }
+    return;
+}
+
+void write_primitive_tile(
+    uint number_6,
+    uint thread_6,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& tiles,
+    device type_3 const& tables,
+    threadgroup type_8& begins,
+    threadgroup type_9& scratch,
+    device type_2 const& topologies,
+    device type_2& indices_out,
+    device Status const& status,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    bool local_12 = {};
+    uint first_3 = {};
+    uint _e6 = job.chunk;
+    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
+    uint _e13 = job.primitive_tiles_at;
+    Tile _e14 = tile_of(number_6, range.primitives_begin, range.primitives_end, _e13, job, tiles, _buffer_sizes);
+    if (!((_e14.end == 0u))) {
+        uint _e23 = status.overflow;
+        local_12 = _e23 != 0u;
+    } else {
+        local_12 = true;
+    }
+    bool _e27 = local_12;
+    if (_e27) {
+        return;
+    }
+    uint _e31 = job.window_first;
+    uint _e34 = job.tile_bits;
+    uint out_3 = _e14.base - (_e31 << _e34);
+    if (IS_TRIANGLES) {
+        Repeat _e40 = repeat_of(_e14, PRIMITIVES, 256u, offsets, job, _buffer_sizes);
+        if (_e40.size > 0u) {
+            copy_triangles(_e14, _e40, thread_6, out_3, tables, scratch, indices_out, _buffer_sizes);
+            return;
+        }
+    }
+    first_3 = _e14.first_patch;
+    uint2 loop_bound_8 = uint2(4294967295u);
+    bool loop_init_7 = true;
+    while(true) {
+        if (metal::all(loop_bound_8 == uint2(0u))) { break; }
+        loop_bound_8 -= uint2(loop_bound_8.y == 0u, 1u);
+        if (!loop_init_7) {
+            uint _e53 = first_3;
+            first_3 = _e53 + ROUND;
+        }
+        loop_init_7 = false;
+        uint _e46 = first_3;
+        if (_e46 <= _e14.last_patch) {
+        } else {
+            break;
+        }
+        {
+            uint _e49 = first_3;
+            Round _e51 = load_round(_e14, _e49, PRIMITIVES, thread_6, offsets, job, begins, scratch, topologies, _buffer_sizes);
+            if (IS_TRIANGLES) {
+                write_triangles(_e51, thread_6, out_3, offsets, job, tables, begins, scratch, indices_out, _buffer_sizes);
+            } else {
+                write_sequences(_e51, thread_6, out_3, offsets, job, begins, scratch, indices_out, _buffer_sizes);
             }
         }
     }
@@ -1388,59 +1457,8 @@ kernel void expand_primitives(
 , device Status const& status [[buffer(4)]]
 , constant _mslBufferSizes& _buffer_sizes [[buffer(7)]]
 ) {
-    bool local = {};
-    uint first = {};
-    uint _e6 = job.chunk;
-    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
-    uint _e13 = job.max_workgroups;
-    uint number_7 = workgroup.x + (workgroup.y * _e13);
-    uint _e20 = job.primitive_tiles_at;
-    Tile _e21 = tile_of(number_7, range.primitives_begin, range.primitives_end, _e20, job, tiles, _buffer_sizes);
-    if (!((_e21.end == 0u))) {
-        uint _e30 = status.overflow;
-        local = _e30 != 0u;
-    } else {
-        local = true;
-    }
-    bool _e34 = local;
-    if (_e34) {
-        return;
-    }
-    uint _e38 = job.window_first;
-    uint _e41 = job.tile_bits;
-    uint out_3 = _e21.base - (_e38 << _e41);
-    if (IS_TRIANGLES) {
-        Repeat _e47 = repeat_of(_e21, PRIMITIVES, 256u, offsets, job, _buffer_sizes);
-        if (_e47.size > 0u) {
-            copy_triangles(_e21, _e47, thread_, out_3, tables, scratch, indices_out, _buffer_sizes);
-            return;
-        }
-    }
-    first = _e21.first_patch;
-    uint2 loop_bound_8 = uint2(4294967295u);
-    bool loop_init_7 = true;
-    while(true) {
-        if (metal::all(loop_bound_8 == uint2(0u))) { break; }
-        loop_bound_8 -= uint2(loop_bound_8.y == 0u, 1u);
-        if (!loop_init_7) {
-            uint _e60 = first;
-            first = _e60 + ROUND;
-        }
-        loop_init_7 = false;
-        uint _e53 = first;
-        if (_e53 <= _e21.last_patch) {
-        } else {
-            break;
-        }
-        {
-            uint _e56 = first;
-            Round _e58 = load_round(_e21, _e56, PRIMITIVES, thread_, offsets, job, begins, scratch, topologies, _buffer_sizes);
-            if (IS_TRIANGLES) {
-                write_triangles(_e58, thread_, out_3, offsets, job, tables, begins, scratch, indices_out, _buffer_sizes);
-            } else {
-                write_sequences(_e58, thread_, out_3, offsets, job, begins, scratch, indices_out, _buffer_sizes);
-            }
-        }
-    }
+    uint _e6 = job.max_workgroups;
+    uint number_8 = workgroup.x + (workgroup.y * _e6);
+    write_primitive_tile(number_8, thread_, offsets, job, tiles, tables, begins, scratch, topologies, indices_out, status, _buffer_sizes);
     return;
 }
