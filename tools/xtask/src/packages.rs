@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Deserialize)]
 pub(crate) struct Package {
     pub(crate) name: String,
+    version: String,
     manifest_path: PathBuf,
     /// The registries that take it; `None` means any.
     publish: Option<Vec<String>>,
@@ -24,6 +25,11 @@ impl Package {
     /// The folder of its manifest.
     pub(crate) fn folder(&self) -> &Path {
         self.manifest_path.parent().unwrap_or(&self.manifest_path)
+    }
+
+    /// Its name and version, as registries call its folder.
+    pub(crate) fn full_name(&self) -> String {
+        format!("{}-{}", self.name, self.version)
     }
 
     /// Whether it has a library that Rust code can use.

@@ -3,7 +3,7 @@
 use crate::command::{self, cargo, workspace};
 use crate::{packages, setup};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Packs and builds every published package as the registry would get it, without sending it.
 pub(crate) fn dry_run() -> Result<(), String> {
@@ -11,9 +11,42 @@ pub(crate) fn dry_run() -> Result<(), String> {
     if !lacking.is_empty() {
         return Err(lacking.join("\n"));
     }
+    forget_packages()?;
     let mut publish = cargo("publish --dry-run --workspace --all-features");
     // A developer's changes are packed too; what is published comes from a clean checkout.
     command::run(publish.arg("--allow-dirty"))
+}
+
+/// Removes what an earlier dry run left of the packages. Cargo takes them from a registry that is a
+/// folder, and believes that a version in a registry never changes: it would build old sources, or none.
+fn forget_packages() -> Result<(), String> {
+    let own = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = own.or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
+    let Some(home) = home else { return Err("neither CARGO_HOME nor a home directory".into()) };
+    let target =
+        std::env::var_os("CARGO_TARGET_DIR").map_or(workspace().join("target"), Into::into);
+    for package in packages::published()? {
+        let (with_version, name) = (package.full_name(), format!("{}-", package.name));
+        // A registry that is a folder has a name without a host.
+        for registry in entries(&home.join("registry/src"), "-") {
+            remove_all(&entries(&registry, &with_version))?;
+        }
+        remove_all(&entries(&target.join("debug/.fingerprint"), &name))?;
+    }
+    Ok(())
+}
+
+/// What is in a folder under names that begin so; nothing if there is no such folder.
+fn entries(folder: &Path, prefix: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let named = entries.filter(|e| e.file_name().to_string_lossy().starts_with(prefix));
+    named.map(|entry| entry.path()).collect()
+}
+
+fn remove_all(folders: &[PathBuf]) -> Result<(), String> {
+    folders.iter().try_for_each(|folder| {
+        fs::remove_dir_all(folder).map_err(|error| format!("{}: {error}", folder.display()))
+    })
 }
 
 /// Checks dependencies against `deny.toml`: licences, banned and duplicate crates, sources.
