@@ -385,7 +385,7 @@ fn draws(expected: &[usize]) -> Vec<Draw> {
 ///
 /// For `pow2`, which Vulkan lacks, factors are rounded to powers of two here. A culled patch stays as
 /// it is.
-fn words_of(config: Config, factors: PatchFactors) -> [u32; FACTOR_WORDS] {
+pub(crate) fn words_of(config: Config, factors: PatchFactors) -> [u32; FACTOR_WORDS] {
     let case = Case { config, factors };
     let rounded = match (config.partitioning, case.patch().processed().factors()) {
         (Partitioning::Pow2, Some(factors)) => factors.map(|f| f32::from_bits(f.rounded)),

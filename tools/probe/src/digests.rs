@@ -15,25 +15,25 @@ impl Digests {
     /// then u and v of each vertex as 16.16 numbers. For the set, each triangle begins with the vertex
     /// that makes it least, and primitives are sorted.
     pub fn add(&mut self, output: &Tessellation, size: usize) {
-        let point = |&index: &u32| {
+        let place = |&index: &u32| {
             let point = output.points.get(index as usize);
-            point.map_or([u32::MAX; 2], |point| [point.u.to_bits(), point.v.to_bits()])
+            point.map_or(NONE, |p| u64::from(p.u.to_bits()) << 32 | u64::from(p.v.to_bits()))
         };
-        let vertices: Vec<[u32; 2]> = output.indices.iter().map(point).collect();
-        let mut primitives: Vec<Vec<[u32; 2]>> = vertices.chunks(size).map(<[_]>::to_vec).collect();
-        add(&mut self.sequence, &primitives);
+        let primitive = |indices: &[u32]| {
+            let mut places = [NONE; 3];
+            places.iter_mut().zip(indices).for_each(|(to, index)| *to = place(index));
+            places
+        };
+        let mut primitives: Vec<[u64; 3]> = output.indices.chunks(size).map(primitive).collect();
+        add(&mut self.sequence, &primitives, size);
         if size == 3 {
             for triangle in &mut primitives {
-                let least = (0..triangle.len()).min_by_key(|&i| {
-                    let mut turned = triangle.clone();
-                    turned.rotate_left(i);
-                    turned
-                });
-                triangle.rotate_left(least.unwrap_or(0));
+                let [a, b, c] = *triangle;
+                *triangle = [a, b, c].min([b, c, a]).min([c, a, b]);
             }
         }
         primitives.sort_unstable();
-        add(&mut self.set, &primitives);
+        add(&mut self.set, &primitives, size);
     }
 
     /// The digest in order, as 16 hex digits.
@@ -49,7 +49,11 @@ impl Digests {
     }
 }
 
-fn add(digest: &mut Fnv1a, primitives: &[Vec<[u32; 2]>]) {
+/// Stands for a vertex that there is not.
+const NONE: u64 = u64::MAX;
+
+fn add(digest: &mut Fnv1a, primitives: &[[u64; 3]], size: usize) {
     digest.word(u32::try_from(primitives.len()).unwrap_or(u32::MAX));
-    digest.words(primitives.iter().flatten().flatten().copied());
+    let places = primitives.iter().flat_map(|primitive| primitive.iter().take(size));
+    digest.words(places.flat_map(|place| [(place >> 32) as u32, (place & 0xFFFF_FFFF) as u32]));
 }

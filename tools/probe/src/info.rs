@@ -25,6 +25,23 @@ pub struct Info {
     pub max_level: u32,
 }
 
+impl Info {
+    /// A device of this name that captures primitives, for captures from elsewhere than Vulkan.
+    #[must_use]
+    pub fn named(name: &str, max_level: u32) -> Self {
+        Self {
+            number: 0,
+            name: name.to_owned(),
+            driver: String::new(),
+            driver_version: String::new(),
+            tessellates: true,
+            captures: true,
+            stores: false,
+            max_level,
+        }
+    }
+}
+
 impl fmt::Display for Info {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { number, name, driver, driver_version, .. } = self;

@@ -81,7 +81,9 @@ impl Judge {
         let (method, max_level) = (self.method, self.info.max_level);
         let explains =
             |way: Way| third && observed.is_some_and(|o| way.explains(case, o, method, max_level));
-        let explained = Way::ALL.map(explains);
+        let mut explained = Way::ALL.map(explains);
+        // Both freedoms together count where neither is enough.
+        explained[2] &= !explained[0] && !explained[1];
         for (count, explained) in self.ways.iter_mut().zip(explained) {
             *count += u64::from(explained);
         }

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bench;
 mod capture;
 mod cases;
 mod digests;
@@ -15,6 +16,7 @@ mod shaders;
 mod verdict;
 mod vulkan;
 
+pub use bench::{Times, bench};
 pub use capture::{Captured, Method, Prober};
 pub use cases::cases;
 pub use digests::Digests;
@@ -24,3 +26,4 @@ pub use info::{Info, list};
 pub use judge::Judge;
 pub use probe::probe;
 pub use report::{Explanation, First, Report, Row, Unexplained};
+pub use vulkan::Spirv;

@@ -20,3 +20,6 @@ pub(crate) const EMPTY_VERT: &[u8] = shader!("empty.vert");
 pub(crate) const FACTORS_TESC: &[u8] = shader!("factors.tesc");
 pub(crate) const CAPTURE_TESE: &[u8] = shader!("capture.tese");
 pub(crate) const POINTS_TESE: &[u8] = shader!("points.tese");
+pub(crate) const EVALUATE_TESE: &[u8] = shader!("evaluate.tese");
+pub(crate) const EVALUATE_VERT: &[u8] = shader!("evaluate.vert");
+pub(crate) const FLAT_FRAG: &[u8] = shader!("flat.frag");

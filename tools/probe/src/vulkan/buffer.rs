@@ -1,6 +1,6 @@
 //! Buffers in memory that the host or the device is near to.
 
-use super::Gpu;
+use super::{Commands, Gpu};
 use crate::error::Error;
 use ash::vk;
 use std::sync::Arc;
@@ -37,6 +37,26 @@ impl Buffer {
     ) -> Result<Self, Error> {
         let local = vk::MemoryPropertyFlags::DEVICE_LOCAL;
         Self::new(gpu, bytes, usage, &[local, vk::MemoryPropertyFlags::empty()], false)
+    }
+
+    /// A buffer that only the device uses, filled with these words.
+    pub(crate) fn uploaded(
+        gpu: &Arc<Gpu>,
+        commands: &Commands,
+        words: &[u32],
+        usage: vk::BufferUsageFlags,
+    ) -> Result<Self, Error> {
+        let bytes = 4 * words.len() as u64;
+        let staging = Self::shared(gpu, bytes, vk::BufferUsageFlags::TRANSFER_SRC)?;
+        staging.write(words)?;
+        let buffer = Self::local(gpu, bytes, usage | vk::BufferUsageFlags::TRANSFER_DST)?;
+        let region = [vk::BufferCopy::default().size(bytes.max(4))];
+        // SAFETY: the command buffer is being recorded; both buffers have so many bytes and outlive
+        // the submission, which is waited for.
+        commands.run(|device, to| unsafe {
+            device.cmd_copy_buffer(to, staging.handle, buffer.handle, &region);
+        })?;
+        Ok(buffer)
     }
 
     fn new(

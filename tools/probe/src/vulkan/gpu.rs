@@ -12,8 +12,7 @@ pub(crate) struct Gpu {
     pub(crate) queue: vk::Queue,
     pub(crate) family: u32,
     pub(crate) memory: vk::PhysicalDeviceMemoryProperties,
-    /// Nanoseconds of a tick of the device's clock.
-    pub(crate) tick: f32,
+    pub(crate) limits: vk::PhysicalDeviceLimits,
     pub(crate) feedback: Option<ext::transform_feedback::Device>,
     pub(crate) info: Info,
     instance: ash::Instance,
@@ -152,13 +151,12 @@ impl Gpu {
         let memory = unsafe { instance.get_physical_device_memory_properties(physical) };
         // SAFETY: as above.
         let limits = unsafe { instance.get_physical_device_properties(physical) }.limits;
-        let tick = limits.timestamp_period;
         Ok(move |entry, instance| Self {
             device,
             queue,
             family,
             memory,
-            tick,
+            limits,
             feedback,
             info,
             instance,

@@ -2,10 +2,13 @@
 
 mod buffer;
 mod commands;
+mod compute;
 mod gpu;
 mod pipeline;
 
 pub(crate) use buffer::Buffer;
 pub(crate) use commands::Commands;
+pub(crate) use compute::Compute;
+pub use compute::Spirv;
 pub(crate) use gpu::{Gpu, list};
 pub(crate) use pipeline::{Pass, Pipeline, Program, STAGES, Vertices};

@@ -8,7 +8,7 @@ use std::sync::Arc;
 /// The SPIR-V of a stage.
 pub(crate) type Shader<'a> = (vk::ShaderStageFlags, &'a [u32]);
 
-/// The shaders' interface: storage buffers in set 0, numbered from 0, and one word of push constants.
+/// The shaders' interface: storage buffers in set 0, numbered from 0, and two words of push constants.
 #[derive(Debug)]
 pub(crate) struct Program {
     gpu: Arc<Gpu>,
@@ -51,7 +51,7 @@ impl Program {
         self.set_layout = unsafe { device.create_descriptor_set_layout(&create, None) }
             .map_err(Error::of("vkCreateDescriptorSetLayout"))?;
         let layouts = [self.set_layout];
-        let constants = [vk::PushConstantRange::default().stage_flags(STAGES).size(4)];
+        let constants = [vk::PushConstantRange::default().stage_flags(STAGES).size(8)];
         let create = vk::PipelineLayoutCreateInfo::default()
             .set_layouts(&layouts)
             .push_constant_ranges(&constants);

@@ -1,5 +1,8 @@
 //! `tess probe`: a Vulkan device's fixed-function tessellator against the model.
 
+#[cfg(feature = "shaders")]
+mod bench;
+
 use super::check::{ConversionName, DenormalsName};
 use super::draw::PictureFormat;
 use crate::args::{name_of, shard};
@@ -35,7 +38,8 @@ Examples:
   tess probe --list
   tess probe --device 1 --level 2 --denormals flush
   tess probe --level 3 --seed 7 --count 100000 --shard 1/8
-  tess probe --json -o device.json --picture first.png")]
+  tess probe --json -o device.json --picture first.png
+  tess probe --bench                    is compute faster than the hardware?")]
 pub(crate) struct Args {
     /// List the devices and end
     #[arg(long)]
@@ -80,6 +84,18 @@ pub(crate) struct Args {
     /// Draw the first unexplained patch, the model in grey and the device in red: .svg or .png
     #[arg(long, value_name = "FILE")]
     picture: Option<PathBuf>,
+    /// Time the fixed-function stage beside the compute shaders, and drawing what each gives
+    #[cfg(feature = "shaders")]
+    #[arg(long, conflicts_with_all = ["points", "picture"])]
+    bench: bool,
+    /// With --bench: workloads of `tess bench` [default: uniform, terrain and character]
+    #[cfg(feature = "shaders")]
+    #[arg(long, value_name = "NAME", requires = "bench")]
+    workload: Vec<String>,
+    /// With --bench: whether the compute shaders check every access and every loop
+    #[cfg(feature = "shaders")]
+    #[arg(long, value_name = "WHICH", default_value = "full", requires = "bench")]
+    checks: super::shaders::Checks,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -101,6 +117,11 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     quiet::start_again_for_loader();
     if args.list {
         return args.list_devices();
+    }
+    #[cfg(feature = "shaders")]
+    if args.bench {
+        let Args { device, workload, checks, json, output, .. } = args;
+        return bench::run(*device, workload, *checks, *json, output).map(|()| Exit::Done);
     }
     let cases = cases(args.selection(), args.shard);
     if cases.is_empty() {

@@ -28,7 +28,7 @@ pub(super) enum Target {
 /// Which accesses and loops a shader checks itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum Checks {
+pub(crate) enum Checks {
     /// All: even a buffer that is too small is not overrun, and every loop ends
     Full,
     /// None: buffers must have the sizes that the manifest says

@@ -13,7 +13,11 @@ use crate::args::name_of;
 use crate::failure::{Exit, Failure};
 use crate::output::{NewFolder, json};
 use clap::ValueEnum;
-use languages::{Checks, Target, Translation};
+#[cfg(feature = "probe")]
+pub(crate) use languages::Checks;
+#[cfg(not(feature = "probe"))]
+use languages::Checks;
+use languages::{Target, Translation};
 use manifest::Manifest;
 use std::fs;
 use std::io;
@@ -130,6 +134,20 @@ impl Args {
             ..Setup::new(self.domain, config)
         }
     }
+}
+
+/// A stage in SPIR-V.
+///
+/// # Errors
+/// SPIR-V has no words for something in the stage.
+#[cfg(feature = "probe")]
+pub(crate) fn spirv(
+    stage: tess_gpu::Stage,
+    setup: Setup,
+    checks: Checks,
+) -> Result<Vec<u8>, String> {
+    let translation = Translation { target: Target::Spirv, checks };
+    translation.write(stage, setup).map(|written| written.text)
 }
 
 /// Everything that the folder gets.

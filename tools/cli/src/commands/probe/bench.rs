@@ -1,0 +1,81 @@
+//! `tess probe --bench`: the fixed-function stage beside the compute shaders.
+
+use super::unavailable;
+use crate::commands::shaders::{Checks, spirv};
+use crate::failure::Failure;
+use crate::output::{OutputArgs, json, progress};
+use std::fmt::Write;
+use tess_probe::{Times, bench};
+use tess_verify::workloads::{self, Workload};
+
+/// How often each way runs; the fastest counts.
+const RUNS: u32 = 10;
+/// The workloads that are timed unless others are named: triangles of one domain each.
+const WORKLOADS: [&str; 3] = ["uniform", "terrain", "character"];
+
+/// Times the workloads of these names, or the usual ones, and writes a table or JSON.
+pub(super) fn run(
+    device: usize,
+    names: &[String],
+    checks: Checks,
+    as_json: bool,
+    output: &OutputArgs,
+) -> Result<(), Failure> {
+    let usual: Vec<String> = WORKLOADS.map(str::to_owned).to_vec();
+    let names = if names.is_empty() { &usual } else { names };
+    let workloads: Vec<Workload> = names.iter().flat_map(|name| workloads::named(name)).collect();
+    if workloads.is_empty() {
+        return Err(Failure::bad_input("no workload has this name; tess bench --help lists them"));
+    }
+    let bar = progress(workloads.len() as u64, "workloads");
+    let mut rows = Vec::new();
+    for workload in &workloads {
+        bar.set_message(workload.name.clone());
+        let shaders = |stage, setup| spirv(stage, setup, checks);
+        rows.push(bench(device, workload, RUNS, &shaders).map_err(unavailable)?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    let text = if as_json { json(&rows) } else { table(&rows) };
+    output.write(text.as_bytes())
+}
+
+/// Milliseconds and billions of triangles a second, of tessellation alone and from factors to pixels.
+#[expect(
+    clippy::float_arithmetic,
+    clippy::cast_precision_loss,
+    reason = "figures for people, of less than 2^53 triangles"
+)]
+fn table(rows: &[Times]) -> String {
+    let mut text = format!(
+        "{:<14} {:>8} {:>11}  {:^31}  {:^31}\n{:<14} {:>8} {:>11}  {:>9} {:>6} {:>7} {:>6}  {:>9} {:>6} {:>7} {:>6}\n",
+        "",
+        "",
+        "",
+        "tessellation alone",
+        "factors to pixels",
+        "workload",
+        "patches",
+        "triangles",
+        "fixed ms",
+        "G/s",
+        "ours ms",
+        "G/s",
+        "fixed ms",
+        "G/s",
+        "ours ms",
+        "G/s"
+    );
+    for row in rows {
+        let rate = |ms: f64| row.triangles as f64 / ms * 1e-6;
+        let times = [row.fixed, row.compute, row.fixed_drawn, row.compute_drawn];
+        let [a, b, c, d] = times.map(|ms| (ms, rate(ms)));
+        // Writing to a String cannot fail.
+        _ = writeln!(
+            text,
+            "{:<14} {:>8} {:>11}  {:>9.4} {:>6.2} {:>7.4} {:>6.2}  {:>9.4} {:>6.2} {:>7.4} {:>6.2}",
+            row.workload, row.patches, row.triangles, a.0, a.1, b.0, b.1, c.0, c.1, d.0, d.1
+        );
+    }
+    text
+}

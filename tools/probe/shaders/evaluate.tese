@@ -1,0 +1,10 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// Behind the fixed-function tessellator. The modes are replaced when a pipeline is made.
+layout(triangles, equal_spacing, cw) in;
+#include "surface.glsl"
+
+void main()
+{
+    gl_Position = surface(gl_TessCoord.xy, uint(gl_PrimitiveID));
+}

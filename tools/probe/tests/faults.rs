@@ -1,0 +1,222 @@
+//! Faults planted in captures are seen, and explained as what they are.
+#![expect(
+    clippy::float_cmp,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "exact numbers"
+)]
+
+use std::sync::OnceLock;
+use tess_core::Domain;
+use tess_probe::{Captured, Info, Judge, Method, Report, Way};
+use tess_verify::case::Case;
+use tess_verify::strength::{Denormals, Order, Strength};
+
+const LINE: &str = "case quad fractional_odd triangle_cw ruler 40a00000 40d00000 40e00000 40500000 40a80000 40c00000";
+const DENORMAL: &str = "case tri integer triangle_cw ruler 00000001 40400000 40400000 40400000";
+const CULLED: &str = "case tri integer triangle_cw ruler 00000000 40400000 40400000 40400000";
+
+fn case(line: &str) -> Case {
+    line.parse().expect("a case")
+}
+
+/// A device of no maker, as JSON has it.
+fn info() -> &'static Info {
+    static INFO: OnceLock<Info> = OnceLock::new();
+    INFO.get_or_init(|| Info::named("a device", 64))
+}
+
+/// What an exact device gives.
+fn exact(case: &Case) -> Captured {
+    let output = case.patch().tessellate();
+    let third = |[u, v]: [u32; 2]| match case.domain() {
+        Domain::Triangle => float(0x1_0000 - u - v),
+        _ => 0,
+    };
+    let vertex = |&index: &u32| {
+        let point = output.points[index as usize];
+        let uv = [point.u.to_bits(), point.v.to_bits()];
+        [float(uv[0]), float(uv[1]), third(uv)]
+    };
+    Captured { vertices: output.indices.iter().map(vertex).collect() }
+}
+
+/// The bits of a 16.16 number up to 1 as a binary32.
+fn float(number: u32) -> u32 {
+    match number.checked_ilog2() {
+        None => 0,
+        Some(top) => (127 + top - 16) << 23 | (number << (23 - top)) & 0x7F_FFFF,
+    }
+}
+
+fn any() -> Strength {
+    Strength { order: Order::Any, ..Strength::default() }
+}
+
+/// What is said of one patch after a fault is planted in its capture.
+fn judged(line: &str, strength: Strength, fault: impl FnOnce(&mut Captured)) -> Report {
+    let case = case(line);
+    let mut captured = exact(&case);
+    fault(&mut captured);
+    let mut judge = Judge::new(info(), Method::Primitives, strength);
+    judge.add(&case, &captured);
+    judge.finish()
+}
+
+fn explained(report: &Report) -> Vec<Way> {
+    report.explanations.iter().map(|explanation| explanation.way).collect()
+}
+
+#[test]
+fn exact_captures_are_equal_in_order() {
+    for line in [LINE, DENORMAL, CULLED] {
+        let report = judged(line, Strength { order: Order::Sequence, ..any() }, |_| {});
+        assert_eq!((report.different, report.odd, report.rows[0].sequence), (0, 0, 1), "{line}");
+    }
+}
+
+#[test]
+fn a_moved_point_is_seen_with_its_distance() {
+    let moved = |captured: &mut Captured| {
+        let vertex = captured.vertices[7];
+        let to = float(3 + (f32::from_bits(vertex[0]) * 65536.0) as u32);
+        for other in captured.vertices.iter_mut().filter(|other| **other == vertex) {
+            other[0] = to;
+        }
+    };
+    let report = judged(LINE, any(), moved);
+    assert_eq!((report.different, report.rows[0].coordinates, report.rows[0].max_units), (1, 1, 3));
+    let first = report.unexplained.first.expect("no freedom moves a point");
+    assert_eq!((first.line.as_str(), first.stage.as_str()), (LINE, "location"));
+    assert!(first.command.starts_with("tess patch quad"), "{}", first.command);
+}
+
+#[test]
+fn a_coordinate_between_two_numbers_is_seen() {
+    let report = judged(LINE, any(), |captured| captured.vertices[3][1] += 1);
+    assert_eq!((report.rows[0].coordinates, report.rows[0].max_units), (1, 1));
+    let first = report.unexplained.first.expect("it is no freedom");
+    assert!(first.difference.contains("no multiple of 2^-16"), "{}", first.difference);
+    assert_eq!(first.output(), None, "nor can it be drawn");
+}
+
+#[test]
+fn a_lost_triangle_is_seen() {
+    let report = judged(LINE, any(), |captured| drop(captured.vertices.drain(6..9)));
+    assert_eq!((report.different, report.rows[0].connectivity), (1, 1), "{report}");
+    assert_eq!(report.unexplained.first.expect("it is no freedom").stage, "stitch");
+}
+
+#[test]
+fn a_flipped_triangle_is_seen() {
+    let report = judged(LINE, any(), |captured| captured.vertices.swap(7, 8));
+    assert_eq!((report.different, report.rows[0].connectivity), (1, 1), "{report}");
+    assert_eq!(report.unexplained.patches, 1, "one flipped triangle is no orientation");
+}
+
+#[test]
+fn other_orders_are_told_apart() {
+    let turned = |captured: &mut Captured| captured.vertices[3..6].rotate_left(1);
+    let moved = |captured: &mut Captured| captured.vertices.rotate_left(3);
+    let report = judged(LINE, any(), turned);
+    assert_eq!((report.different, report.rows[0].leading), (0, 1), "another leading vertex");
+    let report = judged(LINE, any(), moved);
+    assert_eq!((report.different, report.rows[0].order), (0, 1), "another order");
+    for fault in [&turned as &dyn Fn(&mut Captured), &moved] {
+        let strength = Strength { order: Order::Sequence, ..any() };
+        assert_eq!(judged(LINE, strength, fault).different, 1, "in sequence they differ");
+    }
+}
+
+#[test]
+fn a_patch_that_should_be_culled_is_seen() {
+    let kept = exact(&case(&CULLED.replace("00000000", "40400000")));
+    let report = judged(CULLED, any(), |captured| *captured = kept);
+    assert_eq!((report.rows[0].culling, report.unexplained.patches), (1, 1), "{report}");
+}
+
+#[test]
+fn flushed_denormals_are_explained_and_may_be_asked_for() {
+    let flush = |captured: &mut Captured| captured.vertices.clear();
+    let report = judged(DENORMAL, any(), flush);
+    assert_eq!((report.different, report.rows[0].culling), (1, 1), "they differ");
+    assert_eq!((explained(&report), report.unexplained.patches), (vec![Way::Flush], 0));
+    let report = judged(DENORMAL, Strength { denormals: Denormals::Flush, ..any() }, flush);
+    assert_eq!(report.different, 0, "with the freedom they are equal");
+    let report = judged(LINE, any(), flush);
+    assert_eq!((explained(&report), report.unexplained.patches), (vec![], 1), "{LINE}");
+}
+
+#[test]
+fn another_conversion_is_explained() {
+    // 3 + 2^-17 lies halfway between two numbers; the even one is the model's.
+    let line = LINE.replace("40500000", "40400020");
+    let case = case(&line);
+    let other = case
+        .factors
+        .map(|factor| if factor == 3.000_007_6 { f32::from_bits(0x4040_0040) } else { factor });
+    let other = exact(&Case { factors: other, ..case });
+    let report = judged(&line, any(), |captured| *captured = other);
+    assert_eq!((report.different, explained(&report)), (1, vec![Way::Conversion]), "{report}");
+}
+
+#[test]
+fn orientations_are_said_in_one_line() {
+    let reverse = |captured: &mut Captured| {
+        captured.vertices.chunks_mut(3).for_each(|triangle| triangle.swap(1, 2));
+    };
+    let exchange =
+        |captured: &mut Captured| captured.vertices.iter_mut().for_each(|v| v.swap(0, 1));
+    let report = judged(LINE, any(), reverse);
+    assert_eq!(explained(&report), vec![Way::Reversed]);
+    assert!(
+        report.to_string().contains("not allowed: every triangle turns the other way"),
+        "{report}"
+    );
+    let report = judged(LINE, any(), exchange);
+    assert_eq!(explained(&report), vec![Way::TransposedReversed]);
+}
+
+#[test]
+fn a_wrong_third_coordinate_is_seen() {
+    let line = "case tri fractional_even triangle_ccw ruler 40a00000 40d00000 40e00000 40500000";
+    let report = judged(line, any(), |captured| captured.vertices[2][2] ^= 0x80);
+    assert_eq!((report.different, report.rows[0].third, report.unexplained.patches), (1, 1, 1));
+    let report = judged(LINE, any(), |captured| captured.vertices[2][2] = 1);
+    assert_eq!((report.different, report.rows[0].third), (1, 1), "0 on quads");
+}
+
+/// Points alone show moved points and culled patches, in any order and any number.
+#[test]
+fn points_alone_are_judged() {
+    let case = case(LINE);
+    let exact = exact(&case);
+    let report = |captured: &Captured| {
+        let mut judge = Judge::new(info(), Method::Points, any());
+        judge.add(&case, captured);
+        judge.finish()
+    };
+    let mut turned = exact.clone();
+    turned.vertices.reverse();
+    assert_eq!(report(&turned).different, 0, "any order");
+    let mut moved = exact.clone();
+    moved.vertices[0][1] = float(77);
+    assert_eq!((report(&moved).different, report(&moved).rows[0].coordinates), (1, 1), "moved");
+    assert_eq!(report(&Captured::default()).rows[0].culling, 1, "culled");
+}
+
+/// Each digest sees what it is for.
+#[test]
+fn digests_see_order_and_elements() {
+    let digests = |fault: &dyn Fn(&mut Captured)| {
+        let row = judged(LINE, any(), fault).rows.remove(0);
+        (row.sequence_digest, row.set_digest)
+    };
+    let right = digests(&|_| {});
+    let order = digests(&|captured| captured.vertices.rotate_left(3));
+    let leading = digests(&|captured| captured.vertices[..3].rotate_left(1));
+    let lost = digests(&|captured| captured.vertices.truncate(3));
+    assert!(order.0 != right.0 && order.1 == right.1, "another order");
+    assert!(leading.0 != right.0 && leading.1 == right.1, "another leading vertex");
+    assert!(lost.0 != right.0 && lost.1 != right.1, "fewer primitives");
+}

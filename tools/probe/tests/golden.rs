@@ -1,0 +1,93 @@
+//! What was captured from devices, against the model of today: `golden/devices`.
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use tess_probe::{Digests, cases};
+use tess_verify::case::Case;
+use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::names::Named;
+use tess_verify::strength::flushed;
+use tess_verify::vectors::primitive_size;
+
+/// Domain, partitioning and output.
+type Names = (String, String, String);
+
+fn recorded() -> Vec<(PathBuf, Value)> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/devices");
+    let entries = std::fs::read_dir(folder).expect("it is there").map(|e| e.expect("read").path());
+    let files = entries.filter(|path| path.extension().is_some_and(|e| e == "json"));
+    files
+        .map(|path| {
+            let text = std::fs::read_to_string(&path).expect("it can be read");
+            let report = serde_json::from_str(&text).expect("it is JSON");
+            (path, report)
+        })
+        .collect()
+}
+
+/// The digests and numbers of patches that the model has for level 1, with one freedom and `fault`.
+fn model(flush: bool, fault: impl Fn(&Case, &mut Vec<u32>)) -> BTreeMap<Names, (u64, Digests)> {
+    let mut all = BTreeMap::<Names, (u64, Digests)>::new();
+    for case in cases(Selection::level(Level::One, 1), Shard::WHOLE) {
+        let names =
+            [case.domain().name(), case.config.partitioning.name(), case.config.output.name()];
+        let [domain, partitioning, output] = names.map(str::to_owned);
+        let asked = flushed(&case).filter(|_| flush).unwrap_or(case);
+        let mut whole = asked.patch().tessellate();
+        fault(&case, &mut whole.indices);
+        let (patches, digests) = all.entry((domain, partitioning, output)).or_default();
+        *patches += 1;
+        digests.add(&whole, primitive_size(&case));
+    }
+    all
+}
+
+fn is_flushing(report: &Value) -> bool {
+    let explanations = report["explanations"].as_array().expect("a list");
+    explanations.iter().any(|one| one["way"] == "flush" && one["is_all"] == true)
+}
+
+/// The configurations that differ.
+fn differing(report: &Value, model: &BTreeMap<Names, (u64, Digests)>) -> Vec<Names> {
+    let rows = report["rows"].as_array().expect("a list");
+    assert_eq!(rows.len(), model.len(), "every configuration");
+    let text = |row: &Value, key: &str| row[key].as_str().expect("text").to_owned();
+    let names = |row: &Value| (text(row, "domain"), text(row, "partitioning"), text(row, "output"));
+    let differs = |row: &&Value| {
+        let (patches, digests) = &model[&names(row)];
+        let number = |key: &str| row[key].as_u64().expect("a number");
+        let in_order = number("sequence") + number("culling") == *patches;
+        number("patches") != *patches
+            || row["set_digest"] != digests.set()
+            || (in_order && row["sequence_digest"] != digests.sequence())
+    };
+    rows.iter().filter(differs).map(names).collect()
+}
+
+#[test]
+fn the_model_is_what_devices_gave() {
+    let recorded = recorded();
+    assert!(recorded.len() >= 2, "two devices: {recorded:?}");
+    for (path, report) in &recorded {
+        assert_eq!(report["unexplained"]["patches"], 0, "{}", path.display());
+        let model = model(is_flushing(report), |_, _| {});
+        assert_eq!(differing(report, &model), vec![], "{}", path.display());
+    }
+}
+
+/// One triangle of one patch turned over, and one of them lost, are seen.
+#[test]
+fn a_change_of_the_model_is_seen() {
+    let (_, report) = recorded().remove(0);
+    let line = "case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000";
+    let changed: Case = line.parse().expect("a case");
+    let turned = model(is_flushing(&report), |case, indices| {
+        if *case == changed {
+            indices.swap(0, 1);
+        }
+    });
+    let names = ["tri", "integer", "triangle_cw"].map(str::to_owned);
+    let [domain, partitioning, output] = names;
+    assert_eq!(differing(&report, &turned), vec![(domain, partitioning, output)]);
+}
