@@ -30,11 +30,8 @@ module tess_factor_context #(
 
     function automatic logic [6:0] drop_msb(input logic [6:0] x);
         drop_msb = x;
-        for (int i = 6; i >= 0; i--) begin
-            if (x[i]) begin
-                drop_msb[i] = 1'b0;
-                break;
-            end
+        for (int i = 0; i < 7; i++) begin
+            if (x[i]) drop_msb = x & ~(7'd1 << i); // the highest bit comes last
         end
     endfunction
 

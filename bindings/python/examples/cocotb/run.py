@@ -1,0 +1,61 @@
+"""Runs the placer's bench in a simulator.
+
+    python run.py [--sim verilator|icarus] [--fault N] [--random N] [--seed N] [--coverage FILE]
+
+The design is bindings/c/verilog/rtl of the repository. Exit status: 0 equal, 1 different. `--fault`
+takes a design with a planted fault: 1 factor context, 2 flip, 3 rounding; the run then fails.
+"""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from cocotb.runner import get_results, get_runner
+
+HERE = Path(__file__).resolve().parent
+RTL = HERE.parents[3] / "bindings" / "c" / "verilog" / "rtl"
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--sim", choices=["verilator", "icarus"], default="verilator")
+    parser.add_argument("--fault", type=int, choices=range(4), default=0)
+    parser.add_argument("--random", type=int, default=500, help="random factors, every point of each")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--coverage", type=Path, default=Path("coverage.xml"), help="file to add to")
+    parser.add_argument("--build", type=Path, default=Path("sim_build"), help="folder to build in")
+    return parser.parse_args()
+
+
+def main() -> int:
+    options = arguments()
+    build = (options.build / f"{options.sim}-{options.fault}").resolve()
+    runner = get_runner(options.sim)
+    runner.build(
+        verilog_sources=sorted(RTL.glob("*.sv")),
+        hdl_toplevel="tess_placer",
+        parameters={"PLANTED_FAULT": options.fault},
+        build_dir=build,
+        timescale=("1ns", "1ps"),
+    )
+    results = runner.test(
+        test_module="bench",
+        hdl_toplevel="tess_placer",
+        build_dir=build,
+        test_dir=build,
+        timescale=("1ns", "1ps"),
+        extra_env={
+            "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
+            "TESS_COVERAGE": str(options.coverage.resolve()),
+            "TESS_RANDOM": str(options.random),
+            "TESS_SEED": str(options.seed),
+        },
+    )
+    tests, failed = get_results(results)
+    print(f"{tests} tests, {failed} failed")
+    return 1 if failed or tests != 2 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,120 @@
+"""The golden model of the Direct3D 11 class fixed-function tessellator.
+
+>>> import tess_model
+>>> patch = tess_model.Patch("quad", outer=[3, 4, 5, 6], inner=[4, 7])
+>>> patch.counts
+Counts(points=36, primitives=52, indices=156)
+>>> patch.points[0], patch.indices[0]
+(array([    0, 65536], dtype=uint32), array([ 0,  1, 18], dtype=uint32))
+
+Single patches are :class:`Patch`; many at once :func:`tessellate`; test vectors, comparison and
+coverage :func:`generate`, :func:`check` and :class:`Coverage`.
+"""
+
+from functools import lru_cache as _lru_cache
+from typing import Any, Optional
+
+import numpy.typing as _npt
+
+from ._native import (
+    Cases,
+    Coverage,
+    Patch,
+    Record,
+    Tessellator,
+    VectorFile,
+    __version__,
+    check,
+    check_device,
+    context,
+    generate,
+    place,
+    write_vectors,
+)
+from .errors import (
+    ArgumentError,
+    FileFormatError,
+    NoSuchElementError,
+    OutputError,
+    TessError,
+)
+from .values import (
+    Batch,
+    BatchCounts,
+    Blend,
+    Counts,
+    Difference,
+    FactorContext,
+    Group,
+    Placement,
+    PointOrigin,
+    PrimitiveOrigin,
+    ProcessedFactor,
+    Report,
+)
+
+__all__ = [
+    "ArgumentError",
+    "Batch",
+    "BatchCounts",
+    "Blend",
+    "Cases",
+    "Counts",
+    "Coverage",
+    "Difference",
+    "FactorContext",
+    "FileFormatError",
+    "Group",
+    "NoSuchElementError",
+    "OutputError",
+    "Patch",
+    "Placement",
+    "PointOrigin",
+    "PrimitiveOrigin",
+    "ProcessedFactor",
+    "Record",
+    "Report",
+    "TessError",
+    "Tessellator",
+    "VectorFile",
+    "__version__",
+    "check",
+    "check_device",
+    "context",
+    "generate",
+    "place",
+    "tessellate",
+    "write_vectors",
+]
+
+_tessellator = _lru_cache(maxsize=4)(Tessellator)
+
+
+def tessellate(
+    domain: str,
+    factors: "_npt.NDArray[Any]",
+    *,
+    partitioning: str = "integer",
+    output: str = "triangle_cw",
+    split: str = "ruler",
+    threads: int = 1,
+    points: str = "float32",
+    indices: str = "uint32",
+    base_vertex: Optional[int] = None,
+    out: "Optional[tuple[_npt.NDArray[Any], ...]]" = None,
+) -> Batch:
+    """Tessellates a batch: :meth:`Tessellator.tessellate` with a tessellator that is kept for the
+    next call.
+
+    ``factors`` has shape (patches, k), float32, k being 2 (isoline), 4 (tri) or 6 (quad).
+
+    >>> import numpy as np
+    >>> factors = np.full((100, 4), 5.0, dtype=np.float32)
+    >>> batch = tessellate("tri", factors)
+    >>> batch.points.shape, batch.indices.shape, batch.ranges.shape
+    ((2700, 2), (11100,), (100, 4))
+    """
+    tessellator = _tessellator(partitioning, output, split, threads)
+    return tessellator.tessellate(
+        domain, factors, points=points, indices=indices, base_vertex=base_vertex, out=out
+    )

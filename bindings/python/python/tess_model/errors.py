@@ -1,0 +1,24 @@
+"""What the package raises. Every error says what was wrong and what would be right."""
+
+
+class TessError(ValueError):
+    """The base of this package's errors."""
+
+
+class ArgumentError(TessError):
+    """An argument that stands for nothing: an unknown name, a wrong number of factors, an array of
+    another type or shape, a batch that 32 bits cannot count."""
+
+
+class NoSuchElementError(TessError, IndexError):
+    """A point, primitive or factor that the patch does not have."""
+
+
+class OutputError(TessError):
+    """An array in ``out`` that cannot be written: too small, read-only, of another type, not
+    C-contiguous, or sharing memory with another one. Nothing was written."""
+
+
+class FileFormatError(TessError):
+    """A vector file or a coverage file that is malformed, truncated, too long or empty. The message
+    names file, line and field."""

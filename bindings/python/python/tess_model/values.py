@@ -1,0 +1,188 @@
+"""The values that the model gives: named tuples.
+
+Numbers are exact. ``16.16`` is an integer whose unit is 1/65536; ``15.16`` likewise, for factors;
+``bits`` are those of a binary32 number.
+"""
+
+from typing import Any, NamedTuple, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+
+class Counts(NamedTuple):
+    """Output sizes of a patch (specification, section 12.6)."""
+
+    points: int
+    """Domain points, 0..4225."""
+    primitives: int
+    """Points, lines or triangles."""
+    indices: int
+    """1, 2 or 3 for each primitive, 0..24576."""
+
+
+class FactorContext(NamedTuple):
+    """The numbers that a factor's points are placed with (specification, section 4)."""
+
+    parity: str
+    """``even`` or ``odd``: the number of segments."""
+    inv_floor: int
+    """Length of a segment of the coarser subdivision, 16 fraction bits."""
+    inv_ceil: int
+    """Length of a segment of the finer subdivision, 16 fraction bits."""
+    fraction: int
+    """Weight of the finer subdivision, 16 fraction bits, below 0x10000."""
+    half_points: int
+    """Points on a half edge, without the midpoint of an even edge: 1..32."""
+    split: int
+    """The position on the half edge that splits off its predecessor: 0..33."""
+    points: int
+    """Points on the edge: 2..65."""
+
+
+class ProcessedFactor(NamedTuple):
+    """One factor after each step of factor processing (specification, section 3)."""
+
+    name: str
+    """``density``, ``detail``, ``u0``, ``v0``, ``w0``, ``u1``, ``v1``, ``inside``, ``inside_u``,
+    ``inside_v``."""
+    raw: int
+    """The factor that was given: bits."""
+    clamped: int
+    """After clamping: bits."""
+    rounded: int
+    """After rounding: bits."""
+    fixed: int
+    """As a 15.16 number."""
+    context: FactorContext
+    """Parity and the numbers of section 4."""
+
+    @property
+    def parity(self) -> str:
+        """``even`` or ``odd``."""
+        return self.context.parity
+
+
+class Blend(NamedTuple):
+    """The two places that a location lies between, 16 fraction bits each."""
+
+    coarse: int
+    fine: int
+    fraction: int
+    """Weight of ``fine``, below 0x10000."""
+
+
+class Placement(NamedTuple):
+    """A location in one dimension with every step (specification, section 5)."""
+
+    flip: bool
+    """Whether the point lies on the second half of the edge, or in its middle."""
+    position: int
+    """On the half edge: 0..half_points."""
+    blend: Optional[Blend]
+    """``None`` in the exact middle of an even edge."""
+    half_location: int
+    """Before mirroring, 16 fraction bits."""
+    location: int
+    """16.16, 0..0x10000."""
+
+
+class PointOrigin(NamedTuple):
+    """Where a domain point comes from (specification, section 6)."""
+
+    kind: str
+    """``corner`` (of a minimum patch), ``line``, ``outer_edge``, ``ring`` or ``centre``."""
+    line: Optional[int]
+    """Number of the isoline."""
+    ring: Optional[int]
+    """Number of the ring, from 1."""
+    edge: Optional[int]
+    """Number of the edge."""
+    p: int
+    """Number of the point there; of a corner its own."""
+
+
+class PrimitiveOrigin(NamedTuple):
+    """Where a primitive comes from (specification, sections 7 and 8)."""
+
+    kind: str
+    """``sequence``, ``line``, ``minimum``, ``transition``, ``ring`` or ``centre``."""
+    line: Optional[int]
+    """Number of the isoline."""
+    ring: Optional[int]
+    """Number of the inner ring, from 2."""
+    edge: Optional[int]
+    """Number of the edge."""
+    step: int
+    """Number of the primitive there."""
+
+
+class Batch(NamedTuple):
+    """The output of a batch, one patch after another."""
+
+    points: "npt.NDArray[Any]"
+    """Shape (points, 2): u and v of each point, float32 or uint32 (16.16)."""
+    indices: "npt.NDArray[Any]"
+    """Shape (indices,), uint32 or uint16."""
+    ranges: "npt.NDArray[np.uint32]"
+    """Shape (patches, 4): first point, points, first index, indices."""
+
+    def patch(self, i: int) -> "tuple[npt.NDArray[Any], npt.NDArray[Any]]":
+        """Points and indices of patch ``i``: views."""
+        first_point, points, first_index, indices = (int(x) for x in self.ranges[i])
+        return (
+            self.points[first_point : first_point + points],
+            self.indices[first_index : first_index + indices],
+        )
+
+
+class BatchCounts(NamedTuple):
+    """Output sizes of a batch: elements of the three arrays."""
+
+    patches: int
+    points: int
+    indices: int
+
+
+class Group(NamedTuple):
+    """How many bins of a coverage group were hit."""
+
+    hit: int
+    bins: int
+
+
+class Difference(NamedTuple):
+    """The first wrong element of a record."""
+
+    number: int
+    """Number of the record, from 1."""
+    line: Optional[int]
+    """Line of the file that the record starts on."""
+    case: Optional[str]
+    """The patch, as ``Patch.from_case`` takes it."""
+    element: str
+    """What differs, such as ``point 7 u``."""
+    observed: str
+    """What was found there: hex, or a decimal count."""
+    expected: str
+    """What is right there."""
+    stage: str
+    """The stage of the specification that it points to."""
+    text: str
+    """All of this as ``tess check`` prints it."""
+
+
+class Report(NamedTuple):
+    """The verdict on vectors or on a device."""
+
+    cases: int
+    """Records that were checked: all."""
+    mismatches: int
+    """Records that differ."""
+    differences: "tuple[Difference, ...]"
+    """The first differences, at most 20."""
+
+    @property
+    def equal(self) -> bool:
+        """Whether there is no mismatch."""
+        return self.mismatches == 0

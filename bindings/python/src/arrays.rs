@@ -1,0 +1,120 @@
+//! numpy arrays as the libraries' slices.
+
+use crate::errors::{argument, output};
+use numpy::{
+    Element, Ix1, Ix2, PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray, PyUntypedArray,
+    PyUntypedArrayMethods,
+};
+use pyo3::prelude::*;
+use std::ops::Range;
+use tess_core::{Domain, DomainPoint};
+use tess_simd::PatchRange;
+use tess_verify::names::Named;
+
+/// The factors of a batch: a copy, so that a thread that writes to the array meanwhile changes
+/// nothing.
+///
+/// # Errors
+/// No array of shape (patches, factors of the domain), float32 or uint32 (bit patterns).
+pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
+    let factors = domain.factors();
+    let wrong = |found: String| {
+        argument(format!(
+            "factors must be a numpy array of shape (patches, {factors}) for the domain {}, float32 \
+             or uint32 (bit patterns), not {found}",
+            domain.name()
+        ))
+    };
+    let Ok(untyped) = array.cast::<PyUntypedArray>() else {
+        return Err(wrong(format!("an object of type {}", array.get_type().name()?)));
+    };
+    if untyped.ndim() != 2 || untyped.shape()[1] != factors {
+        return Err(wrong(described(untyped)));
+    }
+    let borrowed = |error| argument(format!("factors: {error}"));
+    if let Ok(array) = array.cast::<PyArray2<f32>>() {
+        let array = array.try_readonly().map_err(borrowed)?;
+        Ok(array.as_array().iter().copied().collect())
+    } else if let Ok(array) = array.cast::<PyArray2<u32>>() {
+        let array = array.try_readonly().map_err(borrowed)?;
+        Ok(array.as_array().iter().copied().map(f32::from_bits).collect())
+    } else {
+        Err(wrong(described(untyped)))
+    }
+}
+
+/// Type and shape in words.
+pub(crate) fn described(array: &Bound<'_, PyUntypedArray>) -> String {
+    format!("{} of shape {:?}", array.dtype(), array.shape())
+}
+
+/// An array of `out` that can be written as one slice.
+///
+/// # Errors
+/// It is read-only, not C-contiguous, misaligned, or borrowed by another call.
+pub(crate) fn writable<'py, T: Element, D: numpy::ndarray::Dimension>(
+    what: &str,
+    array: &Bound<'py, numpy::PyArray<T, D>>,
+) -> PyResult<PyReadwriteArray<'py, T, D>> {
+    if !array.is_c_contiguous() {
+        return Err(output(format!("{what}: the array is not C-contiguous")));
+    }
+    if !array.data().is_aligned() {
+        return Err(output(format!("{what}: the array is not aligned to its elements")));
+    }
+    array.try_readwrite().map_err(|error| match error {
+        numpy::BorrowError::NotWriteable => output(format!("{what}: the array is read-only")),
+        error => output(format!("{what}: another array or call uses the same memory ({error})")),
+    })
+}
+
+/// The addresses that a contiguous array covers.
+pub(crate) fn addresses<T: Element, D: numpy::ndarray::Dimension>(
+    array: &Bound<'_, numpy::PyArray<T, D>>,
+) -> Range<usize> {
+    let start = array.data() as usize;
+    start..start + array.len() * size_of::<T>()
+}
+
+/// Whether two address ranges have a byte in common.
+pub(crate) fn overlap(one: &Range<usize>, other: &Range<usize>) -> bool {
+    one.start.max(other.start) < one.end.min(other.end)
+}
+
+/// Pairs of coordinates as points.
+pub(crate) fn fixed_points(words: &mut [u32]) -> &mut [DomainPoint] {
+    const {
+        assert!(size_of::<DomainPoint>() == 8 && align_of::<DomainPoint>() == 4, "two words");
+    }
+    let (pairs, _) = words.as_chunks_mut::<2>();
+    #[expect(unsafe_code, reason = "a reinterpretation that safe Rust has no words for")]
+    // SAFETY: `DomainPoint` is `repr(C)` of two `U16F16`, each of which is a transparent `u32`, so it
+    // has the size, the alignment and the valid bit patterns of `[u32; 2]`; the slice is borrowed
+    // exclusively for as long as the result.
+    unsafe {
+        std::slice::from_raw_parts_mut(pairs.as_mut_ptr().cast(), pairs.len())
+    }
+}
+
+/// Groups of four words as ranges.
+pub(crate) fn ranges(words: &mut [u32]) -> &mut [PatchRange] {
+    const {
+        assert!(size_of::<PatchRange>() == 16 && align_of::<PatchRange>() == 4, "four words");
+    }
+    let (groups, _) = words.as_chunks_mut::<4>();
+    #[expect(unsafe_code, reason = "a reinterpretation that safe Rust has no words for")]
+    // SAFETY: `PatchRange` is `repr(C)` of four `u32`, so it has the size, the alignment and the valid
+    // bit patterns of `[u32; 4]`; the slice is borrowed exclusively for as long as the result.
+    unsafe {
+        std::slice::from_raw_parts_mut(groups.as_mut_ptr().cast(), groups.len())
+    }
+}
+
+/// A one-dimensional array that is written.
+pub(crate) type Flat<'py, T> = PyReadwriteArray<'py, T, Ix1>;
+/// An array of rows that is written.
+pub(crate) type Rows<'py, T> = PyReadwriteArray<'py, T, Ix2>;
+/// Arrays of two types of elements.
+pub(crate) type Array1<'py, T> = Bound<'py, PyArray1<T>>;
+/// Arrays of rows.
+pub(crate) type Array2<'py, T> = Bound<'py, PyArray2<T>>;

@@ -1,0 +1,370 @@
+//! Many patches at the speed of `tess-simd`.
+
+use crate::arrays::{self, Array1, Array2, Flat, Rows, addresses, described, overlap, writable};
+use crate::errors::{self, argument, output};
+use crate::names::{config, named};
+use crate::values;
+use numpy::{PyArray, PyUntypedArray, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PySlice, PyTuple};
+use std::sync::{Mutex, PoisonError};
+use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
+use tess_simd::{BatchCounts, Buffers, Counted, IndexFormat, Numbering, PatchRange, PointFormat};
+use tess_verify::names::Named;
+
+/// Tessellates batches in one configuration, on the CPU's vector units.
+///
+/// Making one takes about a millisecond: keep it. Any number of threads may use it at a time; it then
+/// holds tables of about a megabyte for each. The interpreter's lock is not held.
+///
+/// Args:
+///     partitioning, output, split: As for :class:`Patch`.
+///     threads: How many threads write a batch, 1..256. The output is the same.
+///
+/// >>> import numpy as np
+/// >>> from tess_model import Tessellator
+/// >>> tessellator = Tessellator("fractional_odd")
+/// >>> batch = tessellator.tessellate("quad", np.full((10, 6), 2.5, dtype=np.float32))
+/// >>> points, indices = batch.patch(9)
+/// >>> points.shape, indices.shape
+/// ((16, 2), (54,))
+#[pyclass(frozen, module = "tess_model")]
+pub(crate) struct Tessellator {
+    config: Config,
+    threads: usize,
+    level: tess_simd::Level,
+    /// Those that no call uses now.
+    idle: Mutex<Vec<tess_simd::Tessellator>>,
+}
+
+#[pymethods]
+impl Tessellator {
+    #[new]
+    #[pyo3(signature = (partitioning = "integer", output = "triangle_cw", split = "ruler",
+        threads = 1))]
+    fn new(partitioning: &str, output: &str, split: &str, threads: usize) -> PyResult<Self> {
+        let config = config(partitioning, output, split)?;
+        let most = tess_simd::Tessellator::MAX_THREADS;
+        if !(1..=most).contains(&threads) {
+            return Err(argument(format!("threads must be 1 to {most}, not {threads}")));
+        }
+        let first = tess_simd::Tessellator::new(config).threads(threads);
+        Ok(Self { config, threads, level: first.level(), idle: Mutex::new(vec![first]) })
+    }
+
+    /// The CPU level in use: ``baseline``, ``avx2`` or ``avx512``. All give the same bits.
+    #[getter]
+    fn level(&self) -> &'static str {
+        self.level.name()
+    }
+
+    /// How many threads write a batch.
+    #[getter]
+    fn threads(&self) -> usize {
+        self.threads
+    }
+
+    fn __repr__(&self) -> String {
+        let Config { partitioning, output, split } = self.config;
+        format!(
+            "Tessellator('{}', '{}', '{}', threads={})",
+            partitioning.name(),
+            output.name(),
+            split.name(),
+            self.threads
+        )
+    }
+
+    /// The sizes of a batch's output, :class:`BatchCounts`: what ``out`` must have room for.
+    fn count<'py>(
+        &self,
+        py: Python<'py>,
+        domain: &str,
+        factors: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let batch = owned(named(domain)?, factors)?;
+        let counts = self.with(|tessellator| {
+            py.detach(|| tessellator.count(batch.batch()).map(|counted| counted.counts()))
+        });
+        let BatchCounts { patches, points, indices } = counts.map_err(errors::batch)?;
+        values::value(py, "BatchCounts", (patches, points, indices))
+    }
+
+    /// Tessellates a batch into a :class:`Batch`.
+    ///
+    /// Args:
+    ///     domain: ``isoline``, ``tri`` or ``quad``.
+    ///     factors: Array of shape (patches, k), k being 2, 4 or 6: raw factors in the order of
+    ///         :class:`Patch`, outer then inside, float32, or uint32 for their bit patterns. Any
+    ///         strides.
+    ///     points: ``float32`` or ``fixed`` (uint32, 16.16); both exact.
+    ///     indices: ``uint32`` or ``uint16``.
+    ///     base_vertex: ``None`` if the indices of each patch count from its own first point; a
+    ///         number if they count through the batch, whose first point has that number.
+    ///     out: Arrays (points, indices) or (points, indices, ranges) to write instead of new ones:
+    ///         C-contiguous, of shapes (>= points, 2), (>= indices,) and (>= patches, 4). Their types
+    ///         are the formats. The result has views of them; what lies behind stays as it is.
+    ///
+    /// Raises:
+    ///     ArgumentError: Wrong names or factors; indices that do not fit 16 bits; more than
+    ///         2**32 - 1 points or indices.
+    ///     OutputError: An array of ``out`` cannot be written. Nothing was written.
+    #[pyo3(signature = (domain, factors, *, points = "float32", indices = "uint32",
+        base_vertex = None, out = None))]
+    #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+    fn tessellate<'py>(
+        &self,
+        py: Python<'py>,
+        domain: &str,
+        factors: &Bound<'py, PyAny>,
+        points: &str,
+        indices: &str,
+        base_vertex: Option<u32>,
+        out: Option<&Bound<'py, PyTuple>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let batch = owned(named(domain)?, factors)?;
+        let numbering = base_vertex
+            .map_or(Numbering::PerPatch, |base_vertex| Numbering::PerBatch { base_vertex });
+        self.with(|tessellator| {
+            let counted = py.detach(|| tessellator.count(batch.batch())).map_err(errors::batch)?;
+            let counts = counted.counts();
+            let arrays = match out {
+                Some(out) => Arrays::given(py, out, counts)?,
+                None => Arrays::new(py, points, indices, counts)?,
+            };
+            arrays.write(py, counted, numbering)?;
+            arrays.result(py, counts)
+        })
+    }
+}
+
+impl Tessellator {
+    /// Lends a tessellator that no other call uses.
+    fn with<T>(&self, borrow: impl FnOnce(&mut tess_simd::Tessellator) -> T) -> T {
+        let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        let free = idle().pop();
+        let make = || tess_simd::Tessellator::new(self.config).threads(self.threads);
+        let mut tessellator = free.unwrap_or_else(make);
+        let result = borrow(&mut tessellator);
+        idle().push(tessellator);
+        result
+    }
+}
+
+/// The patches of an array.
+fn owned(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Patches> {
+    let flat = arrays::factors(domain, array)?;
+    Ok(match domain {
+        Domain::Isoline => Patches::Isolines(of::<2, _>(&flat)),
+        Domain::Triangle => Patches::Triangles(of::<4, _>(&flat)),
+        Domain::Quad => Patches::Quads(of::<6, _>(&flat)),
+    })
+}
+
+fn of<const N: usize, T: From<[f32; N]>>(flat: &[f32]) -> Vec<T> {
+    flat.as_chunks::<N>().0.iter().map(|factors| T::from(*factors)).collect()
+}
+
+/// Patches of one domain in the layout that is the fastest.
+enum Patches {
+    Isolines(Vec<IsolineFactors>),
+    Triangles(Vec<TriangleFactors>),
+    Quads(Vec<QuadFactors>),
+}
+
+impl Patches {
+    fn batch(&self) -> tess_simd::Batch<'_> {
+        match self {
+            Self::Isolines(all) => all.into(),
+            Self::Triangles(all) => all.into(),
+            Self::Quads(all) => all.into(),
+        }
+    }
+}
+
+/// Points in one of the two formats.
+enum Points<'py> {
+    Float(Array2<'py, f32>),
+    Fixed(Array2<'py, u32>),
+}
+
+/// Indices in one of the two formats.
+enum Indices<'py> {
+    Long(Array1<'py, u32>),
+    Short(Array1<'py, u16>),
+}
+
+/// What a batch is written to.
+struct Arrays<'py> {
+    points: Points<'py>,
+    indices: Indices<'py>,
+    ranges: Array2<'py, u32>,
+}
+
+impl<'py> Arrays<'py> {
+    /// New arrays in formats by name.
+    fn new(py: Python<'py>, points: &str, indices: &str, counts: BatchCounts) -> PyResult<Self> {
+        let unknown = |what: &str, name: &str, known: &str| {
+            argument(format!("unknown format of {what} {name:?}, expected {known}"))
+        };
+        Ok(Self {
+            points: match points {
+                "float32" => Points::Float(PyArray::zeros(py, [counts.points, 2], false)),
+                "fixed" => Points::Fixed(PyArray::zeros(py, [counts.points, 2], false)),
+                other => return Err(unknown("points", other, "float32 or fixed")),
+            },
+            indices: match indices {
+                "uint32" => Indices::Long(PyArray::zeros(py, [counts.indices], false)),
+                "uint16" => Indices::Short(PyArray::zeros(py, [counts.indices], false)),
+                other => return Err(unknown("indices", other, "uint32 or uint16")),
+            },
+            ranges: PyArray::zeros(py, [counts.patches, 4], false),
+        })
+    }
+
+    /// The caller's arrays.
+    fn given(py: Python<'py>, out: &Bound<'py, PyTuple>, counts: BatchCounts) -> PyResult<Self> {
+        if !(2..=3).contains(&out.len()) {
+            let message = "out must be (points, indices) or (points, indices, ranges), not";
+            return Err(output(format!("{message} {} arrays", out.len())));
+        }
+        let element = |i: usize| out.get_item(i);
+        let ranges = match out.len() {
+            2 => PyArray::zeros(py, [counts.patches, 4], false),
+            _ => rows::<u32>("ranges", &element(2)?, 4)
+                .ok_or_else(|| wrong(&element(2), "ranges", "(.., 4), uint32"))?,
+        };
+        let (points, indices) = (element(0)?, element(1)?);
+        let points = rows("points", &points, 2)
+            .map(Points::Float)
+            .or_else(|| rows("points", &points, 2).map(Points::Fixed))
+            .ok_or_else(|| wrong(&element(0), "points", "(.., 2), float32 or uint32"))?;
+        let indices = indices
+            .cast::<PyArray<u32, _>>()
+            .map(|array| Indices::Long(array.clone()))
+            .or_else(|_| indices.cast::<PyArray<u16, _>>().map(|a| Indices::Short(a.clone())))
+            .map_err(|_| wrong(&element(1), "indices", "(..,), uint32 or uint16"))?;
+        let arrays = Self { points, indices, ranges };
+        arrays.check_overlap()?;
+        Ok(arrays)
+    }
+
+    /// Refuses arrays that share memory.
+    fn check_overlap(&self) -> PyResult<()> {
+        let points = match &self.points {
+            Points::Float(array) => addresses(array),
+            Points::Fixed(array) => addresses(array),
+        };
+        let indices = match &self.indices {
+            Indices::Long(array) => addresses(array),
+            Indices::Short(array) => addresses(array),
+        };
+        let ranges = addresses(&self.ranges);
+        for (one, a, other, b) in [
+            ("points", &points, "indices", &indices),
+            ("points", &points, "ranges", &ranges),
+            ("indices", &indices, "ranges", &ranges),
+        ] {
+            if overlap(a, b) {
+                return Err(output(format!("{one} and {other} of out share memory")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the batch.
+    fn write(&self, py: Python<'py>, counted: Counted<'_>, numbering: Numbering) -> PyResult<()> {
+        let mut ranges: Rows<'py, u32> = writable("ranges", &self.ranges)?;
+        let ranges = arrays::ranges(ranges.as_slice_mut().map_err(output)?);
+        match &self.points {
+            Points::Float(points) => {
+                let mut points: Rows<'py, f32> = writable("points", points)?;
+                let (points, _) = points.as_slice_mut().map_err(output)?.as_chunks_mut::<2>();
+                self.write_indices(py, counted, numbering, points, ranges)
+            }
+            Points::Fixed(points) => {
+                let mut points: Rows<'py, u32> = writable("points", points)?;
+                let points = arrays::fixed_points(points.as_slice_mut().map_err(output)?);
+                self.write_indices(py, counted, numbering, points, ranges)
+            }
+        }
+    }
+
+    fn write_indices<P: PointFormat>(
+        &self,
+        py: Python<'py>,
+        counted: Counted<'_>,
+        numbering: Numbering,
+        points: &mut [P],
+        ranges: &mut [PatchRange],
+    ) -> PyResult<()> {
+        match &self.indices {
+            Indices::Long(indices) => {
+                let mut indices: Flat<'py, u32> = writable("indices", indices)?;
+                let indices = indices.as_slice_mut().map_err(output)?;
+                run(py, counted, numbering, Buffers::new(points, indices).with_ranges(ranges))
+            }
+            Indices::Short(indices) => {
+                let mut indices: Flat<'py, u16> = writable("indices", indices)?;
+                let indices = indices.as_slice_mut().map_err(output)?;
+                run(py, counted, numbering, Buffers::new(points, indices).with_ranges(ranges))
+            }
+        }
+    }
+
+    /// What was written, as views where the arrays are larger.
+    fn result(self, py: Python<'py>, counts: BatchCounts) -> PyResult<Bound<'py, PyAny>> {
+        let points = match self.points {
+            Points::Float(array) => array.into_any(),
+            Points::Fixed(array) => array.into_any(),
+        };
+        let indices = match self.indices {
+            Indices::Long(array) => array.into_any(),
+            Indices::Short(array) => array.into_any(),
+        };
+        let first = |array: &Bound<'py, PyAny>, count: usize| {
+            if array.len()? == count {
+                return Ok(array.clone());
+            }
+            array.get_item(PySlice::new(py, 0, count.cast_signed(), 1))
+        };
+        let views = (
+            first(&points, counts.points)?,
+            first(&indices, counts.indices)?,
+            first(self.ranges.as_any(), counts.patches)?,
+        );
+        values::value(py, "Batch", views)
+    }
+}
+
+/// Writes without the interpreter's lock.
+fn run<P: PointFormat, I: IndexFormat>(
+    py: Python<'_>,
+    mut counted: Counted<'_>,
+    numbering: Numbering,
+    buffers: Buffers<'_, P, I>,
+) -> PyResult<()> {
+    py.detach(|| counted.write(numbering, buffers)).map_err(errors::batch)?;
+    Ok(())
+}
+
+/// An array of this type with rows of `columns` elements.
+fn rows<'py, T: numpy::Element>(
+    what: &str,
+    array: &Bound<'py, PyAny>,
+    columns: usize,
+) -> Option<Array2<'py, T>> {
+    _ = what;
+    let array = array.cast::<PyArray<T, numpy::Ix2>>().ok()?;
+    (array.shape()[1] == columns).then(|| array.clone())
+}
+
+/// The error of an array that is of another type or shape.
+fn wrong(array: &PyResult<Bound<'_, PyAny>>, what: &str, expected: &str) -> PyErr {
+    let found = array.as_ref().ok().map(|array| match array.cast::<PyUntypedArray>() {
+        Ok(array) => described(array),
+        Err(_) => array.get_type().to_string(),
+    });
+    let found = found.unwrap_or_default();
+    output(format!("{what} of out must be a numpy array of shape {expected}, not {found}"))
+}

@@ -1,0 +1,48 @@
+//! The exceptions of `python/tess_model/errors.py`.
+
+use pyo3::PyErr;
+use std::fmt::Display;
+use tess_verify::checker::CheckError;
+
+pyo3::import_exception!(tess_model.errors, ArgumentError);
+pyo3::import_exception!(tess_model.errors, NoSuchElementError);
+pyo3::import_exception!(tess_model.errors, OutputError);
+pyo3::import_exception!(tess_model.errors, FileFormatError);
+pyo3::import_exception!(tess_model.errors, TessError);
+
+/// An argument that stands for nothing.
+pub(crate) fn argument(message: impl Display) -> PyErr {
+    ArgumentError::new_err(message.to_string())
+}
+
+/// An array that cannot be written.
+pub(crate) fn output(message: impl Display) -> PyErr {
+    OutputError::new_err(message.to_string())
+}
+
+/// A malformed file.
+pub(crate) fn file_format(message: impl Display) -> PyErr {
+    FileFormatError::new_err(message.to_string())
+}
+
+/// An element that a patch does not have.
+pub(crate) fn no_such_element(message: impl Display) -> PyErr {
+    NoSuchElementError::new_err(message.to_string())
+}
+
+/// Why a check gave no verdict.
+pub(crate) fn check(error: CheckError) -> PyErr {
+    match error {
+        CheckError::Vectors(error) => file_format(error),
+        CheckError::NoListings(_) => argument(error),
+        error => TessError::new_err(error.to_string()),
+    }
+}
+
+/// Why a batch was refused.
+pub(crate) fn batch(error: tess_simd::Error) -> PyErr {
+    match error {
+        tess_simd::Error::BufferTooSmall { .. } => output(error),
+        error => argument(error),
+    }
+}

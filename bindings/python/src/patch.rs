@@ -1,0 +1,382 @@
+//! One patch, with everything that the model knows of it.
+
+use crate::errors::{argument, no_such_element};
+use crate::names::{Bits, Floats, case, config, factors, named};
+use crate::{stages, values};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyTuple};
+use serde_json::Value;
+use tess_core::{Domain, DomainPoint, ProcessedFactor, ProcessedPatch, Tessellation};
+use tess_verify::case::Case;
+use tess_verify::drawing::{Colours, DrawOptions, draw, has_rings};
+use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
+use tess_verify::names::Named;
+use tess_verify::vectors::{Listing, primitive_size};
+
+/// One patch: a configuration and raw factors, and what the model makes of them.
+///
+/// Args:
+///     domain: ``isoline``, ``tri`` or ``quad``.
+///     outer: The outer factors, floats: density, detail (isoline); u0, v0, w0 (tri); u0, v0, u1, v1
+///         (quad). Each is rounded to the nearest binary32; any value is valid, NaN too.
+///     inner: The inside factors: none (isoline), one (tri; a number will do), along u and along v
+///         (quad).
+///     partitioning: ``integer``, ``pow2``, ``fractional_odd`` or ``fractional_even``.
+///     output: ``point``, ``line``, ``triangle_cw`` or ``triangle_ccw``.
+///     split: ``ruler`` (the standard) or ``center``.
+///
+/// Raises:
+///     ArgumentError: An unknown name, or a wrong number of factors.
+///
+/// >>> from tess_model import Patch
+/// >>> patch = Patch("tri", outer=[2.5, 3, 1], inner=3.25, partitioning="fractional_odd")
+/// >>> patch.counts
+/// Counts(points=19, primitives=29, indices=87)
+/// >>> patch.point(7), patch.primitive(0)
+/// ((13835, 37865), (0, 1, 7))
+#[pyclass(frozen, module = "tess_model")]
+#[derive(Clone)]
+pub(crate) struct Patch {
+    pub(crate) case: Case,
+}
+
+#[pymethods]
+impl Patch {
+    #[new]
+    #[pyo3(signature = (domain, outer, inner = None, *, partitioning = "integer",
+        output = "triangle_cw", split = "ruler"))]
+    fn new(
+        domain: &str,
+        outer: Floats,
+        inner: Option<Floats>,
+        partitioning: &str,
+        output: &str,
+        split: &str,
+    ) -> PyResult<Self> {
+        let inner = inner.map(|inner| inner.to_f32()).unwrap_or_default();
+        let config = config(partitioning, output, split)?;
+        let factors = factors(named::<Domain>(domain)?, &outer.to_f32(), &inner)?;
+        Ok(Self { case: Case { config, factors } })
+    }
+
+    /// The patch whose factors have these binary32 bit patterns: as the constructor, with integers
+    /// below 2**32 for factors.
+    ///
+    /// >>> from tess_model import Patch
+    /// >>> Patch.from_bits("isoline", [0x40000000, 0x7fc00000]).kind
+    /// 'culled'
+    #[staticmethod]
+    #[pyo3(signature = (domain, outer, inner = None, *, partitioning = "integer",
+        output = "triangle_cw", split = "ruler"))]
+    fn from_bits(
+        domain: &str,
+        outer: Bits,
+        inner: Option<Bits>,
+        partitioning: &str,
+        output: &str,
+        split: &str,
+    ) -> PyResult<Self> {
+        let inner = inner.map(|inner| inner.to_f32()).unwrap_or_default();
+        let config = config(partitioning, output, split)?;
+        let factors = factors(named::<Domain>(domain)?, &outer.to_f32(), &inner)?;
+        Ok(Self { case: Case { config, factors } })
+    }
+
+    /// The patch of a case line, as vector files and :attr:`case` have it:
+    /// ``case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...``, each factor 8 hex digits of its bits.
+    #[staticmethod]
+    fn from_case(line: &str) -> PyResult<Self> {
+        Ok(Self { case: case(line)? })
+    }
+
+    /// The patch as a case line, which :meth:`from_case` takes.
+    #[getter]
+    fn case(&self) -> String {
+        self.case.to_string()
+    }
+
+    /// The shell command that tessellates the same patch.
+    #[getter]
+    fn command(&self) -> String {
+        self.case.command()
+    }
+
+    /// ``isoline``, ``tri`` or ``quad``.
+    #[getter]
+    fn domain(&self) -> &'static str {
+        self.case.domain().name()
+    }
+
+    /// ``integer``, ``pow2``, ``fractional_odd`` or ``fractional_even``.
+    #[getter]
+    fn partitioning(&self) -> &'static str {
+        self.case.config.partitioning.name()
+    }
+
+    /// ``point``, ``line``, ``triangle_cw`` or ``triangle_ccw``.
+    #[getter]
+    fn output(&self) -> &'static str {
+        self.case.config.output.name()
+    }
+
+    /// ``ruler`` or ``center``.
+    #[getter]
+    fn split(&self) -> &'static str {
+        self.case.config.split.name()
+    }
+
+    /// The raw factors as floats, outer then inside; a NaN may lose its payload.
+    #[getter]
+    fn factors<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.case.factors.iter().map(f64::from))
+    }
+
+    /// The raw factors as binary32 bits, outer then inside.
+    #[getter]
+    fn factor_bits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        PyTuple::new(py, self.case.factors.iter().map(f32::to_bits))
+    }
+
+    /// ``culled``, ``minimum`` or ``regular``.
+    #[getter]
+    fn kind(&self) -> &'static str {
+        match self.case.patch().processed() {
+            ProcessedPatch::Culled => "culled",
+            ProcessedPatch::Minimum(_) => "minimum",
+            ProcessedPatch::Regular(_) => "regular",
+        }
+    }
+
+    /// How many points, primitives and indices there are: :class:`Counts`.
+    #[getter]
+    fn counts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let counts = self.case.patch().counts();
+        values::value(py, "Counts", (counts.points, counts.primitives, counts.indices))
+    }
+
+    /// Every factor after factor processing, outer then inside: :class:`ProcessedFactor`. Empty if
+    /// the patch is culled.
+    #[getter]
+    fn processed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let patch = self.case.patch();
+        let processed: Vec<_> =
+            patch.processed().factors().map_or_else(Vec::new, |f| f.iter().collect());
+        let names = self.case.domain().factor_names().iter();
+        let each =
+            names.zip(self.case.factors.iter()).zip(processed).map(|((name, raw), factor)| {
+                let ProcessedFactor { clamped, rounded, fixed, context } = factor;
+                let context = values::context(py, &context)?;
+                let elements = (*name, raw.to_bits(), clamped, rounded, fixed.to_bits(), context);
+                values::value(py, "ProcessedFactor", elements)
+            });
+        PyTuple::new(py, each.collect::<PyResult<Vec<_>>>()?)
+    }
+
+    /// The domain points: a new uint32 array of shape (points, 2), u and v as 16.16 integers.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u32>> {
+        let points = py.detach(|| self.tessellate()).points;
+        let count = points.len();
+        let flat: Vec<u32> = points.iter().flat_map(|p| [p.u.to_bits(), p.v.to_bits()]).collect();
+        shaped(PyArray1::from_vec(py, flat), [count, 2])
+    }
+
+    /// The domain points: a new float32 array of shape (points, 2), exactly the 16.16 coordinates.
+    #[getter]
+    fn points_f32<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f32>> {
+        let points = py.detach(|| self.tessellate()).points;
+        let count = points.len();
+        let flat: Vec<f32> = points.into_iter().flat_map(DomainPoint::to_f32).collect();
+        shaped(PyArray1::from_vec(py, flat), [count, 2])
+    }
+
+    /// The primitives: a new uint32 array of shape (primitives, 1, 2 or 3), numbers of points.
+    #[getter]
+    fn indices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u32>> {
+        let indices = py.detach(|| self.tessellate()).indices;
+        let size = primitive_size(&self.case);
+        let primitives = indices.len() / size;
+        shaped(PyArray1::from_vec(py, indices), [primitives, size])
+    }
+
+    /// Point ``i`` as (u, v), 16.16 integers, in constant time.
+    fn point(&self, i: u32) -> PyResult<(u32, u32)> {
+        let point = self.case.patch().point(i).ok_or_else(|| self.missing("point", i))?;
+        Ok((point.u.to_bits(), point.v.to_bits()))
+    }
+
+    /// Primitive ``t`` as its 1, 2 or 3 indices, in constant time.
+    fn primitive<'py>(&self, py: Python<'py>, t: u32) -> PyResult<Bound<'py, PyTuple>> {
+        let found = self.case.patch().primitive(t).ok_or_else(|| self.missing("primitive", t))?;
+        PyTuple::new(py, found.indices())
+    }
+
+    /// Where point ``i`` comes from: :class:`PointOrigin`.
+    fn locate_point<'py>(&self, py: Python<'py>, i: u32) -> PyResult<Bound<'py, PyAny>> {
+        let origin = self.case.patch().locate_point(i).ok_or_else(|| self.missing("point", i))?;
+        values::point_origin(py, origin)
+    }
+
+    /// Where primitive ``t`` comes from: :class:`PrimitiveOrigin`.
+    fn locate_primitive<'py>(&self, py: Python<'py>, t: u32) -> PyResult<Bound<'py, PyAny>> {
+        let patch = self.case.patch();
+        let origin = patch.locate_primitive(t).ok_or_else(|| self.missing("primitive", t))?;
+        values::primitive_origin(py, origin)
+    }
+
+    /// Where point ``p`` of an edge with a factor of this patch lies, with every step:
+    /// :class:`Placement`. ``factor`` is a name as in :attr:`processed`; ``p`` is below the ``points``
+    /// of its context.
+    fn place<'py>(&self, py: Python<'py>, factor: &str, p: u32) -> PyResult<Bound<'py, PyAny>> {
+        let names = self.case.domain().factor_names();
+        let number = names.iter().position(|name| *name == factor).ok_or_else(|| {
+            argument(format!("there is no factor {factor:?}; there are {}", names.join(", ")))
+        })?;
+        let patch = self.case.patch();
+        let processed = patch.processed().factors().and_then(|factors| factors.iter().nth(number));
+        let processed = processed
+            .ok_or_else(|| no_such_element("the patch is culled: its factors place no points"))?;
+        values::placement(py, &stages::placed(&processed.context, p)?)
+    }
+
+    /// Every stage of the patch as text, or where one point or one primitive comes from: what
+    /// ``tess explain`` prints.
+    #[pyo3(signature = (*, point = None, primitive = None))]
+    fn explain(&self, point: Option<u32>, primitive: Option<u32>) -> PyResult<String> {
+        Ok(self.report(point, primitive)?.0)
+    }
+
+    /// The same as values: what ``tess explain --json`` prints, as dictionaries and lists.
+    ///
+    /// >>> from tess_model import Patch
+    /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)
+    /// >>> patch.explanation()["stitches"][0]["steps"]
+    /// 'OO'
+    /// >>> patch.explanation(point=6)["location"]
+    /// 'centre, point 0'
+    #[pyo3(signature = (*, point = None, primitive = None))]
+    fn explanation<'py>(
+        &self,
+        py: Python<'py>,
+        point: Option<u32>,
+        primitive: Option<u32>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let json = self.report(point, primitive)?.1.to_string();
+        py.import("json")?.getattr("loads")?.call1((json,))
+    }
+
+    /// The patch as an SVG picture.
+    ///
+    /// Args:
+    ///     indices: Number the points.
+    ///     colours: ``plain``; ``order``, which numbers the primitives too; or ``rings``.
+    ///     size: Width and height in pixels, 64..8192.
+    #[pyo3(signature = (*, indices = false, colours = "plain", size = 800))]
+    fn to_svg(&self, py: Python<'_>, indices: bool, colours: &str, size: u32) -> PyResult<String> {
+        let colours = match colours {
+            "plain" => Colours::Plain,
+            "order" => Colours::Order,
+            "rings" if has_rings(self.case.domain(), self.case.config.output) => Colours::Rings,
+            "rings" => {
+                return Err(argument("rings colours the triangles of a tri or quad patch"));
+            }
+            other => {
+                let message = format!("unknown colours {other:?}, expected plain, order or rings");
+                return Err(argument(message));
+            }
+        };
+        if !(64..=8192).contains(&size) {
+            return Err(argument(format!("a picture has 64 to 8192 pixels a side, not {size}")));
+        }
+        Ok(py.detach(|| self.draw(&DrawOptions { indices, colours, size })))
+    }
+
+    /// The patch as a listing: its case line, all points and all primitives, as in a vector file.
+    fn listing(&self) -> String {
+        Listing { line: 0, case: self.case, output: self.tessellate() }.to_string()
+    }
+
+    fn _repr_svg_(&self, py: Python<'_>) -> String {
+        py.detach(|| self.draw(&DrawOptions { size: 400, ..DrawOptions::default() }))
+    }
+
+    fn __repr__(&self) -> String {
+        format!("Patch.from_case('{}')", self.case)
+    }
+
+    fn __eq__(&self, other: &Self) -> bool {
+        self.case == other.case
+    }
+
+    fn __hash__(&self) -> u64 {
+        use std::hash::{DefaultHasher, Hash, Hasher};
+        let mut hasher = DefaultHasher::new();
+        self.case.hash(&mut hasher);
+        hasher.finish()
+    }
+
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
+        Ok((py.get_type::<Self>().getattr("from_case")?, (self.case(),)))
+    }
+
+    fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyDict>) -> Py<Self> {
+        slf
+    }
+}
+
+impl Patch {
+    pub(crate) fn tessellate(&self) -> Tessellation {
+        self.case.patch().tessellate()
+    }
+
+    fn draw(&self, options: &DrawOptions) -> String {
+        let listing = Listing { line: 0, case: self.case, output: self.tessellate() };
+        draw(&listing, options).picture.to_svg()
+    }
+
+    fn missing(&self, what: &str, number: u32) -> PyErr {
+        let counts = self.case.patch().counts();
+        no_such_element(format!(
+            "there is no {what} {number}: the patch has {} points and {} primitives, from 0",
+            counts.points, counts.primitives
+        ))
+    }
+
+    /// An explanation as text and as JSON.
+    fn report(&self, point: Option<u32>, primitive: Option<u32>) -> PyResult<(String, Value)> {
+        let patch = self.case.patch();
+        let (text, json) = match (point, primitive) {
+            (Some(_), Some(_)) => return Err(argument("give a point or a primitive, not both")),
+            (Some(i), None) => {
+                let report = PointReport::new(&patch, i).ok_or_else(|| self.missing("point", i))?;
+                (report.to_string(), serde_json::to_value(report))
+            }
+            (None, Some(t)) => {
+                let report =
+                    PrimitiveReport::new(&patch, t).ok_or_else(|| self.missing("primitive", t))?;
+                (report.to_string(), serde_json::to_value(report))
+            }
+            (None, None) => {
+                let report = Explanation::new(&self.case);
+                (report.to_string(), serde_json::to_value(report))
+            }
+        };
+        Ok((text, json.map_err(argument)?))
+    }
+}
+
+/// The array with this shape.
+///
+/// # Panics
+/// If the shape has another number of elements.
+fn shaped<'py, T: numpy::Element>(
+    flat: Bound<'py, PyArray1<T>>,
+    shape: [usize; 2],
+) -> Bound<'py, PyArray2<T>> {
+    flat.reshape(shape).expect("as many elements")
+}

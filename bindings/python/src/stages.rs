@@ -1,0 +1,83 @@
+//! Single numbers of one stage: contexts and placements.
+
+use crate::errors::argument;
+use crate::names::named;
+use crate::values;
+use pyo3::prelude::*;
+use tess_core::fixed_point::ONE;
+use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
+
+/// The context of a 15.16 factor.
+///
+/// # Errors
+/// An unknown name, or a factor that factor processing never gives to this parity.
+pub(crate) fn factor_context(
+    factor: u32,
+    parity: &str,
+    split_order: &str,
+) -> PyResult<(SplitOrder, FactorContext)> {
+    let (parity, split) = (named::<Parity>(parity)?, named::<SplitOrder>(split_order)?);
+    let (in_range, range) = match parity {
+        Parity::Odd => ((ONE..=63 * ONE).contains(&factor), "0x010000..0x3f0000 if odd"),
+        Parity::Even => (
+            factor == ONE || (2 * ONE..=64 * ONE).contains(&factor),
+            "0x010000 or 0x020000..0x400000 if even",
+        ),
+    };
+    if !in_range {
+        return Err(argument(format!("the 15.16 factor {factor:#08x} is none of {range}")));
+    }
+    Ok((split, FactorContext::new(FixedFactor::from_bits(factor), parity, split)))
+}
+
+/// The context of a factor (specification, section 4), a :class:`FactorContext`.
+///
+/// ``factor`` is a 15.16 integer, 1..63 if ``parity`` is ``odd``, 1 or 2..64 if it is ``even``.
+///
+/// >>> import tess_model
+/// >>> tess_model.context(0x28000, "odd").points  # factor 2.5
+/// 4
+#[pyfunction]
+#[pyo3(signature = (factor, parity, split_order = "ruler"))]
+pub(crate) fn context<'py>(
+    py: Python<'py>,
+    factor: u32,
+    parity: &str,
+    split_order: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    values::context(py, &factor_context(factor, parity, split_order)?.1)
+}
+
+/// Where point ``p`` of an edge lies, with every step (specification, section 5), a
+/// :class:`Placement`.
+///
+/// ``factor`` and ``parity`` are as for :func:`context`; ``p`` is below the context's ``points``.
+///
+/// >>> import tess_model
+/// >>> tess_model.place(0x28000, "odd", 1)
+/// Placement(flip=False, position=1, blend=Blend(coarse=0, fine=21845, fraction=49152), half_location=16384, location=16384)
+#[pyfunction]
+#[pyo3(signature = (factor, parity, p, split_order = "ruler"))]
+pub(crate) fn place<'py>(
+    py: Python<'py>,
+    factor: u32,
+    parity: &str,
+    p: u32,
+    split_order: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let (_, context) = factor_context(factor, parity, split_order)?;
+    values::placement(py, &placed(&context, p)?)
+}
+
+/// The placement of point `p` of an edge.
+///
+/// # Errors
+/// The edge has no such point.
+pub(crate) fn placed(context: &FactorContext, p: u32) -> PyResult<tess_core::place::Placement> {
+    if p >= context.points {
+        let points = context.points;
+        let message = format!("there is no point {p}: the edge has {points} points, from 0");
+        return Err(crate::errors::no_such_element(message));
+    }
+    Ok(tess_core::place::steps(context, p))
+}

@@ -1,0 +1,41 @@
+//! The strength of a comparison with a device, by names.
+
+use crate::errors::argument;
+use pyo3::PyResult;
+use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
+
+/// What `tess check` takes as `--order`, `--points`, `--conversion` and `--denormals`.
+pub(crate) fn strength(
+    order: &str,
+    elements: &str,
+    conversion: &str,
+    denormals: &str,
+) -> PyResult<Strength> {
+    Ok(Strength {
+        order: one_of("order", order, &[("exact", Order::Exact), ("any", Order::Any)])?,
+        elements: one_of(
+            "elements",
+            elements,
+            &[("primitives", Elements::Primitives), ("points", Elements::Points)],
+        )?,
+        conversion: one_of(
+            "conversion",
+            conversion,
+            &[("exact", Conversion::Exact), ("0.6ulp", Conversion::Within06Ulp)],
+        )?,
+        denormals: one_of(
+            "denormals",
+            denormals,
+            &[("keep", Denormals::Keep), ("flush", Denormals::Flush)],
+        )?,
+    })
+}
+
+/// The choice with a name.
+pub(crate) fn one_of<T: Copy>(what: &str, name: &str, choices: &[(&str, T)]) -> PyResult<T> {
+    let found = choices.iter().find(|(known, _)| *known == name);
+    found.map(|(_, value)| *value).ok_or_else(|| {
+        let known: Vec<_> = choices.iter().map(|(known, _)| *known).collect();
+        argument(format!("unknown {what} {name:?}, expected one of: {}", known.join(", ")))
+    })
+}

@@ -1,0 +1,330 @@
+//! Test vectors: generated, read, written and checked.
+
+use crate::arrays::described;
+use crate::coverage::Coverage;
+use crate::errors::{self, argument, file_format};
+use crate::names::named;
+use crate::patch::Patch;
+use crate::strength::{one_of, strength};
+use crate::values;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
+use pyo3::prelude::*;
+use std::fs::File;
+use std::io::{BufReader, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use tess_core::{DomainPoint, Tessellation};
+use tess_verify::backend::Backend;
+use tess_verify::case::Case;
+use tess_verify::checker::{self, Tested};
+use tess_verify::core_backend::CoreBackend;
+use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::names::Named;
+use tess_verify::vectors::{Header, Kind, Listing, write_listings, write_patches};
+
+type Source = Box<dyn Iterator<Item = Case> + Send>;
+
+/// An iterator over generated patches: what :func:`generate` gives.
+#[pyclass(frozen, module = "tess_model")]
+pub(crate) struct Cases(Mutex<Source>);
+
+#[pymethods]
+impl Cases {
+    fn __iter__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __next__(&self) -> Option<Patch> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).next().map(|case| Patch { case })
+    }
+}
+
+/// Test patches, in the order of ``tess gen``; the same arguments give the same patches.
+///
+/// Args:
+///     level: 1, every boundary once, hits every coverage bin; 2, every boundary in every position;
+///         3, random alone.
+///     seed: Seed of everything random.
+///     count: Number of random patches at the end; ``None``: 500, 20000 and 1000000.
+///     domain, partitioning: One only; ``None``: all.
+///     shard: ``(i, n)``, i in 1..n: one of n disjoint parts; ``None``: all.
+///
+/// >>> import tess_model
+/// >>> len(list(tess_model.generate(level=3, count=10, domain="tri")))
+/// 10
+#[pyfunction]
+#[pyo3(signature = (level = 1, *, seed = 1, count = None, domain = None, partitioning = None,
+    shard = None))]
+pub(crate) fn generate(
+    level: u8,
+    seed: u64,
+    count: Option<u64>,
+    domain: Option<&str>,
+    partitioning: Option<&str>,
+    shard: Option<(u64, u64)>,
+) -> PyResult<Cases> {
+    let level = match level {
+        1 => Level::One,
+        2 => Level::Two,
+        3 => Level::Three,
+        other => return Err(argument(format!("the levels are 1, 2 and 3, not {other}"))),
+    };
+    let (part, of) = shard.unwrap_or((1, 1));
+    if !(1..=of).contains(&part) {
+        return Err(argument(format!("a shard is (i, n) with i from 1 to n, not ({part}, {of})")));
+    }
+    let shard = Shard { part: part - 1, of };
+    let domain = domain.map(named).transpose()?;
+    let partitioning = partitioning.map(named).transpose()?;
+    let cases = Selection { level, seed, random: count, domain, partitioning }.cases();
+    let numbered = (0..).zip(cases);
+    let chosen = numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case);
+    Ok(Cases(Mutex::new(Box::new(chosen))))
+}
+
+/// Writes a vector file with the model's results, as ``tess gen`` does.
+///
+/// Args:
+///     path: The file.
+///     patches: The patches, at least one.
+///     form: ``patches``, a row of counts and digests each, or ``listings``, whole outputs.
+#[pyfunction]
+#[pyo3(signature = (path, patches, *, form = "patches"))]
+pub(crate) fn write_vectors(
+    py: Python<'_>,
+    path: PathBuf,
+    patches: &Bound<'_, PyAny>,
+    form: &str,
+) -> PyResult<()> {
+    let kind = one_of("form", form, &[("patches", Kind::Patches), ("listings", Kind::Listings)])?;
+    let cases: Vec<Case> = patches
+        .try_iter()?
+        .map(|patch| Ok(patch?.cast::<Patch>()?.get().case))
+        .collect::<PyResult<_>>()?;
+    if cases.is_empty() {
+        return Err(argument("a vector file has at least one patch"));
+    }
+    let source = "tess-core".to_owned();
+    let header = Header { kind, count: cases.len() as u64, source, notes: Vec::new() };
+    Ok(py.detach(|| {
+        let mut file = BufWriter::new(File::create(path)?);
+        match kind {
+            Kind::Listings => write_listings(&mut file, &header, cases.into_iter())?,
+            _ => write_patches(&mut file, &header, cases.into_iter())?,
+        }
+        file.flush()
+    })?)
+}
+
+/// A vector file: an iterator over its :class:`Record` s. The reader is strict; a file that is
+/// truncated, too long or malformed raises :class:`FileFormatError`.
+#[pyclass(frozen, module = "tess_model")]
+pub(crate) struct VectorFile {
+    /// What the records are: ``listings``, ``patches``, ``sweep``, ...
+    #[pyo3(get)]
+    kind: &'static str,
+    /// How many records there are.
+    #[pyo3(get)]
+    count: u64,
+    /// Where the results come from: a name for people.
+    #[pyo3(get)]
+    source: String,
+    records: Mutex<tess_verify::vectors::VectorFile<BufReader<File>>>,
+}
+
+#[pymethods]
+impl VectorFile {
+    #[new]
+    fn new(path: PathBuf) -> PyResult<Self> {
+        let file = open(&path)?;
+        let header = file.header();
+        let (kind, count, source) = (header.kind.name(), header.count, header.source.clone());
+        Ok(Self { kind, count, source, records: Mutex::new(file) })
+    }
+
+    fn __iter__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    fn __next__(&self) -> PyResult<Option<Record>> {
+        let next = self.records.lock().unwrap_or_else(PoisonError::into_inner).next();
+        next.transpose().map(|record| record.map(Record)).map_err(file_format)
+    }
+
+    fn __repr__(&self) -> String {
+        format!("<VectorFile: {} {} from {}>", self.count, self.kind, self.source)
+    }
+}
+
+fn open(path: &Path) -> PyResult<tess_verify::vectors::VectorFile<BufReader<File>>> {
+    let reader = BufReader::new(File::open(path)?);
+    tess_verify::vectors::VectorFile::new(path.display().to_string(), reader).map_err(file_format)
+}
+
+/// One record of a vector file.
+#[pyclass(frozen, module = "tess_model")]
+pub(crate) struct Record(tess_verify::vectors::Record);
+
+#[pymethods]
+impl Record {
+    /// The line of the file that it starts on, from 1.
+    #[getter]
+    fn line(&self) -> u64 {
+        self.0.line()
+    }
+
+    /// The row as it stands in the file; ``None`` for a listing.
+    #[getter]
+    fn text(&self) -> Option<&str> {
+        self.0.text()
+    }
+
+    /// The patch that it tessellates; ``None`` for a row of digests over many.
+    #[getter]
+    fn patch(&self) -> Option<Patch> {
+        self.0.case().map(|case| Patch { case })
+    }
+
+    /// The recorded points of a listing, uint32 of shape (points, 2), 16.16; else ``None``.
+    #[getter]
+    fn points<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray2<u32>>> {
+        let points = &self.listing()?.output.points;
+        let flat = points.iter().flat_map(|p| [p.u.to_bits(), p.v.to_bits()]).collect();
+        PyArray1::from_vec(py, flat).reshape([points.len(), 2]).ok()
+    }
+
+    /// The recorded indices of a listing, uint32 of shape (indices,); else ``None``.
+    #[getter]
+    fn indices<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<u32>>> {
+        Some(PyArray1::from_slice(py, &self.listing()?.output.indices))
+    }
+
+    fn __repr__(&self) -> String {
+        let text = self.text().map(str::to_owned);
+        let what = text.or_else(|| self.0.case().map(|case| case.to_string()));
+        format!("<Record at line {}: {}>", self.0.line(), what.unwrap_or_default())
+    }
+}
+
+impl Record {
+    fn listing(&self) -> Option<&Listing> {
+        match &self.0 {
+            tess_verify::vectors::Record::Listing(listing) => Some(listing),
+            _ => None,
+        }
+    }
+}
+
+/// Checks a vector file, as ``tess check`` does: a file of listings is what a device gave, and the
+/// model is right; with a file of any other kind, and with ``tested="model"``, the file is right.
+///
+/// Args:
+///     path: The file.
+///     tested: ``auto``, or ``model``.
+///     order: ``exact``, or ``any`` order of points and primitives.
+///     elements: ``primitives``, or ``points`` alone.
+///     conversion: ``exact``, or ``0.6ulp``.
+///     denormals: ``keep``, or ``flush``.
+///     coverage: Counts the bins that the file's patches hit.
+///
+/// Returns:
+///     A :class:`Report`. The last four but one are the strengths of a comparison with a device
+///     (docs/verification.md); they are refused where the model is tested.
+#[pyfunction]
+#[pyo3(signature = (path, *, tested = "auto", order = "exact", elements = "primitives",
+    conversion = "exact", denormals = "keep", coverage = None))]
+#[expect(clippy::too_many_arguments, reason = "they are named in Python")]
+pub(crate) fn check<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    tested: &str,
+    order: &str,
+    elements: &str,
+    conversion: &str,
+    denormals: &str,
+    coverage: Option<&Bound<'py, Coverage>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let strength = strength(order, elements, conversion, denormals)?;
+    let model = one_of("tested", tested, &[("auto", false), ("model", true)])?;
+    let file = open(&path)?;
+    let tested = if file.header().kind == Kind::Listings && !model {
+        Tested::Listings(strength)
+    } else if strength.is_strictest() {
+        Tested::Backend
+    } else {
+        return Err(argument(
+            "order, elements, conversion and denormals are for listings of a device",
+        ));
+    };
+    let coverage = coverage.map(|coverage| coverage.get());
+    let report = py.detach(|| {
+        let threads = std::thread::available_parallelism().map_or(1, usize::from);
+        let mut backends: Vec<Box<dyn Backend>> =
+            (0..threads).map(|_| Box::new(CoreBackend) as Box<dyn Backend>).collect();
+        checker::check(file, &mut backends, tested, &|records| {
+            if let Some(coverage) = coverage {
+                let mut coverage = coverage.lock();
+                let cases = records.iter().filter_map(tess_verify::vectors::Record::case);
+                cases.for_each(|case| coverage.record(&case));
+            }
+        })
+    });
+    values::report(py, &report.map_err(errors::check)?)
+}
+
+/// Compares what a device answered with the model.
+///
+/// Args:
+///     answers: Tuples (patch, points, indices): a :class:`Patch`, uint32 of shape (points, 2) in
+///         16.16, and uint32 of any shape whose elements in order are the indices.
+///     order, elements, conversion, denormals: As for :func:`check`.
+///
+/// >>> from tess_model import Patch, check_device
+/// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)
+/// >>> points, indices = patch.points, patch.indices
+/// >>> check_device([(patch, points, indices)]).equal
+/// True
+/// >>> points[3, 0] += 1
+/// >>> print(check_device([(patch, points, indices)]).differences[0].text)
+/// record 1: case tri integer triangle_cw ruler 40000000 40000000 40000000 40000000
+///   point 3 u: observed 0x08001, expected 0x08000 (stage: location)
+#[pyfunction]
+#[pyo3(signature = (answers, *, order = "exact", elements = "primitives", conversion = "exact",
+    denormals = "keep"))]
+pub(crate) fn check_device<'py>(
+    py: Python<'py>,
+    answers: &Bound<'py, PyAny>,
+    order: &str,
+    elements: &str,
+    conversion: &str,
+    denormals: &str,
+) -> PyResult<Bound<'py, PyAny>> {
+    let strength = strength(order, elements, conversion, denormals)?;
+    let answers: Vec<(Case, Tessellation)> =
+        answers.try_iter()?.map(|answer| device_answer(&answer?)).collect::<PyResult<_>>()?;
+    let report = py.detach(|| checker::check_device(answers, strength));
+    values::report(py, &report)
+}
+
+fn device_answer(answer: &Bound<'_, PyAny>) -> PyResult<(Case, Tessellation)> {
+    let (patch, points, indices): (
+        Bound<'_, Patch>,
+        Bound<'_, PyUntypedArray>,
+        Bound<'_, PyUntypedArray>,
+    ) = answer.extract()?;
+    let wrong = |what: &str, array: &Bound<'_, PyUntypedArray>| {
+        argument(format!("{what} must be uint32, not {}", described(array)))
+    };
+    let pairs = points.cast::<PyArray2<u32>>().ok().filter(|array| array.shape()[1] == 2);
+    let pairs = pairs.ok_or_else(|| wrong("points of shape (.., 2)", &points))?;
+    let points = pairs.try_readonly().map_err(argument)?;
+    let points = points
+        .as_array()
+        .rows()
+        .into_iter()
+        .map(|row| DomainPoint::from_bits(row[0], row[1]))
+        .collect();
+    let flat = indices.cast::<numpy::PyArrayDyn<u32>>().map_err(|_| wrong("indices", &indices))?;
+    let indices = flat.try_readonly().map_err(argument)?.as_array().iter().copied().collect();
+    Ok((patch.get().case, Tessellation { points, indices }))
+}

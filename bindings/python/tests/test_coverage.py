@@ -1,0 +1,84 @@
+"""Coverage: counting, merging, and the file that PyUCIS reads."""
+
+import threading
+from pathlib import Path
+
+import pytest
+from ucis import UCIS_CVGBIN
+from ucis.scope_type_t import ScopeTypeT
+from ucis.xml.xml_factory import XmlFactory
+
+import tess_model
+from tess_model import Coverage, FileFormatError
+
+
+def of(shard: "tuple[int, int]") -> Coverage:
+    coverage = Coverage()
+    coverage.record(tess_model.generate(3, count=300, shard=shard))
+    return coverage
+
+
+def test_pyucis_reads_two_merged_shards(tmp_path: Path) -> None:
+    merged, second = of((1, 2)), of((2, 2))
+    merged.merge(second)
+    assert merged == of((1, 1)) and merged != second
+    file = tmp_path / "coverage.xml"
+    merged.write(file)
+    assert Coverage.read(file) == merged
+    found = {}
+    for instance in XmlFactory.read(str(file)).scopes(ScopeTypeT.INSTANCE):
+        for group in instance.scopes(ScopeTypeT.COVERGROUP):
+            for point in group.scopes(ScopeTypeT.COVERPOINT):
+                for bin in point.coverItems(UCIS_CVGBIN):
+                    name = f"{point.getScopeName()}/{bin.getName()}"
+                    found[name] = bin.getCoverData().data
+    assert found == merged.bins
+    assert sum(hits > 0 for hits in found.values()) > 500
+
+
+def test_the_report_names_what_was_missed() -> None:
+    coverage = of((1, 1))
+    lines = coverage.report().splitlines()
+    assert [line[7:] for line in lines if line.startswith("missed ")] == coverage.missed
+    hit, bins = (sum(group[i] for group in coverage.groups.values()) for i in (0, 1))
+    assert lines[len(coverage.groups)].split() == ["all", str(hit), "of", str(bins)]
+    assert hit + len(coverage.missed) == bins == len(coverage.bins)
+
+
+def test_contexts_alone() -> None:
+    coverage = Coverage()
+    coverage.record_context(0x28000, "odd", "center")
+    assert [bin for bin, hits in coverage.bins.items() if hits] == ["context/center/odd/2/split"]
+
+
+def test_other_files_are_refused(tmp_path: Path) -> None:
+    text = of((1, 1)).to_ucis()
+    for wrong, message in [
+        ("", "line 1"),
+        (text[:1000], "line"),
+        (text.replace("coverageCount=\"0\"", "coverageCount=\"x\"", 1), "expected the hits of the bin"),
+        (text + "<x/>", "expected the end"),
+    ]:
+        with pytest.raises(FileFormatError, match=message):
+            Coverage.from_ucis(wrong)
+    with pytest.raises(FileNotFoundError):
+        Coverage.read(tmp_path / "none.xml")
+
+
+def test_threads_count_together() -> None:
+    coverage, patches = Coverage(), list(tess_model.generate(3, count=100))
+    threads = [threading.Thread(target=coverage.record, args=(patches,)) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    once = Coverage()
+    once.record(patches)
+    assert coverage.bins == {bin: 4 * hits for bin, hits in once.bins.items()}
+
+
+def test_merging_with_itself_doubles() -> None:
+    coverage = of((1, 1))
+    before = coverage.bins
+    coverage.merge(coverage)
+    assert coverage.bins == {bin: 2 * hits for bin, hits in before.items()} and coverage == coverage
