@@ -19,3 +19,14 @@ const TABLE: [u32; 64] = {
 pub const fn reciprocal(n: u32) -> Option<u32> {
     if n >= 1 && n <= 64 { Some(TABLE[n as usize - 1]) } else { None }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_outside_the_table_have_no_reciprocal() {
+        assert_eq!([1, 3, 64].map(reciprocal), [Some(65536), Some(21845), Some(1024)], "inside");
+        assert_eq!([0, 65, u32::MAX].map(reciprocal), [None; 3], "outside");
+    }
+}

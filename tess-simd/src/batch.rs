@@ -137,6 +137,26 @@ impl Batch<'_> {
         (range.start <= range.end && range.end <= self.len()).then(|| self.slice(&range))
     }
 
+    /// How many patches, from this one on, have the same factors, bit for bit; 0 if there is none.
+    pub(crate) fn run(&self, first: usize) -> usize {
+        let quads = |a: &QuadFactors, b: &QuadFactors| differ(*a, *b);
+        match *self {
+            Self::Isolines(patches) => run(patches, first, |a, b| differ(*a, *b)),
+            Self::Triangles(patches) => run(patches, first, |a, b| differ(*a, *b)),
+            Self::Quads(patches) => run(patches, first, quads),
+            Self::Patches(patches) => run(patches, first, |a, b| match (*a, *b) {
+                (PatchFactors::Isoline(a), PatchFactors::Isoline(b)) => differ(a, b),
+                (PatchFactors::Triangle(a), PatchFactors::Triangle(b)) => differ(a, b),
+                (PatchFactors::Quad(a), PatchFactors::Quad(b)) => differ(a, b),
+                _ => 1,
+            }),
+            Self::Columns(columns) => {
+                let run = |column| run(column, first, |a, b| differ([*a], [*b]));
+                columns.iter().map(run).min().unwrap_or(0)
+            }
+        }
+    }
+
     /// The patches of a range that lies within it.
     pub(crate) fn slice(&self, range: &Range<usize>) -> Self {
         match *self {
@@ -166,6 +186,35 @@ fn one_domain(expected: Domain, patches: &[PatchFactors]) -> Result<(), Error> {
         None => Ok(()),
         Some(patch) => Err(Error::MixedDomains { patch, found: patches[patch].domain(), expected }),
     }
+}
+
+/// 0 if two patches have the same factors, bit for bit.
+#[inline(always)]
+fn differ<const N: usize>(a: impl Into<[f32; N]>, b: impl Into<[f32; N]>) -> u32 {
+    let (a, b) = (a.into(), b.into());
+    let mut different = 0;
+    for factor in 0..N {
+        different |= a[factor].to_bits() ^ b[factor].to_bits();
+    }
+    different
+}
+
+/// How many elements, from the first on, are like it.
+#[inline(always)]
+fn run<T>(all: &[T], first: usize, differ: impl Fn(&T, &T) -> u32) -> usize {
+    /// Elements compared at a time, as vectors.
+    const STEP: usize = 16;
+    let Some((one, rest)) = all.get(first..).and_then(<[T]>::split_first) else { return 0 };
+    if rest.first().is_none_or(|next| differ(one, next) != 0) {
+        return 1;
+    }
+    let blocks = rest.as_chunks::<STEP>().0;
+    let alike = |block: &&[T; STEP]| {
+        block.iter().fold(0, |different, other| different | differ(one, other)) == 0
+    };
+    let whole = STEP * blocks.iter().take_while(alike).count();
+    let others = rest[whole..].iter().take_while(|other| differ(one, other) == 0);
+    1 + whole + others.count()
 }
 
 fn part<'a, T>(slice: &'a [T], range: &Range<usize>) -> &'a [T] {

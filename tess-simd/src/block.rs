@@ -5,6 +5,7 @@ use crate::factor_context::{Context, point_counts};
 use crate::factors::process;
 use crate::lanes::{Column, EdgePoints, LANES, Lanes, is_odd};
 use crate::place::{Spacing, Spacings};
+use crate::points::EDGE;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
 /// Sixteen patches of one domain after factor processing, their output sizes known.
@@ -17,6 +18,8 @@ pub(crate) struct Block {
     spacings: Spacings,
     minimum: Lanes,
     topologies: Lanes<u64>,
+    /// See [`BlockPatch::is_small`].
+    small: Lanes,
     pub(crate) counts: BlockCounts,
 }
 
@@ -30,6 +33,7 @@ impl Block {
         spacings: Spacings::NONE,
         minimum: [0; _],
         topologies: [0; _],
+        small: [0; _],
         counts: BlockCounts { points: [0; _], indices: [0; _] },
     };
 
@@ -62,8 +66,9 @@ impl Block {
         };
         let counts = counts(config, domain, &processed, &points);
         let topologies = topologies(&points, &processed.minimum);
+        let small = small(config, domain, &points);
         let (fixed, minimum) = (processed.fixed, processed.minimum);
-        Self { config, domain, fixed, points, spacings, minimum, topologies, counts }
+        Self { config, domain, fixed, points, spacings, minimum, topologies, small, counts }
     }
 
     /// One of its patches.
@@ -109,6 +114,13 @@ impl BlockPatch<'_> {
     #[inline(always)]
     pub(crate) const fn is_minimum(self) -> bool {
         self.block.minimum[self.lane] == 1
+    }
+
+    /// Whether none of its edges has more than [`EDGE`] points, and it is a quad or a triangle of
+    /// integer factors.
+    #[inline(always)]
+    pub(crate) const fn is_small(self) -> bool {
+        self.block.small[self.lane] == 1
     }
 
     /// A number for each topology of a domain, not 0.
@@ -172,4 +184,21 @@ fn topologies(points: &Column, minimum: &Lanes) -> Lanes<u64> {
         *topology = (*topology << 1) | u64::from(minimum);
     }
     topologies
+}
+
+/// 1 where a patch is small.
+#[inline(always)]
+fn small(config: Config, domain: Domain, points: &Column) -> Lanes {
+    let possible = match domain {
+        Domain::Isoline => false,
+        Domain::Triangle => config.partitioning.has_integer_factors(),
+        Domain::Quad => true,
+    };
+    let mut small = [u32::from(possible); LANES];
+    for points in points.as_chunks::<LANES>().0 {
+        for (small, &points) in small.iter_mut().zip(points) {
+            *small &= u32::from(points as usize <= EDGE);
+        }
+    }
+    small
 }

@@ -11,6 +11,31 @@ use tess_core::{Domain, PatchFactors};
 #[derive(Clone, Debug)]
 pub(crate) struct Chunk([[f32; Self::PATCHES]; MAX_FACTORS]);
 
+/// What is worked through at a time: the patches of a chunk, or one patch and those that repeat it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    /// Patches that differ, at most [`Chunk::PATCHES`]; 1 if it repeats.
+    pub(crate) patches: usize,
+    /// How often they follow each other.
+    pub(crate) times: usize,
+}
+
+impl Stretch {
+    /// So many equal patches are faster to repeat than to process.
+    const WORTH_REPEATING: usize = 8;
+
+    /// The patches of a batch from `start` on, of which there are some.
+    #[inline(always)]
+    pub(crate) fn new(batch: &Batch<'_>, start: usize) -> Self {
+        let times = batch.run(start);
+        if times >= Self::WORTH_REPEATING {
+            Self { patches: 1, times }
+        } else {
+            Self { patches: Chunk::PATCHES.min(batch.len() - start), times: 1 }
+        }
+    }
+}
+
 impl Chunk {
     pub(crate) const BLOCKS: usize = 4;
     pub(crate) const PATCHES: usize = Self::BLOCKS * LANES;

@@ -7,6 +7,7 @@ use crate::counts::PartCounts;
 use crate::format::{IndexFormat, PointFormat};
 use crate::kernel;
 use crate::kernel::emit::{Blocks, Caches, Offsets, Room};
+use crate::kernel::repeat::Repeat;
 use crate::level::Level;
 use crate::setup::Setup;
 use alloc::vec::Vec;
@@ -78,6 +79,14 @@ at_each_level! {
         room: Room<'_, P, I>,
         caches: &mut Caches,
     ) -> Offsets = kernel::emit::emit;
+}
+
+at_each_level! {
+    /// [`kernel::repeat::repeat`] at a level.
+    fn repeat<P: PointFormat, I: IndexFormat>(
+        repeat: Repeat,
+        room: Room<'_, P, I>,
+    ) -> Offsets = kernel::repeat::repeat;
 }
 
 at_each_level! {

@@ -41,7 +41,8 @@ pub(crate) struct Count {
 impl Engine {
     pub(crate) fn new(setup: Setup) -> Self {
         let kept = Box::new([[Block::EMPTY; _]; _]);
-        Self { setup, workspaces: Workspaces::new(), slices: Vec::new(), kept }
+        let workspaces = Workspaces::new(setup.config);
+        Self { setup, workspaces, slices: Vec::new(), kept }
     }
 
     /// Bytes of memory that it takes.

@@ -34,6 +34,12 @@ mod sealed {
 
     #[expect(unnameable_types, reason = "keeps the formats to those compared with the core")]
     pub trait Point: Sized {
+        /// The bits of one coordinate in this format, from a 16.16 number in `0..=ONE`.
+        fn coordinate(bits: u32) -> u32;
+
+        /// The point with these coordinates.
+        fn from_coordinates(coordinates: [u32; 2]) -> Self;
+
         /// The same points as one of the formats there are.
         fn any(points: &mut [Self]) -> AnyPoints<'_>;
     }
@@ -73,22 +79,43 @@ mod sealed {
 pub(crate) use sealed::{AnyIndices, AnyPoints};
 
 impl sealed::Point for [f32; 2] {
+    /// A product of a number of at most 17 bits and a power of two is exact.
+    #[inline(always)]
+    #[expect(clippy::float_arithmetic, reason = "an exact scaling by a power of two")]
+    fn coordinate(bits: u32) -> u32 {
+        const TWO_POW_MINUS_16: f32 = 1.0 / 65536.0;
+        (to_f32(bits) * TWO_POW_MINUS_16).to_bits()
+    }
+
+    #[inline(always)]
+    fn from_coordinates([u, v]: [u32; 2]) -> Self {
+        [f32::from_bits(u), f32::from_bits(v)]
+    }
+
     fn any(points: &mut [Self]) -> AnyPoints<'_> {
         AnyPoints::F32(points)
     }
 }
 
 impl PointFormat for [f32; 2] {
-    /// A product of a number of at most 17 bits and a power of two is exact.
     #[inline(always)]
-    #[expect(clippy::float_arithmetic, reason = "an exact scaling by a power of two")]
     fn from_bits(u: u32, v: u32) -> Self {
-        const TWO_POW_MINUS_16: f32 = 1.0 / 65536.0;
-        [to_f32(u) * TWO_POW_MINUS_16, to_f32(v) * TWO_POW_MINUS_16]
+        let coordinate = <Self as sealed::Point>::coordinate;
+        <Self as sealed::Point>::from_coordinates([coordinate(u), coordinate(v)])
     }
 }
 
 impl sealed::Point for DomainPoint {
+    #[inline(always)]
+    fn coordinate(bits: u32) -> u32 {
+        bits
+    }
+
+    #[inline(always)]
+    fn from_coordinates([u, v]: [u32; 2]) -> Self {
+        Self::from_bits(u, v)
+    }
+
     fn any(points: &mut [Self]) -> AnyPoints<'_> {
         AnyPoints::Fixed(points)
     }

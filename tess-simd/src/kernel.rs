@@ -7,3 +7,4 @@ pub(crate) mod count;
 pub(crate) mod emit;
 pub(crate) mod front_end;
 pub(crate) mod probe;
+pub(crate) mod repeat;

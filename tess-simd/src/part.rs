@@ -2,14 +2,16 @@
 
 use crate::batch::Batch;
 use crate::block::Block;
-use crate::chunk::Chunk;
+use crate::chunk::{Chunk, Stretch};
 use crate::dispatch;
 use crate::format::{AnyIndices, AnyPoints, IndexFormat, PointFormat};
 use crate::kernel::emit::{Blocks, Caches, Offsets, Room};
+use crate::kernel::repeat::Repeat;
 use crate::output::{Buffers, Numbering, PatchRange};
 use crate::setup::Setup;
 use crate::target::Target;
 use alloc::boxed::Box;
+use tess_core::Config;
 
 /// What is the same for all parts of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -41,16 +43,16 @@ pub(crate) struct Workspace {
 }
 
 impl Workspace {
-    pub(crate) fn new() -> Self {
+    pub(crate) fn new(config: Config) -> Self {
         Self {
             blocks: Box::new([Block::EMPTY; _]),
             ranges: [PatchRange::default(); _],
-            caches: Caches::new(),
+            caches: Caches::new(config),
         }
     }
 
     /// Bytes of memory that it takes on the heap.
-    pub(crate) const fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         size_of::<[Block; Chunk::BLOCKS]>() + self.caches.bytes()
     }
 }
@@ -84,22 +86,39 @@ fn emit_as<P: PointFormat, I: IndexFormat>(
 ) {
     let Job { setup, numbering, kept } = job;
     let Buffers { mut points, mut indices, mut ranges } = buffers;
-    let all = batch.len();
-    for (number, start) in (0..all).step_by(Chunk::PATCHES).enumerate() {
-        let patches = start..all.min(start + Chunk::PATCHES);
-        let blocks = if let Some(kept) = kept.get(number) {
+    let Setup { level, config, .. } = *setup;
+    let (mut start, all) = (0, batch.len());
+    while start < all {
+        // Kept blocks are those of the whole batch.
+        let Stretch { patches, times } = if kept.is_empty() {
+            Stretch::new(batch, start)
+        } else {
+            Stretch { patches: all, times: 1 }
+        };
+        let blocks = if let Some(kept) = kept.first() {
             kept
         } else {
-            dispatch::process(setup.level, setup.config, batch, start, &mut workspace.blocks);
+            let batch = batch.slice(&(start..start + patches));
+            dispatch::process(level, config, &batch, 0, &mut workspace.blocks);
             &*workspace.blocks
         };
-        let ranges = match &mut ranges {
-            Some(ranges) => &mut ranges[patches],
-            None => &mut workspace.ranges[..patches.len()],
-        };
+        let own = &mut workspace.ranges[..patches];
+        let ranges_here = ranges.as_mut().map_or(own, |all| &mut all[start..start + patches]);
         let blocks = Blocks { blocks, first, numbering };
-        let room = Room { points: &mut *points, indices: &mut *indices, ranges };
-        let end = dispatch::emit(setup.level, setup, blocks, room, &mut workspace.caches);
+        let room = Room { points: &mut *points, indices: &mut *indices, ranges: ranges_here };
+        let mut end = dispatch::emit(level, setup, blocks, room, &mut workspace.caches);
+        if times > 1 {
+            let range = PatchRange {
+                first_point: first.points,
+                points: end.points - first.points,
+                first_index: first.indices,
+                indices: end.indices - first.indices,
+            };
+            let ranges = ranges.as_mut().map_or(&mut [][..], |all| &mut all[start..start + times]);
+            let room = Room { points: &mut *points, indices: &mut *indices, ranges };
+            end = dispatch::repeat(level, Repeat { range, times, numbering }, room);
+        }
+        start += patches * times;
         points = points.split_at_mut((end.points - first.points) as usize).1;
         indices = indices.split_at_mut((end.indices - first.indices) as usize).1;
         first = end;

@@ -107,12 +107,6 @@ impl Locations {
     pub(crate) fn at(&self, p: u32) -> u32 {
         self.0.get(p as usize).copied().unwrap_or_default()
     }
-
-    /// The location of point `p` seen from the other end.
-    #[inline(always)]
-    pub(crate) fn mirrored(&self, p: u32) -> u32 {
-        ONE.wrapping_sub(self.at(p))
-    }
 }
 
 /// The location of point `p < spacing.points`; unspecified beyond. Free of branches.

@@ -1,14 +1,18 @@
 //! The domain points of a patch, in order (spec section 6).
 //!
 //! Every run of points along an edge is one coordinate held and the other read from a table of
-//! locations; seen from the other end a location is `ONE` minus itself.
+//! locations; seen from the other end a location is `ONE` minus itself. Of small quads, `lookup` notes
+//! where in one table of a patch's coordinates the points of each run lie.
 
+mod coordinate;
 mod isoline;
+mod lookup;
 mod quad;
 mod run;
 mod tables;
 mod triangle;
 
+pub(crate) use lookup::{Code, Coordinates, EDGE, codes, fixed_code};
 pub(crate) use tables::LocationTables;
 
 use crate::block::BlockPatch;

@@ -5,6 +5,10 @@
 //! ones of the topology of the patch before, are copied.
 //! The templates are made by the same emission that larger patches go through.
 
+mod small;
+
+pub(crate) use small::{SmallTemplate, SmallTemplates};
+
 use crate::block::BlockPatch;
 use crate::connect;
 use crate::points::{self, LocationTables};
@@ -24,7 +28,7 @@ const INDEX_ROOM: usize = 96 << 10;
 /// Points of all templates.
 const POINT_ROOM: usize = 24 << 10;
 /// Room to read whole blocks.
-const PADDING: usize = 16;
+const PADDING: usize = 128;
 
 /// The templates of one configuration. 404 KiB.
 #[derive(Clone, Debug)]

@@ -49,6 +49,31 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         }
     }
 
+    /// [`Writer::map`] of elements that mostly are at most `LEAST`: as many are written without asking
+    /// how many there are, where there is room.
+    #[inline(always)]
+    pub(crate) fn map_least<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        element: impl Fn(S) -> T,
+    ) {
+        let room = self.out.get_mut(self.at..).unwrap_or_default();
+        if length <= LEAST
+            && let (Some(target), Some(block)) =
+                (room.first_chunk_mut::<LEAST>(), source.first_chunk::<LEAST>())
+        {
+            self.at += length;
+            for (target, block) in target.as_chunks_mut::<N>().0.iter_mut().zip(block.as_chunks().0)
+            {
+                *target = make(block, &element);
+                separate_blocks();
+            }
+            return;
+        }
+        self.map::<_, N>(length, source, element);
+    }
+
     /// The next `length` elements, each made from its number, in blocks of `N`.
     #[inline(always)]
     pub(crate) fn count<const N: usize>(&mut self, length: usize, element: impl Fn(u32) -> T) {

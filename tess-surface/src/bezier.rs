@@ -3,9 +3,10 @@
 //! G. Farin, *Curves and Surfaces for CAGD*, 5th edition, 2002: tensor product patches and their
 //! derivatives (chapter 14), rational patches (chapter 16).
 
-use crate::curve::{Curve, de_casteljau};
-use crate::frame::{Frame, Tangents};
-use crate::math::{lerp, plain_zero, project};
+use crate::curve::Curve;
+use crate::frame::Frame;
+use crate::lanes::{Frames, Real, V4, Vector, de_casteljau, lerp};
+use crate::math::{plain_zero, project};
 use glam::{Vec3, Vec4};
 
 /// A bicubic patch over the unit square: `points[row][column]`, rows along v, columns along u.
@@ -59,14 +60,27 @@ impl BezierPatch {
     /// Position and partial derivatives at (u, v) in the unit square.
     #[must_use]
     pub fn frame(&self, u: f32, v: f32) -> Frame {
-        let rows = self.points.map(|row| de_casteljau(row, u));
-        let (s, sv) = de_casteljau(rows.map(|(point, _)| point), v);
-        let (su, _) = de_casteljau(rows.map(|(_, derivative)| derivative), v);
-        let position = project(s);
-        Frame {
-            position: plain_zero(position),
-            tangents: Tangents { du: quotient(su, s, position), dv: quotient(sv, s, position) },
+        let frame = self.frames::<f32>(u, v);
+        Frame { position: plain_zero(frame.position.to_vec3()), tangents: frame.tangents() }
+    }
+
+    /// [`BezierPatch::frame`] at one point or at eight.
+    #[inline(always)]
+    pub(crate) fn frames<T: Real>(&self, u: T, v: T) -> Frames<T> {
+        if self.is_polynomial() {
+            let (position, du, dv) = tensor(self.points, |point| point.truncate().into(), u, v);
+            return Frames { position, du, dv };
         }
+        let (s, su, sv): (V4<T>, _, _) = tensor(self.points, V4::from, u, v);
+        let position = s.xyz / s.w;
+        let quotient = |derivative: V4<T>| (derivative.xyz - position * derivative.w) / s.w;
+        Frames { position, du: quotient(su), dv: quotient(sv) }
+    }
+
+    /// Whether all weights are 1.
+    fn is_polynomial(&self) -> bool {
+        let weights = self.points.as_flattened().iter().map(|point| point.w.to_bits());
+        weights.fold(0, |others, weight| others | (weight ^ 1.0f32.to_bits())) == 0
     }
 
     /// The unit normal, on the side from which u to v turns counter-clockwise.
@@ -118,6 +132,21 @@ impl Jet {
         let duv = (self.uv.truncate() - position * self.uv.w - du * self.v.w - dv * self.u.w) / w;
         (duu.cross(dv) + du.cross(duv)) * a + (duv.cross(dv) + du.cross(dvv)) * b
     }
+}
+
+/// Point and partial derivatives of a tensor product of cubics.
+#[inline(always)]
+fn tensor<T: Real, V: Vector<T>>(
+    points: [[Vec4; 4]; 4],
+    point: impl Fn(Vec4) -> V,
+    u: T,
+    v: T,
+) -> (V, V, V) {
+    let [a, b, c, d] = points.map(|row| row.map(&point));
+    let rows = [de_casteljau(a, u), de_casteljau(b, u), de_casteljau(c, u), de_casteljau(d, u)];
+    let [(a, da), (b, db), (c, dc), (d, dd)] = rows;
+    let (s, sv) = de_casteljau([a, b, c, d], v);
+    (s, de_casteljau([da, db, dc, dd], v).0, sv)
 }
 
 /// The derivative of a projected point: (A' - w' S) / w.

@@ -1,6 +1,7 @@
 //! Cubic curves in homogeneous coordinates, and the direction in which they are evaluated.
 
-use crate::math::{lerp, order_key, plain_zero, project};
+use crate::lanes::de_casteljau;
+use crate::math::{order_key, plain_zero, project};
 use glam::{Vec3, Vec4};
 
 /// A boundary of a patch: a straight line or a cubic Bezier curve, rational or not.
@@ -83,19 +84,6 @@ fn at_end<T>(t: f32, start: T, end: T) -> Option<T> {
     } else {
         None
     }
-}
-
-/// Point and derivative of a cubic at `t`, by repeated linear interpolation.
-///
-/// Equal control points give that very point, as `a + (a - a) t` is `a`.
-pub(crate) fn de_casteljau(points: [Vec4; 4], t: f32) -> (Vec4, Vec4) {
-    let [a, b, c, d] = points;
-    let (ab, bc, cd) = (lerp(a, b, t), lerp(b, c, t), lerp(c, d, t));
-    let (abc, bcd) = (lerp(ab, bc, t), lerp(bc, cd, t));
-    // The derivative from differences of control points, which keeps its relative precision
-    // where the curve nearly stands still.
-    let derivative = lerp(lerp(b - a, c - b, t), lerp(c - b, d - c, t), t) * 3.0;
-    (lerp(abc, bcd, t), derivative)
 }
 
 /// A patch's own direction along an edge, compared with the canonical one.

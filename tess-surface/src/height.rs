@@ -10,6 +10,7 @@
 use crate::curve::Direction;
 use crate::error::MAX_COORDINATE;
 use crate::frame::Tangents;
+use crate::lanes::LANES;
 use crate::math::{is_in_range, plain_zero, unit};
 use crate::model::Model;
 use crate::patch::{Patch, Sample};
@@ -203,50 +204,96 @@ struct Side {
 impl DisplacedPatch<'_> {
     /// The displaced vertex at the domain point (u, v), in 0..=1 as a tessellator outputs it.
     #[must_use]
-    pub fn sample(&self, [u, v]: [f32; 2]) -> Sample {
-        let sample = self.patch.sample([u, v]);
-        let anchor = self.anchor(&sample, u, v);
-        let (height, slope) = self.displacement.map.sample(anchor.texcoord);
-        let offset = anchor.direction * (height * self.displacement.scale);
-        let slope = slope * self.displacement.scale;
-        Sample {
-            position: plain_zero(sample.position + offset),
-            normal: self.wrinkled_normal(sample.normal, slope, u, v),
-            texcoord: sample.texcoord,
+    pub fn sample(&self, point: [f32; 2]) -> Sample {
+        let mut sample = [Sample::default()];
+        self.samples(&[point], &mut sample);
+        sample[0]
+    }
+
+    /// The displaced vertices at these domain points: the bits of [`DisplacedPatch::sample`] at each,
+    /// for a fraction of the time. Vertices or points that the other slice has no partner for are left
+    /// alone.
+    pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
+        for (points, samples) in points.chunks(LANES).zip(samples.chunks_mut(LANES)) {
+            self.patch.samples(points, samples);
+            let tangents = self.patch.tangents(points);
+            let anchors = self.anchors(points, samples);
+            for (lane, (&[u, v], sample)) in points.iter().zip(samples).enumerate() {
+                let (height, slope) = self.displacement.map.sample(anchors[lane].texcoord);
+                let offset = anchors[lane].direction * (height * self.displacement.scale);
+                let slope = slope * self.displacement.scale;
+                sample.position = plain_zero(sample.position + offset);
+                sample.normal = self.wrinkled_normal(&tangents[lane], sample.normal, slope, u, v);
+            }
         }
     }
 
-    /// Direction and texture coordinates of the displacement.
-    fn anchor(&self, sample: &Sample, u: f32, v: f32) -> Anchor {
-        match self.patch.place(u, v) {
-            Place::Inside => Anchor { direction: sample.normal, texcoord: sample.texcoord },
-            Place::Corner(corner) => self.sides.as_slice()[corner].corner,
-            Place::Edge(edge, t) => self.edge_anchor(sample, edge, t),
+    /// Direction and texture coordinates of the displacement at up to eight points, from the vertices
+    /// that are not displaced.
+    fn anchors(&self, points: &[[f32; 2]], samples: &[Sample]) -> [Anchor; LANES] {
+        let mut anchors = [Anchor { direction: Vec3::ZERO, texcoord: Vec2::ZERO }; LANES];
+        let mut on_edges = [false; 4];
+        for (lane, (&[u, v], sample)) in points.iter().zip(samples).enumerate() {
+            let own = Anchor { direction: sample.normal, texcoord: sample.texcoord };
+            anchors[lane] = match self.patch.place(u, v) {
+                Place::Inside => own,
+                Place::Corner(corner) => self.sides.as_slice()[corner].corner,
+                Place::Edge(edge, _) => {
+                    on_edges[edge] = true;
+                    own
+                }
+            };
         }
+        for (edge, _) in on_edges.iter().enumerate().filter(|&(_, &has_points)| has_points) {
+            self.edge_anchors(edge, points, &mut anchors);
+        }
+        anchors
     }
 
-    fn edge_anchor(&self, sample: &Sample, edge: usize, t: f32) -> Anchor {
+    /// The anchors of those points that are on an edge, in place of their own normals and texture
+    /// coordinates.
+    fn edge_anchors(&self, edge: usize, points: &[[f32; 2]], anchors: &mut [Anchor; LANES]) {
         let side = &self.sides.as_slice()[edge];
         let direction = self.patch.edges().as_slice()[edge].direction;
+        let on_edge =
+            points.iter().enumerate().filter_map(|(lane, &[u, v])| match self.patch.place(u, v) {
+                Place::Edge(on, t) if on == edge => Some((lane, t)),
+                _ => None,
+            });
         if direction == Direction::Symmetric {
             // Collapsed, or without a canonical direction: the whole edge has those of one corner.
-            return self.sides.as_slice()[edge_corners(&self.sides)[edge][0]].corner;
+            let corner = self.sides.as_slice()[edge_corners(&self.sides)[edge][0]].corner;
+            on_edge.for_each(|(lane, _)| anchors[lane] = corner);
+            return;
         }
-        let Some((beyond, their_edge)) = &side.beyond else {
-            return Anchor { direction: sample.normal, texcoord: sample.texcoord };
-        };
-        let canonical = direction.canonical(t);
+        let Some((beyond, their_edge)) = &side.beyond else { return };
         let theirs = beyond.edges().as_slice()[*their_edge].direction;
-        let their_sample =
-            beyond.sample(edge_point(beyond, *their_edge, theirs.canonical(canonical)));
-        Anchor {
-            direction: unit(sample.normal + their_sample.normal).unwrap_or(Vec3::ZERO),
-            texcoord: if side.leads { sample.texcoord } else { their_sample.texcoord },
+        let (mut lanes, mut places, mut count) = ([0; LANES], [[0.0; 2]; LANES], 0);
+        for (lane, t) in on_edge {
+            lanes[count] = lane;
+            places[count] =
+                edge_point(beyond, *their_edge, theirs.canonical(direction.canonical(t)));
+            count += 1;
+        }
+        let mut their_samples = [Sample::default(); LANES];
+        beyond.samples(&places[..count], &mut their_samples);
+        for (&lane, their_sample) in lanes[..count].iter().zip(&their_samples) {
+            let Anchor { direction, texcoord } = anchors[lane];
+            anchors[lane] = Anchor {
+                direction: unit(direction + their_sample.normal).unwrap_or(Vec3::ZERO),
+                texcoord: if side.leads { texcoord } else { their_sample.texcoord },
+            };
         }
     }
 
-    fn wrinkled_normal(&self, normal: Vec3, slope: Vec2, u: f32, v: f32) -> Vec3 {
-        let Tangents { du, dv } = self.patch.frame(u, v).tangents;
+    fn wrinkled_normal(
+        &self,
+        &Tangents { du, dv }: &Tangents,
+        normal: Vec3,
+        slope: Vec2,
+        u: f32,
+        v: f32,
+    ) -> Vec3 {
         let (tu, tv) = texcoord_derivatives(self.patch.texcoords(), u, v);
         let slopes = (slope.dot(tu), slope.dot(tv));
         // The area is a square root of fourth powers. Where these overflow, so does it, and the

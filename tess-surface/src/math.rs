@@ -3,11 +3,6 @@
 use crate::error::MAX_COORDINATE;
 use glam::{Vec3, Vec4};
 
-/// `a + (b - a) t`: exact at `t = 0`, and where `a` equals `b`.
-pub(crate) fn lerp(a: Vec4, b: Vec4, t: f32) -> Vec4 {
-    a + (b - a) * t
-}
-
 /// The point that a homogeneous point stands for; exact for weight 1.
 pub(crate) fn project(point: Vec4) -> Vec3 {
     point.truncate() / point.w

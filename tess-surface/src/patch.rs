@@ -8,7 +8,8 @@ use crate::bezier::BezierPatch;
 use crate::curve::{Curve, Direction, Edge};
 use crate::error::WrongDomain;
 use crate::frame::{Frame, Tangents};
-use crate::math::{plain_zero, unit};
+use crate::lanes::{Frames, Real, V3};
+use crate::math::unit;
 use crate::pn::{PnQuad, PnTriangle, normal_along};
 use crate::sides::{Place, Sides, corner_coordinates, edge_corners};
 use glam::{Vec2, Vec3};
@@ -111,7 +112,7 @@ impl Patch {
         let frame = self.frame(u, v);
         Sample {
             position: self.boundary_position(place).unwrap_or(frame.position),
-            normal: self.normal_in(&frame.tangents, place, u, v),
+            normal: self.normal_in(|| frame.tangents, place, u, v),
             texcoord: self.texcoord(place, u, v),
         }
     }
@@ -126,28 +127,35 @@ impl Patch {
     /// The unit normal of [`Patch::sample`] alone.
     #[must_use]
     pub fn normal(&self, [u, v]: [f32; 2]) -> Vec3 {
-        self.normal_in(&self.frame(u, v).tangents, self.place(u, v), u, v)
+        self.normal_in(|| self.frame(u, v).tangents, self.place(u, v), u, v)
     }
 
     /// Position and tangents by the formula of the inside, also on edges, where neighbours may
     /// differ.
     #[must_use]
     pub fn frame(&self, u: f32, v: f32) -> Frame {
-        let frame = match &self.surface {
-            Surface::FlatTriangle([a, b, c]) => Frame {
-                position: *c + (*a - *c) * u + (*b - *c) * v,
-                tangents: Tangents { du: *a - *c, dv: *b - *c },
-            },
+        let frame = self.frames::<f32>(u, v);
+        Frame { position: frame.position.to_vec3(), tangents: frame.tangents() }
+    }
+
+    /// [`Patch::frame`] at one point or at eight.
+    #[inline(always)]
+    pub(crate) fn frames<T: Real>(&self, u: T, v: T) -> Frames<T> {
+        let frames = match &self.surface {
+            Surface::FlatTriangle(corners) => {
+                let [a, b, c] = corners.map(V3::<T>::from);
+                Frames { position: c + (a - c) * u + (b - c) * v, du: a - c, dv: b - c }
+            }
             Surface::Bilinear(corners) => bilinear(corners, u, v),
-            Surface::Bezier(patch) => patch.frame(u, v),
-            Surface::PnTriangle(triangle) => triangle.frame(u, v),
-            Surface::PnQuad(quad) => quad.patch.frame(u, v),
+            Surface::Bezier(patch) => patch.frames(u, v),
+            Surface::PnTriangle(triangle) => triangle.frames(u, v),
+            Surface::PnQuad(quad) => quad.patch.frames(u, v),
         };
-        Frame { position: plain_zero(frame.position), ..frame }
+        Frames { position: frames.position.plain_zero(), ..frames }
     }
 
     /// The position on the boundary, from the edge or the corner alone; `None` inside.
-    fn boundary_position(&self, place: Place) -> Option<Vec3> {
+    pub(crate) fn boundary_position(&self, place: Place) -> Option<Vec3> {
         match place {
             Place::Inside => None,
             Place::Edge(edge, t) => Some(self.edges.as_slice()[edge].position(t)),
@@ -166,10 +174,10 @@ impl Patch {
         at_corner.next().unwrap_or(Vec3::ZERO) // every corner ends two edges
     }
 
-    fn normal_in(&self, tangents: &Tangents, place: Place, u: f32, v: f32) -> Vec3 {
+    fn normal_in(&self, tangents: impl Fn() -> Tangents, place: Place, u: f32, v: f32) -> Vec3 {
         let normal = match &self.surface {
-            Surface::FlatTriangle(_) | Surface::Bilinear(_) => tangents.normal(),
-            Surface::Bezier(patch) => tangents.normal().or_else(|| patch.limit_normal(u, v)),
+            Surface::FlatTriangle(_) | Surface::Bilinear(_) => tangents().normal(),
+            Surface::Bezier(patch) => tangents().normal().or_else(|| patch.limit_normal(u, v)),
             Surface::PnTriangle(triangle) => unit(match place {
                 Place::Inside => triangle.normal(u, v),
                 Place::Edge(edge, t) => {
@@ -186,7 +194,7 @@ impl Patch {
                 Place::Corner(corner) => quad.corner_normals[corner],
             }),
         };
-        normal.or_else(|| tangents.normal()).unwrap_or(Vec3::Z)
+        normal.or_else(|| tangents().normal()).unwrap_or(Vec3::Z)
     }
 
     /// A quadratic normal along an edge, evaluated in the edge's canonical direction.
@@ -198,7 +206,7 @@ impl Patch {
         }
     }
 
-    fn texcoord(&self, place: Place, u: f32, v: f32) -> Vec2 {
+    pub(crate) fn texcoord(&self, place: Place, u: f32, v: f32) -> Vec2 {
         match (place, &self.texcoords) {
             (Place::Corner(corner), texcoords) => texcoords.as_slice()[corner],
             (Place::Edge(edge, t), texcoords) => {
@@ -241,10 +249,13 @@ fn boundary(surface: &Surface) -> Sides<Curve> {
     }
 }
 
-fn bilinear([a, b, c, d]: &[Vec3; 4], u: f32, v: f32) -> Frame {
-    let (low, high) = (*a + (*b - *a) * u, *d + (*c - *d) * u);
-    Frame {
+#[inline(always)]
+fn bilinear<T: Real>(corners: &[Vec3; 4], u: T, v: T) -> Frames<T> {
+    let [a, b, c, d] = corners.map(V3::<T>::from);
+    let (low, high) = (a + (b - a) * u, d + (c - d) * u);
+    Frames {
         position: low + (high - low) * v,
-        tangents: Tangents { du: (*b - *a) * (1.0 - v) + (*c - *d) * v, dv: high - low },
+        du: (b - a) * (T::from(1.0) - v) + (c - d) * v,
+        dv: high - low,
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::batch::Batch;
 use crate::block::Block;
-use crate::chunk::Chunk;
+use crate::chunk::{Chunk, Stretch};
 use crate::counts::{BlockCounts, PartCounts};
 use crate::kernel::front_end;
 use crate::lanes::LANES;
@@ -13,12 +13,14 @@ use tess_core::Config;
 pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
     let mut sums = Sums::default();
     let mut chunk = Chunk::EMPTY;
-    let (patches, domain) = (batch.len(), batch.domain());
-    for first in (0..patches).step_by(Chunk::PATCHES) {
-        chunk.load(batch, first);
-        for number in 0..(patches - first).div_ceil(LANES).min(Chunk::BLOCKS) {
-            sums.add(&Block::new(config, domain, &chunk.block(number)).counts);
+    let (mut first, domain) = (0, batch.domain());
+    while first < batch.len() {
+        let Stretch { patches, times } = Stretch::new(batch, first);
+        chunk.load(&batch.slice(&(first..first + patches)), 0);
+        for number in 0..patches.div_ceil(LANES) {
+            sums.add(&Block::new(config, domain, &chunk.block(number)).counts, times);
         }
+        first += patches * times;
     }
     sums.total()
 }
@@ -35,7 +37,7 @@ pub(crate) fn count_and_keep(
     for (first, blocks) in (0..patches).step_by(Chunk::PATCHES).zip(kept) {
         front_end::process(config, batch, first, blocks);
         for block in blocks.iter().take((patches - first).div_ceil(LANES)) {
-            sums.add(&block.counts);
+            sums.add(&block.counts, 1);
         }
     }
     sums.total()
@@ -51,10 +53,11 @@ struct Sums {
 
 impl Sums {
     #[inline(always)]
-    fn add(&mut self, counts: &BlockCounts) {
+    fn add(&mut self, counts: &BlockCounts, times: usize) {
+        let times = times as u64;
         for lane in 0..LANES {
-            self.points[lane] += u64::from(counts.points[lane]);
-            self.indices[lane] += u64::from(counts.indices[lane]);
+            self.points[lane] += times * u64::from(counts.points[lane]);
+            self.indices[lane] += times * u64::from(counts.indices[lane]);
             self.largest[lane] = counts.points[lane].max(self.largest[lane]);
         }
     }

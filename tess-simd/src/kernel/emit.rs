@@ -5,12 +5,12 @@ use crate::connect;
 use crate::format::{IndexFormat, PointFormat};
 use crate::lanes::LANES;
 use crate::output::{Numbering, PatchRange};
-use crate::points::{self, LocationTables};
+use crate::points::{self, Code, Coordinates, LocationTables};
 use crate::setup::Setup;
-use crate::template::Templates;
+use crate::template::{SmallTemplate, SmallTemplates, Templates};
 use crate::writer::Writer;
 use alloc::boxed::Box;
-use tess_core::DomainPoint;
+use tess_core::{Config, DomainPoint};
 
 /// Blocks to write.
 #[derive(Clone, Copy, Debug)]
@@ -44,16 +44,27 @@ pub(crate) struct Offsets {
 pub(crate) struct Caches {
     tables: Box<LocationTables>,
     templates: Templates,
+    small: SmallTemplates,
+    /// What the points of a block's small patches are made of.
+    coordinates: Box<[Coordinates; LANES]>,
 }
 
 impl Caches {
-    pub(crate) fn new() -> Self {
-        Self { tables: Box::new(LocationTables::EMPTY), templates: Templates::new() }
+    pub(crate) fn new(config: Config) -> Self {
+        Self {
+            tables: Box::new(LocationTables::EMPTY),
+            templates: Templates::new(),
+            small: SmallTemplates::new(config),
+            coordinates: Box::new([const { Coordinates::EMPTY }; LANES]),
+        }
     }
 
     /// Bytes of memory that they take on the heap.
-    pub(crate) const fn bytes(&self) -> usize {
-        size_of::<LocationTables>() + self.templates.bytes()
+    pub(crate) fn bytes(&self) -> usize {
+        size_of::<LocationTables>()
+            + self.templates.bytes()
+            + self.small.bytes()
+            + size_of_val(&*self.coordinates)
     }
 }
 
@@ -73,7 +84,15 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
 ) -> Offsets {
     let Blocks { blocks, mut first, numbering } = blocks;
     let mut out = Writers { points: Writer::new(room.points), indices: Writer::new(room.indices) };
+    let zero = core::hint::black_box(0);
     for (block, ranges) in blocks.iter().zip(room.ranges.chunks_mut(LANES)) {
+        // All of them first: what is read too soon after it was written waits for it.
+        for (lane, coordinates) in caches.coordinates.iter_mut().enumerate().take(ranges.len()) {
+            let patch = block.patch(lane);
+            if patch.is_small() && !patch.integer() {
+                coordinates.fill::<P>(patch, zero);
+            }
+        }
         for (lane, range) in ranges.iter_mut().enumerate() {
             let patch = block.patch(lane);
             *range = PatchRange {
@@ -85,7 +104,12 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
             let base = numbering.base(first.points);
             first.points += range.points;
             first.indices += range.indices;
-            if range.points > 0 {
+            if range.points == 0 {
+                continue;
+            }
+            if patch.is_small() {
+                emit_small(setup, (patch, lane), base, caches, &mut out);
+            } else {
                 emit_patch(setup, patch, base, caches, &mut out);
             }
         }
@@ -93,7 +117,33 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
     first
 }
 
-/// Writes one patch that is not culled and whose first point is number `base`.
+/// Writes a small patch that is not culled and whose first point is number `base`.
+#[inline(always)]
+fn emit_small<P: PointFormat, I: IndexFormat>(
+    setup: &Setup,
+    (patch, lane): (BlockPatch<'_>, usize),
+    base: u32,
+    caches: &mut Caches,
+    out: &mut Writers<'_, P, I>,
+) {
+    let Caches { tables, small, coordinates, .. } = caches;
+    let SmallTemplate { indices, points, codes } = small.get(setup, patch, tables);
+    let count = patch.points() as usize;
+    if patch.integer() {
+        out.points.map::<_, 8>(count, points, |point: DomainPoint| {
+            P::from_bits(point.u.to_bits(), point.v.to_bits())
+        });
+    } else {
+        let coordinates = &coordinates[lane % LANES];
+        out.points.map::<_, 8>(count, codes, |code: Code| coordinates.point::<P>(code));
+    }
+    let base = I::wrapping_from(base);
+    out.indices.map_least::<_, 16, 64>(patch.indices() as usize, indices, |index: u8| {
+        base.wrapping_add(I::wrapping_from(index.into()))
+    });
+}
+
+/// Writes any other patch that is not culled and whose first point is number `base`.
 #[inline(always)]
 fn emit_patch<P: PointFormat, I: IndexFormat>(
     setup: &Setup,
@@ -102,7 +152,7 @@ fn emit_patch<P: PointFormat, I: IndexFormat>(
     caches: &mut Caches,
     out: &mut Writers<'_, P, I>,
 ) {
-    let Caches { tables, templates } = caches;
+    let Caches { tables, templates, .. } = caches;
     let Some(template) = templates.get(setup, patch, tables) else {
         points::emit(patch, tables, &mut out.points);
         connect::emit(setup, patch, base, &mut out.indices);
@@ -116,7 +166,9 @@ fn emit_patch<P: PointFormat, I: IndexFormat>(
         points::emit(patch, tables, &mut out.points);
     }
     let base = I::wrapping_from(base);
-    out.indices.map::<_, 16>(patch.indices() as usize, template.indices, |index: u16| {
-        base.wrapping_add(I::wrapping_from(index.into()))
-    });
+    out.indices.map_least::<_, 16, 128>(
+        patch.indices() as usize,
+        template.indices,
+        |index: u16| base.wrapping_add(I::wrapping_from(index.into())),
+    );
 }

@@ -1,6 +1,7 @@
 //! Quad points: the outer ring, the interior rings, then a row of points if one inside factor is
 //! even (spec section 6).
 
+use super::coordinate::{Coordinate, Place, Walker, along, back};
 use super::run::run;
 use super::tables::FactorLocations;
 use crate::format::PointFormat;
@@ -8,33 +9,84 @@ use crate::lanes::{EdgePoints, is_odd};
 use crate::writer::Writer;
 use tess_core::fixed_point::{HALF, ONE};
 
+/// The inside factors, by number.
+const U: usize = 4;
+const V: usize = 5;
+
+/// Takes a walker over the runs of a patch.
 #[inline(always)]
-pub(super) fn emit<P: PointFormat>(
-    &[u0, v0, u1, v1, n_u, n_v]: &EdgePoints,
-    [u0_locations, v0_locations, u1_locations, v1_locations, u_locations, v_locations]: FactorLocations<'_>,
-    out: &mut Writer<'_, P>,
-) {
-    let mirror = |x| ONE.wrapping_sub(x);
-    run(out, u0 - 1, u0_locations.from(0), |x| P::from_bits(0, mirror(x)));
-    run(out, v0 - 1, v0_locations.from(0), |x| P::from_bits(x, 0));
-    run(out, u1 - 1, u1_locations.from(0), |x| P::from_bits(ONE, x));
-    run(out, v1 - 1, v1_locations.from(0), |x| P::from_bits(mirror(x), ONE));
+pub(super) fn walk(&[u0, v0, u1, v1, n_u, n_v]: &EdgePoints, walker: &mut impl Walker) {
+    let [zero, one, half] = [0, ONE, HALF].map(|number| walker.fixed(number));
+    walker.run(u0 - 1, zero, back(0, 0));
+    walker.run(v0 - 1, along(1, 0), zero);
+    walker.run(u1 - 1, one, along(2, 0));
+    walker.run(v1 - 1, back(3, 0), one);
     let ring_end = n_u.min(n_v) / 2;
     for ring in 1..ring_end {
         let (count_u, count_v) = (n_u - 1 - 2 * ring, n_v - 1 - 2 * ring);
-        let (along_u, along_v) = (u_locations.from(ring), v_locations.from(ring));
-        let (first_u, last_u) = (u_locations.at(ring), u_locations.mirrored(ring));
-        let (first_v, last_v) = (v_locations.at(ring), v_locations.mirrored(ring));
-        run(out, count_v, along_v, |x| P::from_bits(first_u, mirror(x)));
-        run(out, count_u, along_u, |x| P::from_bits(x, first_v));
-        run(out, count_v, along_v, |x| P::from_bits(last_u, x));
-        run(out, count_u, along_u, |x| P::from_bits(mirror(x), last_v));
+        let at = |factor, mirrored| Place { factor, point: ring, mirrored };
+        let (first_u, last_u) = (walker.at(at(U, false)), walker.at(at(U, true)));
+        let (first_v, last_v) = (walker.at(at(V, false)), walker.at(at(V, true)));
+        walker.run(count_v, first_u, back(V, ring));
+        walker.run(count_u, along(U, ring), first_v);
+        walker.run(count_v, last_u, along(V, ring));
+        walker.run(count_u, back(U, ring), last_v);
     }
     if n_u > n_v {
         if !is_odd(n_v) {
-            run(out, n_u - 2 * ring_end, u_locations.from(ring_end), |x| P::from_bits(x, HALF));
+            walker.run(n_u - 2 * ring_end, along(U, ring_end), half);
         }
     } else if !is_odd(n_u) {
-        run(out, n_v - 2 * ring_end, v_locations.from(ring_end), |x| P::from_bits(HALF, mirror(x)));
+        walker.run(n_v - 2 * ring_end, half, back(V, ring_end));
     }
+}
+
+#[inline(always)]
+pub(super) fn emit<P: PointFormat>(
+    edges: &EdgePoints,
+    locations: FactorLocations<'_>,
+    out: &mut Writer<'_, P>,
+) {
+    walk(edges, &mut Runs { locations, out });
+}
+
+/// Writes the points of each run.
+struct Runs<'a, 'o, P> {
+    locations: FactorLocations<'a>,
+    out: &'a mut Writer<'o, P>,
+}
+
+impl<P: PointFormat> Walker for Runs<'_, '_, P> {
+    type Held = u32;
+
+    #[inline(always)]
+    fn fixed(&self, number: u32) -> Coordinate<u32> {
+        Coordinate::Held(number)
+    }
+
+    #[inline(always)]
+    fn at(&self, Place { factor, point, mirrored }: Place) -> Coordinate<u32> {
+        Coordinate::Held(seen(self.locations[factor].at(point), mirrored))
+    }
+
+    #[inline(always)]
+    fn run(&mut self, length: u32, u: Coordinate<u32>, v: Coordinate<u32>) {
+        match (u, v) {
+            (Coordinate::Held(u), Coordinate::Along(Place { factor, point, mirrored })) => {
+                let locations = self.locations[factor].from(point);
+                run(self.out, length, locations, |x| P::from_bits(u, seen(x, mirrored)));
+            }
+            (Coordinate::Along(Place { factor, point, mirrored }), Coordinate::Held(v)) => {
+                let locations = self.locations[factor].from(point);
+                run(self.out, length, locations, |x| P::from_bits(seen(x, mirrored), v));
+            }
+            _ => debug_assert!(false, "one coordinate of a run is held"),
+        }
+    }
+}
+
+/// A location, perhaps seen from the other end.
+#[inline(always)]
+const fn seen(x: u32, mirrored: bool) -> u32 {
+    if mirrored { ONE.wrapping_sub(x) } else { x }
 }

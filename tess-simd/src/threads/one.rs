@@ -3,14 +3,15 @@
 use crate::part::{self, Job, Workspace};
 use crate::setup::Setup;
 use crate::slices::{CountShare, Share};
+use tess_core::Config;
 
 /// The one workspace.
 #[derive(Clone, Debug)]
 pub(crate) struct Workspaces(Workspace);
 
 impl Workspaces {
-    pub(crate) fn new() -> Self {
-        Self(Workspace::new())
+    pub(crate) fn new(config: Config) -> Self {
+        Self(Workspace::new(config))
     }
 
     /// How many threads write at a time.
@@ -20,7 +21,7 @@ impl Workspaces {
     }
 
     /// Bytes of memory that it takes on the heap.
-    pub(crate) const fn bytes(&self) -> usize {
+    pub(crate) fn bytes(&self) -> usize {
         self.0.bytes()
     }
 

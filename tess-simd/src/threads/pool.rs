@@ -5,6 +5,7 @@ use crate::setup::Setup;
 use crate::slices::{CountShare, Share};
 use alloc::vec::Vec;
 use std::sync::{Mutex, PoisonError};
+use tess_core::Config;
 
 /// The most threads, and so workspaces, that a tessellator uses.
 pub(crate) const MAX_THREADS: usize = 256;
@@ -12,22 +13,22 @@ pub(crate) const MAX_THREADS: usize = 256;
 /// Patches that are counted in a few microseconds.
 const SOON_COUNTED: usize = 1024;
 
-/// A workspace for each thread. A copy starts with empty ones.
+/// A workspace for each thread.
 #[derive(Debug)]
 pub(crate) struct Workspaces(Vec<Mutex<Workspace>>);
 
 impl Workspaces {
-    pub(crate) fn new() -> Self {
-        Self::of_threads(1)
+    pub(crate) fn new(config: Config) -> Self {
+        Self::of_threads(1, config)
     }
 
     /// Workspaces for this many threads, at least one and at most [`MAX_THREADS`].
-    pub(crate) fn of_threads(threads: usize) -> Self {
+    pub(crate) fn of_threads(threads: usize, config: Config) -> Self {
         let threads = threads.clamp(1, MAX_THREADS);
         if threads > 1 {
             limit_global_pool();
         }
-        Self((0..threads).map(|_| Mutex::new(Workspace::new())).collect())
+        Self((0..threads).map(|_| Mutex::new(Workspace::new(config))).collect())
     }
 
     /// How many threads write at a time.
@@ -93,6 +94,7 @@ fn limit_global_pool() {
 
 impl Clone for Workspaces {
     fn clone(&self) -> Self {
-        Self::of_threads(self.threads())
+        let copy = || self.lend(|workspace| Mutex::new(workspace.clone()));
+        Self((0..self.threads()).map(|_| copy()).collect())
     }
 }

@@ -15,6 +15,7 @@ mod models;
 mod normals;
 mod point_normal;
 mod range;
+mod samples;
 mod teapot;
 mod weld;
 mod wgsl;

@@ -176,16 +176,9 @@ impl Stream<'_> {
 }
 
 fn evaluate_patch(job: &Job<'_>, number: usize, points: &[[f32; 2]], out: &mut [Sample]) {
-    let pairs = out.iter_mut().zip(points);
     match job.displaced {
-        None => {
-            let patch = job.model.patch(number);
-            pairs.for_each(|(vertex, &point)| *vertex = patch.sample(point));
-        }
-        Some(displaced) => {
-            let patch = displaced.patch(number);
-            pairs.for_each(|(vertex, &point)| *vertex = patch.sample(point));
-        }
+        None => job.model.patch(number).samples(points, out),
+        Some(displaced) => displaced.patch(number).samples(points, out),
     }
 }
 
