@@ -21,7 +21,7 @@ fn repeat_of(tile: Tile, kind: u32, most: u32) -> Repeat {
     var none: Repeat;
     none.size = 0u;
     let topology = common_topology(tile);
-    if tile.first_patch == tile.last_patch || state_of(topology) == CULLED {
+    if COPIES == 0u || tile.first_patch == tile.last_patch || state_of(topology) == CULLED {
         return none;
     }
     let begin = patch_offset(tile.first_patch);

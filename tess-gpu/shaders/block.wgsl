@@ -1,4 +1,4 @@
-// needs: counts, make_context, prefix_sum, process, state, topology; bindings: contexts, job, offsets, raw_factors, topologies
+// needs: counts, {listing}, make_context, prefix_sum, process, state, topology; bindings: contexts, job, offsets, raw_factors, topologies
 // Factor processing (spec section 3) of a block of patches: one thread per patch, from the bits of
 // its raw factors to its topology, contexts and counts.
 
@@ -39,8 +39,8 @@ fn write_contexts(patch_index: u32, processed: Processed) {
 var<workgroup> first_topology: vec2<u32>;
 var<workgroup> differs: atomic<u32>;
 
-// Processes a block: writes its patches' topologies, contexts and offsets within it, and whether all
-// have the same topology. Returns the block's points and primitives. Called in uniform control flow by
+// Processes a block: writes its patches' topologies, contexts and offsets within it, and the topology that all
+// of them have, if they do. The topologies' slots in the catalogue are with the block's one, or else with each. Returns the block's points and primitives. Called in uniform control flow by
 // all threads of a workgroup of BLOCK.
 fn process_block(block: u32, thread: u32) -> vec2<u32> {
     let patch_index = block * BLOCK + thread;
@@ -67,8 +67,16 @@ fn process_block(block: u32, thread: u32) -> vec2<u32> {
         }
     }
     workgroupBarrier();
+    let is_alike = atomicLoad(&differs) == 0u;
+    var slot = vec2<u32>(0u, 0u);
+    if !is_alike || (thread == 0u && !HAS_COPIED_POINTS) {
+        slot.y = slot_of(topology, own) << 14u;
+    }
+    if slot.y != 0u && !is_alike {
+        topologies[patch_index] = topology | slot;
+    }
     if thread == 0u && block * BLOCK < job.patches {
-        offsets[job.alike_at + block] = topology * (1u - atomicLoad(&differs));
+        offsets[job.alike_at + block] = select(vec2<u32>(0u, 0u), topology | slot, is_alike);
     }
     return sums.all;
 }

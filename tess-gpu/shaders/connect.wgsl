@@ -21,6 +21,16 @@ fn triangle_location(rings: Rings, t: u32) -> RingLocation {
         k + 2u, rest, 2u * rings.v - 4u * (k + 2u), 2u * rings.u - 4u * (k + 2u));
 }
 
+// Triangle t of a patch; the indices count from its first point.
+fn triangle_of(topology: vec2<u32>, t: u32) -> vec3<u32> {
+    if state_of(topology) == MINIMUM {
+        return stitch_triangles(minimum_stitch(0u), t).first;
+    }
+    let rings = rings_of(topology);
+    let location = triangle_location(rings, t);
+    return stitch_triangles(stitch_at(rings, location, 0u), location.step).first;
+}
+
 // The stitch at a location; `base` is the index of the patch's first vertex.
 fn stitch_at(rings: Rings, location: RingLocation, base: u32) -> Stitch {
     if location.ring == 1u {

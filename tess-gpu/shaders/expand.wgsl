@@ -1,4 +1,4 @@
-// needs: offsets, tile; bindings: topologies
+// needs: {catalogue}, offsets, state, tile, topology; bindings: job, offsets, topologies
 // What the expansions of points and of primitives share: a tile's patches, a round at a time.
 
 // Patches of the tile that are expanded together: `count` of them from `first`, and the elements
@@ -8,6 +8,8 @@ struct Round {
     count: u32,
     begin: u32,
     end: u32,
+    // Whether the topologies of all its patches are in the catalogue.
+    is_listed: bool,
 }
 
 // Where each patch of a round begins, counted from the tile's base.
@@ -16,13 +18,49 @@ var<workgroup> begins: array<i32, ROUND>;
 // (alike.wgsl). Its size limits how many tiles run at once.
 var<workgroup> scratch: array<vec2<u32>, SCRATCH>;
 
+// For each patch of a round, where its elements are in the catalogue, less where they begin in the tile (modulo
+// 2^32); and the index of its first point.
+var<workgroup> listed: array<vec2<u32>, ROUND>;
+// Whether the catalogue lacks a patch of the round.
+var<workgroup> is_missing: atomic<u32>;
+
+// Where in the catalogue the elements of a patch are, 0 if nowhere.
+fn place_of(patch_index: u32, topology: vec2<u32>, kind: u32) -> u32 {
+    var slot = listed_slot(topology);
+    if slot == 0u {
+        slot = listed_slot(offsets[job.alike_at + (patch_index >> BLOCK_BITS)]);
+    }
+    if slot == 0u {
+        return 0u;
+    }
+    return catalogue_word(PLACES_AT + 2u * (slot - 1u) + kind);
+}
+
+// Loads patch `i` of a round, which is a patch of the chunk.
+fn load_patch(i: u32, patch_index: u32, tile: Tile, kind: u32) {
+    let topology = topologies[patch_index];
+    let offset = patch_offset(patch_index);
+    let begin = offset[kind] - tile.base;
+    begins[i] = i32(begin);
+    scratch[i] = topology;
+    let found = place_of(patch_index, topology, kind);
+    let words = select(1u, POINT_WORDS, kind == POINTS);
+    listed[i] = vec2<u32>(found - words * begin, select(0u, offset.x, NUMBERING == PER_BATCH));
+    if found == 0u && state_of(topology) != CULLED {
+        atomicStore(&is_missing, 1u);
+    }
+}
+
 // Loads the round of patches from `first` on. Called by all threads; `kind` is POINTS or PRIMITIVES.
 fn load_round(tile: Tile, first: u32, kind: u32, thread: u32) -> Round {
     let count = min(ROUND, tile.last_patch - first + 1u);
     workgroupBarrier();
+    if thread == 0u {
+        atomicStore(&is_missing, 0u);
+    }
+    workgroupBarrier();
     for (var i = thread; i < count; i += WORKGROUP) {
-        begins[i] = i32(patch_offset(first + i)[kind] - tile.base);
-        scratch[i] = topologies[first + i];
+        load_patch(i, first + i, tile, kind);
     }
     workgroupBarrier();
     let begin = u32(max(begins[0], i32(tile.begin - tile.base)));
@@ -30,7 +68,7 @@ fn load_round(tile: Tile, first: u32, kind: u32, thread: u32) -> Round {
     if first + count <= tile.last_patch {
         end = patch_offset(first + count)[kind] - tile.base;
     }
-    return Round(first, count, begin, end);
+    return Round(first, count, begin, end, atomicLoad(&is_missing) == 0u);
 }
 
 // The last of a round's patches that begins at or before an element.

@@ -9,6 +9,7 @@
 @group(0) @binding(5) var<storage, read> status: Status;
 @group(0) @binding(6) var<storage, read> tiles: array<u32>;
 @group(0) @binding(7) var<storage, read_write> points_out: array<vec2<u32>>;
+@group(0) @binding(8) var<storage, read> catalogue: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn expand_points(

@@ -7,6 +7,7 @@
 @group(0) @binding(3) var<storage, read> offsets: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read> status: Status;
 @group(0) @binding(5) var<storage, read> tiles: array<u32>;
+@group(0) @binding(7) var<storage, read> catalogue: array<u32>;
 
 @compute @workgroup_size(WORKGROUP)
 fn expand_primitives(

@@ -1,4 +1,4 @@
-// needs: block, state
+// needs: block, {listing}, state
 // Factor processing: one workgroup per block of patches, and for each block the sums of the counts.
 
 @group(0) @binding(0) var<uniform> job: Job;
@@ -7,6 +7,7 @@
 @group(0) @binding(3) var<storage, read_write> topologies: array<vec2<u32>>;
 @group(0) @binding(4) var<storage, read_write> contexts: array<vec2<u32>>;
 @group(0) @binding(5) var<storage, read_write> offsets: array<vec2<u32>>;
+@group(0) @binding(6) var<storage, read_write> catalogue: array<atomic<u32>>;
 
 @compute @workgroup_size(BLOCK)
 fn factors(
@@ -15,6 +16,9 @@ fn factors(
 ) {
     let block = workgroup.x + workgroup.y * job.max_workgroups;
     let all = process_block(block, thread);
+    if thread == 0u && block + job.first_patch == 0u {
+        empty_catalogue();
+    }
     if thread == 0u && block * BLOCK < job.patches {
         offsets[job.blocks_at + block] = all;
     }

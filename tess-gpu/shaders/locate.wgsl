@@ -1,19 +1,10 @@
-// needs: connect, fixed_point, points, rings, state, stitch, topology; bindings: topologies
+// needs: connect, fixed_point, points, state; bindings: topologies
 // Random access: any point or primitive of a patch from its number alone, in constant time.
 
 // Point i of a patch, which has that many: u and v, 16.16.
 fn tess_point(patch_index: u32, i: u32) -> vec2<u32> {
-    let topology = topologies[patch_index];
-    if DOMAIN == ISOLINE {
-        let run = line_run(patch_index, topology, i);
-        return point_of_run(run, run.step);
-    }
-    if state_of(topology) == MINIMUM {
-        return point_of_run(minimum_run(i), i);
-    }
-    let rings = rings_of(topology);
-    let location = point_location(rings, i);
-    return point_of_run(run_of(axes_of(patch_index, topology), location), location.step);
+    let run = run_at_point(patch_index, topologies[patch_index], i);
+    return point_of_run(run, run.step);
 }
 
 // The same as binary32, exactly: the bits are made of integers.
@@ -32,10 +23,5 @@ fn tess_primitive(patch_index: u32, t: u32) -> vec3<u32> {
         let first = sequence_first(topology, t, 0u);
         return vec3<u32>(first, first + 1u, 0u);
     }
-    if state_of(topology) == MINIMUM {
-        return stitch_triangles(minimum_stitch(0u), t).first;
-    }
-    let rings = rings_of(topology);
-    let location = triangle_location(rings, t);
-    return stitch_triangles(stitch_at(rings, location, 0u), location.step).first;
+    return triangle_of(topology, t);
 }

@@ -1,4 +1,4 @@
-// needs: alike, expand, point_format, points, rings, state, tile, tile_size, topology; bindings: job, points_out, status
+// needs: alike, {catalogue}, described, {elements}, expand, point_format, points, rings, state, tile, topology; bindings: job, points_out, status
 // A tile of points: each thread makes pairs of them, from their numbers alone.
 
 // The patch that points are taken from.
@@ -47,7 +47,7 @@ fn write_points(round: Round, thread: u32, out: u32) {
     var source: PointSource;
     source.number = NEVER;
     let patch_number = job.first_patch + round.first;
-    for (var element = 2u * thread; element < 1u << job.tile_bits; element += 2u * WORKGROUP) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * WORKGROUP) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
@@ -86,6 +86,33 @@ fn first_run(round: Round, source: PointSource, location: RingLocation, is_next_
     return run_at(round, source, next);
 }
 
+// A point of the catalogue for a patch of the round.
+fn listed_point(round: Round, number: u32, element: u32) -> vec2<u32> {
+    let at = listed[number].x + POINT_WORDS * element;
+    let patch_index = round.first + number;
+    let patch_number = job.first_patch + patch_index;
+    if IS_INTEGER {
+        return numbered(
+            vec2<u32>(catalogue_word(at), catalogue_word(at + 1u)), patch_number);
+    }
+    return format_point(placed_point(catalogue_word(at), patch_index), patch_number);
+}
+
+fn write_listed_points(round: Round, thread: u32, out: u32) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * WORKGROUP) {
+        if element + 1u < round.begin || element >= round.end {
+            continue;
+        }
+        let first = max(element, round.begin);
+        let number = find_patch(round, first);
+        points_out[out + first] = listed_point(round, number, first);
+        if first == element && element + 1u < round.end {
+            let next = next_patch(round, number, element + 1u);
+            points_out[out + element + 1u] = listed_point(round, next, element + 1u);
+        }
+    }
+}
+
 // Whether patches of one topology have the same points.
 fn has_same_points(topology: vec2<u32>) -> bool {
     return IS_INTEGER || state_of(topology) == MINIMUM;
@@ -93,7 +120,7 @@ fn has_same_points(topology: vec2<u32>) -> bool {
 
 fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
     let source = point_source_of(tile.first_patch, repeat.topology);
-    let round = Round(tile.first_patch, 1u, 0u, 0u);
+    let round = Round(tile.first_patch, 1u, 0u, 0u, false);
     for (var i = thread; i < repeat.size; i += WORKGROUP) {
         let run = run_at(round, source, location_of_point(source, i));
         scratch[i] = format_point(point_of_run(run, run.step), 0u);
@@ -123,6 +150,11 @@ fn write_point_tile(number: u32, thread: u32) {
         return;
     }
     for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
-        write_points(load_round(tile, first, POINTS, thread), thread, out);
+        let round = load_round(tile, first, POINTS, thread);
+        if round.is_listed {
+            write_listed_points(round, thread, out);
+        } else {
+            write_points(round, thread, out);
+        }
     }
 }

@@ -42,9 +42,35 @@ fn axes_of(patch_index: u32, topology: vec2<u32>) -> PatchAxes {
     return PatchAxes(patch_index, rings, along_u, context_of(patch_index, EDGES + 1u, rings.v));
 }
 
-// Of the inside axis that an edge runs along.
-fn inside_context(axes: PatchAxes, edge: u32) -> vec2<u32> {
-    return select(axes.along_v, axes.along_u, (edge & 1u) == 1u);
+// The factor of the inside axis that an edge runs along; a triangle has one.
+fn inside_factor(edge: u32) -> u32 {
+    return select(EDGES + 1u, EDGES, DOMAIN == TRIANGLE || (edge & 1u) == 1u);
+}
+
+// The context of an inside factor.
+fn inside_context(axes: PatchAxes, factor: u32) -> vec2<u32> {
+    return select(axes.along_v, axes.along_u, factor == EDGES);
+}
+
+// A run before its contexts are known: it depends on the topology alone.
+struct RunShape {
+    size: u32,
+    form: u32,
+    // The factor that places its points, that factor's points, the position of the first, and 1 or -1.
+    factor: u32,
+    points: u32,
+    first: u32,
+    sign: u32,
+    constant: Constant,
+}
+
+// The constant of a run: how far ring `ring` is from the outer one, by an inside factor.
+struct Constant {
+    factor: u32,
+    ring: u32,
+    // Measured from the far side of a quad; in the centre, where the factors don't matter.
+    is_far: bool,
+    is_centre: bool,
 }
 
 // Where point i of a regular patch is; the outer ring is ring 0.
@@ -68,35 +94,60 @@ fn point_location(rings: Rings, i: u32) -> RingLocation {
     return location_on_edges(ring, rest, begin_1, begin_2, size_2);
 }
 
-// The run at a location.
-fn run_of(axes: PatchAxes, location: RingLocation) -> PointRun {
-    let rings = axes.rings;
+// What the run at a location looks like.
+fn shape_of(rings: Rings, location: RingLocation) -> RunShape {
     let ring = location.ring;
     let is_outer = ring == 0u;
     let is_centre = ring == point_ring_end(rings);
     // A row in the centre lies along the longer axis, as edge 0 or 1 do.
     let edge = select(location.edge, select(0u, 1u, rings.u > rings.v), is_centre);
-    let along = along_of(rings, edge);
-    let points = select(along, outer_of(rings, edge), is_outer);
+    let points = select(along_of(rings, edge), outer_of(rings, edge), is_outer);
     let last = points - 1u - ring;
-    var fixed = place_before_middle(inside_context(axes, edge + 1u), ring);
     var form = edge & 1u; // edges 0 and 2 of quads run along v at a constant u
     var descends = edge == 0u || edge == 3u;
     if DOMAIN == TRIANGLE {
-        fixed = select((fixed * TWO_THIRDS + HALF) >> 16u, ONE_THIRD, is_centre);
         form = select(edge, FORM_CORNER, is_centre);
         descends = edge != 1u;
-    } else {
-        fixed = select(fixed, ONE - fixed, edge >= 2u);
-        fixed = select(fixed, HALF, is_centre);
     }
-    var context = inside_context(axes, edge);
-    if is_outer {
-        context = context_of(axes.patch_index, edge, points);
+    return RunShape(
+        last - ring + select(0u, 1u, is_centre), form,
+        select(inside_factor(edge), edge, is_outer), points,
+        select(ring, last, descends), select(1u, DOWN, descends),
+        Constant(inside_factor(edge + 1u), ring, edge >= 2u, is_centre));
+}
+
+// The value of a constant; `context` is that of its factor.
+fn constant_value(constant: Constant, context: vec2<u32>) -> u32 {
+    let fixed = place_before_middle(context, constant.ring);
+    if DOMAIN == TRIANGLE {
+        return select((fixed * TWO_THIRDS + HALF) >> 16u, ONE_THIRD, constant.is_centre);
     }
+    return select(select(fixed, ONE - fixed, constant.is_far), HALF, constant.is_centre);
+}
+
+// The run at a location.
+fn run_of(axes: PatchAxes, location: RingLocation) -> PointRun {
+    let shape = shape_of(axes.rings, location);
+    var context = inside_context(axes, shape.factor);
+    if location.ring == 0u {
+        context = context_of(axes.patch_index, shape.factor, shape.points);
+    }
+    let constant = shape.constant;
     return PointRun(
-        last - ring + select(0u, 1u, is_centre), location.step, fixed, form, context,
-        select(ring, last, descends), select(1u, DOWN, descends));
+        shape.size, location.step, constant_value(constant, inside_context(axes, constant.factor)),
+        shape.form, context, shape.first, shape.sign);
+}
+
+// The run of point i of a patch.
+fn run_at_point(patch_index: u32, topology: vec2<u32>, i: u32) -> PointRun {
+    if DOMAIN == ISOLINE {
+        return line_run(patch_index, topology, i);
+    }
+    if state_of(topology) == MINIMUM {
+        return minimum_run(i);
+    }
+    let axes = axes_of(patch_index, topology);
+    return run_of(axes, point_location(axes.rings, i));
 }
 
 fn minimum_run(i: u32) -> PointRun {

@@ -1,4 +1,4 @@
-// needs: alike, connect, expand, {indices}, offsets, rings, state, stitch, tile, topology; bindings: job, status
+// needs: alike, {catalogue}, connect, {elements}, expand, {indices}, offsets, packing, rings, state, stitch, tile, topology; bindings: job, status
 // A tile of primitives: each thread makes pairs of them, from their numbers alone. How a pair is stored is
 // in indices_u32.wgsl and indices_u16.wgsl.
 
@@ -37,7 +37,7 @@ fn stitch_from(source: Source, location: RingLocation) -> Stitch {
 fn write_triangles(round: Round, thread: u32, out: u32) {
     var source: Source;
     source.number = NEVER;
-    for (var element = 2u * thread; element < 1u << job.tile_bits; element += 2u * WORKGROUP) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * WORKGROUP) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
@@ -74,8 +74,32 @@ fn first_triangle(round: Round, before: Source, location: RingLocation, element:
     return stitch_triangles(stitch_from(source, next), 0u).first;
 }
 
+// A triangle of the catalogue for patch `number` of the round.
+fn listed_triangle(number: u32, element: u32) -> vec3<u32> {
+    let own = listed[number];
+    return unpacked_triangle(catalogue_word(own.x + element), own.y);
+}
+
+fn write_listed_triangles(round: Round, thread: u32, out: u32) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * WORKGROUP) {
+        if element + 1u < round.begin || element >= round.end {
+            continue;
+        }
+        let first = max(element, round.begin);
+        let number = find_patch(round, first);
+        let triangle = listed_triangle(number, first);
+        let at = (out + element) >> 1u;
+        if first == element && element + 1u < round.end {
+            let next = next_patch(round, number, element + 1u);
+            write_triangle_pair(at, triangle, listed_triangle(next, element + 1u));
+        } else {
+            write_triangle(at, first != element, triangle);
+        }
+    }
+}
+
 fn write_sequences(round: Round, thread: u32, out: u32) {
-    for (var pair = 2u * thread; pair < 1u << job.tile_bits; pair += 2u * WORKGROUP) {
+    for (var pair = 2u * thread; pair < tile_size(); pair += 2u * WORKGROUP) {
         for (var element = pair; element < pair + 2u; element++) {
             if element < round.begin || element >= round.end {
                 continue;
@@ -101,7 +125,7 @@ fn keep_triangles(repeat: Repeat, thread: u32) {
     for (var i = thread; i < repeat.size; i += WORKGROUP) {
         let location = location_of(source, i);
         let triangle = stitch_triangles(stitch_from(source, location), location.step).first;
-        let packed = triangle.x | (triangle.y << 10u) | (triangle.z << 20u);
+        let packed = packed_triangle(triangle);
         if i < SCRATCH {
             scratch[i].x = packed;
         } else {
@@ -137,7 +161,7 @@ fn next_corner(repeat: Repeat, it: Corner) -> Corner {
 fn kept_index(repeat: Repeat, it: Corner) -> u32 {
     let is_low = it.i < SCRATCH;
     let two = scratch[select(it.i - SCRATCH, it.i, is_low)];
-    let vertex = (select(two.y, two.x, is_low) >> (10u * it.corner)) & 1023u;
+    let vertex = packed_vertex(select(two.y, two.x, is_low), it.corner);
     return vertex + select(0u, repeat.base + it.number * repeat.points, NUMBERING == PER_BATCH);
 }
 
@@ -152,10 +176,10 @@ fn copy_triangles(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
             continue;
         }
         let first = max(at, begin);
-        let corner = corner_at(repeat, first);
-        let index = kept_index(repeat, corner);
+        let here = corner_at(repeat, first);
+        let index = kept_index(repeat, here);
         if first == at && at + 1u < end {
-            let second = kept_index(repeat, next_corner(repeat, corner));
+            let second = kept_index(repeat, next_corner(repeat, here));
             write_two((3u * out + at) >> 1u, index, second);
         } else {
             write_single(3u * out + first, index);
@@ -181,7 +205,9 @@ fn write_primitive_tile(number: u32, thread: u32) {
     }
     for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
         let round = load_round(tile, first, PRIMITIVES, thread);
-        if IS_TRIANGLES {
+        if IS_TRIANGLES && round.is_listed {
+            write_listed_triangles(round, thread, out);
+        } else if IS_TRIANGLES {
             write_triangles(round, thread, out);
         } else {
             write_sequences(round, thread, out);

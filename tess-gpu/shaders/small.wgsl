@@ -17,6 +17,7 @@
 fn small(@builtin(local_invocation_index) thread: u32) {
     var sum = vec2<u32>(0u, 0u);
     for (var block = 0u; block * BLOCK < job.patches; block++) {
+        workgroupBarrier(); // before a block's workgroup memory serves the next one
         let all = process_block(block, thread);
         if thread == 0u {
             offsets[job.blocks_at + block] = sum;

@@ -32,6 +32,12 @@ const PRIMITIVES = 1u;
 
 const NEVER = 0xffffffffu;
 
+// Whether blocks of like patches are copied, points too.
+const HAS_COPIED_POINTS = COPIES == 1u && IS_INTEGER;
+
+// Words of a point in the catalogue: the point, or its description.
+const POINT_WORDS = select(1u, 2u, IS_INTEGER);
+
 const IS_INTEGER = PARTITIONING == INTEGER || PARTITIONING == POW2;
 
 // Edges of a triangle or quad.

@@ -3,7 +3,8 @@
 // along each edge and along each inside axis, 2..=65 in 7 bits.
 //
 // word 0: outer edges in order from bit 0, state in bits 28..29
-// word 1: inside u from bit 0, inside v from bit 7. A triangle's one inside factor is both;
+// word 1: inside u from bit 0, inside v from bit 7, from bit 14 the slot in the catalogue (listing.wgsl), 0
+// if there is none. A triangle's one inside factor is both;
 // an isoline's density and detail are edges 0 and 1.
 
 const CULLED = 0u;
@@ -23,7 +24,12 @@ fn inside_u(topology: vec2<u32>) -> u32 {
 }
 
 fn inside_v(topology: vec2<u32>) -> u32 {
-    return topology.y >> 7u;
+    return (topology.y >> 7u) & 127u;
+}
+
+// The number of the topology's slot in the catalogue, from 1 on; 0 if it has none.
+fn listed_slot(topology: vec2<u32>) -> u32 {
+    return topology.y >> 14u;
 }
 
 // Points of the inside axis that an edge runs along: v for edges 0 and 2, u for 1 and 3.

@@ -23,6 +23,8 @@ pub enum Resource {
     /// A [`crate::layout::DrawIndexed`], then the sizes of indirect dispatches. Needs the usage
     /// `INDIRECT`.
     Arguments,
+    /// The output of distinct small topologies (`catalogue.wgsl`). All zeros before the first run.
+    Catalogue,
     /// For each group the number of its first patch, ascending and at most the batch's number of
     /// patches. A group ends where the next one begins, the last one at the end of the batch.
     Groups,
@@ -36,7 +38,7 @@ pub enum Resource {
 
 impl Resource {
     /// Every resource.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Job,
         Self::Factors,
         Self::Tables,
@@ -46,6 +48,7 @@ impl Resource {
         Self::Status,
         Self::Tiles,
         Self::Arguments,
+        Self::Catalogue,
         Self::Groups,
         Self::Draws,
         Self::Points,

@@ -147,7 +147,7 @@ impl Topology {
     /// Points along the inside axes u and v: 2..=65 each.
     #[must_use]
     pub const fn inside_points(self) -> [u32; 2] {
-        [self.0[1] & 127, self.0[1] >> 7]
+        [self.0[1] & 127, self.0[1] >> 7 & 127]
     }
 }
 

@@ -10,6 +10,6 @@ pub mod tables;
 
 pub use bindings::{Access, Binding, Resource};
 pub use plan::{Dispatch, Plan, Workgroups};
-pub use setup::{IndexType, Numbering, PointFormat, Setup};
+pub use setup::{Copies, IndexType, Numbering, PointFormat, Setup};
 pub use shaders::{Probe, Pull, Stage};
 pub use sizes::{Capacity, Limits, Span};

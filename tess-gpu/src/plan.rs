@@ -8,8 +8,8 @@ use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
 use crate::setup::Setup;
 use crate::sizes::{
-    ALIGNMENT, BLOCK, Capacity, DISPATCHES_AT, LEAST_TILE_BITS, Limits, MAX_CHUNK, SECTION,
-    SMALL_PATCHES, SMALL_TILES, SUMMED, Span, TILE, TILE_BITS,
+    ALIGNMENT, BLOCK, CATALOGUE_WORDS, Capacity, DISPATCHES_AT, LEAST_TILE_BITS, Limits, MAX_CHUNK,
+    SECTION, SMALL_PATCHES, SMALL_TILES, SUMMED, Span, TILE, TILE_BITS,
 };
 use crate::tables;
 
@@ -101,6 +101,11 @@ impl Plan {
         self.is_small
     }
 
+    /// Whether there is a catalogue of topologies.
+    const fn has_catalogue(&self) -> bool {
+        self.setup.has_triangles() && !self.is_small && self.patches > 0
+    }
+
     /// Elements of a tile: points or primitives.
     #[must_use]
     pub const fn tile(&self) -> u32 {
@@ -145,11 +150,11 @@ impl Plan {
             Resource::Contexts => end(self.contexts(chunks - 1)),
             Resource::Offsets => end(self.offsets(chunks - 1)),
             Resource::Status => size::<Status>() + size::<Range>() * u64::from(chunks),
-            Resource::Tiles => {
-                let tiles = |elements: u32| u64::from(elements.div_ceil(self.tile()) + 2);
-                4 * (tiles(self.capacity.points) + tiles(self.capacity.primitives))
-            }
+            Resource::Tiles => 4 * u64::from(self.tile_entries()),
             Resource::Arguments => self.arguments_at(self.job_count()),
+            // Nothing reads the catalogue of a small batch.
+            Resource::Catalogue if self.has_catalogue() => 4 * u64::from(CATALOGUE_WORDS),
+            Resource::Catalogue => ALIGNMENT,
             Resource::Groups => size::<u32>() * u64::from(self.groups),
             Resource::Draws => size::<DrawIndexed>() * u64::from(self.groups),
             Resource::Points => 8 * u64::from(self.capacity.points),
@@ -201,6 +206,11 @@ impl Plan {
     /// Where in the table of tiles those of the primitives begin.
     const fn primitive_tiles_at(&self) -> u32 {
         self.capacity.points.div_ceil(self.tile()) + 2
+    }
+
+    /// Entries of the table of tiles.
+    fn tile_entries(&self) -> u32 {
+        self.primitive_tiles_at() + self.capacity.primitives.div_ceil(self.tile()) + 2
     }
 
     /// Bytes of one patch's raw factors.

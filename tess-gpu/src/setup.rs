@@ -46,6 +46,16 @@ impl IndexType {
     }
 }
 
+/// What becomes of patches that have the topology of all their neighbours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Copies {
+    /// One is expanded and copied.
+    #[default]
+    WhereAlike,
+    /// Each is expanded on its own: for measuring what unlike neighbours cost.
+    Never,
+}
+
 /// Everything that is fixed before the patches of a batch arrive. Shaders and pipelines depend on it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Setup {
@@ -59,6 +69,8 @@ pub struct Setup {
     pub numbering: Numbering,
     /// Width of the indices.
     pub index_type: IndexType,
+    /// Whether patches are copied; the output is the same.
+    pub copies: Copies,
 }
 
 impl Setup {
@@ -66,7 +78,8 @@ impl Setup {
     #[must_use]
     pub const fn new(domain: Domain, config: Config) -> Self {
         let (point_format, numbering) = (PointFormat::Packed, Numbering::PerBatch);
-        Self { domain, config, point_format, numbering, index_type: IndexType::U32 }
+        let (index_type, copies) = (IndexType::U32, Copies::WhereAlike);
+        Self { domain, config, point_format, numbering, index_type, copies }
     }
 
     /// How many factors a patch has. Each is a binary32 in the buffer of factors, in the order of the
@@ -99,6 +112,12 @@ impl Setup {
         self.config.partitioning.has_integer_factors()
     }
 
+    /// Whether primitives are triangles.
+    #[must_use]
+    pub const fn has_triangles(&self) -> bool {
+        self.indices_per_primitive() == 3
+    }
+
     /// The constants in front of every shader: what `state.wgsl` does not declare itself.
     pub(crate) fn prelude(&self) -> String {
         let Config { partitioning, output, split } = self.config;
@@ -110,13 +129,14 @@ impl Setup {
             ("POINT_FORMAT", u32::from(self.point_format == PointFormat::F32)),
             ("NUMBERING", u32::from(self.numbering == Numbering::PerPatch)),
             ("FACTORS", self.factors()),
+            ("COPIES", u32::from(self.copies == Copies::WhereAlike)),
         ];
         constants(&setup) + &constants(&SHARED)
     }
 }
 
 /// The constants of [`sizes`] and [`tables`], which every shader has.
-const SHARED: [(&str, u32); 18] = [
+const SHARED: [(&str, u32); 29] = [
     ("WORKGROUP", sizes::WORKGROUP),
     ("ROUND", sizes::ROUND),
     ("SUMMED", sizes::SUMMED),
@@ -127,6 +147,17 @@ const SHARED: [(&str, u32); 18] = [
     ("SECTION", sizes::SECTION),
     ("SECTION_BITS", sizes::SECTION.ilog2()),
     ("DISPATCHES_AT", sizes::DISPATCHES_AT),
+    ("SLOT_BITS", sizes::SLOT_BITS),
+    ("SLOTS", sizes::SLOTS),
+    ("CATALOGUE_POINTS", sizes::CATALOGUE_POINTS),
+    ("CATALOGUE_TRIANGLES", sizes::CATALOGUE_TRIANGLES),
+    ("LISTED_POINTS", sizes::LISTED_POINTS),
+    ("LISTED_PRIMITIVES", sizes::LISTED_PRIMITIVES),
+    ("USED_AT", sizes::USED_AT),
+    ("TILE", sizes::TILE),
+    ("PLACES_AT", sizes::PLACES_AT),
+    ("POINTS_AT", sizes::POINTS_AT),
+    ("TRIANGLES_AT", sizes::TRIANGLES_AT),
     ("RECIPROCALS_AT", tables::RECIPROCALS_AT),
     ("STITCHES_AT", tables::STITCHES_AT),
     ("STITCH_WORDS", tables::STITCH_WORDS),

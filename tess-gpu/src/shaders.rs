@@ -1,7 +1,7 @@
 //! The WGSL of each stage: constants, then the files that the stage needs.
 
 use crate::bindings::{Access, Binding, Resource};
-use crate::setup::{IndexType, Numbering, PointFormat, Setup, constants};
+use crate::setup::{Copies, IndexType, Numbering, PointFormat, Setup, constants};
 use crate::sizes;
 use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
@@ -24,6 +24,8 @@ pub enum Stage {
     /// Offsets of sections in the output, and what the batch needs so far. After the last chunk:
     /// whether the output fits, draw arguments and dispatch sizes.
     Totals,
+    /// The output of each distinct small topology, once.
+    List,
     /// The patch that each tile of the output begins with.
     Partition,
     /// The draw arguments of each group of patches.
@@ -36,26 +38,52 @@ pub enum Stage {
     ExpandSmall,
 }
 
-/// The bindings of [`Stage::Small`]; the first six are those of [`Stage::Factors`].
-const FRONT: [Binding; 9] = [
+/// The bindings that [`Stage::Small`] and [`Stage::Factors`] begin with.
+const FRONT: [Binding; 6] = [
     Binding(Resource::Job, Access::Read),
     Binding(Resource::Factors, Access::Read),
     Binding(Resource::Tables, Access::Read),
     Binding(Resource::Topologies, Access::ReadWrite),
     Binding(Resource::Contexts, Access::ReadWrite),
     Binding(Resource::Offsets, Access::ReadWrite),
+];
+
+const FACTORS: [Binding; 7] = front([Binding(Resource::Catalogue, Access::ReadWrite)]);
+
+const SMALL: [Binding; 9] = front([
     Binding(Resource::Status, Access::ReadWrite),
     Binding(Resource::Tiles, Access::ReadWrite),
     Binding(Resource::Arguments, Access::ReadWrite),
+]);
+
+const EXPAND_SMALL: [Binding; 9] = [
+    Binding(Resource::Job, Access::Read),
+    Binding(Resource::Topologies, Access::Read),
+    Binding(Resource::Contexts, Access::Read),
+    Binding(Resource::Tables, Access::Read),
+    Binding(Resource::Offsets, Access::Read),
+    Binding(Resource::Status, Access::Read),
+    Binding(Resource::Indices, Access::ReadWrite),
+    Binding(Resource::Tiles, Access::Read),
+    Binding(Resource::Points, Access::ReadWrite),
 ];
+
+/// [`FRONT`] and `more`, `ALL` together.
+const fn front<const MORE: usize, const ALL: usize>(more: [Binding; MORE]) -> [Binding; ALL] {
+    let mut all = [FRONT[0]; ALL];
+    all.split_at_mut(FRONT.len()).0.copy_from_slice(&FRONT);
+    all.split_at_mut(FRONT.len()).1.copy_from_slice(&more);
+    all
+}
 
 impl Stage {
     /// Every stage, in the order in which they run.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Small,
         Self::Factors,
         Self::Scan,
         Self::Totals,
+        Self::List,
         Self::Partition,
         Self::Groups,
         Self::ExpandPoints,
@@ -71,6 +99,7 @@ impl Stage {
             Self::Factors => "factors",
             Self::Scan => "scan",
             Self::Totals => "totals",
+            Self::List => "list",
             Self::Partition => "partition_tiles",
             Self::Groups => "groups",
             Self::ExpandPoints => "expand_points",
@@ -84,12 +113,12 @@ impl Stage {
     pub const fn bindings(self) -> &'static [Binding] {
         use Access::{Read, ReadWrite};
         use Resource::{
-            Arguments, Contexts, Draws, Groups, Indices, Job, Offsets, Points, Status, Tables,
-            Tiles, Topologies,
+            Arguments, Catalogue, Contexts, Draws, Groups, Indices, Job, Offsets, Points, Status,
+            Tables, Tiles, Topologies,
         };
         match self {
-            Self::Small => &FRONT,
-            Self::Factors => FRONT.split_at(6).0,
+            Self::Small => &SMALL,
+            Self::Factors => &FACTORS,
             Self::Scan => &[Binding(Job, Read), Binding(Offsets, ReadWrite)],
             Self::Totals => &[
                 Binding(Job, Read),
@@ -97,6 +126,7 @@ impl Stage {
                 Binding(Status, ReadWrite),
                 Binding(Arguments, ReadWrite),
             ],
+            Self::List => &[Binding(Tables, Read), Binding(Catalogue, ReadWrite)],
             Self::Partition => &[
                 Binding(Job, Read),
                 Binding(Offsets, Read),
@@ -119,6 +149,7 @@ impl Stage {
                 Binding(Status, Read),
                 Binding(Tiles, Read),
                 Binding(Points, ReadWrite),
+                Binding(Catalogue, Read),
             ],
             Self::ExpandPrimitives => &[
                 Binding(Job, Read),
@@ -128,18 +159,9 @@ impl Stage {
                 Binding(Status, Read),
                 Binding(Tiles, Read),
                 Binding(Indices, ReadWrite),
+                Binding(Catalogue, Read),
             ],
-            Self::ExpandSmall => &[
-                Binding(Job, Read),
-                Binding(Topologies, Read),
-                Binding(Contexts, Read),
-                Binding(Tables, Read),
-                Binding(Offsets, Read),
-                Binding(Status, Read),
-                Binding(Indices, ReadWrite),
-                Binding(Tiles, Read),
-                Binding(Points, ReadWrite),
-            ],
+            Self::ExpandSmall => &EXPAND_SMALL,
         }
     }
 
@@ -151,6 +173,7 @@ impl Stage {
             Self::Factors => ("factors", None),
             Self::Scan => ("scan", None),
             Self::Totals => ("totals", None),
+            Self::List => ("list", None),
             Self::Partition => ("partition", None),
             Self::Groups => ("groups", None),
             Self::ExpandPoints => ("expand_points", Some(sizes::POINT_SCRATCH)),
@@ -158,8 +181,13 @@ impl Stage {
             Self::ExpandSmall => ("expand_small", Some(sizes::POINT_SCRATCH)),
         };
         let scratch = scratch.map(|entries| constants(&[("SCRATCH", entries)]));
-        let [place, contexts] = files::placing(setup, "stored_contexts");
-        let choices = [place, contexts, files::indices(setup)];
+        let is_list = matches!(self, Self::List);
+        let stored = if is_list { "no_contexts" } else { "stored_contexts" };
+        let [place, contexts] = files::placing(setup, stored);
+        let [catalogue, elements] = files::expanding(matches!(self, Self::ExpandSmall));
+        let lists = matches!(self, Self::Factors) && setup.has_triangles();
+        let (indices, listing) = (files::indices(setup), files::listing(lists));
+        let choices = [place, contexts, indices, listing, catalogue, elements];
         setup.prelude() + &scratch.unwrap_or_default() + &files::joined(file, &choices)
     }
 
@@ -171,20 +199,27 @@ impl Stage {
             point_format: PointFormat::Packed,
             numbering: Numbering::PerBatch,
             index_type: IndexType::U32,
+            copies: Copies::WhereAlike,
             ..setup
         };
         match self {
-            Self::Small | Self::Factors => plain,
+            Self::Small => plain,
+            Self::Factors => Setup { copies: setup.copies, ..plain },
             Self::Scan | Self::Totals | Self::Partition | Self::Groups => any_factors(plain),
             Self::ExpandPoints => {
-                let mut own = any_factors(Setup { point_format: setup.point_format, ..plain });
+                let Setup { point_format, copies, .. } = setup;
+                let mut own = any_factors(Setup { point_format, copies, ..plain });
                 own.config.output = OutputPrimitive::Point;
                 placed_as(setup, own)
             }
+            Self::List => {
+                let point_format = setup.point_format;
+                placed_as(setup, any_factors(Setup { point_format, ..plain }))
+            }
             Self::ExpandSmall => placed_as(setup, any_factors(setup)),
             Self::ExpandPrimitives => {
-                let Setup { numbering, index_type, .. } = setup;
-                any_factors(Setup { numbering, index_type, ..plain })
+                let Setup { numbering, index_type, copies, .. } = setup;
+                any_factors(Setup { numbering, index_type, copies, ..plain })
             }
         }
     }

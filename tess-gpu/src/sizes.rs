@@ -29,6 +29,28 @@ pub const SMALL_PATCHES: u32 = 1024;
 /// A small batch has room for so many tiles of [`TILE`] elements at most, points and primitives together; it is
 /// cut into about as many tiles, or fewer.
 pub const SMALL_TILES: u32 = 2048;
+/// Slots of the catalogue of topologies, as a power of two.
+pub const SLOT_BITS: u32 = 13;
+/// Slots of the catalogue: it can hold so many topologies, or somewhat fewer.
+pub const SLOTS: u32 = 1 << SLOT_BITS;
+/// Points for which the catalogue has room.
+pub const CATALOGUE_POINTS: u32 = 1 << 17;
+/// Triangles for which the catalogue has room.
+pub const CATALOGUE_TRIANGLES: u32 = 1 << 18;
+/// The most points of a topology in the catalogue; 1024 could be packed.
+pub const LISTED_POINTS: u32 = 512;
+/// The most triangles of a topology in the catalogue.
+pub const LISTED_PRIMITIVES: u32 = 512;
+/// The word of the catalogue where its two counters are, behind the keys of all slots.
+pub const USED_AT: u32 = SLOTS;
+/// The word of the catalogue where the places of each slot's points and triangles begin.
+pub const PLACES_AT: u32 = USED_AT + 2;
+/// The word of the catalogue where its points begin, up to two words each.
+pub const POINTS_AT: u32 = PLACES_AT + 2 * SLOTS;
+/// The word of the catalogue where its triangles begin, a word each.
+pub const TRIANGLES_AT: u32 = POINTS_AT + 2 * CATALOGUE_POINTS;
+/// Words of the catalogue.
+pub const CATALOGUE_WORDS: u32 = TRIANGLES_AT + CATALOGUE_TRIANGLES;
 /// Entries of 8 bytes in the workgroup memory of the stage `expand_points`: a tile's patches are
 /// copies of one if it has at most so many points. That is a quad of factor 16, and some more.
 pub const POINT_SCRATCH: u32 = 320;
@@ -50,7 +72,7 @@ const _: () = {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Bytes of one storage binding: at least 128 MiB. A smaller limit, down to 4 MiB, is kept except
-    /// for the tiles and arguments of the largest batches.
+    /// for the tiles, the arguments and the catalogue of the largest batches.
     pub storage_binding: u64,
     /// Workgroups along one dimension of a dispatch: at least 2048. Larger dispatches are laid out
     /// in rows of so many. A smaller limit, down to 1, is kept along x but not along y.

@@ -67,8 +67,11 @@ fn bindings_lie_within_buffers_and_limits() {
                     let is_sound = offset.is_multiple_of(ALIGNMENT)
                         && size > 0
                         && offset + size <= plan.buffer_size(resource);
-                    let may_exceed =
-                        limits == LOW && matches!(resource, Resource::Tiles | Resource::Arguments);
+                    let may_exceed = limits == LOW
+                        && matches!(
+                            resource,
+                            Resource::Tiles | Resource::Arguments | Resource::Catalogue
+                        );
                     assert!(
                         is_sound && (may_exceed || size <= limits.storage_binding),
                         "{resource:?} {offset} {size} of {dispatch:?}"

@@ -5,7 +5,7 @@ use super::jobs::Part;
 use crate::bindings::{Binding, Resource};
 use crate::layout::Job;
 use crate::shaders::Stage;
-use crate::sizes::{ALIGNMENT, BLOCK, Capacity, SECTION, Span, WORKGROUP};
+use crate::sizes::{ALIGNMENT, BLOCK, Capacity, SECTION, SLOTS, Span, WORKGROUP};
 
 /// One stage over one part of the batch: bind [`Dispatch::bindings`], then dispatch
 /// [`Dispatch::workgroups`].
@@ -39,12 +39,18 @@ impl Plan {
             _ if self.is_small() => &[Stage::Small],
             _ => &[Stage::Factors, Stage::Scan, Stage::Totals],
         };
+        let list = self.has_catalogue().then_some(Dispatch {
+            plan,
+            stage: Stage::List,
+            chunk: 0,
+            part: Part::Whole,
+        });
         let groups: &[Stage] = if self.groups == 0 { &[] } else { &[Stage::Groups] };
         let whole = move |chunk| move |&stage| Dispatch { plan, stage, chunk, part: Part::Whole };
         let counting = chunks.clone().flat_map(move |chunk| counting.iter().map(whole(chunk)));
         let groups = chunks.flat_map(move |chunk| groups.iter().map(whole(chunk)));
         let expansion = (0..self.chunks()).flat_map(move |chunk| plan.expansion(chunk));
-        counting.chain(groups).chain(expansion)
+        counting.chain(list).chain(groups).chain(expansion)
     }
 
     /// What writes the output of a chunk; nothing if there is no room for any.
@@ -92,6 +98,7 @@ impl Dispatch {
             Stage::Factors => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(BLOCK))),
             Stage::Scan => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(SECTION))),
             Stage::Small | Stage::Totals => Workgroups::Direct([1; 3]),
+            Stage::List => Workgroups::Direct(self.plan.in_rows(SLOTS)),
             Stage::Groups => {
                 Workgroups::Direct(self.plan.in_rows(self.plan.groups.div_ceil(WORKGROUP)))
             }

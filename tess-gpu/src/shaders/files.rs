@@ -13,12 +13,14 @@ macro_rules! files {
     };
 }
 
-const FILES: [(&str, &str); 44] = files![
+const FILES: [(&str, &str); 55] = files![
     "alike",
     "block",
+    "catalogue",
     "connect",
     "counts",
     "d3d_float",
+    "described",
     "expand",
     "expand_points",
     "expand_primitives",
@@ -30,9 +32,16 @@ const FILES: [(&str, &str); 44] = files![
     "groups",
     "indices_u16",
     "indices_u32",
+    "large_tiles",
+    "list",
+    "listing",
     "locate",
     "make_context",
+    "no_catalogue",
+    "no_contexts",
+    "no_listing",
     "offsets",
+    "packing",
     "partition",
     "place",
     "place_evenly",
@@ -47,10 +56,12 @@ const FILES: [(&str, &str); 44] = files![
     "probe_locations",
     "process",
     "pulled_contexts",
+    "read_catalogue",
     "rings",
     "scan",
     "search",
     "small",
+    "small_tiles",
     "state",
     "stitch",
     "stored_contexts",
@@ -80,6 +91,20 @@ pub(super) const fn indices(setup: Setup) -> Choice {
         IndexType::U32 => "indices_u32",
     };
     ("indices", file)
+}
+
+/// Whether topologies are entered into the catalogue.
+pub(super) const fn listing(lists: bool) -> Choice {
+    ("listing", if lists { "listing" } else { "no_listing" })
+}
+
+/// What the expansions of a small batch and of a large one have of their own: the catalogue, the size of tiles.
+pub(super) const fn expanding(is_small: bool) -> [Choice; 2] {
+    if is_small {
+        [("catalogue", "no_catalogue"), ("elements", "small_tiles")]
+    } else {
+        [("catalogue", "read_catalogue"), ("elements", "large_tiles")]
+    }
 }
 
 /// A file behind all that it needs, each once.

@@ -9,15 +9,25 @@ fn roots() -> Vec<(&'static str, Vec<Choice>)> {
         for index_type in [IndexType::U16, IndexType::U32] {
             let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
             let setup = Setup { index_type, ..Setup::new(Domain::Quad, config) };
-            let stored = [placing(setup, "stored_contexts").as_slice(), &[indices(setup)]].concat();
-            for stage in ["factors", "scan", "totals", "partition", "small", "groups"] {
-                all.push((stage, stored.clone()));
+            let mut add = |stage, contexts, has_catalogue| {
+                let own = [indices(setup), listing(has_catalogue)];
+                all.push((
+                    stage,
+                    [placing(setup, contexts).as_slice(), &own, &expanding(!has_catalogue)]
+                        .concat(),
+                ));
+            };
+            for stage in ["factors", "scan", "totals", "partition", "groups"] {
+                add(stage, "stored_contexts", true);
             }
+            add("factors", "stored_contexts", false);
+            add("list", "no_contexts", true);
             for stage in ["expand_points", "expand_primitives"] {
-                all.push((stage, stored.clone()));
+                add(stage, "stored_contexts", true);
             }
-            all.push(("expand_small", stored));
-            all.push(("locate", placing(setup, "pulled_contexts").to_vec()));
+            add("small", "stored_contexts", false);
+            add("expand_small", "stored_contexts", false);
+            add("locate", "pulled_contexts", false);
         }
     }
     for probe in ["probe_factors", "probe_contexts", "probe_locations"] {
@@ -107,7 +117,7 @@ fn complaints(root: &'static str, choices: &[Choice]) -> Vec<String> {
 }
 
 /// Every name of a binding that a file leaves to others.
-const BINDINGS: [&str; 10] = [
+const BINDINGS: [&str; 11] = [
     "job",
     "offsets",
     "status",
@@ -118,6 +128,7 @@ const BINDINGS: [&str; 10] = [
     "raw_factors",
     "arguments",
     "points_out",
+    "catalogue",
 ];
 
 #[test]

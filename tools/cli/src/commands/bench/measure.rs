@@ -63,7 +63,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
     let (amount, seconds) = (parts.into_iter().sum::<Amount>(), run.seconds());
     let patches_per_s = amount.patches as f64 / seconds;
     Ok(Row {
-        workload: plan.workload.name.clone(),
+        workload: format!("{}{}", plan.workload.name, runner.remark()),
         backend: runner.backend(),
         level: runner.level(),
         working_set: plan.working_set.name(),

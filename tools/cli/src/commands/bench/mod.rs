@@ -27,6 +27,7 @@ Examples:
   tess bench --workload uniform-16 --workload uniform-64
   tess bench --backend simd --working-set cache --json > simd.json
   tess bench --backend simd --cpu-level avx2 --workload terrain
+  tess bench --backend gpu --no-copies --working-set stream --workload uniform
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
 a part's time is the median of its samples, a workload's the sum over its parts. A row is printed as
@@ -52,6 +53,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 9)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
     samples: u32,
+    /// Have the shaders expand each patch, also where its neighbours are alike
+    #[arg(long)]
+    no_copies: bool,
     /// Print one JSON array of objects
     #[arg(long)]
     json: bool,
@@ -69,7 +73,11 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     };
     args.options.fit(&[args.backend])?;
     let (level, index_type) = (args.options.level()?, args.options.index_type);
-    let options = RunnerOptions { level, threads: args.threads, index_type };
+    if args.no_copies && args.backend != BackendName::Gpu {
+        return Err(Failure::bad_input("--no-copies goes with --backend gpu"));
+    }
+    let no_copies = args.no_copies;
+    let options = RunnerOptions { level, threads: args.threads, index_type, no_copies };
     let mut runner = runner(args.backend, options)?;
     if cfg!(debug_assertions) {
         note("this build has debug assertions; figures need --release");

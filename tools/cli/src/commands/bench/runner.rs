@@ -64,6 +64,11 @@ pub(crate) trait Runner {
     /// Threads it runs on.
     fn threads(&self) -> u32;
 
+    /// What a row's name says behind that of the workload.
+    fn remark(&self) -> &'static str {
+        ""
+    }
+
     /// Width of the indices it writes.
     fn index_type(&self) -> IndexType;
 
@@ -113,4 +118,6 @@ pub(crate) struct RunnerOptions {
     pub(crate) threads: u32,
     /// Width of the indices.
     pub(crate) index_type: IndexType,
+    /// Whether the shaders expand each patch on its own.
+    pub(crate) no_copies: bool,
 }

@@ -7,8 +7,8 @@ use fill::Fill;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 use tess_core::{Counts, PatchFactors};
-use tess_gpu::Setup;
 use tess_gpu::layout::factor_words;
+use tess_gpu::{Copies, Setup};
 use tess_verify::backend::BackendError;
 use tess_verify::digest::Fnv1a;
 use tess_verify::workloads::{Calls, IndexType, Totals, Workload};
@@ -32,6 +32,7 @@ pub(super) struct GpuRunner {
     tessellator: Tessellator,
     fill: Fill,
     index_type: IndexType,
+    copies: Copies,
     workload: Option<(Setup, Vec<PatchFactors>)>,
     batches: Vec<Timed>,
     last_use: Option<Instant>,
@@ -63,6 +64,7 @@ impl GpuRunner {
             tessellator,
             fill,
             index_type: options.index_type,
+            copies: if options.no_copies { Copies::Never } else { Copies::WhereAlike },
             workload: None,
             batches: Vec::new(),
             last_use: None,
@@ -164,6 +166,13 @@ impl Runner for GpuRunner {
         self.index_type
     }
 
+    fn remark(&self) -> &'static str {
+        match self.copies {
+            Copies::WhereAlike => "",
+            Copies::Never => ", no copies",
+        }
+    }
+
     fn is_device(&self) -> bool {
         true
     }
@@ -174,7 +183,8 @@ impl Runner for GpuRunner {
         working_set: WorkingSet,
     ) -> Result<Vec<Amount>, BackendError> {
         let first = workload.patches.first().ok_or_else(|| BackendError::new("no patches"))?;
-        let setup = setup_of(first.domain(), workload.config, self.index_type);
+        let copies = self.copies;
+        let setup = Setup { copies, ..setup_of(first.domain(), workload.config, self.index_type) };
         let counts: Vec<_> = workload.counts().collect();
         let (ranges, repeats) = match (working_set, workload.calls) {
             (WorkingSet::Cache, _) | (_, Calls::Group) => {
