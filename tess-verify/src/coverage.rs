@@ -10,6 +10,7 @@ mod ucis;
 use crate::case::Case;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::sync::LazyLock;
 use tess_core::{FactorContext, SplitOrder};
 pub use ucis::UcisError;
 
@@ -18,6 +19,17 @@ pub use ucis::UcisError;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Coverage {
     hits: BTreeMap<String, u64>,
+}
+
+/// The numbers, in the order of [`Coverage::bins`], of the bins that a case hits: each as often as it
+/// is hit. For benches whose own covergroups count, which are generated in that order.
+#[must_use]
+pub fn bins_hit(case: &Case) -> Vec<usize> {
+    static BINS: LazyLock<Vec<String>> =
+        LazyLock::new(|| Coverage::new().hits.into_keys().collect());
+    let mut numbers = Vec::new();
+    observe::observe(case, |bin| numbers.extend(BINS.binary_search(&bin)));
+    numbers
 }
 
 /// How many bins of a group were hit.

@@ -11,6 +11,8 @@ use crate::process::TessProcessedPatch;
 use crate::status::{TESS_OUT_OF_RANGE, TessStatus, answer};
 use crate::types::{TessConfig, TessContext, TessCounts, TessPoint, listed, parity};
 use tess_core::{Domain, FactorContext, FixedFactor, Patch, PatchFactors, SplitOrder};
+use tess_verify::case::Case;
+use tess_verify::coverage::bins_hit;
 
 /// The context of a 15.16 factor: `tess_context` in scalars.
 ///
@@ -205,6 +207,41 @@ pub unsafe extern "C" fn tess_dpi_primitive(
         let [a, b, c] = primitive.indices;
         // SAFETY: every pointer is writable, as the caller promises.
         unsafe { write_each([(size, primitive.size), (i0, a), (i1, b), (i2, c)]) }
+    })
+}
+
+/// The number of the `i`-th coverage bin that a patch hits; `TESS_OUT_OF_RANGE` behind the last.
+///
+/// Bins are numbered as `tess_verify::coverage` lists them, in alphabetical order; one that is hit
+/// twice comes twice. Unlike the other functions this one allocates.
+///
+/// # Safety
+/// - `bin`, if not null and aligned, must be valid for writing one number.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_dpi_coverage(
+    domain: u32,
+    partitioning: u32,
+    output: u32,
+    split_order: u32,
+    f0: u32,
+    f1: u32,
+    f2: u32,
+    f3: u32,
+    f4: u32,
+    f5: u32,
+    i: u32,
+    bin: *mut u32,
+) -> TessStatus {
+    answer(|| {
+        let config = TessConfig { domain, partitioning, output, split: split_order };
+        let (config, domain) = config.decode()?;
+        let factors = [f0, f1, f2, f3, f4, f5].map(f32::from_bits);
+        let factors = PatchFactors::from_fn(domain, |i| factors[i]);
+        let hit = bins_hit(&Case { config, factors });
+        let number = hit.get(i as usize).and_then(|number| u32::try_from(*number).ok());
+        let number = number.ok_or(TESS_OUT_OF_RANGE)?;
+        // SAFETY: the pointer is writable, as the caller promises.
+        unsafe { write_each([(bin, number)]) }
     })
 }
 

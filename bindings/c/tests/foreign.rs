@@ -1,4 +1,5 @@
-//! Runs what is not Rust: the header in a C and a C++ compiler, the C example, the Verilog bench.
+//! Runs what is not Rust: the header in a C and a C++ compiler, the C example, the Verilog bench,
+//! the UVM package.
 //!
 //! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the
 //! environment variable `CI` set they fail.
@@ -6,10 +7,11 @@
 mod foreign {
     pub(crate) mod c;
     pub(crate) mod tools;
+    pub(crate) mod uvm;
     pub(crate) mod verilog;
 }
 
-use foreign::{c, tools, verilog};
+use foreign::{c, tools, uvm, verilog};
 use libtest_mimic::{Arguments, Failed, Trial};
 
 type Test = fn() -> Result<(), Failed>;
@@ -23,6 +25,7 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("example_refuses_bad_usage", &["cc"], c::example_refuses_bad_usage),
     ("verilog_equals_model", &["c++", "make", "verilator"], verilog::equals_model),
     ("verilog_faults_are_caught", &["c++", "make", "verilator"], verilog::faults_are_caught),
+    ("uvm_compiles_and_runs", &["c++", "make", "verilator"], uvm::compiles_and_runs),
     ("verilog_stimuli_are_checked", &["c++", "make", "verilator"], verilog::stimuli_are_checked),
 ];
 

@@ -117,6 +117,16 @@ package tess_dpi;
         output int unsigned size,
         output int unsigned i0, output int unsigned i1, output int unsigned i2);
 
+    // The number of the i-th coverage bin that a patch hits; TESS_OUT_OF_RANGE behind the last.
+    import "DPI-C" function int unsigned tess_dpi_coverage(
+        input int unsigned domain, input int unsigned partitioning,
+        input int unsigned out, input int unsigned split_order,
+        input int unsigned f0, input int unsigned f1, input int unsigned f2,
+        input int unsigned f3, input int unsigned f4, input int unsigned f5,
+        input int unsigned i, output int unsigned bin);
+
+    localparam int unsigned TESS_OUT_OF_RANGE = 6;
+
     function automatic void require_ok(input int unsigned status, input string call);
         if (status != 0) $fatal(1, "tess_dpi: %s: %s", call, tess_status_message(status));
     endfunction
@@ -178,5 +188,16 @@ package tess_dpi;
             x[0], x[1], x[2], x[3], x[4], x[5], t,
             r.size, r.i0, r.i1, r.i2), "primitive");
         return r;
+    endfunction
+
+    // The i-th coverage bin that a patch hits, numbered as tess_covergroups.svh of tess_uvm; 0 if there
+    // is none.
+    function automatic bit model_coverage(
+            input config_t cfg, input factors_t x, input int unsigned i, output int unsigned bin);
+        int unsigned status = tess_dpi_coverage(cfg.domain, cfg.partitioning, cfg.out,
+            cfg.split_order, x[0], x[1], x[2], x[3], x[4], x[5], i, bin);
+        if (status == TESS_OUT_OF_RANGE) return 1'b0;
+        require_ok(status, "coverage");
+        return 1'b1;
     endfunction
 endpackage

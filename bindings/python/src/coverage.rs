@@ -18,7 +18,7 @@ use tess_verify::case::Case;
 /// >>> coverage = Coverage()
 /// >>> coverage.record(Patch("quad", [3, 4, 5, 6], [4, 7]))
 /// >>> coverage.bins["middle/oddxodd"], coverage.groups["middle"]
-/// (1, Group(hit=2, bins=4))
+/// (2, Group(hit=2, bins=4))
 #[pyclass(frozen, module = "tess_model")]
 #[derive(Default)]
 pub(crate) struct Coverage(Mutex<tess_verify::coverage::Coverage>);

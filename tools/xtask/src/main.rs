@@ -4,12 +4,14 @@
 mod ci;
 mod command;
 mod coverage;
+mod covergroups;
 mod fuzz;
 mod levels;
 mod mutants;
 mod packages;
 mod ports;
 mod publish;
+mod python;
 mod records;
 mod setup;
 mod tally;
@@ -26,7 +28,11 @@ usage: cargo xtask <command>
   ci      what continuous integration runs: formatting, lints, documentation, features,
           the fuzz targets' oracles on their seeds, `fuzz`, `ports brief` (msrv, s390x, wasm,
           miri), `publish`, `deny` if cargo-deny is installed, then `test`
-  setup   only set up: a Vulkan driver, C and C++ and shader compilers, Verilator
+  setup   only set up: a Vulkan driver, C and C++ and shader compilers, Verilator, Icarus Verilog, Python
+  python  build the Python package's wheel, install it in a fresh virtual environment, check its
+          types and run its tests; `test` includes it. PYTHON names another interpreter
+  covergroups
+          write the covergroups of tess_uvm anew from the coverage bins
   ports [brief] [NAME...]
           check other compilers, processors and hosts: msrv, i686, aarch64, s390x, wasm,
           miri; installs emulators and compilers. `brief` runs the tests that take seconds
@@ -78,6 +84,8 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["mutants", package, ref rest @ ..] => mutants::run(package, rest),
         ["coverage"] => coverage::run(),
         ["publish"] => publish::dry_run(),
+        ["python"] => after_setup(&python::run),
+        ["covergroups"] => covergroups::write(),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),
         ["semver", baseline] => publish::semver(baseline),

@@ -1,6 +1,7 @@
 //! Sets up what commands need beyond Rust.
 
 use crate::command;
+use crate::python;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -39,6 +40,8 @@ const TESTS: &[Need] = &[
         packages: &["verilator"],
         is_there: || has_program("verilator"),
     },
+    python::ICARUS,
+    python::PYTHON,
 ];
 
 /// Provides what the tests of the workspace need.

@@ -1,7 +1,7 @@
 //! Runs every test and says how many there were.
 
 use crate::command::cargo;
-use crate::{levels, tally};
+use crate::{levels, python, tally};
 
 /// Runs the whole suite, on every CPU level that this machine should have; the last line printed
 /// is the tally.
@@ -10,5 +10,5 @@ pub(crate) fn run() -> Result<(), String> {
     // A test whose tool is missing then fails; elsewhere it is reported as ignored.
     tests.env("CI", "1");
     tests.env(levels::VARIABLE, levels::required().join(","));
-    tally::run([tests])
+    tally::run([tests, python::tests()?])
 }

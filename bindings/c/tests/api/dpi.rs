@@ -3,14 +3,16 @@
 use super::samples::{self, Sample, samples};
 use std::ptr::null_mut;
 use tess_capi::dpi::{
-    tess_dpi_context, tess_dpi_count, tess_dpi_place, tess_dpi_point, tess_dpi_primitive,
-    tess_dpi_process,
+    tess_dpi_context, tess_dpi_count, tess_dpi_coverage, tess_dpi_place, tess_dpi_point,
+    tess_dpi_primitive, tess_dpi_process,
 };
 use tess_capi::process::{TESS_OUTCOME_CULLED, TessProcessedPatch};
 use tess_capi::status::{TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE, TESS_UNKNOWN_VALUE};
 use tess_capi::types::{TessConfig, TessContext};
 use tess_core::fixed_point::{HALF, ONE};
-use tess_core::place;
+use tess_core::{Domain, PatchFactors, place};
+use tess_verify::case::Case;
+use tess_verify::coverage::Coverage;
 
 /// The bits of a sample's factors; those that the domain has not are not looked at.
 fn bits(sample: &Sample) -> [u32; 6] {
@@ -74,6 +76,36 @@ fn primitives() {
         let observed = (status == TESS_OK).then(|| out[1..=out[0] as usize].to_vec());
         let expected = s.patch.primitive(t).map(|p| p.indices().to_vec());
         assert_eq!(observed, expected, "primitive {t} of {:?}, status {status}", s.factors);
+    }
+}
+
+/// The numbers of the bins give the coverage that the verification kit counts.
+#[test]
+fn coverage_bins() {
+    let names: Vec<String> = Coverage::new().bins().map(|(bin, _)| bin.to_owned()).collect();
+    for s in samples() {
+        let TessConfig { domain, partitioning, output, split } = s.config;
+        let [f0, f1, f2, f3, f4, f5] = bits(&s);
+        let mut observed = Coverage::new();
+        for i in 0.. {
+            let mut bin = 0;
+            #[rustfmt::skip]
+            let status = unsafe {
+                tess_dpi_coverage(
+                    domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, i, &mut bin,
+                )
+            };
+            if status != TESS_OK {
+                assert_eq!(status, TESS_OUT_OF_RANGE, "behind the last bin of {:?}", s.factors);
+                break;
+            }
+            assert!(observed.add(&names[bin as usize], 1), "bin {bin}");
+        }
+        let factors = PatchFactors::from_slice(Domain::ALL[domain as usize], &s.factors);
+        let case = Case { config: s.patch.config(), factors: factors.expect("all factors") };
+        let mut expected = Coverage::new();
+        expected.record(&case);
+        assert_eq!(observed, expected, "{case}");
     }
 }
 

@@ -1,0 +1,53 @@
+"""The placer's bench in both simulators: it passes, and finds planted faults."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tess_model import Coverage
+
+RUN = Path(__file__).resolve().parents[1] / "examples" / "cocotb" / "run.py"
+BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb"))
+FAULTS = {
+    1: "stage=factor_context signal=fraction",
+    2: "stage=place_position signal=position",
+    3: "stage=place_blend signal=half_location",
+}
+
+
+def bench(tmp_path: Path, sim: str, *options: str) -> "subprocess.CompletedProcess[str]":
+    arguments = ["--sim", sim, "--random", "50", "--build", str(BUILD), *options]
+    # A simulator of another interpreter's cocotb would not find this one's packages.
+    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    return subprocess.run(
+        [sys.executable, str(RUN), *arguments, "--coverage", str(tmp_path / "coverage.xml")],
+        capture_output=True,
+        text=True,
+        env=environment,
+    )
+
+
+@pytest.mark.parametrize("sim", ["verilator", "icarus"])
+def test_the_design_equals_the_model(tmp_path: Path, sim: str) -> None:
+    run = bench(tmp_path, sim)
+    assert run.returncode == 0 and "2 tests, 0 failed" in run.stdout, run.stdout + run.stderr
+    assert "51352 vectors, 0 mismatches" in run.stdout, "all of level 1"
+    coverage = Coverage.read(tmp_path / "coverage.xml")
+    assert coverage.groups["context"].hit == coverage.groups["context"].bins
+    assert coverage.groups["cull"].hit == 0, "the placer sees no patch"
+    hits = sum(coverage.bins.values())
+    random_alone = bench(tmp_path, sim, "--testcase", "random_stimuli")
+    assert random_alone.returncode == 0, random_alone.stdout + random_alone.stderr
+    merged = Coverage.read(tmp_path / "coverage.xml")
+    assert sum(merged.bins.values()) > hits, "a second run is merged into the file of the first"
+
+
+@pytest.mark.parametrize("fault", sorted(FAULTS))
+def test_planted_faults_are_found(tmp_path: Path, fault: int) -> None:
+    sim = "icarus"  # which builds in a moment
+    run = bench(tmp_path, sim, "--fault", str(fault), "--testcase", "random_stimuli")
+    assert run.returncode == 1 and "1 tests, 1 failed" in run.stdout, run.stdout + run.stderr
+    assert f"{FAULTS[fault]} observed=0x" in run.stdout, run.stdout

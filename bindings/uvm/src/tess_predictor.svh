@@ -1,0 +1,39 @@
+// Gives for each patch what the model gives.
+class tess_predictor extends uvm_subscriber #(tess_patch_item);
+    uvm_analysis_port #(tess_result_item) results;
+
+    `uvm_component_utils(tess_predictor)
+
+    function new(string name, uvm_component parent);
+        uvm_component self; // of the argument's very type, which Verilator 5.006 asks for
+        super.new(name, parent);
+        self = this;
+        results = new("results", self);
+    endfunction
+
+    virtual function void write(tess_patch_item t);
+        results.write(predict(t));
+    endfunction
+
+    static function tess_result_item predict(tess_patch_item patch);
+        config_t         cfg = patch.cfg();
+        factors_t        x;
+        counts_t         counts;
+        tess_result_item r = new("expected");
+        patch.get_factors(x);
+        counts = model_count(cfg, x);
+        r.patch = patch;
+        for (int unsigned i = 0; i < counts.points; i++) begin
+            point_t p = model_point(cfg, x, i);
+            r.u.push_back(p.u);
+            r.v.push_back(p.v);
+        end
+        for (int unsigned i = 0; i < counts.primitives; i++) begin
+            primitive_t p = model_primitive(cfg, x, i);
+            r.indices.push_back(p.i0);
+            if (p.size > 1) r.indices.push_back(p.i1);
+            if (p.size > 2) r.indices.push_back(p.i2);
+        end
+        return r;
+    endfunction
+endclass

@@ -1,0 +1,23 @@
+// UVM components around the golden tessellator: a predictor, a scoreboard and covergroups.
+//
+//   tess_patch_item    a patch: configuration and the bits of its factors; can be randomised
+//   tess_result_item   its points and indices
+//   tess_predictor     patch items in, what the model gives out
+//   tess_scoreboard    compares a device's results with the predictor's, in order
+//   tess_coverage      samples the covergroups of the specification's cases
+//
+// It needs tess_dpi.sv and the library of tess-capi. Results come in the order of the patches: a
+// device that answers out of order needs a component that sorts them in front of the scoreboard.
+package tess_uvm;
+    import uvm_pkg::*;
+    import tess_dpi::*;
+    `include "uvm_macros.svh"
+
+    `include "tess_items.svh"
+    `include "tess_predictor.svh"
+    `include "tess_scoreboard.svh"
+`ifndef TESS_NO_COVERGROUPS
+    `include "tess_covergroups.svh"
+    `include "tess_coverage.svh"
+`endif
+endpackage

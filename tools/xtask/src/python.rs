@@ -1,0 +1,137 @@
+//! The Python package: its wheel, and its tests on the wheel in a fresh virtual environment.
+
+use crate::command::{self, cargo, workspace};
+use crate::setup::{self, Need, has_program};
+use crate::tally;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+/// The interpreter that makes the virtual environment.
+pub(crate) const PYTHON: Need = Need {
+    what: "Python 3.9 or later with the modules venv and ensurepip (tests of the Python package)",
+    packages: &["python3", "python3-venv"],
+    is_there: has_python,
+};
+
+/// The second simulator of the cocotb bench.
+pub(crate) const ICARUS: Need = Need {
+    what: "Icarus Verilog (tests of the cocotb bench)",
+    packages: &["iverilog"],
+    is_there: || has_program("iverilog"),
+};
+
+/// What the virtual environment gets beside the wheel; the wheel's extras name the rest.
+const TOOLS: &[&str] = &["maturin>=1.9,<2"];
+
+/// Checks and tests the package; the last line printed is the tally.
+///
+/// # Errors
+/// A lint, a type or a test fails, or a package of the environment cannot be had.
+pub(crate) fn run() -> Result<(), String> {
+    tally::run([tests()?])
+}
+
+/// Makes everything ready, and gives the command that runs the tests.
+///
+/// # Errors
+/// As for [`run`], but for the tests.
+pub(crate) fn tests() -> Result<Command, String> {
+    setup::provide(&[PYTHON, ICARUS])?;
+    lint()?;
+    let environment = Environment::fresh()?;
+    environment.install(TOOLS)?;
+    let wheel = environment.wheel()?;
+    environment.install(&[&format!("{}[test,cocotb]", wheel.display())])?;
+    environment.check_types()?;
+    command::run(&mut cargo("build --package tess-program"))?;
+    let program =
+        cargo_target().join("debug").join(format!("tess{}", std::env::consts::EXE_SUFFIX));
+    let mut tests = environment.python(&["-m", "pytest", "-q", "-p", "no:cacheprovider"]);
+    tests.env("TESS_PROGRAM", program).env("TESS_COCOTB_BUILD", target().join("cocotb"));
+    Ok(tests)
+}
+
+/// The folder of the package.
+fn package() -> PathBuf {
+    workspace().join("bindings/python")
+}
+
+/// Where its builds go.
+fn target() -> PathBuf {
+    package().join("target")
+}
+
+/// Where the workspace's builds go.
+fn cargo_target() -> PathBuf {
+    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| workspace().join("target"), PathBuf::from)
+}
+
+/// The package is a workspace of its own, which the workspace's lints do not see.
+fn lint() -> Result<(), String> {
+    let manifest = ["--manifest-path", "bindings/python/Cargo.toml"];
+    command::run(cargo("fmt --check").args(manifest))?;
+    command::run(cargo("clippy --all-targets").args(manifest).args(["--", "-D", "warnings"]))
+}
+
+/// A virtual environment.
+struct Environment(PathBuf);
+
+impl Environment {
+    /// One without anything of an earlier run.
+    fn fresh() -> Result<Self, String> {
+        let folder = target().join("venv");
+        let interpreter = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
+        command::run(Command::new(interpreter).args(["-m", "venv", "--clear"]).arg(&folder))?;
+        Ok(Self(folder))
+    }
+
+    /// Its interpreter, in the folder of the package.
+    fn python(&self, arguments: &[&str]) -> Command {
+        let folder = if cfg!(windows) { "Scripts" } else { "bin" };
+        let mut python = Command::new(self.0.join(folder).join("python"));
+        python.args(arguments).current_dir(package()).env_remove("PYTHONPATH");
+        python
+    }
+
+    /// Installs packages from the index that pip is set to.
+    fn install(&self, packages: &[&str]) -> Result<(), String> {
+        let arguments = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
+        command::run(self.python(&arguments).args(packages)).map_err(|error| {
+            format!("{error}. The tests of the Python package need {}", packages.join(", "))
+        })
+    }
+
+    /// Builds the wheel, the only one in its folder.
+    fn wheel(&self) -> Result<PathBuf, String> {
+        let folder = target().join("wheels");
+        if folder.exists() {
+            std::fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))?;
+        }
+        let mut build = self.python(&["-m", "maturin", "build", "--release", "--locked", "--out"]);
+        command::run(build.arg(&folder))?;
+        let entries = std::fs::read_dir(&folder).map_err(|error| in_file(&folder, &error))?;
+        let files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        match &files[..] {
+            [wheel] => Ok(wheel.clone()),
+            others => Err(format!("maturin built {} wheels, not one", others.len())),
+        }
+    }
+
+    /// The stubs are those of the module, and the tests and examples keep to them.
+    fn check_types(&self) -> Result<(), String> {
+        command::run(&mut self.python(&["-m", "mypy.stubtest", "tess_model"]))?;
+        command::run(&mut self.python(&["-m", "mypy", "tests", "examples/cocotb", "benches"]))
+    }
+}
+
+fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
+    format!("{}: {error}", path.display())
+}
+
+fn has_python() -> bool {
+    let test = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 9))";
+    let interpreter = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
+    let mut python = Command::new(interpreter);
+    python.args(["-c", test]).stdout(Stdio::null()).stderr(Stdio::null());
+    python.status().is_ok_and(|status| status.success())
+}
