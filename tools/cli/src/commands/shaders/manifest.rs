@@ -169,7 +169,7 @@ impl Host {
             Resource::Job => Self::WritesJobs,
             Resource::Factors => Self::WritesFactors,
             Resource::Tables => Self::WritesTables,
-            Resource::Status => Self::Clears,
+            Resource::Status | Resource::Catalogue => Self::Clears,
             Resource::Arguments | Resource::Draws => Self::UsesIndirectly,
             Resource::Points | Resource::Indices => Self::Reads,
             Resource::Topologies

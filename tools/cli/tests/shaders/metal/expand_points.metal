@@ -7,11 +7,12 @@ using metal::uint;
 struct _mslBufferSizes {
     uint size0;
     uint size2;
-    uint size5;
-    uint size6;
-    uint size7;
-    uint size8;
+    uint size3;
+    uint size4;
     uint size9;
+    uint size10;
+    uint size11;
+    uint size12;
 };
 
 typedef metal::uint2 type_2[1];
@@ -71,18 +72,6 @@ struct Repeat {
     uint points;
     char _pad6[4];
 };
-struct Round {
-    uint first;
-    uint count;
-    uint begin;
-    uint end;
-};
-struct type_7 {
-    int inner[128];
-};
-struct type_8 {
-    metal::uint2 inner[320];
-};
 struct Rings {
     uint outer;
     uint before_1_;
@@ -116,6 +105,39 @@ struct PatchAxes {
     metal::uint2 along_u;
     metal::uint2 along_v;
 };
+struct Constant {
+    uint factor;
+    uint ring;
+    bool is_far;
+    bool is_centre;
+    char _pad4[2];
+};
+struct RunShape {
+    uint size;
+    uint form;
+    uint factor;
+    uint points;
+    uint first;
+    uint sign;
+    Constant constant_;
+};
+struct Round {
+    uint first;
+    uint count;
+    uint begin;
+    uint end;
+    bool is_listed;
+    char _pad5[3];
+};
+struct type_7 {
+    int inner[128];
+};
+struct type_8 {
+    metal::uint2 inner[320];
+};
+struct type_9 {
+    metal::uint2 inner[128];
+};
 struct PointSource {
     uint number;
     uint begin;
@@ -129,6 +151,7 @@ constant uint SPLIT = 0u;
 constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
+constant uint COPIES = 1u;
 constant uint WORKGROUP = 64u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
@@ -139,6 +162,17 @@ constant uint SECTION_BLOCK_BITS = 8u;
 constant uint SECTION = 65536u;
 constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
+constant uint SLOT_BITS = 13u;
+constant uint SLOTS = 8192u;
+constant uint CATALOGUE_POINTS = 131072u;
+constant uint CATALOGUE_TRIANGLES = 262144u;
+constant uint LISTED_POINTS = 512u;
+constant uint LISTED_PRIMITIVES = 512u;
+constant uint USED_AT = 8192u;
+constant uint TILE = 2048u;
+constant uint PLACES_AT = 8194u;
+constant uint POINTS_AT = 24578u;
+constant uint TRIANGLES_AT = 286722u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
 constant uint STITCH_WORDS = 128u;
@@ -169,6 +203,8 @@ constant uint POINTS = 0u;
 constant uint PRIMITIVES = 1u;
 constant uint NEVER = 4294967295u;
 constant bool IS_INTEGER = false;
+constant bool HAS_COPIED_POINTS = false;
+constant uint POINT_WORDS = 1u;
 constant uint EDGES = 4u;
 constant bool IS_TRIANGLES = true;
 constant uint INDICES = 3u;
@@ -233,9 +269,9 @@ Tile tile_of(
     uint _e12 = job.window_first;
     uint _e15 = job.window_tiles;
     uint last_1 = metal::min(_e9, _e12 + _e15);
-    uint number_4 = first_2 + workgroup_1;
+    uint number_5 = first_2 + workgroup_1;
     if (!((end_1 <= begin))) {
-        local = number_4 >= last_1;
+        local = number_5 >= last_1;
     } else {
         local = true;
     }
@@ -244,11 +280,11 @@ Tile tile_of(
         return Tile {0u, 0u, 0u, 0u, 0u};
     }
     uint _e34 = job.tile_bits;
-    uint base = number_4 << _e34;
-    uint at = (table_at + number_4) - _e4;
+    uint base = number_5 << _e34;
+    uint at_1 = (table_at + number_5) - _e4;
     uint _e42 = job.tile_bits;
-    uint _e48 = tiles[metal::min(unsigned(at), (_buffer_sizes.size2 - 0 - 4) / 4)];
-    uint _e53 = tiles[metal::min(unsigned(at + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
+    uint _e48 = tiles[metal::min(unsigned(at_1), (_buffer_sizes.size2 - 0 - 4) / 4)];
+    uint _e53 = tiles[metal::min(unsigned(at_1 + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
     return Tile {base, metal::max(base, begin), metal::min(base + (1u << _e42), end_1), _e48, _e53};
 }
 
@@ -274,40 +310,46 @@ uint inside_u(
 uint inside_v(
     metal::uint2 topology_3
 ) {
-    return topology_3.y >> 7u;
+    return (topology_3.y >> 7u) & 127u;
+}
+
+uint listed_slot(
+    metal::uint2 topology_4
+) {
+    return topology_4.y >> 14u;
 }
 
 uint along_points(
-    metal::uint2 topology_4,
+    metal::uint2 topology_5,
     uint edge_1
 ) {
-    return (topology_4.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
+    return (topology_5.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
 }
 
 uint outer_before(
-    metal::uint2 topology_5,
+    metal::uint2 topology_6,
     uint edge_2
 ) {
-    uint _e4 = outer_points(topology_5, 0u);
-    uint _e10 = outer_points(topology_5, 1u);
-    uint _e17 = outer_points(topology_5, 2u);
+    uint _e4 = outer_points(topology_6, 0u);
+    uint _e10 = outer_points(topology_6, 1u);
+    uint _e17 = outer_points(topology_6, 2u);
     return (((edge_2 > 0u) ? _e4 : 0u) + ((edge_2 > 1u) ? _e10 : 0u)) + ((edge_2 > 2u) ? _e17 : 0u);
 }
 
 uint along_before(
-    metal::uint2 topology_6,
+    metal::uint2 topology_7,
     uint edge_3
 ) {
-    uint _e6 = inside_v(topology_6);
-    uint _e10 = inside_u(topology_6);
+    uint _e6 = inside_v(topology_7);
+    uint _e10 = inside_u(topology_7);
     return (((edge_3 + 1u) >> 1u) * _e6) + ((edge_3 >> 1u) * _e10);
 }
 
 uint boundary(
-    metal::uint2 topology_7
+    metal::uint2 topology_8
 ) {
-    uint _e2 = outer_before(topology_7, 3u);
-    uint _e4 = outer_points(topology_7, 3u);
+    uint _e2 = outer_before(topology_8, 3u);
+    uint _e4 = outer_points(topology_8, 3u);
     return (_e2 + _e4) - EDGES;
 }
 
@@ -322,7 +364,7 @@ metal::uint2 common_topology(
     uint first_3 = _e3 + (tile.first_patch >> BLOCK_BITS);
     uint _e10 = job.alike_at;
     uint last_2 = _e10 + (tile.last_patch >> BLOCK_BITS);
-    metal::uint2 topology_13 = offsets[metal::min(unsigned(first_3), (_buffer_sizes.size0 - 0 - 8) / 8)];
+    metal::uint2 topology_17 = offsets[metal::min(unsigned(first_3), (_buffer_sizes.size0 - 0 - 8) / 8)];
     block = first_3 + 1u;
     uint2 loop_bound = uint2(4294967295u);
     bool loop_init = true;
@@ -342,12 +384,12 @@ metal::uint2 common_topology(
         {
             uint _e24 = block;
             metal::uint2 _e26 = offsets[metal::min(unsigned(_e24), (_buffer_sizes.size0 - 0 - 8) / 8)];
-            if (metal::any(_e26 != topology_13)) {
+            if (metal::any(_e26 != topology_17)) {
                 return metal::uint2(0u, 0u);
             }
         }
     }
-    return topology_13;
+    return topology_17;
 }
 
 uint naga_div(uint lhs, uint rhs) {
@@ -364,27 +406,34 @@ Repeat repeat_of(
 ) {
     Repeat none = {};
     bool local_1 = {};
+    bool local_2 = {};
     none.size = 0u;
     metal::uint2 _e6 = common_topology(tile_1, offsets, job, _buffer_sizes);
-    if (!((tile_1.first_patch == tile_1.last_patch))) {
-        uint _e13 = state_of(_e6);
-        local_1 = _e13 == CULLED;
+    if (true) {
+        local_1 = tile_1.first_patch == tile_1.last_patch;
     } else {
         local_1 = true;
     }
-    bool _e17 = local_1;
-    if (_e17) {
-        Repeat _e18 = none;
-        return _e18;
+    bool _e14 = local_1;
+    if (!(_e14)) {
+        uint _e18 = state_of(_e6);
+        local_2 = _e18 == CULLED;
+    } else {
+        local_2 = true;
     }
-    metal::uint2 _e20 = patch_offset(tile_1.first_patch, offsets, job, _buffer_sizes);
-    metal::uint2 _e24 = patch_offset(tile_1.first_patch + 1u, offsets, job, _buffer_sizes);
-    metal::uint2 size = _e24 - _e20;
+    bool _e22 = local_2;
+    if (_e22) {
+        Repeat _e23 = none;
+        return _e23;
+    }
+    metal::uint2 _e25 = patch_offset(tile_1.first_patch, offsets, job, _buffer_sizes);
+    metal::uint2 _e29 = patch_offset(tile_1.first_patch + 1u, offsets, job, _buffer_sizes);
+    metal::uint2 size = _e29 - _e25;
     if (size[metal::min(unsigned(kind), 1u)] > most) {
-        Repeat _e28 = none;
-        return _e28;
+        Repeat _e33 = none;
+        return _e33;
     }
-    return Repeat {_e6, size[metal::min(unsigned(kind), 1u)], tile_1.base - _e20[metal::min(unsigned(kind), 1u)], naga_div(2097151u + size[metal::min(unsigned(kind), 1u)], size[metal::min(unsigned(kind), 1u)]), _e20.x, size.x};
+    return Repeat {_e6, size[metal::min(unsigned(kind), 1u)], tile_1.base - _e25[metal::min(unsigned(kind), 1u)], naga_div(2097151u + size[metal::min(unsigned(kind), 1u)], size[metal::min(unsigned(kind), 1u)]), _e25.x, size.x};
 }
 
 uint patch_at(
@@ -394,146 +443,26 @@ uint patch_at(
     return (position * repeat.inverse) >> 21u;
 }
 
-Round load_round(
-    Tile tile_2,
-    uint first,
-    uint kind_1,
-    uint thread_1,
-    device type_2 const& offsets,
-    constant Job& job,
-    threadgroup type_7& begins,
-    threadgroup type_8& scratch,
-    device type_2 const& topologies,
+uint catalogue_word(
+    uint at,
+    device type_3 const& catalogue,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint i = {};
-    uint end_2 = {};
-    uint count = metal::min(ROUND, (tile_2.last_patch - first) + 1u);
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    i = thread_1;
-    uint2 loop_bound_1 = uint2(4294967295u);
-    bool loop_init_1 = true;
-    while(true) {
-        if (metal::all(loop_bound_1 == uint2(0u))) { break; }
-        loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
-        if (!loop_init_1) {
-            uint _e31 = i;
-            i = _e31 + WORKGROUP;
-        }
-        loop_init_1 = false;
-        uint _e11 = i;
-        if (_e11 < count) {
-        } else {
-            break;
-        }
-        {
-            uint _e14 = i;
-            uint _e16 = i;
-            metal::uint2 _e18 = patch_offset(first + _e16, offsets, job, _buffer_sizes);
-            begins.inner[metal::min(unsigned(_e14), 127u)] = static_cast<int>(_e18[metal::min(unsigned(kind_1), 1u)] - tile_2.base);
-            uint _e24 = i;
-            uint _e27 = i;
-            metal::uint2 _e30 = topologies[metal::min(unsigned(first + _e27), (_buffer_sizes.size5 - 0 - 8) / 8)];
-            scratch.inner[metal::min(unsigned(_e24), 319u)] = _e30;
-        }
-    }
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    int _e36 = begins.inner[0];
-    uint begin_1 = static_cast<uint>(metal::max(_e36, static_cast<int>(tile_2.begin - tile_2.base)));
-    end_2 = tile_2.end - tile_2.base;
-    if ((first + count) <= tile_2.last_patch) {
-        metal::uint2 _e51 = patch_offset(first + count, offsets, job, _buffer_sizes);
-        end_2 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
-    }
-    uint _e55 = end_2;
-    return Round {first, count, begin_1, _e55};
+    uint _e3 = catalogue[metal::min(unsigned(at), (_buffer_sizes.size3 - 0 - 4) / 4)];
+    return _e3;
 }
 
-uint nearer_patch(
-    uint found,
-    uint reach,
-    uint last,
-    uint element_1,
-    threadgroup type_7& begins
+metal::uint2 context_of(
+    uint patch_index_1,
+    uint factor,
+    uint points,
+    constant Job& job,
+    device type_2 const& contexts,
+    constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint next_1 = metal::min(found + reach, last);
-    int _e8 = begins.inner[metal::min(unsigned(next_1), 127u)];
-    return (_e8 <= static_cast<int>(element_1)) ? next_1 : found;
-}
-
-uint find_patch(
-    Round round,
-    uint element_2,
-    threadgroup type_7& begins
-) {
-    uint found_1 = 0u;
-    if (round.count == 1u) {
-        uint _e7 = found_1;
-        return _e7;
-    }
-    uint last_3 = round.count - 1u;
-    if (round.count > 32u) {
-        uint _e14 = found_1;
-        uint _e16 = nearer_patch(_e14, 64u, last_3, element_2, begins);
-        found_1 = _e16;
-        uint _e17 = found_1;
-        uint _e19 = nearer_patch(_e17, 32u, last_3, element_2, begins);
-        found_1 = _e19;
-    }
-    if (round.count > 8u) {
-        uint _e23 = found_1;
-        uint _e25 = nearer_patch(_e23, 16u, last_3, element_2, begins);
-        found_1 = _e25;
-        uint _e26 = found_1;
-        uint _e28 = nearer_patch(_e26, 8u, last_3, element_2, begins);
-        found_1 = _e28;
-    }
-    if (round.count > 4u) {
-        uint _e32 = found_1;
-        uint _e34 = nearer_patch(_e32, 4u, last_3, element_2, begins);
-        found_1 = _e34;
-    }
-    uint _e35 = found_1;
-    uint _e37 = nearer_patch(_e35, 2u, last_3, element_2, begins);
-    found_1 = _e37;
-    uint _e38 = found_1;
-    uint _e40 = nearer_patch(_e38, 1u, last_3, element_2, begins);
-    return _e40;
-}
-
-uint next_patch(
-    Round round_1,
-    uint number,
-    uint element_3,
-    threadgroup type_7& begins
-) {
-    uint found_2 = {};
-    bool local_2 = {};
-    found_2 = number;
-    uint2 loop_bound_2 = uint2(4294967295u);
-    while(true) {
-        if (metal::all(loop_bound_2 == uint2(0u))) { break; }
-        loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
-        uint _e4 = found_2;
-        if ((_e4 + 1u) < round_1.count) {
-            uint _e12 = found_2;
-            int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
-            local_2 = _e16 <= static_cast<int>(element_3);
-        } else {
-            local_2 = false;
-        }
-        bool _e20 = local_2;
-        if (_e20) {
-        } else {
-            break;
-        }
-        {
-            uint _e22 = found_2;
-            found_2 = _e22 + 1u;
-        }
-    }
-    uint _e24 = found_2;
-    return _e24;
+    uint _e6 = job.stride;
+    metal::uint2 _e10 = contexts[metal::min(unsigned((factor * _e6) + patch_index_1), (_buffer_sizes.size4 - 0 - 8) / 8)];
+    return _e10;
 }
 
 uint fixed_from_bits(
@@ -570,29 +499,6 @@ uint float_bits_from_coordinate(
     uint top = metal::select(31 - metal::clz(coordinate), uint(-1), coordinate == 0);
     uint mantissa_1 = (coordinate << (23u - top)) & 8388607u;
     return ((top + 111u) << 23u) | mantissa_1;
-}
-
-metal::uint2 numbered(
-    metal::uint2 stored,
-    uint patch_number
-) {
-    if (true) {
-        return metal::uint2(stored.x, stored.y | (patch_number << 2u));
-    }
-    return stored;
-}
-
-metal::uint2 format_point(
-    metal::uint2 point,
-    uint patch_number_1
-) {
-    if (true) {
-        metal::uint2 _e12 = numbered(metal::uint2(point.x | (point.y << 17u), point.y >> 15u), patch_number_1);
-        return _e12;
-    }
-    uint _e14 = float_bits_from_coordinate(point.x);
-    uint _e16 = float_bits_from_coordinate(point.y);
-    return metal::uint2(_e14, _e16);
 }
 
 uint inv_floor_of(
@@ -654,36 +560,23 @@ uint place(
     uint _e7 = odd_of(context_7);
     uint p = flip ? (((2u * _e2) - position_2) - _e7) : position_2;
     uint _e10 = place_before_middle(context_7, p);
-    uint location_4 = flip ? (ONE - _e10) : _e10;
-    return (p == _e2) ? HALF : location_4;
-}
-
-metal::uint2 context_of(
-    uint patch_index_1,
-    uint factor,
-    uint points,
-    constant Job& job,
-    device type_2 const& contexts,
-    constant _mslBufferSizes& _buffer_sizes
-) {
-    uint _e6 = job.stride;
-    metal::uint2 _e10 = contexts[metal::min(unsigned((factor * _e6) + patch_index_1), (_buffer_sizes.size6 - 0 - 8) / 8)];
-    return _e10;
+    uint location_5 = flip ? (ONE - _e10) : _e10;
+    return (p == _e2) ? HALF : location_5;
 }
 
 Rings rings_of(
-    metal::uint2 topology_8
+    metal::uint2 topology_9
 ) {
-    uint _e2 = outer_points(topology_8, 0u);
-    uint _e4 = outer_points(topology_8, 1u);
+    uint _e2 = outer_points(topology_9, 0u);
+    uint _e4 = outer_points(topology_9, 1u);
     uint before_2_ = _e2 + _e4;
-    uint _e7 = outer_points(topology_8, 2u);
+    uint _e7 = outer_points(topology_9, 2u);
     uint before_3_ = before_2_ + _e7;
-    uint _e9 = inside_u(topology_8);
-    uint _e10 = inside_v(topology_8);
+    uint _e9 = inside_u(topology_9);
+    uint _e10 = inside_v(topology_9);
     uint sides = _e9 + _e10;
-    uint _e15 = outer_points(topology_8, 3u);
-    return Rings {topology_8.x, _e2, before_2_, before_3_, _e9, _e10, metal::min(_e9, _e10), sides, before_3_ + (false ? 4294967293u : (_e15 - 4u)), false ? (sides + _e9) : (2u * sides)};
+    uint _e15 = outer_points(topology_9, 3u);
+    return Rings {topology_9.x, _e2, before_2_, before_3_, _e9, _e10, metal::min(_e9, _e10), sides, before_3_ + (false ? 4294967293u : (_e15 - 4u)), false ? (sides + _e9) : (2u * sides)};
 }
 
 uint outer_of(
@@ -743,39 +636,39 @@ uint stitch_ring_end(
 
 uint nearer_ring(
     uint k,
-    uint reach_1,
+    uint reach,
     uint goal,
-    uint end_3,
+    uint end_2,
     uint form,
     uint scale
 ) {
-    uint next_2 = metal::min(k + reach_1, end_3);
-    return ((next_2 * (form - (scale * next_2))) <= goal) ? next_2 : k;
+    uint next_1 = metal::min(k + reach, end_2);
+    return ((next_1 * (form - (scale * next_1))) <= goal) ? next_1 : k;
 }
 
 uint last_before(
     uint goal_1,
-    uint end_4,
+    uint end_3,
     uint form_1,
     uint scale_1
 ) {
     uint k_1 = 0u;
-    if (end_4 > 3u) {
+    if (end_3 > 3u) {
         uint _e8 = k_1;
-        uint _e10 = nearer_ring(_e8, 16u, goal_1, end_4, form_1, scale_1);
+        uint _e10 = nearer_ring(_e8, 16u, goal_1, end_3, form_1, scale_1);
         k_1 = _e10;
         uint _e11 = k_1;
-        uint _e13 = nearer_ring(_e11, 8u, goal_1, end_4, form_1, scale_1);
+        uint _e13 = nearer_ring(_e11, 8u, goal_1, end_3, form_1, scale_1);
         k_1 = _e13;
         uint _e14 = k_1;
-        uint _e16 = nearer_ring(_e14, 4u, goal_1, end_4, form_1, scale_1);
+        uint _e16 = nearer_ring(_e14, 4u, goal_1, end_3, form_1, scale_1);
         k_1 = _e16;
     }
     uint _e17 = k_1;
-    uint _e19 = nearer_ring(_e17, 2u, goal_1, end_4, form_1, scale_1);
+    uint _e19 = nearer_ring(_e17, 2u, goal_1, end_3, form_1, scale_1);
     k_1 = _e19;
     uint _e20 = k_1;
-    uint _e22 = nearer_ring(_e20, 1u, goal_1, end_4, form_1, scale_1);
+    uint _e22 = nearer_ring(_e20, 1u, goal_1, end_3, form_1, scale_1);
     return _e22;
 }
 
@@ -812,12 +705,12 @@ RingLocation next_edge(
 
 PatchAxes axes_of(
     uint patch_index_2,
-    metal::uint2 topology_9,
+    metal::uint2 topology_10,
     constant Job& job,
     device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    Rings _e2 = rings_of(topology_9);
+    Rings _e2 = rings_of(topology_10);
     metal::uint2 _e5 = context_of(patch_index_2, EDGES, _e2.u, job, contexts, _buffer_sizes);
     if (false) {
         return PatchAxes {patch_index_2, _e2, {}, _e5, _e5};
@@ -826,35 +719,48 @@ PatchAxes axes_of(
     return PatchAxes {patch_index_2, _e2, {}, _e5, _e10};
 }
 
-metal::uint2 inside_context(
-    PatchAxes axes,
+uint inside_factor(
     uint edge_8
 ) {
-    return ((edge_8 & 1u) == 1u) ? axes.along_u : axes.along_v;
+    bool local_5 = {};
+    if (true) {
+        local_5 = (edge_8 & 1u) == 1u;
+    } else {
+        local_5 = true;
+    }
+    bool _e11 = local_5;
+    return _e11 ? EDGES : 5u;
+}
+
+metal::uint2 inside_context(
+    PatchAxes axes,
+    uint factor_1
+) {
+    return (factor_1 == EDGES) ? axes.along_u : axes.along_v;
 }
 
 RingLocation point_location(
     Rings rings_8,
-    uint i_1
+    uint i
 ) {
     uint ring_4 = 0u;
     uint rest_2 = {};
     uint begin_1_1 = {};
     uint begin_2_1 = {};
     uint size_2_1 = {};
-    bool is_outer = i_1 < rings_8.boundary;
+    bool is_outer = i < rings_8.boundary;
     uint _e4 = point_ring_end(rings_8);
     uint end_5 = _e4 - 1u;
-    rest_2 = i_1;
+    rest_2 = i;
     begin_1_1 = rings_8.before_1_ - 1u;
     begin_2_1 = rings_8.before_2_ - 2u;
     uint _e19 = outer_of(rings_8, 2u);
     size_2_1 = _e19 - 1u;
     if (!(is_outer)) {
         uint form_3 = rings_8.along - 8u;
-        uint _e30 = last_before(i_1 - rings_8.boundary, end_5, form_3, EDGES);
+        uint _e30 = last_before(i - rings_8.boundary, end_5, form_3, EDGES);
         ring_4 = _e30 + 1u;
-        rest_2 = (i_1 - rings_8.boundary) - (_e30 * (form_3 - (EDGES * _e30)));
+        rest_2 = (i - rings_8.boundary) - (_e30 * (form_3 - (EDGES * _e30)));
         uint _e44 = ring_4;
         size_2_1 = (rings_8.v - 1u) - (2u * _e44);
         uint _e47 = size_2_1;
@@ -871,63 +777,90 @@ RingLocation point_location(
     return _e66;
 }
 
+RunShape shape_of(
+    Rings rings_9,
+    RingLocation location_1
+) {
+    uint form_2 = {};
+    bool local_6 = {};
+    bool descends = {};
+    uint ring_5 = location_1.ring;
+    bool is_outer_1 = ring_5 == 0u;
+    uint _e5 = point_ring_end(rings_9);
+    bool is_centre = ring_5 == _e5;
+    uint edge_9 = is_centre ? ((rings_9.u > rings_9.v) ? 1u : 0u) : location_1.edge;
+    uint _e15 = along_of(rings_9, edge_9);
+    uint _e16 = outer_of(rings_9, edge_9);
+    uint points_1 = is_outer_1 ? _e16 : _e15;
+    uint last_3 = (points_1 - 1u) - ring_5;
+    form_2 = edge_9 & 1u;
+    if (!((edge_9 == 0u))) {
+        local_6 = edge_9 == 3u;
+    } else {
+        local_6 = true;
+    }
+    bool _e32 = local_6;
+    descends = _e32;
+    if (false) {
+        form_2 = is_centre ? FORM_CORNER : edge_9;
+        descends = edge_9 != 1u;
+    }
+    uint _e44 = form_2;
+    uint _e45 = inside_factor(edge_9);
+    bool _e47 = descends;
+    bool _e51 = descends;
+    uint _e55 = inside_factor(edge_9 + 1u);
+    return RunShape {(last_3 - ring_5) + (is_centre ? 1u : 0u), _e44, is_outer_1 ? edge_9 : _e45, points_1, _e47 ? last_3 : ring_5, _e51 ? DOWN : 1u, Constant {_e55, ring_5, edge_9 >= 2u, is_centre}};
+}
+
+uint constant_value(
+    Constant constant_,
+    metal::uint2 context_8
+) {
+    uint _e3 = place_before_middle(context_8, constant_.ring);
+    if (false) {
+        return constant_.is_centre ? ONE_THIRD : (((_e3 * TWO_THIRDS) + HALF) >> 16u);
+    }
+    return constant_.is_centre ? HALF : (constant_.is_far ? (ONE - _e3) : _e3);
+}
+
 PointRun run_of(
     PatchAxes axes_1,
-    RingLocation location_1,
+    RingLocation location_2,
     constant Job& job,
     device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint fixed = {};
-    uint form_2 = {};
-    bool local_5 = {};
-    bool descends = {};
-    metal::uint2 context_8 = {};
-    Rings rings_9 = axes_1.rings;
-    uint ring_5 = location_1.ring;
-    bool is_outer_1 = ring_5 == 0u;
-    uint _e6 = point_ring_end(rings_9);
-    bool is_centre = ring_5 == _e6;
-    uint edge_9 = is_centre ? ((axes_1.rings.u > axes_1.rings.v) ? 1u : 0u) : location_1.edge;
-    uint _e16 = along_of(rings_9, edge_9);
-    uint _e17 = outer_of(rings_9, edge_9);
-    uint points_1 = is_outer_1 ? _e17 : _e16;
-    uint last_4 = (points_1 - 1u) - ring_5;
-    metal::uint2 _e24 = inside_context(axes_1, edge_9 + 1u);
-    uint _e25 = place_before_middle(_e24, ring_5);
-    fixed = _e25;
-    form_2 = edge_9 & 1u;
-    if (!((edge_9 == 0u))) {
-        local_5 = edge_9 == 3u;
-    } else {
-        local_5 = true;
+    metal::uint2 context_9 = {};
+    RunShape _e3 = shape_of(axes_1.rings, location_2);
+    metal::uint2 _e5 = inside_context(axes_1, _e3.factor);
+    context_9 = _e5;
+    if (location_2.ring == 0u) {
+        metal::uint2 _e13 = context_of(axes_1.patch_index, _e3.factor, _e3.points, job, contexts, _buffer_sizes);
+        context_9 = _e13;
     }
-    bool _e38 = local_5;
-    descends = _e38;
-    if (false) {
-        uint _e41 = fixed;
-        fixed = is_centre ? ONE_THIRD : (((_e41 * TWO_THIRDS) + HALF) >> 16u);
-        form_2 = is_centre ? FORM_CORNER : edge_9;
-        descends = edge_9 != 1u;
-    } else {
-        uint _e54 = fixed;
-        uint _e56 = fixed;
-        fixed = (edge_9 >= 2u) ? (ONE - _e56) : _e54;
-        uint _e61 = fixed;
-        fixed = is_centre ? HALF : _e61;
-    }
-    metal::uint2 _e64 = inside_context(axes_1, edge_9);
-    context_8 = _e64;
-    if (is_outer_1) {
-        metal::uint2 _e67 = context_of(axes_1.patch_index, edge_9, points_1, job, contexts, _buffer_sizes);
-        context_8 = _e67;
-    }
-    uint _e74 = fixed;
-    uint _e75 = form_2;
-    metal::uint2 _e76 = context_8;
-    bool _e77 = descends;
-    bool _e81 = descends;
-    return PointRun {(last_4 - ring_5) + (is_centre ? 1u : 0u), location_1.step, _e74, _e75, _e76, _e77 ? last_4 : ring_5, _e81 ? DOWN : 1u};
+    Constant constant_1 = _e3.constant_;
+    metal::uint2 _e18 = inside_context(axes_1, _e3.constant_.factor);
+    uint _e19 = constant_value(constant_1, _e18);
+    metal::uint2 _e21 = context_9;
+    return PointRun {_e3.size, location_2.step, _e19, _e3.form, _e21, _e3.first, _e3.sign};
+}
+
+PointRun line_run(
+    uint patch_index_3,
+    metal::uint2 topology_11,
+    uint i_1,
+    constant Job& job,
+    device type_2 const& contexts,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint _e4 = outer_points(topology_11, 1u);
+    uint line = naga_div(i_1, _e4);
+    uint _e8 = outer_points(topology_11, 0u);
+    metal::uint2 _e9 = context_of(patch_index_3, 0u, _e8, job, contexts, _buffer_sizes);
+    uint _e10 = place(_e9, line);
+    metal::uint2 _e15 = context_of(patch_index_3, 1u, _e4, job, contexts, _buffer_sizes);
+    return PointRun {_e4, i_1 - (line * _e4), _e10, FORM_Q_FIXED, _e15, 0u, 1u};
 }
 
 PointRun minimum_run(
@@ -936,41 +869,47 @@ PointRun minimum_run(
     return PointRun {EDGES, i_2, 0u, FORM_CORNER, metal::uint2(0u), 0u, 1u};
 }
 
-PointRun line_run(
-    uint patch_index_3,
-    metal::uint2 topology_10,
+PointRun run_at_point(
+    uint patch_index_4,
+    metal::uint2 topology_12,
     uint i_3,
     constant Job& job,
     device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint _e4 = outer_points(topology_10, 1u);
-    uint line = naga_div(i_3, _e4);
-    uint _e8 = outer_points(topology_10, 0u);
-    metal::uint2 _e9 = context_of(patch_index_3, 0u, _e8, job, contexts, _buffer_sizes);
-    uint _e10 = place(_e9, line);
-    metal::uint2 _e15 = context_of(patch_index_3, 1u, _e4, job, contexts, _buffer_sizes);
-    return PointRun {_e4, i_3 - (line * _e4), _e10, FORM_Q_FIXED, _e15, 0u, 1u};
+    if (false) {
+        PointRun _e4 = line_run(patch_index_4, topology_12, i_3, job, contexts, _buffer_sizes);
+        return _e4;
+    }
+    uint _e5 = state_of(topology_12);
+    if (_e5 == MINIMUM) {
+        PointRun _e8 = minimum_run(i_3);
+        return _e8;
+    }
+    PatchAxes _e9 = axes_of(patch_index_4, topology_12, job, contexts, _buffer_sizes);
+    RingLocation _e11 = point_location(_e9.rings, i_3);
+    PointRun _e12 = run_of(_e9, _e11, job, contexts, _buffer_sizes);
+    return _e12;
 }
 
 metal::uint2 corner(
-    uint fixed_1,
-    uint number_1
+    uint fixed,
+    uint number
 ) {
-    bool local_6 = {};
-    if (fixed_1 != 0u) {
-        return metal::uint2(fixed_1, fixed_1);
+    bool local_7 = {};
+    if (fixed != 0u) {
+        return metal::uint2(fixed, fixed);
     }
     if (false) {
-        return metal::uint2((number_1 == 2u) ? ONE : 0u, (number_1 == 0u) ? ONE : 0u);
+        return metal::uint2((number == 2u) ? ONE : 0u, (number == 0u) ? ONE : 0u);
     }
-    if (!((number_1 == 1u))) {
-        local_6 = number_1 == 2u;
+    if (!((number == 1u))) {
+        local_7 = number == 2u;
     } else {
-        local_6 = true;
+        local_7 = true;
     }
-    bool _e27 = local_6;
-    return metal::uint2(_e27 ? ONE : 0u, (number_1 >= 2u) ? ONE : 0u);
+    bool _e27 = local_7;
+    return metal::uint2(_e27 ? ONE : 0u, (number >= 2u) ? ONE : 0u);
 }
 
 metal::uint2 point_of_run(
@@ -978,46 +917,320 @@ metal::uint2 point_of_run(
     uint step
 ) {
     uint q = {};
-    uint fixed_2 = run.fixed;
+    uint fixed_1 = run.fixed;
     if (run.form == FORM_CORNER) {
-        metal::uint2 _e6 = corner(fixed_2, step);
+        metal::uint2 _e6 = corner(fixed_1, step);
         return _e6;
     }
     uint _e12 = place(run.context, run.first + (run.sign * step));
     q = _e12;
     if (false) {
         uint _e15 = q;
-        q = _e15 - ((fixed_2 + 1u) >> 1u);
+        q = _e15 - ((fixed_1 + 1u) >> 1u);
         if (run.form == FORM_Q_REST) {
             uint _e24 = q;
             uint _e26 = q;
-            return metal::uint2(_e24, (ONE - _e26) - fixed_2);
+            return metal::uint2(_e24, (ONE - _e26) - fixed_1);
         }
     }
     uint _e30 = q;
     uint _e32 = q;
-    return (run.form == FORM_Q_FIXED) ? metal::uint2(_e32, fixed_2) : metal::uint2(fixed_2, _e30);
+    return (run.form == FORM_Q_FIXED) ? metal::uint2(_e32, fixed_1) : metal::uint2(fixed_1, _e30);
+}
+
+uint described_point(
+    metal::uint2 topology_13,
+    uint i_4
+) {
+    uint _e2 = state_of(topology_13);
+    if (_e2 == MINIMUM) {
+        return (i_4 << 6u) | 786432u;
+    }
+    Rings _e9 = rings_of(topology_13);
+    RingLocation _e10 = point_location(_e9, i_4);
+    RunShape _e11 = shape_of(_e9, _e10);
+    Constant constant_2 = _e11.constant_;
+    bool is_corner = _e11.form == FORM_CORNER;
+    uint position_3 = is_corner ? _e10.step : (_e11.first + (_e11.sign * _e10.step));
+    return (((((_e11.factor | (_e11.constant_.factor << 3u)) | (position_3 << 6u)) | (_e11.constant_.ring << 13u)) | (_e11.form << 18u)) | (_e11.constant_.is_far ? 1048576u : 0u)) | (_e11.constant_.is_centre ? 2097152u : 0u);
+}
+
+metal::uint2 placed_point(
+    uint described,
+    uint patch_index_5,
+    constant Job& job,
+    device type_2 const& contexts,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint ring_6 = (described >> 13u) & 31u;
+    Constant constant_3 = Constant {0u, ring_6, (described & 1048576u) != 0u, (described & 2097152u) != 0u};
+    metal::uint2 _e21 = context_of(patch_index_5, (described >> 3u) & 7u, 0u, job, contexts, _buffer_sizes);
+    uint _e22 = constant_value(constant_3, _e21);
+    metal::uint2 _e26 = context_of(patch_index_5, described & 7u, 0u, job, contexts, _buffer_sizes);
+    PointRun run_2 = PointRun {0u, 0u, _e22, (described >> 18u) & 3u, _e26, 0u, 1u};
+    metal::uint2 _e40 = point_of_run(run_2, (described >> 6u) & 127u);
+    return _e40;
+}
+
+uint tile_size(
+) {
+    return TILE;
+}
+
+uint place_of(
+    uint patch_index_6,
+    metal::uint2 topology_14,
+    uint kind_1,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& catalogue,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint slot = {};
+    uint _e3 = listed_slot(topology_14);
+    slot = _e3;
+    uint _e5 = slot;
+    if (_e5 == 0u) {
+        uint _e11 = job.alike_at;
+        metal::uint2 _e16 = offsets[metal::min(unsigned(_e11 + (patch_index_6 >> BLOCK_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
+        uint _e17 = listed_slot(_e16);
+        slot = _e17;
+    }
+    uint _e18 = slot;
+    if (_e18 == 0u) {
+        return 0u;
+    }
+    uint _e24 = slot;
+    uint _e30 = catalogue_word((PLACES_AT + (2u * (_e24 - 1u))) + kind_1, catalogue, _buffer_sizes);
+    return _e30;
+}
+
+void load_patch(
+    uint i_5,
+    uint patch_index_7,
+    Tile tile_2,
+    uint kind_2,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& catalogue,
+    threadgroup type_7& begins,
+    threadgroup type_8& scratch,
+    threadgroup type_9& listed,
+    threadgroup metal::atomic_uint& is_missing,
+    device type_2 const& topologies,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    bool local_8 = {};
+    metal::uint2 topology_18 = topologies[metal::min(unsigned(patch_index_7), (_buffer_sizes.size9 - 0 - 8) / 8)];
+    metal::uint2 _e7 = patch_offset(patch_index_7, offsets, job, _buffer_sizes);
+    uint begin_1 = _e7[metal::min(unsigned(kind_2), 1u)] - tile_2.base;
+    begins.inner[metal::min(unsigned(i_5), 127u)] = static_cast<int>(begin_1);
+    scratch.inner[metal::min(unsigned(i_5), 319u)] = topology_18;
+    uint _e16 = place_of(patch_index_7, topology_18, kind_2, offsets, job, catalogue, _buffer_sizes);
+    uint words = (kind_2 == POINTS) ? POINT_WORDS : 1u;
+    listed.inner[metal::min(unsigned(i_5), 127u)] = metal::uint2(_e16 - (words * begin_1), true ? _e7.x : 0u);
+    if (_e16 == 0u) {
+        uint _e35 = state_of(topology_18);
+        local_8 = _e35 != CULLED;
+    } else {
+        local_8 = false;
+    }
+    bool _e39 = local_8;
+    if (_e39) {
+        metal::atomic_store_explicit(&is_missing, 1u, metal::memory_order_relaxed);
+        return;
+    } else {
+        return;
+    }
+}
+
+Round load_round(
+    Tile tile_3,
+    uint first,
+    uint kind_3,
+    uint thread_1,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& catalogue,
+    threadgroup type_7& begins,
+    threadgroup type_8& scratch,
+    threadgroup type_9& listed,
+    threadgroup metal::atomic_uint& is_missing,
+    device type_2 const& topologies,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint i_6 = {};
+    uint end_4 = {};
+    uint count = metal::min(ROUND, (tile_3.last_patch - first) + 1u);
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    if (thread_1 == 0u) {
+        metal::atomic_store_explicit(&is_missing, 0u, metal::memory_order_relaxed);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    i_6 = thread_1;
+    uint2 loop_bound_1 = uint2(4294967295u);
+    bool loop_init_1 = true;
+    while(true) {
+        if (metal::all(loop_bound_1 == uint2(0u))) { break; }
+        loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
+        if (!loop_init_1) {
+            uint _e20 = i_6;
+            i_6 = _e20 + WORKGROUP;
+        }
+        loop_init_1 = false;
+        uint _e15 = i_6;
+        if (_e15 < count) {
+        } else {
+            break;
+        }
+        {
+            uint _e17 = i_6;
+            uint _e18 = i_6;
+            load_patch(_e17, first + _e18, tile_3, kind_3, offsets, job, catalogue, begins, scratch, listed, is_missing, topologies, _buffer_sizes);
+        }
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    int _e25 = begins.inner[0];
+    uint begin_2 = static_cast<uint>(metal::max(_e25, static_cast<int>(tile_3.begin - tile_3.base)));
+    end_4 = tile_3.end - tile_3.base;
+    if ((first + count) <= tile_3.last_patch) {
+        metal::uint2 _e40 = patch_offset(first + count, offsets, job, _buffer_sizes);
+        end_4 = _e40[metal::min(unsigned(kind_3), 1u)] - tile_3.base;
+    }
+    uint _e44 = end_4;
+    uint _e46 = metal::atomic_load_explicit(&is_missing, metal::memory_order_relaxed);
+    return Round {first, count, begin_2, _e44, _e46 == 0u};
+}
+
+uint nearer_patch(
+    uint found,
+    uint reach_1,
+    uint last,
+    uint element_1,
+    threadgroup type_7& begins
+) {
+    uint next_2 = metal::min(found + reach_1, last);
+    int _e8 = begins.inner[metal::min(unsigned(next_2), 127u)];
+    return (_e8 <= static_cast<int>(element_1)) ? next_2 : found;
+}
+
+uint find_patch(
+    Round round,
+    uint element_2,
+    threadgroup type_7& begins
+) {
+    uint found_1 = 0u;
+    if (round.count == 1u) {
+        uint _e7 = found_1;
+        return _e7;
+    }
+    uint last_4 = round.count - 1u;
+    if (round.count > 32u) {
+        uint _e14 = found_1;
+        uint _e16 = nearer_patch(_e14, 64u, last_4, element_2, begins);
+        found_1 = _e16;
+        uint _e17 = found_1;
+        uint _e19 = nearer_patch(_e17, 32u, last_4, element_2, begins);
+        found_1 = _e19;
+    }
+    if (round.count > 8u) {
+        uint _e23 = found_1;
+        uint _e25 = nearer_patch(_e23, 16u, last_4, element_2, begins);
+        found_1 = _e25;
+        uint _e26 = found_1;
+        uint _e28 = nearer_patch(_e26, 8u, last_4, element_2, begins);
+        found_1 = _e28;
+    }
+    if (round.count > 4u) {
+        uint _e32 = found_1;
+        uint _e34 = nearer_patch(_e32, 4u, last_4, element_2, begins);
+        found_1 = _e34;
+    }
+    uint _e35 = found_1;
+    uint _e37 = nearer_patch(_e35, 2u, last_4, element_2, begins);
+    found_1 = _e37;
+    uint _e38 = found_1;
+    uint _e40 = nearer_patch(_e38, 1u, last_4, element_2, begins);
+    return _e40;
+}
+
+uint next_patch(
+    Round round_1,
+    uint number_1,
+    uint element_3,
+    threadgroup type_7& begins
+) {
+    uint found_2 = {};
+    bool local_9 = {};
+    found_2 = number_1;
+    uint2 loop_bound_2 = uint2(4294967295u);
+    while(true) {
+        if (metal::all(loop_bound_2 == uint2(0u))) { break; }
+        loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
+        uint _e4 = found_2;
+        if ((_e4 + 1u) < round_1.count) {
+            uint _e12 = found_2;
+            int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
+            local_9 = _e16 <= static_cast<int>(element_3);
+        } else {
+            local_9 = false;
+        }
+        bool _e20 = local_9;
+        if (_e20) {
+        } else {
+            break;
+        }
+        {
+            uint _e22 = found_2;
+            found_2 = _e22 + 1u;
+        }
+    }
+    uint _e24 = found_2;
+    return _e24;
+}
+
+metal::uint2 numbered(
+    metal::uint2 stored,
+    uint patch_number
+) {
+    if (true) {
+        return metal::uint2(stored.x, stored.y | (patch_number << 2u));
+    }
+    return stored;
+}
+
+metal::uint2 format_point(
+    metal::uint2 point,
+    uint patch_number_1
+) {
+    if (true) {
+        metal::uint2 _e12 = numbered(metal::uint2(point.x | (point.y << 17u), point.y >> 15u), patch_number_1);
+        return _e12;
+    }
+    uint _e14 = float_bits_from_coordinate(point.x);
+    uint _e16 = float_bits_from_coordinate(point.y);
+    return metal::uint2(_e14, _e16);
 }
 
 PointSource point_source_of(
-    uint patch_index_4,
-    metal::uint2 topology_11,
+    uint patch_index_8,
+    metal::uint2 topology_15,
     constant Job& job,
     device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     PointSource source = {};
-    bool local_7 = {};
-    source.topology = topology_11;
+    bool local_10 = {};
+    source.topology = topology_15;
     if (true) {
-        uint _e7 = state_of(topology_11);
-        local_7 = _e7 == REGULAR;
+        uint _e7 = state_of(topology_15);
+        local_10 = _e7 == REGULAR;
     } else {
-        local_7 = false;
+        local_10 = false;
     }
-    bool _e11 = local_7;
+    bool _e11 = local_10;
     if (_e11) {
-        PatchAxes _e13 = axes_of(patch_index_4, topology_11, job, contexts, _buffer_sizes);
+        PatchAxes _e13 = axes_of(patch_index_8, topology_15, job, contexts, _buffer_sizes);
         source.axes = _e13;
     }
     PointSource _e14 = source;
@@ -1028,9 +1241,9 @@ PointSource load_point_source(
     Round round_2,
     uint number_2,
     constant Job& job,
+    device type_2 const& contexts,
     threadgroup type_7& begins,
     threadgroup type_8& scratch,
-    device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     PointSource source_1 = {};
@@ -1046,48 +1259,48 @@ PointSource load_point_source(
 
 RingLocation location_of_point(
     PointSource source_2,
-    uint i_4
+    uint i_7
 ) {
-    bool local_8 = {};
+    bool local_11 = {};
     if (true) {
         uint _e6 = state_of(source_2.topology);
-        local_8 = _e6 == REGULAR;
+        local_11 = _e6 == REGULAR;
     } else {
-        local_8 = false;
+        local_11 = false;
     }
-    bool _e10 = local_8;
+    bool _e10 = local_11;
     if (_e10) {
-        RingLocation _e13 = point_location(source_2.axes.rings, i_4);
+        RingLocation _e13 = point_location(source_2.axes.rings, i_7);
         return _e13;
     }
-    return RingLocation {0u, 0u, i_4};
+    return RingLocation {0u, 0u, i_7};
 }
 
 PointRun run_at(
     Round round_3,
     PointSource source_3,
-    RingLocation location_2,
+    RingLocation location_3,
     constant Job& job,
     device type_2 const& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     if (false) {
-        PointRun _e9 = line_run(round_3.first + source_3.number, source_3.topology, location_2.step, job, contexts, _buffer_sizes);
+        PointRun _e9 = line_run(round_3.first + source_3.number, source_3.topology, location_3.step, job, contexts, _buffer_sizes);
         return _e9;
     }
     uint _e11 = state_of(source_3.topology);
     if (_e11 == MINIMUM) {
-        PointRun _e15 = minimum_run(location_2.step);
+        PointRun _e15 = minimum_run(location_3.step);
         return _e15;
     }
-    PointRun _e17 = run_of(source_3.axes, location_2, job, contexts, _buffer_sizes);
+    PointRun _e17 = run_of(source_3.axes, location_3, job, contexts, _buffer_sizes);
     return _e17;
 }
 
 PointRun first_run(
     Round round_4,
     PointSource source_4,
-    RingLocation location_3,
+    RingLocation location_4,
     bool is_next_patch,
     uint element_4,
     constant Job& job,
@@ -1099,7 +1312,7 @@ PointRun first_run(
         PointRun _e11 = run_at(round_4, source_4, RingLocation {0u, 0u, element_4 - source_4.begin}, job, contexts, _buffer_sizes);
         return _e11;
     }
-    RingLocation _e12 = next_edge(location_3);
+    RingLocation _e12 = next_edge(location_4);
     next = _e12;
     if (is_next_patch) {
         next = RingLocation {0u, 0u, 0u};
@@ -1114,17 +1327,17 @@ void write_points(
     uint thread_2,
     uint out,
     constant Job& job,
+    device type_2 const& contexts,
     threadgroup type_7& begins,
     threadgroup type_8& scratch,
-    device type_2 const& contexts,
     device type_2& points_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     PointSource source_5 = {};
     uint element_5 = {};
-    bool local_9 = {};
+    bool local_12 = {};
     PointRun run_1 = {};
-    bool local_10 = {};
+    bool local_13 = {};
     source_5.number = NEVER;
     uint _e8 = job.first_patch;
     uint patch_number_2 = _e8 + round_5.first;
@@ -1135,79 +1348,176 @@ void write_points(
         if (metal::all(loop_bound_3 == uint2(0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_2) {
-            uint _e105 = element_5;
-            element_5 = _e105 + 128u;
+            uint _e101 = element_5;
+            element_5 = _e101 + 128u;
         }
         loop_init_2 = false;
         uint _e14 = element_5;
-        uint _e18 = job.tile_bits;
-        if (_e14 < (1u << _e18)) {
+        uint _e15 = tile_size();
+        if (_e14 < _e15) {
         } else {
             break;
         }
         {
-            uint _e21 = element_5;
-            if (!(((_e21 + 1u) < round_5.begin))) {
-                uint _e29 = element_5;
-                local_9 = _e29 >= round_5.end;
+            uint _e17 = element_5;
+            if (!(((_e17 + 1u) < round_5.begin))) {
+                uint _e25 = element_5;
+                local_12 = _e25 >= round_5.end;
             } else {
-                local_9 = true;
+                local_12 = true;
             }
-            bool _e33 = local_9;
-            if (_e33) {
+            bool _e29 = local_12;
+            if (_e29) {
                 continue;
             }
-            uint _e34 = element_5;
-            uint first_4 = metal::max(_e34, round_5.begin);
-            uint _e37 = find_patch(round_5, first_4, begins);
-            uint _e39 = source_5.number;
-            if (_e37 != _e39) {
-                PointSource _e41 = load_point_source(round_5, _e37, job, begins, scratch, contexts, _buffer_sizes);
-                source_5 = _e41;
+            uint _e30 = element_5;
+            uint first_4 = metal::max(_e30, round_5.begin);
+            uint _e33 = find_patch(round_5, first_4, begins);
+            uint _e35 = source_5.number;
+            if (_e33 != _e35) {
+                PointSource _e37 = load_point_source(round_5, _e33, job, contexts, begins, scratch, _buffer_sizes);
+                source_5 = _e37;
             }
-            PointSource _e42 = source_5;
-            uint _e44 = source_5.begin;
-            RingLocation _e46 = location_of_point(_e42, first_4 - _e44);
-            PointSource _e47 = source_5;
-            PointRun _e48 = run_at(round_5, _e47, _e46, job, contexts, _buffer_sizes);
-            run_1 = _e48;
-            PointRun _e53 = run_1;
-            uint _e55 = run_1.step;
-            metal::uint2 _e56 = point_of_run(_e53, _e55);
-            metal::uint2 _e58 = format_point(_e56, patch_number_2 + _e37);
-            points_out[metal::min(unsigned(out + first_4), (_buffer_sizes.size7 - 0 - 8) / 8)] = _e58;
-            uint _e59 = element_5;
-            if (first_4 == _e59) {
-                uint _e63 = element_5;
-                local_10 = (_e63 + 1u) < round_5.end;
+            PointSource _e38 = source_5;
+            uint _e40 = source_5.begin;
+            RingLocation _e42 = location_of_point(_e38, first_4 - _e40);
+            PointSource _e43 = source_5;
+            PointRun _e44 = run_at(round_5, _e43, _e42, job, contexts, _buffer_sizes);
+            run_1 = _e44;
+            PointRun _e49 = run_1;
+            uint _e51 = run_1.step;
+            metal::uint2 _e52 = point_of_run(_e49, _e51);
+            metal::uint2 _e54 = format_point(_e52, patch_number_2 + _e33);
+            points_out[metal::min(unsigned(out + first_4), (_buffer_sizes.size10 - 0 - 8) / 8)] = _e54;
+            uint _e55 = element_5;
+            if (first_4 == _e55) {
+                uint _e59 = element_5;
+                local_13 = (_e59 + 1u) < round_5.end;
             } else {
-                local_10 = false;
+                local_13 = false;
             }
-            bool _e69 = local_10;
-            if (_e69) {
-                uint _e72 = run_1.step;
-                run_1.step = _e72 + 1u;
-                uint _e75 = run_1.step;
-                uint _e77 = run_1.size;
-                if (_e75 == _e77) {
-                    uint _e79 = element_5;
-                    uint _e82 = next_patch(round_5, _e37, _e79 + 1u, begins);
-                    if (_e82 != _e37) {
-                        PointSource _e84 = load_point_source(round_5, _e82, job, begins, scratch, contexts, _buffer_sizes);
-                        source_5 = _e84;
+            bool _e65 = local_13;
+            if (_e65) {
+                uint _e68 = run_1.step;
+                run_1.step = _e68 + 1u;
+                uint _e71 = run_1.step;
+                uint _e73 = run_1.size;
+                if (_e71 == _e73) {
+                    uint _e75 = element_5;
+                    uint _e78 = next_patch(round_5, _e33, _e75 + 1u, begins);
+                    if (_e78 != _e33) {
+                        PointSource _e80 = load_point_source(round_5, _e78, job, contexts, begins, scratch, _buffer_sizes);
+                        source_5 = _e80;
                     }
-                    PointSource _e85 = source_5;
-                    uint _e87 = element_5;
-                    PointRun _e90 = first_run(round_5, _e85, _e46, _e82 != _e37, _e87 + 1u, job, contexts, _buffer_sizes);
-                    run_1 = _e90;
+                    PointSource _e81 = source_5;
+                    uint _e83 = element_5;
+                    PointRun _e86 = first_run(round_5, _e81, _e42, _e78 != _e33, _e83 + 1u, job, contexts, _buffer_sizes);
+                    run_1 = _e86;
                 }
-                uint _e92 = element_5;
-                PointRun _e97 = run_1;
-                uint _e99 = run_1.step;
-                metal::uint2 _e100 = point_of_run(_e97, _e99);
-                uint _e102 = source_5.number;
-                metal::uint2 _e104 = format_point(_e100, patch_number_2 + _e102);
-                points_out[metal::min(unsigned((out + _e92) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)] = _e104;
+                uint _e88 = element_5;
+                PointRun _e93 = run_1;
+                uint _e95 = run_1.step;
+                metal::uint2 _e96 = point_of_run(_e93, _e95);
+                uint _e98 = source_5.number;
+                metal::uint2 _e100 = format_point(_e96, patch_number_2 + _e98);
+                points_out[metal::min(unsigned((out + _e88) + 1u), (_buffer_sizes.size10 - 0 - 8) / 8)] = _e100;
+            }
+        }
+    }
+    return;
+}
+
+metal::uint2 listed_point(
+    Round round_6,
+    uint number_3,
+    uint element_6,
+    constant Job& job,
+    device type_3 const& catalogue,
+    device type_2 const& contexts,
+    threadgroup type_9& listed,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint _e6 = listed.inner[metal::min(unsigned(number_3), 127u)].x;
+    uint at_2 = _e6 + (POINT_WORDS * element_6);
+    uint patch_index_9 = round_6.first + number_3;
+    uint _e14 = job.first_patch;
+    uint patch_number_3 = _e14 + patch_index_9;
+    if (IS_INTEGER) {
+        uint _e17 = catalogue_word(at_2, catalogue, _buffer_sizes);
+        uint _e20 = catalogue_word(at_2 + 1u, catalogue, _buffer_sizes);
+        metal::uint2 _e22 = numbered(metal::uint2(_e17, _e20), patch_number_3);
+        return _e22;
+    }
+    uint _e23 = catalogue_word(at_2, catalogue, _buffer_sizes);
+    metal::uint2 _e24 = placed_point(_e23, patch_index_9, job, contexts, _buffer_sizes);
+    metal::uint2 _e25 = format_point(_e24, patch_number_3);
+    return _e25;
+}
+
+void write_listed_points(
+    Round round_7,
+    uint thread_3,
+    uint out_1,
+    constant Job& job,
+    device type_3 const& catalogue,
+    device type_2 const& contexts,
+    threadgroup type_7& begins,
+    threadgroup type_9& listed,
+    device type_2& points_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint element_7 = {};
+    bool local_14 = {};
+    bool local_15 = {};
+    element_7 = 2u * thread_3;
+    uint2 loop_bound_4 = uint2(4294967295u);
+    bool loop_init_3 = true;
+    while(true) {
+        if (metal::all(loop_bound_4 == uint2(0u))) { break; }
+        loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
+        if (!loop_init_3) {
+            uint _e55 = element_7;
+            element_7 = _e55 + 128u;
+        }
+        loop_init_3 = false;
+        uint _e6 = element_7;
+        uint _e7 = tile_size();
+        if (_e6 < _e7) {
+        } else {
+            break;
+        }
+        {
+            uint _e9 = element_7;
+            if (!(((_e9 + 1u) < round_7.begin))) {
+                uint _e17 = element_7;
+                local_14 = _e17 >= round_7.end;
+            } else {
+                local_14 = true;
+            }
+            bool _e21 = local_14;
+            if (_e21) {
+                continue;
+            }
+            uint _e22 = element_7;
+            uint first_5 = metal::max(_e22, round_7.begin);
+            uint _e25 = find_patch(round_7, first_5, begins);
+            metal::uint2 _e29 = listed_point(round_7, _e25, first_5, job, catalogue, contexts, listed, _buffer_sizes);
+            points_out[metal::min(unsigned(out_1 + first_5), (_buffer_sizes.size10 - 0 - 8) / 8)] = _e29;
+            uint _e30 = element_7;
+            if (first_5 == _e30) {
+                uint _e34 = element_7;
+                local_15 = (_e34 + 1u) < round_7.end;
+            } else {
+                local_15 = false;
+            }
+            bool _e40 = local_15;
+            if (_e40) {
+                uint _e41 = element_7;
+                uint _e44 = next_patch(round_7, _e25, _e41 + 1u, begins);
+                uint _e46 = element_7;
+                uint _e51 = element_7;
+                metal::uint2 _e54 = listed_point(round_7, _e44, _e51 + 1u, job, catalogue, contexts, listed, _buffer_sizes);
+                points_out[metal::min(unsigned((out_1 + _e46) + 1u), (_buffer_sizes.size10 - 0 - 8) / 8)] = _e54;
             }
         }
     }
@@ -1215,148 +1525,151 @@ void write_points(
 }
 
 bool has_same_points(
-    metal::uint2 topology_12
+    metal::uint2 topology_16
 ) {
-    bool local_11 = {};
+    bool local_16 = {};
     if (true) {
-        uint _e4 = state_of(topology_12);
-        local_11 = _e4 == MINIMUM;
+        uint _e4 = state_of(topology_16);
+        local_16 = _e4 == MINIMUM;
     } else {
-        local_11 = true;
+        local_16 = true;
     }
-    bool _e8 = local_11;
+    bool _e8 = local_16;
     return _e8;
 }
 
 void copy_points(
-    Tile tile_3,
+    Tile tile_4,
     Repeat repeat_1,
-    uint thread_3,
-    uint out_1,
+    uint thread_4,
+    uint out_2,
     constant Job& job,
-    threadgroup type_8& scratch,
     device type_2 const& contexts,
+    threadgroup type_8& scratch,
     device type_2& points_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint i_5 = {};
-    uint element_6 = {};
-    PointSource _e6 = point_source_of(tile_3.first_patch, repeat_1.topology, job, contexts, _buffer_sizes);
-    Round round_6 = Round {tile_3.first_patch, 1u, 0u, 0u};
-    i_5 = thread_3;
-    uint2 loop_bound_4 = uint2(4294967295u);
-    bool loop_init_3 = true;
-    while(true) {
-        if (metal::all(loop_bound_4 == uint2(0u))) { break; }
-        loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
-        if (!loop_init_3) {
-            uint _e26 = i_5;
-            i_5 = _e26 + WORKGROUP;
-        }
-        loop_init_3 = false;
-        uint _e13 = i_5;
-        if (_e13 < repeat_1.size) {
-        } else {
-            break;
-        }
-        {
-            uint _e16 = i_5;
-            RingLocation _e17 = location_of_point(_e6, _e16);
-            PointRun _e18 = run_at(round_6, _e6, _e17, job, contexts, _buffer_sizes);
-            uint _e20 = i_5;
-            metal::uint2 _e23 = point_of_run(_e18, _e18.step);
-            metal::uint2 _e25 = format_point(_e23, 0u);
-            scratch.inner[metal::min(unsigned(_e20), 319u)] = _e25;
-        }
-    }
-    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    uint end_6 = tile_3.end - tile_3.base;
-    element_6 = (tile_3.begin - tile_3.base) + thread_3;
+    uint i_8 = {};
+    uint element_8 = {};
+    PointSource _e6 = point_source_of(tile_4.first_patch, repeat_1.topology, job, contexts, _buffer_sizes);
+    Round round_8 = Round {tile_4.first_patch, 1u, 0u, 0u, false};
+    i_8 = thread_4;
     uint2 loop_bound_5 = uint2(4294967295u);
     bool loop_init_4 = true;
     while(true) {
         if (metal::all(loop_bound_5 == uint2(0u))) { break; }
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_4) {
-            uint _e60 = element_6;
-            element_6 = _e60 + WORKGROUP;
+            uint _e27 = i_8;
+            i_8 = _e27 + WORKGROUP;
         }
         loop_init_4 = false;
-        uint _e37 = element_6;
-        if (_e37 < end_6) {
+        uint _e14 = i_8;
+        if (_e14 < repeat_1.size) {
         } else {
             break;
         }
         {
-            uint _e39 = element_6;
-            uint position_3 = _e39 + repeat_1.before;
-            uint _e42 = patch_at(repeat_1, position_3);
-            uint _e44 = element_6;
-            metal::uint2 _e52 = scratch.inner[metal::min(unsigned(position_3 - (_e42 * repeat_1.size)), 319u)];
-            uint _e55 = job.first_patch;
-            metal::uint2 _e59 = numbered(_e52, (_e55 + tile_3.first_patch) + _e42);
-            points_out[metal::min(unsigned(out_1 + _e44), (_buffer_sizes.size7 - 0 - 8) / 8)] = _e59;
+            uint _e17 = i_8;
+            RingLocation _e18 = location_of_point(_e6, _e17);
+            PointRun _e19 = run_at(round_8, _e6, _e18, job, contexts, _buffer_sizes);
+            uint _e21 = i_8;
+            metal::uint2 _e24 = point_of_run(_e19, _e19.step);
+            metal::uint2 _e26 = format_point(_e24, 0u);
+            scratch.inner[metal::min(unsigned(_e21), 319u)] = _e26;
         }
     }
-    return;
-}
-
-void write_point_tile(
-    uint number_3,
-    uint thread_4,
-    device type_2 const& offsets,
-    constant Job& job,
-    device type_3 const& tiles,
-    threadgroup type_7& begins,
-    threadgroup type_8& scratch,
-    device type_2 const& topologies,
-    device type_2 const& contexts,
-    device type_2& points_out,
-    device Status const& status,
-    constant _mslBufferSizes& _buffer_sizes
-) {
-    bool local_12 = {};
-    bool local_13 = {};
-    uint first_1 = {};
-    uint _e6 = job.chunk;
-    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
-    Tile _e12 = tile_of(number_3, range.points_begin, range.points_end, 0u, job, tiles, _buffer_sizes);
-    if (!((_e12.end == 0u))) {
-        uint _e21 = status.overflow;
-        local_12 = _e21 != 0u;
-    } else {
-        local_12 = true;
-    }
-    bool _e25 = local_12;
-    if (_e25) {
-        return;
-    }
-    uint _e29 = job.window_first;
-    uint _e32 = job.tile_bits;
-    uint out_2 = _e12.base - (_e29 << _e32);
-    Repeat _e37 = repeat_of(_e12, POINTS, SCRATCH, offsets, job, _buffer_sizes);
-    if (_e37.size > 0u) {
-        bool _e44 = has_same_points(_e37.topology);
-        local_13 = _e44;
-    } else {
-        local_13 = false;
-    }
-    bool _e46 = local_13;
-    if (_e46) {
-        copy_points(_e12, _e37, thread_4, out_2, job, scratch, contexts, points_out, _buffer_sizes);
-        return;
-    }
-    first_1 = _e12.first_patch;
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    uint end_6 = tile_4.end - tile_4.base;
+    element_8 = (tile_4.begin - tile_4.base) + thread_4;
     uint2 loop_bound_6 = uint2(4294967295u);
     bool loop_init_5 = true;
     while(true) {
         if (metal::all(loop_bound_6 == uint2(0u))) { break; }
         loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
         if (!loop_init_5) {
-            uint _e55 = first_1;
-            first_1 = _e55 + ROUND;
+            uint _e61 = element_8;
+            element_8 = _e61 + WORKGROUP;
         }
         loop_init_5 = false;
+        uint _e38 = element_8;
+        if (_e38 < end_6) {
+        } else {
+            break;
+        }
+        {
+            uint _e40 = element_8;
+            uint position_4 = _e40 + repeat_1.before;
+            uint _e43 = patch_at(repeat_1, position_4);
+            uint _e45 = element_8;
+            metal::uint2 _e53 = scratch.inner[metal::min(unsigned(position_4 - (_e43 * repeat_1.size)), 319u)];
+            uint _e56 = job.first_patch;
+            metal::uint2 _e60 = numbered(_e53, (_e56 + tile_4.first_patch) + _e43);
+            points_out[metal::min(unsigned(out_2 + _e45), (_buffer_sizes.size10 - 0 - 8) / 8)] = _e60;
+        }
+    }
+    return;
+}
+
+void write_point_tile(
+    uint number_4,
+    uint thread_5,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& tiles,
+    device type_3 const& catalogue,
+    device type_2 const& contexts,
+    threadgroup type_7& begins,
+    threadgroup type_8& scratch,
+    threadgroup type_9& listed,
+    threadgroup metal::atomic_uint& is_missing,
+    device type_2 const& topologies,
+    device type_2& points_out,
+    device Status const& status,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    bool local_17 = {};
+    bool local_18 = {};
+    uint first_1 = {};
+    uint _e6 = job.chunk;
+    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size11 - 32 - 16) / 16)];
+    Tile _e12 = tile_of(number_4, range.points_begin, range.points_end, 0u, job, tiles, _buffer_sizes);
+    if (!((_e12.end == 0u))) {
+        uint _e21 = status.overflow;
+        local_17 = _e21 != 0u;
+    } else {
+        local_17 = true;
+    }
+    bool _e25 = local_17;
+    if (_e25) {
+        return;
+    }
+    uint _e29 = job.window_first;
+    uint _e32 = job.tile_bits;
+    uint out_3 = _e12.base - (_e29 << _e32);
+    Repeat _e37 = repeat_of(_e12, POINTS, SCRATCH, offsets, job, _buffer_sizes);
+    if (_e37.size > 0u) {
+        bool _e44 = has_same_points(_e37.topology);
+        local_18 = _e44;
+    } else {
+        local_18 = false;
+    }
+    bool _e46 = local_18;
+    if (_e46) {
+        copy_points(_e12, _e37, thread_5, out_3, job, contexts, scratch, points_out, _buffer_sizes);
+        return;
+    }
+    first_1 = _e12.first_patch;
+    uint2 loop_bound_7 = uint2(4294967295u);
+    bool loop_init_6 = true;
+    while(true) {
+        if (metal::all(loop_bound_7 == uint2(0u))) { break; }
+        loop_bound_7 -= uint2(loop_bound_7.y == 0u, 1u);
+        if (!loop_init_6) {
+            uint _e56 = first_1;
+            first_1 = _e56 + ROUND;
+        }
+        loop_init_6 = false;
         uint _e49 = first_1;
         if (_e49 <= _e12.last_patch) {
         } else {
@@ -1364,8 +1677,12 @@ void write_point_tile(
         }
         {
             uint _e52 = first_1;
-            Round _e54 = load_round(_e12, _e52, POINTS, thread_4, offsets, job, begins, scratch, topologies, _buffer_sizes);
-            write_points(_e54, thread_4, out_2, job, begins, scratch, contexts, points_out, _buffer_sizes);
+            Round _e54 = load_round(_e12, _e52, POINTS, thread_5, offsets, job, catalogue, begins, scratch, listed, is_missing, topologies, _buffer_sizes);
+            if (_e54.is_listed) {
+                write_listed_points(_e54, thread_5, out_3, job, catalogue, contexts, begins, listed, points_out, _buffer_sizes);
+            } else {
+                write_points(_e54, thread_5, out_3, job, contexts, begins, scratch, points_out, _buffer_sizes);
+            }
         }
     }
     return;
@@ -1379,16 +1696,19 @@ kernel void expand_points(
 , device type_2 const& offsets [[buffer(4)]]
 , constant Job& job [[buffer(0)]]
 , device type_3 const& tiles [[buffer(6)]]
+, device type_3 const& catalogue [[buffer(8)]]
+, device type_2 const& contexts [[buffer(2)]]
 , threadgroup type_7& begins
 , threadgroup type_8& scratch
+, threadgroup type_9& listed
+, threadgroup metal::atomic_uint& is_missing
 , device type_2 const& topologies [[buffer(1)]]
-, device type_2 const& contexts [[buffer(2)]]
 , device type_2& points_out [[buffer(7)]]
 , device Status const& status [[buffer(5)]]
-, constant _mslBufferSizes& _buffer_sizes [[buffer(8)]]
+, constant _mslBufferSizes& _buffer_sizes [[buffer(9)]]
 ) {
     uint _e6 = job.max_workgroups;
-    uint number_5 = workgroup.x + (workgroup.y * _e6);
-    write_point_tile(number_5, thread_, offsets, job, tiles, begins, scratch, topologies, contexts, points_out, status, _buffer_sizes);
+    uint number_6 = workgroup.x + (workgroup.y * _e6);
+    write_point_tile(number_6, thread_, offsets, job, tiles, catalogue, contexts, begins, scratch, listed, is_missing, topologies, points_out, status, _buffer_sizes);
     return;
 }

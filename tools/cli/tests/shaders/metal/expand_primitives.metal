@@ -8,9 +8,10 @@ struct _mslBufferSizes {
     uint size0;
     uint size2;
     uint size3;
-    uint size6;
-    uint size7;
-    uint size8;
+    uint size4;
+    uint size9;
+    uint size10;
+    uint size11;
 };
 
 typedef metal::uint2 type_2[1];
@@ -108,6 +109,8 @@ struct Round {
     uint count;
     uint begin;
     uint end;
+    bool is_listed;
+    char _pad5[3];
 };
 struct type_8 {
     int inner[128];
@@ -135,6 +138,7 @@ constant uint SPLIT = 0u;
 constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
+constant uint COPIES = 1u;
 constant uint WORKGROUP = 64u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
@@ -145,6 +149,17 @@ constant uint SECTION_BLOCK_BITS = 8u;
 constant uint SECTION = 65536u;
 constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
+constant uint SLOT_BITS = 13u;
+constant uint SLOTS = 8192u;
+constant uint CATALOGUE_POINTS = 131072u;
+constant uint CATALOGUE_TRIANGLES = 262144u;
+constant uint LISTED_POINTS = 512u;
+constant uint LISTED_PRIMITIVES = 512u;
+constant uint USED_AT = 8192u;
+constant uint TILE = 2048u;
+constant uint PLACES_AT = 8194u;
+constant uint POINTS_AT = 24578u;
+constant uint TRIANGLES_AT = 286722u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
 constant uint STITCH_WORDS = 128u;
@@ -175,6 +190,8 @@ constant uint POINTS = 0u;
 constant uint PRIMITIVES = 1u;
 constant uint NEVER = 4294967295u;
 constant bool IS_INTEGER = false;
+constant bool HAS_COPIED_POINTS = false;
+constant uint POINT_WORDS = 1u;
 constant uint EDGES = 4u;
 constant bool IS_TRIANGLES = true;
 constant uint INDICES = 3u;
@@ -230,9 +247,9 @@ Tile tile_of(
     uint _e12 = job.window_first;
     uint _e15 = job.window_tiles;
     uint last_1 = metal::min(_e9, _e12 + _e15);
-    uint number_7 = first_4 + workgroup_1;
+    uint number_8 = first_4 + workgroup_1;
     if (!((end_1 <= begin))) {
-        local = number_7 >= last_1;
+        local = number_8 >= last_1;
     } else {
         local = true;
     }
@@ -241,12 +258,12 @@ Tile tile_of(
         return Tile {0u, 0u, 0u, 0u, 0u};
     }
     uint _e34 = job.tile_bits;
-    uint base_6 = number_7 << _e34;
-    uint at_8 = (table_at + number_7) - _e4;
+    uint base_7 = number_8 << _e34;
+    uint at_9 = (table_at + number_8) - _e4;
     uint _e42 = job.tile_bits;
-    uint _e48 = tiles[metal::min(unsigned(at_8), (_buffer_sizes.size2 - 0 - 4) / 4)];
-    uint _e53 = tiles[metal::min(unsigned(at_8 + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
-    return Tile {base_6, metal::max(base_6, begin), metal::min(base_6 + (1u << _e42), end_1), _e48, _e53};
+    uint _e48 = tiles[metal::min(unsigned(at_9), (_buffer_sizes.size2 - 0 - 4) / 4)];
+    uint _e53 = tiles[metal::min(unsigned(at_9 + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
+    return Tile {base_7, metal::max(base_7, begin), metal::min(base_7 + (1u << _e42), end_1), _e48, _e53};
 }
 
 uint state_of(
@@ -271,40 +288,46 @@ uint inside_u(
 uint inside_v(
     metal::uint2 topology_3
 ) {
-    return topology_3.y >> 7u;
+    return (topology_3.y >> 7u) & 127u;
+}
+
+uint listed_slot(
+    metal::uint2 topology_4
+) {
+    return topology_4.y >> 14u;
 }
 
 uint along_points(
-    metal::uint2 topology_4,
+    metal::uint2 topology_5,
     uint edge_1
 ) {
-    return (topology_4.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
+    return (topology_5.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
 }
 
 uint outer_before(
-    metal::uint2 topology_5,
+    metal::uint2 topology_6,
     uint edge_2
 ) {
-    uint _e4 = outer_points(topology_5, 0u);
-    uint _e10 = outer_points(topology_5, 1u);
-    uint _e17 = outer_points(topology_5, 2u);
+    uint _e4 = outer_points(topology_6, 0u);
+    uint _e10 = outer_points(topology_6, 1u);
+    uint _e17 = outer_points(topology_6, 2u);
     return (((edge_2 > 0u) ? _e4 : 0u) + ((edge_2 > 1u) ? _e10 : 0u)) + ((edge_2 > 2u) ? _e17 : 0u);
 }
 
 uint along_before(
-    metal::uint2 topology_6,
+    metal::uint2 topology_7,
     uint edge_3
 ) {
-    uint _e6 = inside_v(topology_6);
-    uint _e10 = inside_u(topology_6);
+    uint _e6 = inside_v(topology_7);
+    uint _e10 = inside_u(topology_7);
     return (((edge_3 + 1u) >> 1u) * _e6) + ((edge_3 >> 1u) * _e10);
 }
 
 uint boundary(
-    metal::uint2 topology_7
+    metal::uint2 topology_8
 ) {
-    uint _e2 = outer_before(topology_7, 3u);
-    uint _e4 = outer_points(topology_7, 3u);
+    uint _e2 = outer_before(topology_8, 3u);
+    uint _e4 = outer_points(topology_8, 3u);
     return (_e2 + _e4) - EDGES;
 }
 
@@ -319,7 +342,7 @@ metal::uint2 common_topology(
     uint first_5 = _e3 + (tile.first_patch >> BLOCK_BITS);
     uint _e10 = job.alike_at;
     uint last_2 = _e10 + (tile.last_patch >> BLOCK_BITS);
-    metal::uint2 topology_10 = offsets[metal::min(unsigned(first_5), (_buffer_sizes.size0 - 0 - 8) / 8)];
+    metal::uint2 topology_13 = offsets[metal::min(unsigned(first_5), (_buffer_sizes.size0 - 0 - 8) / 8)];
     block = first_5 + 1u;
     uint2 loop_bound = uint2(4294967295u);
     bool loop_init = true;
@@ -339,12 +362,12 @@ metal::uint2 common_topology(
         {
             uint _e24 = block;
             metal::uint2 _e26 = offsets[metal::min(unsigned(_e24), (_buffer_sizes.size0 - 0 - 8) / 8)];
-            if (metal::any(_e26 != topology_10)) {
+            if (metal::any(_e26 != topology_13)) {
                 return metal::uint2(0u, 0u);
             }
         }
     }
-    return topology_10;
+    return topology_13;
 }
 
 uint naga_div(uint lhs, uint rhs) {
@@ -361,27 +384,34 @@ Repeat repeat_of(
 ) {
     Repeat none = {};
     bool local_1 = {};
+    bool local_2 = {};
     none.size = 0u;
     metal::uint2 _e6 = common_topology(tile_1, offsets, job, _buffer_sizes);
-    if (!((tile_1.first_patch == tile_1.last_patch))) {
-        uint _e13 = state_of(_e6);
-        local_1 = _e13 == CULLED;
+    if (true) {
+        local_1 = tile_1.first_patch == tile_1.last_patch;
     } else {
         local_1 = true;
     }
-    bool _e17 = local_1;
-    if (_e17) {
-        Repeat _e18 = none;
-        return _e18;
+    bool _e14 = local_1;
+    if (!(_e14)) {
+        uint _e18 = state_of(_e6);
+        local_2 = _e18 == CULLED;
+    } else {
+        local_2 = true;
     }
-    metal::uint2 _e20 = patch_offset(tile_1.first_patch, offsets, job, _buffer_sizes);
-    metal::uint2 _e24 = patch_offset(tile_1.first_patch + 1u, offsets, job, _buffer_sizes);
-    metal::uint2 size_2 = _e24 - _e20;
+    bool _e22 = local_2;
+    if (_e22) {
+        Repeat _e23 = none;
+        return _e23;
+    }
+    metal::uint2 _e25 = patch_offset(tile_1.first_patch, offsets, job, _buffer_sizes);
+    metal::uint2 _e29 = patch_offset(tile_1.first_patch + 1u, offsets, job, _buffer_sizes);
+    metal::uint2 size_2 = _e29 - _e25;
     if (size_2[metal::min(unsigned(kind), 1u)] > most) {
-        Repeat _e28 = none;
-        return _e28;
+        Repeat _e33 = none;
+        return _e33;
     }
-    return Repeat {_e6, size_2[metal::min(unsigned(kind), 1u)], tile_1.base - _e20[metal::min(unsigned(kind), 1u)], naga_div(2097151u + size_2[metal::min(unsigned(kind), 1u)], size_2[metal::min(unsigned(kind), 1u)]), _e20.x, size_2.x};
+    return Repeat {_e6, size_2[metal::min(unsigned(kind), 1u)], tile_1.base - _e25[metal::min(unsigned(kind), 1u)], naga_div(2097151u + size_2[metal::min(unsigned(kind), 1u)], size_2[metal::min(unsigned(kind), 1u)]), _e25.x, size_2.x};
 }
 
 uint patch_at(
@@ -391,19 +421,28 @@ uint patch_at(
     return (position * repeat.inverse) >> 21u;
 }
 
-Rings rings_of(
-    metal::uint2 topology_8
+uint catalogue_word(
+    uint at,
+    device type_3 const& catalogue,
+    constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint _e2 = outer_points(topology_8, 0u);
-    uint _e4 = outer_points(topology_8, 1u);
+    uint _e3 = catalogue[metal::min(unsigned(at), (_buffer_sizes.size3 - 0 - 4) / 4)];
+    return _e3;
+}
+
+Rings rings_of(
+    metal::uint2 topology_9
+) {
+    uint _e2 = outer_points(topology_9, 0u);
+    uint _e4 = outer_points(topology_9, 1u);
     uint before_2_ = _e2 + _e4;
-    uint _e7 = outer_points(topology_8, 2u);
+    uint _e7 = outer_points(topology_9, 2u);
     uint before_3_ = before_2_ + _e7;
-    uint _e9 = inside_u(topology_8);
-    uint _e10 = inside_v(topology_8);
+    uint _e9 = inside_u(topology_9);
+    uint _e10 = inside_v(topology_9);
     uint sides = _e9 + _e10;
-    uint _e15 = outer_points(topology_8, 3u);
-    return Rings {topology_8.x, _e2, before_2_, before_3_, _e9, _e10, metal::min(_e9, _e10), sides, before_3_ + (false ? 4294967293u : (_e15 - 4u)), false ? (sides + _e9) : (2u * sides)};
+    uint _e15 = outer_points(topology_9, 3u);
+    return Rings {topology_9.x, _e2, before_2_, before_3_, _e9, _e10, metal::min(_e9, _e10), sides, before_3_ + (false ? 4294967293u : (_e15 - 4u)), false ? (sides + _e9) : (2u * sides)};
 }
 
 uint outer_of(
@@ -532,16 +571,16 @@ RingLocation next_edge(
 
 uint outer_vertex(
     Stitch stitch,
-    uint at
+    uint at_1
 ) {
-    return (at >= stitch.outer_turn) ? (stitch.outer_mirror - at) : at;
+    return (at_1 >= stitch.outer_turn) ? (stitch.outer_mirror - at_1) : at_1;
 }
 
 uint inner_vertex(
     Stitch stitch_1,
-    uint at_1
+    uint at_2
 ) {
-    return (at_1 >= stitch_1.inner_turn) ? (stitch_1.inner_mirror - at_1) : at_1;
+    return (at_2 >= stitch_1.inner_turn) ? (stitch_1.inner_mirror - at_2) : at_2;
 }
 
 metal::uint3 oriented(
@@ -569,7 +608,7 @@ Pair stitch_triangles(
     uint b_1 = {};
     uint c_1 = {};
     uint d = {};
-    uint steps = tables[metal::min(unsigned(stitch_2.steps_at + number), (_buffer_sizes.size3 - 0 - 4) / 4)];
+    uint steps = tables[metal::min(unsigned(stitch_2.steps_at + number), (_buffer_sizes.size4 - 0 - 4) / 4)];
     bool first_inner = (steps & 128u) != 0u;
     bool second_inner = (steps & 8388608u) != 0u;
     a_1 = stitch_2.outer + (steps & 127u);
@@ -641,63 +680,70 @@ uint steps_of(
     return STITCHES_AT + (STITCH_WORDS * number_1);
 }
 
+Stitch straight(
+    uint size,
+    uint number_2,
+    uint outer,
+    uint inner
+) {
+    uint _e4 = steps_of(number_2);
+    return Stitch {size, _e4, outer, inner, false, {}, 0u, 0u, 0u, 0u};
+}
+
+Stitch minimum_stitch(
+    uint base
+) {
+    Stitch _e7 = straight(2u, FAN_STITCH, base, (base + EDGES) - 1u);
+    return _e7;
+}
+
 Stitch rows(
     Rings rings_9,
     uint ring_4,
     uint edge_8,
-    uint size,
-    uint number_2,
+    uint size_1,
+    uint number_3,
     uint outer_ring,
-    uint outer,
+    uint outer_1,
     uint inner_ring,
-    uint inner
+    uint inner_1
 ) {
-    bool local_2 = {};
+    bool local_3 = {};
     uint _e9 = ring_points(rings_9, ring_4);
     bool walks_back = rings_9.short_ == ((2u * ring_4) + 1u);
-    uint _e16 = steps_of(number_2);
+    uint _e16 = steps_of(number_3);
     if (!((edge_8 == 3u))) {
-        local_2 = walks_back;
+        local_3 = walks_back;
     } else {
-        local_2 = true;
+        local_3 = true;
     }
-    bool _e23 = local_2;
-    return Stitch {size, _e16, outer, inner, _e23, {}, inner_ring, inner_ring + outer_ring, inner_ring + (walks_back ? (_e9 >> 1u) : _e9), (2u * inner_ring) + _e9};
+    bool _e23 = local_3;
+    return Stitch {size_1, _e16, outer_1, inner_1, _e23, {}, inner_ring, inner_ring + outer_ring, inner_ring + (walks_back ? (_e9 >> 1u) : _e9), (2u * inner_ring) + _e9};
 }
 
 Stitch transition_stitch(
     Rings rings_10,
     uint edge_9,
-    uint base
+    uint base_1
 ) {
     uint _e3 = outer_of(rings_10, edge_9);
     uint _e4 = along_of(rings_10, edge_9);
     uint inner_points = _e4 - 2u;
-    uint ring_5 = base + rings_10.boundary;
+    uint ring_5 = base_1 + rings_10.boundary;
     uint _e18 = outer_sum(rings_10, edge_9);
     uint _e21 = along_sum(rings_10, edge_9);
-    Stitch _e26 = rows(rings_10, 1u, edge_9, (_e3 + inner_points) - 2u, ((TRANSITION_STRIDE * _e3) + inner_points) - 128u, base, (base + _e18) - edge_9, ring_5, (ring_5 + _e21) - (3u * edge_9));
+    Stitch _e26 = rows(rings_10, 1u, edge_9, (_e3 + inner_points) - 2u, ((TRANSITION_STRIDE * _e3) + inner_points) - 128u, base_1, (base_1 + _e18) - edge_9, ring_5, (ring_5 + _e21) - (3u * edge_9));
     return _e26;
-}
-
-Stitch straight(
-    uint size_1,
-    uint number_3,
-    uint outer_1,
-    uint inner_1
-) {
-    uint _e4 = steps_of(number_3);
-    return Stitch {size_1, _e4, outer_1, inner_1, false, {}, 0u, 0u, 0u, 0u};
 }
 
 Stitch centre_stitch(
     Rings rings_11,
-    uint base_1
+    uint base_2
 ) {
-    bool local_3 = {};
+    bool local_4 = {};
     uint _e2 = stitch_ring_end(rings_11);
     uint _e5 = first_of_ring(rings_11, _e2 - 1u);
-    uint first_7 = base_1 + _e5;
+    uint first_7 = base_2 + _e5;
     if (false) {
         Stitch _e12 = straight(1u, FAN_STITCH, first_7, first_7 + 2u);
         return _e12;
@@ -705,11 +751,11 @@ Stitch centre_stitch(
     uint quads = (metal::max(rings_11.u, rings_11.v) - rings_11.short_) + 1u;
     uint along_u = (rings_11.u > rings_11.v) ? 1u : 0u;
     if (rings_11.u <= rings_11.v) {
-        local_3 = (rings_11.v & 1u) == 0u;
+        local_4 = (rings_11.v & 1u) == 0u;
     } else {
-        local_3 = false;
+        local_4 = false;
     }
-    bool is_mirrored = local_3;
+    bool is_mirrored = local_4;
     uint _e44 = steps_of(is_mirrored ? (MIRRORED_STRIP + quads) : PLAIN_STRIP);
     return Stitch {2u * quads, _e44, first_7 + along_u, first_7, true, {}, NEVER, 0u, first_7 + along_u, (((2u * first_7) + (2u * quads)) + 1u) + along_u};
 }
@@ -717,13 +763,13 @@ Stitch centre_stitch(
 Stitch ring_stitch(
     Rings rings_12,
     RingLocation location_1,
-    uint base_2
+    uint base_3
 ) {
     uint ring_6 = location_1.ring;
     uint _e5 = along_of(rings_12, location_1.edge);
     uint inner_points_1 = _e5 - (2u * ring_6);
     uint _e9 = first_of_ring(rings_12, ring_6);
-    uint inner_ring_1 = base_2 + _e9;
+    uint inner_ring_1 = base_3 + _e9;
     uint _e13 = ring_points(rings_12, ring_6 - 1u);
     uint outer_ring_1 = inner_ring_1 - _e13;
     uint _e16 = along_sum(rings_12, location_1.edge);
@@ -735,100 +781,187 @@ Stitch ring_stitch(
 Stitch stitch_at(
     Rings rings_13,
     RingLocation location_2,
-    uint base_3
+    uint base_4
 ) {
     if (location_2.ring == 1u) {
-        Stitch _e7 = transition_stitch(rings_13, location_2.edge, base_3);
+        Stitch _e7 = transition_stitch(rings_13, location_2.edge, base_4);
         return _e7;
     }
     uint _e9 = stitch_ring_end(rings_13);
     if (location_2.ring == _e9) {
-        Stitch _e11 = centre_stitch(rings_13, base_3);
+        Stitch _e11 = centre_stitch(rings_13, base_4);
         return _e11;
     }
-    Stitch _e12 = ring_stitch(rings_13, location_2, base_3);
+    Stitch _e12 = ring_stitch(rings_13, location_2, base_4);
     return _e12;
 }
 
-Stitch minimum_stitch(
-    uint base_4
+metal::uint3 triangle_of(
+    metal::uint2 topology_10,
+    uint t_1,
+    device type_3 const& tables,
+    constant _mslBufferSizes& _buffer_sizes
 ) {
-    Stitch _e7 = straight(2u, FAN_STITCH, base_4, (base_4 + EDGES) - 1u);
-    return _e7;
+    uint _e2 = state_of(topology_10);
+    if (_e2 == MINIMUM) {
+        Stitch _e6 = minimum_stitch(0u);
+        Pair _e7 = stitch_triangles(_e6, t_1, tables, _buffer_sizes);
+        return _e7.first;
+    }
+    Rings _e9 = rings_of(topology_10);
+    RingLocation _e10 = triangle_location(_e9, t_1);
+    Stitch _e12 = stitch_at(_e9, _e10, 0u);
+    Pair _e14 = stitch_triangles(_e12, _e10.step, tables, _buffer_sizes);
+    return _e14.first;
 }
 
 uint sequence_first(
-    metal::uint2 topology_9,
-    uint t_1,
+    metal::uint2 topology_11,
+    uint t_2,
     uint base_5
 ) {
-    bool local_4 = {};
+    bool local_5 = {};
     if (false) {
-        local_4 = true;
+        local_5 = true;
     } else {
-        local_4 = false;
+        local_5 = false;
     }
-    bool _e8 = local_4;
+    bool _e8 = local_5;
     if (_e8) {
-        uint _e11 = outer_points(topology_9, 1u);
-        return (base_5 + t_1) + naga_div(t_1, _e11 - 1u);
+        uint _e11 = outer_points(topology_11, 1u);
+        return (base_5 + t_2) + naga_div(t_2, _e11 - 1u);
     }
-    return base_5 + t_1;
+    return base_5 + t_2;
 }
 
-Round load_round(
-    Tile tile_2,
-    uint first,
+uint tile_size(
+) {
+    return TILE;
+}
+
+uint place_of(
+    uint patch_index_1,
+    metal::uint2 topology_12,
     uint kind_1,
-    uint thread_1,
     device type_2 const& offsets,
     constant Job& job,
+    device type_3 const& catalogue,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint slot = {};
+    uint _e3 = listed_slot(topology_12);
+    slot = _e3;
+    uint _e5 = slot;
+    if (_e5 == 0u) {
+        uint _e11 = job.alike_at;
+        metal::uint2 _e16 = offsets[metal::min(unsigned(_e11 + (patch_index_1 >> BLOCK_BITS)), (_buffer_sizes.size0 - 0 - 8) / 8)];
+        uint _e17 = listed_slot(_e16);
+        slot = _e17;
+    }
+    uint _e18 = slot;
+    if (_e18 == 0u) {
+        return 0u;
+    }
+    uint _e24 = slot;
+    uint _e30 = catalogue_word((PLACES_AT + (2u * (_e24 - 1u))) + kind_1, catalogue, _buffer_sizes);
+    return _e30;
+}
+
+void load_patch(
+    uint i,
+    uint patch_index_2,
+    Tile tile_2,
+    uint kind_2,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& catalogue,
     threadgroup type_8& begins,
     threadgroup type_9& scratch,
+    threadgroup type_9& listed,
+    threadgroup metal::atomic_uint& is_missing,
     device type_2 const& topologies,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint i = {};
+    bool local_6 = {};
+    metal::uint2 topology_14 = topologies[metal::min(unsigned(patch_index_2), (_buffer_sizes.size9 - 0 - 8) / 8)];
+    metal::uint2 _e7 = patch_offset(patch_index_2, offsets, job, _buffer_sizes);
+    uint begin_1 = _e7[metal::min(unsigned(kind_2), 1u)] - tile_2.base;
+    begins.inner[metal::min(unsigned(i), 127u)] = static_cast<int>(begin_1);
+    scratch.inner[metal::min(unsigned(i), 127u)] = topology_14;
+    uint _e16 = place_of(patch_index_2, topology_14, kind_2, offsets, job, catalogue, _buffer_sizes);
+    uint words = (kind_2 == POINTS) ? POINT_WORDS : 1u;
+    listed.inner[metal::min(unsigned(i), 127u)] = metal::uint2(_e16 - (words * begin_1), true ? _e7.x : 0u);
+    if (_e16 == 0u) {
+        uint _e35 = state_of(topology_14);
+        local_6 = _e35 != CULLED;
+    } else {
+        local_6 = false;
+    }
+    bool _e39 = local_6;
+    if (_e39) {
+        metal::atomic_store_explicit(&is_missing, 1u, metal::memory_order_relaxed);
+        return;
+    } else {
+        return;
+    }
+}
+
+Round load_round(
+    Tile tile_3,
+    uint first,
+    uint kind_3,
+    uint thread_1,
+    device type_2 const& offsets,
+    constant Job& job,
+    device type_3 const& catalogue,
+    threadgroup type_8& begins,
+    threadgroup type_9& scratch,
+    threadgroup type_9& listed,
+    threadgroup metal::atomic_uint& is_missing,
+    device type_2 const& topologies,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint i_1 = {};
     uint end_4 = {};
-    uint count = metal::min(ROUND, (tile_2.last_patch - first) + 1u);
+    uint count = metal::min(ROUND, (tile_3.last_patch - first) + 1u);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    i = thread_1;
+    if (thread_1 == 0u) {
+        metal::atomic_store_explicit(&is_missing, 0u, metal::memory_order_relaxed);
+    }
+    metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
+    i_1 = thread_1;
     uint2 loop_bound_1 = uint2(4294967295u);
     bool loop_init_1 = true;
     while(true) {
         if (metal::all(loop_bound_1 == uint2(0u))) { break; }
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
-            uint _e31 = i;
-            i = _e31 + WORKGROUP;
+            uint _e20 = i_1;
+            i_1 = _e20 + WORKGROUP;
         }
         loop_init_1 = false;
-        uint _e11 = i;
-        if (_e11 < count) {
+        uint _e15 = i_1;
+        if (_e15 < count) {
         } else {
             break;
         }
         {
-            uint _e14 = i;
-            uint _e16 = i;
-            metal::uint2 _e18 = patch_offset(first + _e16, offsets, job, _buffer_sizes);
-            begins.inner[metal::min(unsigned(_e14), 127u)] = static_cast<int>(_e18[metal::min(unsigned(kind_1), 1u)] - tile_2.base);
-            uint _e24 = i;
-            uint _e27 = i;
-            metal::uint2 _e30 = topologies[metal::min(unsigned(first + _e27), (_buffer_sizes.size6 - 0 - 8) / 8)];
-            scratch.inner[metal::min(unsigned(_e24), 127u)] = _e30;
+            uint _e17 = i_1;
+            uint _e18 = i_1;
+            load_patch(_e17, first + _e18, tile_3, kind_3, offsets, job, catalogue, begins, scratch, listed, is_missing, topologies, _buffer_sizes);
         }
     }
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    int _e36 = begins.inner[0];
-    uint begin_1 = static_cast<uint>(metal::max(_e36, static_cast<int>(tile_2.begin - tile_2.base)));
-    end_4 = tile_2.end - tile_2.base;
-    if ((first + count) <= tile_2.last_patch) {
-        metal::uint2 _e51 = patch_offset(first + count, offsets, job, _buffer_sizes);
-        end_4 = _e51[metal::min(unsigned(kind_1), 1u)] - tile_2.base;
+    int _e25 = begins.inner[0];
+    uint begin_2 = static_cast<uint>(metal::max(_e25, static_cast<int>(tile_3.begin - tile_3.base)));
+    end_4 = tile_3.end - tile_3.base;
+    if ((first + count) <= tile_3.last_patch) {
+        metal::uint2 _e40 = patch_offset(first + count, offsets, job, _buffer_sizes);
+        end_4 = _e40[metal::min(unsigned(kind_3), 1u)] - tile_3.base;
     }
-    uint _e55 = end_4;
-    return Round {first, count, begin_1, _e55};
+    uint _e44 = end_4;
+    uint _e46 = metal::atomic_load_explicit(&is_missing, metal::memory_order_relaxed);
+    return Round {first, count, begin_2, _e44, _e46 == 0u};
 }
 
 uint nearer_patch(
@@ -890,7 +1023,7 @@ uint next_patch(
     threadgroup type_8& begins
 ) {
     uint found_2 = {};
-    bool local_5 = {};
+    bool local_7 = {};
     found_2 = number_4;
     uint2 loop_bound_2 = uint2(4294967295u);
     while(true) {
@@ -900,11 +1033,11 @@ uint next_patch(
         if ((_e4 + 1u) < round_1.count) {
             uint _e12 = found_2;
             int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
-            local_5 = _e16 <= static_cast<int>(element_3);
+            local_7 = _e16 <= static_cast<int>(element_3);
         } else {
-            local_5 = false;
+            local_7 = false;
         }
-        bool _e20 = local_5;
+        bool _e20 = local_7;
         if (_e20) {
         } else {
             break;
@@ -919,60 +1052,80 @@ uint next_patch(
 }
 
 void write_triangle_pair(
-    uint at_2,
+    uint at_3,
     metal::uint3 first_1,
     metal::uint3 second,
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    indices_out[metal::min(unsigned(3u * at_2), (_buffer_sizes.size7 - 0 - 8) / 8)] = first_1.xy;
-    indices_out[metal::min(unsigned((3u * at_2) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)] = metal::uint2(first_1.z, second.x);
-    indices_out[metal::min(unsigned((3u * at_2) + 2u), (_buffer_sizes.size7 - 0 - 8) / 8)] = second.yz;
+    indices_out[metal::min(unsigned(3u * at_3), (_buffer_sizes.size10 - 0 - 8) / 8)] = first_1.xy;
+    indices_out[metal::min(unsigned((3u * at_3) + 1u), (_buffer_sizes.size10 - 0 - 8) / 8)] = metal::uint2(first_1.z, second.x);
+    indices_out[metal::min(unsigned((3u * at_3) + 2u), (_buffer_sizes.size10 - 0 - 8) / 8)] = second.yz;
     return;
 }
 
 void write_triangle(
-    uint at_3,
+    uint at_4,
     bool is_second,
     metal::uint3 triangle,
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     if (is_second) {
-        indices_out[metal::min(unsigned((3u * at_3) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)].y = triangle.x;
-        indices_out[metal::min(unsigned((3u * at_3) + 2u), (_buffer_sizes.size7 - 0 - 8) / 8)] = triangle.yz;
+        indices_out[metal::min(unsigned((3u * at_4) + 1u), (_buffer_sizes.size10 - 0 - 8) / 8)].y = triangle.x;
+        indices_out[metal::min(unsigned((3u * at_4) + 2u), (_buffer_sizes.size10 - 0 - 8) / 8)] = triangle.yz;
         return;
     } else {
-        indices_out[metal::min(unsigned(3u * at_3), (_buffer_sizes.size7 - 0 - 8) / 8)] = triangle.xy;
-        indices_out[metal::min(unsigned((3u * at_3) + 1u), (_buffer_sizes.size7 - 0 - 8) / 8)].x = triangle.z;
+        indices_out[metal::min(unsigned(3u * at_4), (_buffer_sizes.size10 - 0 - 8) / 8)] = triangle.xy;
+        indices_out[metal::min(unsigned((3u * at_4) + 1u), (_buffer_sizes.size10 - 0 - 8) / 8)].x = triangle.z;
         return;
     }
 }
 
 void write_two(
-    uint at_4,
+    uint at_5,
     uint first_2,
     uint second_1,
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    indices_out[metal::min(unsigned(at_4), (_buffer_sizes.size7 - 0 - 8) / 8)] = metal::uint2(first_2, second_1);
+    indices_out[metal::min(unsigned(at_5), (_buffer_sizes.size10 - 0 - 8) / 8)] = metal::uint2(first_2, second_1);
     return;
 }
 
 void write_single(
-    uint at_5,
+    uint at_6,
     uint index,
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    if ((at_5 & 1u) == 0u) {
-        indices_out[metal::min(unsigned(at_5 >> 1u), (_buffer_sizes.size7 - 0 - 8) / 8)].x = index;
+    if ((at_6 & 1u) == 0u) {
+        indices_out[metal::min(unsigned(at_6 >> 1u), (_buffer_sizes.size10 - 0 - 8) / 8)].x = index;
         return;
     } else {
-        indices_out[metal::min(unsigned(at_5 >> 1u), (_buffer_sizes.size7 - 0 - 8) / 8)].y = index;
+        indices_out[metal::min(unsigned(at_6 >> 1u), (_buffer_sizes.size10 - 0 - 8) / 8)].y = index;
         return;
     }
+}
+
+uint packed_triangle(
+    metal::uint3 triangle_1
+) {
+    return (triangle_1.x | (triangle_1.y << 10u)) | (triangle_1.z << 20u);
+}
+
+uint packed_vertex(
+    uint packed,
+    uint which
+) {
+    return (packed >> (10u * which)) & 1023u;
+}
+
+metal::uint3 unpacked_triangle(
+    uint packed_1,
+    uint base_6
+) {
+    return metal::uint3(base_6) + metal::uint3(packed_1 & 1023u, (packed_1 >> 10u) & 1023u, packed_1 >> 20u);
 }
 
 Source load_source(
@@ -984,25 +1137,25 @@ Source load_source(
     threadgroup type_9& scratch,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint patch_index_1 = round_2.first + number_5;
-    metal::uint2 topology_11 = scratch.inner[metal::min(unsigned(number_5), 127u)];
-    metal::uint2 _e8 = patch_offset(patch_index_1, offsets, job, _buffer_sizes);
-    uint base_7 = true ? _e8.x : 0u;
+    uint patch_index_3 = round_2.first + number_5;
+    metal::uint2 topology_15 = scratch.inner[metal::min(unsigned(number_5), 127u)];
+    metal::uint2 _e8 = patch_offset(patch_index_3, offsets, job, _buffer_sizes);
+    uint base_8 = true ? _e8.x : 0u;
     int _e14 = begins.inner[metal::min(unsigned(number_5), 127u)];
-    uint _e16 = state_of(topology_11);
-    Rings _e19 = rings_of(topology_11);
-    return Source {number_5, static_cast<uint>(_e14), base_7, _e16 == REGULAR, {}, _e19};
+    uint _e16 = state_of(topology_15);
+    Rings _e19 = rings_of(topology_15);
+    return Source {number_5, static_cast<uint>(_e14), base_8, _e16 == REGULAR, {}, _e19};
 }
 
 RingLocation location_of(
     Source source,
-    uint t_2
+    uint t_3
 ) {
     if (source.is_regular) {
-        RingLocation _e4 = triangle_location(source.rings, t_2);
+        RingLocation _e4 = triangle_location(source.rings, t_3);
         return _e4;
     }
-    return RingLocation {1u, 0u, t_2};
+    return RingLocation {1u, 0u, t_3};
 }
 
 Stitch stitch_from(
@@ -1061,9 +1214,9 @@ void write_triangles(
 ) {
     Source source_3 = {};
     uint element_5 = {};
-    bool local_6 = {};
-    bool local_7 = {};
     bool local_8 = {};
+    bool local_9 = {};
+    bool local_10 = {};
     source_3.number = NEVER;
     element_5 = 2u * thread_2;
     uint2 loop_bound_3 = uint2(4294967295u);
@@ -1072,68 +1225,68 @@ void write_triangles(
         if (metal::all(loop_bound_3 == uint2(0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_2) {
-            uint _e81 = element_5;
-            element_5 = _e81 + 128u;
+            uint _e77 = element_5;
+            element_5 = _e77 + 128u;
         }
         loop_init_2 = false;
         uint _e9 = element_5;
-        uint _e13 = job.tile_bits;
-        if (_e9 < (1u << _e13)) {
+        uint _e10 = tile_size();
+        if (_e9 < _e10) {
         } else {
             break;
         }
         {
-            uint _e16 = element_5;
-            if (!(((_e16 + 1u) < round_4.begin))) {
-                uint _e24 = element_5;
-                local_6 = _e24 >= round_4.end;
+            uint _e12 = element_5;
+            if (!(((_e12 + 1u) < round_4.begin))) {
+                uint _e20 = element_5;
+                local_8 = _e20 >= round_4.end;
             } else {
-                local_6 = true;
+                local_8 = true;
             }
-            bool _e28 = local_6;
-            if (_e28) {
+            bool _e24 = local_8;
+            if (_e24) {
                 continue;
             }
-            uint _e29 = element_5;
-            uint first_8 = metal::max(_e29, round_4.begin);
-            uint _e32 = find_patch(round_4, first_8, begins);
-            uint _e34 = source_3.number;
-            if (_e32 != _e34) {
-                Source _e36 = load_source(round_4, _e32, offsets, job, begins, scratch, _buffer_sizes);
-                source_3 = _e36;
+            uint _e25 = element_5;
+            uint first_8 = metal::max(_e25, round_4.begin);
+            uint _e28 = find_patch(round_4, first_8, begins);
+            uint _e30 = source_3.number;
+            if (_e28 != _e30) {
+                Source _e32 = load_source(round_4, _e28, offsets, job, begins, scratch, _buffer_sizes);
+                source_3 = _e32;
             }
-            Source _e37 = source_3;
-            uint _e39 = source_3.begin;
-            RingLocation _e41 = location_of(_e37, first_8 - _e39);
-            Source _e42 = source_3;
-            Stitch _e43 = stitch_from(_e42, _e41);
-            Pair _e45 = stitch_triangles(_e43, _e41.step, tables, _buffer_sizes);
+            Source _e33 = source_3;
+            uint _e35 = source_3.begin;
+            RingLocation _e37 = location_of(_e33, first_8 - _e35);
+            Source _e38 = source_3;
+            Stitch _e39 = stitch_from(_e38, _e37);
+            Pair _e41 = stitch_triangles(_e39, _e37.step, tables, _buffer_sizes);
+            uint _e42 = element_5;
+            uint at_10 = (out + _e42) >> 1u;
             uint _e46 = element_5;
-            uint at_9 = (out + _e46) >> 1u;
-            uint _e50 = element_5;
-            if (first_8 == _e50) {
-                uint _e54 = element_5;
-                local_7 = (_e54 + 1u) < round_4.end;
+            if (first_8 == _e46) {
+                uint _e50 = element_5;
+                local_9 = (_e50 + 1u) < round_4.end;
             } else {
-                local_7 = false;
+                local_9 = false;
             }
-            bool is_whole = local_7;
+            bool is_whole = local_9;
             if (is_whole) {
-                local_8 = (_e41.step + 1u) < _e43.size;
+                local_10 = (_e37.step + 1u) < _e39.size;
             } else {
-                local_8 = false;
+                local_10 = false;
             }
-            bool _e69 = local_8;
-            if (_e69) {
-                write_triangle_pair(at_9, _e45.first, _e45.second, indices_out, _buffer_sizes);
+            bool _e65 = local_10;
+            if (_e65) {
+                write_triangle_pair(at_10, _e41.first, _e41.second, indices_out, _buffer_sizes);
             } else {
-                uint _e72 = element_5;
-                write_triangle(at_9, first_8 != _e72, _e45.first, indices_out, _buffer_sizes);
+                uint _e68 = element_5;
+                write_triangle(at_10, first_8 != _e68, _e41.first, indices_out, _buffer_sizes);
                 if (is_whole) {
-                    Source _e76 = source_3;
-                    uint _e77 = element_5;
-                    metal::uint3 _e80 = first_triangle(round_4, _e76, _e41, _e77 + 1u, offsets, job, tables, begins, scratch, _buffer_sizes);
-                    write_triangle(at_9, true, _e80, indices_out, _buffer_sizes);
+                    Source _e72 = source_3;
+                    uint _e73 = element_5;
+                    metal::uint3 _e76 = first_triangle(round_4, _e72, _e37, _e73 + 1u, offsets, job, tables, begins, scratch, _buffer_sizes);
+                    write_triangle(at_10, true, _e76, indices_out, _buffer_sizes);
                 }
             }
         }
@@ -1141,10 +1294,94 @@ void write_triangles(
     return;
 }
 
-void write_sequences(
+metal::uint3 listed_triangle(
+    uint number_6,
+    uint element_6,
+    device type_3 const& catalogue,
+    threadgroup type_9& listed,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    metal::uint2 own = listed.inner[metal::min(unsigned(number_6), 127u)];
+    uint _e7 = catalogue_word(own.x + element_6, catalogue, _buffer_sizes);
+    metal::uint3 _e9 = unpacked_triangle(_e7, own.y);
+    return _e9;
+}
+
+void write_listed_triangles(
     Round round_5,
     uint thread_3,
     uint out_1,
+    device type_3 const& catalogue,
+    threadgroup type_8& begins,
+    threadgroup type_9& listed,
+    device type_2& indices_out,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    uint element_7 = {};
+    bool local_11 = {};
+    bool local_12 = {};
+    element_7 = 2u * thread_3;
+    uint2 loop_bound_4 = uint2(4294967295u);
+    bool loop_init_3 = true;
+    while(true) {
+        if (metal::all(loop_bound_4 == uint2(0u))) { break; }
+        loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
+        if (!loop_init_3) {
+            uint _e52 = element_7;
+            element_7 = _e52 + 128u;
+        }
+        loop_init_3 = false;
+        uint _e6 = element_7;
+        uint _e7 = tile_size();
+        if (_e6 < _e7) {
+        } else {
+            break;
+        }
+        {
+            uint _e9 = element_7;
+            if (!(((_e9 + 1u) < round_5.begin))) {
+                uint _e17 = element_7;
+                local_11 = _e17 >= round_5.end;
+            } else {
+                local_11 = true;
+            }
+            bool _e21 = local_11;
+            if (_e21) {
+                continue;
+            }
+            uint _e22 = element_7;
+            uint first_9 = metal::max(_e22, round_5.begin);
+            uint _e25 = find_patch(round_5, first_9, begins);
+            metal::uint3 _e26 = listed_triangle(_e25, first_9, catalogue, listed, _buffer_sizes);
+            uint _e27 = element_7;
+            uint at_11 = (out_1 + _e27) >> 1u;
+            uint _e31 = element_7;
+            if (first_9 == _e31) {
+                uint _e35 = element_7;
+                local_12 = (_e35 + 1u) < round_5.end;
+            } else {
+                local_12 = false;
+            }
+            bool _e41 = local_12;
+            if (_e41) {
+                uint _e42 = element_7;
+                uint _e45 = next_patch(round_5, _e25, _e42 + 1u, begins);
+                uint _e46 = element_7;
+                metal::uint3 _e49 = listed_triangle(_e45, _e46 + 1u, catalogue, listed, _buffer_sizes);
+                write_triangle_pair(at_11, _e26, _e49, indices_out, _buffer_sizes);
+            } else {
+                uint _e50 = element_7;
+                write_triangle(at_11, first_9 != _e50, _e26, indices_out, _buffer_sizes);
+            }
+        }
+    }
+    return;
+}
+
+void write_sequences(
+    Round round_6,
+    uint thread_4,
+    uint out_2,
     device type_2 const& offsets,
     constant Job& job,
     threadgroup type_8& begins,
@@ -1153,71 +1390,71 @@ void write_sequences(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint pair = {};
-    uint element_6 = {};
-    bool local_9 = {};
-    pair = 2u * thread_3;
-    uint2 loop_bound_4 = uint2(4294967295u);
-    bool loop_init_3 = true;
+    uint element_8 = {};
+    bool local_13 = {};
+    pair = 2u * thread_4;
+    uint2 loop_bound_5 = uint2(4294967295u);
+    bool loop_init_4 = true;
     while(true) {
-        if (metal::all(loop_bound_4 == uint2(0u))) { break; }
-        loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
-        if (!loop_init_3) {
-            uint _e60 = pair;
-            pair = _e60 + 128u;
+        if (metal::all(loop_bound_5 == uint2(0u))) { break; }
+        loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
+        if (!loop_init_4) {
+            uint _e56 = pair;
+            pair = _e56 + 128u;
         }
-        loop_init_3 = false;
+        loop_init_4 = false;
         uint _e6 = pair;
-        uint _e10 = job.tile_bits;
-        if (_e6 < (1u << _e10)) {
+        uint _e7 = tile_size();
+        if (_e6 < _e7) {
         } else {
             break;
         }
         {
-            uint _e13 = pair;
-            element_6 = _e13;
-            uint2 loop_bound_5 = uint2(4294967295u);
-            bool loop_init_4 = true;
+            uint _e9 = pair;
+            element_8 = _e9;
+            uint2 loop_bound_6 = uint2(4294967295u);
+            bool loop_init_5 = true;
             while(true) {
-                if (metal::all(loop_bound_5 == uint2(0u))) { break; }
-                loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
-                if (!loop_init_4) {
-                    uint _e58 = element_6;
-                    element_6 = _e58 + 1u;
+                if (metal::all(loop_bound_6 == uint2(0u))) { break; }
+                loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
+                if (!loop_init_5) {
+                    uint _e54 = element_8;
+                    element_8 = _e54 + 1u;
                 }
-                loop_init_4 = false;
-                uint _e15 = element_6;
-                uint _e16 = pair;
-                if (_e15 < (_e16 + 2u)) {
+                loop_init_5 = false;
+                uint _e11 = element_8;
+                uint _e12 = pair;
+                if (_e11 < (_e12 + 2u)) {
                 } else {
                     break;
                 }
                 {
-                    uint _e20 = element_6;
-                    if (!((_e20 < round_5.begin))) {
-                        uint _e26 = element_6;
-                        local_9 = _e26 >= round_5.end;
+                    uint _e16 = element_8;
+                    if (!((_e16 < round_6.begin))) {
+                        uint _e22 = element_8;
+                        local_13 = _e22 >= round_6.end;
                     } else {
-                        local_9 = true;
+                        local_13 = true;
                     }
-                    bool _e30 = local_9;
-                    if (_e30) {
+                    bool _e26 = local_13;
+                    if (_e26) {
                         continue;
                     }
-                    uint _e31 = element_6;
-                    uint _e32 = find_patch(round_5, _e31, begins);
-                    metal::uint2 _e36 = patch_offset(round_5.first + _e32, offsets, job, _buffer_sizes);
-                    uint base_8 = true ? _e36.x : 0u;
-                    uint _e40 = element_6;
-                    int _e43 = begins.inner[metal::min(unsigned(_e32), 127u)];
-                    uint t_3 = _e40 - static_cast<uint>(_e43);
-                    metal::uint2 _e48 = scratch.inner[metal::min(unsigned(_e32), 127u)];
-                    uint _e49 = sequence_first(_e48, t_3, base_8);
+                    uint _e27 = element_8;
+                    uint _e28 = find_patch(round_6, _e27, begins);
+                    metal::uint2 _e32 = patch_offset(round_6.first + _e28, offsets, job, _buffer_sizes);
+                    uint base_9 = true ? _e32.x : 0u;
+                    uint _e36 = element_8;
+                    int _e39 = begins.inner[metal::min(unsigned(_e28), 127u)];
+                    uint t_4 = _e36 - static_cast<uint>(_e39);
+                    metal::uint2 _e44 = scratch.inner[metal::min(unsigned(_e28), 127u)];
+                    uint _e45 = sequence_first(_e44, t_4, base_9);
                     if (false) {
-                        uint _e51 = element_6;
-                        write_two(out_1 + _e51, _e49, _e49 + 1u, indices_out, _buffer_sizes);
+                        uint _e47 = element_8;
+                        write_two(out_2 + _e47, _e45, _e45 + 1u, indices_out, _buffer_sizes);
                     } else {
-                        uint _e55 = element_6;
-                        write_single(out_1 + _e55, _e49, indices_out, _buffer_sizes);
+                        uint _e51 = element_8;
+                        write_single(out_2 + _e51, _e45, indices_out, _buffer_sizes);
                     }
                 }
             }
@@ -1228,46 +1465,46 @@ void write_sequences(
 
 void keep_triangles(
     Repeat repeat_1,
-    uint thread_4,
+    uint thread_5,
     device type_3 const& tables,
     threadgroup type_9& scratch,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint i_1 = {};
+    uint i_2 = {};
     uint _e3 = state_of(repeat_1.topology);
     bool is_regular = _e3 == REGULAR;
     Rings _e10 = rings_of(repeat_1.topology);
     Source source_4 = Source {0u, 0u, 0u, is_regular, {}, _e10};
-    i_1 = thread_4;
-    uint2 loop_bound_6 = uint2(4294967295u);
-    bool loop_init_5 = true;
+    i_2 = thread_5;
+    uint2 loop_bound_7 = uint2(4294967295u);
+    bool loop_init_6 = true;
     while(true) {
-        if (metal::all(loop_bound_6 == uint2(0u))) { break; }
-        loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
-        if (!loop_init_5) {
-            uint _e44 = i_1;
-            i_1 = _e44 + WORKGROUP;
+        if (metal::all(loop_bound_7 == uint2(0u))) { break; }
+        loop_bound_7 -= uint2(loop_bound_7.y == 0u, 1u);
+        if (!loop_init_6) {
+            uint _e36 = i_2;
+            i_2 = _e36 + WORKGROUP;
         }
-        loop_init_5 = false;
-        uint _e13 = i_1;
+        loop_init_6 = false;
+        uint _e13 = i_2;
         if (_e13 < repeat_1.size) {
         } else {
             break;
         }
         {
-            uint _e16 = i_1;
+            uint _e16 = i_2;
             RingLocation _e17 = location_of(source_4, _e16);
             Stitch _e18 = stitch_from(source_4, _e17);
             Pair _e20 = stitch_triangles(_e18, _e17.step, tables, _buffer_sizes);
-            metal::uint3 triangle_1 = _e20.first;
-            uint packed = (_e20.first.x | (_e20.first.y << 10u)) | (_e20.first.z << 20u);
-            uint _e31 = i_1;
-            if (_e31 < SCRATCH) {
-                uint _e35 = i_1;
-                scratch.inner[metal::min(unsigned(_e35), 127u)].x = packed;
+            metal::uint3 triangle_2 = _e20.first;
+            uint _e22 = packed_triangle(triangle_2);
+            uint _e23 = i_2;
+            if (_e23 < SCRATCH) {
+                uint _e27 = i_2;
+                scratch.inner[metal::min(unsigned(_e27), 127u)].x = _e22;
             } else {
-                uint _e39 = i_1;
-                scratch.inner[metal::min(unsigned(_e39 - SCRATCH), 127u)].y = packed;
+                uint _e31 = i_2;
+                scratch.inner[metal::min(unsigned(_e31 - SCRATCH), 127u)].y = _e22;
             }
         }
     }
@@ -1276,26 +1513,26 @@ void keep_triangles(
 
 Corner corner_at(
     Repeat repeat_2,
-    uint at_6
+    uint at_7
 ) {
-    uint element_7 = (at_6 * 43691u) >> 17u;
-    uint position_1 = element_7 + repeat_2.before;
+    uint element_9 = (at_7 * 43691u) >> 17u;
+    uint position_1 = element_9 + repeat_2.before;
     uint _e8 = patch_at(repeat_2, position_1);
-    return Corner {_e8, position_1 - (_e8 * repeat_2.size), at_6 - (3u * element_7)};
+    return Corner {_e8, position_1 - (_e8 * repeat_2.size), at_7 - (3u * element_9)};
 }
 
 Corner next_corner(
     Repeat repeat_3,
     Corner it
 ) {
-    bool local_10 = {};
+    bool local_14 = {};
     bool is_last_corner = it.corner == 2u;
     if (is_last_corner) {
-        local_10 = (it.i + 1u) == repeat_3.size;
+        local_14 = (it.i + 1u) == repeat_3.size;
     } else {
-        local_10 = false;
+        local_14 = false;
     }
-    bool is_last_1 = local_10;
+    bool is_last_1 = local_14;
     return Corner {it.number + (is_last_1 ? 1u : 0u), is_last_1 ? 0u : (it.i + (is_last_corner ? 1u : 0u)), is_last_corner ? 0u : (it.corner + 1u)};
 }
 
@@ -1306,66 +1543,66 @@ uint kept_index(
 ) {
     bool is_low = it_1.i < SCRATCH;
     metal::uint2 two = scratch.inner[metal::min(unsigned(is_low ? it_1.i : (it_1.i - SCRATCH)), 127u)];
-    uint vertex_ = ((is_low ? two.x : two.y) >> (10u * it_1.corner)) & 1023u;
-    return vertex_ + (true ? (repeat_4.base + (it_1.number * repeat_4.points)) : 0u);
+    uint _e17 = packed_vertex(is_low ? two.x : two.y, it_1.corner);
+    return _e17 + (true ? (repeat_4.base + (it_1.number * repeat_4.points)) : 0u);
 }
 
 void copy_triangles(
-    Tile tile_3,
+    Tile tile_4,
     Repeat repeat_5,
-    uint thread_5,
-    uint out_2,
+    uint thread_6,
+    uint out_3,
     device type_3 const& tables,
     threadgroup type_9& scratch,
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint at_7 = {};
-    bool local_11 = {};
-    keep_triangles(repeat_5, thread_5, tables, scratch, _buffer_sizes);
+    uint at_8 = {};
+    bool local_15 = {};
+    keep_triangles(repeat_5, thread_6, tables, scratch, _buffer_sizes);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    uint begin_2 = 3u * (tile_3.begin - tile_3.base);
-    uint end_6 = 3u * (tile_3.end - tile_3.base);
-    at_7 = 2u * thread_5;
-    uint2 loop_bound_7 = uint2(4294967295u);
-    bool loop_init_6 = true;
+    uint begin_3 = 3u * (tile_4.begin - tile_4.base);
+    uint end_6 = 3u * (tile_4.end - tile_4.base);
+    at_8 = 2u * thread_6;
+    uint2 loop_bound_8 = uint2(4294967295u);
+    bool loop_init_7 = true;
     while(true) {
-        if (metal::all(loop_bound_7 == uint2(0u))) { break; }
-        loop_bound_7 -= uint2(loop_bound_7.y == 0u, 1u);
-        if (!loop_init_6) {
-            uint _e48 = at_7;
-            at_7 = _e48 + 128u;
+        if (metal::all(loop_bound_8 == uint2(0u))) { break; }
+        loop_bound_8 -= uint2(loop_bound_8.y == 0u, 1u);
+        if (!loop_init_7) {
+            uint _e48 = at_8;
+            at_8 = _e48 + 128u;
         }
-        loop_init_6 = false;
-        uint _e17 = at_7;
+        loop_init_7 = false;
+        uint _e17 = at_8;
         if (_e17 < end_6) {
         } else {
             break;
         }
         {
-            uint _e19 = at_7;
-            if ((_e19 + 1u) < begin_2) {
+            uint _e19 = at_8;
+            if ((_e19 + 1u) < begin_3) {
                 continue;
             }
-            uint _e23 = at_7;
-            uint first_9 = metal::max(_e23, begin_2);
-            Corner _e25 = corner_at(repeat_5, first_9);
+            uint _e23 = at_8;
+            uint first_10 = metal::max(_e23, begin_3);
+            Corner _e25 = corner_at(repeat_5, first_10);
             uint _e26 = kept_index(repeat_5, _e25, scratch);
-            uint _e27 = at_7;
-            if (first_9 == _e27) {
-                uint _e31 = at_7;
-                local_11 = (_e31 + 1u) < end_6;
+            uint _e27 = at_8;
+            if (first_10 == _e27) {
+                uint _e31 = at_8;
+                local_15 = (_e31 + 1u) < end_6;
             } else {
-                local_11 = false;
+                local_15 = false;
             }
-            bool _e36 = local_11;
+            bool _e36 = local_15;
             if (_e36) {
                 Corner _e37 = next_corner(repeat_5, _e25);
                 uint _e38 = kept_index(repeat_5, _e37, scratch);
-                uint _e41 = at_7;
-                write_two(((3u * out_2) + _e41) >> 1u, _e26, _e38, indices_out, _buffer_sizes);
+                uint _e41 = at_8;
+                write_two(((3u * out_3) + _e41) >> 1u, _e26, _e38, indices_out, _buffer_sizes);
             } else {
-                write_single((3u * out_2) + first_9, _e26, indices_out, _buffer_sizes);
+                write_single((3u * out_3) + first_10, _e26, indices_out, _buffer_sizes);
             }
         }
     }
@@ -1373,56 +1610,60 @@ void copy_triangles(
 }
 
 void write_primitive_tile(
-    uint number_6,
-    uint thread_6,
+    uint number_7,
+    uint thread_7,
     device type_2 const& offsets,
     constant Job& job,
     device type_3 const& tiles,
+    device type_3 const& catalogue,
     device type_3 const& tables,
     threadgroup type_8& begins,
     threadgroup type_9& scratch,
+    threadgroup type_9& listed,
+    threadgroup metal::atomic_uint& is_missing,
     device type_2 const& topologies,
     device type_2& indices_out,
     device Status const& status,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local_12 = {};
+    bool local_16 = {};
     uint first_3 = {};
+    bool local_17 = {};
     uint _e6 = job.chunk;
-    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size8 - 32 - 16) / 16)];
+    Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size11 - 32 - 16) / 16)];
     uint _e13 = job.primitive_tiles_at;
-    Tile _e14 = tile_of(number_6, range.primitives_begin, range.primitives_end, _e13, job, tiles, _buffer_sizes);
+    Tile _e14 = tile_of(number_7, range.primitives_begin, range.primitives_end, _e13, job, tiles, _buffer_sizes);
     if (!((_e14.end == 0u))) {
         uint _e23 = status.overflow;
-        local_12 = _e23 != 0u;
+        local_16 = _e23 != 0u;
     } else {
-        local_12 = true;
+        local_16 = true;
     }
-    bool _e27 = local_12;
+    bool _e27 = local_16;
     if (_e27) {
         return;
     }
     uint _e31 = job.window_first;
     uint _e34 = job.tile_bits;
-    uint out_3 = _e14.base - (_e31 << _e34);
+    uint out_4 = _e14.base - (_e31 << _e34);
     if (IS_TRIANGLES) {
         Repeat _e40 = repeat_of(_e14, PRIMITIVES, 256u, offsets, job, _buffer_sizes);
         if (_e40.size > 0u) {
-            copy_triangles(_e14, _e40, thread_6, out_3, tables, scratch, indices_out, _buffer_sizes);
+            copy_triangles(_e14, _e40, thread_7, out_4, tables, scratch, indices_out, _buffer_sizes);
             return;
         }
     }
     first_3 = _e14.first_patch;
-    uint2 loop_bound_8 = uint2(4294967295u);
-    bool loop_init_7 = true;
+    uint2 loop_bound_9 = uint2(4294967295u);
+    bool loop_init_8 = true;
     while(true) {
-        if (metal::all(loop_bound_8 == uint2(0u))) { break; }
-        loop_bound_8 -= uint2(loop_bound_8.y == 0u, 1u);
-        if (!loop_init_7) {
-            uint _e53 = first_3;
-            first_3 = _e53 + ROUND;
+        if (metal::all(loop_bound_9 == uint2(0u))) { break; }
+        loop_bound_9 -= uint2(loop_bound_9.y == 0u, 1u);
+        if (!loop_init_8) {
+            uint _e59 = first_3;
+            first_3 = _e59 + ROUND;
         }
-        loop_init_7 = false;
+        loop_init_8 = false;
         uint _e46 = first_3;
         if (_e46 <= _e14.last_patch) {
         } else {
@@ -1430,11 +1671,21 @@ void write_primitive_tile(
         }
         {
             uint _e49 = first_3;
-            Round _e51 = load_round(_e14, _e49, PRIMITIVES, thread_6, offsets, job, begins, scratch, topologies, _buffer_sizes);
+            Round _e51 = load_round(_e14, _e49, PRIMITIVES, thread_7, offsets, job, catalogue, begins, scratch, listed, is_missing, topologies, _buffer_sizes);
             if (IS_TRIANGLES) {
-                write_triangles(_e51, thread_6, out_3, offsets, job, tables, begins, scratch, indices_out, _buffer_sizes);
+                local_17 = _e51.is_listed;
             } else {
-                write_sequences(_e51, thread_6, out_3, offsets, job, begins, scratch, indices_out, _buffer_sizes);
+                local_17 = false;
+            }
+            bool _e57 = local_17;
+            if (_e57) {
+                write_listed_triangles(_e51, thread_7, out_4, catalogue, begins, listed, indices_out, _buffer_sizes);
+            } else {
+                if (IS_TRIANGLES) {
+                    write_triangles(_e51, thread_7, out_4, offsets, job, tables, begins, scratch, indices_out, _buffer_sizes);
+                } else {
+                    write_sequences(_e51, thread_7, out_4, offsets, job, begins, scratch, indices_out, _buffer_sizes);
+                }
             }
         }
     }
@@ -1449,16 +1700,19 @@ kernel void expand_primitives(
 , device type_2 const& offsets [[buffer(3)]]
 , constant Job& job [[buffer(0)]]
 , device type_3 const& tiles [[buffer(5)]]
+, device type_3 const& catalogue [[buffer(7)]]
 , device type_3 const& tables [[buffer(2)]]
 , threadgroup type_8& begins
 , threadgroup type_9& scratch
+, threadgroup type_9& listed
+, threadgroup metal::atomic_uint& is_missing
 , device type_2 const& topologies [[buffer(1)]]
 , device type_2& indices_out [[buffer(6)]]
 , device Status const& status [[buffer(4)]]
-, constant _mslBufferSizes& _buffer_sizes [[buffer(7)]]
+, constant _mslBufferSizes& _buffer_sizes [[buffer(8)]]
 ) {
     uint _e6 = job.max_workgroups;
-    uint number_8 = workgroup.x + (workgroup.y * _e6);
-    write_primitive_tile(number_8, thread_, offsets, job, tiles, tables, begins, scratch, topologies, indices_out, status, _buffer_sizes);
+    uint number_9 = workgroup.x + (workgroup.y * _e6);
+    write_primitive_tile(number_9, thread_, offsets, job, tiles, catalogue, tables, begins, scratch, listed, is_missing, topologies, indices_out, status, _buffer_sizes);
     return;
 }

@@ -6,10 +6,11 @@ using metal::uint;
 
 struct _mslBufferSizes {
     uint size0;
-    uint size2;
-    uint size4;
-    uint size7;
+    uint size1;
+    uint size3;
+    uint size5;
     uint size8;
+    uint size9;
 };
 
 struct Job {
@@ -51,8 +52,14 @@ struct Status {
     uint reserved_2_;
     type_2 ranges;
 };
-typedef uint type_4[1];
-struct type_5 {
+typedef metal::atomic_uint type_5[1];
+struct _atomic_compare_exchange_result_Uint_4_ {
+    uint old_value;
+    bool exchanged;
+    char _pad2[3];
+};
+typedef uint type_6[1];
+struct type_7 {
     metal::uint2 inner[341];
 };
 struct Sums {
@@ -67,7 +74,32 @@ struct Processed {
     metal::uint2 topology;
     char _pad5[8];
 };
-typedef metal::uint2 type_7[1];
+typedef metal::uint2 type_9[1];
+
+template <typename A>
+_atomic_compare_exchange_result_Uint_4_ naga_atomic_compare_exchange_weak_explicit(
+    device A *atomic_ptr,
+    uint cmp,
+    uint v
+) {
+    bool swapped = metal::atomic_compare_exchange_weak_explicit(
+        atomic_ptr, &cmp, v,
+        metal::memory_order_relaxed, metal::memory_order_relaxed
+    );
+    return _atomic_compare_exchange_result_Uint_4_{cmp, swapped};
+}
+template <typename A>
+_atomic_compare_exchange_result_Uint_4_ naga_atomic_compare_exchange_weak_explicit(
+    threadgroup A *atomic_ptr,
+    uint cmp,
+    uint v
+) {
+    bool swapped = metal::atomic_compare_exchange_weak_explicit(
+        atomic_ptr, &cmp, v,
+        metal::memory_order_relaxed, metal::memory_order_relaxed
+    );
+    return _atomic_compare_exchange_result_Uint_4_{cmp, swapped};
+}
 constant uint DOMAIN = 2u;
 constant uint PARTITIONING = 2u;
 constant uint OUTPUT = 2u;
@@ -75,6 +107,7 @@ constant uint SPLIT = 0u;
 constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
+constant uint COPIES = 1u;
 constant uint WORKGROUP = 64u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
@@ -85,6 +118,17 @@ constant uint SECTION_BLOCK_BITS = 8u;
 constant uint SECTION = 65536u;
 constant uint SECTION_BITS = 16u;
 constant uint DISPATCHES_AT = 8u;
+constant uint SLOT_BITS = 13u;
+constant uint SLOTS = 8192u;
+constant uint CATALOGUE_POINTS = 131072u;
+constant uint CATALOGUE_TRIANGLES = 262144u;
+constant uint LISTED_POINTS = 512u;
+constant uint LISTED_PRIMITIVES = 512u;
+constant uint USED_AT = 8192u;
+constant uint TILE = 2048u;
+constant uint PLACES_AT = 8194u;
+constant uint POINTS_AT = 24578u;
+constant uint TRIANGLES_AT = 286722u;
 constant uint RECIPROCALS_AT = 0u;
 constant uint STITCHES_AT = 64u;
 constant uint STITCH_WORDS = 128u;
@@ -114,6 +158,8 @@ constant uint POINTS = 0u;
 constant uint PRIMITIVES = 1u;
 constant uint NEVER = 4294967295u;
 constant bool IS_INTEGER = false;
+constant bool HAS_COPIED_POINTS = false;
+constant uint POINT_WORDS = 1u;
 constant uint EDGES = 4u;
 constant bool IS_TRIANGLES = true;
 constant uint INDICES = 3u;
@@ -160,49 +206,55 @@ uint inside_u(
 uint inside_v(
     metal::uint2 topology_3
 ) {
-    return topology_3.y >> 7u;
+    return (topology_3.y >> 7u) & 127u;
+}
+
+uint listed_slot(
+    metal::uint2 topology_4
+) {
+    return topology_4.y >> 14u;
 }
 
 uint along_points(
-    metal::uint2 topology_4,
+    metal::uint2 topology_5,
     uint edge_1
 ) {
-    return (topology_4.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
+    return (topology_5.y >> (7u * (1u - (edge_1 & 1u)))) & 127u;
 }
 
 uint outer_before(
-    metal::uint2 topology_5,
+    metal::uint2 topology_6,
     uint edge_2
 ) {
-    uint _e4 = outer_points(topology_5, 0u);
-    uint _e10 = outer_points(topology_5, 1u);
-    uint _e17 = outer_points(topology_5, 2u);
+    uint _e4 = outer_points(topology_6, 0u);
+    uint _e10 = outer_points(topology_6, 1u);
+    uint _e17 = outer_points(topology_6, 2u);
     return (((edge_2 > 0u) ? _e4 : 0u) + ((edge_2 > 1u) ? _e10 : 0u)) + ((edge_2 > 2u) ? _e17 : 0u);
 }
 
 uint along_before(
-    metal::uint2 topology_6,
+    metal::uint2 topology_7,
     uint edge_3
 ) {
-    uint _e6 = inside_v(topology_6);
-    uint _e10 = inside_u(topology_6);
+    uint _e6 = inside_v(topology_7);
+    uint _e10 = inside_u(topology_7);
     return (((edge_3 + 1u) >> 1u) * _e6) + ((edge_3 >> 1u) * _e10);
 }
 
 uint boundary(
-    metal::uint2 topology_7
+    metal::uint2 topology_8
 ) {
-    uint _e2 = outer_before(topology_7, 3u);
-    uint _e4 = outer_points(topology_7, 3u);
+    uint _e2 = outer_before(topology_8, 3u);
+    uint _e4 = outer_points(topology_8, 3u);
     return (_e2 + _e4) - EDGES;
 }
 
 uint interior_points(
-    metal::uint2 topology_8
+    metal::uint2 topology_9
 ) {
-    uint _e1 = inside_u(topology_8);
+    uint _e1 = inside_u(topology_9);
     if (true) {
-        uint _e5 = inside_v(topology_8);
+        uint _e5 = inside_v(topology_9);
         return (_e1 - 2u) * (_e5 - 2u);
     }
     uint half_ = _e1 >> 1u;
@@ -211,34 +263,34 @@ uint interior_points(
 
 uint triangles_of(
     uint points,
-    metal::uint2 topology_9
+    metal::uint2 topology_10
 ) {
-    uint _e6 = boundary(topology_9);
+    uint _e6 = boundary(topology_10);
     return ((2u * points) - 2u) - _e6;
 }
 
 metal::uint2 counts(
-    metal::uint2 topology_10
+    metal::uint2 topology_11
 ) {
     uint points_1 = EDGES;
     uint triangles = 2u;
-    uint _e1 = state_of(topology_10);
+    uint _e1 = state_of(topology_11);
     if (_e1 == CULLED) {
         return metal::uint2(0u, 0u);
     }
     if (false) {
-        uint _e9 = outer_points(topology_10, 0u);
+        uint _e9 = outer_points(topology_11, 0u);
         uint lines = _e9 - 1u;
-        uint _e13 = outer_points(topology_10, 1u);
+        uint _e13 = outer_points(topology_11, 1u);
         return lines * metal::uint2(_e13, _e13 - 1u);
     }
-    uint _e22 = state_of(topology_10);
+    uint _e22 = state_of(topology_11);
     if (_e22 == REGULAR) {
-        uint _e25 = boundary(topology_10);
-        uint _e26 = interior_points(topology_10);
+        uint _e25 = boundary(topology_11);
+        uint _e26 = interior_points(topology_11);
         points_1 = _e25 + _e26;
         uint _e28 = points_1;
-        uint _e29 = triangles_of(_e28, topology_10);
+        uint _e29 = triangles_of(_e28, topology_11);
         triangles = _e29;
     }
     if (false) {
@@ -252,11 +304,207 @@ metal::uint2 counts(
     return metal::uint2(_e34, false ? (_e36 - 1u) : _e35);
 }
 
+uint key_of(
+    metal::uint2 topology_12
+) {
+    uint key = {};
+    uint edge_4 = 0u;
+    uint _e1 = inside_u(topology_12);
+    uint _e6 = inside_v(topology_12);
+    key = ((_e1 - 2u) << 20u) | ((_e6 - 2u) << 25u);
+    uint2 loop_bound = uint2(4294967295u);
+    bool loop_init = true;
+    while(true) {
+        if (metal::all(loop_bound == uint2(0u))) { break; }
+        loop_bound -= uint2(loop_bound.y == 0u, 1u);
+        if (!loop_init) {
+            uint _e29 = edge_4;
+            edge_4 = _e29 + 1u;
+        }
+        loop_init = false;
+        uint _e15 = edge_4;
+        if (_e15 < EDGES) {
+        } else {
+            break;
+        }
+        {
+            uint _e18 = key;
+            uint _e19 = edge_4;
+            uint _e20 = outer_points(topology_12, _e19);
+            uint _e24 = edge_4;
+            key = _e18 | ((_e20 - 2u) << (5u * _e24));
+        }
+    }
+    uint _e31 = key;
+    uint _e32 = state_of(topology_12);
+    return _e31 | (_e32 << 30u);
+}
+
+bool has_key(
+    metal::uint2 topology_13
+) {
+    uint most = {};
+    uint edge_5 = 0u;
+    bool local_2 = {};
+    uint _e1 = inside_u(topology_13);
+    uint _e2 = inside_v(topology_13);
+    most = metal::max(_e1, _e2);
+    uint2 loop_bound_1 = uint2(4294967295u);
+    bool loop_init_1 = true;
+    while(true) {
+        if (metal::all(loop_bound_1 == uint2(0u))) { break; }
+        loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
+        if (!loop_init_1) {
+            uint _e15 = edge_5;
+            edge_5 = _e15 + 1u;
+        }
+        loop_init_1 = false;
+        uint _e7 = edge_5;
+        if (_e7 < EDGES) {
+        } else {
+            break;
+        }
+        {
+            uint _e10 = most;
+            uint _e11 = edge_5;
+            uint _e12 = outer_points(topology_13, _e11);
+            most = metal::max(_e10, _e12);
+        }
+    }
+    uint _e17 = state_of(topology_13);
+    if (_e17 != CULLED) {
+        uint _e22 = most;
+        local_2 = _e22 <= 33u;
+    } else {
+        local_2 = false;
+    }
+    bool _e26 = local_2;
+    return _e26;
+}
+
+metal::uint2 topology_of(
+    uint key_1
+) {
+    uint outer = 0u;
+    uint edge_6 = 0u;
+    uint2 loop_bound_2 = uint2(4294967295u);
+    bool loop_init_2 = true;
+    while(true) {
+        if (metal::all(loop_bound_2 == uint2(0u))) { break; }
+        loop_bound_2 -= uint2(loop_bound_2.y == 0u, 1u);
+        if (!loop_init_2) {
+            uint _e23 = edge_6;
+            edge_6 = _e23 + 1u;
+        }
+        loop_init_2 = false;
+        uint _e5 = edge_6;
+        if (_e5 < EDGES) {
+        } else {
+            break;
+        }
+        {
+            uint _e8 = outer;
+            uint _e10 = edge_6;
+            uint _e18 = edge_6;
+            outer = _e8 | ((((key_1 >> (5u * _e10)) & 31u) + 2u) << (7u * _e18));
+        }
+    }
+    uint u = ((key_1 >> 20u) & 31u) + 2u;
+    uint v = ((key_1 >> 25u) & 31u) + 2u;
+    uint _e37 = outer;
+    return metal::uint2(_e37 | ((key_1 >> 30u) << 28u), u | (v << 7u));
+}
+
+uint naga_mod(uint lhs, uint rhs) {
+    return lhs % metal::select(rhs, 1u, rhs == 0u);
+}
+
+uint slot_of(
+    metal::uint2 topology_14,
+    metal::uint2 size,
+    device type_5& catalogue,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    bool local_3 = {};
+    bool local_4 = {};
+    uint at = {};
+    uint probe = 0u;
+    bool local_5 = {};
+    bool _e2 = has_key(topology_14);
+    if (!(!(_e2))) {
+        local_3 = size.x > LISTED_POINTS;
+    } else {
+        local_3 = true;
+    }
+    bool _e11 = local_3;
+    if (!(_e11)) {
+        local_4 = size.y > LISTED_PRIMITIVES;
+    } else {
+        local_4 = true;
+    }
+    bool _e19 = local_4;
+    if (_e19) {
+        return 0u;
+    }
+    uint _e21 = key_of(topology_14);
+    at = (_e21 * 2654435769u) >> 19u;
+    uint2 loop_bound_3 = uint2(4294967295u);
+    bool loop_init_3 = true;
+    while(true) {
+        if (metal::all(loop_bound_3 == uint2(0u))) { break; }
+        loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
+        if (!loop_init_3) {
+            uint _e64 = probe;
+            probe = _e64 + 1u;
+        }
+        loop_init_3 = false;
+        uint _e29 = probe;
+        if (_e29 < 16u) {
+        } else {
+            break;
+        }
+        {
+            uint _e33 = at;
+            uint found = metal::atomic_load_explicit(&catalogue[metal::min(unsigned(_e33), (_buffer_sizes.size0 - 0 - 4) / 4)], metal::memory_order_relaxed);
+            if (found == _e21) {
+                uint _e37 = at;
+                return _e37 + 1u;
+            }
+            if (found == 0u) {
+                uint _e43 = at;
+                _atomic_compare_exchange_result_Uint_4_ _e46 = naga_atomic_compare_exchange_weak_explicit(&catalogue[metal::min(unsigned(_e43), (_buffer_sizes.size0 - 0 - 4) / 4)], 0u, _e21);
+                if (!(_e46.exchanged)) {
+                    local_5 = _e46.old_value == _e21;
+                } else {
+                    local_5 = true;
+                }
+                bool _e54 = local_5;
+                if (_e54) {
+                    uint _e55 = at;
+                    return _e55 + 1u;
+                }
+            }
+            uint _e58 = at;
+            at = naga_mod(_e58 + 1u, SLOTS);
+        }
+    }
+    return 0u;
+}
+
+void empty_catalogue(
+    device type_5& catalogue,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    metal::atomic_store_explicit(&catalogue[metal::min(unsigned(8192), (_buffer_sizes.size0 - 0 - 4) / 4)], 0u, metal::memory_order_relaxed);
+    metal::atomic_store_explicit(&catalogue[metal::min(unsigned(8193), (_buffer_sizes.size0 - 0 - 4) / 4)], 0u, metal::memory_order_relaxed);
+    return;
+}
+
 uint fixed_from_bits(
     uint bits
 ) {
-    bool local_1 = {};
-    bool local_2 = {};
+    bool local_6 = {};
+    bool local_7 = {};
     uint shift = 134u - (bits >> 23u);
     uint mantissa = (bits & 8388607u) | 8388608u;
     uint quotient = mantissa >> shift;
@@ -264,16 +512,16 @@ uint fixed_from_bits(
     uint half_1 = 1u << (shift - 1u);
     if (!((remainder > half_1))) {
         if (remainder == half_1) {
-            local_2 = (quotient & 1u) == 1u;
+            local_7 = (quotient & 1u) == 1u;
         } else {
-            local_2 = false;
+            local_7 = false;
         }
-        bool _e31 = local_2;
-        local_1 = _e31;
+        bool _e31 = local_7;
+        local_6 = _e31;
     } else {
-        local_1 = true;
+        local_6 = true;
     }
-    bool up = local_1;
+    bool up = local_6;
     return quotient + (up ? 1u : 0u);
 }
 
@@ -290,10 +538,10 @@ uint float_bits_from_coordinate(
 
 uint reciprocal(
     uint n,
-    device type_4 const& tables,
+    device type_6 const& tables,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint _e7 = tables[metal::min(unsigned((RECIPROCALS_AT + n) - 1u), (_buffer_sizes.size0 - 0 - 4) / 4)];
+    uint _e7 = tables[metal::min(unsigned((RECIPROCALS_AT + n) - 1u), (_buffer_sizes.size1 - 0 - 4) / 4)];
     return _e7;
 }
 
@@ -301,14 +549,14 @@ uint half_factor(
     uint factor,
     uint odd
 ) {
-    bool local_3 = {};
+    bool local_8 = {};
     uint rounded = (factor + 1u) >> 1u;
     if (!((odd == 1u))) {
-        local_3 = rounded == HALF;
+        local_8 = rounded == HALF;
     } else {
-        local_3 = true;
+        local_8 = true;
     }
-    bool _e16 = local_3;
+    bool _e16 = local_8;
     return rounded + (_e16 ? HALF : 0u);
 }
 
@@ -316,14 +564,14 @@ uint edge_points(
     uint factor_1,
     uint odd_1
 ) {
-    bool local_4 = {};
+    bool local_9 = {};
     if (IS_INTEGER) {
         if (factor_1 == ONE) {
-            local_4 = odd_1 == 0u;
+            local_9 = odd_1 == 0u;
         } else {
-            local_4 = false;
+            local_9 = false;
         }
-        bool _e15 = local_4;
+        bool _e15 = local_9;
         return _e15 ? 3u : ((factor_1 >> 16u) + 1u);
     }
     uint _e17 = half_factor(factor_1, odd_1);
@@ -342,7 +590,7 @@ uint split_position(
     uint ceil_points,
     uint odd_2
 ) {
-    bool local_5 = {};
+    bool local_10 = {};
     if (floor_points == ceil_points) {
         return ceil_points + 1u;
     }
@@ -350,11 +598,11 @@ uint split_position(
         return (ceil_points - 1u) - odd_2;
     }
     if (odd_2 == 1u) {
-        local_5 = floor_points == 1u;
+        local_10 = floor_points == 1u;
     } else {
-        local_5 = false;
+        local_10 = false;
     }
-    bool _e17 = local_5;
+    bool _e17 = local_10;
     if (_e17) {
         return 0u;
     }
@@ -365,7 +613,7 @@ uint split_position(
 metal::uint2 make_context(
     uint factor_2,
     uint odd_3,
-    device type_4 const& tables,
+    device type_6 const& tables,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint _e2 = half_factor(factor_2, odd_3);
@@ -380,7 +628,7 @@ metal::uint2 make_context(
 void add_four(
     uint from_at,
     uint to_at,
-    threadgroup type_5& sums
+    threadgroup type_7& sums
 ) {
     metal::uint2 first = sums.inner[metal::min(unsigned(from_at), 340u)];
     metal::uint2 _e9 = sums.inner[metal::min(unsigned(from_at + 1u), 340u)];
@@ -399,7 +647,7 @@ void add_four(
 Sums prefix_sums(
     uint thread_1,
     metal::uint2 own,
-    threadgroup type_5& sums
+    threadgroup type_7& sums
 ) {
     sums.inner[metal::min(unsigned(thread_1), 340u)] = own;
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
@@ -439,13 +687,13 @@ bool is_greater(
     uint bits_2,
     uint low
 ) {
-    bool local_6 = {};
+    bool local_11 = {};
     if (bits_2 > low) {
-        local_6 = bits_2 <= INFINITY_;
+        local_11 = bits_2 <= INFINITY_;
     } else {
-        local_6 = false;
+        local_11 = false;
     }
-    bool _e8 = local_6;
+    bool _e8 = local_11;
     return _e8;
 }
 
@@ -490,14 +738,14 @@ uint edge_parity(
 uint inside_parity(
     uint factor_4
 ) {
-    bool local_7 = {};
+    bool local_12 = {};
     uint _e2 = edge_parity(factor_4, IS_INTEGER);
     if (IS_INTEGER) {
-        local_7 = factor_4 == ONE;
+        local_12 = factor_4 == ONE;
     } else {
-        local_7 = false;
+        local_12 = false;
     }
-    bool _e10 = local_7;
+    bool _e10 = local_12;
     return _e10 ? 0u : _e2;
 }
 
@@ -521,13 +769,13 @@ metal::uint2 process_inside(
 uint inside_low(
     bool any_above
 ) {
-    bool local_8 = {};
+    bool local_13 = {};
     if (true) {
-        local_8 = any_above;
+        local_13 = any_above;
     } else {
-        local_8 = false;
+        local_13 = false;
     }
-    bool _e7 = local_8;
+    bool _e7 = local_13;
     return _e7 ? BITS_1_PLUS_2_POW_MINUS_16_ : LOW;
 }
 
@@ -542,7 +790,7 @@ Processed process_isoline(
     metal::uint2 raw
 ) {
     Processed out = {};
-    bool local_9 = {};
+    bool local_14 = {};
     uint _e6 = fixed_factor(raw.x, BITS_1_, BITS_64_, true);
     uint _e8 = edge_parity(_e6, true);
     metal::uint2 _e10 = process_edge(raw.y);
@@ -551,11 +799,11 @@ Processed process_isoline(
     bool _e22 = is_greater_than_zero(raw.x);
     if (_e22) {
         bool _e26 = is_greater_than_zero(raw.y);
-        local_9 = _e26;
+        local_14 = _e26;
     } else {
-        local_9 = false;
+        local_14 = false;
     }
-    bool _e28 = local_9;
+    bool _e28 = local_14;
     bool is_culled_1 = !(_e28);
     uint _e30 = edge_points(_e6, _e8);
     uint _e33 = edge_points(_e10.x, _e10.y);
@@ -570,22 +818,22 @@ metal::uint2 make_topology(
     bool is_culled,
     bool is_minimum
 ) {
-    uint outer = {};
+    uint outer_1 = {};
     metal::uint4 f = processed.outer;
     metal::uint4 odd_4 = processed.outer_odd;
     uint _e7 = edge_points(processed.outer.x, processed.outer_odd.x);
     uint _e10 = edge_points(processed.outer.y, processed.outer_odd.y);
     uint _e16 = edge_points(processed.outer.z, processed.outer_odd.z);
-    outer = (_e7 | (_e10 << 7u)) | (_e16 << 14u);
+    outer_1 = (_e7 | (_e10 << 7u)) | (_e16 << 14u);
     if (true) {
-        uint _e22 = outer;
+        uint _e22 = outer_1;
         uint _e25 = edge_points(processed.outer.w, processed.outer_odd.w);
-        outer = _e22 | (_e25 << 21u);
+        outer_1 = _e22 | (_e25 << 21u);
     }
     uint _e33 = edge_points(processed.inside.x, processed.inside_odd.x);
     uint _e38 = edge_points(processed.inside.y, processed.inside_odd.y);
     uint state = is_culled ? CULLED : (is_minimum ? MINIMUM : REGULAR);
-    uint _e44 = outer;
+    uint _e44 = outer_1;
     return metal::uint2(_e44 | (state << 28u), _e33 | (_e38 << 7u));
 }
 
@@ -593,39 +841,39 @@ Processed process_triangle(
     metal::uint4 raw_1
 ) {
     Processed out_1 = {};
-    bool local_10 = {};
-    bool local_11 = {};
-    bool local_12 = {};
-    bool local_13 = {};
-    bool local_14 = {};
     bool local_15 = {};
     bool local_16 = {};
     bool local_17 = {};
+    bool local_18 = {};
+    bool local_19 = {};
+    bool local_20 = {};
+    bool local_21 = {};
+    bool local_22 = {};
     metal::uint2 _e3 = process_edge(raw_1.x);
     metal::uint2 _e5 = process_edge(raw_1.y);
     metal::uint2 _e7 = process_edge(raw_1.z);
     bool _e9 = is_above(raw_1.x);
     if (!(_e9)) {
         bool _e14 = is_above(raw_1.y);
-        local_10 = _e14;
+        local_15 = _e14;
     } else {
-        local_10 = true;
+        local_15 = true;
     }
-    bool _e16 = local_10;
+    bool _e16 = local_15;
     if (!(_e16)) {
         bool _e21 = is_above(raw_1.z);
-        local_11 = _e21;
+        local_16 = _e21;
     } else {
-        local_11 = true;
+        local_16 = true;
     }
-    bool _e23 = local_11;
+    bool _e23 = local_16;
     if (!(_e23)) {
         bool _e28 = is_above(raw_1.w);
-        local_12 = _e28;
+        local_17 = _e28;
     } else {
-        local_12 = true;
+        local_17 = true;
     }
-    bool any_above_1 = local_12;
+    bool any_above_1 = local_17;
     uint _e32 = inside_low(any_above_1);
     metal::uint2 _e33 = process_inside(raw_1.w, _e32);
     out_1.outer = metal::uint4(_e3.x, _e5.x, _e7.x, 0u);
@@ -635,37 +883,37 @@ Processed process_triangle(
     bool _e55 = is_greater_than_zero(raw_1.x);
     if (_e55) {
         bool _e59 = is_greater_than_zero(raw_1.y);
-        local_13 = _e59;
+        local_18 = _e59;
     } else {
-        local_13 = false;
+        local_18 = false;
     }
-    bool _e61 = local_13;
+    bool _e61 = local_18;
     if (_e61) {
         bool _e65 = is_greater_than_zero(raw_1.z);
-        local_14 = _e65;
+        local_19 = _e65;
     } else {
-        local_14 = false;
+        local_19 = false;
     }
-    bool _e67 = local_14;
+    bool _e67 = local_19;
     bool is_culled_2 = !(_e67);
     if (_e3.x == ONE) {
-        local_15 = _e5.x == ONE;
+        local_20 = _e5.x == ONE;
     } else {
-        local_15 = false;
+        local_20 = false;
     }
-    bool _e78 = local_15;
+    bool _e78 = local_20;
     if (_e78) {
-        local_16 = _e7.x == ONE;
+        local_21 = _e7.x == ONE;
     } else {
-        local_16 = false;
+        local_21 = false;
     }
-    bool _e85 = local_16;
+    bool _e85 = local_21;
     if (_e85) {
-        local_17 = _e33.x == ONE;
+        local_22 = _e33.x == ONE;
     } else {
-        local_17 = false;
+        local_22 = false;
     }
-    bool is_minimum_1 = local_17;
+    bool is_minimum_1 = local_22;
     Processed _e94 = out_1;
     metal::uint2 _e95 = make_topology(_e94, is_culled_2, is_minimum_1);
     out_1.topology = _e95;
@@ -678,11 +926,6 @@ Processed process_quad(
     metal::uint2 raw_inside
 ) {
     Processed out_2 = {};
-    bool local_18 = {};
-    bool local_19 = {};
-    bool local_20 = {};
-    bool local_21 = {};
-    bool local_22 = {};
     bool local_23 = {};
     bool local_24 = {};
     bool local_25 = {};
@@ -691,6 +934,11 @@ Processed process_quad(
     bool local_28 = {};
     bool local_29 = {};
     bool local_30 = {};
+    bool local_31 = {};
+    bool local_32 = {};
+    bool local_33 = {};
+    bool local_34 = {};
+    bool local_35 = {};
     metal::uint2 _e4 = process_edge(raw_2.x);
     metal::uint2 _e6 = process_edge(raw_2.y);
     metal::uint2 _e8 = process_edge(raw_2.z);
@@ -698,39 +946,39 @@ Processed process_quad(
     bool _e12 = is_above(raw_2.x);
     if (!(_e12)) {
         bool _e17 = is_above(raw_2.y);
-        local_18 = _e17;
+        local_23 = _e17;
     } else {
-        local_18 = true;
+        local_23 = true;
     }
-    bool _e19 = local_18;
+    bool _e19 = local_23;
     if (!(_e19)) {
         bool _e24 = is_above(raw_2.z);
-        local_19 = _e24;
+        local_24 = _e24;
     } else {
-        local_19 = true;
+        local_24 = true;
     }
-    bool _e26 = local_19;
+    bool _e26 = local_24;
     if (!(_e26)) {
         bool _e31 = is_above(raw_2.w);
-        local_20 = _e31;
+        local_25 = _e31;
     } else {
-        local_20 = true;
+        local_25 = true;
     }
-    bool _e33 = local_20;
+    bool _e33 = local_25;
     if (!(_e33)) {
         bool _e38 = is_above(raw_inside.x);
-        local_21 = _e38;
+        local_26 = _e38;
     } else {
-        local_21 = true;
+        local_26 = true;
     }
-    bool _e40 = local_21;
+    bool _e40 = local_26;
     if (!(_e40)) {
         bool _e45 = is_above(raw_inside.y);
-        local_22 = _e45;
+        local_27 = _e45;
     } else {
-        local_22 = true;
+        local_27 = true;
     }
-    bool any_above_2 = local_22;
+    bool any_above_2 = local_27;
     uint _e48 = inside_low(any_above_2);
     metal::uint2 _e50 = process_inside(raw_inside.x, _e48);
     metal::uint2 _e52 = process_inside(raw_inside.y, _e48);
@@ -741,56 +989,56 @@ Processed process_quad(
     bool _e74 = is_greater_than_zero(raw_2.x);
     if (_e74) {
         bool _e78 = is_greater_than_zero(raw_2.y);
-        local_23 = _e78;
-    } else {
-        local_23 = false;
-    }
-    bool _e80 = local_23;
-    if (_e80) {
-        bool _e84 = is_greater_than_zero(raw_2.z);
-        local_24 = _e84;
-    } else {
-        local_24 = false;
-    }
-    bool _e86 = local_24;
-    if (_e86) {
-        bool _e90 = is_greater_than_zero(raw_2.w);
-        local_25 = _e90;
-    } else {
-        local_25 = false;
-    }
-    bool _e92 = local_25;
-    bool is_culled_3 = !(_e92);
-    if (_e4.x == ONE) {
-        local_26 = _e6.x == ONE;
-    } else {
-        local_26 = false;
-    }
-    bool _e103 = local_26;
-    if (_e103) {
-        local_27 = _e8.x == ONE;
-    } else {
-        local_27 = false;
-    }
-    bool _e110 = local_27;
-    if (_e110) {
-        local_28 = _e10.x == ONE;
+        local_28 = _e78;
     } else {
         local_28 = false;
     }
-    bool _e117 = local_28;
-    if (_e117) {
-        local_29 = _e50.x == ONE;
+    bool _e80 = local_28;
+    if (_e80) {
+        bool _e84 = is_greater_than_zero(raw_2.z);
+        local_29 = _e84;
     } else {
         local_29 = false;
     }
-    bool _e124 = local_29;
-    if (_e124) {
-        local_30 = _e52.x == ONE;
+    bool _e86 = local_29;
+    if (_e86) {
+        bool _e90 = is_greater_than_zero(raw_2.w);
+        local_30 = _e90;
     } else {
         local_30 = false;
     }
-    bool is_minimum_2 = local_30;
+    bool _e92 = local_30;
+    bool is_culled_3 = !(_e92);
+    if (_e4.x == ONE) {
+        local_31 = _e6.x == ONE;
+    } else {
+        local_31 = false;
+    }
+    bool _e103 = local_31;
+    if (_e103) {
+        local_32 = _e8.x == ONE;
+    } else {
+        local_32 = false;
+    }
+    bool _e110 = local_32;
+    if (_e110) {
+        local_33 = _e10.x == ONE;
+    } else {
+        local_33 = false;
+    }
+    bool _e117 = local_33;
+    if (_e117) {
+        local_34 = _e50.x == ONE;
+    } else {
+        local_34 = false;
+    }
+    bool _e124 = local_34;
+    if (_e124) {
+        local_35 = _e52.x == ONE;
+    } else {
+        local_35 = false;
+    }
+    bool is_minimum_2 = local_35;
     Processed _e133 = out_2;
     metal::uint2 _e134 = make_topology(_e133, is_culled_3, is_minimum_2);
     out_2.topology = _e134;
@@ -800,103 +1048,108 @@ Processed process_quad(
 
 Processed process(
     uint patch_index,
-    device type_7 const& raw_factors,
+    device type_9 const& raw_factors,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     if (false) {
-        metal::uint2 _e4 = raw_factors[metal::min(unsigned(patch_index), (_buffer_sizes.size2 - 0 - 8) / 8)];
+        metal::uint2 _e4 = raw_factors[metal::min(unsigned(patch_index), (_buffer_sizes.size3 - 0 - 8) / 8)];
         Processed _e5 = process_isoline(_e4);
         return _e5;
     }
     if (false) {
-        uint at = 2u * patch_index;
-        metal::uint2 _e11 = raw_factors[metal::min(unsigned(at), (_buffer_sizes.size2 - 0 - 8) / 8)];
-        metal::uint2 _e16 = raw_factors[metal::min(unsigned(at + 1u), (_buffer_sizes.size2 - 0 - 8) / 8)];
+        uint at_1 = 2u * patch_index;
+        metal::uint2 _e11 = raw_factors[metal::min(unsigned(at_1), (_buffer_sizes.size3 - 0 - 8) / 8)];
+        metal::uint2 _e16 = raw_factors[metal::min(unsigned(at_1 + 1u), (_buffer_sizes.size3 - 0 - 8) / 8)];
         Processed _e18 = process_triangle(metal::uint4(_e11, _e16));
         return _e18;
     }
-    uint at_1 = 3u * patch_index;
-    metal::uint2 _e23 = raw_factors[metal::min(unsigned(at_1), (_buffer_sizes.size2 - 0 - 8) / 8)];
-    metal::uint2 _e28 = raw_factors[metal::min(unsigned(at_1 + 1u), (_buffer_sizes.size2 - 0 - 8) / 8)];
-    metal::uint4 outer_1 = metal::uint4(_e23, _e28);
-    metal::uint2 _e34 = raw_factors[metal::min(unsigned(at_1 + 2u), (_buffer_sizes.size2 - 0 - 8) / 8)];
-    Processed _e35 = process_quad(outer_1, _e34);
+    uint at_2 = 3u * patch_index;
+    metal::uint2 _e23 = raw_factors[metal::min(unsigned(at_2), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    metal::uint2 _e28 = raw_factors[metal::min(unsigned(at_2 + 1u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    metal::uint4 outer_2 = metal::uint4(_e23, _e28);
+    metal::uint2 _e34 = raw_factors[metal::min(unsigned(at_2 + 2u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    Processed _e35 = process_quad(outer_2, _e34);
     return _e35;
 }
 
 void write_contexts(
     uint patch_index_1,
     Processed processed_1,
-    device type_4 const& tables,
+    device type_6 const& tables,
     constant Job& job,
-    device type_7& contexts,
+    device type_9& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint step = job.stride;
     metal::uint2 _e11 = make_context(processed_1.outer.x, processed_1.outer_odd.x, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e11;
+    contexts[metal::min(unsigned(patch_index_1), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e11;
     metal::uint2 _e19 = make_context(processed_1.outer.y, processed_1.outer_odd.y, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + step), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e19;
+    contexts[metal::min(unsigned(patch_index_1 + step), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e19;
     if (false) {
         return;
     }
     metal::uint2 _e30 = make_context(processed_1.outer.z, processed_1.outer_odd.z, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + (2u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e30;
+    contexts[metal::min(unsigned(patch_index_1 + (2u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e30;
     if (false) {
         metal::uint2 _e41 = make_context(processed_1.inside.x, processed_1.inside_odd.x, tables, _buffer_sizes);
-        contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e41;
+        contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e41;
         return;
     }
     metal::uint2 _e51 = make_context(processed_1.outer.w, processed_1.outer_odd.w, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e51;
+    contexts[metal::min(unsigned(patch_index_1 + (3u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e51;
     metal::uint2 _e61 = make_context(processed_1.inside.x, processed_1.inside_odd.x, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + (4u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e61;
+    contexts[metal::min(unsigned(patch_index_1 + (4u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e61;
     metal::uint2 _e71 = make_context(processed_1.inside.y, processed_1.inside_odd.y, tables, _buffer_sizes);
-    contexts[metal::min(unsigned(patch_index_1 + (5u * step)), (_buffer_sizes.size4 - 0 - 8) / 8)] = _e71;
+    contexts[metal::min(unsigned(patch_index_1 + (5u * step)), (_buffer_sizes.size5 - 0 - 8) / 8)] = _e71;
     return;
 }
 
 metal::uint2 process_block(
     uint block,
     uint thread_2,
-    device type_4 const& tables,
-    threadgroup type_5& sums,
-    device type_7 const& raw_factors,
+    device type_5& catalogue,
+    device type_6 const& tables,
+    threadgroup type_7& sums,
+    device type_9 const& raw_factors,
     constant Job& job,
-    device type_7& contexts,
+    device type_9& contexts,
     threadgroup metal::uint2& first_topology,
     threadgroup metal::atomic_uint& differs,
-    device type_7& topologies,
-    device type_7& offsets,
+    device type_9& topologies,
+    device type_9& offsets,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     metal::uint2 own_1 = metal::uint2(0u, 0u);
-    metal::uint2 topology_11 = metal::uint2(0u, 0u);
-    bool local_31 = {};
-    bool local_32 = {};
+    metal::uint2 topology_15 = metal::uint2(0u, 0u);
+    bool local_36 = {};
+    metal::uint2 slot = metal::uint2(0u, 0u);
+    bool local_37 = {};
+    bool local_38 = {};
+    bool local_39 = {};
+    bool local_40 = {};
     uint patch_index_2 = (block * BLOCK) + thread_2;
     uint _e15 = job.patches;
     if (patch_index_2 < _e15) {
         Processed _e17 = process(patch_index_2, raw_factors, _buffer_sizes);
-        topology_11 = _e17.topology;
-        metal::uint2 _e21 = topology_11;
-        topologies[metal::min(unsigned(patch_index_2), (_buffer_sizes.size7 - 0 - 8) / 8)] = _e21;
-        metal::uint2 _e22 = topology_11;
+        topology_15 = _e17.topology;
+        metal::uint2 _e21 = topology_15;
+        topologies[metal::min(unsigned(patch_index_2), (_buffer_sizes.size8 - 0 - 8) / 8)] = _e21;
+        metal::uint2 _e22 = topology_15;
         metal::uint2 _e23 = counts(_e22);
         own_1 = _e23;
         if (true) {
             uint _e28 = state_of(_e17.topology);
-            local_31 = _e28 == REGULAR;
+            local_36 = _e28 == REGULAR;
         } else {
-            local_31 = false;
+            local_36 = false;
         }
-        bool _e32 = local_31;
+        bool _e32 = local_36;
         if (_e32) {
             write_contexts(patch_index_2, _e17, tables, job, contexts, _buffer_sizes);
         }
     }
     if (thread_2 == 0u) {
-        metal::uint2 _e36 = topology_11;
+        metal::uint2 _e36 = topology_15;
         first_topology = _e36;
         metal::atomic_store_explicit(&differs, 0u, metal::memory_order_relaxed);
     }
@@ -904,26 +1157,58 @@ metal::uint2 process_block(
     Sums _e40 = prefix_sums(thread_2, _e39, sums);
     uint _e43 = job.patches;
     if (patch_index_2 < _e43) {
-        offsets[metal::min(unsigned(patch_index_2), (_buffer_sizes.size8 - 0 - 8) / 8)] = _e40.before;
-        metal::uint2 _e48 = topology_11;
+        offsets[metal::min(unsigned(patch_index_2), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e40.before;
+        metal::uint2 _e48 = topology_15;
         metal::uint2 _e50 = first_topology;
         if (metal::any(_e48 != _e50)) {
             metal::atomic_store_explicit(&differs, 1u, metal::memory_order_relaxed);
         }
     }
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
-    if (thread_2 == 0u) {
-        uint _e63 = job.patches;
-        local_32 = (block * BLOCK) < _e63;
+    uint _e56 = metal::atomic_load_explicit(&differs, metal::memory_order_relaxed);
+    bool is_alike = _e56 == 0u;
+    if (!(!(is_alike))) {
+        if (thread_2 == 0u) {
+            local_38 = true;
+        } else {
+            local_38 = false;
+        }
+        bool _e73 = local_38;
+        local_37 = _e73;
     } else {
-        local_32 = false;
+        local_37 = true;
     }
-    bool _e66 = local_32;
-    if (_e66) {
-        uint _e70 = job.alike_at;
-        metal::uint2 _e73 = topology_11;
-        uint _e76 = metal::atomic_load_explicit(&differs, metal::memory_order_relaxed);
-        offsets[metal::min(unsigned(_e70 + block), (_buffer_sizes.size8 - 0 - 8) / 8)] = _e73 * (1u - _e76);
+    bool _e75 = local_37;
+    if (_e75) {
+        metal::uint2 _e77 = topology_15;
+        metal::uint2 _e78 = own_1;
+        uint _e79 = slot_of(_e77, _e78, catalogue, _buffer_sizes);
+        slot.y = _e79 << 14u;
+    }
+    uint _e83 = slot.y;
+    if (_e83 != 0u) {
+        local_39 = !(is_alike);
+    } else {
+        local_39 = false;
+    }
+    bool _e90 = local_39;
+    if (_e90) {
+        metal::uint2 _e93 = topology_15;
+        metal::uint2 _e94 = slot;
+        topologies[metal::min(unsigned(patch_index_2), (_buffer_sizes.size8 - 0 - 8) / 8)] = _e93 | _e94;
+    }
+    if (thread_2 == 0u) {
+        uint _e104 = job.patches;
+        local_40 = (block * BLOCK) < _e104;
+    } else {
+        local_40 = false;
+    }
+    bool _e107 = local_40;
+    if (_e107) {
+        uint _e111 = job.alike_at;
+        metal::uint2 _e117 = topology_15;
+        metal::uint2 _e118 = slot;
+        offsets[metal::min(unsigned(_e111 + block), (_buffer_sizes.size9 - 0 - 8) / 8)] = is_alike ? (_e117 | _e118) : metal::uint2(0u, 0u);
     }
     return _e40.all;
 }
@@ -933,31 +1218,43 @@ struct factorsInput {
 kernel void factors(
   metal::uint3 workgroup [[threadgroup_position_in_grid]]
 , uint thread_ [[thread_index_in_threadgroup]]
-, device type_4 const& tables [[buffer(2)]]
-, threadgroup type_5& sums
-, device type_7 const& raw_factors [[buffer(1)]]
+, device type_5& catalogue [[buffer(6)]]
+, device type_6 const& tables [[buffer(2)]]
+, threadgroup type_7& sums
+, device type_9 const& raw_factors [[buffer(1)]]
 , constant Job& job [[buffer(0)]]
-, device type_7& contexts [[buffer(4)]]
+, device type_9& contexts [[buffer(4)]]
 , threadgroup metal::uint2& first_topology
 , threadgroup metal::atomic_uint& differs
-, device type_7& topologies [[buffer(3)]]
-, device type_7& offsets [[buffer(5)]]
-, constant _mslBufferSizes& _buffer_sizes [[buffer(6)]]
+, device type_9& topologies [[buffer(3)]]
+, device type_9& offsets [[buffer(5)]]
+, constant _mslBufferSizes& _buffer_sizes [[buffer(7)]]
 ) {
     bool local = {};
+    bool local_1 = {};
     uint _e6 = job.max_workgroups;
     uint block_1 = workgroup.x + (workgroup.y * _e6);
-    metal::uint2 _e9 = process_block(block_1, thread_, tables, sums, raw_factors, job, contexts, first_topology, differs, topologies, offsets, _buffer_sizes);
+    metal::uint2 _e9 = process_block(block_1, thread_, catalogue, tables, sums, raw_factors, job, contexts, first_topology, differs, topologies, offsets, _buffer_sizes);
     if (thread_ == 0u) {
-        uint _e18 = job.patches;
-        local = (block_1 * BLOCK) < _e18;
+        uint _e16 = job.first_patch;
+        local = (block_1 + _e16) == 0u;
     } else {
         local = false;
     }
     bool _e21 = local;
     if (_e21) {
-        uint _e25 = job.blocks_at;
-        offsets[metal::min(unsigned(_e25 + block_1), (_buffer_sizes.size8 - 0 - 8) / 8)] = _e9;
+        empty_catalogue(catalogue, _buffer_sizes);
+    }
+    if (thread_ == 0u) {
+        uint _e30 = job.patches;
+        local_1 = (block_1 * BLOCK) < _e30;
+    } else {
+        local_1 = false;
+    }
+    bool _e33 = local_1;
+    if (_e33) {
+        uint _e37 = job.blocks_at;
+        offsets[metal::min(unsigned(_e37 + block_1), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e9;
         return;
     } else {
         return;
