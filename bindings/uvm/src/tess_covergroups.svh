@@ -4,7 +4,7 @@
 // tess_dpi::model_coverage numbers them.
 class tess_covergroups;
     covergroup cg_centre with function sample(int unsigned bin);
-        centre: coverpoint bin {
+        cp_centre: coverpoint bin {
             bins b_quad_point = {0};
             bins b_quad_row_along_u_even = {1};
             bins b_quad_row_along_u_odd = {2};
@@ -21,7 +21,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_clamp with function sample(int unsigned bin);
-        clamp: coverpoint bin {
+        cp_clamp: coverpoint bin {
             bins b_fractional_even_inside_above = {12};
             bins b_fractional_even_inside_below = {13};
             bins b_fractional_even_inside_nan = {14};
@@ -54,7 +54,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_configuration with function sample(int unsigned bin);
-        configuration: coverpoint bin {
+        cp_configuration: coverpoint bin {
             bins b_isoline_fractional_even_line_center = {40};
             bins b_isoline_fractional_even_line_ruler = {41};
             bins b_isoline_fractional_even_point_center = {42};
@@ -155,7 +155,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_context with function sample(int unsigned bin);
-        context: coverpoint bin {
+        cp_context: coverpoint bin {
             bins b_center_even_1_whole = {136};
             bins b_center_even_10_split = {137};
             bins b_center_even_10_whole = {138};
@@ -412,7 +412,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_conversion with function sample(int unsigned bin);
-        conversion: coverpoint bin {
+        cp_conversion: coverpoint bin {
             bins b_inside_down = {388};
             bins b_inside_exact = {389};
             bins b_inside_tie_down = {390};
@@ -427,7 +427,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_cull with function sample(int unsigned bin);
-        cull: coverpoint bin {
+        cp_cull: coverpoint bin {
             bins b_isoline_density_nan = {398};
             bins b_isoline_density_negative = {399};
             bins b_isoline_density_zero = {400};
@@ -459,7 +459,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_denormal with function sample(int unsigned bin);
-        denormal: coverpoint bin {
+        cp_denormal: coverpoint bin {
             bins b_isoline_density = {425};
             bins b_isoline_detail = {426};
             bins b_quad_u0 = {427};
@@ -473,7 +473,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_exceptional with function sample(int unsigned bin);
-        exceptional: coverpoint bin {
+        cp_exceptional: coverpoint bin {
             bins b_center_even_backwards = {434};
             bins b_center_even_equal_neighbours = {435};
             bins b_center_odd_equal_neighbours = {436};
@@ -484,7 +484,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_middle with function sample(int unsigned bin);
-        middle: coverpoint bin {
+        cp_middle: coverpoint bin {
             bins b_evenxeven = {440};
             bins b_evenxodd = {441};
             bins b_oddxeven = {442};
@@ -493,7 +493,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_minimum with function sample(int unsigned bin);
-        minimum: coverpoint bin {
+        cp_minimum: coverpoint bin {
             bins b_quad_fractional_odd_line = {444};
             bins b_quad_fractional_odd_point = {445};
             bins b_quad_fractional_odd_triangle_ccw = {446};
@@ -522,7 +522,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_parities with function sample(int unsigned bin);
-        parities: coverpoint bin {
+        cp_parities: coverpoint bin {
             bins b_quad_fractional_even_evenxeven = {468};
             bins b_quad_fractional_odd_oddxodd = {469};
             bins b_quad_integer_evenxeven = {470};
@@ -547,7 +547,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_picture_frame with function sample(int unsigned bin);
-        picture_frame: coverpoint bin {
+        cp_picture_frame: coverpoint bin {
             bins b_all_one = {488};
             bins b_already_above = {489};
             bins b_raised = {490};
@@ -555,7 +555,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_rings with function sample(int unsigned bin);
-        rings: coverpoint bin {
+        cp_rings: coverpoint bin {
             bins b_quad_1 = {491};
             bins b_quad_10 = {492};
             bins b_quad_11 = {493};
@@ -624,7 +624,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_round with function sample(int unsigned bin);
-        round: coverpoint bin {
+        cp_round: coverpoint bin {
             bins b_integer_inside_exact = {555};
             bins b_integer_inside_up = {556};
             bins b_integer_outer_exact = {557};
@@ -637,7 +637,7 @@ class tess_covergroups;
     endgroup
 
     covergroup cg_transition with function sample(int unsigned bin);
-        transition: coverpoint bin {
+        cp_transition: coverpoint bin {
             bins b_10x10 = {563};
             bins b_10x11 = {564};
             bins b_10x12 = {565};

@@ -30,8 +30,8 @@ module tb_uvm;
         phase      = new("check");
         predictor.results.connect(scoreboard.expected.analysis_export);
         for (int n = 0; n < PATCHES; n++) begin
-            tess_patch_item  p = patch(n);
-            tess_result_item observed = tess_predictor::predict(p);
+            automatic tess_patch_item  p = patch(n);
+            automatic tess_result_item observed = tess_predictor::predict(p);
             predictor.write(p);
             if (n == 5) begin
                 if (fault == 1) observed.v[3] = observed.v[3] ^ 32'h1;

@@ -33,7 +33,7 @@ fn text() -> String {
     _ = writeln!(text, "class tess_covergroups;");
     for group in &groups {
         _ = writeln!(text, "    covergroup cg_{group} with function sample(int unsigned bin);");
-        _ = writeln!(text, "        {group}: coverpoint bin {{");
+        _ = writeln!(text, "        cp_{group}: coverpoint bin {{");
         for (number, (_, name)) in bins.iter().enumerate().filter(|(_, (of, _))| of == group) {
             _ = writeln!(text, "            bins b_{} = {{{number}}};", name.replace('/', "_"));
         }
