@@ -165,7 +165,7 @@ impl Translation {
             .write(parsed.module, parsed.info, None)
             .map_err(|error| parsed.failed("HLSL", &error))?;
         let name = parsed.named("HLSL", &info.entry_point_names)?;
-        Ok((text.into_bytes(), name))
+        Ok((with_unsigned_zeros(&text).into_bytes(), name))
     }
 
     fn msl(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
@@ -276,4 +276,17 @@ impl Parsed<'_> {
             None => Err(self.failed(language, &"no entry point")),
         }
     }
+}
+
+/// HLSL in which atomic loads from buffers, which naga writes as `x.InterlockedOr(at, 0, result)`, have
+/// an unsigned zero: glslang makes an invalid instruction of the signed one.
+fn with_unsigned_zeros(hlsl: &str) -> String {
+    let line = |line: &str| {
+        if line.contains(".InterlockedOr(") {
+            line.replace(", 0, ", ", 0u, ")
+        } else {
+            line.to_owned()
+        }
+    };
+    hlsl.split_inclusive('\n').map(line).collect()
 }
