@@ -99,6 +99,31 @@ fn strength_applies_to_devices() {
     assert_eq!(observe(case(&tie), up, lenient).mismatches, 0, "the other neighbour");
 }
 
+/// The model's sequence by coordinates: any numbering of points, no other order of primitives.
+#[test]
+fn sequences_are_compared_by_coordinates() {
+    let sequence = Strength { order: Order::Sequence, ..Strength::default() };
+    let right = right(TRIANGLE);
+    let points = right.indices.iter().map(|&index| right.points[index as usize]).collect();
+    let listed = Tessellation { points, indices: (0..).take(right.indices.len()).collect() };
+    assert_eq!(observe(case(TRIANGLE), listed.clone(), sequence).mismatches, 0, "a point a vertex");
+
+    let differs = |change: &dyn Fn(&mut Tessellation)| {
+        let mut device = listed.clone();
+        change(&mut device);
+        observe(case(TRIANGLE), device, sequence).differences.remove(0).mismatch
+    };
+    let turned = differs(&|device| device.indices[3..6].rotate_left(1));
+    assert!(turned.to_string().starts_with("index 0 of primitive 1: observed ("), "{turned}");
+    assert_eq!(turned.stage, Stage::Stitch, "another leading vertex");
+    let moved = differs(&|device| device.points[4] = DomainPoint::from_bits(0x123, 0x456));
+    assert_eq!(moved.stage, Stage::Location, "a point that the model does not have");
+    let lost = differs(&|device| device.indices.truncate(3));
+    assert_eq!(lost.stage, Stage::Counts, "too few primitives");
+    let nowhere = differs(&|device| device.indices[1] = 9999);
+    assert!(nowhere.to_string().contains("no point"), "{nowhere}");
+}
+
 /// A device that has points alone is told of a wrong point, not of the indices that it lacks.
 #[test]
 fn points_alone() {

@@ -21,6 +21,8 @@ pub struct Info {
     pub captures: bool,
     /// Whether its tessellation stages can write to buffers.
     pub stores: bool,
+    /// Whether it is a processor, not a graphics device.
+    pub is_software: bool,
     /// The largest factor, `maxTessellationGenerationLevel`.
     pub max_level: u32,
 }
@@ -37,6 +39,7 @@ impl Info {
             tessellates: true,
             captures: true,
             stores: false,
+            is_software: false,
             max_level,
         }
     }

@@ -44,7 +44,7 @@ fn the_device_is_exact() {
     let mut prober = Prober::open(0).expect("the tests have a Vulkan driver");
     let order = if is_lavapipe(&prober) { Order::Sequence } else { Order::Any };
     let strength = Strength { order, ..in_any_order() };
-    let report = report(&mut prober, &some(3000), strength);
+    let report = report(&mut prober, &some(1500), strength);
     assert_eq!((report.different, report.unexplained.patches), (0, 0), "{report}");
     assert_eq!(report.rows.len(), 4 * (2 + 3 + 3), "every configuration of Vulkan");
 }

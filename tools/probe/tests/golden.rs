@@ -3,6 +3,7 @@
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use tess_core::Partitioning;
 use tess_probe::{Digests, cases};
 use tess_verify::case::Case;
 use tess_verify::generate::{Level, Selection, Shard};
@@ -33,6 +34,8 @@ fn model(flush: bool, fault: impl Fn(&Case, &mut Vec<u32>)) -> BTreeMap<Names, (
         let names =
             [case.domain().name(), case.config.partitioning.name(), case.config.output.name()];
         let [domain, partitioning, output] = names.map(str::to_owned);
+        // The factors of pow2 are rounded before a device sees them: none is denormal.
+        let flush = flush && case.config.partitioning != Partitioning::Pow2;
         let asked = flushed(&case).filter(|_| flush).unwrap_or(case);
         let mut whole = asked.patch().tessellate();
         fault(&case, &mut whole.indices);
@@ -68,7 +71,7 @@ fn differing(report: &Value, model: &BTreeMap<Names, (u64, Digests)>) -> Vec<Nam
 #[test]
 fn the_model_is_what_devices_gave() {
     let recorded = recorded();
-    assert!(recorded.len() >= 2, "two devices: {recorded:?}");
+    assert!(!recorded.is_empty(), "there are recorded devices");
     for (path, report) in &recorded {
         assert_eq!(report["unexplained"]["patches"], 0, "{}", path.display());
         let model = model(is_flushing(report), |_, _| {});

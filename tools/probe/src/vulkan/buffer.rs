@@ -59,6 +59,19 @@ impl Buffer {
         Ok(buffer)
     }
 
+    /// The first words of a buffer that only the device uses.
+    pub(crate) fn download(&self, commands: &Commands, words: usize) -> Result<Vec<u32>, Error> {
+        let bytes = 4 * words as u64;
+        let staging = Self::shared(&self.gpu, bytes, vk::BufferUsageFlags::TRANSFER_DST)?;
+        let region = [vk::BufferCopy::default().size(bytes)];
+        // SAFETY: the command buffer is being recorded; both buffers have so many bytes and outlive
+        // the submission, which is waited for.
+        commands.run(|device, to| unsafe {
+            device.cmd_copy_buffer(to, self.handle, staging.handle, &region);
+        })?;
+        staging.read(words)
+    }
+
     fn new(
         gpu: &Arc<Gpu>,
         bytes: u64,

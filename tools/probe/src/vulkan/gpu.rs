@@ -86,6 +86,7 @@ fn info(instance: &ash::Instance, physical: vk::PhysicalDevice, number: usize) -
         tessellates: features.tessellation_shader == vk::TRUE,
         captures: has_feedback(instance, physical),
         stores: features.vertex_pipeline_stores_and_atomics == vk::TRUE,
+        is_software: properties.device_type == vk::PhysicalDeviceType::CPU,
         max_level: properties.limits.max_tessellation_generation_level,
     }
 }
