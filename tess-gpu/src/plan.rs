@@ -8,8 +8,8 @@ use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
 use crate::setup::Setup;
 use crate::sizes::{
-    ALIGNMENT, BLOCK, CATALOGUE_WORDS, Capacity, DISPATCHES_AT, LEAST_TILE_BITS, Limits, MAX_CHUNK,
-    SECTION, SMALL_PATCHES, SMALL_TILES, SUMMED, Span, TILE, TILE_BITS,
+    ALIGNMENT, BLOCK, CATALOGUE_PATCHES, CATALOGUE_WORDS, Capacity, DISPATCHES_AT, LEAST_TILE_BITS,
+    Limits, MAX_CHUNK, SECTION, SMALL_PATCHES, SMALL_TILES, SUMMED, Span, TILE, TILE_BITS,
 };
 use crate::tables;
 
@@ -83,9 +83,10 @@ impl Plan {
         self.is_small
     }
 
-    /// Whether there is a catalogue of topologies.
-    const fn has_catalogue(&self) -> bool {
-        self.setup.has_triangles() && !self.is_small && self.patches > 0
+    /// Whether there is a catalogue of topologies. It takes a fixed time, which pays for large batches.
+    #[must_use]
+    pub const fn has_catalogue(&self) -> bool {
+        self.setup.has_triangles() && self.patches >= CATALOGUE_PATCHES
     }
 
     /// Elements of a tile: points or primitives.
@@ -134,7 +135,7 @@ impl Plan {
             Resource::Status => size::<Status>() + size::<Range>() * u64::from(chunks),
             Resource::Tiles => 4 * u64::from(self.tile_entries()),
             Resource::Arguments => self.arguments_at(self.job_count()),
-            // Nothing reads the catalogue of a small batch.
+            // Without a catalogue nothing reads it, but it is bound.
             Resource::Catalogue if self.has_catalogue() => 4 * u64::from(CATALOGUE_WORDS),
             Resource::Catalogue => ALIGNMENT,
             Resource::Groups => size::<u32>() * u64::from(self.groups),
