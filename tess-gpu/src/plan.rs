@@ -9,7 +9,8 @@ use crate::layout::{DrawIndexed, Range, Status, Topology};
 use crate::setup::Setup;
 use crate::sizes::{
     ALIGNMENT, BLOCK, CATALOGUE_PATCHES, CATALOGUE_WORDS, Capacity, DISPATCHES_AT, LEAST_TILE_BITS,
-    Limits, MAX_CHUNK, SECTION, SMALL_PATCHES, SMALL_TILES, SUMMED, Span, TILE, TILE_BITS,
+    Limits, MAX_CHUNK, SECTION, SMALL_ELEMENTS, SMALL_PATCHES, SMALL_TILES, SUMMED, Span,
+    TILE_BITS,
 };
 use crate::tables;
 
@@ -258,11 +259,10 @@ impl Plan {
 
 /// See [`Plan::is_small`]; the output also has to be bound at once.
 fn is_small(patches: u32, capacity: Capacity) -> bool {
-    let tiles = |elements: u32| elements.div_ceil(TILE);
     let has_output = capacity.points > 0 && capacity.primitives > 0;
     (1..=SMALL_PATCHES).contains(&patches)
         && (has_output || capacity == Capacity::default())
-        && tiles(capacity.points).saturating_add(tiles(capacity.primitives)) <= SMALL_TILES
+        && capacity.points.saturating_add(capacity.primitives) <= SMALL_ELEMENTS
 }
 
 /// The size of a small batch's tiles as a power of two.
