@@ -13,8 +13,7 @@ fn described_point(topology: vec2<u32>, i: u32) -> u32 {
     let location = point_location(rings, i);
     let shape = shape_of(rings, location);
     let constant = shape.constant;
-    let is_corner = shape.form == FORM_CORNER;
-    let position = select(shape.first + shape.sign * location.step, location.step, is_corner);
+    let position = shape.first + shape.sign * location.step;
     return shape.factor | (constant.factor << 3u) | (position << 6u) | (constant.ring << 13u)
         | (shape.form << 18u) | select(0u, 1u << 20u, constant.is_far)
         | select(0u, 1u << 21u, constant.is_centre);

@@ -1,10 +1,10 @@
-// needs: catalogue; bindings: catalogue
+// needs: catalogue; bindings: catalogue, job
 // Entering topologies into the catalogue.
 
 // The number of a topology's slot from 1 on, or 0 if the topology is large or there is no slot for it.
 // `size` is its points and primitives.
 fn slot_of(topology: vec2<u32>, size: vec2<u32>) -> u32 {
-    if !has_key(topology) || size.x > LISTED_POINTS || size.y > LISTED_PRIMITIVES {
+    if job.has_catalogue == 0u || !has_key(topology) || size.x > LISTED_POINTS || size.y > LISTED_PRIMITIVES {
         return 0u;
     }
     let key = key_of(topology);

@@ -68,6 +68,7 @@ struct Job {
     primitive_window_tiles: u32,
     max_workgroups: u32,
     tile_bits: u32,
+    has_catalogue: u32,
 }
 
 // Where a chunk's output lies within the batch's.

@@ -47,6 +47,8 @@ pub struct Job {
     pub max_workgroups: u32,
     /// A tile has 2^`tile_bits` elements.
     pub tile_bits: u32,
+    /// 1 if topologies are entered into the catalogue, 0 if not.
+    pub has_catalogue: u32,
 }
 
 /// What a batch needs and whether it fits: the first 32 bytes of [`crate::Resource::Status`].

@@ -8,8 +8,9 @@ use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
 use crate::setup::Setup;
 use crate::sizes::{
-    ALIGNMENT, BLOCK, CATALOGUE_WORDS, Capacity, DISPATCHES_AT, LEAST_TILE_BITS, Limits, MAX_CHUNK,
-    SECTION, SMALL_PATCHES, SMALL_TILES, SUMMED, Span, TILE, TILE_BITS,
+    ALIGNMENT, BLOCK, CATALOGUE_PATCHES, CATALOGUE_WORDS, Capacity, DISPATCHES_AT, LEAST_TILE_BITS,
+    Limits, MAX_CHUNK, SECTION, SMALL_ELEMENTS, SMALL_PATCHES, SMALL_TILES, SUMMED, Span,
+    TILE_BITS,
 };
 use crate::tables;
 
@@ -101,9 +102,10 @@ impl Plan {
         self.is_small
     }
 
-    /// Whether there is a catalogue of topologies.
-    const fn has_catalogue(&self) -> bool {
-        self.setup.has_triangles() && !self.is_small && self.patches > 0
+    /// Whether there is a catalogue of topologies. It takes a fixed time, which pays for large batches.
+    #[must_use]
+    pub const fn has_catalogue(&self) -> bool {
+        self.setup.has_triangles() && self.patches >= CATALOGUE_PATCHES
     }
 
     /// Elements of a tile: points or primitives.
@@ -152,7 +154,7 @@ impl Plan {
             Resource::Status => size::<Status>() + size::<Range>() * u64::from(chunks),
             Resource::Tiles => 4 * u64::from(self.tile_entries()),
             Resource::Arguments => self.arguments_at(self.job_count()),
-            // Nothing reads the catalogue of a small batch.
+            // Without a catalogue nothing reads it, but it is bound.
             Resource::Catalogue if self.has_catalogue() => 4 * u64::from(CATALOGUE_WORDS),
             Resource::Catalogue => ALIGNMENT,
             Resource::Groups => size::<u32>() * u64::from(self.groups),
@@ -275,11 +277,10 @@ impl Plan {
 
 /// See [`Plan::is_small`]; the output also has to be bound at once.
 fn is_small(patches: u32, capacity: Capacity) -> bool {
-    let tiles = |elements: u32| elements.div_ceil(TILE);
     let has_output = capacity.points > 0 && capacity.primitives > 0;
     (1..=SMALL_PATCHES).contains(&patches)
         && (has_output || capacity == Capacity::default())
-        && tiles(capacity.points).saturating_add(tiles(capacity.primitives)) <= SMALL_TILES
+        && capacity.points.saturating_add(capacity.primitives) <= SMALL_ELEMENTS
 }
 
 /// The size of a small batch's tiles as a power of two.

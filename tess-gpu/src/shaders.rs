@@ -188,7 +188,11 @@ impl Stage {
         let lists = matches!(self, Self::Factors) && setup.has_triangles();
         let (indices, listing) = (files::indices(setup), files::listing(lists));
         let choices = [place, contexts, indices, listing, catalogue, elements];
-        setup.prelude() + &scratch.unwrap_or_default() + &files::joined(file, &choices)
+        // A small tile has fewer elements than the patch that would be made for copying.
+        let copies = if matches!(self, Self::ExpandSmall) { Copies::Never } else { setup.copies };
+        Setup { copies, ..setup }.prelude()
+            + &scratch.unwrap_or_default()
+            + &files::joined(file, &choices)
     }
 
     /// The setup to make this stage's pipeline for. Everything that the stage does not depend on is
@@ -216,7 +220,10 @@ impl Stage {
                 let point_format = setup.point_format;
                 placed_as(setup, any_factors(Setup { point_format, ..plain }))
             }
-            Self::ExpandSmall => placed_as(setup, any_factors(setup)),
+            Self::ExpandSmall => {
+                let copies = Copies::WhereAlike;
+                placed_as(setup, any_factors(Setup { copies, ..setup }))
+            }
             Self::ExpandPrimitives => {
                 let Setup { numbering, index_type, copies, .. } = setup;
                 any_factors(Setup { numbering, index_type, copies, ..plain })

@@ -26,9 +26,12 @@ pub const SECTION: u32 = SECTION_BLOCKS * BLOCK;
 pub const MAX_CHUNK: u32 = SUMMED * SECTION;
 /// A batch of so many patches at most is small: one workgroup does everything in front of the expansions.
 pub const SMALL_PATCHES: u32 = 1024;
-/// A small batch has room for so many tiles of [`TILE`] elements at most, points and primitives together; it is
-/// cut into about as many tiles, or fewer.
+/// A small batch has room for so many points and primitives at most, together.
+pub const SMALL_ELEMENTS: u32 = 1 << 19;
+/// A small batch is cut into so many tiles at most, one for each workgroup that runs at once on a large device.
 pub const SMALL_TILES: u32 = 2048;
+/// A batch of so many patches has a catalogue of topologies.
+pub const CATALOGUE_PATCHES: u32 = 16 << 10;
 /// Slots of the catalogue of topologies, as a power of two.
 pub const SLOT_BITS: u32 = 13;
 /// Slots of the catalogue: it can hold so many topologies, or somewhat fewer.
@@ -62,6 +65,7 @@ pub const DISPATCHES_AT: u32 = 8;
 pub const ALIGNMENT: u64 = 256;
 
 const _: () = {
+    assert!(SMALL_PATCHES < CATALOGUE_PATCHES, "a small batch has no catalogue");
     assert!(ROUND <= POINT_SCRATCH && ROUND <= PRIMITIVE_SCRATCH, "it holds a round's topologies");
     // alike.wgsl divides by multiplying, which is exact for patches of so many elements.
     assert!(2 * POINT_SCRATCH <= 640 && 2 * PRIMITIVE_SCRATCH <= 640, "the division is exact");

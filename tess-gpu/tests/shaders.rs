@@ -139,6 +139,7 @@ fn layouts_are_those_of_the_shaders() {
         "primitive_window_tiles",
         "max_workgroups",
         "tile_bits",
+        "has_catalogue",
     ];
     let fields = layout::Job {
         patches: 0,
@@ -160,9 +161,10 @@ fn layouts_are_those_of_the_shaders() {
         primitive_window_tiles: 16,
         max_workgroups: 17,
         tile_bits: 18,
+        has_catalogue: 19,
     };
     let words: &[u32] = bytemuck::cast_slice(bytemuck::bytes_of(&fields));
-    assert_eq!(words, (0..19).collect::<Vec<_>>(), "the host's members are in this order");
+    assert_eq!(words, (0..20).collect::<Vec<_>>(), "the host's members are in this order");
     assert_eq!(members(&module, "Job"), (0..).map(|n| 4 * n).zip(expected).collect::<Vec<_>>());
     let ranges = members(&module, "Status").into_iter().find(|&(_, name)| name == "ranges");
     assert_eq!(ranges, Some((size_of::<layout::Status>(), "ranges")));

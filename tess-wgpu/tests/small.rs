@@ -6,7 +6,7 @@ use common::device::{Machine, POISON, Written};
 use common::expected::Expected;
 use common::patches::random;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_gpu::sizes::{SMALL_PATCHES, SMALL_TILES, TILE};
+use tess_gpu::sizes::{SMALL_ELEMENTS, SMALL_PATCHES};
 use tess_gpu::{Capacity, Limits, Plan, Setup, Stage};
 use tess_verify::generate::configurations;
 use tess_verify::random::SplitMix64;
@@ -29,7 +29,7 @@ fn the_room_and_the_patches_decide() {
         assert_eq!(plan.is_small(), !stages.contains(&Stage::Partition), "{stages:?}");
         plan.is_small()
     };
-    let most = SMALL_TILES * TILE;
+    let most = SMALL_ELEMENTS;
     assert!(is_small(1, 100, 100) && is_small(SMALL_PATCHES, most / 2, most / 2), "small ones");
     assert!(!is_small(SMALL_PATCHES + 1, 100, 100), "too many patches");
     assert!(!is_small(1, most / 2, most / 2 + 1), "too much room");
@@ -91,7 +91,7 @@ fn planted_faults_are_seen() {
     let mut machine = Machine::open();
     let (setup, mut patches) = (setup(Domain::Quad), low(600));
     // So that there are more tiles than threads.
-    patches.extend(vec![PatchFactors::from_fn(Domain::Quad, |_| 30.0); 300]);
+    patches.extend(vec![PatchFactors::from_fn(Domain::Quad, |_| 20.0); 300]);
     let expected = Expected::new(setup, &patches);
     let (points, indices) = expected.words();
     for (right, wrong) in [

@@ -92,6 +92,7 @@ impl Plan {
             primitive_window_tiles: self.primitive_window_tiles,
             max_workgroups: self.max_workgroups,
             tile_bits: self.tile_bits,
+            has_catalogue: self.has_catalogue().into(),
         }
     }
 }
