@@ -14,7 +14,7 @@ use tess_simd::{Numbering, Tessellator};
 /// copied at a time.
 fn runs(seed: u64, domain: Domain) -> Patches {
     let small = [1.0, 2.0, 2.5, 3.0, 4.0].map(|factor| PatchFactors::uniform(domain, factor));
-    let one = |length: usize, any| if length % 2 == 0 { small[length % 5] } else { any };
+    let one = |length: usize, any| if length.is_multiple_of(2) { small[length % 5] } else { any };
     let different = Patches::random(seed, domain, 40).all;
     let of_length = |(length, any)| std::iter::repeat_n(one(length, any), length);
     let mut all: Vec<_> = (1..).zip(different).flat_map(of_length).collect();
