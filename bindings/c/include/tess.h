@@ -509,7 +509,7 @@ typedef struct TessBatchCounts {
 } TessBatchCounts;
 
 /**
- * The part of a batch's output that belongs to one patch. A culled patch has no points and no
+ * The part of a batch's output that belongs to one patch or one group. A culled patch has no points and no
  * indices.
  */
 typedef struct TessRange {
@@ -915,6 +915,29 @@ TessStatus tess_batch_run(struct TessBatch *batch,
                           size_t factor_count,
                           const struct TessBatchOutput *output,
                           struct TessBatchCounts *counts);
+
+/**
+ * Says where the output of each group of patches lies.
+ *
+ * `ranges` has the range of each of `patch_count` patches, as `tess_batch_run` wrote them; `starts` has
+ * the numbers of the patches at which `group_count` groups begin. A group ends where the next one
+ * begins, the last one with the batch. A group that begins before the one before it, or past the end
+ * of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written. `groups` must not overlap the others
+ * (`TESS_OVERLAP`).
+ *
+ * The caller must ensure:
+ * Pointers that are not null and aligned must be valid:
+ * - `ranges` for reading `patch_count` ranges,
+ * - `starts` for reading `group_count` numbers,
+ * - `groups` for writing `group_count` ranges,
+ *
+ * and no other thread may write any of them at the same time.
+ */
+TessStatus tess_batch_groups(const struct TessRange *ranges,
+                             size_t patch_count,
+                             const uint32_t *starts,
+                             size_t group_count,
+                             struct TessRange *groups);
 
 #ifdef __cplusplus
 }  // extern "C"

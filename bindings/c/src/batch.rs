@@ -12,13 +12,13 @@ pub use output::{
 use crate::boundary;
 use crate::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_INTERNAL, TESS_LEVEL_UNAVAILABLE,
-    TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus, answer,
+    TESS_OUT_OF_RANGE, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus, answer,
 };
 use crate::types::{TessConfig, listed};
 use input::Patches;
 use run::run;
 use tess_core::{Domain, DomainPoint};
-use tess_simd::{Error, Level, Tessellator};
+use tess_simd::{Error, Level, PatchRange, Tessellator, group_ranges};
 
 /// CPU level: the most capable one of this machine.
 pub const TESS_LEVEL_DETECT: u32 = 0;
@@ -175,6 +175,49 @@ pub unsafe extern "C" fn tess_batch_run(
         // SAFETY: `factors`, `counts` and the buffers are as this function asks for them; the
         // element types are those of the formats.
         unsafe { run(batch, (factors, factor_count), &output, counts) }
+    })
+}
+
+/// Says where the output of each group of patches lies.
+///
+/// `ranges` has the range of each of `patch_count` patches, as `tess_batch_run` wrote them; `starts` has
+/// the numbers of the patches at which `group_count` groups begin. A group ends where the next one
+/// begins, the last one with the batch. A group that begins before the one before it, or past the end
+/// of the batch, gives `TESS_OUT_OF_RANGE`, and nothing is written. `groups` must not overlap the others
+/// (`TESS_OVERLAP`).
+///
+/// # Safety
+/// Pointers that are not null and aligned must be valid:
+/// - `ranges` for reading `patch_count` ranges,
+/// - `starts` for reading `group_count` numbers,
+/// - `groups` for writing `group_count` ranges,
+///
+/// and no other thread may write any of them at the same time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_batch_groups(
+    ranges: *const TessRange,
+    patch_count: usize,
+    starts: *const u32,
+    group_count: usize,
+    groups: *mut TessRange,
+) -> TessStatus {
+    answer(|| {
+        let written = boundary::bytes(groups, group_count)?;
+        let read = [boundary::bytes(ranges, patch_count)?, boundary::bytes(starts, group_count)?];
+        for read in read {
+            boundary::check_all_apart(&[written.clone(), read])?;
+        }
+        // SAFETY: `patch_count` readable ranges, as the caller promises.
+        let ranges = unsafe { boundary::list(ranges.cast::<PatchRange>(), patch_count) }?;
+        // SAFETY: `group_count` readable numbers, as the caller promises.
+        let starts = unsafe { boundary::list(starts, group_count) }?;
+        // SAFETY: room for `group_count` ranges that overlaps nothing that is read, as was checked.
+        let room = unsafe { boundary::room(groups, group_count) }?;
+        let found = group_ranges(ranges, starts).map_err(|_| TESS_OUT_OF_RANGE)?;
+        for (to, group) in room.iter_mut().zip(found) {
+            to.write(group.into());
+        }
+        Ok(())
     })
 }
 

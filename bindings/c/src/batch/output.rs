@@ -32,7 +32,7 @@ pub struct TessBatchCounts {
     pub indices: usize,
 }
 
-/// The part of a batch's output that belongs to one patch. A culled patch has no points and no
+/// The part of a batch's output that belongs to one patch or one group. A culled patch has no points and no
 /// indices.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -84,6 +84,13 @@ const _: () = {
     assert!(offset_of!(TessRange, indices) == offset_of!(PatchRange, indices), "field 4");
     assert!(size_of::<DomainPoint>() == 8 && align_of::<DomainPoint>() == 4, "a pair of words");
 };
+
+impl From<PatchRange> for TessRange {
+    fn from(range: PatchRange) -> Self {
+        let PatchRange { first_point, points, first_index, indices } = range;
+        Self { first_point, points, first_index, indices }
+    }
+}
 
 impl From<BatchCounts> for TessBatchCounts {
     fn from(counts: BatchCounts) -> Self {

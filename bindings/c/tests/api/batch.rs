@@ -7,12 +7,12 @@ use tess_capi::batch::{
     TESS_INDEX_U16, TESS_INDEX_U32, TESS_LEVEL_AVX512, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_BATCH,
     TESS_NUMBERING_PER_PATCH, TESS_POINT_F32, TESS_POINT_FIXED, TessBatch, TessBatchCounts,
     TessBatchOutput, TessRange, tess_batch_count, tess_batch_create, tess_batch_free,
-    tess_batch_level, tess_batch_run,
+    tess_batch_groups, tess_batch_level, tess_batch_run,
 };
 use tess_capi::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_LEVEL_UNAVAILABLE, TESS_MISALIGNED,
-    TESS_NULL_POINTER, TESS_OK, TESS_OVERLAP, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE,
-    TESS_WRONG_FACTOR_COUNT, TessStatus,
+    TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE, TESS_OVERLAP, TESS_TOO_LARGE,
+    TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus,
 };
 use tess_capi::types::TessConfig;
 use tess_core::{Domain, Patch, Tessellation};
@@ -278,4 +278,31 @@ fn bad_inputs_are_refused() {
         assert_eq!(tess_batch_run(b, null(), 0, &output, &mut counts), TESS_OK, "no patches");
         assert_eq!(counts, TessBatchCounts::default(), "no patches");
     }
+}
+
+#[test]
+fn groups_are_joined_ranges() {
+    let range = |first_point, points, first_index, indices| TessRange {
+        first_point,
+        points,
+        first_index,
+        indices,
+    };
+    let ranges = [range(0, 4, 0, 6), range(4, 0, 6, 0), range(4, 9, 6, 24)];
+    let groups = |starts: &[u32]| {
+        let mut found = vec![FILLED_RANGE; starts.len()];
+        let to = found.as_mut_ptr();
+        let (from, at) = (ranges.as_ptr(), starts.as_ptr());
+        (unsafe { tess_batch_groups(from, 3, at, starts.len(), to) }, found)
+    };
+    let two = vec![range(0, 4, 0, 6), range(4, 9, 6, 24)];
+    assert_eq!(groups(&[0, 1]), (TESS_OK, two), "two groups");
+    assert_eq!(groups(&[]), (TESS_OK, vec![]), "none");
+    assert_eq!(groups(&[0, 4]), (TESS_OUT_OF_RANGE, vec![FILLED_RANGE; 2]), "past the end");
+    assert_eq!(groups(&[2, 1]), (TESS_OUT_OF_RANGE, vec![FILLED_RANGE; 2]), "back");
+    let mut shared = ranges;
+    let status = unsafe { tess_batch_groups(&shared[0], 3, &0, 1, &raw mut shared[1]) };
+    assert_eq!(status, TESS_OVERLAP, "a range that is read and written");
+    let null_groups = unsafe { tess_batch_groups(ranges.as_ptr(), 3, &0, 1, null_mut()) };
+    assert_eq!(null_groups, TESS_NULL_POINTER, "nowhere to write");
 }
