@@ -231,13 +231,13 @@ impl<'py> Arrays<'py> {
         let element = |i: usize| out.get_item(i);
         let ranges = match out.len() {
             2 => PyArray::zeros(py, [counts.patches, 4], false),
-            _ => rows::<u32>("ranges", &element(2)?, 4)
+            _ => rows::<u32>(&element(2)?, 4)
                 .ok_or_else(|| wrong(&element(2), "ranges", "(.., 4), uint32"))?,
         };
         let (points, indices) = (element(0)?, element(1)?);
-        let points = rows("points", &points, 2)
+        let points = rows(&points, 2)
             .map(Points::Float)
-            .or_else(|| rows("points", &points, 2).map(Points::Fixed))
+            .or_else(|| rows(&points, 2).map(Points::Fixed))
             .ok_or_else(|| wrong(&element(0), "points", "(.., 2), float32 or uint32"))?;
         let indices = indices
             .cast::<PyArray<u32, _>>()
@@ -350,11 +350,9 @@ fn run<P: PointFormat, I: IndexFormat>(
 
 /// An array of this type with rows of `columns` elements.
 fn rows<'py, T: numpy::Element>(
-    what: &str,
     array: &Bound<'py, PyAny>,
     columns: usize,
 ) -> Option<Array2<'py, T>> {
-    _ = what;
     let array = array.cast::<PyArray<T, numpy::Ix2>>().ok()?;
     (array.shape()[1] == columns).then(|| array.clone())
 }
