@@ -12,6 +12,7 @@ fn workload() -> Workload {
         name: "small".to_owned(),
         config: Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw),
         patches: vec![PatchFactors::from(factors); 100],
+        groups: Vec::new(),
         calls: Calls::Batch,
     }
 }

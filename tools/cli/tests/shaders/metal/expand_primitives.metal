@@ -35,6 +35,7 @@ struct Job {
     uint primitive_window_tiles;
     uint max_workgroups;
     uint tile_bits;
+    uint has_catalogue;
 };
 struct Tile {
     uint base;

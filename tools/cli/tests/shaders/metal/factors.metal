@@ -5,9 +5,9 @@
 using metal::uint;
 
 struct _mslBufferSizes {
-    uint size0;
     uint size1;
-    uint size3;
+    uint size2;
+    uint size4;
     uint size5;
     uint size8;
     uint size9;
@@ -33,6 +33,7 @@ struct Job {
     uint primitive_window_tiles;
     uint max_workgroups;
     uint tile_bits;
+    uint has_catalogue;
 };
 struct Range {
     uint points_begin;
@@ -422,70 +423,79 @@ uint naga_mod(uint lhs, uint rhs) {
 uint slot_of(
     metal::uint2 topology_14,
     metal::uint2 size,
+    constant Job& job,
     device type_5& catalogue,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     bool local_3 = {};
     bool local_4 = {};
+    bool local_5 = {};
     uint at = {};
     uint probe = 0u;
-    bool local_5 = {};
-    bool _e2 = has_key(topology_14);
-    if (!(!(_e2))) {
-        local_3 = size.x > LISTED_POINTS;
+    bool local_6 = {};
+    uint _e4 = job.has_catalogue;
+    if (!((_e4 == 0u))) {
+        bool _e10 = has_key(topology_14);
+        local_3 = !(_e10);
     } else {
         local_3 = true;
     }
-    bool _e11 = local_3;
-    if (!(_e11)) {
-        local_4 = size.y > LISTED_PRIMITIVES;
+    bool _e13 = local_3;
+    if (!(_e13)) {
+        local_4 = size.x > LISTED_POINTS;
     } else {
         local_4 = true;
     }
-    bool _e19 = local_4;
-    if (_e19) {
+    bool _e21 = local_4;
+    if (!(_e21)) {
+        local_5 = size.y > LISTED_PRIMITIVES;
+    } else {
+        local_5 = true;
+    }
+    bool _e29 = local_5;
+    if (_e29) {
         return 0u;
     }
-    uint _e21 = key_of(topology_14);
-    at = (_e21 * 2654435769u) >> 19u;
+    uint _e31 = key_of(topology_14);
+    at = (_e31 * 2654435769u) >> 19u;
     uint2 loop_bound_3 = uint2(4294967295u);
     bool loop_init_3 = true;
     while(true) {
         if (metal::all(loop_bound_3 == uint2(0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_3) {
-            uint _e64 = probe;
-            probe = _e64 + 1u;
+            uint _e74 = probe;
+            probe = _e74 + 1u;
         }
         loop_init_3 = false;
-        uint _e29 = probe;
-        if (_e29 < 16u) {
+        uint _e39 = probe;
+        if (_e39 < 16u) {
         } else {
             break;
         }
         {
-            uint _e33 = at;
-            uint found = metal::atomic_load_explicit(&catalogue[metal::min(unsigned(_e33), (_buffer_sizes.size0 - 0 - 4) / 4)], metal::memory_order_relaxed);
-            if (found == _e21) {
-                uint _e37 = at;
-                return _e37 + 1u;
+            uint _e43 = at;
+            uint found = metal::atomic_load_explicit(&catalogue[metal::min(unsigned(_e43), (_buffer_sizes.size1 - 0 - 4) / 4)], metal::memory_order_relaxed);
+            if (found == _e31) {
+                uint _e47 = at;
+                return _e47 + 1u;
             }
             if (found == 0u) {
-                uint _e43 = at;
-                _atomic_compare_exchange_result_Uint_4_ _e46 = naga_atomic_compare_exchange_weak_explicit(&catalogue[metal::min(unsigned(_e43), (_buffer_sizes.size0 - 0 - 4) / 4)], 0u, _e21);
-                if (!(_e46.exchanged)) {
-                    local_5 = _e46.old_value == _e21;
+                uint _e53 = at;
+                _atomic_compare_exchange_result_Uint_4_ _e56 = naga_atomic_compare_exchange_weak_explicit(&catalogue[metal::min(unsigned(_e53), (_buffer_sizes.size1 - 0 - 4) / 4)], 0u, _e31);
+                if (!(_e56.exchanged)) {
+                    local_6 = _e56.old_value == _e31;
                 } else {
-                    local_5 = true;
+                    local_6 = true;
                 }
-                bool _e54 = local_5;
-                if (_e54) {
-                    uint _e55 = at;
-                    return _e55 + 1u;
+                bool _e64 = local_6;
+                if (_e64) {
+                    uint _e65 = at;
+                    return _e65 + 1u;
                 }
             }
-            uint _e58 = at;
-            at = naga_mod(_e58 + 1u, SLOTS);
+            uint _e68 = at;
+            at = naga_mod(_e68 + 1u, SLOTS);
         }
     }
     return 0u;
@@ -495,16 +505,16 @@ void empty_catalogue(
     device type_5& catalogue,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    metal::atomic_store_explicit(&catalogue[metal::min(unsigned(8192), (_buffer_sizes.size0 - 0 - 4) / 4)], 0u, metal::memory_order_relaxed);
-    metal::atomic_store_explicit(&catalogue[metal::min(unsigned(8193), (_buffer_sizes.size0 - 0 - 4) / 4)], 0u, metal::memory_order_relaxed);
+    metal::atomic_store_explicit(&catalogue[metal::min(unsigned(8192), (_buffer_sizes.size1 - 0 - 4) / 4)], 0u, metal::memory_order_relaxed);
+    metal::atomic_store_explicit(&catalogue[metal::min(unsigned(8193), (_buffer_sizes.size1 - 0 - 4) / 4)], 0u, metal::memory_order_relaxed);
     return;
 }
 
 uint fixed_from_bits(
     uint bits
 ) {
-    bool local_6 = {};
     bool local_7 = {};
+    bool local_8 = {};
     uint shift = 134u - (bits >> 23u);
     uint mantissa = (bits & 8388607u) | 8388608u;
     uint quotient = mantissa >> shift;
@@ -512,16 +522,16 @@ uint fixed_from_bits(
     uint half_1 = 1u << (shift - 1u);
     if (!((remainder > half_1))) {
         if (remainder == half_1) {
-            local_7 = (quotient & 1u) == 1u;
+            local_8 = (quotient & 1u) == 1u;
         } else {
-            local_7 = false;
+            local_8 = false;
         }
-        bool _e31 = local_7;
-        local_6 = _e31;
+        bool _e31 = local_8;
+        local_7 = _e31;
     } else {
-        local_6 = true;
+        local_7 = true;
     }
-    bool up = local_6;
+    bool up = local_7;
     return quotient + (up ? 1u : 0u);
 }
 
@@ -541,7 +551,7 @@ uint reciprocal(
     device type_6 const& tables,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint _e7 = tables[metal::min(unsigned((RECIPROCALS_AT + n) - 1u), (_buffer_sizes.size1 - 0 - 4) / 4)];
+    uint _e7 = tables[metal::min(unsigned((RECIPROCALS_AT + n) - 1u), (_buffer_sizes.size2 - 0 - 4) / 4)];
     return _e7;
 }
 
@@ -549,14 +559,14 @@ uint half_factor(
     uint factor,
     uint odd
 ) {
-    bool local_8 = {};
+    bool local_9 = {};
     uint rounded = (factor + 1u) >> 1u;
     if (!((odd == 1u))) {
-        local_8 = rounded == HALF;
+        local_9 = rounded == HALF;
     } else {
-        local_8 = true;
+        local_9 = true;
     }
-    bool _e16 = local_8;
+    bool _e16 = local_9;
     return rounded + (_e16 ? HALF : 0u);
 }
 
@@ -564,14 +574,14 @@ uint edge_points(
     uint factor_1,
     uint odd_1
 ) {
-    bool local_9 = {};
+    bool local_10 = {};
     if (IS_INTEGER) {
         if (factor_1 == ONE) {
-            local_9 = odd_1 == 0u;
+            local_10 = odd_1 == 0u;
         } else {
-            local_9 = false;
+            local_10 = false;
         }
-        bool _e15 = local_9;
+        bool _e15 = local_10;
         return _e15 ? 3u : ((factor_1 >> 16u) + 1u);
     }
     uint _e17 = half_factor(factor_1, odd_1);
@@ -590,7 +600,7 @@ uint split_position(
     uint ceil_points,
     uint odd_2
 ) {
-    bool local_10 = {};
+    bool local_11 = {};
     if (floor_points == ceil_points) {
         return ceil_points + 1u;
     }
@@ -598,11 +608,11 @@ uint split_position(
         return (ceil_points - 1u) - odd_2;
     }
     if (odd_2 == 1u) {
-        local_10 = floor_points == 1u;
+        local_11 = floor_points == 1u;
     } else {
-        local_10 = false;
+        local_11 = false;
     }
-    bool _e17 = local_10;
+    bool _e17 = local_11;
     if (_e17) {
         return 0u;
     }
@@ -687,13 +697,13 @@ bool is_greater(
     uint bits_2,
     uint low
 ) {
-    bool local_11 = {};
+    bool local_12 = {};
     if (bits_2 > low) {
-        local_11 = bits_2 <= INFINITY_;
+        local_12 = bits_2 <= INFINITY_;
     } else {
-        local_11 = false;
+        local_12 = false;
     }
-    bool _e8 = local_11;
+    bool _e8 = local_12;
     return _e8;
 }
 
@@ -738,14 +748,14 @@ uint edge_parity(
 uint inside_parity(
     uint factor_4
 ) {
-    bool local_12 = {};
+    bool local_13 = {};
     uint _e2 = edge_parity(factor_4, IS_INTEGER);
     if (IS_INTEGER) {
-        local_12 = factor_4 == ONE;
+        local_13 = factor_4 == ONE;
     } else {
-        local_12 = false;
+        local_13 = false;
     }
-    bool _e10 = local_12;
+    bool _e10 = local_13;
     return _e10 ? 0u : _e2;
 }
 
@@ -769,13 +779,13 @@ metal::uint2 process_inside(
 uint inside_low(
     bool any_above
 ) {
-    bool local_13 = {};
+    bool local_14 = {};
     if (true) {
-        local_13 = any_above;
+        local_14 = any_above;
     } else {
-        local_13 = false;
+        local_14 = false;
     }
-    bool _e7 = local_13;
+    bool _e7 = local_14;
     return _e7 ? BITS_1_PLUS_2_POW_MINUS_16_ : LOW;
 }
 
@@ -790,7 +800,7 @@ Processed process_isoline(
     metal::uint2 raw
 ) {
     Processed out = {};
-    bool local_14 = {};
+    bool local_15 = {};
     uint _e6 = fixed_factor(raw.x, BITS_1_, BITS_64_, true);
     uint _e8 = edge_parity(_e6, true);
     metal::uint2 _e10 = process_edge(raw.y);
@@ -799,11 +809,11 @@ Processed process_isoline(
     bool _e22 = is_greater_than_zero(raw.x);
     if (_e22) {
         bool _e26 = is_greater_than_zero(raw.y);
-        local_14 = _e26;
+        local_15 = _e26;
     } else {
-        local_14 = false;
+        local_15 = false;
     }
-    bool _e28 = local_14;
+    bool _e28 = local_15;
     bool is_culled_1 = !(_e28);
     uint _e30 = edge_points(_e6, _e8);
     uint _e33 = edge_points(_e10.x, _e10.y);
@@ -841,7 +851,6 @@ Processed process_triangle(
     metal::uint4 raw_1
 ) {
     Processed out_1 = {};
-    bool local_15 = {};
     bool local_16 = {};
     bool local_17 = {};
     bool local_18 = {};
@@ -849,31 +858,32 @@ Processed process_triangle(
     bool local_20 = {};
     bool local_21 = {};
     bool local_22 = {};
+    bool local_23 = {};
     metal::uint2 _e3 = process_edge(raw_1.x);
     metal::uint2 _e5 = process_edge(raw_1.y);
     metal::uint2 _e7 = process_edge(raw_1.z);
     bool _e9 = is_above(raw_1.x);
     if (!(_e9)) {
         bool _e14 = is_above(raw_1.y);
-        local_15 = _e14;
-    } else {
-        local_15 = true;
-    }
-    bool _e16 = local_15;
-    if (!(_e16)) {
-        bool _e21 = is_above(raw_1.z);
-        local_16 = _e21;
+        local_16 = _e14;
     } else {
         local_16 = true;
     }
-    bool _e23 = local_16;
-    if (!(_e23)) {
-        bool _e28 = is_above(raw_1.w);
-        local_17 = _e28;
+    bool _e16 = local_16;
+    if (!(_e16)) {
+        bool _e21 = is_above(raw_1.z);
+        local_17 = _e21;
     } else {
         local_17 = true;
     }
-    bool any_above_1 = local_17;
+    bool _e23 = local_17;
+    if (!(_e23)) {
+        bool _e28 = is_above(raw_1.w);
+        local_18 = _e28;
+    } else {
+        local_18 = true;
+    }
+    bool any_above_1 = local_18;
     uint _e32 = inside_low(any_above_1);
     metal::uint2 _e33 = process_inside(raw_1.w, _e32);
     out_1.outer = metal::uint4(_e3.x, _e5.x, _e7.x, 0u);
@@ -883,37 +893,37 @@ Processed process_triangle(
     bool _e55 = is_greater_than_zero(raw_1.x);
     if (_e55) {
         bool _e59 = is_greater_than_zero(raw_1.y);
-        local_18 = _e59;
-    } else {
-        local_18 = false;
-    }
-    bool _e61 = local_18;
-    if (_e61) {
-        bool _e65 = is_greater_than_zero(raw_1.z);
-        local_19 = _e65;
+        local_19 = _e59;
     } else {
         local_19 = false;
     }
-    bool _e67 = local_19;
-    bool is_culled_2 = !(_e67);
-    if (_e3.x == ONE) {
-        local_20 = _e5.x == ONE;
+    bool _e61 = local_19;
+    if (_e61) {
+        bool _e65 = is_greater_than_zero(raw_1.z);
+        local_20 = _e65;
     } else {
         local_20 = false;
     }
-    bool _e78 = local_20;
-    if (_e78) {
-        local_21 = _e7.x == ONE;
+    bool _e67 = local_20;
+    bool is_culled_2 = !(_e67);
+    if (_e3.x == ONE) {
+        local_21 = _e5.x == ONE;
     } else {
         local_21 = false;
     }
-    bool _e85 = local_21;
-    if (_e85) {
-        local_22 = _e33.x == ONE;
+    bool _e78 = local_21;
+    if (_e78) {
+        local_22 = _e7.x == ONE;
     } else {
         local_22 = false;
     }
-    bool is_minimum_1 = local_22;
+    bool _e85 = local_22;
+    if (_e85) {
+        local_23 = _e33.x == ONE;
+    } else {
+        local_23 = false;
+    }
+    bool is_minimum_1 = local_23;
     Processed _e94 = out_1;
     metal::uint2 _e95 = make_topology(_e94, is_culled_2, is_minimum_1);
     out_1.topology = _e95;
@@ -926,7 +936,6 @@ Processed process_quad(
     metal::uint2 raw_inside
 ) {
     Processed out_2 = {};
-    bool local_23 = {};
     bool local_24 = {};
     bool local_25 = {};
     bool local_26 = {};
@@ -939,6 +948,7 @@ Processed process_quad(
     bool local_33 = {};
     bool local_34 = {};
     bool local_35 = {};
+    bool local_36 = {};
     metal::uint2 _e4 = process_edge(raw_2.x);
     metal::uint2 _e6 = process_edge(raw_2.y);
     metal::uint2 _e8 = process_edge(raw_2.z);
@@ -946,39 +956,39 @@ Processed process_quad(
     bool _e12 = is_above(raw_2.x);
     if (!(_e12)) {
         bool _e17 = is_above(raw_2.y);
-        local_23 = _e17;
-    } else {
-        local_23 = true;
-    }
-    bool _e19 = local_23;
-    if (!(_e19)) {
-        bool _e24 = is_above(raw_2.z);
-        local_24 = _e24;
+        local_24 = _e17;
     } else {
         local_24 = true;
     }
-    bool _e26 = local_24;
-    if (!(_e26)) {
-        bool _e31 = is_above(raw_2.w);
-        local_25 = _e31;
+    bool _e19 = local_24;
+    if (!(_e19)) {
+        bool _e24 = is_above(raw_2.z);
+        local_25 = _e24;
     } else {
         local_25 = true;
     }
-    bool _e33 = local_25;
-    if (!(_e33)) {
-        bool _e38 = is_above(raw_inside.x);
-        local_26 = _e38;
+    bool _e26 = local_25;
+    if (!(_e26)) {
+        bool _e31 = is_above(raw_2.w);
+        local_26 = _e31;
     } else {
         local_26 = true;
     }
-    bool _e40 = local_26;
-    if (!(_e40)) {
-        bool _e45 = is_above(raw_inside.y);
-        local_27 = _e45;
+    bool _e33 = local_26;
+    if (!(_e33)) {
+        bool _e38 = is_above(raw_inside.x);
+        local_27 = _e38;
     } else {
         local_27 = true;
     }
-    bool any_above_2 = local_27;
+    bool _e40 = local_27;
+    if (!(_e40)) {
+        bool _e45 = is_above(raw_inside.y);
+        local_28 = _e45;
+    } else {
+        local_28 = true;
+    }
+    bool any_above_2 = local_28;
     uint _e48 = inside_low(any_above_2);
     metal::uint2 _e50 = process_inside(raw_inside.x, _e48);
     metal::uint2 _e52 = process_inside(raw_inside.y, _e48);
@@ -989,56 +999,56 @@ Processed process_quad(
     bool _e74 = is_greater_than_zero(raw_2.x);
     if (_e74) {
         bool _e78 = is_greater_than_zero(raw_2.y);
-        local_28 = _e78;
-    } else {
-        local_28 = false;
-    }
-    bool _e80 = local_28;
-    if (_e80) {
-        bool _e84 = is_greater_than_zero(raw_2.z);
-        local_29 = _e84;
+        local_29 = _e78;
     } else {
         local_29 = false;
     }
-    bool _e86 = local_29;
-    if (_e86) {
-        bool _e90 = is_greater_than_zero(raw_2.w);
-        local_30 = _e90;
+    bool _e80 = local_29;
+    if (_e80) {
+        bool _e84 = is_greater_than_zero(raw_2.z);
+        local_30 = _e84;
     } else {
         local_30 = false;
     }
-    bool _e92 = local_30;
-    bool is_culled_3 = !(_e92);
-    if (_e4.x == ONE) {
-        local_31 = _e6.x == ONE;
+    bool _e86 = local_30;
+    if (_e86) {
+        bool _e90 = is_greater_than_zero(raw_2.w);
+        local_31 = _e90;
     } else {
         local_31 = false;
     }
-    bool _e103 = local_31;
-    if (_e103) {
-        local_32 = _e8.x == ONE;
+    bool _e92 = local_31;
+    bool is_culled_3 = !(_e92);
+    if (_e4.x == ONE) {
+        local_32 = _e6.x == ONE;
     } else {
         local_32 = false;
     }
-    bool _e110 = local_32;
-    if (_e110) {
-        local_33 = _e10.x == ONE;
+    bool _e103 = local_32;
+    if (_e103) {
+        local_33 = _e8.x == ONE;
     } else {
         local_33 = false;
     }
-    bool _e117 = local_33;
-    if (_e117) {
-        local_34 = _e50.x == ONE;
+    bool _e110 = local_33;
+    if (_e110) {
+        local_34 = _e10.x == ONE;
     } else {
         local_34 = false;
     }
-    bool _e124 = local_34;
-    if (_e124) {
-        local_35 = _e52.x == ONE;
+    bool _e117 = local_34;
+    if (_e117) {
+        local_35 = _e50.x == ONE;
     } else {
         local_35 = false;
     }
-    bool is_minimum_2 = local_35;
+    bool _e124 = local_35;
+    if (_e124) {
+        local_36 = _e52.x == ONE;
+    } else {
+        local_36 = false;
+    }
+    bool is_minimum_2 = local_36;
     Processed _e133 = out_2;
     metal::uint2 _e134 = make_topology(_e133, is_culled_3, is_minimum_2);
     out_2.topology = _e134;
@@ -1052,22 +1062,22 @@ Processed process(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     if (false) {
-        metal::uint2 _e4 = raw_factors[metal::min(unsigned(patch_index), (_buffer_sizes.size3 - 0 - 8) / 8)];
+        metal::uint2 _e4 = raw_factors[metal::min(unsigned(patch_index), (_buffer_sizes.size4 - 0 - 8) / 8)];
         Processed _e5 = process_isoline(_e4);
         return _e5;
     }
     if (false) {
         uint at_1 = 2u * patch_index;
-        metal::uint2 _e11 = raw_factors[metal::min(unsigned(at_1), (_buffer_sizes.size3 - 0 - 8) / 8)];
-        metal::uint2 _e16 = raw_factors[metal::min(unsigned(at_1 + 1u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+        metal::uint2 _e11 = raw_factors[metal::min(unsigned(at_1), (_buffer_sizes.size4 - 0 - 8) / 8)];
+        metal::uint2 _e16 = raw_factors[metal::min(unsigned(at_1 + 1u), (_buffer_sizes.size4 - 0 - 8) / 8)];
         Processed _e18 = process_triangle(metal::uint4(_e11, _e16));
         return _e18;
     }
     uint at_2 = 3u * patch_index;
-    metal::uint2 _e23 = raw_factors[metal::min(unsigned(at_2), (_buffer_sizes.size3 - 0 - 8) / 8)];
-    metal::uint2 _e28 = raw_factors[metal::min(unsigned(at_2 + 1u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    metal::uint2 _e23 = raw_factors[metal::min(unsigned(at_2), (_buffer_sizes.size4 - 0 - 8) / 8)];
+    metal::uint2 _e28 = raw_factors[metal::min(unsigned(at_2 + 1u), (_buffer_sizes.size4 - 0 - 8) / 8)];
     metal::uint4 outer_2 = metal::uint4(_e23, _e28);
-    metal::uint2 _e34 = raw_factors[metal::min(unsigned(at_2 + 2u), (_buffer_sizes.size3 - 0 - 8) / 8)];
+    metal::uint2 _e34 = raw_factors[metal::min(unsigned(at_2 + 2u), (_buffer_sizes.size4 - 0 - 8) / 8)];
     Processed _e35 = process_quad(outer_2, _e34);
     return _e35;
 }
@@ -1075,8 +1085,8 @@ Processed process(
 void write_contexts(
     uint patch_index_1,
     Processed processed_1,
-    device type_6 const& tables,
     constant Job& job,
+    device type_6 const& tables,
     device type_9& contexts,
     constant _mslBufferSizes& _buffer_sizes
 ) {
@@ -1107,11 +1117,11 @@ void write_contexts(
 metal::uint2 process_block(
     uint block,
     uint thread_2,
+    constant Job& job,
     device type_5& catalogue,
     device type_6 const& tables,
     threadgroup type_7& sums,
     device type_9 const& raw_factors,
-    constant Job& job,
     device type_9& contexts,
     threadgroup metal::uint2& first_topology,
     threadgroup metal::atomic_uint& differs,
@@ -1121,12 +1131,12 @@ metal::uint2 process_block(
 ) {
     metal::uint2 own_1 = metal::uint2(0u, 0u);
     metal::uint2 topology_15 = metal::uint2(0u, 0u);
-    bool local_36 = {};
-    metal::uint2 slot = metal::uint2(0u, 0u);
     bool local_37 = {};
+    metal::uint2 slot = metal::uint2(0u, 0u);
     bool local_38 = {};
     bool local_39 = {};
     bool local_40 = {};
+    bool local_41 = {};
     uint patch_index_2 = (block * BLOCK) + thread_2;
     uint _e15 = job.patches;
     if (patch_index_2 < _e15) {
@@ -1139,13 +1149,13 @@ metal::uint2 process_block(
         own_1 = _e23;
         if (true) {
             uint _e28 = state_of(_e17.topology);
-            local_36 = _e28 == REGULAR;
+            local_37 = _e28 == REGULAR;
         } else {
-            local_36 = false;
+            local_37 = false;
         }
-        bool _e32 = local_36;
+        bool _e32 = local_37;
         if (_e32) {
-            write_contexts(patch_index_2, _e17, tables, job, contexts, _buffer_sizes);
+            write_contexts(patch_index_2, _e17, job, tables, contexts, _buffer_sizes);
         }
     }
     if (thread_2 == 0u) {
@@ -1169,29 +1179,29 @@ metal::uint2 process_block(
     bool is_alike = _e56 == 0u;
     if (!(!(is_alike))) {
         if (thread_2 == 0u) {
-            local_38 = true;
+            local_39 = true;
         } else {
-            local_38 = false;
+            local_39 = false;
         }
-        bool _e73 = local_38;
-        local_37 = _e73;
+        bool _e73 = local_39;
+        local_38 = _e73;
     } else {
-        local_37 = true;
+        local_38 = true;
     }
-    bool _e75 = local_37;
+    bool _e75 = local_38;
     if (_e75) {
         metal::uint2 _e77 = topology_15;
         metal::uint2 _e78 = own_1;
-        uint _e79 = slot_of(_e77, _e78, catalogue, _buffer_sizes);
+        uint _e79 = slot_of(_e77, _e78, job, catalogue, _buffer_sizes);
         slot.y = _e79 << 14u;
     }
     uint _e83 = slot.y;
     if (_e83 != 0u) {
-        local_39 = !(is_alike);
+        local_40 = !(is_alike);
     } else {
-        local_39 = false;
+        local_40 = false;
     }
-    bool _e90 = local_39;
+    bool _e90 = local_40;
     if (_e90) {
         metal::uint2 _e93 = topology_15;
         metal::uint2 _e94 = slot;
@@ -1199,11 +1209,11 @@ metal::uint2 process_block(
     }
     if (thread_2 == 0u) {
         uint _e104 = job.patches;
-        local_40 = (block * BLOCK) < _e104;
+        local_41 = (block * BLOCK) < _e104;
     } else {
-        local_40 = false;
+        local_41 = false;
     }
-    bool _e107 = local_40;
+    bool _e107 = local_41;
     if (_e107) {
         uint _e111 = job.alike_at;
         metal::uint2 _e117 = topology_15;
@@ -1218,11 +1228,11 @@ struct factorsInput {
 kernel void factors(
   metal::uint3 workgroup [[threadgroup_position_in_grid]]
 , uint thread_ [[thread_index_in_threadgroup]]
+, constant Job& job [[buffer(0)]]
 , device type_5& catalogue [[buffer(6)]]
 , device type_6 const& tables [[buffer(2)]]
 , threadgroup type_7& sums
 , device type_9 const& raw_factors [[buffer(1)]]
-, constant Job& job [[buffer(0)]]
 , device type_9& contexts [[buffer(4)]]
 , threadgroup metal::uint2& first_topology
 , threadgroup metal::atomic_uint& differs
@@ -1234,7 +1244,7 @@ kernel void factors(
     bool local_1 = {};
     uint _e6 = job.max_workgroups;
     uint block_1 = workgroup.x + (workgroup.y * _e6);
-    metal::uint2 _e9 = process_block(block_1, thread_, catalogue, tables, sums, raw_factors, job, contexts, first_topology, differs, topologies, offsets, _buffer_sizes);
+    metal::uint2 _e9 = process_block(block_1, thread_, job, catalogue, tables, sums, raw_factors, contexts, first_topology, differs, topologies, offsets, _buffer_sizes);
     if (thread_ == 0u) {
         uint _e16 = job.first_patch;
         local = (block_1 + _e16) == 0u;

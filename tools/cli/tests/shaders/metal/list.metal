@@ -29,6 +29,7 @@ struct Job {
     uint primitive_window_tiles;
     uint max_workgroups;
     uint tile_bits;
+    uint has_catalogue;
 };
 struct Range {
     uint points_begin;
@@ -1172,8 +1173,7 @@ uint described_point(
     RingLocation _e10 = point_location(_e9, i_5);
     RunShape _e11 = shape_of(_e9, _e10);
     Constant constant_2 = _e11.constant_;
-    bool is_corner = _e11.form == FORM_CORNER;
-    uint position_2 = is_corner ? _e10.step : (_e11.first + (_e11.sign * _e10.step));
+    uint position_2 = _e11.first + (_e11.sign * _e10.step);
     return (((((_e11.factor | (_e11.constant_.factor << 3u)) | (position_2 << 6u)) | (_e11.constant_.ring << 13u)) | (_e11.form << 18u)) | (_e11.constant_.is_far ? 1048576u : 0u)) | (_e11.constant_.is_centre ? 2097152u : 0u);
 }
 

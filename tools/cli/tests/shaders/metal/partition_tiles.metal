@@ -30,6 +30,7 @@ struct Job {
     uint primitive_window_tiles;
     uint max_workgroups;
     uint tile_bits;
+    uint has_catalogue;
 };
 struct Range {
     uint points_begin;
