@@ -142,3 +142,26 @@ fn interrupted_rows_are_kept() {
 fn all_workloads() -> usize {
     tess_verify::workloads::all().len()
 }
+
+/// On a terminal there is a bar; elsewhere there is none. `script` gives the program a terminal.
+#[test]
+fn progress_is_shown_on_terminals() {
+    let folder = directory("progress_is_shown_on_terminals");
+    let file = folder.join("level-1.txt");
+    let gen_level_1 = format!("gen --level 1 -o {}", file.display());
+    for words in [gen_level_1.as_str(), "verify --backend simd --random 20000"] {
+        let program = format!("{} {words}", env!("CARGO_BIN_EXE_tess"));
+        let terminal = Command::new("script")
+            .args(["-qec", &program, "/dev/null"])
+            .stdin(Stdio::null())
+            .output()
+            .expect("there is `script`, of Debian's bsdutils");
+        assert!(terminal.status.success(), "{words}");
+        let shown = String::from_utf8_lossy(&terminal.stdout);
+        assert!(shown.contains(['█', '░']), "`{words}` on a terminal: {shown}");
+        let piped = command(words).output().expect("tess starts");
+        let [out, err] =
+            [piped.stdout, piped.stderr].map(|b| String::from_utf8_lossy(&b).into_owned());
+        assert!(!(out + &err).contains(['█', '░']), "`{words}` into a pipe");
+    }
+}
