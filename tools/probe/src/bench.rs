@@ -1,6 +1,6 @@
 //! The fixed-function stage beside the compute shaders, timed by the device's own clock.
 
-use crate::capture::words_of;
+use crate::draws::words_of;
 use crate::error::Error;
 use crate::modes::with_modes;
 use crate::shaders::{EMPTY_VERT, EVALUATE_TESE, EVALUATE_VERT, FACTORS_TESC, FLAT_FRAG, words};

@@ -4,6 +4,7 @@ mod bench;
 mod capture;
 mod cases;
 mod digests;
+mod draws;
 mod error;
 mod fixed;
 mod freedoms;

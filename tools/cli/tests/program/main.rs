@@ -16,4 +16,6 @@ mod mesh_gltf;
 mod mesh_input;
 mod options;
 mod patch;
+#[cfg(all(feature = "probe", feature = "shaders"))]
+mod probe;
 mod support;

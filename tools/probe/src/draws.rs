@@ -1,0 +1,47 @@
+//! Patches as a device gets them: cut into draws, factors as words.
+
+use tess_core::{Config, Partitioning, PatchFactors};
+use tess_verify::case::Case;
+
+/// Patches of a draw: their first, and how many.
+pub(crate) type Draw = (u32, u32);
+
+/// Words of factors that a patch has in the buffer.
+const FACTOR_WORDS: usize = 6;
+
+/// The most vertices that a draw is expected to have: lavapipe's numbers wrap after 65536.
+const DRAW_VERTICES: usize = 49152;
+
+/// Cuts patches into draws of few enough vertices.
+pub(crate) fn draws(expected: &[usize]) -> Vec<Draw> {
+    let mut draws: Vec<Draw> = Vec::new();
+    let mut vertices = 0;
+    for (number, &own) in (0..).zip(expected) {
+        vertices += own;
+        match draws.last_mut() {
+            Some((_, count)) if vertices <= DRAW_VERTICES => *count += 1,
+            _ => {
+                draws.push((number, 1));
+                vertices = own;
+            }
+        }
+    }
+    draws
+}
+
+/// The words of a patch in the buffer of factors: four outer and two inside.
+///
+/// For `pow2`, which Vulkan lacks, factors are rounded to powers of two here. A culled patch stays as
+/// it is.
+pub(crate) fn words_of(config: Config, factors: PatchFactors) -> [u32; FACTOR_WORDS] {
+    let case = Case { config, factors };
+    let rounded = match (config.partitioning, case.patch().processed().factors()) {
+        (Partitioning::Pow2, Some(factors)) => factors.map(|f| f32::from_bits(f.rounded)),
+        _ => factors,
+    };
+    let mut words = [0; FACTOR_WORDS];
+    let bits = |factor: f32| factor.to_bits();
+    words.iter_mut().zip(rounded.outer().map(bits)).for_each(|(word, bits)| *word = bits);
+    words[4..].iter_mut().zip(rounded.inside().map(bits)).for_each(|(word, bits)| *word = bits);
+    words
+}
