@@ -22,6 +22,8 @@ def bench(tmp_path: Path, sim: str, *options: str) -> "subprocess.CompletedProce
     arguments = ["--sim", sim, "--random", "50", "--build", str(BUILD), *options]
     # A simulator of another interpreter's cocotb would not find this one's packages.
     environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    # By it cocotb's runner knows pytest, and would end `run.py` before its last line.
+    environment.pop("PYTEST_CURRENT_TEST", None)
     return subprocess.run(
         [sys.executable, str(RUN), *arguments, "--coverage", str(tmp_path / "coverage.xml")],
         capture_output=True,
