@@ -71,7 +71,7 @@ fn differing(report: &Value, model: &BTreeMap<Names, (u64, Digests)>) -> Vec<Nam
 #[test]
 fn the_model_is_what_devices_gave() {
     let recorded = recorded();
-    assert!(!recorded.is_empty(), "there are recorded devices");
+    assert!(recorded.len() >= 2, "lavapipe and an H200 are recorded");
     for (path, report) in &recorded {
         assert_eq!(report["unexplained"]["patches"], 0, "{}", path.display());
         let model = model(is_flushing(report), |_, _| {});
