@@ -1,6 +1,7 @@
 //! A point of a surface with its tangents.
 
-use crate::math::unit;
+use crate::lanes::normal;
+use crate::math::existing;
 use glam::Vec3;
 
 /// The partial derivatives of a surface's position by the domain coordinates.
@@ -26,9 +27,6 @@ impl Tangents {
     /// 2^-15.
     #[must_use]
     pub fn normal(&self) -> Option<Vec3> {
-        let (du, dv) = (unit(self.du)?, unit(self.dv)?);
-        let cross = du.cross(dv);
-        const PARALLEL: f32 = 1.0 / (1u32 << 30) as f32;
-        (cross.length_squared() > PARALLEL).then(|| unit(cross)).flatten()
+        existing(normal::<f32>(self.du.into(), self.dv.into()))
     }
 }

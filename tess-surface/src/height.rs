@@ -215,8 +215,7 @@ impl DisplacedPatch<'_> {
     /// alone.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
         for (points, samples) in points.chunks(LANES).zip(samples.chunks_mut(LANES)) {
-            self.patch.samples(points, samples);
-            let tangents = self.patch.tangents(points);
+            let tangents = self.patch.eight(points, samples).all_tangents();
             let anchors = self.anchors(points, samples);
             for (lane, (&[u, v], sample)) in points.iter().zip(samples).enumerate() {
                 let (height, slope) = self.displacement.map.sample(anchors[lane].texcoord);

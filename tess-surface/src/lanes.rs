@@ -206,17 +206,15 @@ pub(crate) struct Frames<T> {
     pub(crate) dv: V3<T>,
 }
 
-impl<T: Real> Frames<T> {
-    /// [`Tangents::normal`](crate::Tangents::normal), and all bits set where there is one.
-    #[inline(always)]
-    pub(crate) fn normal(&self) -> (V3<T>, T) {
-        const PARALLEL: f32 = 1.0 / (1u32 << 30) as f32;
-        let ((du, u_exists), (dv, v_exists)) = (self.du.unit(), self.dv.unit());
-        let cross = du.cross(dv);
-        let (normal, exists) = cross.unit();
-        let spans = cross.dot(cross).between(PARALLEL, f32::INFINITY);
-        (normal, exists.and(spans).and(u_exists).and(v_exists))
-    }
+/// [`Tangents::normal`](crate::Tangents::normal), and all bits set where there is one.
+#[inline(always)]
+pub(crate) fn normal<T: Real>(du: V3<T>, dv: V3<T>) -> (V3<T>, T) {
+    const PARALLEL: f32 = 1.0 / (1u32 << 30) as f32;
+    let ((du, u_exists), (dv, v_exists)) = (du.unit(), dv.unit());
+    let cross = du.cross(dv);
+    let (normal, exists) = cross.unit();
+    let spans = cross.dot(cross).between(PARALLEL, f32::INFINITY);
+    (normal, exists.and(spans).and(u_exists).and(v_exists))
 }
 
 impl<T: Real> V3<T> {
@@ -230,6 +228,14 @@ impl<T: Real> V3<T> {
 impl Frames<f32> {
     pub(crate) const fn tangents(&self) -> Tangents {
         Tangents { du: self.du.to_vec3(), dv: self.dv.to_vec3() }
+    }
+}
+
+impl Frames<f32x8> {
+    /// The tangents, point by point.
+    pub(crate) fn all_tangents(&self) -> [Tangents; LANES] {
+        let (du, dv) = (self.du.to_array(), self.dv.to_array());
+        core::array::from_fn(|lane| Tangents { du: du[lane], dv: dv[lane] })
     }
 }
 

@@ -1,6 +1,7 @@
 //! Small vector operations, with every rounding spelled out.
 
 use crate::error::MAX_COORDINATE;
+use crate::lanes::V3;
 use glam::{Vec3, Vec4};
 
 /// The point that a homogeneous point stands for; exact for weight 1.
@@ -29,10 +30,10 @@ pub(crate) fn is_in_range(coordinates: &[f32]) -> bool {
 
 /// The unit vector of `v`; `None` where the length is zero, overflows or is NaN.
 pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
-    // Scaled first, so that neither tiny nor huge vectors are lost in the squares.
-    let largest = v.abs().max_element();
-    if !(largest > 0.0 && largest < f32::INFINITY) {
-        return None;
-    }
-    (v / largest).try_normalize()
+    existing(V3::<f32>::from(v).unit())
+}
+
+/// A vector with its bits of existence, as [`V3::unit`] gives it.
+pub(crate) fn existing((v, exists): (V3<f32>, f32)) -> Option<Vec3> {
+    (exists.to_bits() != 0).then(|| v.to_vec3())
 }

@@ -214,9 +214,23 @@ impl Patch {
                 let ends = [texcoords.as_slice()[start], texcoords.as_slice()[end]];
                 along_edge(self.edges.as_slice()[edge].direction, ends, t)
             }
-            (Place::Inside, Sides::Triangle([a, b, c])) => *a * u + *b * v + *c * (1.0 - u - v),
-            (Place::Inside, Sides::Quad([a, b, c, d])) => {
-                (*a * (1.0 - u) + *b * u) * (1.0 - v) + (*d * (1.0 - u) + *c * u) * v
+            (Place::Inside, _) => self.inside_texcoords::<f32>(u, v).to_vec3().truncate(),
+        }
+    }
+
+    /// Texture coordinates by the formula of the inside at one point or at eight; z is 0.
+    #[inline(always)]
+    pub(crate) fn inside_texcoords<T: Real>(&self, u: T, v: T) -> V3<T> {
+        let flat = |texcoord: Vec2| V3::<T>::from(texcoord.extend(0.0));
+        let one = T::from(1.0);
+        match self.texcoords {
+            Sides::Triangle(corners) => {
+                let [a, b, c] = corners.map(flat);
+                a * u + b * v + c * (one - u - v)
+            }
+            Sides::Quad(corners) => {
+                let [a, b, c, d] = corners.map(flat);
+                (a * (one - u) + b * u) * (one - v) + (d * (one - u) + c * u) * v
             }
         }
     }

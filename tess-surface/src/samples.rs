@@ -3,10 +3,9 @@
 //! A vertex has the bits that [`Patch::sample`] gives it: the same formulas run in every lane, and what
 //! belongs to an edge or a corner alone is computed from those alone.
 
-use crate::frame::Tangents;
-use crate::lanes::{Frames, LANES, V3};
+use crate::lanes::{Frames, LANES, normal};
 use crate::patch::{Patch, Sample, Surface};
-use crate::sides::{Place, Sides};
+use crate::sides::Place;
 use glam::{Vec2, Vec3};
 use wide::f32x8;
 
@@ -24,11 +23,20 @@ impl Patch {
     /// the time. Vertices or points that the other slice has no partner for are left alone.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
         for (points, samples) in points.chunks(LANES).zip(samples.chunks_mut(LANES)) {
-            let inside = self.inside(points);
-            for (lane, (&[u, v], sample)) in points.iter().zip(samples).enumerate() {
-                *sample = self.vertex(&inside, lane, [u, v]);
-            }
+            self.eight(points, samples);
         }
+    }
+
+    /// [`Patch::samples`] of up to eight points. Gives what [`Patch::frame`] does at each.
+    #[inline(always)]
+    pub(crate) fn eight(&self, points: &[[f32; 2]], samples: &mut [Sample]) -> Frames<f32x8> {
+        let (u, v) = columns(points);
+        let frames = self.frames(u, v);
+        let inside = self.inside(&frames, u, v);
+        for (lane, (&[u, v], sample)) in points.iter().zip(samples).enumerate() {
+            *sample = self.vertex(&inside, lane, [u, v]);
+        }
+        frames
     }
 
     /// One of eight vertices.
@@ -54,49 +62,20 @@ impl Patch {
         matches!(self.surface(), Surface::PnTriangle(_) | Surface::PnQuad(_))
     }
 
-    /// The tangents of [`Patch::frame`] at up to eight points.
-    pub(crate) fn tangents(&self, points: &[[f32; 2]]) -> [Tangents; LANES] {
-        let (u, v) = columns(points);
-        let Frames { du, dv, .. } = self.frames(u, v);
-        let (du, dv) = (du.to_array(), dv.to_array());
-        core::array::from_fn(|lane| Tangents { du: du[lane], dv: dv[lane] })
-    }
-
-    /// The formulas of the inside at up to eight points.
+    /// What eight points of these frames have by the formulas of the inside.
     #[inline(always)]
-    fn inside(&self, points: &[[f32; 2]]) -> Inside {
-        let (u, v) = columns(points);
-        let frames = self.frames(u, v);
+    fn inside(&self, frames: &Frames<f32x8>, u: f32x8, v: f32x8) -> Inside {
         let (normals, has_normal) = match self.surface() {
             Surface::PnTriangle(triangle) => triangle.normals(u, v).unit(),
             Surface::PnQuad(quad) => quad.normals(u, v).unit(),
-            _ => frames.normal(),
+            _ => normal(frames.du, frames.dv),
         };
         Inside {
             positions: frames.position.to_array(),
             normals: normals.to_array(),
-            texcoords: self.inside_texcoords(u, v),
+            texcoords: self.inside_texcoords(u, v).to_array().map(Vec3::truncate),
             has_normal: has_normal.to_bitmask(),
         }
-    }
-
-    /// Texture coordinates of the inside.
-    #[inline(always)]
-    fn inside_texcoords(&self, u: f32x8, v: f32x8) -> [Vec2; LANES] {
-        let flat = |v: Vec2| V3::<f32x8>::from(v.extend(0.0));
-        let one = f32x8::splat(1.0);
-        let texcoords = match *self.texcoords() {
-            Sides::Triangle(corners) => {
-                let [a, b, c] = corners.map(flat);
-                a * u + b * v + c * (one - u - v)
-            }
-            Sides::Quad(corners) => {
-                let [a, b, c, d] = corners.map(flat);
-                (a * (one - u) + b * u) * (one - v) + (d * (one - u) + c * u) * v
-            }
-        };
-        let (x, y) = (texcoords.x.to_array(), texcoords.y.to_array());
-        core::array::from_fn(|lane| Vec2::new(x[lane], y[lane]))
     }
 }
 
