@@ -150,10 +150,7 @@ impl Batch<'_> {
                 (PatchFactors::Quad(a), PatchFactors::Quad(b)) => differ(a, b),
                 _ => 1,
             }),
-            Self::Columns(columns) => {
-                let run = |column| run(column, first, |a, b| differ([*a], [*b]));
-                columns.iter().map(run).min().unwrap_or(0)
-            }
+            Self::Columns(columns) => run_of_columns(&columns, first),
         }
     }
 
@@ -197,6 +194,24 @@ fn differ<const N: usize>(a: impl Into<[f32; N]>, b: impl Into<[f32; N]>) -> u32
         different |= a[factor].to_bits() ^ b[factor].to_bits();
     }
     different
+}
+
+/// How many patches, from the first on, are like it in every column. Looks twice as far as the columns
+/// have agreed so far: one of them may stay the same where another one does not.
+fn run_of_columns(columns: &PatchFactors<&[f32]>, first: usize) -> usize {
+    let mut sight = 16;
+    loop {
+        let end = first.saturating_add(sight);
+        let run = |column: &[f32]| {
+            let seen = column.get(..end).unwrap_or(column);
+            run(seen, first, |a, b| differ([*a], [*b]))
+        };
+        let least = columns.iter().map(run).min().unwrap_or(0);
+        if least < sight {
+            return least;
+        }
+        sight *= 2;
+    }
 }
 
 /// How many elements, from the first on, are like it.

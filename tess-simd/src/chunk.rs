@@ -41,37 +41,31 @@ impl Chunk {
     pub(crate) const PATCHES: usize = Self::BLOCKS * LANES;
     pub(crate) const EMPTY: Self = Self([[0.0; Self::PATCHES]; MAX_FACTORS]);
 
-    /// Loads patches from `first` on, as many as there is room for. Factors are zero where the
-    /// last block has no patch, or one of another domain.
+    /// Loads the patches of a batch, as many as there is room for. Factors are zero where the last
+    /// block has no patch, or one of another domain.
     #[inline(always)]
-    pub(crate) fn load(&mut self, batch: &Batch<'_>, first: usize) {
+    pub(crate) fn load(&mut self, batch: &Batch<'_>) {
         match batch {
-            Batch::Isolines(patches) => {
-                self.load_structures(patches, first, |&patch| Some(patch.into()))
-            }
-            Batch::Triangles(patches) => {
-                self.load_structures(patches, first, |&patch| Some(patch.into()))
-            }
-            Batch::Quads(patches) => {
-                self.load_structures(patches, first, |&patch| Some(patch.into()))
-            }
-            Batch::Patches(patches) => self.load_patches(batch.domain(), patches, first),
-            Batch::Columns(columns) => self.load_columns(columns, batch.len(), first),
+            Batch::Isolines(patches) => self.load_structures(patches, |&patch| Some(patch.into())),
+            Batch::Triangles(patches) => self.load_structures(patches, |&patch| Some(patch.into())),
+            Batch::Quads(patches) => self.load_structures(patches, |&patch| Some(patch.into())),
+            Batch::Patches(patches) => self.load_patches(batch.domain(), patches),
+            Batch::Columns(columns) => self.load_columns(columns, batch.len()),
         }
     }
 
     #[inline(always)]
-    fn load_patches(&mut self, domain: Domain, patches: &[PatchFactors], first: usize) {
+    fn load_patches(&mut self, domain: Domain, patches: &[PatchFactors]) {
         match domain {
-            Domain::Isoline => self.load_structures(patches, first, |patch| match *patch {
+            Domain::Isoline => self.load_structures(patches, |patch| match *patch {
                 PatchFactors::Isoline(factors) => Some(factors.into()),
                 _ => None,
             }),
-            Domain::Triangle => self.load_structures(patches, first, |patch| match *patch {
+            Domain::Triangle => self.load_structures(patches, |patch| match *patch {
                 PatchFactors::Triangle(factors) => Some(factors.into()),
                 _ => None,
             }),
-            Domain::Quad => self.load_structures(patches, first, |patch| match *patch {
+            Domain::Quad => self.load_structures(patches, |patch| match *patch {
                 PatchFactors::Quad(factors) => Some(factors.into()),
                 _ => None,
             }),
@@ -82,10 +76,8 @@ impl Chunk {
     fn load_structures<F, const N: usize>(
         &mut self,
         patches: &[F],
-        first: usize,
         factors: impl Fn(&F) -> Option<[f32; N]>,
     ) {
-        let patches = patches.get(first..).unwrap_or_default();
         let patches = patches.get(..Self::PATCHES).unwrap_or(patches);
         for (i, patch) in patches.iter().enumerate().take(Self::PATCHES) {
             let Some(factors) = factors(patch) else { break };
@@ -97,13 +89,13 @@ impl Chunk {
     }
 
     #[inline(always)]
-    fn load_columns(&mut self, columns: &PatchFactors<&[f32]>, patches: usize, first: usize) {
-        let end = patches.min(first + Self::PATCHES);
+    fn load_columns(&mut self, columns: &PatchFactors<&[f32]>, patches: usize) {
+        let end = patches.min(Self::PATCHES);
         for (values, column) in self.0.iter_mut().zip(columns.iter()) {
-            let source = column.get(first..end).unwrap_or_default();
+            let source = column.get(..end).unwrap_or_default();
             values[..source.len()].copy_from_slice(source);
         }
-        self.clear(end.saturating_sub(first));
+        self.clear(end);
     }
 
     /// Zeros from a patch to the end of its block.

@@ -57,7 +57,7 @@ at_each_level! {
     fn count_and_keep(
         config: Config,
         batch: &Batch<'_>,
-        kept: &mut [[Block; Chunk::BLOCKS]],
+        kept: &mut [Block; Chunk::BLOCKS],
     ) -> PartCounts = kernel::count::count_and_keep;
 }
 
@@ -66,7 +66,6 @@ at_each_level! {
     fn process(
         config: Config,
         batch: &Batch<'_>,
-        first: usize,
         blocks: &mut [Block; Chunk::BLOCKS],
     ) = kernel::front_end::process;
 }

@@ -16,9 +16,6 @@ use crate::threads::Workspaces;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 
-/// Chunks whose blocks a count keeps for the write.
-const KEPT: usize = 1;
-
 /// A setup, and the memory that batches need.
 #[derive(Clone, Debug)]
 pub(crate) struct Engine {
@@ -26,8 +23,8 @@ pub(crate) struct Engine {
     pub(crate) workspaces: Workspaces,
     /// The counts of each slice of the batch that was counted last.
     slices: Vec<PartCounts>,
-    /// Its blocks, if they were kept.
-    kept: Box<[[Block; Chunk::BLOCKS]; KEPT]>,
+    /// Its blocks, if they were kept for the write: those of one chunk.
+    kept: Box<[Block; Chunk::BLOCKS]>,
 }
 
 /// What a count found.
@@ -40,7 +37,7 @@ pub(crate) struct Count {
 
 impl Engine {
     pub(crate) fn new(setup: Setup) -> Self {
-        let kept = Box::new([[Block::EMPTY; _]; _]);
+        let kept = Box::new([Block::EMPTY; _]);
         let workspaces = Workspaces::new(setup.config);
         Self { setup, workspaces, slices: Vec::new(), kept }
     }
@@ -56,10 +53,10 @@ impl Engine {
         let Self { setup, workspaces, slices, kept } = self;
         let slicing = Slicing::new(batch.len(), workspaces.threads());
         slices.clear();
-        let keep = slicing.slices <= 1 && batch.len() <= KEPT * Chunk::PATCHES;
+        let keep = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
         if keep {
             let Setup { level, config, .. } = *setup;
-            slices.push(dispatch::count_and_keep(level, config, batch, &mut **kept));
+            slices.push(dispatch::count_and_keep(level, config, batch, kept));
         } else {
             slices.resize(slicing.slices, PartCounts::default());
             let share = CountShare { batch: *batch, slice: slicing.patches, counts: slices };
@@ -82,7 +79,7 @@ impl Engine {
         target: Target<'_>,
     ) {
         let Self { setup, workspaces, slices, kept } = self;
-        let kept = if count.kept { &kept[..] } else { &[] };
+        let kept = count.kept.then_some(&**kept);
         let slice = Slicing::new(batch.len(), workspaces.threads()).patches;
         let part = Part { batch, target, first: Offsets::default() };
         workspaces.emit(Job { setup, numbering, kept }, Share { part, slice, counts: slices });

@@ -18,9 +18,8 @@ use tess_core::Config;
 pub(crate) struct Job<'a> {
     pub(crate) setup: &'a Setup,
     pub(crate) numbering: Numbering,
-    /// The blocks of the whole batch, chunk by chunk, if the count kept them, else none. A batch whose blocks were
-    /// kept is one part.
-    pub(crate) kept: &'a [[Block; Chunk::BLOCKS]],
+    /// The blocks of the whole batch, if the count kept them. Such a batch is one chunk and one part.
+    pub(crate) kept: Option<&'a [Block; Chunk::BLOCKS]>,
 }
 
 /// Consecutive patches of a batch and where their output goes.
@@ -89,18 +88,13 @@ fn emit_as<P: PointFormat, I: IndexFormat>(
     let Setup { level, config, .. } = *setup;
     let (mut start, all) = (0, batch.len());
     while start < all {
-        // Kept blocks are those of the whole batch.
-        let Stretch { patches, times } = if kept.is_empty() {
-            Stretch::new(batch, start)
+        let (Stretch { patches, times }, blocks) = if let Some(kept) = kept {
+            (Stretch { patches: all, times: 1 }, kept)
         } else {
-            Stretch { patches: all, times: 1 }
-        };
-        let blocks = if let Some(kept) = kept.first() {
-            kept
-        } else {
-            let batch = batch.slice(&(start..start + patches));
-            dispatch::process(level, config, &batch, 0, &mut workspace.blocks);
-            &*workspace.blocks
+            let stretch = Stretch::new(batch, start);
+            let batch = batch.slice(&(start..start + stretch.patches));
+            dispatch::process(level, config, &batch, &mut workspace.blocks);
+            (stretch, &*workspace.blocks)
         };
         let own = &mut workspace.ranges[..patches];
         let ranges_here = ranges.as_mut().map_or(own, |all| &mut all[start..start + patches]);

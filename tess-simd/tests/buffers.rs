@@ -244,4 +244,8 @@ fn a_warm_tessellator_allocates_nothing() {
     assert_eq!(run(&large), 0, "warm");
     assert_eq!(run(&small), 0, "a smaller batch");
     assert_eq!(run(&[]), 0, "an empty batch");
+    let unseen: Vec<_> = (0..250u16)
+        .map(|i| QuadFactors { u0: f32::from(i % 7), v1: f32::from(i % 5), ..quad(3.5) })
+        .collect();
+    assert_eq!(run(&unseen), 0, "topologies that it has not seen");
 }

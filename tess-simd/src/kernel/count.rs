@@ -16,7 +16,7 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
     let (mut first, domain) = (0, batch.domain());
     while first < batch.len() {
         let Stretch { patches, times } = Stretch::new(batch, first);
-        chunk.load(&batch.slice(&(first..first + patches)), 0);
+        chunk.load(&batch.slice(&(first..first + patches)));
         for number in 0..patches.div_ceil(LANES) {
             sums.add(&Block::new(config, domain, &chunk.block(number)).counts, times);
         }
@@ -25,20 +25,18 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
     sums.total()
 }
 
-/// Takes patches through the front end and predicts their output sizes. `kept` has room for them.
+/// Takes the patches of a batch, at most those of a chunk, through the front end and predicts their
+/// output sizes.
 #[inline(always)]
 pub(crate) fn count_and_keep(
     config: Config,
     batch: &Batch<'_>,
-    kept: &mut [[Block; Chunk::BLOCKS]],
+    kept: &mut [Block; Chunk::BLOCKS],
 ) -> PartCounts {
     let mut sums = Sums::default();
-    let patches = batch.len();
-    for (first, blocks) in (0..patches).step_by(Chunk::PATCHES).zip(kept) {
-        front_end::process(config, batch, first, blocks);
-        for block in blocks.iter().take((patches - first).div_ceil(LANES)) {
-            sums.add(&block.counts, 1);
-        }
+    front_end::process(config, batch, kept);
+    for block in kept.iter().take(batch.len().div_ceil(LANES)) {
+        sums.add(&block.counts, 1);
     }
     sums.total()
 }

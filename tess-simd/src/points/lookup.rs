@@ -10,7 +10,7 @@ use crate::block::BlockPatch;
 use crate::format::PointFormat;
 use crate::lanes::{EdgePoints, MAX_FACTORS};
 use crate::place::{Spacing, place};
-use alloc::vec::Vec;
+use core::slice::IterMut;
 use tess_core::fixed_point::{HALF, ONE};
 
 /// The most points of a small patch's edge.
@@ -73,9 +73,9 @@ fn locations(spacing: &Spacing, first: u32) -> [u32; EDGE] {
     all
 }
 
-/// The codes of a small regular quad's points.
-pub(crate) fn codes(edges: &EdgePoints, codes: &mut Vec<Code>) {
-    quad::walk(edges, &mut Codes(codes));
+/// Writes the codes of a small regular quad's points to the beginning of `codes`, which has room.
+pub(crate) fn codes(edges: &EdgePoints, codes: &mut [Code]) {
+    quad::walk(edges, &mut Codes(codes.iter_mut()));
 }
 
 /// The code of a point whose coordinates both are in [`FIXED`].
@@ -84,7 +84,7 @@ pub(crate) fn fixed_code(point: [u32; 2]) -> Code {
 }
 
 /// Notes the codes of each run.
-struct Codes<'a>(&'a mut Vec<Code>);
+struct Codes<'a>(IterMut<'a, Code>);
 
 impl Walker for Codes<'_> {
     type Held = u8;
@@ -102,7 +102,9 @@ impl Walker for Codes<'_> {
             Coordinate::Held(code) => code,
             Coordinate::Along(place) => code(place, k),
         };
-        self.0.extend((0..length).map(|k| [number(u, k), number(v, k)]));
+        for (k, code) in (0..length).zip(&mut self.0) {
+            *code = [number(u, k), number(v, k)];
+        }
     }
 }
 

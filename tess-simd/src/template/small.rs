@@ -3,7 +3,7 @@
 //! Indices are bytes. Points are copied where the topology decides them, else looked up
 //! ([`Coordinates`](crate::points::Coordinates)).
 
-use super::write_minimum;
+use super::{PADDING, write_minimum};
 use crate::block::BlockPatch;
 use crate::connect;
 use crate::points::{self, Code, EDGE, LocationTables, fixed_code};
@@ -24,8 +24,6 @@ const WAYS: usize = 4;
 const INDEX_ROOM: usize = 224 << 10;
 /// Points of all templates.
 const POINT_ROOM: usize = 64 << 10;
-/// Room to read whole blocks.
-pub(crate) const PADDING: usize = 128;
 
 /// The templates of one configuration. 864 KiB for integer partitionings, 480 KiB for others.
 #[derive(Clone, Debug)]
@@ -167,23 +165,21 @@ impl SmallTemplates {
         tables: &mut LocationTables,
         indices: &mut [u16],
     ) {
-        let (domain, used) = (patch.domain(), self.points_used);
+        let (used, count) = (self.points_used, patch.points() as usize);
         let mut made = [DomainPoint::default(); POINTS + EDGE];
-        let mut codes = Vec::new();
         if patch.is_minimum() {
-            write_minimum(setup.config, domain, &mut made, indices);
-            let corners = made.iter().take(patch.points() as usize);
-            codes.extend(corners.map(|c| fixed_code([c.u.to_bits(), c.v.to_bits()])));
+            write_minimum(setup.config, patch.domain(), &mut made, indices);
         } else if patch.integer() {
             points::emit(patch, tables, &mut Writer::new(&mut made));
-        } else {
-            points::codes(&patch.edges(), &mut codes);
         }
         if patch.integer() {
-            let made = &made[..patch.points() as usize];
-            self.points[used..used + made.len()].copy_from_slice(made);
+            self.points[used..used + count].copy_from_slice(&made[..count]);
+        } else if patch.is_minimum() {
+            for (code, corner) in self.codes[used..].iter_mut().zip(&made[..count]) {
+                *code = fixed_code([corner.u.to_bits(), corner.v.to_bits()]);
+            }
         } else {
-            self.codes[used..used + codes.len()].copy_from_slice(&codes);
+            points::codes(&patch.edges(), &mut self.codes[used..]);
         }
     }
 }
