@@ -1,8 +1,9 @@
 // needs: catalogue, connect, counts, described, packing, point_format, points, state
 // Expands the topology of each slot of the catalogue: one workgroup per slot.
 
-@group(0) @binding(0) var<storage, read> tables: array<u32>;
-@group(0) @binding(1) var<storage, read_write> catalogue: array<atomic<u32>>;
+@group(0) @binding(0) var<uniform> job: Job;
+@group(0) @binding(1) var<storage, read> tables: array<u32>;
+@group(0) @binding(2) var<storage, read_write> catalogue: array<atomic<u32>>;
 
 // Where the points and the triangles of this topology go; 0 if there is no room.
 var<workgroup> places: vec2<u32>;
@@ -31,10 +32,9 @@ fn keep_point(topology: vec2<u32>, i: u32, at: u32) {
 @compute @workgroup_size(WORKGROUP)
 fn list(
     @builtin(workgroup_id) workgroup: vec3<u32>,
-    @builtin(num_workgroups) workgroups: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let slot = workgroup.x + workgroup.y * workgroups.x;
+    let slot = workgroup.x + workgroup.y * job.max_workgroups;
     if slot >= SLOTS {
         return;
     }

@@ -126,7 +126,9 @@ impl Stage {
                 Binding(Status, ReadWrite),
                 Binding(Arguments, ReadWrite),
             ],
-            Self::List => &[Binding(Tables, Read), Binding(Catalogue, ReadWrite)],
+            Self::List => {
+                &[Binding(Job, Read), Binding(Tables, Read), Binding(Catalogue, ReadWrite)]
+            }
             Self::Partition => &[
                 Binding(Job, Read),
                 Binding(Offsets, Read),

@@ -6,7 +6,7 @@ using metal::uint;
 
 struct _mslBufferSizes {
     uint size0;
-    uint size1;
+    uint size2;
 };
 
 struct Job {
@@ -1240,8 +1240,8 @@ metal::uint2 take_room(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     bool local_9 = {};
-    uint _e4 = metal::atomic_fetch_add_explicit(&catalogue[metal::min(unsigned(8192), (_buffer_sizes.size1 - 0 - 4) / 4)], counts_1.x, metal::memory_order_relaxed);
-    uint _e8 = metal::atomic_fetch_add_explicit(&catalogue[metal::min(unsigned(8193), (_buffer_sizes.size1 - 0 - 4) / 4)], counts_1.y, metal::memory_order_relaxed);
+    uint _e4 = metal::atomic_fetch_add_explicit(&catalogue[metal::min(unsigned(8192), (_buffer_sizes.size2 - 0 - 4) / 4)], counts_1.x, metal::memory_order_relaxed);
+    uint _e8 = metal::atomic_fetch_add_explicit(&catalogue[metal::min(unsigned(8193), (_buffer_sizes.size2 - 0 - 4) / 4)], counts_1.y, metal::memory_order_relaxed);
     if (!(((_e4 + counts_1.x) > CATALOGUE_POINTS))) {
         local_9 = (_e8 + counts_1.y) > CATALOGUE_TRIANGLES;
     } else {
@@ -1265,12 +1265,12 @@ void keep_point(
         PointRun _e5 = run_at_point(0u, topology_21, i_6);
         metal::uint2 _e7 = point_of_run(_e5, _e5.step);
         metal::uint2 _e9 = format_point(_e7, 0u);
-        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(at_2), (_buffer_sizes.size1 - 0 - 4) / 4)], _e9.x, metal::memory_order_relaxed);
-        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(at_2 + 1u), (_buffer_sizes.size1 - 0 - 4) / 4)], _e9.y, metal::memory_order_relaxed);
+        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(at_2), (_buffer_sizes.size2 - 0 - 4) / 4)], _e9.x, metal::memory_order_relaxed);
+        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(at_2 + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)], _e9.y, metal::memory_order_relaxed);
         return;
     } else {
         uint _e20 = described_point(topology_21, i_6);
-        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(at_2), (_buffer_sizes.size1 - 0 - 4) / 4)], _e20, metal::memory_order_relaxed);
+        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(at_2), (_buffer_sizes.size2 - 0 - 4) / 4)], _e20, metal::memory_order_relaxed);
         return;
     }
 }
@@ -1279,39 +1279,40 @@ struct listInput {
 };
 kernel void list(
   metal::uint3 workgroup [[threadgroup_position_in_grid]]
-, metal::uint3 workgroups [[threadgroups_per_grid]]
 , uint thread_ [[thread_index_in_threadgroup]]
-, device type_5 const& tables [[buffer(0)]]
-, device type_7& catalogue [[buffer(1)]]
+, device type_5 const& tables [[buffer(1)]]
+, constant Job& job [[buffer(0)]]
+, device type_7& catalogue [[buffer(2)]]
 , threadgroup metal::uint2& places
-, constant _mslBufferSizes& _buffer_sizes [[buffer(2)]]
+, constant _mslBufferSizes& _buffer_sizes [[buffer(3)]]
 ) {
     uint i = {};
     uint t = {};
-    uint slot = workgroup.x + (workgroup.y * workgroups.x);
+    uint _e6 = job.max_workgroups;
+    uint slot = workgroup.x + (workgroup.y * _e6);
     if (slot >= SLOTS) {
         return;
     }
-    uint key_2 = metal::atomic_load_explicit(&catalogue[metal::min(unsigned(slot), (_buffer_sizes.size1 - 0 - 4) / 4)], metal::memory_order_relaxed);
-    metal::uint2 _e13 = topology_of(key_2);
-    metal::uint2 _e14 = counts(_e13);
+    uint key_2 = metal::atomic_load_explicit(&catalogue[metal::min(unsigned(slot), (_buffer_sizes.size2 - 0 - 4) / 4)], metal::memory_order_relaxed);
+    metal::uint2 _e14 = topology_of(key_2);
+    metal::uint2 _e15 = counts(_e14);
     if (thread_ == 0u) {
         places = metal::uint2(0u, 0u);
         if (key_2 != 0u) {
-            metal::uint2 _e24 = take_room(_e14, catalogue, _buffer_sizes);
-            places = _e24;
+            metal::uint2 _e25 = take_room(_e15, catalogue, _buffer_sizes);
+            places = _e25;
         }
-        uint _e33 = places.x;
-        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(PLACES_AT + (2u * slot)), (_buffer_sizes.size1 - 0 - 4) / 4)], _e33, metal::memory_order_relaxed);
-        uint _e44 = places.y;
-        metal::atomic_store_explicit(&catalogue[metal::min(unsigned((PLACES_AT + (2u * slot)) + 1u), (_buffer_sizes.size1 - 0 - 4) / 4)], _e44, metal::memory_order_relaxed);
+        uint _e34 = places.x;
+        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(PLACES_AT + (2u * slot)), (_buffer_sizes.size2 - 0 - 4) / 4)], _e34, metal::memory_order_relaxed);
+        uint _e45 = places.y;
+        metal::atomic_store_explicit(&catalogue[metal::min(unsigned((PLACES_AT + (2u * slot)) + 1u), (_buffer_sizes.size2 - 0 - 4) / 4)], _e45, metal::memory_order_relaxed);
     }
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     if (thread_ == 0u) {
-        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(slot), (_buffer_sizes.size1 - 0 - 4) / 4)], 0u, metal::memory_order_relaxed);
+        metal::atomic_store_explicit(&catalogue[metal::min(unsigned(slot), (_buffer_sizes.size2 - 0 - 4) / 4)], 0u, metal::memory_order_relaxed);
     }
-    uint _e52 = places.x;
-    if (_e52 == 0u) {
+    uint _e53 = places.x;
+    if (_e53 == 0u) {
         return;
     }
     i = thread_;
@@ -1321,20 +1322,20 @@ kernel void list(
         if (metal::all(loop_bound_3 == uint2(0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_3) {
-            uint _e67 = i;
-            i = _e67 + WORKGROUP;
+            uint _e68 = i;
+            i = _e68 + WORKGROUP;
         }
         loop_init_3 = false;
-        uint _e56 = i;
-        if (_e56 < _e14.x) {
+        uint _e57 = i;
+        if (_e57 < _e15.x) {
         } else {
             break;
         }
         {
-            uint _e59 = i;
-            uint _e62 = places.x;
-            uint _e64 = i;
-            keep_point(_e13, _e59, _e62 + (POINT_WORDS * _e64), catalogue, _buffer_sizes);
+            uint _e60 = i;
+            uint _e63 = places.x;
+            uint _e65 = i;
+            keep_point(_e14, _e60, _e63 + (POINT_WORDS * _e65), catalogue, _buffer_sizes);
         }
     }
     t = thread_;
@@ -1344,22 +1345,22 @@ kernel void list(
         if (metal::all(loop_bound_4 == uint2(0u))) { break; }
         loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
         if (!loop_init_4) {
-            uint _e84 = t;
-            t = _e84 + WORKGROUP;
+            uint _e85 = t;
+            t = _e85 + WORKGROUP;
         }
         loop_init_4 = false;
-        uint _e71 = t;
-        if (_e71 < _e14.y) {
+        uint _e72 = t;
+        if (_e72 < _e15.y) {
         } else {
             break;
         }
         {
-            uint _e77 = places.y;
-            uint _e78 = t;
-            uint _e81 = t;
-            metal::uint3 _e82 = triangle_of(_e13, _e81, tables, _buffer_sizes);
-            uint _e83 = packed_triangle(_e82);
-            metal::atomic_store_explicit(&catalogue[metal::min(unsigned(_e77 + _e78), (_buffer_sizes.size1 - 0 - 4) / 4)], _e83, metal::memory_order_relaxed);
+            uint _e78 = places.y;
+            uint _e79 = t;
+            uint _e82 = t;
+            metal::uint3 _e83 = triangle_of(_e14, _e82, tables, _buffer_sizes);
+            uint _e84 = packed_triangle(_e83);
+            metal::atomic_store_explicit(&catalogue[metal::min(unsigned(_e78 + _e79), (_buffer_sizes.size2 - 0 - 4) / 4)], _e84, metal::memory_order_relaxed);
         }
     }
     return;
