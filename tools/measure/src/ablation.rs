@@ -29,6 +29,9 @@ pub(crate) struct Arguments {
     /// How often the patches of a workload are repeated [default: as often as 1 GiB of output needs]
     #[arg(long, value_name = "N")]
     repeats: Option<u64>,
+    /// Take the first N patches of each workload only
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    patches: Option<u32>,
 }
 
 /// Prints a line for each workload and variant.
@@ -48,6 +51,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
             );
         }
         selected.extend(named);
+    }
+    for workload in &mut selected {
+        workload.patches.truncate(arguments.patches.map_or(usize::MAX, |patches| patches as usize));
     }
     for workload in &selected {
         let bench = Bench::new(&gpu, workload, arguments.repeats)?;
