@@ -7,7 +7,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde_json::Value;
-use tess_core::{Domain, DomainPoint, ProcessedFactor, ProcessedPatch, Tessellation};
+use tess_core::{Config, Domain, DomainPoint, ProcessedFactor, ProcessedPatch, Tessellation};
 use tess_verify::case::Case;
 use tess_verify::drawing::{Colours, DrawOptions, draw, has_rings};
 use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
@@ -55,9 +55,7 @@ impl Patch {
         split: &str,
     ) -> PyResult<Self> {
         let inner = inner.map(|inner| inner.to_f32()).unwrap_or_default();
-        let config = config(partitioning, output, split)?;
-        let factors = factors(named::<Domain>(domain)?, &outer.to_f32(), &inner)?;
-        Ok(Self { case: Case { config, factors } })
+        Self::of(domain, &outer.to_f32(), &inner, config(partitioning, output, split)?)
     }
 
     /// The patch whose factors have these binary32 bit patterns: as the constructor, with integers
@@ -78,9 +76,7 @@ impl Patch {
         split: &str,
     ) -> PyResult<Self> {
         let inner = inner.map(|inner| inner.to_f32()).unwrap_or_default();
-        let config = config(partitioning, output, split)?;
-        let factors = factors(named::<Domain>(domain)?, &outer.to_f32(), &inner)?;
-        Ok(Self { case: Case { config, factors } })
+        Self::of(domain, &outer.to_f32(), &inner, config(partitioning, output, split)?)
     }
 
     /// The patch of a case line, as vector files and :attr:`case` have it:
@@ -330,6 +326,11 @@ impl Patch {
 }
 
 impl Patch {
+    fn of(domain: &str, outer: &[f32], inner: &[f32], config: Config) -> PyResult<Self> {
+        let factors = factors(named::<Domain>(domain)?, outer, inner)?;
+        Ok(Self { case: Case { config, factors } })
+    }
+
     pub(crate) fn tessellate(&self) -> Tessellation {
         self.case.patch().tessellate()
     }

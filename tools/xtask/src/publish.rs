@@ -23,8 +23,7 @@ fn forget_packages() -> Result<(), String> {
     let own = std::env::var_os("CARGO_HOME").map(PathBuf::from);
     let home = own.or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
     let Some(home) = home else { return Err("neither CARGO_HOME nor a home directory".into()) };
-    let target =
-        std::env::var_os("CARGO_TARGET_DIR").map_or(workspace().join("target"), Into::into);
+    let target = command::target();
     for package in packages::published()? {
         let (with_version, name) = (package.full_name(), format!("{}-", package.name));
         // A registry that is a folder has a name without a host.

@@ -44,8 +44,8 @@ pub(crate) fn tests() -> Result<Command, String> {
     environment.install(&[&format!("{}[test,cocotb]", wheel.display())])?;
     environment.check_types()?;
     command::run(&mut cargo("build --package tess-program"))?;
-    let program =
-        cargo_target().join("debug").join(format!("tess{}", std::env::consts::EXE_SUFFIX));
+    let name = format!("tess{}", std::env::consts::EXE_SUFFIX);
+    let program = command::target().join("debug").join(name);
     let mut tests = environment.python(&["-m", "pytest", "-q", "-p", "no:cacheprovider"]);
     tests.env("TESS_PROGRAM", program).env("TESS_COCOTB_BUILD", target().join("cocotb"));
     Ok(tests)
@@ -59,11 +59,6 @@ fn package() -> PathBuf {
 /// Where its builds go.
 fn target() -> PathBuf {
     package().join("target")
-}
-
-/// Where the workspace's builds go.
-fn cargo_target() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| workspace().join("target"), PathBuf::from)
 }
 
 /// The package is a workspace of its own, which the workspace's lints do not see.
@@ -80,8 +75,7 @@ impl Environment {
     /// One without anything of an earlier run.
     fn fresh() -> Result<Self, String> {
         let folder = target().join("venv");
-        let interpreter = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
-        command::run(Command::new(interpreter).args(["-m", "venv", "--clear"]).arg(&folder))?;
+        command::run(interpreter().args(["-m", "venv", "--clear"]).arg(&folder))?;
         Ok(Self(folder))
     }
 
@@ -128,10 +122,14 @@ fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
     format!("{}: {error}", path.display())
 }
 
+/// The interpreter that the variable `PYTHON` names, or the system's.
+fn interpreter() -> Command {
+    Command::new(std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into()))
+}
+
 fn has_python() -> bool {
     let test = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 9))";
-    let interpreter = std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into());
-    let mut python = Command::new(interpreter);
+    let mut python = interpreter();
     python.args(["-c", test]).stdout(Stdio::null()).stderr(Stdio::null());
     python.status().is_ok_and(|status| status.success())
 }
