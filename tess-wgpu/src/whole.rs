@@ -68,7 +68,7 @@ impl Tessellator {
 }
 
 /// Refuses patches of another domain, whose factors would be read as those of other patches.
-fn check_domains(setup: Setup, patches: &[PatchFactors]) -> Result<(), Error> {
+pub(crate) fn check_domains(setup: Setup, patches: &[PatchFactors]) -> Result<(), Error> {
     let expected = setup.domain;
     match patches.iter().position(|factors| factors.domain() != expected) {
         None => Ok(()),
