@@ -91,7 +91,7 @@ impl fmt::Display for StageError {
                 "your WGSL does not go with the stage ({message}); it declares `struct Vertex`, \
                  `fn domain(number: u32, uv: vec2<f32>) -> Vertex`, unless factors are given also \
                  `fn hull(number: u32) -> QuadFactors` (`TriFactors`, `IsolineFactors`), and no \
-                 name that begins with `tess_`"
+                 name that begins with `tess_`; its bindings are in the groups that the builder got"
             ),
             Self::BadPatchCount { offset, size, usage } => write!(
                 f,

@@ -126,10 +126,14 @@ pub(super) async fn user_module(
     Ok(module)
 }
 
-/// The line of a compiler's report that says what is wrong.
+/// What is wrong, without the excerpt of the source: the first line of a compiler's report, and naga's
+/// reasons, which begin with `= `.
 fn headline(report: &str) -> String {
     let from = report.find("error: ").map_or(report, |at| &report[at + "error: ".len()..]);
-    from.trim().lines().next().unwrap_or_default().trim().to_owned()
+    let mut lines = from.trim().lines().map(str::trim);
+    let first = lines.next().unwrap_or_default();
+    let reasons = lines.filter_map(|line| line.strip_prefix("= "));
+    [first].into_iter().chain(reasons).collect::<Vec<_>>().join(": ")
 }
 
 /// What a vertex shader binds that computes its points, as `Pull::source_for_drawing` numbers it.

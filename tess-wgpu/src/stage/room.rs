@@ -82,7 +82,10 @@ impl Form {
 
     /// The room that so many bytes hold, in the proportion of `shape`.
     fn largest(self, bytes: u64, shape: Capacity) -> Capacity {
-        let whole = self.bytes(shape).max(1);
+        let whole = self.bytes(shape);
+        if whole == 0 {
+            return Capacity::worst_case(self.setup, self.patches);
+        }
         let part = |elements: u32| {
             u32::try_from(u128::from(elements) * u128::from(bytes) / whole).unwrap_or(u32::MAX)
         };
