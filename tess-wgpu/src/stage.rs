@@ -200,6 +200,20 @@ impl TessellationStage {
         self.output.room
     }
 
+    /// The batch that the frames run, and the buffer of its points, if there is one.
+    #[cfg(feature = "measure")]
+    #[must_use]
+    pub const fn inside(&self) -> (&crate::Batch, Option<&wgpu::Buffer>) {
+        (&self.output.batch, self.output.points.as_ref())
+    }
+
+    /// A user's WGSL with the stage's types and helpers, and `own` behind it.
+    #[cfg(feature = "measure")]
+    #[must_use]
+    pub fn joined(user: &str, own: &str) -> String {
+        source::of_test(user, own)
+    }
+
     /// Makes more room if a frame needed it and the stage may.
     fn grow(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
         let Some(Feedback { points, primitives, .. }) = self.feedback.last() else { return Ok(()) };

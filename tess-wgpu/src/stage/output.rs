@@ -13,7 +13,7 @@ use wgpu::BufferUsages as Usage;
 pub(super) struct Output {
     pub(super) room: Capacity,
     pub(super) batch: Batch,
-    points: Option<wgpu::Buffer>,
+    pub(super) points: Option<wgpu::Buffer>,
     indices: Option<wgpu::Buffer>,
     pulled: Option<wgpu::BindGroup>,
 }
@@ -30,7 +30,9 @@ impl Output {
     ) -> Result<Self, Error> {
         let Form { setup, points, patches, .. } = form;
         let device = tessellator.device().clone();
-        let make = |label, size, usage| gpu::empty(&device, label, size, Usage::STORAGE | usage);
+        let make = |label, size, usage| {
+            gpu::empty(&device, label, size, Usage::STORAGE | Usage::COPY_SRC | usage)
+        };
         let primitive_bytes = u64::from(setup.primitive_bytes());
         let index_bytes = (u64::from(room.primitives) * primitive_bytes).next_multiple_of(8);
         let stored = (points == Points::Stored)

@@ -7,6 +7,7 @@ use tess_core::Domain;
 use tess_gpu::{Pull, Setup};
 
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
+const HELPERS: &str = include_str!("../../shaders/helpers.wgsl");
 const HULL: &str = include_str!("../../shaders/hull.wgsl");
 const STORED: &str = include_str!("../../shaders/vertex_stored.wgsl");
 const PULLED: &str = include_str!("../../shaders/vertex_pulled.wgsl");
@@ -20,7 +21,7 @@ pub(crate) fn of_hull(user: &str, domain: Domain, group: u32) -> String {
         Domain::Triangle => include_str!("../../shaders/hull_triangle.wgsl"),
         Domain::Quad => include_str!("../../shaders/hull_quad.wgsl"),
     };
-    [user, TYPES, &HULL.replace("GROUP", &group.to_string()), write].join("\n")
+    [user, TYPES, HELPERS, &HULL.replace("GROUP", &group.to_string()), write].join("\n")
 }
 
 /// The module whose entry point `tess_vertex` runs the user's domain function. Unless points are
@@ -32,7 +33,13 @@ pub(crate) fn of_vertices(user: &str, setup: Setup, points: Points, group: u32) 
         Points::Pull => with_own_names(&(pull() + PULLED)),
         Points::PullWithoutIndices => with_own_names(&(pull() + UNINDEXED)),
     };
-    [user, TYPES, &own].join("\n")
+    [user, TYPES, HELPERS, &own].join("\n")
+}
+
+/// The user's text with the types and helpers that it may use, and `own` behind.
+#[cfg(feature = "measure")]
+pub(crate) fn of_test(user: &str, own: &str) -> String {
+    [user, TYPES, HELPERS, own].join("\n")
 }
 
 /// The lines of the user's text.

@@ -2,6 +2,10 @@
 
 #![expect(clippy::float_arithmetic, reason = "pixels and factors are floats")]
 
+mod ball;
+#[path = "../../examples/shared/camera.rs"]
+mod camera;
+mod cracks;
 mod drawing;
 mod errors;
 mod model;
