@@ -9,7 +9,7 @@ pub mod sizes;
 pub mod tables;
 
 pub use bindings::{Access, Binding, Resource};
-pub use plan::{Dispatch, Plan, Workgroups};
+pub use plan::{Dispatch, Plan, Workgroups, Written};
 pub use setup::{Copies, IndexType, Numbering, PointFormat, Setup};
-pub use shaders::{Probe, Pull, Stage};
+pub use shaders::{Counting, Probe, Pull, Stage};
 pub use sizes::{Capacity, Limits, Span};

@@ -35,6 +35,19 @@ pub struct Plan {
     max_workgroups: u32,
     tile_bits: u32,
     is_small: bool,
+    written: Written,
+}
+
+/// Which output a batch writes. Shaders that need the rest compute it ([`crate::Pull`]).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Written {
+    /// Points and indices.
+    #[default]
+    Everything,
+    /// Indices alone.
+    Indices,
+    /// Neither: the batch leaves draw arguments, and for each tile the patch that it begins with.
+    Arguments,
 }
 
 impl Plan {
@@ -48,6 +61,22 @@ impl Plan {
     #[must_use]
     pub fn in_large_stages(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         Self::cut(setup, patches, capacity, limits, false)
+    }
+
+    /// A batch that writes only some of its output, in the stages of a large one. `capacity` bounds what
+    /// is drawn, and takes 4 bytes for each tile even of what is not written.
+    ///
+    /// Its vertex shader binds the buffers of one chunk, so make no more than [`Plan::chunk_patches`]
+    /// patches of it.
+    #[must_use]
+    pub fn writing(
+        written: Written,
+        setup: Setup,
+        patches: u32,
+        capacity: Capacity,
+        limits: Limits,
+    ) -> Self {
+        Self { written, ..Self::cut(setup, patches, capacity, limits, false) }
     }
 
     fn cut(
@@ -77,6 +106,7 @@ impl Plan {
             max_workgroups: limits.workgroups.max(1),
             tile_bits,
             is_small,
+            written: Written::Everything,
         }
     }
 
@@ -105,7 +135,9 @@ impl Plan {
     /// Whether there is a catalogue of topologies. It takes a fixed time, which pays for large batches.
     #[must_use]
     pub const fn has_catalogue(&self) -> bool {
-        self.setup.has_triangles() && self.patches >= CATALOGUE_PATCHES
+        self.setup.has_triangles()
+            && self.patches >= CATALOGUE_PATCHES
+            && !matches!(self.written, Written::Arguments)
     }
 
     /// Elements of a tile: points or primitives.
@@ -120,6 +152,12 @@ impl Plan {
         self.patches
     }
 
+    /// The most patches that a chunk of this batch has.
+    #[must_use]
+    pub const fn chunk_patches(&self) -> u32 {
+        self.chunk_patches
+    }
+
     /// How many chunks there are; 0 for no patches.
     #[must_use]
     pub const fn chunks(&self) -> u32 {
@@ -129,12 +167,18 @@ impl Plan {
     /// How many windows the points have.
     #[must_use]
     pub const fn point_windows(&self) -> u32 {
+        if !matches!(self.written, Written::Everything) {
+            return 0;
+        }
         self.capacity.points.div_ceil(self.tile()).div_ceil(self.point_window_tiles)
     }
 
     /// How many windows the primitives have.
     #[must_use]
     pub const fn primitive_windows(&self) -> u32 {
+        if matches!(self.written, Written::Arguments) {
+            return 0;
+        }
         self.capacity.primitives.div_ceil(self.tile()).div_ceil(self.primitive_window_tiles)
     }
 
@@ -159,6 +203,8 @@ impl Plan {
             Resource::Catalogue => ALIGNMENT,
             Resource::Groups => size::<u32>() * u64::from(self.groups),
             Resource::Draws => size::<DrawIndexed>() * u64::from(self.groups),
+            Resource::Points if self.point_windows() == 0 => 0,
+            Resource::Indices if self.primitive_windows() == 0 => 0,
             Resource::Points => 8 * u64::from(self.capacity.points),
             Resource::Indices => {
                 let each = u64::from(self.setup.primitive_bytes());

@@ -5,10 +5,12 @@ use crate::setup::{Copies, IndexType, Numbering, PointFormat, Setup, constants};
 use crate::sizes;
 use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
+mod counting;
 mod files;
 mod probe;
 mod pull;
 
+pub use counting::Counting;
 pub use probe::Probe;
 pub use pull::Pull;
 
@@ -194,7 +196,7 @@ impl Stage {
         let copies = if matches!(self, Self::ExpandSmall) { Copies::Never } else { setup.copies };
         Setup { copies, ..setup }.prelude()
             + &scratch.unwrap_or_default()
-            + &files::joined(file, &choices)
+            + &files::joined(&[file], &choices)
     }
 
     /// The setup to make this stage's pipeline for. Everything that the stage does not depend on is

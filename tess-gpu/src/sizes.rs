@@ -1,6 +1,8 @@
 //! Sizes that host and shaders agree on, and the limits and room that a batch is planned for.
 
 use crate::layout::DrawIndexed;
+use crate::setup::Setup;
+use tess_core::{Patch, PatchFactors};
 
 /// Threads of a workgroup that expands a tile, partitions tiles or runs probes.
 pub const WORKGROUP: u32 = 64;
@@ -95,6 +97,26 @@ pub struct Capacity {
     pub points: u32,
     /// Primitives, 1 to 3 indices each.
     pub primitives: u32,
+}
+
+impl Capacity {
+    /// What so many patches need at most, whatever their factors: up to 4225 points and 8192 primitives
+    /// each, and 2^32 - 1 together.
+    #[must_use]
+    pub fn worst_case(setup: Setup, patches: u32) -> Self {
+        Self::uniform(setup, patches, 64.0)
+    }
+
+    /// What so many patches need if all of their factors are `factor`. More factors than one never
+    /// need more than the largest of them.
+    #[must_use]
+    pub fn uniform(setup: Setup, patches: u32, factor: f32) -> Self {
+        let counts = Patch::new(setup.config, PatchFactors::uniform(setup.domain, factor)).counts();
+        Self {
+            points: counts.points.saturating_mul(patches),
+            primitives: counts.primitives.saturating_mul(patches),
+        }
+    }
 }
 
 /// Some bytes of a buffer.

@@ -2,9 +2,9 @@
 
 mod common;
 
-use common::{PULLING, all_setups, parse};
+use common::{COUNTING, DRAWING, PULLING, all_setups, parse};
 use naga::{AddressSpace, Module, ScalarKind, TypeInner};
-use tess_gpu::{Access, Binding, Probe, Pull, Resource, Stage, layout};
+use tess_gpu::{Access, Binding, Counting, Probe, Pull, Resource, Stage, layout};
 
 #[test]
 fn every_shader_is_valid_in_every_setup() {
@@ -21,7 +21,10 @@ fn every_shader_is_valid_in_every_setup() {
         for probe in Probe::ALL {
             common::validated(&probe.source(setup));
         }
-        common::validated(&(Pull { group: 0, first_binding: 0 }.source(setup) + PULLING));
+        let pull = Pull { group: 0, first_binding: 0 };
+        common::validated(&(pull.source(setup) + PULLING));
+        common::validated(&(pull.source_for_drawing(setup) + DRAWING));
+        common::validated(&(Counting { group: 0, binding: 0 }.source(setup) + COUNTING));
     }
 }
 

@@ -3,11 +3,11 @@
 
 mod common;
 
-use common::{PULLING, all_setups};
+use common::{COUNTING, DRAWING, PULLING, all_setups};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::process::{Command, Stdio};
-use tess_gpu::{Probe, Pull, Stage};
+use tess_gpu::{Counting, Probe, Pull, Stage};
 
 /// What Tint says of a shader that it refuses.
 fn refusal(source: &str) -> Option<String> {
@@ -31,7 +31,10 @@ fn browsers_take_every_shader() {
     for setup in all_setups() {
         sources.extend(Stage::ALL.map(|stage| stage.source(stage.relevant(setup))));
         sources.extend(Probe::ALL.map(|probe| probe.source(setup)));
-        sources.insert(Pull { group: 0, first_binding: 0 }.source(setup) + PULLING);
+        let pull = Pull { group: 0, first_binding: 0 };
+        sources.insert(pull.source(setup) + PULLING);
+        sources.insert(pull.source_for_drawing(setup) + DRAWING);
+        sources.insert(Counting { group: 0, binding: 0 }.source(setup) + COUNTING);
     }
     assert!(sources.len() > 100, "{} different shaders", sources.len());
     for source in &sources {

@@ -4,7 +4,9 @@ use crate::Tessellator;
 use crate::buffers::Buffers;
 use crate::dispatches::{Dispatch, dispatches};
 use crate::error::Error;
-use tess_gpu::{Capacity, IndexType, Numbering, Plan, Resource, Setup, Stage, Workgroups};
+use tess_gpu::{
+    Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Stage, Workgroups, Written,
+};
 
 /// Where a batch writes its output.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +20,16 @@ pub enum Outputs<'a> {
         /// The indices, 2 or 4 bytes each; whole 8 bytes of the buffer are used.
         indices: &'a wgpu::Buffer,
     },
+    /// Indices alone, for a vertex shader that computes its point ([`tess_gpu::Pull`]).
+    Indices {
+        /// The most points that the batch may have.
+        points: u32,
+        /// The indices, as in [`Outputs::Buffers`].
+        indices: &'a wgpu::Buffer,
+    },
+    /// Draw arguments alone, for a vertex shader that computes its index too. Their first four words
+    /// are those of `draw_indirect`.
+    Arguments(Capacity),
 }
 
 /// What a batch reads.
@@ -41,6 +53,8 @@ pub struct Batch {
     topologies: wgpu::Buffer,
     contexts: wgpu::Buffer,
     offsets: wgpu::Buffer,
+    jobs: wgpu::Buffer,
+    tiles: wgpu::Buffer,
     dispatches: Vec<Dispatch>,
 }
 
@@ -52,13 +66,25 @@ impl Batch {
         outputs: Outputs<'_>,
     ) -> Result<Self, Error> {
         let Patches { count, groups, factors } = patches;
-        let plan = Plan::new(setup, count, capacity(setup, outputs), tessellator.limits())
+        let plan = plan(setup, count, outputs, tessellator.limits())
             .with_groups(check_groups(count, groups)?);
         check(&plan, factors, outputs)?;
         let buffers = Buffers::new(tessellator, &plan, setup, patches, outputs)?;
         let dispatches = dispatches(tessellator, setup, &plan, &buffers)?;
-        let Buffers { status, arguments, draws, topologies, contexts, offsets, .. } = buffers;
-        Ok(Self { plan, status, arguments, draws, topologies, contexts, offsets, dispatches })
+        let Buffers { status, arguments, draws, topologies, contexts, .. } = buffers;
+        let Buffers { offsets, jobs, tiles, .. } = buffers;
+        Ok(Self {
+            plan,
+            status,
+            arguments,
+            draws,
+            topologies,
+            contexts,
+            offsets,
+            jobs,
+            tiles,
+            dispatches,
+        })
     }
 
     /// Records everything, from factors to draw arguments, into one compute pass.
@@ -141,6 +167,29 @@ impl Batch {
     pub const fn offsets(&self) -> &wgpu::Buffer {
         &self.offsets
     }
+
+    /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader of
+    /// [`tess_gpu::Pull::source_for_drawing`] binds the first.
+    #[must_use]
+    pub const fn jobs(&self) -> &wgpu::Buffer {
+        &self.jobs
+    }
+
+    /// The patch that each tile of the output begins with, after the batch has run.
+    #[must_use]
+    pub const fn tiles(&self) -> &wgpu::Buffer {
+        &self.tiles
+    }
+}
+
+/// How a batch with these outputs is cut up.
+fn plan(setup: Setup, patches: u32, outputs: Outputs<'_>, limits: Limits) -> Plan {
+    let room = capacity(setup, outputs);
+    match outputs {
+        Outputs::CountOnly | Outputs::Buffers { .. } => Plan::new(setup, patches, room, limits),
+        Outputs::Indices { .. } => Plan::writing(Written::Indices, setup, patches, room, limits),
+        Outputs::Arguments(_) => Plan::writing(Written::Arguments, setup, patches, room, limits),
+    }
 }
 
 /// How many groups there are; refuses those that do not ascend within the batch.
@@ -164,9 +213,17 @@ fn check(plan: &Plan, factors: &wgpu::Buffer, outputs: Outputs<'_>) -> Result<()
     if needed > got {
         return Err(Error::FactorsTooShort { needed, got });
     }
+    if matches!(outputs, Outputs::Indices { .. } | Outputs::Arguments(_)) && plan.chunks() > 1 {
+        let (got, most) = (plan.patches(), plan.chunk_patches());
+        return Err(Error::TooManyToPull { got, most });
+    }
     let mut own = vec![(Resource::Factors, factors)];
-    if let Outputs::Buffers { points, indices } = outputs {
-        own.extend([(Resource::Points, points), (Resource::Indices, indices)]);
+    match outputs {
+        Outputs::CountOnly | Outputs::Arguments(_) => {}
+        Outputs::Indices { indices, .. } => own.push((Resource::Indices, indices)),
+        Outputs::Buffers { points, indices } => {
+            own.extend([(Resource::Points, points), (Resource::Indices, indices)]);
+        }
     }
     for (number, &(resource, buffer)) in own.iter().enumerate() {
         if !buffer.usage().contains(wgpu::BufferUsages::STORAGE) {
@@ -182,16 +239,19 @@ fn check(plan: &Plan, factors: &wgpu::Buffer, outputs: Outputs<'_>) -> Result<()
 /// The most patches of a batch: packed points have 30 bits for the number of theirs.
 const MAX_PATCHES: u32 = 1 << 30;
 
+/// The room that the outputs have.
 fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
-    let Outputs::Buffers { points, indices } = outputs else { return Capacity::default() };
     let elements = |size: u64, each: u32| u32::try_from(size / u64::from(each)).unwrap_or(u32::MAX);
-    let points = elements(points.size(), 8);
-    let numbered = match (setup.index_type, setup.numbering) {
+    let (points, indices) = match outputs {
+        Outputs::CountOnly => return Capacity::default(),
+        Outputs::Arguments(capacity) => return capacity,
+        Outputs::Buffers { points, indices } => (elements(points.size(), 8), indices),
+        Outputs::Indices { points, indices } => (points, indices),
+    };
+    let points = match (setup.index_type, setup.numbering) {
         (IndexType::U16, Numbering::PerBatch) => points.min(1 << 16),
         _ => points,
     };
-    Capacity {
-        points: numbered,
-        primitives: elements(indices.size() / 8 * 8, setup.primitive_bytes()),
-    }
+    let primitives = elements(indices.size() / 8 * 8, setup.primitive_bytes());
+    Capacity { points, primitives }
 }

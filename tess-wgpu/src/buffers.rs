@@ -41,7 +41,8 @@ impl Buffers {
         };
         // Without outputs there are no windows, so nothing binds what stands for them here.
         let (points, indices) = match outputs {
-            Outputs::CountOnly => (factors, factors),
+            Outputs::CountOnly | Outputs::Arguments(_) => (factors, factors),
+            Outputs::Indices { indices, .. } => (factors, indices),
             Outputs::Buffers { points, indices } => (points, indices),
         };
         Ok(Self {

@@ -1,5 +1,6 @@
 //! What can go wrong.
 
+use crate::stage::StageError;
 use std::fmt;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
@@ -88,6 +89,16 @@ pub enum Error {
         /// Primitives of the batch.
         primitives: u64,
     },
+    /// A batch whose points are computed in the vertex shader has too many patches for one binding.
+    /// Make fewer at a time, or let the points be stored.
+    TooManyToPull {
+        /// Patches of the batch.
+        got: u32,
+        /// The most that the device's `max_storage_buffer_binding_size` allows.
+        most: u32,
+    },
+    /// A tessellation stage cannot be made or used so.
+    Stage(StageError),
     /// wgpu refused an object or a command, for example to read beyond the end of a buffer.
     Refused {
         /// What wgpu says.
@@ -142,12 +153,24 @@ impl fmt::Display for Error {
                 "{points} points and {primitives} primitives are more than the indices can number; \
                  tessellate fewer patches at a time"
             ),
+            Self::TooManyToPull { got, most } => write!(
+                f,
+                "{got} patches without a point buffer are more than one binding holds, {most}; \
+                 make fewer at a time, or store the points"
+            ),
+            Self::Stage(error) => error.fmt(f),
             Self::Refused { reason } => write!(f, "wgpu refused: {reason}"),
         }
     }
 }
 
 impl std::error::Error for Error {}
+
+impl From<StageError> for Error {
+    fn from(error: StageError) -> Self {
+        Self::Stage(error)
+    }
+}
 
 const fn name(buffer: Resource) -> &'static str {
     match buffer {

@@ -2,7 +2,10 @@
 
 use crate::error::{Error, checked};
 use std::fmt;
+use std::future::Future;
+use std::pin::{Pin, pin};
 use std::sync::mpsc;
+use std::task::{Context, Poll, Waker};
 
 /// A device with its queue and the adapter that it was made from. The fields are public: put your own
 /// device in, or use that of [`Gpu::open`].
@@ -102,8 +105,7 @@ impl Gpu {
     /// # Errors
     /// [`Error::DeviceLost`], or [`Error::Refused`] for commands that are not valid.
     pub fn run(&self, encoder: wgpu::CommandEncoder) -> Result<(), Error> {
-        check_alive(&self.device)?;
-        checked(&self.device, || self.queue.submit([encoder.finish()]))?;
+        self.submit(encoder)?;
         self.wait()
     }
 
@@ -112,6 +114,17 @@ impl Gpu {
     /// # Errors
     /// [`Error::DeviceLost`]; or [`Error::Refused`], for example for more bytes than the buffer has.
     pub fn read(&self, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, Error> {
+        self.finish(self.read_async(buffer, size))
+    }
+
+    /// The same without blocking: for a browser, and for programs that do something else meanwhile.
+    ///
+    /// Natively somebody has to ask the device whether it is done. The future does so whenever it is
+    /// polled, and asks to be polled again at once.
+    ///
+    /// # Errors
+    /// As [`Gpu::read`].
+    pub async fn read_async(&self, buffer: &wgpu::Buffer, size: u64) -> Result<Vec<u8>, Error> {
         if size == 0 {
             return Ok(Vec::new());
         }
@@ -119,18 +132,37 @@ impl Gpu {
         let staging = self.buffer("read back", size, usage)?;
         let mut encoder = self.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
-        self.run(encoder)?;
+        self.submit(encoder)?;
         let (sender, receiver) = mpsc::channel();
         checked(&self.device, || {
             staging.map_async(wgpu::MapMode::Read, .., move |result| {
-                // The receiver lives until the wait below is over.
+                // Nobody receives it if the future was dropped.
                 let _ = sender.send(result);
             });
         })?;
-        self.wait()?;
-        receiver.recv().map_err(|error| lost(&error))?.map_err(|error| lost(&error))?;
+        Arrival { device: &self.device, receiver }.await?;
         let view = staging.get_mapped_range(..).map_err(|error| lost(&error))?;
         Ok(view.to_vec())
+    }
+
+    /// Does the work of a future that waits for this device alone.
+    pub(crate) fn finish<T>(
+        &self,
+        work: impl Future<Output = Result<T, Error>>,
+    ) -> Result<T, Error> {
+        let mut work = pin!(work);
+        loop {
+            match work.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
+                Poll::Ready(done) => return done,
+                Poll::Pending => self.wait()?,
+            }
+        }
+    }
+
+    /// Submits the commands.
+    pub(crate) fn submit(&self, encoder: wgpu::CommandEncoder) -> Result<(), Error> {
+        check_alive(&self.device)?;
+        checked(&self.device, || self.queue.submit([encoder.finish()])).map(drop)
     }
 
     /// Waits until everything submitted has run.
@@ -138,6 +170,30 @@ impl Gpu {
         let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
         waited.map_err(|error| lost(&error))?;
         check_alive(&self.device)
+    }
+}
+
+/// The answer to `map_async`.
+struct Arrival<'a> {
+    device: &'a wgpu::Device,
+    receiver: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
+}
+
+impl Future for Arrival<'_> {
+    type Output = Result<(), Error>;
+
+    fn poll(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
+        if let Err(error) = self.device.poll(wgpu::PollType::Poll) {
+            return Poll::Ready(Err(lost(&error)));
+        }
+        match self.receiver.try_recv() {
+            Ok(result) => Poll::Ready(result.map_err(|error| lost(&error))),
+            Err(mpsc::TryRecvError::Disconnected) => Poll::Ready(Err(lost(&"it never answered"))),
+            Err(mpsc::TryRecvError::Empty) => {
+                context.waker().wake_by_ref();
+                Poll::Pending
+            }
+        }
     }
 }
 

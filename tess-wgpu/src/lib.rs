@@ -8,6 +8,7 @@ mod gpu;
 mod pipeline;
 #[cfg(feature = "measure")]
 mod probe;
+pub mod stage;
 #[cfg(feature = "measure")]
 mod stopwatch;
 mod tessellator;
@@ -16,6 +17,7 @@ mod whole;
 pub use batch::{Batch, Outputs};
 pub use error::Error;
 pub use gpu::{Gpu, Wanted};
+pub use stage::TessellationStage;
 #[cfg(feature = "measure")]
 pub use stopwatch::Stopwatch;
 pub use tessellator::Tessellator;

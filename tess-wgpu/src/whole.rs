@@ -33,13 +33,26 @@ impl Tessellator {
         setup: Setup,
         patches: &[PatchFactors],
     ) -> Result<Output, Error> {
+        gpu.finish(self.tessellate_async(gpu, setup, patches))
+    }
+
+    /// The same without blocking: see [`Gpu::read_async`].
+    ///
+    /// # Errors
+    /// As [`Tessellator::tessellate`].
+    pub async fn tessellate_async(
+        &mut self,
+        gpu: &Gpu,
+        setup: Setup,
+        patches: &[PatchFactors],
+    ) -> Result<Output, Error> {
         use wgpu::BufferUsages as Usage;
         check_domains(setup, patches)?;
         let words = factor_words(patches);
         let factors = gpu.upload("factors", bytemuck::cast_slice(&words), Usage::STORAGE)?;
         let count = u32::try_from(patches.len())
             .map_err(|_| Error::TooManyPatches { got: patches.len() })?;
-        let needed = run(gpu, &self.batch(setup, count, &factors, Outputs::CountOnly)?)?;
+        let needed = run(gpu, &self.batch(setup, count, &factors, Outputs::CountOnly)?).await?;
         let indices = needed.primitives() * u64::from(setup.indices_per_primitive());
         let usage = Usage::STORAGE | Usage::COPY_SRC;
         let point_buffer = gpu.buffer("points", 8 * needed.points(), usage)?;
@@ -47,20 +60,22 @@ impl Tessellator {
         let index_buffer = gpu.buffer("indices", index_bytes.next_multiple_of(8), usage)?;
         let outputs = Outputs::Buffers { points: &point_buffer, indices: &index_buffer };
         let batch = self.batch(setup, count, &factors, outputs)?;
-        let status = run(gpu, &batch)?;
+        let status = run(gpu, &batch).await?;
         if !status.fits() {
             let (points, primitives) = (needed.points(), needed.primitives());
             return Err(Error::OutputTooLarge { points, primitives });
         }
-        let draw = gpu.read(batch.draw_arguments(), size_of::<DrawIndexed>() as u64)?;
+        let draw = gpu.read_async(batch.draw_arguments(), size_of::<DrawIndexed>() as u64).await?;
         Ok(Output {
             status,
             draw: bytemuck::pod_read_unaligned(&draw),
-            begins: begins(gpu, &batch)?,
-            points: bytemuck::pod_collect_to_vec(&gpu.read(&point_buffer, 8 * needed.points())?),
+            begins: begins(gpu, &batch).await?,
+            points: bytemuck::pod_collect_to_vec(
+                &gpu.read_async(&point_buffer, 8 * needed.points()).await?,
+            ),
             indices: widened(
                 setup,
-                &gpu.read(&index_buffer, index_bytes.next_multiple_of(4))?,
+                &gpu.read_async(&index_buffer, index_bytes.next_multiple_of(4)).await?,
                 indices,
             ),
         })
@@ -68,7 +83,7 @@ impl Tessellator {
 }
 
 /// Refuses patches of another domain, whose factors would be read as those of other patches.
-fn check_domains(setup: Setup, patches: &[PatchFactors]) -> Result<(), Error> {
+pub(crate) fn check_domains(setup: Setup, patches: &[PatchFactors]) -> Result<(), Error> {
     let expected = setup.domain;
     match patches.iter().position(|factors| factors.domain() != expected) {
         None => Ok(()),
@@ -89,8 +104,8 @@ fn widened(setup: Setup, bytes: &[u8], count: u64) -> Vec<u32> {
 }
 
 /// Where each patch's output begins.
-fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, Error> {
-    let bytes = gpu.read(batch.offsets(), batch.offsets().size())?;
+async fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, Error> {
+    let bytes = gpu.read_async(batch.offsets(), batch.offsets().size()).await?;
     let offsets: Vec<[u32; 2]> = bytemuck::pod_collect_to_vec(&bytes[..bytes.len() / 8 * 8]);
     let at = |entry: u64| usize::try_from(entry).ok().and_then(|entry| offsets.get(entry));
     let sum = |[points, primitives]: [u32; 2], entry: u64| {
@@ -102,9 +117,10 @@ fn begins(gpu: &Gpu, batch: &Batch) -> Result<Vec<[u32; 2]>, Error> {
 }
 
 /// Runs a batch; returns its status.
-fn run(gpu: &Gpu, batch: &Batch) -> Result<Status, Error> {
+async fn run(gpu: &Gpu, batch: &Batch) -> Result<Status, Error> {
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
     batch.encode(&mut encoder);
-    gpu.run(encoder)?;
-    Ok(bytemuck::pod_read_unaligned(&gpu.read(batch.status(), size_of::<Status>() as u64)?))
+    gpu.submit(encoder)?;
+    let status = gpu.read_async(batch.status(), size_of::<Status>() as u64).await?;
+    Ok(bytemuck::pod_read_unaligned(&status))
 }

@@ -1,6 +1,6 @@
-//! The terrain example has no cracks, and the test would see one.
+//! The terrain of the example `batch` has no cracks, and the test would see one.
 
-#[path = "../examples/terrain/terrain.rs"]
+#[path = "../examples/batch/batch.rs"]
 mod terrain;
 
 use tess_wgpu::Gpu;

@@ -55,7 +55,7 @@ impl Plan {
 
     /// What writes the output of a chunk; nothing if there is no room for any.
     fn expansion(self, chunk: u32) -> impl Iterator<Item = Dispatch> + use<> {
-        let has_room = self.point_windows() + self.primitive_windows() > 0;
+        let has_room = self.capacity != Capacity::default();
         let (points, primitives) = match self.is_small() {
             true => (0, 0),
             false => (self.point_windows(), self.primitive_windows()),

@@ -13,14 +13,16 @@ macro_rules! files {
     };
 }
 
-const FILES: [(&str, &str); 55] = files![
+const FILES: [(&str, &str); 57] = files![
     "alike",
     "block",
     "catalogue",
     "connect",
+    "counted",
     "counts",
     "d3d_float",
     "described",
+    "element",
     "expand",
     "expand_points",
     "expand_primitives",
@@ -107,10 +109,12 @@ pub(super) const fn expanding(is_small: bool) -> [Choice; 2] {
     }
 }
 
-/// A file behind all that it needs, each once.
-pub(super) fn joined(file: &'static str, choices: &[Choice]) -> String {
+/// Files behind all that they need, each once.
+pub(super) fn joined(files: &[&'static str], choices: &[Choice]) -> String {
     let mut names = Vec::new();
-    add(file, choices, &mut names);
+    for file in files {
+        add(file, choices, &mut names);
+    }
     names.into_iter().map(text).collect()
 }
 

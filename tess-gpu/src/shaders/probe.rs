@@ -39,6 +39,6 @@ impl Probe {
             Self::Contexts => "probe_contexts",
             Self::Locations => "probe_locations",
         };
-        setup.prelude() + &files::joined("probe", &[("probe", file)])
+        setup.prelude() + &files::joined(&["probe"], &[("probe", file)])
     }
 }

@@ -13,6 +13,8 @@ use crate::setup::Setup;
 /// - `tess_location(patch_index, i) -> vec2<f32>`: the same as binary32, exactly,
 /// - `tess_primitive(patch_index, t) -> vec3<u32>`: the indices of primitive `t`, which count from the
 ///   patch's first point; as many of the three as a primitive has.
+///
+/// [`Pull::source_for_drawing`] also finds the patch of a vertex that is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Pull {
     /// Bind group of the buffers.
@@ -25,15 +27,42 @@ impl Pull {
     /// The WGSL.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        let declare = |offset: u32, name: &str, of: &str| {
-            let (group, binding) = (self.group, self.first_binding + offset);
-            format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
-        };
-        let mut source =
-            setup.prelude() + &declare(0, "topologies", "vec2<u32>") + &declare(1, "tables", "u32");
+        self.begin(setup) + &files::joined(&["locate"], &files::placing(setup, "pulled_contexts"))
+    }
+
+    /// The same for the vertex shader of a batch that does not write everything
+    /// ([`crate::Plan::writing`]).
+    ///
+    /// The WGSL also declares `job`, a uniform buffer with the batch's first [`crate::layout::Job`],
+    /// and the storage buffers `offsets` and `tiles`: bindings `first_binding` + 3, 4 and 5. It also
+    /// offers
+    /// - `tess_point_at(i) -> vec2<u32>`: the patch of point `i` of the batch, and the point's number
+    ///   within the patch,
+    /// - `tess_primitive_at(t) -> vec2<u32>`: the same for primitive `t` of the batch.
+    #[must_use]
+    pub fn source_for_drawing(self, setup: Setup) -> String {
+        let (group, binding) = (self.group, self.first_binding + 3);
+        self.begin(setup)
+            + &format!("@group({group}) @binding({binding}) var<uniform> job: Job;\n")
+            + &self.declared(4, "offsets", "vec2<u32>")
+            + &self.declared(5, "tiles", "u32")
+            + &files::joined(&["locate", "element"], &files::placing(setup, "pulled_contexts"))
+    }
+
+    /// The constants, and the buffers that both forms read.
+    fn begin(self, setup: Setup) -> String {
+        let mut source = setup.prelude()
+            + &self.declared(0, "topologies", "vec2<u32>")
+            + &self.declared(1, "tables", "u32");
         if !setup.has_integer_factors() {
-            source += &declare(2, "contexts", "vec2<u32>");
+            source += &self.declared(2, "contexts", "vec2<u32>");
         }
-        source + &files::joined("locate", &files::placing(setup, "pulled_contexts"))
+        source
+    }
+
+    /// The declaration of a buffer.
+    fn declared(self, offset: u32, name: &str, of: &str) -> String {
+        let (group, binding) = (self.group, self.first_binding + offset);
+        format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
     }
 }

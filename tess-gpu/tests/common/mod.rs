@@ -17,6 +17,26 @@ fn user(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
+/// The functions of [`tess_gpu::Pull::source_for_drawing`], called as a user's vertex shader does.
+pub(crate) const DRAWING: &str = "
+@vertex
+fn user(@builtin(vertex_index) vertex: u32) -> @builtin(position) vec4<f32> {
+    let point = tess_point_at(vertex);
+    let primitive = tess_primitive_at(vertex / 3u);
+    let corner = tess_primitive(primitive.x, primitive.y)[vertex % 3u];
+    return vec4<f32>(tess_location(point.x, point.y), tess_location(primitive.x, corner));
+}
+";
+
+/// The function of [`tess_gpu::Counting`], called as a user's shader does.
+pub(crate) const COUNTING: &str = "
+@group(0) @binding(1) var<storage, read_write> out: array<vec2<u32>>;
+@compute @workgroup_size(64)
+fn user(@builtin(global_invocation_id) id: vec3<u32>) {
+    out[id.x] = tess_counts(id.xyzx, id.xy);
+}
+";
+
 /// Every configuration in every point format and numbering, and with 16-bit indices.
 pub(crate) fn all_setups() -> Vec<Setup> {
     let mut all = Vec::new();

@@ -1,17 +1,17 @@
-//! A displaced terrain: see README.md beside this file.
+//! A terrain to fly over: see README.md beside this file.
+#![expect(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "heights are floats")]
+#![expect(clippy::print_stdout, reason = "it prints its measurements")]
 
-#[path = "../shared/png_file.rs"]
-mod png_file;
+#[path = "../shared/app.rs"]
+mod app;
+mod bench;
+#[path = "../shared/bindings.rs"]
+mod bindings;
+#[path = "../shared/camera.rs"]
+mod camera;
 mod terrain;
 
-use terrain::picture;
-use tess_wgpu::Gpu;
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let path = std::env::args().nth(1).unwrap_or_else(|| "terrain.png".to_owned());
-    let gpu = pollster::block_on(Gpu::open())?;
-    let pixels = terrain::render(&gpu, None)?;
-    png_file::write(&path, &pixels)?;
-    let cracks = terrain::background_pixels(&pixels);
-    if cracks > 0 { Err(format!("{cracks} pixels show the background").into()) } else { Ok(()) }
+    let args = app::Args::from_command_line()?;
+    if args.text("bench").is_some() { bench::run(&args) } else { app::run::<terrain::Terrain>() }
 }

@@ -1,63 +1,203 @@
-//! The picture: factors, tessellation and an indexed indirect draw, recorded into one command
-//! buffer; nothing is read back before the pixels are finished.
+//! A terrain that factors by size on the screen tessellate.
 
-#[path = "../shared/compute.rs"]
-mod compute;
-#[path = "../shared/picture.rs"]
-pub(crate) mod picture;
-
-use compute::encode_compute;
-use picture::Scene;
+use crate::app::{self, Args, Show, View};
+use crate::bindings::{Bound, bind};
+use crate::camera::Camera;
+use glam::Vec3;
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_gpu::Setup;
-use tess_wgpu::Gpu;
+use tess_wgpu::stage::{Points, Room};
+use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
-/// No part of the terrain has this colour.
-pub(crate) const BACKGROUND: [u8; 4] = [255, 0, 255, 255];
-const MAGENTA: wgpu::Color = wgpu::Color { r: 1.0, g: 0.0, b: 1.0, a: 1.0 };
-
-const FACTORS: &str = include_str!("factors.wgsl");
-const DRAW: &str = include_str!("draw.wgsl");
-const GRID: u32 = 32;
-
-/// Renders the terrain; `wrong_patch` gets one wrong edge factor. The pixels are RGBA, row by row.
-pub(crate) fn render(gpu: &Gpu, wrong_patch: Option<u32>) -> Result<Vec<u8>, Box<dyn Error>> {
-    let edges = gpu.buffer("edges", 2 * 4 * u64::from(GRID * (GRID + 1)), Usage::STORAGE)?;
-    let factors = gpu.buffer("factors", 24 * u64::from(GRID * GRID), Usage::STORAGE)?;
-    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
-    let scene = Scene {
-        setup: Setup::new(Domain::Quad, config),
-        patches: GRID * GRID,
-        factors: &factors,
-        room: [16 << 20, 48 << 20],
-        source: DRAW,
-        read: None,
-        meshes: &[],
-        // The underside is not drawn, so a crack shows the background through it.
-        cull: Some(wgpu::Face::Back),
-        background: MAGENTA,
-    };
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
-    encode_factors(gpu, &mut encoder, [&edges, &factors], wrong_patch);
-    picture::render(gpu, encoder, &scene)
+/// The terrain. Keys: `w` wireframe, `+` and `-` the pixels of a segment, `p` where points come from.
+pub(crate) struct Terrain {
+    stage: TessellationStage,
+    frame: wgpu::Buffer,
+    bound: (wgpu::BindGroupLayout, wgpu::BindGroup),
+    format: wgpu::TextureFormat,
+    /// Patches along each side.
+    grid: u32,
+    most_bytes: u64,
+    points: Points,
+    wireframe: bool,
+    /// Pixels that a segment should have.
+    pub(crate) segment: f32,
 }
 
-/// How many pixels show the background.
-pub(crate) fn background_pixels(pixels: &[u8]) -> usize {
-    pixels.chunks_exact(4).filter(|&pixel| pixel == BACKGROUND).count()
+/// Texels along each side of the height map.
+const TEXELS: u32 = 512;
+
+impl Show for Terrain {
+    fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>> {
+        let frame = gpu.buffer("frame", 96, Usage::UNIFORM | Usage::COPY_DST)?;
+        let heights = app::view_of(&height_map(gpu));
+        let bound = bind(gpu, &[Bound::Uniform(&frame), Bound::Texture(&heights)]);
+        let grid = args.number("grid", 64)?;
+        let most_bytes = args.number("bytes", 256 << 20)?;
+        let points = points(args.text("points").unwrap_or("stored"))?;
+        let stage = stage(gpu, format, &bound, grid, [points_of(points, most_bytes)], false)?;
+        let segment = args.number("segment", 8.0)?;
+        let wireframe = false;
+        Ok(Self { stage, frame, bound, format, grid, most_bytes, points, wireframe, segment })
+    }
+
+    fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        view: View,
+    ) -> Result<(), Box<dyn Error>> {
+        let camera = flight(view.seconds);
+        let [width, height] = view.size.map(|size| size as f32);
+        let mut words = camera.clip_from_world(width / height).to_cols_array().to_vec();
+        words.extend(camera.eye.extend(0.5 * height * camera.zoom).to_array());
+        words.extend([self.segment, f32::from_bits(self.grid), 0.0, 0.0]);
+        gpu.queue.write_buffer(&self.frame, 0, bytemuck::cast_slice(&words));
+        Ok(self.stage.prepare(encoder, self.grid * self.grid)?)
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.stage.draw(pass);
+    }
+
+    fn press(&mut self, gpu: &Gpu, key: &str) -> Result<(), Box<dyn Error>> {
+        match key {
+            "+" => self.segment = (self.segment * 0.8).max(0.25),
+            "-" => self.segment = (self.segment * 1.25).min(200.0),
+            "w" => self.wireframe = !self.wireframe && can_wireframe(gpu),
+            "p" => {
+                self.points = match self.points {
+                    Points::Stored => Points::Pull,
+                    Points::Pull => Points::PullWithoutIndices,
+                    Points::PullWithoutIndices => Points::Stored,
+                }
+            }
+            _ => return Ok(()),
+        }
+        self.remake(gpu)
+    }
+
+    fn title(&self) -> String {
+        let Self { points, segment, .. } = self;
+        let drawn = self.stage.feedback().map_or(0, |feedback| feedback.drawn);
+        format!("terrain: {drawn} triangles, {segment:.1} pixels a segment, points: {points:?}")
+    }
 }
 
-fn encode_factors(
+impl Terrain {
+    /// The stage, for measurements.
+    pub(crate) const fn stage(&self) -> &TessellationStage {
+        &self.stage
+    }
+
+    fn remake(&mut self, gpu: &Gpu) -> Result<(), Box<dyn Error>> {
+        let points = [points_of(self.points, self.most_bytes)];
+        self.stage = stage(gpu, self.format, &self.bound, self.grid, points, self.wireframe)?;
+        Ok(())
+    }
+}
+
+/// The way to draw that a word names.
+pub(crate) fn points(word: &str) -> Result<Points, String> {
+    match word {
+        "stored" => Ok(Points::Stored),
+        "pull" => Ok(Points::Pull),
+        "none" => Ok(Points::PullWithoutIndices),
+        _ => Err(format!("--points {word} is none of stored, pull and none")),
+    }
+}
+
+fn points_of(points: Points, most_bytes: u64) -> (Points, Room) {
+    (points, Room::Automatic { most_bytes })
+}
+
+fn can_wireframe(gpu: &Gpu) -> bool {
+    gpu.device.features().contains(wgpu::Features::POLYGON_MODE_LINE)
+}
+
+fn stage(
     gpu: &Gpu,
-    encoder: &mut wgpu::CommandEncoder,
-    buffers: [&wgpu::Buffer; 2],
-    wrong_patch: Option<u32>,
-) {
-    let wrong = wrong_patch.unwrap_or(u32::MAX);
-    let module = picture::module(gpu, &FACTORS.replace("0xffffffffu", &format!("{wrong}u")));
-    let measure = (&module, "measure_edges");
-    encode_compute(gpu, encoder, measure, &buffers[..1], GRID * (GRID + 1));
-    encode_compute(gpu, encoder, (&module, "gather_factors"), &buffers, GRID * GRID);
+    format: wgpu::TextureFormat,
+    (layout, group): &(wgpu::BindGroupLayout, wgpu::BindGroup),
+    grid: u32,
+    [(points, room)]: [(Points, Room); 1],
+    wireframe: bool,
+) -> Result<TessellationStage, tess_wgpu::Error> {
+    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+    let polygon_mode = if wireframe { wgpu::PolygonMode::Line } else { wgpu::PolygonMode::Fill };
+    TessellationStage::builder(include_str!("terrain.wgsl"), Domain::Quad, config, grid * grid)
+        .bind_group(layout, group)
+        .points(points)
+        .room(room)
+        .target(format)
+        .depth(app::depth())
+        .primitive(wgpu::PrimitiveState { polygon_mode, ..Default::default() })
+        .build(&gpu.device)
+}
+
+/// Where the camera is after so many seconds: on a circle over the terrain.
+fn flight(seconds: f32) -> Camera {
+    let angle = 0.12 * seconds - 2.0;
+    let at = |angle: f32, radius: f32, height| {
+        Vec3::new(32.0 + radius * libm::cosf(angle), 32.0 + radius * libm::sinf(angle), height)
+    };
+    Camera {
+        eye: at(angle, 24.0, 11.0),
+        target: at(angle + 0.9, 16.0, 4.0),
+        up: Vec3::Z,
+        zoom: 1.5,
+    }
+}
+
+/// Hills: eight octaves of value noise.
+fn height_map(gpu: &Gpu) -> wgpu::Texture {
+    let mut heights = Vec::new();
+    for y in 0..TEXELS {
+        for x in 0..TEXELS {
+            let mut height = 0.0;
+            for octave in 0..8 {
+                height += noise([x, y], TEXELS >> (2 + octave)) / (2 << octave) as f32;
+            }
+            heights.push(height * height * (3.0 - 2.0 * height));
+        }
+    }
+    let size = wgpu::Extent3d { width: TEXELS, height: TEXELS, depth_or_array_layers: 1 };
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("heights"),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::R32Float,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let layout = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some(4 * TEXELS),
+        rows_per_image: None,
+    };
+    let bytes = bytemuck::cast_slice(&heights);
+    gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, size);
+    texture
+}
+
+/// Random numbers on a lattice of so many texels, smooth in between; 0 to 1.
+fn noise(at: [u32; 2], cell: u32) -> f32 {
+    let cell = cell.max(1);
+    let lattice = |x: u32, y: u32| {
+        let mut hash = x.wrapping_mul(0x9E37_79B1) ^ y.wrapping_mul(0x85EB_CA77) ^ cell;
+        hash = (hash ^ hash >> 15).wrapping_mul(0x2C1B_3C6D);
+        hash = (hash ^ hash >> 12).wrapping_mul(0x297A_2D39);
+        (hash >> 16) as f32 / 65535.0
+    };
+    let [x, y] = at.map(|c| c / cell);
+    let [s, t] = at.map(|c| (c % cell) as f32 / cell as f32).map(|s| s * s * (3.0 - 2.0 * s));
+    let mix = |a: f32, b: f32, t: f32| a + (b - a) * t;
+    mix(
+        mix(lattice(x, y), lattice(x + 1, y), s),
+        mix(lattice(x, y + 1), lattice(x + 1, y + 1), s),
+        t,
+    )
 }

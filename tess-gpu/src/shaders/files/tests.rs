@@ -28,6 +28,8 @@ fn roots() -> Vec<(&'static str, Vec<Choice>)> {
             add("small", "stored_contexts", false);
             add("expand_small", "stored_contexts", false);
             add("locate", "pulled_contexts", false);
+            add("element", "pulled_contexts", false);
+            add("counted", "no_contexts", false);
         }
     }
     for probe in ["probe_factors", "probe_contexts", "probe_locations"] {

@@ -1,0 +1,195 @@
+//! Runs an example: in a window, or without one into a PNG file.
+
+#[path = "png_of.rs"]
+mod png_of;
+#[path = "window.rs"]
+mod window;
+
+use std::error::Error;
+use tess_wgpu::Gpu;
+
+/// What an example draws.
+pub(crate) trait Show: Sized {
+    /// Makes everything, for a picture of this format.
+    fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>>;
+
+    /// Records the compute passes of a frame, `seconds` after the first one.
+    fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        view: View,
+    ) -> Result<(), Box<dyn Error>>;
+
+    /// Draws the frame.
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>);
+
+    /// A key was pressed.
+    fn press(&mut self, _gpu: &Gpu, _key: &str) -> Result<(), Box<dyn Error>> {
+        Ok(())
+    }
+
+    /// What the window's title says.
+    fn title(&self) -> String;
+}
+
+/// A frame's moment and size.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct View {
+    pub(crate) seconds: f32,
+    /// Pixels across and down.
+    pub(crate) size: [u32; 2],
+}
+
+/// Format of the depth buffer.
+pub(crate) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Depth as all examples test it.
+pub(crate) fn depth() -> wgpu::DepthStencilState {
+    wgpu::DepthStencilState {
+        format: DEPTH,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(wgpu::CompareFunction::Less),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    }
+}
+
+/// The options of the command line, as pairs of a name and a value.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Args(Vec<(String, String)>);
+
+impl Args {
+    pub(crate) fn from_command_line() -> Result<Self, String> {
+        let mut all = std::env::args().skip(1);
+        let mut pairs = Vec::new();
+        while let Some(name) = all.next() {
+            let name = name.strip_prefix("--").ok_or_else(|| {
+                format!("{name} is no option; there is --screenshot FILE and --frames COUNT")
+            })?;
+            let value = all.next().ok_or_else(|| format!("--{name} needs a value"))?;
+            pairs.push((name.to_owned(), value));
+        }
+        Ok(Self(pairs))
+    }
+
+    /// The same options with this one, in place of its own value if there is one.
+    #[allow(dead_code, reason = "not every example measures")]
+    pub(crate) fn with(&self, name: &str, value: &str) -> Self {
+        let mut pairs = self.0.clone();
+        pairs.insert(0, (name.to_owned(), value.to_owned()));
+        Self(pairs)
+    }
+
+    /// The same options with this one if it is not among them.
+    #[allow(dead_code, reason = "not every example measures")]
+    pub(crate) fn or(&self, name: &str, value: &str) -> Self {
+        if self.text(name).is_some() { self.clone() } else { self.with(name, value) }
+    }
+
+    /// The value of an option.
+    pub(crate) fn text(&self, name: &str) -> Option<&str> {
+        self.0.iter().find(|(own, _)| own == name).map(|(_, value)| value.as_str())
+    }
+
+    /// The value of an option, or what stands for it.
+    pub(crate) fn number<T: std::str::FromStr>(&self, name: &str, or: T) -> Result<T, String> {
+        let Some(text) = self.text(name) else { return Ok(or) };
+        text.parse().map_err(|_| format!("--{name} {text} is no such number"))
+    }
+}
+
+/// Runs an example by its command line: `--screenshot FILE` draws one frame into a file, otherwise there is a
+/// window, which closes after `--frames COUNT` frames if that is given.
+pub(crate) fn run<S: Show>() -> Result<(), Box<dyn Error>> {
+    let args = Args::from_command_line()?;
+    match args.text("screenshot") {
+        Some(path) => {
+            let gpu = pollster::block_on(Gpu::open())?;
+            let pixels = picture::<S>(&gpu, &args, [960, 720])?;
+            png_of::write(path, [960, 720], &pixels)
+        }
+        None => window::run::<S>(args),
+    }
+}
+
+/// A frame of an example, its third one, so that room that it asked for is there: RGBA, row by row.
+pub(crate) fn picture<S: Show>(
+    gpu: &Gpu,
+    args: &Args,
+    size: [u32; 2],
+) -> Result<Vec<u8>, Box<dyn Error>> {
+    let format = wgpu::TextureFormat::Rgba8Unorm;
+    let mut show = S::new(gpu, format, args)?;
+    let color = texture(gpu, format, size);
+    let depth = texture(gpu, DEPTH, size);
+    let [width, height] = size;
+    let usage = wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::COPY_SRC;
+    let pixels = gpu.buffer("pixels", u64::from(4 * width * height), usage)?;
+    for _ in 0..3 {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let view = View { seconds: args.number("seconds", 0.0)?, size };
+        show.prepare(gpu, &mut encoder, view)?;
+        draw(&show, &mut encoder, [&color, &depth].map(view_of));
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(4 * width),
+            rows_per_image: None,
+        };
+        let buffer = wgpu::TexelCopyBufferInfo { buffer: &pixels, layout };
+        encoder.copy_texture_to_buffer(color.as_image_copy(), buffer, color.size());
+        gpu.run(encoder)?;
+    }
+    Ok(gpu.read(&pixels, pixels.size())?)
+}
+
+/// A texture to draw into.
+pub(crate) fn texture(gpu: &Gpu, format: wgpu::TextureFormat, size: [u32; 2]) -> wgpu::Texture {
+    let [width, height] = size;
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: None,
+        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+pub(crate) fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+/// The colour behind everything.
+pub(crate) const BACKGROUND: wgpu::Color = wgpu::Color { r: 0.93, g: 0.94, b: 0.96, a: 1.0 };
+
+/// Records the render pass of a frame into a colour and a depth target.
+pub(crate) fn draw<S: Show>(
+    show: &S,
+    encoder: &mut wgpu::CommandEncoder,
+    [color, depth]: [wgpu::TextureView; 2],
+) {
+    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: &color,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations {
+                load: wgpu::LoadOp::Clear(BACKGROUND),
+                store: wgpu::StoreOp::Store,
+            },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &depth,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(1.0),
+                store: wgpu::StoreOp::Discard,
+            }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    });
+    show.draw(&mut pass);
+}

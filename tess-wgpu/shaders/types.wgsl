@@ -1,0 +1,21 @@
+// What a hull function returns, in the specification's order (section 1). A factor of 0 culls the patch:
+// `QuadFactors()` is a patch that is not drawn.
+
+struct QuadFactors {
+    // Along u = 0, v = 0, u = 1, v = 1.
+    edges: vec4<f32>,
+    // Along u and along v.
+    inside: vec2<f32>,
+}
+
+struct TriFactors {
+    // Along u = 0, v = 0, w = 0.
+    edges: vec3<f32>,
+    inside: f32,
+}
+
+struct IsolineFactors {
+    // How many lines, and how many segments each of them has.
+    density: f32,
+    detail: f32,
+}

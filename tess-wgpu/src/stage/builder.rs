@@ -1,0 +1,193 @@
+//! What a stage is made of.
+
+use super::room::{Overflow, Room};
+use super::{TessellationStage, make};
+use crate::error::Error;
+use tess_core::{Config, Domain};
+use tess_gpu::Setup;
+
+/// Where the factors come from.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Factors<'a> {
+    /// From the user's function `hull`.
+    #[default]
+    Hull,
+    /// From the host: [`TessellationStage::set_factors`]. Until then all patches are culled.
+    Host,
+    /// From this buffer, as [`tess_gpu::layout::factor_words`] writes them. It is read anew in each
+    /// frame, and has the usage `STORAGE`.
+    Buffer(&'a wgpu::Buffer),
+}
+
+/// Where the vertex shader has its points from. The output is the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Points {
+    /// From a vertex buffer, 8 bytes each, with an index buffer.
+    #[default]
+    Stored,
+    /// Computed from the index of the vertex; there is an index buffer. The vertex stage binds five
+    /// storage buffers and one uniform buffer more.
+    Pull,
+    /// Computed for each corner of each primitive; there are no buffers of points and indices. The
+    /// vertex stage binds what it does with [`Points::Pull`].
+    PullWithoutIndices,
+}
+
+/// Makes a [`TessellationStage`]. Every method but [`StageBuilder::build`] has a default to fall back
+/// on.
+#[derive(Clone, Debug)]
+#[must_use = "the stage is made by `build`"]
+pub struct StageBuilder<'a> {
+    pub(super) source: &'a str,
+    pub(super) setup: Setup,
+    pub(super) patches: u32,
+    pub(super) layouts: Vec<wgpu::BindGroupLayout>,
+    pub(super) bind_groups: Vec<wgpu::BindGroup>,
+    pub(super) factors: Factors<'a>,
+    pub(super) points: Points,
+    pub(super) room: Room,
+    pub(super) overflow: Overflow,
+    pub(super) groups: Vec<u32>,
+    pub(super) render: Render<'a>,
+}
+
+/// The state of the render pipeline that is the user's.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Render<'a> {
+    pub(super) fragment: Option<&'a str>,
+    pub(super) targets: Vec<Option<wgpu::ColorTargetState>>,
+    pub(super) depth: Option<wgpu::DepthStencilState>,
+    pub(super) multisample: wgpu::MultisampleState,
+    pub(super) primitive: wgpu::PrimitiveState,
+}
+
+/// Enough for 16 million small triangles.
+const MOST_BYTES: u64 = 256 << 20;
+
+impl<'a> StageBuilder<'a> {
+    pub(super) const fn new(source: &'a str, domain: Domain, config: Config, patches: u32) -> Self {
+        Self {
+            source,
+            setup: Setup::new(domain, config),
+            patches,
+            layouts: Vec::new(),
+            bind_groups: Vec::new(),
+            factors: Factors::Hull,
+            points: Points::Stored,
+            room: Room::Automatic { most_bytes: MOST_BYTES },
+            overflow: Overflow::Coarser,
+            groups: Vec::new(),
+            render: Render {
+                fragment: None,
+                targets: Vec::new(),
+                depth: None,
+                multisample: wgpu::MultisampleState {
+                    count: 1,
+                    mask: !0,
+                    alpha_to_coverage_enabled: false,
+                },
+                primitive: wgpu::PrimitiveState {
+                    topology: wgpu::PrimitiveTopology::TriangleList,
+                    strip_index_format: None,
+                    front_face: wgpu::FrontFace::Ccw,
+                    cull_mode: None,
+                    unclipped_depth: false,
+                    polygon_mode: wgpu::PolygonMode::Fill,
+                    conservative: false,
+                },
+            },
+        }
+    }
+
+    /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so on, up
+    /// to the device's limit less one, which is 3. The layout has the stages that use it:
+    /// `COMPUTE` for `hull`, `VERTEX` for `domain`.
+    pub fn bind_group(mut self, layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup) -> Self {
+        self.layouts.push(layout.clone());
+        self.bind_groups.push(group.clone());
+        self
+    }
+
+    /// Where the factors come from; from `hull` if this is not called.
+    pub const fn factors(mut self, factors: Factors<'a>) -> Self {
+        self.factors = factors;
+        self
+    }
+
+    /// Where points come from; from a buffer if this is not called.
+    pub const fn points(mut self, points: Points) -> Self {
+        self.points = points;
+        self
+    }
+
+    /// The room for points and indices; [`Room::Automatic`] up to 256 MiB if this is not called.
+    pub const fn room(mut self, room: Room) -> Self {
+        self.room = room;
+        self
+    }
+
+    /// What becomes of a frame that does not fit; [`Overflow::Coarser`] if this is not called.
+    pub const fn overflow(mut self, overflow: Overflow) -> Self {
+        self.overflow = overflow;
+        self
+    }
+
+    /// Groups of patches that are drawn one by one, by the number of each one's first patch
+    /// ([`crate::Tessellator::batch_in_groups`]).
+    pub fn groups(mut self, first_patches: &[u32]) -> Self {
+        self.groups = first_patches.to_vec();
+        self
+    }
+
+    /// The next colour target of the render passes that the stage is drawn in. Without any, there is no
+    /// fragment shader.
+    pub fn target(mut self, target: impl Into<wgpu::ColorTargetState>) -> Self {
+        self.render.targets.push(Some(target.into()));
+        self
+    }
+
+    /// The fragment shader's entry point, needed if the user's WGSL has several.
+    pub const fn fragment(mut self, entry_point: &'a str) -> Self {
+        self.render.fragment = Some(entry_point);
+        self
+    }
+
+    /// Depth and stencil; none if this is not called.
+    pub fn depth(mut self, depth: wgpu::DepthStencilState) -> Self {
+        self.render.depth = Some(depth);
+        self
+    }
+
+    /// Multisampling; one sample if this is not called.
+    pub const fn multisample(mut self, multisample: wgpu::MultisampleState) -> Self {
+        self.render.multisample = multisample;
+        self
+    }
+
+    /// Culling, front face and polygon mode. The topology is that of the configuration's output,
+    /// whatever this says.
+    pub const fn primitive(mut self, primitive: wgpu::PrimitiveState) -> Self {
+        self.render.primitive = primitive;
+        self
+    }
+
+    /// Compiles everything and makes every buffer.
+    ///
+    /// # Errors
+    /// [`StageError::Wgsl`](super::StageError::Wgsl) for the user's WGSL; [`StageError::LimitTooLow`](super::StageError::LimitTooLow), [`Error::TooManyPatches`],
+    /// [`StageError::TooManyFactors`](super::StageError::TooManyFactors), [`Error::TooManyToPull`], [`Error::BufferTooLarge`] or
+    /// [`Error::OutOfMemory`] if the device does not allow so much; [`Error::FactorsTooShort`] or
+    /// [`Error::NotStorage`] for a buffer of factors; [`Error::MisplacedGroup`]; and
+    /// [`Error::Refused`] for what wgpu has against layouts or the render state.
+    pub fn build(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
+        make::now(make::stage(self, device))
+    }
+
+    /// The same where waiting is not possible: in a browser, the compiler answers later.
+    ///
+    /// # Errors
+    /// As [`StageBuilder::build`].
+    pub async fn build_async(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
+        make::stage(self, device).await
+    }
+}

@@ -1,0 +1,116 @@
+//! What can go wrong with a tessellation stage.
+
+use std::fmt;
+
+/// Why a tessellation stage cannot be made or used.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum StageError {
+    /// More patches than the stage was made for. Name more when you make it.
+    TooManyPatches {
+        /// Patches of the frame.
+        got: u32,
+        /// The most that the stage was made for.
+        most: u32,
+    },
+    /// The factors of so many patches exceed one binding.
+    /// Make several stages.
+    TooManyFactors {
+        /// Bytes of the factors.
+        needed: u64,
+        /// The device's `max_storage_buffer_binding_size`.
+        limit: u64,
+    },
+    /// A limit of the device is too low. Open the device with WebGPU's default limits; OpenGL devices
+    /// without compute shaders cannot tessellate.
+    LimitTooLow {
+        /// The limit, a member of `wgpu::Limits`.
+        limit: &'static str,
+        /// What is needed.
+        needed: u32,
+        /// What the device has.
+        got: u32,
+    },
+    /// The user's WGSL is not valid.
+    Wgsl {
+        /// Line of the user's text, from 1 on; `None` if what the text lacks is needed by the stage,
+        /// for example a function `domain` of the right signature.
+        line: Option<u32>,
+        /// What the compiler says.
+        message: String,
+    },
+    /// The number of patches is read from a buffer that lacks the usage `COPY_SRC`, at an offset that is no
+    /// multiple of 4, or behind its end.
+    BadPatchCount {
+        /// Offset of the number.
+        offset: u64,
+        /// Bytes of the buffer.
+        size: u64,
+        /// Usages of the buffer.
+        usage: wgpu::BufferUsages,
+    },
+    /// The stage has no group of this number.
+    NoSuchGroup {
+        /// Number of the group.
+        group: u32,
+        /// Groups of the stage.
+        groups: usize,
+    },
+    /// The stage was made without a bind group of this number.
+    NoSuchBindGroup {
+        /// Number of the bind group.
+        number: u32,
+        /// Bind groups that the stage was made with.
+        groups: usize,
+    },
+    /// The factors of this stage do not come from the host. Make it with `Factors::Host`.
+    NotHostFactors,
+}
+
+impl fmt::Display for StageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooManyPatches { got, most } => {
+                write!(f, "{got} patches, and the stage was made for {most} at most")
+            }
+            Self::TooManyFactors { needed, limit } => write!(
+                f,
+                "the factors take {needed} bytes, and one binding holds {limit}; \
+                 make several stages"
+            ),
+            Self::LimitTooLow { limit, needed, got } => write!(
+                f,
+                "the device's limit {limit} is {got}, and {needed} is needed; \
+                 open it with WebGPU's default limits"
+            ),
+            Self::Wgsl { line: Some(line), message } => {
+                write!(f, "line {line} of your WGSL: {message}")
+            }
+            Self::Wgsl { line: None, message } => write!(
+                f,
+                "your WGSL does not go with the stage ({message}); it declares `struct Vertex`, \
+                 `fn domain(number: u32, uv: vec2<f32>) -> Vertex`, unless factors are given also \
+                 `fn hull(number: u32) -> QuadFactors` (`TriFactors`, `IsolineFactors`), and no \
+                 name that begins with `tess_`; its bindings are in the groups that the builder got"
+            ),
+            Self::BadPatchCount { offset, size, usage } => write!(
+                f,
+                "the number of patches at byte {offset} of a buffer of {size} bytes with the \
+                 usages {usage:?} cannot be read; its offset must be a multiple of 4 within the \
+                 buffer, which needs COPY_SRC"
+            ),
+            Self::NotHostFactors => f.write_str(
+                "the factors of this stage do not come from the host; make it with Factors::Host",
+            ),
+            Self::NoSuchGroup { group, groups } => {
+                write!(f, "the stage has {groups} groups, numbered from 0, and none is {group}")
+            }
+            Self::NoSuchBindGroup { number, groups } => write!(
+                f,
+                "the stage was made with {groups} bind groups, numbered from 0, and none is {number}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for StageError {}

@@ -1,0 +1,128 @@
+//! What a frame needed, learnt some frames later without waiting.
+
+use super::fit::{Fit, Found};
+use crate::error::Error;
+use crate::{Batch, gpu};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, Ordering};
+use tess_gpu::layout::Status;
+use wgpu::BufferUsages as Usage;
+
+/// What a frame needed and what it drew.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Feedback {
+    /// Number of the frame: the first call of `prepare` is frame 0.
+    pub frame: u64,
+    /// Points that the factors give.
+    pub points: u64,
+    /// Primitives that the factors give.
+    pub primitives: u64,
+    /// Primitives that were drawn: fewer if they did not fit.
+    pub drawn: u64,
+    /// What the factors were scaled by to make the output fit; 1 if it fitted, or if the stage is to
+    /// draw nothing instead.
+    pub scale: f32,
+}
+
+/// Read-backs under way at most. A frame beyond them is not read back.
+const MOST: usize = 4;
+/// After so many frames a read-back whose commands were never submitted is given up.
+const PATIENCE: u64 = 64;
+
+const WAITING: u8 = 0;
+const DONE: u8 = 1;
+const FAILED: u8 = 2;
+
+/// A frame's numbers on their way to the host.
+#[derive(Debug)]
+struct UnderWay {
+    frame: u64,
+    staging: wgpu::Buffer,
+    state: Arc<AtomicU8>,
+}
+
+/// Reads back what frames needed.
+#[derive(Debug, Default)]
+pub(crate) struct Feedbacks {
+    under_way: Vec<UnderWay>,
+    idle: Vec<wgpu::Buffer>,
+    last: Option<Feedback>,
+}
+
+impl Feedbacks {
+    /// The latest frame whose numbers have arrived.
+    pub(crate) const fn last(&self) -> Option<Feedback> {
+        self.last
+    }
+
+    /// Takes what has arrived. Frames arrive in order.
+    pub(crate) fn take(&mut self, device: &wgpu::Device, frame: u64) -> Result<(), Error> {
+        let polled = device.poll(wgpu::PollType::Poll);
+        polled.map_err(|error| Error::DeviceLost { reason: error.to_string() })?;
+        for UnderWay { frame: of, staging, state } in std::mem::take(&mut self.under_way) {
+            match state.load(Ordering::Acquire) {
+                DONE => {
+                    self.last = read(&staging, of).or(self.last);
+                    staging.unmap();
+                    self.idle.push(staging);
+                }
+                WAITING if frame.saturating_sub(of) < PATIENCE => {
+                    self.under_way.push(UnderWay { frame: of, staging, state });
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Records the copies of a frame's numbers, which arrive after `encoder` was submitted.
+    pub(crate) fn record(
+        &mut self,
+        device: &wgpu::Device,
+        encoder: &mut wgpu::CommandEncoder,
+        (batch, fit): (&Batch, Option<&Fit>),
+        frame: u64,
+    ) -> Result<(), Error> {
+        if self.under_way.len() >= MOST {
+            return Ok(());
+        }
+        let staging = match self.idle.pop() {
+            Some(staging) => staging,
+            None => gpu::empty(device, "feedback", BYTES, Usage::MAP_READ | Usage::COPY_DST)?,
+        };
+        encoder.copy_buffer_to_buffer(batch.status(), 0, &staging, 0, STATUS_BYTES);
+        match fit {
+            Some(fit) => {
+                let size = size_of::<Found>() as u64;
+                encoder.copy_buffer_to_buffer(fit.state(), 0, &staging, STATUS_BYTES, size);
+            }
+            None => encoder.clear_buffer(&staging, STATUS_BYTES, None),
+        }
+        let state = Arc::new(AtomicU8::new(WAITING));
+        let done = Arc::clone(&state);
+        encoder.map_buffer_on_submit(&staging, wgpu::MapMode::Read, .., move |result| {
+            done.store(if result.is_ok() { DONE } else { FAILED }, Ordering::Release);
+        });
+        self.under_way.push(UnderWay { frame, staging, state });
+        Ok(())
+    }
+}
+
+const STATUS_BYTES: u64 = size_of::<Status>() as u64;
+const BYTES: u64 = STATUS_BYTES + size_of::<Found>() as u64;
+
+/// The numbers in a mapped buffer.
+fn read(staging: &wgpu::Buffer, frame: u64) -> Option<Feedback> {
+    let view = staging.get_mapped_range(..).ok()?;
+    let (status, found) = view.split_at_checked(size_of::<Status>())?;
+    let status: Status = bytemuck::pod_read_unaligned(status);
+    let found: Found = bytemuck::pod_read_unaligned(found);
+    // Without the passes that fit, these are zero, and the batch's own numbers are what was needed.
+    let needed = match found.needed() {
+        [0, 0] => [status.points(), status.primitives()],
+        needed => needed,
+    };
+    let drawn = if status.fits() { status.primitives() } else { 0 };
+    let [points, primitives] = needed;
+    Some(Feedback { frame, points, primitives, drawn, scale: found.scale() })
+}

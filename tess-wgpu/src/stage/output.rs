@@ -1,0 +1,125 @@
+//! What depends on the room: the batch, and the buffers that it writes.
+
+use super::builder::Points;
+use super::room::Form;
+use crate::error::{Error, checked};
+use crate::{Batch, Outputs, Tessellator, gpu};
+use tess_gpu::Capacity;
+use tess_gpu::layout::{DrawIndexed, Job};
+use wgpu::BufferUsages as Usage;
+
+/// A batch with room for its output.
+#[derive(Debug)]
+pub(super) struct Output {
+    pub(super) room: Capacity,
+    pub(super) batch: Batch,
+    pub(super) points: Option<wgpu::Buffer>,
+    indices: Option<wgpu::Buffer>,
+    pulled: Option<wgpu::BindGroup>,
+}
+
+impl Output {
+    /// `factors` and the groups' first patches are those of the batch; `pulled` is the layout of what
+    /// the vertex shader binds, if it computes its points.
+    pub(super) fn new(
+        tessellator: &mut Tessellator,
+        form: Form,
+        room: Capacity,
+        (factors, groups): (&wgpu::Buffer, &[u32]),
+        pulled: Option<&wgpu::BindGroupLayout>,
+    ) -> Result<Self, Error> {
+        let Form { setup, points, patches, .. } = form;
+        let device = tessellator.device().clone();
+        let make = |label, size, usage| {
+            gpu::empty(&device, label, size, Usage::STORAGE | Usage::COPY_SRC | usage)
+        };
+        let primitive_bytes = u64::from(setup.primitive_bytes());
+        let index_bytes = (u64::from(room.primitives) * primitive_bytes).next_multiple_of(8);
+        let stored = (points == Points::Stored)
+            .then(|| make("points", 8 * u64::from(room.points), Usage::VERTEX))
+            .transpose()?;
+        let indices = (points != Points::PullWithoutIndices)
+            .then(|| make("indices", index_bytes, Usage::INDEX))
+            .transpose()?;
+        let outputs = match (&stored, &indices) {
+            (Some(points), Some(indices)) => Outputs::Buffers { points, indices },
+            (None, Some(indices)) => Outputs::Indices { points: room.points, indices },
+            _ => Outputs::Arguments(room),
+        };
+        let batch = tessellator.batch_in_groups(setup, patches, groups, factors, outputs)?;
+        let pulled = match pulled {
+            Some(layout) => Some(bind(tessellator, form, layout, &batch)?),
+            None => None,
+        };
+        Ok(Self { room, batch, points: stored, indices, pulled })
+    }
+
+    /// Draws with the arguments of the whole batch or of one of its groups. Pipeline and user's bind
+    /// groups are set; `own_group` is the number of the stage's bind group.
+    pub(super) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        own_group: u32,
+        of_group: Option<u32>,
+    ) {
+        let (arguments, offset) = match of_group {
+            None => (self.batch.draw_arguments(), 0),
+            Some(group) => {
+                (self.batch.group_arguments(), u64::from(group) * size_of::<DrawIndexed>() as u64)
+            }
+        };
+        if let Some(points) = &self.points {
+            pass.set_vertex_buffer(0, points.slice(..));
+        }
+        if let Some(pulled) = &self.pulled {
+            pass.set_bind_group(own_group, pulled, &[]);
+        }
+        match &self.indices {
+            Some(indices) => {
+                pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+                pass.draw_indexed_indirect(arguments, offset);
+            }
+            // The first four words of the arguments are those of a draw without indices.
+            None => pass.draw_indirect(arguments, offset),
+        }
+    }
+}
+
+/// The bindings of `Pull::source_for_drawing`.
+fn bind(
+    tessellator: &mut Tessellator,
+    form: Form,
+    layout: &wgpu::BindGroupLayout,
+    batch: &Batch,
+) -> Result<wgpu::BindGroup, Error> {
+    let tables = tessellator.tables(form.setup.config.split)?;
+    let job = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+        buffer: batch.jobs(),
+        offset: 0,
+        size: std::num::NonZeroU64::new(size_of::<Job>() as u64),
+    });
+    let buffers = [
+        (0, batch.topologies()),
+        (1, &tables),
+        (2, batch.contexts()),
+        (4, batch.offsets()),
+        (5, batch.tiles()),
+    ];
+    let mut entries: Vec<_> = buffers
+        .into_iter()
+        .filter(|&(binding, _)| binding != 2 || !form.setup.has_integer_factors())
+        .map(|(binding, buffer)| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    entries.push(wgpu::BindGroupEntry { binding: 3, resource: job });
+    let device = tessellator.device();
+    checked(device, || {
+        device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("pulled"),
+            layout,
+            entries: &entries,
+        })
+    })
+}

@@ -1,0 +1,100 @@
+//! The user's WGSL joined with the stage's own.
+//!
+//! The user's text comes first, so that a line of the joined text is the same line of theirs.
+
+use super::builder::Points;
+use tess_core::Domain;
+use tess_gpu::{Pull, Setup};
+
+const TYPES: &str = include_str!("../../shaders/types.wgsl");
+const HELPERS: &str = include_str!("../../shaders/helpers.wgsl");
+const HULL: &str = include_str!("../../shaders/hull.wgsl");
+const STORED: &str = include_str!("../../shaders/vertex_stored.wgsl");
+const PULLED: &str = include_str!("../../shaders/vertex_pulled.wgsl");
+const UNINDEXED: &str = include_str!("../../shaders/vertex_unindexed.wgsl");
+
+/// The module whose entry point `tess_hull` runs the user's hull function. Its own bindings are 0 and 1 of
+/// bind group `group`.
+pub(crate) fn of_hull(user: &str, domain: Domain, group: u32) -> String {
+    let write = match domain {
+        Domain::Isoline => include_str!("../../shaders/hull_isoline.wgsl"),
+        Domain::Triangle => include_str!("../../shaders/hull_triangle.wgsl"),
+        Domain::Quad => include_str!("../../shaders/hull_quad.wgsl"),
+    };
+    [user, TYPES, HELPERS, &HULL.replace("GROUP", &group.to_string()), write].join("\n")
+}
+
+/// The module whose entry point `tess_vertex` runs the user's domain function. Unless points are
+/// stored, its own bindings are 0 to 5 of bind group `group`.
+pub(crate) fn of_vertices(user: &str, setup: Setup, points: Points, group: u32) -> String {
+    let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
+    let own = match points {
+        Points::Stored => STORED.to_owned(),
+        Points::Pull => with_own_names(&(pull() + PULLED)),
+        Points::PullWithoutIndices => with_own_names(&(pull() + UNINDEXED)),
+    };
+    [user, TYPES, HELPERS, &own].join("\n")
+}
+
+/// The user's text with the types and helpers that it may use, and `own` behind.
+#[cfg(feature = "measure")]
+pub(crate) fn of_test(user: &str, own: &str) -> String {
+    [user, TYPES, HELPERS, own].join("\n")
+}
+
+/// The lines of the user's text.
+pub(crate) fn lines(user: &str) -> u32 {
+    u32::try_from(user.lines().count()).unwrap_or(u32::MAX)
+}
+
+/// The same WGSL with a prefix in front of every name that it declares at module scope, so that the
+/// user's text can have these names too. Every occurrence of such a name is renamed, members and locals
+/// included, which changes nothing within the text.
+fn with_own_names(source: &str) -> String {
+    let declared: Vec<&str> = source.lines().filter_map(declared_name).collect();
+    let mut renamed = String::with_capacity(source.len() * 5 / 4);
+    let is_in_word = |c: char| c.is_alphanumeric() || c == '_';
+    let mut rest = source;
+    while let Some(begin) = rest.find(is_in_word) {
+        let (between, from_word) = rest.split_at(begin);
+        let end = from_word.find(|c| !is_in_word(c)).unwrap_or(from_word.len());
+        let (word, behind) = from_word.split_at(end);
+        renamed.push_str(between);
+        if declared.contains(&word) {
+            renamed.push_str("tess_");
+        }
+        renamed.push_str(word);
+        rest = behind;
+    }
+    renamed + rest
+}
+
+/// The name that a line declares at module scope, if it does not have the prefix yet.
+fn declared_name(line: &str) -> Option<&str> {
+    let from_name = ["fn ", "const ", "struct "]
+        .iter()
+        .find_map(|keyword| line.strip_prefix(keyword))
+        .or_else(|| {
+            line.starts_with("@group").then(|| line.split_once("> ")).flatten().map(|s| s.1)
+        })?;
+    let name = from_name.split(|c: char| !(c.is_alphanumeric() || c == '_')).next()?;
+    (!name.starts_with("tess_")).then_some(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn declared_names_get_the_prefix_everywhere() {
+        let source = "const ONE = 1u;\n@group(0) @binding(1) var<storage, read> job: Job;\n\
+                      struct Job { x: u32 }\nfn tess_f(a: u32) -> u32 { return place(a) + job.x + ONE; }\n\
+                      fn place(at: u32) -> u32 { return at; }";
+        let expected = source
+            .replace("ONE", "tess_ONE")
+            .replace("job", "tess_job")
+            .replace("Job", "tess_Job")
+            .replace("place", "tess_place");
+        assert_eq!(with_own_names(source), expected, "and nothing else");
+    }
+}

@@ -1,0 +1,114 @@
+//! Every way to draw gives the model's triangles.
+
+use crate::model::{compare, drawn, pixels};
+use crate::scene::{PATCHES, Scene};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_wgpu::stage::{Factors, PatchCount, Points};
+use wgpu::BufferUsages as Usage;
+
+const WAYS: [Points; 3] = [Points::Stored, Points::Pull, Points::PullWithoutIndices];
+
+/// Different factors for each edge and patch, one patch culled.
+pub(crate) fn some_factors(domain: Domain) -> Vec<PatchFactors> {
+    let factor = |patch: u8, factor: u8| match (patch, factor) {
+        (5, 1) => 0.0,
+        _ => 1.0 + f32::from(patch) * 0.75 + f32::from(factor * 3 % 5),
+    };
+    let of = |patch: u8| {
+        let mut number = 0;
+        PatchFactors::from_fn(domain, |_| {
+            number += 1;
+            factor(patch, number)
+        })
+    };
+    (0..8).map(of).collect()
+}
+
+pub(crate) fn scene(domain: Domain, partitioning: Partitioning) -> Scene {
+    let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+    Scene::new(domain, config, some_factors(domain))
+}
+
+#[test]
+fn every_way_to_draw_gives_the_models_triangles() {
+    for domain in [Domain::Triangle, Domain::Quad] {
+        for partitioning in [Partitioning::Integer, Partitioning::FractionalOdd] {
+            let scene = scene(domain, partitioning);
+            let expected = pixels(scene.config, &scene.patches);
+            for points in WAYS {
+                let mut stage = scene.build(scene.builder().points(points));
+                let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+                assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}, {domain:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn another_factor_is_another_picture() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let mut stage = scene.build(scene.builder());
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    for patch in 0..8 {
+        let mut patches = scene.patches.clone();
+        patches[patch] = PatchFactors::uniform(Domain::Quad, 9.5);
+        let difference = compare(&observed, &pixels(scene.config, &patches));
+        assert!(difference.is_err(), "patch {patch} makes no difference");
+    }
+}
+
+#[test]
+fn factors_come_from_the_host_or_a_buffer_too() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalEven);
+    let expected = pixels(scene.config, &scene.patches);
+    let given = Factors::Buffer(&scene.factors);
+    let mut stage = scene.build(scene.builder().factors(given));
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    assert_eq!(compare(&observed, &expected), Ok(()), "from a buffer");
+    let mut stage = scene.build(scene.builder().factors(Factors::Host));
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    assert_eq!(drawn(&observed), 0, "before there are factors");
+    let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+    stage.set_factors(&mut encoder, &scene.patches).expect("they are the stage's");
+    scene.gpu.run(encoder).expect("the device finishes");
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    assert_eq!(compare(&observed, &expected), Ok(()), "from the host");
+}
+
+#[test]
+fn the_number_of_patches_changes_from_frame_to_frame() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let mut stage = scene.build(scene.builder());
+    for count in [3, 8, 0, 1, 7] {
+        let expected = pixels(scene.config, &scene.patches[..count]);
+        let host = u32::try_from(count).expect("a few");
+        let observed = scene.frame(&mut stage, host.into()).expect("it draws");
+        assert_eq!(compare(&observed, &expected), Ok(()), "{count} patches, from the host");
+        // A device may also ask for too many.
+        let asked = if count == 8 { 1000 } else { host };
+        let bytes = [7_u32, asked].map(u32::to_le_bytes).concat();
+        let buffer = scene.gpu.upload("count", &bytes, Usage::COPY_SRC).expect("there is room");
+        let count_of = PatchCount::Device(&buffer, 4);
+        let observed = scene.frame(&mut stage, count_of).expect("it draws");
+        assert_eq!(compare(&observed, &expected), Ok(()), "{count} patches, from the device");
+    }
+}
+
+#[test]
+fn groups_are_drawn_one_by_one() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    for points in WAYS {
+        let builder = scene.builder().groups(&[0, 3, 3, 6]).points(points);
+        let mut stage = scene.build(builder);
+        for (group, range) in [(0, 0..3), (1, 3..3), (2, 3..6), (3, 6..8)] {
+            let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
+                stage.draw_group(pass, group).expect("it is there");
+            });
+            let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
+            patches[range.clone()].clone_from_slice(&scene.patches[range]);
+            let expected = pixels(scene.config, &patches);
+            let observed = observed.expect("it draws");
+            assert_eq!(compare(&observed, &expected), Ok(()), "group {group}, {points:?}");
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! Errors have a type, and the user's line.
+
+use crate::drawing::scene;
+use crate::scene::{PATCHES, Scene, source};
+use tess_core::{Domain, Partitioning, PatchFactors};
+use tess_wgpu::stage::{Factors, PatchCount, Points, StageError};
+use tess_wgpu::{Error, TessellationStage};
+use wgpu::BufferUsages as Usage;
+
+fn quads() -> Scene {
+    scene(Domain::Quad, Partitioning::Integer)
+}
+
+/// Why a stage with this WGSL is refused.
+fn refusal(scene: &Scene, source: &str, points: Points) -> StageError {
+    let built = TessellationStage::builder(source, scene.domain, scene.config, PATCHES)
+        .bind_group(&scene.layout, &scene.group)
+        .points(points)
+        .target(wgpu::TextureFormat::Rgba32Uint)
+        .build(&scene.gpu.device);
+    match built {
+        Err(Error::Stage(error)) => error,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The line on which a text begins.
+fn line_of(source: &str, text: &str) -> u32 {
+    let before = source.split(text).next().expect("a first part");
+    assert!(before.len() < source.len(), "{text} is not there");
+    u32::try_from(before.matches('\n').count()).expect("few lines") + 1
+}
+
+#[test]
+fn wrong_wgsl_is_reported_with_the_users_line() {
+    let scene = quads();
+    let right = source(Domain::Quad);
+    for points in [Points::Stored, Points::PullWithoutIndices] {
+        for (from, to, says) in [
+            ("return Vertex(vec4<f32>(0.5", "return Vertex(vec5<f32>(0.5", "vec5"),
+            ("place(number) + uv;", "place(number) + uw;", "uw"),
+            ("const ONE = 1.0;", "const ONE = 1.0", "expected"),
+            // Parsed, but not valid: the function's body has another type.
+            (
+                "return vec2<f32>(f32(number % 4u), f32(number / 4u));",
+                "return number;",
+                "`return` expression",
+            ),
+        ] {
+            let wrong = right.replace(from, to);
+            let expected = line_of(&right, from);
+            match refusal(&scene, &wrong, points) {
+                StageError::Wgsl { line: Some(line), message } => {
+                    // A missing semicolon is found where the next token begins.
+                    assert!((expected..=expected + 2).contains(&line), "{line}: {message}");
+                    assert!(message.contains(says), "{message}");
+                    let text = StageError::Wgsl { line: Some(line), message }.to_string();
+                    assert!(text.starts_with(&format!("line {line} of your WGSL: ")), "{text}");
+                }
+                other => panic!("{to}: {other:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn missing_functions_are_named() {
+    let scene = quads();
+    let right = source(Domain::Quad);
+    for (from, to, says) in [
+        ("fn domain(", "fn surface(", "domain"),
+        ("fn hull(", "fn control(", "hull"),
+        ("fn domain(number: u32, uv: vec2<f32>)", "fn domain(number: u32, uv: vec3<f32>)", ""),
+    ] {
+        let error = refusal(&scene, &right.replace(from, to), Points::Stored);
+        let StageError::Wgsl { message, .. } = &error else { panic!("{error:?}") };
+        assert!(message.contains(says), "{message}");
+    }
+    let error = refusal(&scene, &right.replace("fn domain(", "fn surface("), Points::Stored);
+    assert!(
+        error.to_string().contains("`fn domain(number: u32, uv: vec2<f32>) -> Vertex`"),
+        "{error}"
+    );
+}
+
+#[test]
+fn what_a_stage_cannot_do_is_refused() {
+    let scene = quads();
+    let mut stage = scene.build(scene.builder());
+    let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+    let refused = stage.prepare(&mut encoder, PATCHES + 1).err();
+    let too_many = StageError::TooManyPatches { got: PATCHES + 1, most: PATCHES };
+    assert_eq!(refused, Some(too_many.into()), "more patches than it was made for");
+    let refused = stage.set_factors(&mut encoder, &scene.patches).err();
+    assert_eq!(refused, Some(StageError::NotHostFactors.into()), "it has a hull function");
+    for (usage, offset) in [(Usage::STORAGE, 0), (Usage::COPY_SRC, 2), (Usage::COPY_SRC, 8)] {
+        let count = scene.gpu.buffer("count", 8, usage).expect("there is room");
+        let refused = stage.prepare(&mut encoder, PatchCount::Device(&count, offset)).err();
+        let expected = StageError::BadPatchCount { offset, size: 8, usage };
+        assert_eq!(refused, Some(expected.into()), "{usage:?} at {offset}");
+    }
+    let refused = stage.set_bind_group(1, &scene.group).err();
+    assert_eq!(refused, Some(StageError::NoSuchBindGroup { number: 1, groups: 1 }.into()));
+    assert_eq!(stage.set_bind_group(0, &scene.group), Ok(()), "the one that there is");
+    let mut refused = None;
+    let drawn = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
+        refused = stage.draw_group(pass, 0).err();
+    });
+    assert_eq!(drawn.map(|_| ()), Ok(()), "and the frame goes on");
+    assert_eq!(refused, Some(StageError::NoSuchGroup { group: 0, groups: 0 }.into()));
+}
+
+#[test]
+fn what_cannot_be_made_is_refused() {
+    let scene = quads();
+    let device = &scene.gpu.device;
+    let short = scene.gpu.buffer("short", 24, Usage::STORAGE).expect("there is room");
+    let built = scene.builder().factors(Factors::Buffer(&short)).build(device);
+    let needed = u64::from(24 * PATCHES);
+    assert_eq!(built.err(), Some(Error::FactorsTooShort { needed, got: 24 }), "one patch's");
+    let built = scene.builder().bind_group(&scene.layout, &scene.group);
+    let built = built.bind_group(&scene.layout, &scene.group);
+    let built = built.bind_group(&scene.layout, &scene.group).build(device);
+    let low = StageError::LimitTooLow { limit: "max_bind_groups", needed: 5, got: 4 };
+    assert_eq!(built.err(), Some(low.into()), "four of the user's and one of the stage's");
+    let source = source(Domain::Quad);
+    let many = TessellationStage::builder(&source, scene.domain, scene.config, 6_000_000);
+    let built = many.bind_group(&scene.layout, &scene.group).build(device);
+    let expected = StageError::TooManyFactors { needed: 144_000_000, limit: 128 << 20 };
+    assert_eq!(built.err(), Some(expected.into()), "they are bound at once");
+    let built = TessellationStage::builder(&source, scene.domain, scene.config, 8)
+        .target(wgpu::TextureFormat::Rgba32Uint)
+        .build(device);
+    let error = built.map(|_| ()).expect_err("without its bind group");
+    assert!(error.to_string().contains("in the groups that the builder got"), "{error}");
+    let mut stage = scene.build(scene.builder().factors(Factors::Host));
+    let mut encoder = device.create_command_encoder(&Default::default());
+    let triangles = [PatchFactors::uniform(Domain::Triangle, 2.0)];
+    let refused = stage.set_factors(&mut encoder, &triangles).err();
+    let (expected, got) = (Domain::Quad, Domain::Triangle);
+    assert_eq!(refused, Some(Error::WrongDomain { patch: 0, expected, got }));
+}

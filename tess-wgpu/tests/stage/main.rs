@@ -1,0 +1,13 @@
+//! The tessellation stage draws what the model says, in every form and with any room.
+
+#![expect(clippy::float_arithmetic, reason = "pixels and factors are floats")]
+
+mod ball;
+#[path = "../../examples/shared/camera.rs"]
+mod camera;
+mod cracks;
+mod drawing;
+mod errors;
+mod model;
+mod room;
+mod scene;

@@ -1,0 +1,183 @@
+//! Frames that do not fit are coarser or empty, and a stage that may makes more room.
+
+use crate::drawing::{scene, some_factors};
+use crate::model::{compare, drawn, pixels};
+use crate::scene::{PATCHES, Scene};
+use tess_core::{Domain, Partitioning, Patch, PatchFactors};
+use tess_gpu::Capacity;
+use tess_wgpu::TessellationStage;
+use tess_wgpu::stage::{Feedback, Overflow, Points, Room};
+
+/// What the patches give.
+fn needed(scene: &Scene) -> Capacity {
+    let counts = scene.patches.iter().map(|&factors| Patch::new(scene.config, factors).counts());
+    counts.fold(Capacity::default(), |sum, own| Capacity {
+        points: sum.points + own.points,
+        primitives: sum.primitives + own.primitives,
+    })
+}
+
+/// The feedback of frame `frame`, after the device has been asked for it.
+fn feedback(scene: &Scene, stage: &mut TessellationStage, frame: u64) -> Feedback {
+    for _ in 0..8 {
+        if let Some(feedback) = stage.feedback().filter(|feedback| feedback.frame >= frame) {
+            return feedback;
+        }
+        scene.frame(stage, PATCHES.into()).expect("it draws");
+    }
+    panic!("frame {frame} was never heard of");
+}
+
+/// The factors as the stage scales them.
+fn scaled(patches: &[PatchFactors], domain: Domain, scale: f32) -> Vec<PatchFactors> {
+    let one = |factor: f32| {
+        // NaN stays too.
+        if factor > 1.0 { (factor.min(64.0) * scale).max(1.0) } else { factor }
+    };
+    let of = |patch: &PatchFactors| {
+        let mut factors = patch.iter();
+        PatchFactors::from_fn(domain, |_| one(factors.next().expect("as many")))
+    };
+    patches.iter().map(of).collect()
+}
+
+/// Rooms that lack one triangle, one point, or both.
+fn too_little(room: Capacity) -> [Capacity; 3] {
+    let Capacity { points, primitives } = room;
+    [
+        Capacity { points, primitives: primitives - 1 },
+        Capacity { points: points - 1, primitives },
+        Capacity { points: points - 1, primitives: primitives - 1 },
+    ]
+}
+
+#[test]
+fn a_frame_that_does_not_fit_is_coarser() {
+    for partitioning in Partitioning::ALL {
+        let scene = scene(Domain::Quad, partitioning);
+        let room = needed(&scene);
+        for points in [Points::Stored, Points::PullWithoutIndices] {
+            for (room, fits) in
+                [(room, true)].into_iter().chain(too_little(room).map(|room| (room, false)))
+            {
+                let builder = scene.builder().room(Room::Exactly(room)).points(points);
+                let mut stage = scene.build(builder);
+                let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+                let feedback = feedback(&scene, &mut stage, 0);
+                assert_eq!(feedback.scale < 1.0, !fits, "{feedback:?} in {room:?}");
+                let all = needed(&scene);
+                assert_eq!(
+                    [feedback.points, feedback.primitives],
+                    [all.points, all.primitives].map(u64::from),
+                    "what the factors ask for"
+                );
+                assert!(feedback.drawn <= u64::from(room.primitives) && feedback.drawn > 0);
+                let patches = scaled(&scene.patches, scene.domain, feedback.scale);
+                let expected = pixels(scene.config, &patches);
+                assert_eq!(compare(&observed, &expected), Ok(()), "{points:?} in {room:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_scale_is_the_greatest_of_the_ladder_that_fits() {
+    let scene = scene(Domain::Triangle, Partitioning::FractionalEven);
+    let all = needed(&scene);
+    for part in [2, 3, 5, 8] {
+        let room = Capacity { points: all.points / part, primitives: all.primitives / part };
+        let mut stage = scene.build(scene.builder().room(Room::Exactly(room)));
+        let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+        let scale = feedback(&scene, &mut stage, 0).scale;
+        let at = |scale| {
+            let patches = scaled(&scene.patches, scene.domain, scale);
+            let counts = patches.iter().map(|&patch| Patch::new(scene.config, patch).counts());
+            counts.fold([0, 0], |sum, own| [sum[0] + own.points, sum[1] + own.primitives])
+        };
+        let fits =
+            |[points, primitives]: [u32; 2]| points <= room.points && primitives <= room.primitives;
+        if fits(at(1.0 / 64.0)) {
+            assert!(fits(at(scale)), "1/{part}: {scale}");
+            // A step of the ladder is 1.6 percent.
+            assert!(!fits(at(scale * 1.017)), "1/{part}: {scale} could be more");
+            let expected = pixels(scene.config, &scaled(&scene.patches, scene.domain, scale));
+            assert_eq!(compare(&observed, &expected), Ok(()), "1/{part}");
+        } else {
+            assert_eq!(drawn(&observed), 0, "1/{part}: nothing fits");
+        }
+    }
+}
+
+#[test]
+fn a_frame_that_does_not_fit_is_empty_if_so_asked() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let room = needed(&scene);
+    for points in [Points::Stored, Points::Pull, Points::PullWithoutIndices] {
+        let builder = || scene.builder().overflow(Overflow::DrawNothing).points(points);
+        let mut stage = scene.build(builder().room(Room::Exactly(room)));
+        let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+        let expected = pixels(scene.config, &scene.patches);
+        assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}");
+        for room in too_little(room) {
+            let mut stage = scene.build(builder().room(Room::Exactly(room)));
+            let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+            assert_eq!(drawn(&observed), 0, "{points:?} in {room:?}");
+            let feedback = feedback(&scene, &mut stage, 0);
+            let all = u64::from(needed(&scene).primitives);
+            assert_eq!([feedback.drawn, feedback.primitives], [0, all], "what it would take");
+        }
+    }
+}
+
+#[test]
+fn not_even_the_coarsest_frame_fits() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    for room in [Capacity { points: 27, primitives: 100 }, Capacity { points: 100, primitives: 13 }]
+    {
+        let mut stage = scene.build(scene.builder().room(Room::Exactly(room)));
+        let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+        assert_eq!(drawn(&observed), 0, "seven patches of 4 points and 2 triangles");
+    }
+    let room = Capacity { points: 28, primitives: 14 };
+    let mut stage = scene.build(scene.builder().room(Room::Exactly(room)));
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    let patches = scaled(&scene.patches, scene.domain, 1.0 / 64.0);
+    assert_eq!(compare(&observed, &pixels(scene.config, &patches)), Ok(()), "they just fit");
+}
+
+#[test]
+fn factors_that_are_no_numbers_stay_culled() {
+    let mut scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let odd = [f32::NAN, -3.0, f32::NEG_INFINITY, 0.0, f32::INFINITY, 1e30, 0.5, 64.5];
+    scene.patches = odd.map(|factor| PatchFactors::uniform(Domain::Quad, factor)).to_vec();
+    scene = Scene::new(scene.domain, scene.config, scene.patches);
+    let room = Capacity { points: 4000, primitives: 7000 };
+    let mut stage = scene.build(scene.builder().room(Room::Exactly(room)));
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    let scale = feedback(&scene, &mut stage, 0).scale;
+    assert!(scale < 1.0, "{scale}");
+    let expected = pixels(scene.config, &scaled(&scene.patches, scene.domain, scale));
+    assert_eq!(compare(&observed, &expected), Ok(()), "four patches are drawn");
+}
+
+#[test]
+fn automatic_room_grows_until_everything_fits() {
+    for overflow in [Overflow::Coarser, Overflow::DrawNothing] {
+        for points in [Points::Stored, Points::Pull] {
+            let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+            assert_eq!(scene.patches, some_factors(Domain::Quad), "more than factor 4");
+            let room = Room::Automatic { most_bytes: 1 << 20 };
+            let builder = scene.builder().room(room).overflow(overflow).points(points);
+            let mut stage = scene.build(builder);
+            let before = stage.capacity();
+            scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+            feedback(&scene, &mut stage, 0);
+            let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+            let expected = pixels(scene.config, &scene.patches);
+            assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}, {overflow:?}");
+            let after = stage.capacity();
+            assert!(before.primitives < needed(&scene).primitives, "it did not fit at first");
+            assert!(after.primitives >= needed(&scene).primitives, "{after:?}");
+        }
+    }
+}

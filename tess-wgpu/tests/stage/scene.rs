@@ -1,0 +1,148 @@
+//! A stage, its target, and the pixels that it draws.
+
+use crate::model;
+use tess_core::{Config, Domain, PatchFactors};
+use tess_wgpu::stage::{PatchCount, Room, StageBuilder};
+use tess_wgpu::{Error, Gpu, TessellationStage};
+use wgpu::BufferUsages as Usage;
+
+/// Pixels across and down: patches in a grid of 4 x 2.
+pub(crate) const SIZE: [u32; 2] = [4 * model::PATCH, 2 * model::PATCH];
+/// The most patches.
+pub(crate) const PATCHES: u32 = 8;
+
+/// A pixel: the bits of u and v of its triangle's first vertex, the patch, and 1; or four zeros.
+pub(crate) type Pixel = [u32; 4];
+
+/// The user's WGSL for a domain.
+pub(crate) fn source(domain: Domain) -> String {
+    let hull = match domain {
+        Domain::Quad => {
+            "fn hull(number: u32) -> QuadFactors {\n    let at = 6u * number;\n    return QuadFactors(\
+             vec4<f32>(given[at], given[at + 1u], given[at + 2u], given[at + 3u]), \
+             vec2<f32>(given[at + 4u], given[at + 5u]));\n}"
+        }
+        Domain::Triangle => {
+            "fn hull(number: u32) -> TriFactors {\n    let at = 4u * number;\n    return TriFactors(\
+             vec3<f32>(given[at], given[at + 1u], given[at + 2u]), given[at + 3u]);\n}"
+        }
+        Domain::Isoline => {
+            "fn hull(number: u32) -> IsolineFactors {\n    let at = 2u * number;\n    \
+             return IsolineFactors(given[at], given[at + 1u]);\n}"
+        }
+    };
+    include_str!("scene.wgsl").replace("HULL", hull)
+}
+
+/// A device, a target and the patches' factors.
+#[derive(Debug)]
+pub(crate) struct Scene {
+    pub(crate) gpu: Gpu,
+    pub(crate) domain: Domain,
+    pub(crate) config: Config,
+    pub(crate) patches: Vec<PatchFactors>,
+    pub(crate) factors: wgpu::Buffer,
+    pub(crate) layout: wgpu::BindGroupLayout,
+    pub(crate) group: wgpu::BindGroup,
+    target: wgpu::Texture,
+    source: String,
+}
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+
+impl Scene {
+    pub(crate) fn new(domain: Domain, config: Config, patches: Vec<PatchFactors>) -> Self {
+        let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+        let words = tess_gpu::layout::factor_words(&patches);
+        let bytes = bytemuck::cast_slice(&words);
+        let factors = gpu.upload("given", bytes, Usage::STORAGE).expect("the device has room");
+        let ty = wgpu::BufferBindingType::Storage { read_only: true };
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: None,
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::COMPUTE,
+                ty: wgpu::BindingType::Buffer {
+                    ty,
+                    has_dynamic_offset: false,
+                    min_binding_size: None,
+                },
+                count: None,
+            }],
+        });
+        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: factors.as_entire_binding() }],
+        });
+        let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width: SIZE[0], height: SIZE[1], depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let source = source(domain);
+        Self { gpu, domain, config, patches, factors, layout, group, target, source }
+    }
+
+    /// A stage of [`PATCHES`] patches at most, before it is built.
+    pub(crate) fn builder(&self) -> StageBuilder<'_> {
+        TessellationStage::builder(&self.source, self.domain, self.config, PATCHES)
+            .bind_group(&self.layout, &self.group)
+            .target(FORMAT)
+            .room(Room::WorstCase)
+    }
+
+    /// Builds a stage that must be right.
+    pub(crate) fn build(&self, builder: StageBuilder<'_>) -> TessellationStage {
+        builder.build(&self.gpu.device).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Prepares and draws a frame.
+    pub(crate) fn frame(
+        &self,
+        stage: &mut TessellationStage,
+        patches: PatchCount<'_>,
+    ) -> Result<Vec<Pixel>, Error> {
+        self.frame_with(stage, patches, |stage, pass| stage.draw(pass))
+    }
+
+    /// Prepares a frame, and draws it in this way.
+    pub(crate) fn frame_with(
+        &self,
+        stage: &mut TessellationStage,
+        patches: PatchCount<'_>,
+        draw: impl FnOnce(&TessellationStage, &mut wgpu::RenderPass<'_>),
+    ) -> Result<Vec<Pixel>, Error> {
+        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+        stage.prepare(&mut encoder, patches)?;
+        let view = self.target.create_view(&Default::default());
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations::default(),
+            })],
+            ..Default::default()
+        });
+        draw(stage, &mut pass);
+        drop(pass);
+        let bytes_per_row = 16 * SIZE[0];
+        let size = u64::from(bytes_per_row * SIZE[1]);
+        let pixels = self.gpu.buffer("pixels", size, Usage::COPY_DST | Usage::COPY_SRC)?;
+        let layout = wgpu::TexelCopyBufferLayout {
+            offset: 0,
+            bytes_per_row: Some(bytes_per_row),
+            rows_per_image: None,
+        };
+        let buffer = wgpu::TexelCopyBufferInfo { buffer: &pixels, layout };
+        encoder.copy_texture_to_buffer(self.target.as_image_copy(), buffer, self.target.size());
+        self.gpu.run(encoder)?;
+        Ok(bytemuck::pod_collect_to_vec(&self.gpu.read(&pixels, size)?))
+    }
+}
