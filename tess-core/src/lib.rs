@@ -7,6 +7,7 @@ extern crate alloc;
 mod connect;
 pub mod counts;
 mod d3d_float;
+pub mod drawing;
 mod error;
 pub mod factor_context;
 pub mod factors;

@@ -11,7 +11,7 @@ use crate::patch_factors::PatchFactors;
 use crate::sink::{Sink, Slices};
 use crate::state::Config;
 use crate::stitch::Stitch;
-use crate::{connect, locate, points};
+use crate::{connect, drawing, locate, points};
 
 /// A patch whose factors have been processed, ready to be tessellated or probed.
 ///
@@ -115,6 +115,13 @@ impl Patch {
     pub fn primitive(&self, t: u32) -> Option<Primitive> {
         let location = self.locate_primitive(t)?;
         locate::primitive::primitive(self.config, &self.processed, location)
+    }
+
+    /// Where primitive `t` is in the order for [drawing](crate::drawing); `None` if the patch has no such
+    /// primitive. Constant time.
+    #[must_use]
+    pub fn drawing_position(&self, t: u32) -> Option<u32> {
+        Some(drawing::position(&self.processed, self.locate_primitive(t)?, t))
     }
 
     /// All points in order, each by random access.
