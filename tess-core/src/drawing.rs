@@ -11,6 +11,17 @@ use crate::locate::origin::PrimitiveOrigin;
 use crate::patch_factors::PatchFactors;
 use core::ops::Range;
 
+/// The order in which a patch's triangles are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// That of the specification (sections 7 and 8), bit for bit.
+    #[default]
+    Specification,
+    /// The same triangles, for a vertex cache. Points keep their order and numbers; lines and points are
+    /// written as the specification says.
+    Drawing,
+}
+
 /// Cells of a column along its edge.
 pub const COLUMN: u32 = 4;
 

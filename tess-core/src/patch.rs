@@ -1,6 +1,8 @@
 //! One patch: the model's front door.
 
 use crate::counts::{Counts, counts};
+#[cfg(feature = "alloc")]
+use crate::drawing::Order;
 use crate::error::{Buffer, BufferTooSmall};
 use crate::factors::{ProcessedPatch, process};
 use crate::locate::origin::PointOrigin;
@@ -88,6 +90,22 @@ impl Patch {
             indices: alloc::vec::Vec::with_capacity(self.counts.indices as usize),
         };
         self.emit(&mut out);
+        out
+    }
+
+    /// The whole patch in vectors, its triangles in this order.
+    #[cfg(feature = "alloc")]
+    #[must_use]
+    pub fn tessellate_in(&self, order: Order) -> crate::Tessellation {
+        let mut out = self.tessellate();
+        if order == Order::Drawing && self.counts.indices == 3 * self.counts.primitives {
+            let specified = out.indices.clone();
+            for (t, triangle) in (0..).zip(specified.chunks_exact(3)) {
+                if let Some(at) = self.drawing_position(t) {
+                    out.indices[3 * at as usize..][..3].copy_from_slice(triangle);
+                }
+            }
+        }
         out
     }
 

@@ -1,9 +1,17 @@
-// needs: rings, state, stitch, topology
+// needs: drawing, rings, state, stitch, topology
 // Which stitch a triangle belongs to, and that stitch's rows (spec sections 7.1 and 8); what lines
 // and points are made of. Everything in closed form.
 
-// Where triangle t of a regular patch is.
+// Where triangle t of a regular patch is, in the order of the setup.
 fn triangle_location(rings: Rings, t: u32) -> RingLocation {
+    if ORDER == DRAWING {
+        return drawn_location(rings, t);
+    }
+    return specified_location(rings, t);
+}
+
+// The same in the specification's order.
+fn specified_location(rings: Rings, t: u32) -> RingLocation {
     let transitions = rings.boundary + rings.along - 3u * EDGES;
     if t < transitions {
         return location_on_edges(

@@ -51,7 +51,7 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
         let pair = stitch_triangles(stitch, location.step);
         let at = (out + element) >> 1u;
         let is_whole = first == element && element + 1u < round.end;
-        if is_whole && location.step + 1u < stitch.size {
+        if is_whole && ORDER == SPECIFICATION && location.step + 1u < stitch.size {
             write_triangle_pair(at, pair.first, pair.second);
         } else {
             write_triangle(at, first != element, pair.first);
@@ -62,7 +62,8 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
     }
 }
 
-// The triangle of an element that begins a stitch, the one behind a location or the first of a patch.
+// The triangle of an element that begins a stitch, the one behind a location or the first of a patch; in the
+// order for drawing, of any element.
 fn first_triangle(round: Round, before: Source, location: RingLocation, element: u32) -> vec3<u32> {
     var source = before;
     var next = next_edge(location);
@@ -71,7 +72,10 @@ fn first_triangle(round: Round, before: Source, location: RingLocation, element:
         source = load_source(round, number);
         next = RingLocation(1u, 0u, 0u);
     }
-    return stitch_triangles(stitch_from(source, next), 0u).first;
+    if ORDER == DRAWING {
+        next = location_of(source, element - source.begin);
+    }
+    return stitch_triangles(stitch_from(source, next), next.step).first;
 }
 
 // A triangle of the catalogue for patch `number` of the round.

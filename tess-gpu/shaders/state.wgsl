@@ -1,6 +1,6 @@
 // needs: nothing
 // What every stage agrees on. `Setup::prelude` in src/setup.rs writes the constants in front of this
-// file: DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS; the sizes of
+// file: DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS, COPIES, ORDER; the sizes of
 // src/sizes.rs; the places in the tables of src/tables.rs; and SCRATCH for the stages that have one.
 
 const ISOLINE = 0u;
@@ -22,6 +22,9 @@ const CENTER = 1u;
 
 const PACKED = 0u;
 const F32 = 1u;
+
+const SPECIFICATION = 0u;
+const DRAWING = 1u;
 
 const PER_BATCH = 0u;
 const PER_PATCH = 1u;

@@ -1,6 +1,7 @@
 //! What the patches of a batch have in common.
 
 use crate::{sizes, tables};
+use tess_core::drawing::{self, Order};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
 /// How domain points are stored, in 8 bytes either way.
@@ -71,15 +72,19 @@ pub struct Setup {
     pub index_type: IndexType,
     /// Whether patches are copied; the output is the same.
     pub copies: Copies,
+    /// Order of the triangles of a patch.
+    pub order: Order,
 }
 
 impl Setup {
-    /// Packed points, and 32-bit indices that count from the first point of the batch.
+    /// Packed points, and 32-bit indices that count from the first point of the batch; triangles in the
+    /// specification's order.
     #[must_use]
     pub const fn new(domain: Domain, config: Config) -> Self {
         let (point_format, numbering) = (PointFormat::Packed, Numbering::PerBatch);
         let (index_type, copies) = (IndexType::U32, Copies::WhereAlike);
-        Self { domain, config, point_format, numbering, index_type, copies }
+        let order = Order::Specification;
+        Self { domain, config, point_format, numbering, index_type, copies, order }
     }
 
     /// How many factors a patch has. Each is a binary32 in the buffer of factors, in the order of the
@@ -130,13 +135,15 @@ impl Setup {
             ("NUMBERING", u32::from(self.numbering == Numbering::PerPatch)),
             ("FACTORS", self.factors()),
             ("COPIES", u32::from(self.copies == Copies::WhereAlike)),
+            ("ORDER", u32::from(self.order == Order::Drawing)),
         ];
         constants(&setup) + &constants(&SHARED)
     }
 }
 
 /// The constants of [`sizes`] and [`tables`], which every shader has.
-const SHARED: [(&str, u32); 29] = [
+const SHARED: [(&str, u32); 30] = [
+    ("COLUMN", drawing::COLUMN),
     ("WORKGROUP", sizes::WORKGROUP),
     ("ROUND", sizes::ROUND),
     ("SUMMED", sizes::SUMMED),

@@ -3,6 +3,7 @@
 use crate::bindings::{Access, Binding, Resource};
 use crate::setup::{Copies, IndexType, Numbering, PointFormat, Setup, constants};
 use crate::sizes;
+use tess_core::drawing::Order;
 use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
 mod counting;
@@ -208,6 +209,7 @@ impl Stage {
             numbering: Numbering::PerBatch,
             index_type: IndexType::U32,
             copies: Copies::WhereAlike,
+            order: Order::Specification,
             ..setup
         };
         match self {
@@ -221,16 +223,16 @@ impl Stage {
                 placed_as(setup, own)
             }
             Self::List => {
-                let point_format = setup.point_format;
-                placed_as(setup, any_factors(Setup { point_format, ..plain }))
+                let Setup { point_format, order, .. } = setup;
+                placed_as(setup, any_factors(Setup { point_format, order, ..plain }))
             }
             Self::ExpandSmall => {
                 let copies = Copies::WhereAlike;
                 placed_as(setup, any_factors(Setup { copies, ..setup }))
             }
             Self::ExpandPrimitives => {
-                let Setup { numbering, index_type, copies, .. } = setup;
-                any_factors(Setup { numbering, index_type, copies, ..plain })
+                let Setup { numbering, index_type, copies, order, .. } = setup;
+                any_factors(Setup { numbering, index_type, copies, order, ..plain })
             }
         }
     }

@@ -13,7 +13,7 @@ macro_rules! files {
     };
 }
 
-const FILES: [(&str, &str); 57] = files![
+const FILES: [(&str, &str); 58] = files![
     "alike",
     "block",
     "catalogue",
@@ -22,6 +22,7 @@ const FILES: [(&str, &str); 57] = files![
     "counts",
     "d3d_float",
     "described",
+    "drawing",
     "element",
     "expand",
     "expand_points",

@@ -24,7 +24,7 @@ impl<'a> Expected<'a> {
             own.begins.push((own.points.len(), own.indices.len()));
             let base = u32::try_from(own.points.len() / 2).expect("a test's points");
             let base = if setup.numbering == Numbering::PerBatch { base } else { 0 };
-            let whole = Patch::new(setup.config, factors).tessellate();
+            let whole = Patch::new(setup.config, factors).tessellate_in(setup.order);
             let words = |&point: &DomainPoint| point_words(setup.point_format, point, number);
             own.points.extend(whole.points.iter().flat_map(words));
             own.indices.extend(whole.indices.iter().map(|index| base + index));

@@ -12,7 +12,7 @@ use serde::Serialize;
 use std::sync::Arc;
 use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
-use tess_gpu::{Capacity, Limits, Plan, Resource, Setup};
+use tess_gpu::{Capacity, Limits, Order, Plan, Resource, Setup};
 use tess_verify::workloads::Workload;
 
 /// Times of one workload: of each, the fastest of several runs.
@@ -33,6 +33,10 @@ pub struct Times {
     pub fixed_drawn: f64,
     /// Milliseconds of the compute shaders and of drawing what they give.
     pub compute_drawn: f64,
+    /// Milliseconds of the compute shaders, which write triangles in the order for drawing.
+    pub ordered: f64,
+    /// Milliseconds of the same and of drawing what they give.
+    pub ordered_drawn: f64,
 }
 
 /// Pixels along each side of the picture.
@@ -60,14 +64,14 @@ pub fn bench(
     let (repeats, runs) = if gpu.info.is_software { (1, runs.min(2)) } else { (repeats, runs) };
     let patches = workload.patches.repeat(repeats);
     let bench = Bench::new(&gpu, workload, &patches, repeats, spirv)?;
-    let mut best = [f64::INFINITY; 4];
+    let mut best = [f64::INFINITY; Way::ALL.len()];
     for _ in 0..runs.max(1) {
         for (best, way) in best.iter_mut().zip(Way::ALL) {
             *best = best.min(bench.time(way)?);
         }
     }
     bench.check(3 * totals.primitives * repeats as u64)?;
-    let [fixed, compute, fixed_drawn, compute_drawn] = best;
+    let [fixed, compute, fixed_drawn, compute_drawn, ordered, ordered_drawn] = best;
     Ok(Times {
         workload: workload.name.clone(),
         patches: patches.len() as u64,
@@ -76,19 +80,28 @@ pub fn bench(
         compute,
         fixed_drawn,
         compute_drawn,
+        ordered,
+        ordered_drawn,
     })
 }
 
 #[derive(Clone, Copy)]
 enum Way {
     Fixed,
-    Compute,
+    Compute(Order),
     FixedDrawn,
-    ComputeDrawn,
+    ComputeDrawn(Order),
 }
 
 impl Way {
-    const ALL: [Self; 4] = [Self::Fixed, Self::Compute, Self::FixedDrawn, Self::ComputeDrawn];
+    const ALL: [Self; 6] = [
+        Self::Fixed,
+        Self::Compute(Order::Specification),
+        Self::FixedDrawn,
+        Self::ComputeDrawn(Order::Specification),
+        Self::Compute(Order::Drawing),
+        Self::ComputeDrawn(Order::Drawing),
+    ];
 }
 
 /// Both ways, ready to run.
@@ -98,6 +111,7 @@ struct Bench {
     fixed_drawn: Pipeline,
     compute_drawn: Pipeline,
     compute: Compute,
+    ordered: Compute,
     discarding: Pass,
     drawing: Pass,
     program: Program,
@@ -139,11 +153,15 @@ impl Bench {
         };
         let setup = Setup::new(domain, config);
         let plan = plan(gpu, setup, workload, patches.len(), repeats)?;
+        let words = factor_words(patches);
+        let compute =
+            |order| Compute::new(gpu, &commands, Setup { order, ..setup }, &plan, &words, spirv);
         Ok(Self {
             fixed: make(&discarding, &tessellating[..3], Vertices::Patches)?,
             fixed_drawn: make(&drawing, &tessellating, Vertices::Patches)?,
             compute_drawn: make(&drawing, &drawn, Vertices::Points)?,
-            compute: Compute::new(gpu, &commands, setup, &plan, &factor_words(patches), spirv)?,
+            compute: compute(Order::Specification)?,
+            ordered: compute(Order::Drawing)?,
             discarding,
             drawing,
             program,
@@ -156,12 +174,14 @@ impl Bench {
 
     /// Makes sure that the compute shaders gave so many indices.
     fn check(&self, indices: u64) -> Result<(), Error> {
-        let arguments = self.compute.buffer(Resource::Arguments).download(&self.commands, 1)?;
-        if u64::from(arguments[0]) == indices {
-            return Ok(());
+        for compute in [&self.compute, &self.ordered] {
+            let given = compute.buffer(Resource::Arguments).download(&self.commands, 1)?[0];
+            if u64::from(given) != indices {
+                let message = format!("the compute shaders gave {given} indices, not {indices}");
+                return Err(Error::Capture(message));
+            }
         }
-        let given = arguments[0];
-        Err(Error::Capture(format!("the compute shaders gave {given} indices, not {indices}")))
+        Ok(())
     }
 
     /// Milliseconds of one run, by the device.
@@ -191,11 +211,19 @@ impl Bench {
             Way::FixedDrawn => {
                 self.drawing.record(to, |device| self.draw(device, to, &self.fixed_drawn));
             }
-            Way::Compute => self.compute.record(device, to),
-            Way::ComputeDrawn => {
-                self.compute.record(device, to);
-                self.drawing.record(to, |device| self.draw_computed(device, to));
+            Way::Compute(order) => self.compute_in(order).record(device, to),
+            Way::ComputeDrawn(order) => {
+                let compute = self.compute_in(order);
+                compute.record(device, to);
+                self.drawing.record(to, |device| self.draw_computed(device, to, compute));
             }
+        }
+    }
+
+    const fn compute_in(&self, order: Order) -> &Compute {
+        match order {
+            Order::Specification => &self.compute,
+            Order::Drawing => &self.ordered,
         }
     }
 
@@ -217,9 +245,9 @@ impl Bench {
         unsafe { device.cmd_draw(to, self.patches, 1, 0, 0) };
     }
 
-    fn draw_computed(&self, device: &ash::Device, to: vk::CommandBuffer) {
+    fn draw_computed(&self, device: &ash::Device, to: vk::CommandBuffer, compute: &Compute) {
         self.bind(device, to, &self.compute_drawn);
-        let buffer = |resource| self.compute.buffer(resource).handle;
+        let buffer = |resource| compute.buffer(resource).handle;
         let (points, indices) = (buffer(Resource::Points), buffer(Resource::Indices));
         // SAFETY: a pipeline is bound; the arguments and what they draw were written by the commands
         // before, with a barrier behind them.

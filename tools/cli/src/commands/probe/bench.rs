@@ -40,41 +40,39 @@ pub(super) fn run(
     output.write(text.as_bytes())
 }
 
-/// Milliseconds and billions of triangles a second, of tessellation alone and from factors to pixels.
+/// Milliseconds and billions of triangles a second, of tessellation alone and from factors to pixels:
+/// the fixed-function stage, the compute shaders, and these with the order for drawing.
 #[expect(
     clippy::float_arithmetic,
     clippy::cast_precision_loss,
     reason = "figures for people, of less than 2^53 triangles"
 )]
 fn table(rows: &[Times]) -> String {
+    let ways = ["fixed ms", "G/s", "ours ms", "G/s", "ordered ms", "G/s"];
+    let group = |text: &str| format!("{text:^56}");
+    let heads: String =
+        ways.chunks_exact(2).map(|way| format!("{:>11} {:>6}", way[0], way[1])).collect();
     let mut text = format!(
-        "{:<14} {:>8} {:>11}  {:^31}  {:^31}\n{:<14} {:>8} {:>11}  {:>9} {:>6} {:>7} {:>6}  {:>9} {:>6} {:>7} {:>6}\n",
+        "{:35}{}{}\n{:<14} {:>8} {:>11}{heads}  {heads}\n",
         "",
-        "",
-        "",
-        "tessellation alone",
-        "factors to pixels",
+        group("tessellation alone"),
+        group("factors to pixels"),
         "workload",
         "patches",
         "triangles",
-        "fixed ms",
-        "G/s",
-        "ours ms",
-        "G/s",
-        "fixed ms",
-        "G/s",
-        "ours ms",
-        "G/s"
     );
     for row in rows {
-        let rate = |ms: f64| row.triangles as f64 / ms * 1e-6;
-        let times = [row.fixed, row.compute, row.fixed_drawn, row.compute_drawn];
-        let [a, b, c, d] = times.map(|ms| (ms, rate(ms)));
+        let cells = |times: [f64; 3]| -> String {
+            let cell = |ms| format!("{ms:>11.4} {:>6.2}", row.triangles as f64 / ms * 1e-6);
+            times.map(cell).concat()
+        };
+        let alone = cells([row.fixed, row.compute, row.ordered]);
+        let drawn = cells([row.fixed_drawn, row.compute_drawn, row.ordered_drawn]);
         // Writing to a String cannot fail.
         _ = writeln!(
             text,
-            "{:<14} {:>8} {:>11}  {:>9.4} {:>6.2} {:>7.4} {:>6.2}  {:>9.4} {:>6.2} {:>7.4} {:>6.2}",
-            row.workload, row.patches, row.triangles, a.0, a.1, b.0, b.1, c.0, c.1, d.0, d.1
+            "{:<14} {:>8} {:>11}{alone}  {drawn}",
+            row.workload, row.patches, row.triangles
         );
     }
     text

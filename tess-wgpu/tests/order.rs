@@ -1,0 +1,116 @@
+//! The order for drawing: what the model has in that order, bit for bit, whichever way a tile is made.
+
+mod common;
+
+use common::device::Machine;
+use common::expected::Expected;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::sizes::CATALOGUE_PATCHES;
+use tess_gpu::{Copies, IndexType, Limits, Numbering, Order, Setup};
+use tess_verify::random::SplitMix64;
+use tess_wgpu::Tessellator;
+
+fn setup(domain: Domain, partitioning: Partitioning, output: OutputPrimitive) -> Setup {
+    Setup { order: Order::Drawing, ..Setup::new(domain, Config::new(partitioning, output)) }
+}
+
+fn triangles(domain: Domain) -> Setup {
+    setup(domain, Partitioning::FractionalOdd, OutputPrimitive::TriangleCw)
+}
+
+/// Patches with factors from 0 to `most`, each on its own; every eighth has one factor everywhere.
+fn patches(domain: Domain, count: u32, most: u32) -> Vec<PatchFactors> {
+    let mut random = SplitMix64::new(5);
+    let mut factor = || random.below(most + 1) as f32 + [0.0, 0.25, 0.75][random.below(3) as usize];
+    let mut patch = |number: u32| {
+        if number.is_multiple_of(8) {
+            return PatchFactors::uniform(domain, factor());
+        }
+        PatchFactors::from_fn(domain, |_| factor())
+    };
+    (0..count).map(&mut patch).collect()
+}
+
+/// Small batches in every partitioning; what has no rings keeps the specification's order.
+#[test]
+fn every_configuration() {
+    let mut machine = Machine::open();
+    let mut check = |domain, partitioning, output| {
+        machine.assert_equal(setup(domain, partitioning, output), &patches(domain, 150, 40));
+    };
+    for domain in [Domain::Triangle, Domain::Quad] {
+        for partitioning in Partitioning::ALL {
+            check(domain, partitioning, OutputPrimitive::TriangleCw);
+        }
+        check(domain, Partitioning::Integer, OutputPrimitive::Line);
+    }
+    check(Domain::Quad, Partitioning::Pow2, OutputPrimitive::TriangleCcw);
+    check(Domain::Isoline, Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+}
+
+/// Tiles that are computed, from the factors of every size.
+#[test]
+fn large_patches_in_every_format() {
+    let mut machine = Machine::open();
+    for domain in [Domain::Triangle, Domain::Quad] {
+        let patches = patches(domain, 1500, 66);
+        machine.assert_equal(triangles(domain), &patches);
+        let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
+        machine.assert_equal(Setup { numbering, index_type, ..triangles(domain) }, &patches);
+    }
+}
+
+/// Tiles that are looked up in the catalogue, and others beside them.
+#[test]
+fn small_patches_of_a_large_batch() {
+    let mut machine = Machine::open();
+    for domain in [Domain::Triangle, Domain::Quad] {
+        let mut patches = patches(domain, CATALOGUE_PATCHES, 4);
+        patches.extend(self::patches(domain, 100, 40));
+        machine.assert_equal(triangles(domain), &patches);
+    }
+}
+
+/// Tiles that are copies of one patch.
+#[test]
+fn like_neighbours() {
+    let mut machine = Machine::open();
+    for factor in [2.0, 5.0, 9.0, 16.0, 24.0] {
+        let setup = setup(Domain::Quad, Partitioning::Integer, OutputPrimitive::TriangleCcw);
+        let patches = vec![PatchFactors::uniform(Domain::Quad, factor); 1100];
+        machine.assert_equal(setup, &patches);
+        machine.assert_equal(Setup { copies: Copies::Never, ..setup }, &patches);
+    }
+}
+
+/// Windows of the output end within patches.
+#[test]
+fn output_in_windows() {
+    let mut machine = Machine::open();
+    machine.limit(Limits { storage_binding: 4 << 20, workgroups: 5 });
+    machine.assert_equal(triangles(Domain::Quad), &patches(Domain::Quad, 1500, 40));
+}
+
+#[test]
+fn planted_faults_are_seen() {
+    let mut machine = Machine::open();
+    let setup = triangles(Domain::Quad);
+    let patches = patches(Domain::Quad, 1500, 40);
+    let expected = Expected::new(setup, &patches);
+    let (points, indices) = expected.words();
+    let mut difference = |from: &'static str, to: &'static str| {
+        machine.tessellator =
+            Tessellator::with_edit(&machine.gpu.device, move |_, source| source.replace(from, to));
+        expected.compare(&machine.write(setup, &patches, points, indices)).err()
+    };
+    assert_eq!(difference("", ""), None, "without a fault");
+    for (from, to) in [
+        ("if ORDER == DRAWING {\n        return drawn", "if false {\n        return drawn"),
+        ("let cut = max(min(min(end, COLUMN * column + 1u), half), 2u);", "let cut = 2u;"),
+        ("(max(first, cut + 1u) - cut - 1u)", "(max(first, cut + 1u) - cut)"),
+        ("if rest < transition {", "if rest <= transition {"),
+        ("next = location_of(source, element - source.begin);", ""),
+    ] {
+        assert_ne!(difference(from, to), None, "{from}");
+    }
+}
