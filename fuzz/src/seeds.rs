@@ -6,9 +6,10 @@ use std::io;
 use std::path::Path;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
+use tess_verify::random::SplitMix64;
 
 /// Every target.
-pub const TARGETS: [&str; 10] = [
+pub const TARGETS: [&str; 11] = [
     "random_access",
     "simd",
     "prepare",
@@ -18,6 +19,7 @@ pub const TARGETS: [&str; 10] = [
     "gltf",
     "bpt",
     "height_png",
+    "device",
     "gpu",
 ];
 
@@ -48,6 +50,7 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
         "obj" => return Ok(numbered(mesh::seeds::obj())),
         "gltf" => return Ok(numbered(mesh::seeds::gltf())),
         "bpt" => return Ok(numbered(mesh::seeds::bpt())),
+        "device" => return Ok(numbered(device_seeds())),
         "height_png" => return Ok(numbered(mesh::seeds::height_png())),
         _ => {}
     }
@@ -84,6 +87,13 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
 
 fn numbered(seeds: Vec<Vec<u8>>) -> Vec<(String, Vec<u8>)> {
     seeds.into_iter().enumerate().map(|(number, seed)| (number.to_string(), seed)).collect()
+}
+
+/// Bytes without a meaning of their own, a case each.
+fn device_seeds() -> Vec<Vec<u8>> {
+    let mut random = SplitMix64::new(1);
+    let mut word = || random.next_u64().to_le_bytes();
+    (0..64).map(|_| [(); 8].map(|()| word()).concat()).collect()
 }
 
 fn low_byte(number: usize) -> u8 {

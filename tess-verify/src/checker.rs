@@ -13,6 +13,7 @@ pub use report::{CheckError, Difference, MAX_DIFFERENCES, Report};
 
 use crate::backend::{Backend, BackendError};
 use crate::case::Case;
+use crate::compare::Mismatch;
 use crate::strength::Strength;
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
 use findings::{Findings, Found};
@@ -93,6 +94,22 @@ pub fn check_device(
         findings.add(number, None, device::check(&case, &answer, strength), || None);
     }
     findings.report()
+}
+
+/// What is wrong with a backend's output for one case, in a strength; `None` if nothing is.
+///
+/// This is the oracle of a fuzz target.
+///
+/// # Errors
+/// The backend could not run, or did not answer with one patch.
+pub fn check_case(
+    backend: &mut dyn Backend,
+    case: &Case,
+    strength: Strength,
+) -> Result<Option<Mismatch>, BackendError> {
+    let outputs = tessellate(backend, &[*case])?;
+    let report = check_device(outputs.into_iter().map(|output| (*case, output)), strength);
+    Ok(report.differences.into_iter().next().map(|difference| difference.mismatch))
 }
 
 /// What the comparison of a record depends on besides the record.

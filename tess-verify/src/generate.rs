@@ -11,10 +11,12 @@ mod levels;
 mod patches;
 
 pub use boundaries::{boundary_factors, exceptional_factors, special_factors};
+#[cfg(feature = "arbitrary")]
+pub(crate) use patches::{factor_up_to, patch_of};
 pub use patches::{random_factor, random_patch};
 
 use crate::case::Case;
-use crate::random::SplitMix64;
+use crate::random::{Draw, SplitMix64};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
 /// How much is generated.
@@ -140,7 +142,7 @@ pub fn configurations() -> impl Iterator<Item = (Domain, Config)> {
     Domain::ALL.into_iter().flat_map(move |domain| configs.clone().map(move |c| (domain, c)))
 }
 
-fn pick<T: Copy>(random: &mut SplitMix64, from: &[T]) -> T {
+pub(crate) fn pick<T: Copy>(random: &mut impl Draw, from: &[T]) -> T {
     from[random.below(u32::try_from(from.len()).unwrap_or(u32::MAX)) as usize]
 }
 

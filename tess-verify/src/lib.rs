@@ -1,5 +1,7 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "arbitrary")]
+mod arbitrary;
 pub mod backend;
 pub mod case;
 pub mod checker;
