@@ -65,7 +65,7 @@ mod tests {
     use crate::coverage::Coverage;
     use crate::generate::special_factors;
     use crate::random::SplitMix64;
-    use std::collections::HashSet;
+    use std::collections::BTreeSet;
 
     fn cases(number: usize) -> impl Iterator<Item = Case> {
         let mut random = SplitMix64::new(1);
@@ -77,7 +77,7 @@ mod tests {
 
     #[test]
     fn every_boundary_comes() {
-        let mut missing: HashSet<u32> =
+        let mut missing: BTreeSet<u32> =
             BOUNDARIES.iter().chain(&special_factors()).map(|factor| factor.to_bits()).collect();
         assert!(missing.len() > 1000, "{} boundaries", missing.len());
         for case in cases(400_000) {
@@ -85,12 +85,7 @@ mod tests {
                 missing.remove(&factor.to_bits());
             });
         }
-        assert!(
-            missing.is_empty(),
-            "{} do not come, such as {:?}",
-            missing.len(),
-            missing.iter().next()
-        );
+        assert!(missing.is_empty(), "{} do not come, such as {:?}", missing.len(), missing.first());
     }
 
     #[test]

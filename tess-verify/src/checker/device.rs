@@ -57,11 +57,15 @@ fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
 }
 
 fn unordered(difference: Difference) -> Mismatch {
-    let Difference { vertices, observed, expected } = difference;
+    let Difference { vertices, observed, expected, instead } = difference;
     let stage = if vertices.len() == 1 { Stage::Location } else { Stage::Stitch };
     let times = |count: usize| format!("{count} times");
-    let element = Element::Vertices(vertices);
-    Mismatch { element, observed: times(observed), expected: times(expected), stage }
+    let instead = instead.map(|other| {
+        let Difference { vertices, observed, expected, .. } = *other;
+        format!(" (but {} {observed} times, not {expected})", Element::Vertices(vertices))
+    });
+    let observed = times(observed) + &instead.unwrap_or_default();
+    Mismatch { element: Element::Vertices(vertices), observed, expected: times(expected), stage }
 }
 
 /// The stage that explains a whole output: one that the model reaches with one factor processed

@@ -63,6 +63,26 @@ impl<R: BufRead> Lines<R> {
     /// Reads the next line into `self.text`; `false` at the end.
     fn read(&mut self) -> Result<bool, VectorError> {
         self.place.line += 1;
+        if self.read_buffered() { Ok(true) } else { self.read_any() }
+    }
+
+    /// Takes a line of plain characters that lies whole in the reader's buffer, as nearly all do.
+    fn read_buffered(&mut self) -> bool {
+        let Ok(buffer) = self.reader.fill_buf() else { return false };
+        let is_plain = |byte: &u8| (b' '..=b'~').contains(byte);
+        let length = buffer.iter().take_while(|byte| is_plain(byte)).count();
+        let is_whole = length <= MAX_LINE && buffer.get(length) == Some(&b'\n');
+        let Some(Ok(text)) = is_whole.then(|| str::from_utf8(&buffer[..length])) else {
+            return false;
+        };
+        self.text.clear();
+        self.text.push_str(text);
+        self.reader.consume(length + 1);
+        true
+    }
+
+    /// Reads a line of any kind.
+    fn read_any(&mut self) -> Result<bool, VectorError> {
         let mut bytes = std::mem::take(&mut self.text).into_bytes();
         bytes.clear();
         // Two bytes more than a line may have, for its end.

@@ -78,7 +78,8 @@ fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorEr
         let line = lines.expect("points")?;
         let point = parse_point(line.text).ok_or_else(|| {
             let text = quoted(line.text);
-            let message = format!("{text} is not a point: u and v as up to 8 hex digits each");
+            let message =
+                format!("{text} is not a point: u and v as 5 to 8 hex digits each, 10000 being 1");
             line.error("points", message)
         })?;
         points.push(point);
@@ -125,15 +126,22 @@ fn announced<R: BufRead>(
 }
 
 fn parse_point(text: &str) -> Option<DomainPoint> {
-    let space = text.bytes().position(|byte| byte == b' ')?;
-    let (u, v) = (&text[..space], &text[space + 1..]);
-    let coordinate = |text: &str| u32::try_from(parse_hex(text, text.len().clamp(1, 8))?).ok();
-    Some(DomainPoint::from_bits(coordinate(u)?, coordinate(v)?))
+    let (u, v) = text.split_once(' ')?;
+    Some(DomainPoint::from_bits(parse_coordinate(u)?, parse_coordinate(v)?))
+}
+
+/// 5 to 8 hex digits. Fewer would let the float 1 pass for 2^-16.
+fn parse_coordinate(text: &str) -> Option<u32> {
+    let append = |number, byte: &u8| Some(number << 4 | char::from(*byte).to_digit(16)?);
+    (5..=8).contains(&text.len()).then(|| text.as_bytes().iter().try_fold(0, append)).flatten()
 }
 
 /// Decimal digits alone: no sign.
 fn parse_index(word: &[u8]) -> Option<u32> {
-    let digit = |byte: &u8| char::from(*byte).to_digit(10);
-    let append = |index: u32, byte| index.checked_mul(10)?.checked_add(digit(byte)?);
-    (!word.is_empty()).then(|| word.iter().try_fold(0, append)).flatten()
+    let digit = |byte: u8| byte.checked_sub(b'0').filter(|digit| *digit < 10).map(u64::from);
+    let append = |index: u64, byte: &u8| Some(index * 10 + digit(*byte)?);
+    // Ten digits are enough for any index, and cannot overflow 64 bits.
+    let index =
+        (1..=10).contains(&word.len()).then(|| word.iter().try_fold(0, append)).flatten()?;
+    u32::try_from(index).ok()
 }

@@ -218,7 +218,7 @@ fn lines_that_are_too_long_or_not_text() {
     assert_eq!(
         shown,
         format!(
-            "f:4: points: `{}...` (4000 bytes) is not a point: u and v as up to 8 hex digits each",
+            "f:4: points: `{}...` (4000 bytes) is not a point: u and v as 5 to 8 hex digits each, 10000 being 1",
             &fits[..60]
         )
     );
