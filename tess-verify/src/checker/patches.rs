@@ -34,6 +34,7 @@ pub(super) fn single(
 fn listings(records: &[Record], strength: Strength) -> Vec<Found> {
     let listing = |record: &Record| match record {
         Record::Listing(listing) => Some(device::check(&listing.case, &listing.output, strength)),
+        Record::Coordinates(coordinates) => Some(device::check_coordinates(coordinates, strength)),
         _ => None,
     };
     records.iter().filter_map(listing).collect()
@@ -49,6 +50,9 @@ fn compare_one(
         Record::Listing(listing) => {
             let found = compare::tessellations(case, output, &listing.output);
             Ok(found.map(|mismatch| stages::trace(backend, case, mismatch)))
+        }
+        Record::Coordinates(coordinates) => {
+            Ok(compare::sequences(case, output, &coordinates.output()))
         }
         Record::Patch(row) => sizes(backend, case, output, &row.output),
         Record::Preparation(row) => match prepared(row) {

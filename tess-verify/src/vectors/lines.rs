@@ -46,7 +46,12 @@ impl<R: BufRead> Lines<R> {
     /// characters in it.
     pub(super) fn next(&mut self) -> Result<Option<Line<'_>>, VectorError> {
         let found = self.read()?;
-        Ok(found.then_some(Line { text: &self.text, place: &self.place }))
+        Ok(found.then_some(self.last()))
+    }
+
+    /// The line that was read last.
+    pub(super) fn last(&self) -> Line<'_> {
+        Line { text: &self.text, place: &self.place }
     }
 
     /// The next line, which must be there.
@@ -55,7 +60,7 @@ impl<R: BufRead> Lines<R> {
     /// As for [`Self::next`], and the end of the file.
     pub(super) fn expect(&mut self, what: &'static str) -> Result<Line<'_>, VectorError> {
         if self.read()? {
-            return Ok(Line { text: &self.text, place: &self.place });
+            return Ok(self.last());
         }
         Err(self.error(what, "the file ends here; it is truncated"))
     }
