@@ -18,7 +18,7 @@ Examples:
   tess patch quad --outer 3,4,5,6 --inner 4,7
   tess patch tri --outer 2.5,nan,0x40490fdb --inner 3 --partitioning fractional_odd --format json
   tess patch isoline --outer 4,8 -o lines.obj
-  tess patch --cases failing.txt                each case of a vector file
+  tess patch --cases failing.txt -o right.txt
   echo case isoline integer line ruler 40000000 40400000 | tess patch --cases -")]
 pub(crate) struct Args {
     #[command(flatten)]
