@@ -100,9 +100,26 @@ fn low_byte(number: usize) -> u8 {
     number.to_le_bytes()[0]
 }
 
-/// The first records of every vector file.
+/// A file that no recorded one is like: by coordinates, without a count.
+const CAPTURE: &str = "\
+# tess-vectors 1 kind=listings source=capture
+case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000
+coordinates float
+0 1 0
+0 0 0x3f800000
+1 0
+end
+case isoline integer line ruler 3f800000 3f800000
+coordinates decimal 2
+65536 0
+0 0
+end
+# end
+";
+
+/// The first records of every vector file, and a capture.
 fn recorded(golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
-    let mut seeds = Vec::new();
+    let mut seeds = vec![("capture".to_owned(), CAPTURE.as_bytes().to_vec())];
     for file in std::fs::read_dir(golden)? {
         let file = file?;
         // Folders have other things than vector files.

@@ -76,7 +76,8 @@ pub(crate) fn generate(
     let shard = Shard { part: part - 1, of };
     let domain = domain.map(named).transpose()?;
     let partitioning = partitioning.map(named).transpose()?;
-    let cases = Selection { random: count, domain, partitioning, ..Selection::level(level, seed) }.cases();
+    let cases =
+        Selection { random: count, domain, partitioning, ..Selection::level(level, seed) }.cases();
     let numbered = (0..).zip(cases);
     let chosen = numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case);
     Ok(Cases(Mutex::new(Box::new(chosen))))
