@@ -370,11 +370,12 @@ static void barrier(VkCommandBuffer recorded)
 }
 
 static int dispatch_all(struct tess_vulkan *host, const struct tess_plan *plan,
-                        const uint32_t variables[4], struct batch *batch, char message[256])
+                        const uint32_t variables[4], int is_first, struct batch *batch,
+                        char message[256])
 {
     if (begin(host, batch, message))
         return -1;
-    for (uint32_t resource = 0; resource < TESS_RESOURCES; resource++)
+    for (uint32_t resource = 0; is_first && resource < TESS_RESOURCES; resource++)
         if (tess_hosts[resource] == TESS_HOST_CLEARS)
             vkCmdFillBuffer(batch->recorded, batch->buffers[resource].handle, 0, VK_WHOLE_SIZE, 0);
     barrier(batch->recorded);
@@ -446,7 +447,7 @@ static int run(struct tess_vulkan *host, const struct tess_plan *plan, const uin
         return -1;
     for (uint32_t i = 0; i < runs || i == 0; i++) {
         uint64_t ticks[2];
-        if (dispatch_all(host, plan, variables, batch, message))
+        if (dispatch_all(host, plan, variables, i == 0, batch, message))
             return -1;
         TRY(vkGetQueryPoolResults(host->device, host->clock, 0, 2, sizeof ticks, ticks, 8,
                                   VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));

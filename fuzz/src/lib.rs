@@ -6,6 +6,7 @@
 //! watch each oracle fail.
 
 pub mod capi;
+pub mod device;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub mod input;

@@ -6,9 +6,10 @@ use std::io;
 use std::path::Path;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
+use tess_verify::random::SplitMix64;
 
 /// Every target.
-pub const TARGETS: [&str; 10] = [
+pub const TARGETS: [&str; 11] = [
     "random_access",
     "simd",
     "prepare",
@@ -18,6 +19,7 @@ pub const TARGETS: [&str; 10] = [
     "gltf",
     "bpt",
     "height_png",
+    "device",
     "gpu",
 ];
 
@@ -48,6 +50,7 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
         "obj" => return Ok(numbered(mesh::seeds::obj())),
         "gltf" => return Ok(numbered(mesh::seeds::gltf())),
         "bpt" => return Ok(numbered(mesh::seeds::bpt())),
+        "device" => return Ok(numbered(device_seeds())),
         "height_png" => return Ok(numbered(mesh::seeds::height_png())),
         _ => {}
     }
@@ -86,13 +89,37 @@ fn numbered(seeds: Vec<Vec<u8>>) -> Vec<(String, Vec<u8>)> {
     seeds.into_iter().enumerate().map(|(number, seed)| (number.to_string(), seed)).collect()
 }
 
+/// Bytes without a meaning of their own, a case each.
+fn device_seeds() -> Vec<Vec<u8>> {
+    let mut random = SplitMix64::new(1);
+    let mut word = || random.next_u64().to_le_bytes();
+    (0..64).map(|_| [(); 8].map(|()| word()).concat()).collect()
+}
+
 fn low_byte(number: usize) -> u8 {
     number.to_le_bytes()[0]
 }
 
-/// The first records of every vector file.
+/// A file that no recorded one is like: by coordinates, without a count.
+const CAPTURE: &str = "\
+# tess-vectors 1 kind=listings source=capture
+case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000
+coordinates float
+0 1 0
+0 0 0x3f800000
+1 0
+end
+case isoline integer line ruler 3f800000 3f800000
+coordinates decimal 2
+65536 0
+0 0
+end
+# end
+";
+
+/// The first records of every vector file, and a capture.
 fn recorded(golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
-    let mut seeds = Vec::new();
+    let mut seeds = vec![("capture".to_owned(), CAPTURE.as_bytes().to_vec())];
     for file in std::fs::read_dir(golden)? {
         let file = file?;
         // Folders have other things than vector files.

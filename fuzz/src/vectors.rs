@@ -2,10 +2,10 @@
 
 use crate::fault_is_planted;
 use tess_verify::case::Case;
-use tess_verify::vectors::{Listing, Record, VectorFile};
+use tess_verify::vectors::{Coordinates, Listing, Record, VectorFile};
 
-/// Reads a file to its end. It never panics; it gives as many records as its header says, or an
-/// error that names a line of the file; and what it read says the same when written and read again.
+/// Reads a file to its end. It never panics; it gives as many records as its header says, at least one
+/// where it says nothing, or an error that names a line of the file; and what it read says the same when written and read again.
 ///
 /// # Errors
 /// What was broken.
@@ -16,23 +16,24 @@ pub fn check(data: &[u8]) -> Result<(), String> {
         Err(error) => return names_a_line(&error.to_string(), lines),
     };
     let announced = file.header().count;
-    let mut records = 0;
+    let mut records = 0_u64;
     for record in file.by_ref() {
         match record {
             Err(error) => return names_a_line(&error.to_string(), lines),
             Ok(Record::Listing(listing)) => listing_survives(&listing)?,
+            Ok(Record::Coordinates(coordinates)) => coordinates_survive(&coordinates)?,
             Ok(Record::Patch(row)) => case_survives(&row.row.case)?,
             Ok(_) => {}
         }
         records += 1;
     }
-    if fault_is_planted() {
-        records += 1;
-    }
-    if records == announced {
+    let last = data.trim_ascii_end();
+    let marks_its_end = last.ends_with(b"# end");
+    let is_whole = announced.map_or(records > 0 && marks_its_end, |count| records == count);
+    if is_whole && !fault_is_planted() {
         Ok(())
     } else {
-        Err(format!("{records} records without an error, but the header says {announced}"))
+        Err(format!("{records} records without an error, but the header says {announced:?}"))
     }
 }
 
@@ -53,6 +54,16 @@ fn case_survives(case: &Case) -> Result<(), String> {
     match case.to_string().parse::<Case>() {
         Ok(again) if again == *case => Ok(()),
         other => Err(format!("\n{case}\nis read back as {other:?}")),
+    }
+}
+
+fn coordinates_survive(coordinates: &Coordinates) -> Result<(), String> {
+    case_survives(&coordinates.case)?;
+    let text = format!("# tess-vectors 1 kind=listings source=fuzz\n{coordinates}# end\n");
+    let mut again = VectorFile::new("again", text.as_bytes()).map_err(|e| e.to_string())?;
+    match again.next() {
+        Some(Ok(Record::Coordinates(same))) if same.vertices == coordinates.vertices => Ok(()),
+        other => Err(format!("\n{coordinates}\nis read back as {other:?}")),
     }
 }
 

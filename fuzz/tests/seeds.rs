@@ -4,7 +4,7 @@
 
 use std::path::Path;
 use tess_fuzz::mesh::{self, mutations};
-use tess_fuzz::{capi, plant_fault, prepare, random_access, seeds, simd, vectors};
+use tess_fuzz::{capi, device, plant_fault, prepare, random_access, seeds, simd, vectors};
 use tess_program::fuzzing;
 
 type Oracle = fn(&[u8]) -> Result<(), String>;
@@ -19,6 +19,7 @@ const ORACLES: &[(&str, Oracle)] = &[
     ("gltf", mesh::gltf::check),
     ("bpt", mesh::bpt::check),
     ("height_png", mesh::height_png::check),
+    ("device", device::check),
     #[cfg(feature = "gpu")]
     ("gpu", tess_fuzz::gpu::check),
 ];

@@ -1,5 +1,5 @@
 //! Compares a device under test with the model: reads what was captured from it, in a format of its
-//! own, and turns that into cases and outputs.
+//! own, and says how near each patch is and what explains the others.
 //!
 //! The capture has a line `draw DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...` for each patch, then what
 //! the device gave for it: `at U V` for each domain point, as the floats that a domain shader saw, and
@@ -7,31 +7,64 @@
 #![expect(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;
-use tess_core::fixed_point::ONE;
+use std::fmt;
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::case::Case;
 use tess_verify::checker::{Report, check_device};
+use tess_verify::coordinate::fixed;
 use tess_verify::strength::{Order, Strength};
+use tess_verify::ways::Way;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let default = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/device.capture").to_owned();
     let path = std::env::args().nth(1).unwrap_or(default);
-    let report = compare(&std::fs::read_to_string(&path)?)?;
-    for difference in &report.differences {
-        println!("{difference}");
-    }
-    println!("{report}");
-    if report.mismatches == 0 { Ok(()) } else { Err("the device differs".into()) }
+    let verdicts = judge(&std::fs::read_to_string(&path)?)?;
+    print!("{verdicts}");
+    if verdicts.report.mismatches == 0 { Ok(()) } else { Err("the device differs".into()) }
 }
 
-/// Compares a capture with the model. This device numbers points and primitives in its own order.
-pub(crate) fn compare(capture: &str) -> Result<Report, Box<dyn Error>> {
-    let strength = Strength { order: Order::Any, ..Strength::default() };
+/// What a capture shows.
+#[derive(Debug)]
+pub(crate) struct Verdicts {
+    /// Patches whose primitives are the model's in its order, and in any order.
+    pub(crate) in_order: usize,
+    pub(crate) in_any_order: usize,
+    /// The comparison in any order, as this device numbers and orders in its own way.
+    pub(crate) report: Report,
+    /// What explains each patch that differs.
+    pub(crate) ways: Vec<Vec<Way>>,
+}
+
+impl fmt::Display for Verdicts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { in_order, in_any_order, report, ways } = self;
+        writeln!(f, "{report}; in the model's order: {in_order}, in another: {in_any_order}")?;
+        for (difference, ways) in report.differences.iter().zip(ways) {
+            writeln!(f, "{difference}")?;
+            for way in ways {
+                let allowed = if way.is_allowed() { "allowed" } else { "not allowed" };
+                writeln!(f, "  explained, {allowed}: {}", way.words())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Compares a capture with the model.
+pub(crate) fn judge(capture: &str) -> Result<Verdicts, Box<dyn Error>> {
     let patches = patches(capture)?;
     if patches.is_empty() {
         return Err("the capture has no patches".into());
     }
-    Ok(check_device(patches, strength))
+    let strength = |order| Strength { order, ..Strength::default() };
+    let (sequence, any) = (strength(Order::Sequence), strength(Order::Any));
+    let in_order = patches.iter().filter(|(case, output)| sequence.accepts(case, output)).count();
+    let wrong: Vec<_> = patches.iter().filter(|(case, o)| !any.accepts(case, o)).collect();
+    let ways = wrong.iter().map(|(case, output)| {
+        Way::ALL.into_iter().filter(|way| way.explains(case, output, any, 64)).collect()
+    });
+    let (ways, in_any_order) = (ways.collect(), patches.len() - wrong.len() - in_order);
+    Ok(Verdicts { in_order, in_any_order, ways, report: check_device(patches, any) })
 }
 
 /// The patches of a capture: what was drawn, and what the device made of it.
@@ -68,17 +101,7 @@ fn point(text: &str) -> Result<DomainPoint, Box<dyn Error>> {
     Ok(DomainPoint::from_bits(coordinate(u.parse()?)?, coordinate(v.parse()?)?))
 }
 
-#[expect(
-    clippy::float_arithmetic,
-    clippy::float_cmp,
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "checked to be exact: nothing is rounded, so no difference is lost"
-)]
 fn coordinate(value: f32) -> Result<u32, Box<dyn Error>> {
-    let scaled = f64::from(value) * f64::from(ONE);
-    if scaled != scaled.trunc() || !(0.0..=f64::from(ONE)).contains(&scaled) {
-        return Err(format!("{value} is no multiple of 2^-16 in 0..1").into());
-    }
-    Ok(scaled as u32)
+    let number = fixed(value.to_bits());
+    number.ok_or_else(|| format!("{value} is no multiple of 2^-16 in 0..1").into())
 }

@@ -9,7 +9,9 @@ use tess_core::{
 
 /// An implementation of the specification under test.
 ///
-/// Every method takes a batch, in any number, zero included, and answers in the same order.
+/// Every method takes a batch, in any number, zero included, and answers in the same order. An
+/// implementation that gives whole patches alone needs no more than the first three methods: the others
+/// answer with an error, and a difference then points to the stage that its output shows.
 pub trait Backend: Send {
     /// Its name, as `--backend` takes it: `core`, `simd` or `gpu`.
     fn name(&self) -> &'static str;
@@ -38,7 +40,10 @@ pub trait Backend: Send {
         &mut self,
         partitioning: Partitioning,
         values: &[f32],
-    ) -> Result<Vec<[FixedFactor; 2]>, BackendError>;
+    ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
+        let _ = (partitioning, values);
+        Err(whole_patches_alone(self.name()))
+    }
 
     /// Contexts (spec section 4) of fixed-point factors in range.
     ///
@@ -49,13 +54,23 @@ pub trait Backend: Send {
         split: SplitOrder,
         parity: Parity,
         factors: &[FixedFactor],
-    ) -> Result<Vec<FactorContext>, BackendError>;
+    ) -> Result<Vec<FactorContext>, BackendError> {
+        let _ = (split, parity, factors);
+        Err(whole_patches_alone(self.name()))
+    }
 
     /// The 16.16 locations (spec section 5) of all points of each context, one after another.
     ///
     /// # Errors
     /// As for [`Backend::tessellate`].
-    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError>;
+    fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
+        let _ = contexts;
+        Err(whole_patches_alone(self.name()))
+    }
+}
+
+fn whole_patches_alone(name: &str) -> BackendError {
+    BackendError::new(format!("{name} gives whole patches alone, no stages"))
 }
 
 /// An implementation could not run: no adapter, no such CPU level, a device lost.

@@ -13,7 +13,8 @@ pub use report::{CheckError, Difference, MAX_DIFFERENCES, Report};
 
 use crate::backend::{Backend, BackendError};
 use crate::case::Case;
-use crate::strength::Strength;
+use crate::compare::{Element, Mismatch, Stage};
+use crate::strength::{Elements, Order, Strength};
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
 use findings::{Findings, Found};
 use std::io::BufRead;
@@ -31,6 +32,18 @@ pub enum Tested {
     Listings(Strength),
 }
 
+/// A part of a file that was checked: consecutive records, or nearly so.
+#[derive(Clone, Copy, Debug)]
+pub struct Checked<'a> {
+    /// The records.
+    pub records: &'a [Record],
+    /// For each, whether it differs. One that contradicts another is not seen until the end.
+    pub different: &'a [bool],
+}
+
+/// The cases that were asked, in the order in which a file is to answer them.
+pub type Asked<'a> = &'a mut (dyn Iterator<Item = Result<Case, VectorError>> + Send);
+
 /// Checks every record of a file.
 ///
 /// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
@@ -45,7 +58,22 @@ pub fn check<R: BufRead + Send>(
     file: VectorFile<R>,
     backends: &mut [Box<dyn Backend>],
     tested: Tested,
-    checked: &(dyn Fn(&[Record]) + Sync),
+    checked: &(dyn Fn(Checked<'_>) + Sync),
+) -> Result<Report, CheckError> {
+    check_asked(file, None, backends, tested, checked)
+}
+
+/// [`check`], and the records must answer the cases that were `asked`, one for one and in this order: a
+/// record that answers another case is a difference, and so is a case without a record.
+///
+/// # Errors
+/// As for [`check`], and those of `asked`.
+pub fn check_asked<R: BufRead + Send>(
+    file: VectorFile<R>,
+    asked: Option<Asked<'_>>,
+    backends: &mut [Box<dyn Backend>],
+    tested: Tested,
+    checked: &(dyn Fn(Checked<'_>) + Sync),
 ) -> Result<Report, CheckError> {
     if backends.is_empty() {
         return Err(BackendError::new("no backend to check with").into());
@@ -55,7 +83,8 @@ pub fn check<R: BufRead + Send>(
         return Err(CheckError::NoListings(header.kind));
     }
     let how = How { header, tested };
-    let source = Mutex::new(Source { file, taken: 0, stopped: None });
+    let astray = Findings::default();
+    let source = Mutex::new(Source { file, asked, astray, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, backend.as_mut(), checked);
         if result.is_err() {
@@ -75,7 +104,7 @@ pub fn check<R: BufRead + Send>(
     if let Some(Err(error)) = lock(&source).stopped.take() {
         return Err(error.into());
     }
-    let mut findings = Findings::default();
+    let mut findings = source.into_inner().unwrap_or_else(PoisonError::into_inner).finish()?;
     for result in results {
         findings.join(result?);
     }
@@ -95,6 +124,22 @@ pub fn check_device(
     findings.report()
 }
 
+/// What is wrong with a backend's output for one case, in a strength; `None` if nothing is.
+///
+/// This is the oracle of a fuzz target.
+///
+/// # Errors
+/// The backend could not run, or did not answer with one patch.
+pub fn check_case(
+    backend: &mut dyn Backend,
+    case: &Case,
+    strength: Strength,
+) -> Result<Option<Mismatch>, BackendError> {
+    let outputs = tessellate(backend, &[*case])?;
+    let report = check_device(outputs.into_iter().map(|output| (*case, output)), strength);
+    Ok(report.differences.into_iter().next().map(|difference| difference.mismatch))
+}
+
 /// What the comparison of a record depends on besides the record.
 struct How {
     header: Header,
@@ -102,33 +147,87 @@ struct How {
 }
 
 /// The records that are still to be checked.
-struct Source<R> {
+struct Source<'a, R> {
     file: VectorFile<R>,
+    asked: Option<Asked<'a>>,
+    /// The records that answer another case than the one that was asked.
+    astray: Findings,
     taken: u64,
     /// Set when no more records are to be taken before the end, with the reason.
     stopped: Option<Result<(), VectorError>>,
 }
 
-/// Consecutive records that one worker checks together.
+/// Records that one worker checks together.
+#[derive(Default)]
 struct Unit {
-    /// Number of the first record, from 1.
-    first: u64,
+    /// Numbers of the records, from 1.
+    numbers: Vec<u64>,
     records: Vec<Record>,
 }
 
-impl<R: BufRead> Source<R> {
-    fn next_unit(&mut self, kind: Kind) -> Option<Unit> {
-        let mut unit = Unit { first: self.taken + 1, records: Vec::new() };
-        while self.stopped.is_none() && unit.records.len() < unit_size(kind) {
-            match self.file.next() {
-                Some(Ok(record)) => unit.records.push(record),
-                Some(Err(error)) => self.stopped = Some(Err(error)),
-                None => break,
+impl<R: BufRead> Source<'_, R> {
+    fn next_unit(&mut self, how: &How) -> Option<Unit> {
+        let mut unit = Unit::default();
+        while self.stopped.is_none() && unit.records.len() < unit_size(how.header.kind) {
+            match self
+                .file
+                .next()
+                .transpose()
+                .and_then(|record| record.map(|record| self.expect(record, how.tested)).transpose())
+            {
+                Ok(Some(Some(record))) => {
+                    unit.numbers.push(self.taken);
+                    unit.records.push(record);
+                }
+                Ok(Some(None)) => {}
+                Ok(None) => break,
+                Err(error) => self.stopped = Some(Err(error)),
             }
         }
-        self.taken += unit.records.len() as u64;
         (!unit.records.is_empty()).then_some(unit)
     }
+
+    /// The record, if it answers what was asked.
+    fn expect(&mut self, record: Record, tested: Tested) -> Result<Option<Record>, VectorError> {
+        self.taken += 1;
+        if let (Record::Coordinates(_), Tested::Listings(strength)) = (&record, tested)
+            && strength.elements == Elements::Points
+            && strength.order != Order::Any
+        {
+            let message = "vertices by coordinates do not show the order of points: compare \
+                           primitives, or points in any order";
+            return Err(self.file.error_at(record.line(), "coordinates", message));
+        }
+        let Some(asked) = &mut self.asked else { return Ok(Some(record)) };
+        let (expected, observed) = (asked.next().transpose()?, record.case());
+        if expected.is_some() && expected == observed {
+            return Ok(Some(record));
+        }
+        let show = |case: Option<Case>| case.map_or("none".to_owned(), |case| case.to_string());
+        self.astray.add(
+            self.taken,
+            Some(record.line()),
+            astray(show(observed), show(expected)),
+            || None,
+        );
+        Ok(None)
+    }
+
+    /// The records that are not what was asked, and the cases that no record answers.
+    fn finish(mut self) -> Result<Findings, VectorError> {
+        let Some(asked) = self.asked else { return Ok(self.astray) };
+        for case in asked {
+            self.taken += 1;
+            let found = astray("none".to_owned(), case?.to_string());
+            self.astray.add(self.taken, None, found, || None);
+        }
+        Ok(self.astray)
+    }
+}
+
+fn astray(observed: String, expected: String) -> Found {
+    let mismatch = Mismatch { element: Element::Case, observed, expected, stage: Stage::Answer };
+    Found::new(Some(mismatch), None)
 }
 
 /// Single patches are handed over in batches; a row of the other kinds is a batch of its own.
@@ -146,20 +245,21 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 /// One worker: takes units until there are none.
 fn run<R: BufRead>(
     how: &How,
-    source: &Mutex<Source<R>>,
+    source: &Mutex<Source<'_, R>>,
     backend: &mut dyn Backend,
-    checked: &(dyn Fn(&[Record]) + Sync),
+    checked: &(dyn Fn(Checked<'_>) + Sync),
 ) -> Result<Findings, BackendError> {
     let mut findings = Findings::default();
     loop {
-        let unit = lock(source).next_unit(how.header.kind);
-        let Some(unit) = unit else { return Ok(findings) };
-        let found = check_unit(how, backend, &unit.records)?;
-        for ((number, record), found) in (unit.first..).zip(&unit.records).zip(found) {
+        let unit = lock(source).next_unit(how);
+        let Some(Unit { numbers, records }) = unit else { return Ok(findings) };
+        let found = check_unit(how, backend, &records)?;
+        let different: Vec<bool> = found.iter().map(Found::is_different).collect();
+        for ((number, record), found) in numbers.into_iter().zip(&records).zip(found) {
             let file = || report::file_of(&how.header, record);
             findings.add(number, Some(record.line()), found, file);
         }
-        checked(&unit.records);
+        checked(Checked { records: &records, different: &different });
     }
 }
 

@@ -11,10 +11,12 @@ mod levels;
 mod patches;
 
 pub use boundaries::{boundary_factors, exceptional_factors, special_factors};
+#[cfg(feature = "arbitrary")]
+pub(crate) use patches::{factor_up_to, patch_of};
 pub use patches::{random_factor, random_patch};
 
 use crate::case::Case;
-use crate::random::SplitMix64;
+use crate::random::{Draw, SplitMix64};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
 /// How much is generated.
@@ -77,13 +79,25 @@ pub struct Selection {
     pub domain: Option<Domain>,
     /// One partitioning only.
     pub partitioning: Option<Partitioning>,
+    /// One output primitive only.
+    pub output: Option<OutputPrimitive>,
+    /// One split order only.
+    pub split: Option<SplitOrder>,
 }
 
 impl Selection {
     /// A level with its own number of random cases, of every domain and partitioning.
     #[must_use]
     pub const fn level(level: Level, seed: u64) -> Self {
-        Self { level, seed, random: None, domain: None, partitioning: None }
+        Self {
+            level,
+            seed,
+            random: None,
+            domain: None,
+            partitioning: None,
+            output: None,
+            split: None,
+        }
     }
 
     /// The cases, in order.
@@ -110,14 +124,18 @@ impl Selection {
     fn random_cases(self) -> impl Iterator<Item = Case> {
         let count = self.random_count();
         let mut random = SplitMix64::new(self.seed);
-        let domains = self.domain.map_or(Domain::ALL.to_vec(), |domain| vec![domain]);
-        let partitionings =
-            self.partitioning.map_or(Partitioning::ALL.to_vec(), |partitioning| vec![partitioning]);
+        fn one_or<T: Copy>(one: Option<T>, all: &[T]) -> Vec<T> {
+            one.map_or(all.to_vec(), |one| vec![one])
+        }
+        let domains = one_or(self.domain, &Domain::ALL);
+        let partitionings = one_or(self.partitioning, &Partitioning::ALL);
+        let outputs = one_or(self.output, &OutputPrimitive::ALL);
+        let splits = one_or(self.split, &SplitOrder::ALL);
         (0..count).map(move |_| {
             let config = Config {
                 partitioning: pick(&mut random, &partitionings),
-                output: pick(&mut random, &OutputPrimitive::ALL),
-                split: pick(&mut random, &SplitOrder::ALL),
+                output: pick(&mut random, &outputs),
+                split: pick(&mut random, &splits),
             };
             let domain = pick(&mut random, &domains);
             let factors = PatchFactors::from_fn(domain, |_| random_factor(&mut random));
@@ -128,6 +146,8 @@ impl Selection {
     fn selects(&self, case: &Case) -> bool {
         self.domain.is_none_or(|domain| domain == case.factors.domain())
             && self.partitioning.is_none_or(|p| p == case.config.partitioning)
+            && self.output.is_none_or(|output| output == case.config.output)
+            && self.split.is_none_or(|split| split == case.config.split)
     }
 }
 
@@ -140,7 +160,7 @@ pub fn configurations() -> impl Iterator<Item = (Domain, Config)> {
     Domain::ALL.into_iter().flat_map(move |domain| configs.clone().map(move |c| (domain, c)))
 }
 
-fn pick<T: Copy>(random: &mut SplitMix64, from: &[T]) -> T {
+pub(crate) fn pick<T: Copy>(random: &mut impl Draw, from: &[T]) -> T {
     from[random.below(u32::try_from(from.len()).unwrap_or(u32::MAX)) as usize]
 }
 

@@ -1,9 +1,12 @@
 #![doc = include_str!("../README.md")]
 
+#[cfg(feature = "arbitrary")]
+mod arbitrary;
 pub mod backend;
 pub mod case;
 pub mod checker;
 pub mod compare;
+pub mod coordinate;
 pub mod core_backend;
 pub mod coverage;
 pub mod digest;
@@ -20,4 +23,5 @@ mod sequences;
 pub mod strength;
 pub mod vectors;
 pub mod verify;
+pub mod ways;
 pub mod workloads;

@@ -1,5 +1,24 @@
 //! A tiny seeded generator: same seed, same numbers, on every machine.
 
+/// Where random choices come from.
+pub(crate) trait Draw {
+    /// Any 32 bits.
+    fn bits(&mut self) -> u32;
+
+    /// A number in `0..bound`; a bound of 0 gives 0.
+    fn below(&mut self, bound: u32) -> u32;
+}
+
+impl Draw for SplitMix64 {
+    fn bits(&mut self) -> u32 {
+        self.next_u32()
+    }
+
+    fn below(&mut self, bound: u32) -> u32 {
+        Self::below(self, bound)
+    }
+}
+
 /// `SplitMix64`: a counter that grows by a constant, finished by two multiply-xor-shift rounds
 /// (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
 ///

@@ -90,13 +90,9 @@ impl Strength {
         self.explain(case, observed).is_some()
     }
 
-    /// Whether two outputs of the same case count as equal.
-    pub(crate) fn equal(
-        self,
-        case: &Case,
-        observed: &Tessellation,
-        expected: &Tessellation,
-    ) -> bool {
+    /// Whether two outputs of the same case count as equal, as far as order and elements go.
+    #[must_use]
+    pub fn equal(self, case: &Case, observed: &Tessellation, expected: &Tessellation) -> bool {
         match (self.order, self.elements) {
             (Order::Exact, Elements::Primitives) => observed == expected,
             (Order::Sequence, Elements::Primitives) => {
@@ -114,6 +110,6 @@ impl Strength {
 }
 
 /// The point of each vertex of each primitive, in order; `None` for an index out of range.
-pub(crate) fn vertices(output: &Tessellation) -> impl Iterator<Item = Option<DomainPoint>> {
+pub fn vertices(output: &Tessellation) -> impl Iterator<Item = Option<DomainPoint>> {
     output.indices.iter().map(|&index| output.points.get(index as usize).copied())
 }

@@ -4,6 +4,8 @@
 //! than its header says, empty, or of an unknown kind or version is an error that names file,
 //! line and field, so that nothing passes because it was not there.
 
+mod cases;
+mod coordinates;
 mod error;
 mod header;
 mod lines;
@@ -13,6 +15,8 @@ mod row;
 mod rows;
 mod write;
 
+pub use cases::Cases;
+pub use coordinates::{Coordinates, Vertex};
 pub use error::VectorError;
 pub use header::{Header, Kind};
 pub use listing::{Listing, primitive_size};
@@ -21,6 +25,7 @@ pub use rows::{ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Rec
 pub use write::{write_listings, write_patches};
 
 use crate::quote::quoted;
+use header::END;
 use lines::Lines;
 use row::Row;
 use std::io::BufRead;
@@ -44,6 +49,8 @@ pub struct VectorFile<R> {
     lines: Lines<R>,
     header: Header,
     records: u64,
+    /// Whether the line that marks the end was read.
+    marked: bool,
     ended: bool,
 }
 
@@ -67,7 +74,7 @@ impl<R: BufRead> VectorFile<R> {
                 return Err(found.error("columns", message));
             }
         }
-        Ok(Self { lines, header, records: 0, ended: false })
+        Ok(Self { lines, header, records: 0, marked: false, ended: false })
     }
 
     /// What the first line says.
@@ -75,32 +82,51 @@ impl<R: BufRead> VectorFile<R> {
         &self.header
     }
 
+    /// An error in a record that was read.
+    pub(crate) fn error_at(&self, line: u64, field: &'static str, message: &str) -> VectorError {
+        VectorError { line, ..self.lines.error(field, message) }
+    }
+
     /// The next record; `None` after the last.
     fn read(&mut self) -> Result<Option<Record>, VectorError> {
         let (announced, records) = (self.header.count, self.records);
-        if records == announced {
-            let Some(line) = self.lines.next()? else { return Ok(None) };
+        let is_whole = announced.map_or(self.marked, |announced| announced == records);
+        let Some(line) = self.lines.next()? else {
+            return if is_whole { Ok(None) } else { Err(self.truncated()) };
+        };
+        if line.text == END && !self.marked && (announced.is_none() || is_whole) {
+            if records == 0 {
+                return Err(line.error("end", "a file without records shows nothing"));
+            }
+            self.marked = true;
+            return self.read();
+        }
+        if self.marked || is_whole {
             let text = quoted(line.text);
-            let message = format!("the header announces {announced}, but the file goes on: {text}");
-            return Err(line.error("count", message));
+            let before = match announced {
+                Some(count) => format!("the header announces {count}"),
+                None => format!("`{END}` marks the end"),
+            };
+            return Err(line.error("count", format!("{before}, but the file goes on: {text}")));
         }
         self.records += 1;
-        let record = match self.header.kind.columns() {
-            None => listing::read(&mut self.lines)?.map(Record::Listing),
+        match self.header.kind.columns() {
+            None => listing::read(&mut self.lines).map(Some),
             Some(columns) => {
-                let line = self.lines.next()?;
-                let row = line.map(|line| Row::new(line, columns)).transpose()?;
-                row.map(|row| record::read(self.header.kind, &row)).transpose()?
+                let row = Row::new(self.lines.last(), columns)?;
+                record::read(self.header.kind, &row).map(Some)
             }
+        }
+    }
+
+    fn truncated(&self) -> VectorError {
+        let records = self.records;
+        let before = match self.header.count {
+            Some(count) => format!("the header announces {count}"),
+            None => format!("the header has no count, so the last line must be `{END}`"),
         };
-        let truncated = || {
-            let message = format!(
-                "the header announces {announced}, but the file ends after {records}; it is \
-                 truncated"
-            );
-            self.lines.error("count", message)
-        };
-        record.map(Some).ok_or_else(truncated)
+        let message = format!("{before}, but the file ends after {records}; it is truncated");
+        self.lines.error("count", message)
     }
 }
 

@@ -91,7 +91,7 @@ fn strength_applies_to_devices() {
     let report = observe(case(TRIANGLE), missing, any);
     let shown = report.differences[0].mismatch.to_string();
     assert!(shown.starts_with("primitive ("), "{shown}");
-    assert!(shown.contains("times, expected"), "{shown}");
+    assert!(shown.contains(" times (but primitive ("), "the other one beside it: {shown}");
 
     let tie = TRIANGLE.replace("40733333", "40733320");
     let up = right(&TRIANGLE.replace("40733333", "40733340"));

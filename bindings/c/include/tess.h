@@ -265,6 +265,21 @@
 #define TESS_NUMBERING_PER_BATCH 1
 
 /**
+ * Order: the model's, index for index.
+ */
+#define TESS_ORDER_EXACT 0
+
+/**
+ * Order: the model's order of primitives and of their vertices, each vertex by its coordinates.
+ */
+#define TESS_ORDER_SEQUENCE 1
+
+/**
+ * Order: any, and any leading vertex of a triangle.
+ */
+#define TESS_ORDER_ANY 2
+
+/**
  * Tessellates batches. Made by `tess_batch_create`, given back to `tess_batch_free`.
  */
 typedef struct TessBatch TessBatch;
@@ -579,6 +594,21 @@ typedef struct TessBatchOutput {
 } TessBatchOutput;
 
 /**
+ * A tessellator under test: it writes the points and indices of one patch and their counts.
+ *
+ * `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices; both and
+ * `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is what
+ * `tess_fuzz` was given. It answers 0, or any other number if it could not run, which is a finding.
+ */
+typedef int32_t (*TessDevice)(void *user,
+                              const struct TessConfig *config,
+                              const float *factors,
+                              size_t factor_count,
+                              struct TessPoint *points,
+                              uint32_t *indices,
+                              struct TessCounts *counts);
+
+/**
  * Done.
  */
 #define TESS_OK 0
@@ -642,6 +672,11 @@ typedef struct TessBatchOutput {
  * A defect of this library; nothing was written.
  */
 #define TESS_INTERNAL 12
+
+/**
+ * A tessellator under test differs from the model (`tess_fuzz`).
+ */
+#define TESS_DIFFERENT 13
 
 #ifdef __cplusplus
 extern "C" {
@@ -938,6 +973,29 @@ TessStatus tess_batch_groups(const struct TessRange *ranges,
                              const uint32_t *starts,
                              size_t group_count,
                              struct TessRange *groups);
+
+/**
+ * Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.
+ *
+ * Any bytes are a patch; most are small, and boundaries are frequent. `order` is `TESS_ORDER_...`.
+ * `TESS_OK`: equal. `TESS_DIFFERENT`: a finding, and `message` has the case as a line that
+ * `tess patch --cases` takes, a command that shows what is right, and the first difference. The
+ * message ends with a zero byte and is cut off at `message_capacity` bytes; 1024 are enough. This
+ * function allocates.
+ *
+ * The caller must ensure:
+ * Pointers that are not null and aligned must be valid:
+ * - `data` for reading `size` bytes,
+ * - `device` for calls as its type says,
+ * - `message` for writing `message_capacity` bytes.
+ */
+TessStatus tess_fuzz(const uint8_t *data,
+                     size_t size,
+                     TessDevice device,
+                     void *user,
+                     uint32_t order,
+                     char *message,
+                     size_t message_capacity);
 
 #ifdef __cplusplus
 }  // extern "C"

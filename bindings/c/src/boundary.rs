@@ -21,8 +21,12 @@ pub(crate) fn check<T>(pointer: *const T) -> Result<(), TessStatus> {
 /// The addresses of a caller's array.
 pub(crate) type Bytes = Range<usize>;
 
-/// The addresses of an array of `len` values. Refuses arrays larger than memory can be.
+/// The addresses of an array of `len` values. Refuses arrays larger than memory can be, and null where
+/// there are values: two such arrays do not share memory.
 pub(crate) fn bytes<T>(pointer: *const T, len: usize) -> Result<Bytes, TessStatus> {
+    if len > 0 && pointer.is_null() {
+        return Err(TESS_NULL_POINTER);
+    }
     let size = len.checked_mul(size_of::<T>()).filter(|&size| isize::try_from(size).is_ok());
     let end = size.and_then(|size| pointer.addr().checked_add(size));
     end.map(|end| pointer.addr()..end).ok_or(TESS_TOO_LARGE)
@@ -125,6 +129,13 @@ mod tests {
         assert_eq!(check_apart(&at(4, 4), &at(0, 5)), Err(TESS_OVERLAP), "and reversed");
         assert_eq!(check_apart(&at(2, 1), &at(0, 8)), Err(TESS_OVERLAP), "contained");
         assert_eq!(check_apart(&at(2, 0), &at(0, 8)), Ok(()), "empty");
+    }
+
+    #[test]
+    fn null_is_no_overlap() {
+        let null = std::ptr::null::<u32>();
+        assert_eq!(bytes(null, 1), Err(TESS_NULL_POINTER), "a value at null");
+        assert_eq!(bytes(null, 0), Ok(0..0), "no value");
     }
 
     #[test]

@@ -4,6 +4,7 @@ pub mod batch;
 mod boundary;
 mod context;
 pub mod dpi;
+pub mod fuzz;
 pub mod patch;
 pub mod prepare;
 pub mod probe;

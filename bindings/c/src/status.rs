@@ -31,9 +31,11 @@ pub const TESS_INDEX_TOO_LARGE: TessStatus = 10;
 pub const TESS_LEVEL_UNAVAILABLE: TessStatus = 11;
 /// A defect of this library; nothing was written.
 pub const TESS_INTERNAL: TessStatus = 12;
+/// A tessellator under test differs from the model (`tess_fuzz`).
+pub const TESS_DIFFERENT: TessStatus = 13;
 
 /// Every status with its message, in the order of their numbers.
-const MESSAGES: [&CStr; 13] = [
+const MESSAGES: [&CStr; 14] = [
     c"done",
     c"a pointer is null",
     c"a pointer is not aligned",
@@ -47,6 +49,7 @@ const MESSAGES: [&CStr; 13] = [
     c"an index does not fit the index format",
     c"the CPU level is not available",
     c"a defect of the library",
+    c"the tessellator differs from the model",
 ];
 
 /// What a status means, in English, without a newline.

@@ -141,6 +141,17 @@ pub(crate) fn parity(number: u32) -> Result<Parity, TessStatus> {
 }
 
 impl TessConfig {
+    /// The numbers of a configuration and a domain.
+    pub(crate) const fn encode(config: Config, domain: Domain) -> Self {
+        let Config { partitioning, output, split } = config;
+        Self {
+            domain: domain as u32,
+            partitioning: partitioning as u32,
+            output: output as u32,
+            split: split as u32,
+        }
+    }
+
     /// The configuration and the domain, every number checked.
     pub(crate) fn decode(&self) -> Result<(Config, Domain), TessStatus> {
         let config = Config {
@@ -244,6 +255,13 @@ mod tests {
             (Ok(Parity::Even), Ok(Parity::Odd), Err(TESS_UNKNOWN_VALUE)),
             "parities"
         );
+    }
+
+    #[test]
+    fn numbers_go_both_ways() {
+        for (domain, config) in tess_verify::generate::configurations() {
+            assert_eq!(TessConfig::encode(config, domain).decode(), Ok((config, domain)));
+        }
     }
 
     #[test]

@@ -8,6 +8,7 @@
 mod api {
     mod batch;
     mod dpi;
+    mod fuzz;
     mod hostile;
     mod samples;
     mod single;

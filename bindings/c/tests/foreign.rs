@@ -23,6 +23,8 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("example_equals_golden_static", &["cc"], c::example_equals_golden_static),
     ("example_equals_golden_shared", &["cc"], c::example_equals_golden_shared),
     ("example_refuses_bad_usage", &["cc"], c::example_refuses_bad_usage),
+    ("fuzz_finds_a_planted_fault", &["cc"], c::fuzz_finds_a_planted_fault),
+    ("fuzz_entry_is_cpp", &["c++"], c::fuzz_entry_is_cpp),
     ("verilog_equals_model", &["c++", "make", "verilator"], verilog::equals_model),
     ("verilog_faults_are_caught", &["c++", "make", "verilator"], verilog::faults_are_caught),
     ("uvm_compiles_and_runs", &["c++", "make", "verilator"], uvm::compiles_and_runs),

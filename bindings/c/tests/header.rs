@@ -13,6 +13,7 @@ const SOURCES: &[&str] = &[
     "prepare",
     "batch",
     "batch/output",
+    "fuzz",
 ];
 
 /// With `TESS_BLESS` set, writes the header instead of comparing it.

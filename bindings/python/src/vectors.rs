@@ -76,7 +76,8 @@ pub(crate) fn generate(
     let shard = Shard { part: part - 1, of };
     let domain = domain.map(named).transpose()?;
     let partitioning = partitioning.map(named).transpose()?;
-    let cases = Selection { level, seed, random: count, domain, partitioning }.cases();
+    let cases =
+        Selection { random: count, domain, partitioning, ..Selection::level(level, seed) }.cases();
     let numbered = (0..).zip(cases);
     let chosen = numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case);
     Ok(Cases(Mutex::new(Box::new(chosen))))
@@ -105,7 +106,7 @@ pub(crate) fn write_vectors(
         return Err(argument("a vector file has at least one patch"));
     }
     let source = "tess-core".to_owned();
-    let header = Header { kind, count: cases.len() as u64, source, notes: Vec::new() };
+    let header = Header { kind, count: Some(cases.len() as u64), source, notes: Vec::new() };
     Ok(py.detach(|| {
         let mut file = BufWriter::new(File::create(path)?);
         match kind {
@@ -123,9 +124,9 @@ pub(crate) struct VectorFile {
     /// What the records are: ``listings``, ``patches``, ``sweep``, ...
     #[pyo3(get)]
     kind: &'static str,
-    /// How many records there are.
+    /// How many records there are; ``None`` if the file marks its end instead.
     #[pyo3(get)]
-    count: u64,
+    count: Option<u64>,
     /// Where the results come from: a name for people.
     #[pyo3(get)]
     source: String,
@@ -152,7 +153,8 @@ impl VectorFile {
     }
 
     fn __repr__(&self) -> String {
-        format!("<VectorFile: {} {} from {}>", self.count, self.kind, self.source)
+        let count = self.count.map_or(String::new(), |count| format!("{count} "));
+        format!("<VectorFile: {count}{} from {}>", self.kind, self.source)
     }
 }
 
@@ -261,10 +263,10 @@ pub(crate) fn check<'py>(
         let threads = std::thread::available_parallelism().map_or(1, usize::from);
         let mut backends: Vec<Box<dyn Backend>> =
             (0..threads).map(|_| Box::new(CoreBackend) as Box<dyn Backend>).collect();
-        checker::check(file, &mut backends, tested, &|records| {
+        checker::check(file, &mut backends, tested, &|checked| {
             if let Some(coverage) = coverage {
                 let mut coverage = coverage.lock();
-                let cases = records.iter().filter_map(tess_verify::vectors::Record::case);
+                let cases = checked.records.iter().filter_map(tess_verify::vectors::Record::case);
                 cases.for_each(|case| coverage.record(&case));
             }
         })

@@ -1,10 +1,13 @@
 //! Observations of a device under test, compared with the model.
 
 use super::Found;
+use super::report::Turns;
 use crate::case::Case;
 use crate::compare::{self, Element, Mismatch, Stage};
 use crate::generate::from_fixed;
 use crate::strength::{Alternatives, Difference, Elements, Order, Strength, first_difference};
+use crate::vectors::{Coordinates, primitive_size};
+use crate::ways::Way;
 use tess_core::{Config, PatchFactors, SplitOrder, Tessellation};
 
 /// What is found of a device's output for a case.
@@ -12,8 +15,35 @@ pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) ->
     match strength.explain(case, observed) {
         Some(conversions) if conversions.values.is_empty() => Found::Equal,
         Some(conversions) => Found::Converted(*case, conversions),
-        None => Found::new(first_mismatch(case, observed, strength), Some(*case)),
+        None => match first_mismatch(case, observed, strength) {
+            Some(mismatch) => Found::Turned(mismatch, *case, turns(case, observed, strength)),
+            None => Found::Equal,
+        },
     }
+}
+
+/// What is found of a device's output by coordinates. They have no vertex numbers, so the strictest
+/// order is the model's sequence; third coordinates are compared in any strength.
+pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -> Found {
+    let order = match strength.order {
+        Order::Exact => Order::Sequence,
+        order => order,
+    };
+    let (case, output) = (&coordinates.case, coordinates.output());
+    match (check(case, &output, Strength { order, ..strength }), coordinates.wrong_third()) {
+        (Found::Equal | Found::Converted(..), Some((vertex, observed, expected))) => {
+            let size = primitive_size(case);
+            let element = Element::Third { primitive: vertex / size, position: vertex % size };
+            let mismatch = Mismatch::hex(element, 5, observed, expected, Stage::Location);
+            Found::Different(mismatch, Some(*case))
+        }
+        (found, _) => found,
+    }
+}
+
+/// Which mistakes that turn outputs round explain an output.
+fn turns(case: &Case, observed: &Tessellation, strength: Strength) -> Turns {
+    Way::TURNS.map(|way| way.explains(case, observed, strength, 64))
 }
 
 /// The first difference to the output that is the nearest of the legal ones.
@@ -57,11 +87,15 @@ fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
 }
 
 fn unordered(difference: Difference) -> Mismatch {
-    let Difference { vertices, observed, expected } = difference;
+    let Difference { vertices, observed, expected, instead } = difference;
     let stage = if vertices.len() == 1 { Stage::Location } else { Stage::Stitch };
     let times = |count: usize| format!("{count} times");
-    let element = Element::Vertices(vertices);
-    Mismatch { element, observed: times(observed), expected: times(expected), stage }
+    let instead = instead.map(|other| {
+        let Difference { vertices, observed, expected, .. } = *other;
+        format!(" (but {} {observed} times, not {expected})", Element::Vertices(vertices))
+    });
+    let observed = times(observed) + &instead.unwrap_or_default();
+    Mismatch { element: Element::Vertices(vertices), observed, expected: times(expected), stage }
 }
 
 /// The stage that explains a whole output: one that the model reaches with one factor processed

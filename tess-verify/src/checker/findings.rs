@@ -1,6 +1,7 @@
 //! What is found record by record, and what it adds up to.
 
 use super::consistency::{Use, conflicts};
+use super::report::Turns;
 use super::{Difference, MAX_DIFFERENCES, Report};
 use crate::case::Case;
 use crate::compare::Mismatch;
@@ -14,9 +15,16 @@ pub(super) enum Found {
     Converted(Case, Conversions),
     /// What is wrong with it, and the patch that shows it, if one does.
     Different(Mismatch, Option<Case>),
+    /// What is wrong with a device's output for a case, and which turns explain it.
+    Turned(Mismatch, Case, Turns),
 }
 
 impl Found {
+    /// Whether the record differs, as far as it shows on its own.
+    pub(super) const fn is_different(&self) -> bool {
+        matches!(self, Self::Different(..) | Self::Turned(..))
+    }
+
     pub(super) fn new(mismatch: Option<Mismatch>, case: Option<Case>) -> Self {
         mismatch.map_or(Self::Equal, |mismatch| Self::Different(mismatch, case))
     }
@@ -45,13 +53,21 @@ impl Findings {
                 self.uses.push(Use { number, line, case, conversions });
             }
             Found::Different(mismatch, case) => {
-                self.report.mismatches += 1;
-                if self.report.differences.len() < MAX_DIFFERENCES {
-                    let file = file();
-                    let difference = Difference { number, line, mismatch, case, file };
-                    self.report.differences.push(difference);
-                }
+                self.report.explain(Turns::default());
+                self.differ(Difference { number, line, mismatch, case, file: None }, file);
             }
+            Found::Turned(mismatch, case, turns) => {
+                self.report.explain(turns);
+                let case = Some(case);
+                self.differ(Difference { number, line, mismatch, case, file: None }, file);
+            }
+        }
+    }
+
+    fn differ(&mut self, difference: Difference, file: impl FnOnce() -> Option<String>) {
+        self.report.mismatches += 1;
+        if self.report.differences.len() < MAX_DIFFERENCES {
+            self.report.differences.push(Difference { file: file(), ..difference });
         }
     }
 

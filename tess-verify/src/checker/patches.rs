@@ -34,6 +34,7 @@ pub(super) fn single(
 fn listings(records: &[Record], strength: Strength) -> Vec<Found> {
     let listing = |record: &Record| match record {
         Record::Listing(listing) => Some(device::check(&listing.case, &listing.output, strength)),
+        Record::Coordinates(coordinates) => Some(device::check_coordinates(coordinates, strength)),
         _ => None,
     };
     records.iter().filter_map(listing).collect()
@@ -48,7 +49,10 @@ fn compare_one(
     match record {
         Record::Listing(listing) => {
             let found = compare::tessellations(case, output, &listing.output);
-            found.map(|mismatch| stages::trace(backend, case, mismatch)).transpose()
+            Ok(found.map(|mismatch| stages::trace(backend, case, mismatch)))
+        }
+        Record::Coordinates(coordinates) => {
+            Ok(compare::sequences(case, output, &coordinates.output()))
         }
         Record::Patch(row) => sizes(backend, case, output, &row.output),
         Record::Preparation(row) => match prepared(row) {
@@ -105,7 +109,7 @@ fn sizes(
     }
     let found = compare::tessellations(case, observed, &case.patch().tessellate());
     if let Some(mismatch) = found {
-        return stages::trace(backend, case, mismatch).map(Some);
+        return Ok(Some(stages::trace(backend, case, mismatch)));
     }
     let digest = Mismatch::digest;
     Ok(Mismatch::count("points", sizes.points, expected.points)
@@ -158,7 +162,7 @@ fn chain(
     for ((&factors, observed), expected) in patches.iter().zip(&observed).zip(&expected) {
         let case = Case { config: row.config, factors };
         if let Some(mismatch) = compare::tessellations(&case, observed, expected) {
-            return Ok(Found::Different(stages::trace(backend, &case, mismatch)?, Some(case)));
+            return Ok(Found::Different(stages::trace(backend, &case, mismatch), Some(case)));
         }
     }
     let mismatch = Mismatch::digest("chained patches", digest.finish(), row.chain, Stage::Unknown);

@@ -5,6 +5,7 @@ use crate::case::Case;
 use crate::compare::Mismatch;
 use crate::names::Named;
 use crate::vectors::{Header, Kind, Record, VectorError};
+use crate::ways::Way;
 use std::fmt;
 
 /// How many differences a report shows in full.
@@ -20,11 +21,32 @@ pub struct Report {
     pub mismatches: u64,
     /// The first differences, at most [`MAX_DIFFERENCES`], in the order of the file.
     pub differences: Vec<Difference>,
+    /// What explains every difference so far; `None` if there is none.
+    turns: Option<Turns>,
 }
 
+/// For each of [`Way::TURNS`], whether it explains an output.
+pub(super) type Turns = [bool; Way::TURNS.len()];
+
 impl Report {
+    /// The one mistake that turns outputs round and explains every difference, if one does.
+    #[must_use]
+    pub fn turn(&self) -> Option<Way> {
+        let turns = self.turns?;
+        Way::TURNS.into_iter().zip(turns).find_map(|(way, explains)| explains.then_some(way))
+    }
+
+    /// Adds which turns explain a difference.
+    pub(super) fn explain(&mut self, turns: Turns) {
+        let before = self.turns.unwrap_or([true; Way::TURNS.len()]);
+        self.turns = Some(std::array::from_fn(|i| before[i] && turns[i]));
+    }
+
     /// Adds what another worker found.
     pub(super) fn add(&mut self, other: Self) {
+        if let Some(turns) = other.turns {
+            self.explain(turns);
+        }
         self.cases += other.cases;
         self.mismatches += other.mismatches;
         self.differences.extend(other.differences);
@@ -74,7 +96,7 @@ impl Difference {
 /// A record as a vector file of its own; `None` for a listing, which may be long.
 pub(super) fn file_of(header: &Header, record: &Record) -> Option<String> {
     let (row, columns) = (record.text()?, header.kind.columns()?);
-    let header = Header { count: 1, ..header.clone() };
+    let header = Header { count: Some(1), ..header.clone() };
     Some(format!("{header}\n{}\n{row}\n", columns.join(",")))
 }
 

@@ -7,25 +7,23 @@ use crate::core_backend::CoreBackend;
 use tess_core::{FactorContext, ProcessedFactor};
 
 /// The same mismatch with the earliest stage that the backend gets wrong on this patch, asked one
-/// by one; the stage stays if all of them are right on their own.
-pub(super) fn trace(
-    backend: &mut dyn Backend,
-    case: &Case,
-    mismatch: Mismatch,
-) -> Result<Mismatch, BackendError> {
+/// by one; the stage stays if all of them are right on their own, or the backend does not answer.
+pub(super) fn trace(backend: &mut dyn Backend, case: &Case, mismatch: Mismatch) -> Mismatch {
     let patch = case.patch();
     let processed: Vec<_> =
         patch.processed().factors().into_iter().flat_map(|f| f.iter()).collect();
-    let stage = if !factors_agree(backend, case)? {
+    // A backend that failed, rather than gives whole patches alone, fails on its next patch again.
+    let is_wrong = |agree: Result<bool, BackendError>| agree.is_ok_and(|agree| !agree);
+    let stage = if is_wrong(factors_agree(backend, case)) {
         Stage::Factors
-    } else if !contexts_agree(backend, case, &processed)? {
+    } else if is_wrong(contexts_agree(backend, case, &processed)) {
         Stage::Context
-    } else if !locations_agree(backend, &processed)? {
+    } else if is_wrong(locations_agree(backend, &processed)) {
         Stage::Location
     } else {
         mismatch.stage
     };
-    Ok(Mismatch { stage, ..mismatch })
+    Mismatch { stage, ..mismatch }
 }
 
 fn factors_agree(backend: &mut dyn Backend, case: &Case) -> Result<bool, BackendError> {

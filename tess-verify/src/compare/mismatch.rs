@@ -21,6 +21,8 @@ pub enum Stage {
     PointOrder,
     /// Connectivity (spec sections 7 and 8).
     Stitch,
+    /// Another case was answered than was asked.
+    Answer,
     /// A digest over whole patches differs, every element of which is the model's.
     Unknown,
 }
@@ -35,6 +37,7 @@ impl fmt::Display for Stage {
             Self::Location => "location",
             Self::PointOrder => "point order",
             Self::Stitch => "stitch",
+            Self::Answer => "answer",
             Self::Unknown => "unknown, every element is the model's",
         })
     }
@@ -60,6 +63,15 @@ pub enum Element {
         /// Position in the primitive, from 0.
         position: usize,
     },
+    /// The third coordinate of a vertex.
+    Third {
+        /// Number of the primitive.
+        primitive: usize,
+        /// Position in the primitive, from 0.
+        position: usize,
+    },
+    /// The case that a record answers.
+    Case,
     /// A field of a factor's context.
     Context {
         /// The factor.
@@ -104,6 +116,10 @@ impl fmt::Display for Element {
             Self::Index { primitive, position } => {
                 write!(f, "index {position} of primitive {primitive}")
             }
+            Self::Third { primitive, position } => {
+                write!(f, "third coordinate of vertex {position} of primitive {primitive}")
+            }
+            Self::Case => f.write_str("case that is answered"),
             Self::Context { factor, field } => {
                 write!(f, "{field} of the context of factor 0x{:06x}", factor.to_bits())
             }

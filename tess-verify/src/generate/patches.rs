@@ -1,7 +1,7 @@
 //! Random factors and patches.
 
 use super::{exceptional_factors, from_fixed, pick, special_factors};
-use crate::random::SplitMix64;
+use crate::random::{Draw, SplitMix64};
 use tess_core::{Domain, PatchFactors};
 
 /// The largest factor there is.
@@ -27,18 +27,27 @@ pub fn random_factor(random: &mut SplitMix64) -> f32 {
 /// Another 64th has nothing above 1, as minimum patches do.
 #[must_use]
 pub fn random_patch(domain: Domain, random: &mut SplitMix64) -> PatchFactors {
+    patch_of(domain, random, factor_up_to)
+}
+
+/// The shape of [`random_patch`], with factors of which those in range end at the number given.
+pub(crate) fn patch_of<D: Draw>(
+    domain: Domain,
+    random: &mut D,
+    factor: impl Fn(u16, &mut D) -> f32,
+) -> PatchFactors {
     let positions = u32::try_from(domain.factors()).unwrap_or(u32::MAX);
     let (kind, one) = (random.below(128), random.below(positions) as usize);
     PatchFactors::from_fn(domain, |position| match kind {
-        0..2 => factor_up_to(MAXIMUM, random),
+        0..2 => factor(MAXIMUM, random),
         2..4 => pick(random, &UP_TO_ONE),
-        4..20 if position == one => factor_up_to(MAXIMUM, random),
-        _ => factor_up_to(SMALL, random),
+        4..20 if position == one => factor(MAXIMUM, random),
+        _ => factor(SMALL, random),
     })
 }
 
 /// The kinds of [`random_factor`], those in range from 1 to `top`, which is 3 to 64.
-fn factor_up_to(top: u16, random: &mut SplitMix64) -> f32 {
+pub(crate) fn factor_up_to(top: u16, random: &mut impl Draw) -> f32 {
     let top = u32::from(top);
     match random.below(20) {
         0..8 => from_fixed(random.below((top - 1) << 16) + 0x1_0000),
@@ -56,6 +65,6 @@ fn factor_up_to(top: u16, random: &mut SplitMix64) -> f32 {
             pick(random, &factors)
         }
         18 => pick(random, &special_factors()),
-        _ => f32::from_bits(random.next_u32()),
+        _ => f32::from_bits(random.bits()),
     }
 }

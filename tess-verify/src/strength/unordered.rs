@@ -3,8 +3,10 @@
 use super::Elements;
 use crate::case::Case;
 use crate::vectors::primitive_size;
+use std::cmp::Reverse;
+use std::collections::BTreeMap;
 use std::iter::Peekable;
-use tess_core::Tessellation;
+use tess_core::{DomainPoint, Tessellation};
 
 /// An element that one output has more often than the other may.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -15,6 +17,9 @@ pub(crate) struct Difference {
     pub(crate) observed: usize,
     /// How often it should.
     pub(crate) expected: usize,
+    /// Of the elements that are wrong the other way round, too often instead of too rarely or the
+    /// reverse, the one most like this one.
+    pub(crate) instead: Option<Box<Difference>>,
 }
 
 /// The first point, else the first primitive, that is not in both outputs as often as it must be.
@@ -31,107 +36,175 @@ pub(crate) fn first_difference(
     if elements == Elements::Primitives && observed == expected {
         return None;
     }
-    match elements {
-        Elements::Points => points(observed, expected, |_| true),
-        Elements::Primitives => points(observed, expected, |place| all_used(observed, place))
-            .or_else(|| primitives(case, observed, expected)),
+    let known = Places::of(expected);
+    let ranks = [known.ranks(observed), known.ranks(expected)];
+    points(elements, observed, &known, &ranks).or_else(|| match elements {
+        Elements::Points => None,
+        Elements::Primitives => {
+            let size = primitive_size(case);
+            primitives(size, &known, [(observed, &ranks[0]), (expected, &ranks[1])])
+        }
+    })
+}
+
+/// The distinct places of the model's points, ascending: bits of u above bits of v.
+struct Places(Vec<u64>);
+
+/// The number of a place among them; [`NOWHERE`] for others. A patch has at most 4225 points.
+type Rank = u16;
+/// Bits of a rank in a primitive's key.
+const RANK: u32 = 13;
+const NOWHERE: Rank = (1 << RANK) - 1;
+
+impl Places {
+    fn of(output: &Tessellation) -> Self {
+        let mut places: Vec<u64> = output.points.iter().map(place).collect();
+        places.sort_unstable();
+        places.dedup();
+        Self(places)
+    }
+
+    /// The rank of each point.
+    fn ranks(&self, output: &Tessellation) -> Vec<Rank> {
+        let rank = |point| self.0.binary_search(&place(point)).ok();
+        let bounded = |rank: Option<usize>| Rank::try_from(rank?).ok();
+        output.points.iter().map(|point| bounded(rank(point)).unwrap_or(NOWHERE)).collect()
+    }
+
+    /// How often each place comes.
+    fn times(&self, ranks: &[Rank]) -> Vec<usize> {
+        let mut times = vec![0; self.0.len()];
+        for &rank in ranks {
+            if let Some(times) = times.get_mut(usize::from(rank)) {
+                *times += 1;
+            }
+        }
+        times
+    }
+
+    fn vertex(&self, rank: u64) -> [u32; 2] {
+        let place = usize::try_from(rank).ok().and_then(|rank| self.0.get(rank));
+        place.map_or([u32::MAX; 2], |&place| [high(place), low(place)])
     }
 }
 
-/// The first place that only one output has, or that the observed one lists more often and
-/// `may_repeat` refuses.
+/// The first place that only one output has, or that the observed one lists more often where it must
+/// not.
 fn points(
+    elements: Elements,
     observed: &Tessellation,
-    expected: &Tessellation,
-    may_repeat: impl Fn(u64) -> bool,
+    known: &Places,
+    ranks: &[Vec<Rank>; 2],
 ) -> Option<Difference> {
-    let sorted = |output: &Tessellation| {
-        let mut places: Vec<u64> = places(output).collect();
-        places.sort_unstable();
-        places
+    let times = ranks.each_ref().map(|ranks| known.times(ranks));
+    let may_repeat = match elements {
+        Elements::Points => vec![true; known.0.len()],
+        Elements::Primitives => all_used(observed, &ranks[0], known.0.len()),
     };
-    let (observed, expected) = (sorted(observed), sorted(expected));
-    let wrong = |(place, observed, expected): &(u64, usize, usize)| {
-        let missing = *observed == 0 || *expected == 0;
-        missing || (observed > expected && !may_repeat(*place))
-    };
-    let (place, observed, expected) = counts(&observed, &expected).find(wrong)?;
-    Some(Difference { vertices: vec![[high(place), low(place)]], observed, expected })
-}
-
-/// Whether primitives use every point at `place`.
-fn all_used(output: &Tessellation, place: u64) -> bool {
-    let mut used = vec![false; output.points.len()];
-    for &index in &output.indices {
-        if let Some(used) = used.get_mut(index as usize) {
-            *used = true;
+    let mut wrong: BTreeMap<u64, (usize, usize)> = BTreeMap::new();
+    for (rank, &place) in known.0.iter().enumerate() {
+        let (observed, expected) = (times[0][rank], times[1][rank]);
+        if observed == 0 || (observed > expected && !may_repeat[rank]) {
+            wrong.insert(place, (observed, expected));
         }
     }
-    places(output).zip(used).all(|(other, used)| used || other != place)
+    let unknown = observed.points.iter().zip(&ranks[0]).filter(|(_, rank)| **rank == NOWHERE);
+    for (point, _) in unknown {
+        wrong.entry(place(point)).or_default().0 += 1;
+    }
+    let vertices = |place| vec![[high(place), low(place)]];
+    Difference::first(wrong.into_iter().map(|(place, (o, e))| (vertices(place), o, e)))
+}
+
+/// For each place, whether primitives use every point that lies there.
+fn all_used(output: &Tessellation, ranks: &[Rank], places: usize) -> Vec<bool> {
+    let mut is_used = vec![false; ranks.len()];
+    for &index in &output.indices {
+        if let Some(is_used) = is_used.get_mut(index as usize) {
+            *is_used = true;
+        }
+    }
+    let mut all_used = vec![true; places];
+    for (_, &rank) in is_used.iter().zip(ranks).filter(|(is_used, _)| !**is_used) {
+        if let Some(all_used) = all_used.get_mut(usize::from(rank)) {
+            *all_used = false;
+        }
+    }
+    all_used
 }
 
 /// The first primitive that is not in both outputs equally often. Where points are the primitives,
 /// coinciding ones may have been merged.
-fn primitives(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Option<Difference> {
-    let size = primitive_size(case);
-    let (observed, expected) =
-        (sorted_primitives(observed, size), sorted_primitives(expected, size));
+fn primitives(
+    size: usize,
+    known: &Places,
+    outputs: [(&Tessellation, &Vec<Rank>); 2],
+) -> Option<Difference> {
+    let [observed, expected] =
+        outputs.map(|(output, ranks)| sorted_primitives(output, ranks, size));
     if observed == expected {
         return None;
     }
-    let wrong = |&(_, observed, expected): &(u128, usize, usize)| match size {
+    let wrong = |&(_, observed, expected): &(u64, usize, usize)| match size {
         1 => observed == 0 || observed > expected,
         _ => observed != expected,
     };
-    let (key, observed, expected) = counts(&observed, &expected).find(wrong)?;
-    Some(Difference { vertices: vertices(key, size), observed, expected })
+    let vertices = |key: u64| {
+        let rank =
+            |number: usize| key >> (RANK as usize * (size - 1 - number)) & u64::from(NOWHERE);
+        (0..size).map(|number| known.vertex(rank(number))).collect()
+    };
+    let wrong = counts(&observed, &expected).filter(wrong);
+    Difference::first(wrong.map(|(key, observed, expected)| (vertices(key), observed, expected)))
 }
 
-/// Bits of a place in a primitive's key: 17 of u, 17 of v. All places are the model's by now, which
-/// are at most 2^16.
-const COORDINATE: u32 = 17;
-const VERTEX: u32 = 2 * COORDINATE;
-/// Stands for the vertex of an index that is out of range: no point lies there.
-const NOWHERE: u128 = (1 << VERTEX) - 1;
-
-/// The primitives of an output as sorted keys: equal keys are equal primitives.
-fn sorted_primitives(output: &Tessellation, size: usize) -> Vec<u128> {
-    let key = |place: u64| u128::from(high(place)) << COORDINATE | u128::from(low(place));
-    let keys: Vec<u128> = places(output).map(key).collect();
-    let vertex = |index: u32| keys.get(index as usize).copied().unwrap_or(NOWHERE);
-    let mut primitives: Vec<u128> = output
-        .indices
-        .chunks(size)
-        .map(|primitive| match *primitive {
-            [a, b, c] => triangle([a, b, c].map(vertex)),
-            ref other => other.iter().fold(0, |key, &index| key << VERTEX | vertex(index)),
-        })
-        .collect();
+/// The primitives of an output as sorted keys, made of ranks: equal keys are equal primitives.
+fn sorted_primitives(output: &Tessellation, ranks: &[Rank], size: usize) -> Vec<u64> {
+    let vertex = |&index: &u32| u64::from(ranks.get(index as usize).copied().unwrap_or(NOWHERE));
+    let key = |primitive: &[u32]| match primitive {
+        [a, b, c] => triangle([a, b, c].map(vertex)),
+        other => other.iter().fold(0, |key, index| key << RANK | vertex(index)),
+    };
+    let mut primitives: Vec<u64> = output.indices.chunks(size).map(key).collect();
     primitives.sort_unstable();
     primitives
 }
 
 /// The smallest of the three keys that a triangle has, depending on the vertex that leads.
-fn triangle([a, b, c]: [u128; 3]) -> u128 {
-    let key = |a, b, c| a << (2 * VERTEX) | b << VERTEX | c;
+fn triangle([a, b, c]: [u64; 3]) -> u64 {
+    let key = |a, b, c| a << (2 * RANK) | b << RANK | c;
     key(a, b, c).min(key(b, c, a)).min(key(c, a, b))
 }
 
-/// What [`sorted_primitives`] made a key of.
-fn vertices(key: u128, size: usize) -> Vec<[u32; 2]> {
-    let coordinate = |vertex: u128, shift: u32| {
-        u32::try_from(vertex >> shift & ((1 << COORDINATE) - 1)).unwrap_or(u32::MAX)
-    };
-    let vertex = |number: usize| {
-        let vertex = key >> (VERTEX as usize * (size - 1 - number)) & NOWHERE;
-        [coordinate(vertex, COORDINATE), coordinate(vertex, 0)]
-    };
-    (0..size).map(vertex).collect()
+impl Difference {
+    /// The first of the wrong elements, with what is there instead: vertices, and how often observed
+    /// and expected.
+    fn first(wrong: impl Iterator<Item = (Vec<[u32; 2]>, usize, usize)>) -> Option<Self> {
+        let difference =
+            |(vertices, observed, expected)| Self { vertices, observed, expected, instead: None };
+        let mut wrong = wrong.map(difference);
+        let first = wrong.next()?;
+        let others = wrong.filter(|other| other.is_missing() != first.is_missing());
+        let nearest = others.min_by_key(|other| Reverse(other.likeness(&first)));
+        Some(Self { instead: nearest.map(Box::new), ..first })
+    }
+
+    const fn is_missing(&self) -> bool {
+        self.observed < self.expected
+    }
+
+    /// How many vertices two elements have in common, then how near the others are.
+    fn likeness(&self, other: &Self) -> (usize, Reverse<u64>) {
+        let common = self.vertices.iter().filter(|vertex| other.vertices.contains(vertex)).count();
+        let coordinates = |one: &Self| one.vertices.as_flattened().to_vec();
+        let distances = coordinates(self).into_iter().zip(coordinates(other));
+        (common, Reverse(distances.map(|(a, b)| u64::from(a.abs_diff(b))).sum()))
+    }
 }
 
-/// The places of an output's points in their order: bits of u above bits of v.
-fn places(output: &Tessellation) -> impl Iterator<Item = u64> {
-    output.points.iter().map(|p| u64::from(p.u.to_bits()) << 32 | u64::from(p.v.to_bits()))
+/// The place of a point: bits of u above bits of v.
+fn place(point: &DomainPoint) -> u64 {
+    u64::from(point.u.to_bits()) << 32 | u64::from(point.v.to_bits())
 }
 
 fn high(place: u64) -> u32 {

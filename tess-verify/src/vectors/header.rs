@@ -41,6 +41,12 @@ impl Named for Kind {
 }
 
 impl Kind {
+    /// Whether each record is one patch.
+    #[must_use]
+    pub const fn has_cases(self) -> bool {
+        matches!(self, Self::Listings | Self::Patches | Self::Preparation)
+    }
+
     /// The column names of a CSV kind; `None` for listings.
     #[must_use]
     pub const fn columns(self) -> Option<&'static [&'static str]> {
@@ -89,13 +95,13 @@ impl Kind {
 
 /// The first line: `# tess-vectors 1 kind=KIND count=COUNT source=SOURCE KEY=VALUE...`.
 ///
-/// Its text is that line.
+/// Its text is that line. Where the count is left out, the last line of the file is `# end`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Header {
     /// What the records are.
     pub kind: Kind,
-    /// How many records follow, at least 1.
-    pub count: u64,
+    /// How many records follow, at least 1; `None` if the file marks its end instead.
+    pub count: Option<u64>,
     /// Where the results come from: a name for people, by which nothing is decided.
     pub source: String,
     /// The producer's notes, key and value, such as a level and a seed.
@@ -105,12 +111,16 @@ pub struct Header {
 impl fmt::Display for Header {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { kind, count, source, notes } = self;
-        write!(f, "{MAGIC} {VERSION} kind={} count={count} source={source}", kind.name())?;
+        write!(f, "{MAGIC} {VERSION} kind={}", kind.name())?;
+        count.map_or(Ok(()), |count| write!(f, " count={count}"))?;
+        write!(f, " source={source}")?;
         notes.iter().try_for_each(|(key, value)| write!(f, " {key}={value}"))
     }
 }
 
-const MAGIC: &str = "# tess-vectors";
+pub(super) const MAGIC: &str = "# tess-vectors";
+/// The last line of a file that has no count.
+pub(super) const END: &str = "# end";
 const VERSION: &str = "1";
 
 impl Header {
@@ -137,13 +147,16 @@ impl Header {
         }
         let mut pairs = pairs(line, words)?;
         let mut take = |key: &'static str| {
-            let at = pairs.iter().position(|(known, _)| known == key);
-            let pair = at.map(|at| pairs.remove(at));
-            pair.map(|(_, value)| value).ok_or_else(|| line.error(key, "missing in the header"))
+            let at = pairs.iter().position(|(known, _)| known == key)?;
+            Some(pairs.remove(at).1)
         };
-        let (kind, count, source) = (take("kind")?, take("count")?, take("source")?);
+        let (kind, count, source) = (take("kind"), take("count"), take("source"));
+        let missing = |key| move || line.error(key, "missing in the header");
+        let (kind, source) =
+            (kind.ok_or_else(missing("kind"))?, source.ok_or_else(missing("source"))?);
         let kind = Kind::from_name(&kind).map_err(|error| line.error("kind", error.to_string()))?;
-        Ok(Self { kind, count: parse_count(&count, line)?, source, notes: pairs })
+        let count = count.map(|count| parse_count(&count, line)).transpose()?;
+        Ok(Self { kind, count, source, notes: pairs })
     }
 }
 

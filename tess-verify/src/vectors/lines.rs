@@ -46,7 +46,12 @@ impl<R: BufRead> Lines<R> {
     /// characters in it.
     pub(super) fn next(&mut self) -> Result<Option<Line<'_>>, VectorError> {
         let found = self.read()?;
-        Ok(found.then_some(Line { text: &self.text, place: &self.place }))
+        Ok(found.then_some(self.last()))
+    }
+
+    /// The line that was read last.
+    pub(super) fn last(&self) -> Line<'_> {
+        Line { text: &self.text, place: &self.place }
     }
 
     /// The next line, which must be there.
@@ -55,7 +60,7 @@ impl<R: BufRead> Lines<R> {
     /// As for [`Self::next`], and the end of the file.
     pub(super) fn expect(&mut self, what: &'static str) -> Result<Line<'_>, VectorError> {
         if self.read()? {
-            return Ok(Line { text: &self.text, place: &self.place });
+            return Ok(self.last());
         }
         Err(self.error(what, "the file ends here; it is truncated"))
     }
@@ -63,6 +68,26 @@ impl<R: BufRead> Lines<R> {
     /// Reads the next line into `self.text`; `false` at the end.
     fn read(&mut self) -> Result<bool, VectorError> {
         self.place.line += 1;
+        if self.read_buffered() { Ok(true) } else { self.read_any() }
+    }
+
+    /// Takes a line of plain characters that lies whole in the reader's buffer, as nearly all do.
+    fn read_buffered(&mut self) -> bool {
+        let Ok(buffer) = self.reader.fill_buf() else { return false };
+        let is_plain = |byte: &u8| (b' '..=b'~').contains(byte);
+        let length = buffer.iter().take_while(|byte| is_plain(byte)).count();
+        let is_whole = length <= MAX_LINE && buffer.get(length) == Some(&b'\n');
+        let Some(Ok(text)) = is_whole.then(|| str::from_utf8(&buffer[..length])) else {
+            return false;
+        };
+        self.text.clear();
+        self.text.push_str(text);
+        self.reader.consume(length + 1);
+        true
+    }
+
+    /// Reads a line of any kind.
+    fn read_any(&mut self) -> Result<bool, VectorError> {
         let mut bytes = std::mem::take(&mut self.text).into_bytes();
         bytes.clear();
         // Two bytes more than a line may have, for its end.

@@ -1,9 +1,11 @@
 //! Listings: a patch's whole output as text.
 
+use super::coordinates;
 use super::error::VectorError;
-use super::lines::Lines;
+use super::lines::{Line, Lines};
+use super::record::Record;
 use super::row::decimal;
-use crate::case::{Case, CaseError, parse_hex};
+use crate::case::{Case, CaseError};
 use crate::quote::quoted;
 use std::fmt;
 use std::io::BufRead;
@@ -55,30 +57,40 @@ impl fmt::Display for Listing {
     }
 }
 
-/// Reads a listing; `None` at the end of the file.
-pub(super) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Option<Listing>, VectorError> {
-    let Some(first) = lines.next()? else { return Ok(None) };
+/// Reads a listing, of which the first line was read already.
+pub(super) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Record, VectorError> {
+    let first = lines.last();
     let parsed: Result<Case, CaseError> = first.text.parse();
     let case = parsed.map_err(|error| first.error(error.field, error.message))?;
     let line = first.place.line;
     let size = primitive_size(&case);
-    let output = Tessellation { points: points(lines)?, indices: indices(lines, size)? };
-    let end = lines.expect("end")?;
-    if end.text != "end" {
-        let message = format!("a listing ends with `end`, not {}", quoted(end.text));
-        return Err(end.error("end", message));
+    let second = lines.expect("points")?;
+    if coordinates::is_announced(&second) {
+        return coordinates::read(lines, case, line).map(Record::Coordinates);
     }
-    Ok(Some(Listing { line, case, output }))
+    let output = Tessellation { points: points(lines)?, indices: indices(lines, size)? };
+    end(lines.expect("end")?)?;
+    Ok(Record::Listing(Listing { line, case, output }))
 }
 
+/// The last line of a listing.
+pub(super) fn end(line: Line<'_>) -> Result<(), VectorError> {
+    if line.text == "end" {
+        return Ok(());
+    }
+    Err(line.error("end", format!("a listing ends with `end`, not {}", quoted(line.text))))
+}
+
+/// The points, of which the line that announces them was read already.
 fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorError> {
-    let count = announced(lines, "points", MAX_POINTS)?;
+    let count = announced(lines.last(), "points", MAX_POINTS)?;
     let mut points = Vec::with_capacity(count);
     for _ in 0..count {
         let line = lines.expect("points")?;
         let point = parse_point(line.text).ok_or_else(|| {
             let text = quoted(line.text);
-            let message = format!("{text} is not a point: u and v as up to 8 hex digits each");
+            let message =
+                format!("{text} is not a point: u and v as 5 to 8 hex digits each, 10000 being 1");
             line.error("points", message)
         })?;
         points.push(point);
@@ -87,7 +99,7 @@ fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorEr
 }
 
 fn indices<R: BufRead>(lines: &mut Lines<R>, size: usize) -> Result<Vec<u32>, VectorError> {
-    let count = announced(lines, "indices", MAX_INDICES)?;
+    let count = announced(lines.expect("indices")?, "indices", MAX_INDICES)?;
     if !count.is_multiple_of(size) {
         let message = format!("{count} is no multiple of {size}, the size of a primitive");
         return Err(lines.error("indices", message));
@@ -110,30 +122,36 @@ fn indices<R: BufRead>(lines: &mut Lines<R>, size: usize) -> Result<Vec<u32>, Ve
 }
 
 /// The number of a line such as `points 17`, of which no patch has more than `most`.
-fn announced<R: BufRead>(
-    lines: &mut Lines<R>,
-    what: &'static str,
-    most: usize,
-) -> Result<usize, VectorError> {
-    let line = lines.expect(what)?;
+fn announced(line: Line<'_>, what: &'static str, most: usize) -> Result<usize, VectorError> {
     let count = line.text.strip_prefix(what).and_then(|rest| rest.strip_prefix(' '));
     let count: u64 = count.and_then(decimal).ok_or_else(|| {
         line.error(what, format!("expected `{what} COUNT`, not {}", quoted(line.text)))
     })?;
     let few = usize::try_from(count).ok().filter(|&count| count <= most);
-    few.ok_or_else(|| line.error(what, format!("{count} is too many: a patch has at most {most}")))
+    few.ok_or_else(|| line.error(what, too_many(count, most)))
+}
+
+pub(super) fn too_many(count: impl fmt::Display, most: usize) -> String {
+    format!("{count} is too many: a patch has at most {most}")
 }
 
 fn parse_point(text: &str) -> Option<DomainPoint> {
-    let space = text.bytes().position(|byte| byte == b' ')?;
-    let (u, v) = (&text[..space], &text[space + 1..]);
-    let coordinate = |text: &str| u32::try_from(parse_hex(text, text.len().clamp(1, 8))?).ok();
-    Some(DomainPoint::from_bits(coordinate(u)?, coordinate(v)?))
+    let (u, v) = text.split_once(' ')?;
+    Some(DomainPoint::from_bits(parse_coordinate(u)?, parse_coordinate(v)?))
+}
+
+/// 5 to 8 hex digits. Fewer would let the float 1 pass for 2^-16.
+pub(super) fn parse_coordinate(text: &str) -> Option<u32> {
+    let append = |number, byte: &u8| Some(number << 4 | char::from(*byte).to_digit(16)?);
+    (5..=8).contains(&text.len()).then(|| text.as_bytes().iter().try_fold(0, append)).flatten()
 }
 
 /// Decimal digits alone: no sign.
 fn parse_index(word: &[u8]) -> Option<u32> {
-    let digit = |byte: &u8| char::from(*byte).to_digit(10);
-    let append = |index: u32, byte| index.checked_mul(10)?.checked_add(digit(byte)?);
-    (!word.is_empty()).then(|| word.iter().try_fold(0, append)).flatten()
+    let digit = |byte: u8| byte.checked_sub(b'0').filter(|digit| *digit < 10).map(u64::from);
+    let append = |index: u64, byte: &u8| Some(index * 10 + digit(*byte)?);
+    // Ten digits are enough for any index, and cannot overflow 64 bits.
+    let index =
+        (1..=10).contains(&word.len()).then(|| word.iter().try_fold(0, append)).flatten()?;
+    u32::try_from(index).ok()
 }

@@ -1,11 +1,13 @@
 //! The records of each kind of vector file.
 
+use super::coordinates::Coordinates;
 use super::error::VectorError;
 use super::header::Kind;
 use super::listing::Listing;
 use super::row::Row;
 use super::rows::{ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Recorded, Sizes};
 use crate::case::Case;
+use std::fmt;
 use std::ops::RangeInclusive;
 use tess_core::prepare::{Prepared, QuadAxes, Request};
 use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, PatchFactors, SplitOrder};
@@ -16,6 +18,8 @@ use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, PatchFact
 pub enum Record {
     /// Of the kind `listings`.
     Listing(Listing),
+    /// Of the kind `listings`, by coordinates.
+    Coordinates(Coordinates),
     /// Of the kind `patches`.
     Patch(Recorded<PatchRow>),
     /// Of the kind `sweep`.
@@ -36,6 +40,7 @@ impl Record {
     pub const fn line(&self) -> u64 {
         match self {
             Self::Listing(listing) => listing.line,
+            Self::Coordinates(coordinates) => coordinates.line,
             Self::Patch(row) => row.line,
             Self::Sweep(row) | Self::Uniform(row) => row.line,
             Self::Locations(row) => row.line,
@@ -49,6 +54,7 @@ impl Record {
     pub const fn case(&self) -> Option<Case> {
         match self {
             Self::Listing(listing) => Some(listing.case),
+            Self::Coordinates(coordinates) => Some(coordinates.case),
             Self::Patch(row) => Some(row.row.case),
             Self::Preparation(row) => {
                 Some(Case { config: row.row.config, factors: row.row.prepared.rounded })
@@ -61,12 +67,23 @@ impl Record {
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         match self {
-            Self::Listing(_) => None,
+            Self::Listing(_) | Self::Coordinates(_) => None,
             Self::Patch(row) => Some(&row.text),
             Self::Sweep(row) | Self::Uniform(row) => Some(&row.text),
             Self::Locations(row) => Some(&row.text),
             Self::Factors(row) => Some(&row.text),
             Self::Preparation(row) => Some(&row.text),
+        }
+    }
+}
+
+/// The record as it stands in a file; a listing by coordinates in the notation `hex`.
+impl fmt::Display for Record {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Listing(listing) => listing.fmt(f),
+            Self::Coordinates(coordinates) => coordinates.fmt(f),
+            row => writeln!(f, "{}", row.text().unwrap_or_default()),
         }
     }
 }

@@ -60,7 +60,7 @@ fn wrong_headers() {
         ("vectors 1", "vectors 2", "f:1: header: format version `2` is unknown, expected 1"),
         ("kind=patches", "kind=patch", "f:1: kind: unknown kind `patch`, expected one of: list"),
         ("kind=patches ", "", "f:1: kind: missing in the header"),
-        (" count=2", "", "f:1: count: missing in the header"),
+        (" count=2", "", "f:5: count: the header has no count, so the last line must be `# end`"),
         ("count=2", "count=two", "f:1: count: `two` is not a number"),
         ("count=2", "count=-2", "f:1: count: `-2` is not a number"),
         ("count=2", "count=+2", "f:1: count: `+2` is not a number"),
@@ -218,7 +218,7 @@ fn lines_that_are_too_long_or_not_text() {
     assert_eq!(
         shown,
         format!(
-            "f:4: points: `{}...` (4000 bytes) is not a point: u and v as up to 8 hex digits each",
+            "f:4: points: `{}...` (4000 bytes) is not a point: u and v as 5 to 8 hex digits each, 10000 being 1",
             &fits[..60]
         )
     );

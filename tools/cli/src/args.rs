@@ -1,11 +1,11 @@
-//! What several commands take: a patch (domain, factors and configuration), names, a shard.
+//! What several commands take: a patch (domain, factors and configuration), generated cases, names.
 
 use crate::failure::Failure;
 use crate::output::note;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::case::Case;
-use tess_verify::generate::Shard;
+use tess_verify::generate::{Level, Selection, Shard};
 use tess_verify::names::Named;
 
 /// The arguments that describe one patch.
@@ -72,6 +72,73 @@ impl PatchArgs {
             self.outer.len(),
             self.inner.len()
         ))
+    }
+}
+
+/// The arguments that select generated cases.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct SelectionArgs {
+    /// How thorough: 1, 2 or 3
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u8).range(1..=3))]
+    level: u8,
+    /// Seed of everything random
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Number of random cases at the end
+    #[arg(long, value_name = "N")]
+    count: Option<u64>,
+    /// One domain only
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Domain>())]
+    domain: Option<Domain>,
+    /// One partitioning only
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Partitioning>())]
+    partitioning: Option<Partitioning>,
+    /// One output primitive only
+    #[arg(long, value_name = "NAME", value_parser = name_of::<OutputPrimitive>())]
+    output: Option<OutputPrimitive>,
+    /// One of N disjoint parts, counted from 1
+    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
+    pub(crate) shard: Shard,
+}
+
+impl SelectionArgs {
+    /// The cases of all shards.
+    pub(crate) const fn selection(&self) -> Selection {
+        Selection {
+            level: match self.level {
+                1 => Level::One,
+                2 => Level::Two,
+                _ => Level::Three,
+            },
+            seed: self.seed,
+            random: self.count,
+            domain: self.domain,
+            partitioning: self.partitioning,
+            output: self.output,
+            split: None,
+        }
+    }
+
+    /// What the cases depend on, so that a file says how it was made. Each note has the name of its
+    /// option, but for `--count`, whose note is `random`.
+    pub(crate) fn notes(&self) -> Vec<(String, String)> {
+        let pair = |key: &str, value: String| (key.to_owned(), value);
+        let mut notes = vec![
+            pair("level", self.level.to_string()),
+            pair("seed", self.seed.to_string()),
+            pair("random", self.selection().random_count().to_string()),
+        ];
+        let named = [
+            ("domain", self.domain.map(Named::name)),
+            ("partitioning", self.partitioning.map(Named::name)),
+            ("output", self.output.map(Named::name)),
+        ];
+        notes.extend(named.into_iter().filter_map(|(key, name)| Some(pair(key, name?.into()))));
+        if self.shard != Shard::WHOLE {
+            notes.push(pair("shard", format!("{}/{}", self.shard.part + 1, self.shard.of)));
+        }
+        notes
     }
 }
 

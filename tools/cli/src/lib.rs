@@ -64,5 +64,6 @@ fn command_line() -> clap::Command {
         ArgAction::Set | ArgAction::Append => arg.allow_negative_numbers(true),
         _ => arg,
     };
-    Program::command().mut_subcommands(move |command| command.mut_args(numbers))
+    let program = Program::command().mut_subcommand("patch", commands::without_patch_if_cases);
+    program.mut_subcommands(move |command| command.mut_args(numbers))
 }

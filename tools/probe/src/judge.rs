@@ -2,17 +2,18 @@
 
 use crate::capture::{Captured, Method};
 use crate::digests::Digests;
-use crate::fixed::output;
-use crate::freedoms::Way;
 use crate::info::Info;
+use crate::output::output;
 use crate::report::{Explanation, First, Report, Row, Unexplained};
 use crate::verdict::{Verdict, any_order, third_is_right, verdict};
 use tess_core::Tessellation;
 use tess_verify::case::Case;
 use tess_verify::checker::check_device;
+use tess_verify::coordinate::fixed;
 use tess_verify::names::Named;
 use tess_verify::strength::{Elements, Strength};
 use tess_verify::vectors::primitive_size;
+use tess_verify::ways::Way;
 
 /// Compares what a device gave, patch by patch, and says in the end what explains the differences.
 #[derive(Clone, Debug)]
@@ -55,14 +56,18 @@ impl Judge {
     /// Adds a patch: what was asked, and what the device gave.
     pub fn add(&mut self, case: &Case, captured: &Captured) {
         let observed = output(captured);
-        let verdict = verdict(case, captured, observed.as_ref(), self.method);
+        let expected = case.patch().tessellate();
+        let verdict = verdict(case, captured, observed.as_ref(), &expected, self.method);
         let third = third_is_right(case, captured);
         let row = self.row(case);
         row.0.add(verdict, third);
         if let Some(observed) = &observed {
             row.1.add(observed, primitive_size(case));
         }
-        let equal = observed.as_ref().is_some_and(|o| self.strength.accepts(case, o)) && third;
+        let is_equal = |observed: &Tessellation| {
+            self.strength.equal(case, observed, &expected) || self.strength.accepts(case, observed)
+        };
+        let equal = third && observed.as_ref().is_some_and(is_equal);
         self.different += u64::from(!equal);
         let in_any_order = matches!(verdict, Verdict::Sequence | Verdict::Leading | Verdict::Order);
         if !in_any_order || !third {
@@ -79,8 +84,9 @@ impl Judge {
     ) {
         self.odd += 1;
         let (method, max_level) = (self.method, self.info.max_level);
-        let explains =
-            |way: Way| third && observed.is_some_and(|o| way.explains(case, o, method, max_level));
+        let explains = |way: Way| {
+            third && observed.is_some_and(|o| way.explains(case, o, any_order(method), max_level))
+        };
         let mut explained = Way::ALL.map(explains);
         // Both freedoms together count where neither is enough.
         explained[2] &= !explained[0] && !explained[1];
@@ -107,7 +113,7 @@ impl Judge {
             (None, Some(_)) => ("the third coordinate is wrong".to_owned(), "location".to_owned()),
             (None, None) => {
                 let odd = captured.vertices.iter().flat_map(|[u, v, _]| [u, v]);
-                let odd = odd.copied().find(|bits| crate::fixed::fixed(*bits).is_none());
+                let odd = odd.copied().find(|bits| fixed(*bits).is_none());
                 let bits = odd.unwrap_or_default();
                 let float = f32::from_bits(bits);
                 let text = format!(

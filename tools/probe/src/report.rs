@@ -2,14 +2,14 @@
 
 use crate::capture::Captured;
 use crate::digests::Digests;
-use crate::fixed::output;
-use crate::freedoms::Way;
 use crate::info::Info;
+use crate::output::output;
 use crate::verdict::Verdict;
 use serde::Serialize;
 use std::fmt;
 use tess_core::Tessellation;
 use tess_verify::case::Case;
+use tess_verify::ways::Way;
 
 /// The result of a probe.
 #[derive(Clone, Debug, Serialize)]
@@ -132,6 +132,21 @@ impl Row {
         (self.domain, self.partitioning, self.output)
     }
 
+    /// The numbers of the table, from left to right.
+    fn columns(&self) -> [u64; 9] {
+        [
+            self.patches,
+            self.sequence,
+            self.leading,
+            self.order,
+            self.connectivity,
+            self.coordinates,
+            self.max_units.into(),
+            self.culling,
+            self.third,
+        ]
+    }
+
     pub(crate) fn add(&mut self, verdict: Verdict, third_is_right: bool) {
         self.patches += 1;
         self.third += u64::from(!third_is_right);
@@ -154,6 +169,32 @@ impl Row {
     }
 }
 
+/// What stands above the columns of numbers.
+const COLUMNS: [&str; 9] = [
+    "patches",
+    "in order",
+    "leading",
+    "reorder",
+    "connected",
+    "points",
+    "units",
+    "culling",
+    "third",
+];
+
+/// One line of the table.
+fn write_line<T: fmt::Display>(
+    f: &mut fmt::Formatter<'_>,
+    [domain, partitioning, output]: [&str; 3],
+    columns: [T; 9],
+) -> fmt::Result {
+    write!(f, "{domain:<8} {partitioning:<15} {output:<12}")?;
+    for (column, width) in columns.iter().zip([8, 8, 8, 8, 9, 8, 6, 8, 6]) {
+        write!(f, " {column:>width$}")?;
+    }
+    writeln!(f)
+}
+
 /// The table for people, then what explains the differences.
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -161,39 +202,10 @@ impl fmt::Display for Report {
         if self.method == "points" {
             writeln!(f, "domain points alone: the device does not capture primitives")?;
         }
-        writeln!(
-            f,
-            "{:<8} {:<15} {:<12} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8} {:>6} {:>8} {:>6}",
-            "domain",
-            "partitioning",
-            "output",
-            "patches",
-            "in order",
-            "leading",
-            "reorder",
-            "connected",
-            "points",
-            "units",
-            "culling",
-            "third"
-        )?;
+        write_line(f, ["domain", "partitioning", "output"], COLUMNS)?;
         for row in &self.rows {
-            writeln!(
-                f,
-                "{:<8} {:<15} {:<12} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8} {:>6} {:>8} {:>6}",
-                row.domain,
-                row.partitioning,
-                row.output,
-                row.patches,
-                row.sequence,
-                row.leading,
-                row.order,
-                row.connectivity,
-                row.coordinates,
-                row.max_units,
-                row.culling,
-                row.third
-            )?;
+            let names = row.names();
+            write_line(f, [names.0, names.1, names.2], row.columns().map(|n| n.to_string()))?;
         }
         self.write_explanations(f)
     }

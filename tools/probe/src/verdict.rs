@@ -1,11 +1,11 @@
 //! How one captured patch compares with the model.
 
 use crate::capture::{Captured, Method};
-use crate::fixed::fixed;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, Tessellation};
 use tess_verify::case::Case;
-use tess_verify::strength::{Elements, Order, Strength};
+use tess_verify::coordinate::fixed;
+use tess_verify::strength::{Elements, Order, Strength, vertices};
 use tess_verify::vectors::primitive_size;
 
 /// The nearest to the model that a captured patch is; the first is the nearest.
@@ -34,46 +34,41 @@ pub(crate) fn any_order(method: Method) -> Strength {
     Strength { order: Order::Any, elements, ..Strength::default() }
 }
 
-/// Compares a patch. `None` instead of an output if it has coordinates that are no 16.16 numbers.
+/// Compares a patch with the model's output for it. `None` instead of an output if it has coordinates that are no 16.16 numbers.
 pub(crate) fn verdict(
     case: &Case,
     captured: &Captured,
     observed: Option<&Tessellation>,
+    expected: &Tessellation,
     method: Method,
 ) -> Verdict {
-    let expected = case.patch().tessellate();
     if captured.vertices.is_empty() != expected.points.is_empty() {
         return Verdict::Culling;
     }
-    let Some(observed) = observed else { return Verdict::Coordinates(units(captured, &expected)) };
-    if any_order(method).accepts(case, observed) {
-        return if method == Method::Points {
-            Verdict::Order
-        } else {
-            order(case, observed, &expected)
-        };
+    let Some(observed) = observed else { return Verdict::Coordinates(units(captured, expected)) };
+    let equal = |method| any_order(method).equal(case, observed, expected);
+    match method {
+        Method::Points if equal(method) => Verdict::Order,
+        Method::Primitives if equal(method) => order(case, observed, expected),
+        Method::Primitives if equal(Method::Points) => Verdict::Connectivity,
+        _ => Verdict::Coordinates(units(captured, expected)),
     }
-    if method == Method::Primitives && any_order(Method::Points).accepts(case, observed) {
-        return Verdict::Connectivity;
-    }
-    Verdict::Coordinates(units(captured, &expected))
 }
 
 /// What is kept of the order of the model's primitives.
 fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Verdict {
-    let size = primitive_size(case);
-    let vertices = |output: &Tessellation| -> Vec<DomainPoint> {
-        output.indices.iter().filter_map(|&i| output.points.get(i as usize).copied()).collect()
-    };
-    let (observed, expected) = (vertices(observed), vertices(expected));
-    if observed == expected {
+    let sequence = Strength { order: Order::Sequence, ..Strength::default() };
+    if sequence.equal(case, observed, expected) {
         return Verdict::Sequence;
     }
-    let rotated = |(a, b): (&[DomainPoint], &[DomainPoint])| {
-        (0..size).any(|by| (0..size).all(|i| a[(i + by) % size] == b[i]))
+    let size = primitive_size(case);
+    let [observed, expected] =
+        [observed, expected].map(|output| vertices(output).collect::<Vec<_>>());
+    let is_rotated = |(a, b): (&[_], &[_])| {
+        (0..size).any(|by| (0..size).all(|i| a.get((i + by) % size) == b.get(i)))
     };
     let same_length = observed.len() == expected.len();
-    if same_length && observed.chunks(size).zip(expected.chunks(size)).all(rotated) {
+    if same_length && observed.chunks(size).zip(expected.chunks(size)).all(is_rotated) {
         Verdict::Leading
     } else {
         Verdict::Order

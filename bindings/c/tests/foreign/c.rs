@@ -4,6 +4,7 @@ use super::tools::{build_folder, crate_folder, libraries, output, run, text};
 use libtest_mimic::Failed;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use tess_verify::case::Case;
 
 const STRICT: &[&str] = &["-Wall", "-Wextra", "-pedantic", "-Werror"];
 /// What a Rust static library needs from the system.
@@ -108,6 +109,44 @@ fn first_difference(observed: &str, expected: &str) -> Option<String> {
     }
     let (observed, expected) = (observed.lines().count(), expected.lines().count());
     (observed != expected).then(|| format!("{observed} lines, expected {expected}"))
+}
+
+/// The fuzz example, with the `main` that runs it without a fuzzer.
+fn compile_fuzz(compiler: &str, flags: &[&str], name: &str) -> Result<PathBuf, String> {
+    let program = build_folder().join(name);
+    let mut command = Command::new(compiler);
+    command.args(flags).args(STRICT).args(["-O2", "-DTESS_FUZZ_MAIN"]);
+    command.arg("-I").arg(crate_folder().join("include"));
+    command.arg(crate_folder().join("examples/fuzz.c")).args(["-x", "none"]);
+    command.arg(libraries()?.archive).args(SYSTEM_LIBRARIES).arg("-o").arg(&program);
+    run(&mut command).map(|_| program)
+}
+
+pub(crate) fn fuzz_finds_a_planted_fault() -> Result<(), Failed> {
+    let program = compile_fuzz("cc", &["-std=c99"], "fuzz")?;
+    let printed = run(Command::new(&program).arg("20000"))?;
+    if printed != "20000 inputs, no findings\n" {
+        return Err(format!("the device without a fault: {printed}").into());
+    }
+    let output = output(Command::new(&program).arg("20000").env("TESS_FUZZ_FAULT", "1"))?;
+    let found = text(&output.stderr);
+    let line = found.lines().find(|line| line.starts_with("case "));
+    let case = line.ok_or_else(|| format!("{}, no case line: {found}", output.status))?;
+    let case: Case = case.parse().map_err(|error| format!("{case}: {error}"))?;
+    let patch = case.patch();
+    let moved = patch.point(100).ok_or_else(|| format!("{case} has no point 100"))?;
+    let moved =
+        format!("observed 0x{:05x}, expected 0x{:05x}", moved.u.to_bits() ^ 1, moved.u.to_bits());
+    if output.status.success() || !found.contains("point 100 u") || !found.contains(&moved) {
+        return Err(format!("{}, not point 100 with {moved}: {found}", output.status).into());
+    }
+    Ok(())
+}
+
+pub(crate) fn fuzz_entry_is_cpp() -> Result<(), Failed> {
+    let program = compile_fuzz("c++", &["-std=c++11", "-x", "c++"], "fuzz-cpp")?;
+    run(Command::new(program).arg("1000"))?;
+    Ok(())
 }
 
 pub(crate) fn example_refuses_bad_usage() -> Result<(), Failed> {

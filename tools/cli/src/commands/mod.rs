@@ -18,6 +18,7 @@ pub use mesh::fuzzing;
 
 use crate::failure::{Exit, Failure};
 use clap::Subcommand;
+pub(crate) use patch::without_patch_if_cases;
 
 /// What the program can be asked for.
 #[derive(Debug, Subcommand)]

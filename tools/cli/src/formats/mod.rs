@@ -37,6 +37,32 @@ impl Form for Format {
     const COMMON_EXTENSIONS: &'static [&'static str] = &["txt"];
 }
 
+/// The forms of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PictureFormat {
+    /// Scalable vector graphics
+    Svg,
+    /// Pixels
+    Png,
+}
+
+impl Form for PictureFormat {
+    const DEFAULT: Option<Self> = Some(Self::Svg);
+}
+
+impl PictureFormat {
+    /// The bytes of a picture in this form.
+    ///
+    /// # Errors
+    /// The pixels cannot be encoded.
+    pub(crate) fn render(self, picture: &Picture) -> Result<Vec<u8>, Failure> {
+        match self {
+            Self::Svg => Ok(picture.to_svg().into_bytes()),
+            Self::Png => png::render(picture),
+        }
+    }
+}
+
 /// A patch as some backend tessellated it.
 #[derive(Clone, Debug)]
 pub(crate) struct OnePatch {
@@ -77,7 +103,7 @@ impl OnePatch {
     /// The first line of a vector file with this one record.
     fn header(&self, kind: Kind) -> Header {
         let source = format!("tess-{}", self.backend);
-        Header { kind, count: 1, source, notes: Vec::new() }
+        Header { kind, count: Some(1), source, notes: Vec::new() }
     }
 
     /// The patch as a file of one listing.
@@ -97,8 +123,8 @@ impl Format {
             Self::Csv => csv::render(patch).into_bytes(),
             Self::Json => json::render(patch).into_bytes(),
             Self::Obj => obj::render(patch).into_bytes(),
-            Self::Svg => picture(patch).to_svg().into_bytes(),
-            Self::Png => png::render(&picture(patch))?,
+            Self::Svg => PictureFormat::Svg.render(&picture(patch))?,
+            Self::Png => PictureFormat::Png.render(&picture(patch))?,
         })
     }
 }

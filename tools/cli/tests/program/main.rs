@@ -2,6 +2,7 @@
 
 mod backends;
 mod bench;
+mod captures;
 mod check;
 mod draw;
 mod explain;

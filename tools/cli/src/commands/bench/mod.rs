@@ -76,8 +76,13 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     if args.no_copies && args.backend != BackendName::Gpu {
         return Err(Failure::bad_input("--no-copies goes with --backend gpu"));
     }
-    let no_copies = args.no_copies;
-    let options = RunnerOptions { level, threads: args.threads, index_type, no_copies };
+    let options = RunnerOptions {
+        level,
+        threads: args.threads,
+        index_type,
+        #[cfg(feature = "gpu")]
+        no_copies: args.no_copies,
+    };
     let mut runner = runner(args.backend, options)?;
     if cfg!(debug_assertions) {
         note("this build has debug assertions; figures need --release");

@@ -119,5 +119,6 @@ pub(crate) struct RunnerOptions {
     /// Width of the indices.
     pub(crate) index_type: IndexType,
     /// Whether the shaders expand each patch on its own.
+    #[cfg(feature = "gpu")]
     pub(crate) no_copies: bool,
 }

@@ -1,5 +1,6 @@
 //! `tess check`: runs the cases of a vector file and compares.
 
+mod failures;
 mod strength;
 
 #[cfg(feature = "probe")]
@@ -9,6 +10,8 @@ use crate::backends::{BackendName, BackendOptions};
 use crate::coverage_file::CoverageFile;
 use crate::failure::{Exit, Failure};
 use crate::output::{progress, stdout, stop_when_reader_leaves};
+use failures::Failures;
+use indicatif::ProgressBar;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
@@ -20,7 +23,7 @@ use tess_verify::checker::{self, CheckError, Difference, Report, Tested};
 use tess_verify::compare::Element;
 use tess_verify::explanation::{PointReport, PrimitiveReport};
 use tess_verify::names::Named;
-use tess_verify::vectors::{Kind, Record, VectorFile};
+use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
@@ -36,6 +39,12 @@ tested. Nothing in the file decides this, its source least of all.
 A device's listings are compared in a strength: --order, --points, --conversion and --denormals say
 which freedom of the public specification counts as equal (docs/verification.md).
 
+With --cases, the file must answer those cases, one for one and in their order. They are a vector file,
+or lines that begin with `case`.
+
+If one mistake explains every difference (triangles turn the other way, u and v are exchanged, u or v
+runs backwards), a line says so, and only the first difference is shown.
+
 Exit code 0: all equal; 1: differences; 2: malformed, truncated or empty file; 3: no such backend.
 
 Examples:
@@ -43,7 +52,8 @@ Examples:
   tess check golden/place.csv --backend simd
   tess check golden/cases.txt --backend gpu --index-type u16
   tess patch tri --outer 3,4,5 --inner 4 | tess check -
-  ./my-device | tess check - --order any --conversion 0.6ulp")]
+  ./my-device | tess check - --order any --conversion 0.6ulp
+  tess check device.txt --cases asked.txt --failures failing.txt")]
 pub(crate) struct Args {
     /// Vector file; - is stdin
     #[arg(value_name = "FILE")]
@@ -55,6 +65,12 @@ pub(crate) struct Args {
     options: BackendOptions,
     #[command(flatten)]
     strength: StrengthArgs,
+    /// What was asked: records that answer other cases, too few or too many are differences
+    #[arg(long, value_name = "FILE")]
+    cases: Option<PathBuf>,
+    /// Write the records that differ to this file, which `tess check` reads; - is no file
+    #[arg(long, value_name = "FILE")]
+    failures: Option<PathBuf>,
     /// Add the coverage bins that the file's patches hit to this file of UCIS XML
     #[arg(long, value_name = "FILE")]
     coverage: Option<PathBuf>,
@@ -71,19 +87,30 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let file = VectorFile::new(&name, open(&args.file)?).map_err(|e| failure(e.into()))?;
     let tested = args.strength.tested(file.header().kind, args.backend)?;
     let coverage = args.coverage(file.header().kind)?;
+    let mut asked = args.asked(file.header().kind)?;
+    let failures = args.failures.as_deref().map(|path| Failures::new(path, file.header()));
+    let failures = failures.transpose()?;
     stop_when_reader_leaves();
-    let bar = progress(file.header().count, "records");
-    let report = checker::check(file, &mut backends, tested, &|records| {
-        bar.inc(records.len() as u64);
+    let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
+    let asked = asked.as_mut().map(|asked| asked as _);
+    let report = checker::check_asked(file, asked, &mut backends, tested, &|checked| {
+        bar.inc(checked.records.len() as u64);
+        if let Some(failures) = &failures {
+            failures.add(checked);
+        }
         if let Some(coverage) = &coverage {
             let coverage = &mut coverage.lock().unwrap_or_else(PoisonError::into_inner).coverage;
-            records.iter().filter_map(Record::case).for_each(|case| coverage.record(&case));
+            let cases = checked.records.iter().filter_map(Record::case);
+            cases.for_each(|case| coverage.record(&case));
         }
     });
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
     if let Some(coverage) = coverage {
         coverage.into_inner().unwrap_or_else(PoisonError::into_inner).write()?;
+    }
+    if let Some(failures) = failures {
+        failures.finish(&report)?;
     }
     let backend = backends.first().map_or("core", |backend| backend.name());
     let sides = match tested {
@@ -102,7 +129,7 @@ impl Args {
     /// It cannot be read, or the file to check has no patches to count.
     fn coverage(&self, kind: Kind) -> Result<Option<Mutex<CoverageFile>>, Failure> {
         let Some(path) = &self.coverage else { return Ok(None) };
-        if !matches!(kind, Kind::Listings | Kind::Patches | Kind::Preparation) {
+        if !kind.has_cases() {
             return Err(Failure::bad_input(format!(
                 "--coverage counts single patches: the kinds listings, patches and preparation have \
                  them; this file's kind is {}",
@@ -110,6 +137,24 @@ impl Args {
             )));
         }
         CoverageFile::open(path.clone()).map(|file| Some(Mutex::new(file)))
+    }
+
+    /// The cases that were asked, if they are given.
+    ///
+    /// # Errors
+    /// They cannot be read, or the file to check has no patches that could answer them.
+    fn asked(&self, kind: Kind) -> Result<Option<Cases<Box<dyn BufRead + Send>>>, Failure> {
+        let Some(path) = &self.cases else { return Ok(None) };
+        if !kind.has_cases() {
+            let kind = kind.name();
+            return Err(Failure::bad_input(format!(
+                "--cases is for records that are single patches; this file's kind is {kind}"
+            )));
+        }
+        if path == &self.file {
+            return Err(Failure::bad_input("--cases is the file to check itself"));
+        }
+        read_cases(path).map(Some)
     }
 }
 
@@ -122,6 +167,15 @@ fn backends(args: &Args) -> Result<Vec<Box<dyn Backend>>, Failure> {
         BackendName::Simd | BackendName::Gpu => 1,
     };
     (0..threads).map(|_| args.options.select(name)).collect()
+}
+
+/// The cases of a file; - is stdin.
+///
+/// # Errors
+/// It cannot be read, or begins wrongly.
+pub(crate) fn read_cases(path: &Path) -> Result<Cases<Box<dyn BufRead + Send>>, Failure> {
+    let name = if path.as_os_str() == "-" { "stdin".into() } else { path.display().to_string() };
+    Cases::new(name, open(path)?).map_err(|error| Failure::bad_input(error.to_string()))
 }
 
 fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
@@ -137,7 +191,17 @@ fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
     if report.mismatches > 0 {
         writeln!(out, "{sides}")?;
     }
-    for difference in &report.differences {
+    let turn = report.turn();
+    if let Some(way) = turn {
+        writeln!(
+            out,
+            "one mistake explains all {} differences: {}",
+            report.mismatches,
+            way.words()
+        )?;
+    }
+    let shown = if turn.is_some() { 1 } else { report.differences.len() };
+    for difference in report.differences.iter().take(shown) {
         writeln!(out, "{difference}")?;
         for line in model_values(difference).lines() {
             writeln!(out, "  model: {line}")?;
@@ -146,7 +210,7 @@ fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
             writeln!(out, "  again: {command}")?;
         }
     }
-    let hidden = report.mismatches - report.differences.len() as u64;
+    let hidden = report.mismatches - shown as u64;
     if hidden > 0 {
         writeln!(out, "and {hidden} more")?;
     }

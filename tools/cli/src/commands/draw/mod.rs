@@ -3,11 +3,9 @@
 use crate::args::{PatchArgs, note_large_factors};
 use crate::backends::{BackendArgs, BackendName};
 use crate::failure::{Exit, Failure};
-use crate::formats::OnePatch;
-use crate::output::form::{self, Form};
+use crate::formats::{OnePatch, PictureFormat};
+use crate::output::form;
 use crate::output::{OutputArgs, note};
-use crate::png;
-use clap::ValueEnum;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -62,19 +60,6 @@ struct DrawArgs {
     size: u32,
 }
 
-/// The forms of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum PictureFormat {
-    /// Scalable vector graphics
-    Svg,
-    /// Pixels
-    Png,
-}
-
-impl Form for PictureFormat {
-    const DEFAULT: Option<Self> = Some(Self::Svg);
-}
-
 /// Runs the command.
 ///
 /// # Errors
@@ -102,10 +87,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         None => (drawing::draw(&patch.listing, &args.options.options()), Exit::Done),
     };
     report_left_out(&drawing);
-    args.output.write(&match format {
-        PictureFormat::Svg => drawing.picture.to_svg().into_bytes(),
-        PictureFormat::Png => png::render(&drawing.picture)?,
-    })?;
+    args.output.write(&format.render(&drawing.picture)?)?;
     Ok(exit)
 }
 

@@ -1,6 +1,6 @@
 //! `tess gen`: test vectors with expected results from the model.
 
-use crate::args::{name_of, shard};
+use crate::args::{SelectionArgs, name_of};
 use crate::coverage_file::CoverageFile;
 use crate::failure::{Exit, Failure};
 use crate::output::{NewFolder, OutputArgs, note, progress, stop_when_reader_leaves};
@@ -9,10 +9,10 @@ use indicatif::ProgressBar;
 use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use tess_core::{Domain, Partitioning};
+use tess_core::SplitOrder;
 use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
-use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::generate::Selection;
 use tess_verify::names::Named;
 use tess_verify::readmemh;
 use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
@@ -26,29 +26,16 @@ position; level 3 is random. All end with --count random cases (500, 20000 and 1
 Examples:
   tess gen --level 1 | tess check - --backend simd
   tess gen --level 1 --domain tri --format listing -o level1.txt
+  tess gen --level 1 --partitioning integer --output triangle_cw --split ruler --format listing
   tess gen --level 3 --seed 7 --count 1000 --format readmemh -o vectors/
   tess gen --level 1 --coverage
   tess gen --level 2 --shard 1/8 --coverage coverage.xml")]
 pub(crate) struct Args {
-    /// How thorough: 1, 2 or 3
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    #[arg(value_parser = clap::value_parser!(u8).range(1..=3))]
-    level: u8,
-    /// Seed of everything random
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-    /// Number of random cases at the end
-    #[arg(long, value_name = "N")]
-    count: Option<u64>,
-    /// One domain only
-    #[arg(long, value_name = "NAME", value_parser = name_of::<Domain>())]
-    domain: Option<Domain>,
-    /// One partitioning only
-    #[arg(long, value_name = "NAME", value_parser = name_of::<Partitioning>())]
-    partitioning: Option<Partitioning>,
-    /// One of N disjoint parts, counted from 1
-    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
-    shard: Shard,
+    #[command(flatten)]
+    selection: SelectionArgs,
+    /// One split order only
+    #[arg(long, value_name = "NAME", value_parser = name_of::<SplitOrder>())]
+    split: Option<SplitOrder>,
     /// Form of the vectors
     #[arg(long, value_name = "NAME", default_value = "csv")]
     format: Format,
@@ -78,9 +65,9 @@ enum Format {
 /// A selection without any case; an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let all = args.all();
-    let count = args.shard.items(all);
+    let count = args.selection.shard.items(all);
     if count == 0 && all > 0 {
-        let (part, of) = (args.shard.part + 1, args.shard.of);
+        let (part, of) = (args.selection.shard.part + 1, args.selection.shard.of);
         note(&format!("no case in shard {part}/{of}: nothing is written"));
         return Ok(Exit::Done);
     }
@@ -106,21 +93,11 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 
 impl Args {
     fn selection(&self) -> Selection {
-        Selection {
-            level: match self.level {
-                1 => Level::One,
-                2 => Level::Two,
-                _ => Level::Three,
-            },
-            seed: self.seed,
-            random: self.count,
-            domain: self.domain,
-            partitioning: self.partitioning,
-        }
+        Selection { split: self.split, ..self.selection.selection() }
     }
 
     fn cases(&self) -> impl Iterator<Item = Case> {
-        let shard = self.shard;
+        let shard = self.selection.shard;
         let numbered = (0..).zip(self.selection().cases());
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
     }
@@ -156,22 +133,12 @@ impl Args {
         progress(count, "cases")
     }
 
-    /// The arguments that the cases depend on are noted, so that a file says how it was made. Each
-    /// note has the name of its option, but for `--count`, whose note is `random`.
+    /// The first line of what is written, with the arguments that the cases depend on as notes.
     fn header(&self, count: u64) -> Header {
-        let pair = |key: &str, value: String| (key.to_owned(), value);
-        let mut notes = vec![
-            pair("level", self.level.to_string()),
-            pair("seed", self.seed.to_string()),
-            pair("random", self.selection().random_count().to_string()),
-        ];
-        notes.extend(self.domain.map(|domain| pair("domain", domain.name().into())));
-        let partitioning = self.partitioning.map(Named::name);
-        notes.extend(partitioning.map(|name| pair("partitioning", name.into())));
-        if self.shard != Shard::WHOLE {
-            notes.push(pair("shard", format!("{}/{}", self.shard.part + 1, self.shard.of)));
-        }
-        Header { kind: Kind::Patches, count, source: "tess-core".to_owned(), notes }
+        let mut notes = self.selection.notes();
+        notes.extend(self.split.map(|split| ("split".to_owned(), split.name().to_owned())));
+        let source = "tess-core".to_owned();
+        Header { kind: Kind::Patches, count: Some(count), source, notes }
     }
 }
 

@@ -1,21 +1,31 @@
-//! `tess patch`: tessellates one patch.
+//! `tess patch`: tessellates one patch, or the cases of a file.
 
+use super::check::read_cases;
 use crate::args::{PatchArgs, note_large_factors};
 use crate::backends::BackendArgs;
 use crate::failure::{Exit, Failure};
 use crate::formats::{Format, OnePatch};
 use crate::output::{OutputArgs, form};
+use std::io;
+use std::path::{Path, PathBuf};
+use tess_verify::case::Case;
+use tess_verify::vectors::{Header, Kind};
 
-/// Tessellate one patch
+/// Tessellate one patch, or the cases of a file
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
   tess patch quad --outer 3,4,5,6 --inner 4,7
   tess patch tri --outer 2.5,nan,0x40490fdb --inner 3 --partitioning fractional_odd --format json
-  tess patch isoline --outer 4,8 -o lines.obj")]
+  tess patch isoline --outer 4,8 -o lines.obj
+  tess patch --cases failing.txt -o right.txt
+  echo case isoline integer line ruler 40000000 40400000 | tess patch --cases -")]
 pub(crate) struct Args {
     #[command(flatten)]
-    patch: PatchArgs,
+    patch: Option<PatchArgs>,
+    /// Instead of one patch, the cases of a vector file, or lines that begin with `case`; - is stdin
+    #[arg(long, value_name = "FILE", conflicts_with = "PatchArgs")]
+    cases: Option<PathBuf>,
     #[command(flatten)]
     backend: BackendArgs,
     /// Form of the result [default: that of the file's name, else text]
@@ -25,13 +35,26 @@ pub(crate) struct Args {
     output: OutputArgs,
 }
 
+/// The command, which needs a patch only where there is no file of cases.
+pub(crate) fn without_patch_if_cases(command: clap::Command) -> clap::Command {
+    ["domain", "outer"].into_iter().fold(command, |command, name| {
+        command.mut_arg(name, |arg| arg.required(false).required_unless_present("cases"))
+    })
+}
+
 /// Runs the command.
 ///
 /// # Errors
-/// Wrong number of factors, a backend that is not available, an output that cannot be written.
+/// Wrong number of factors, cases that cannot be read, a backend that is not available, an output that
+/// cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
-    let case = args.patch.case()?;
     let format = form::choose(args.format, &args.output.file)?;
+    let patch = match (&args.cases, &args.patch) {
+        (Some(cases), _) => return args.run_cases(cases, format),
+        (None, Some(patch)) => patch,
+        (None, None) => return Err(Failure::bad_input("give a patch, or --cases FILE")),
+    };
+    let case = patch.case()?;
     if format == Format::Png {
         args.output.refuse_terminal("a PNG picture")?;
     }
@@ -40,4 +63,34 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let patch = OnePatch::tessellate(backend.as_mut(), case)?;
     args.output.write(&format.render(&patch)?)?;
     Ok(Exit::Done)
+}
+
+impl Args {
+    /// Tessellates every case into one file of listings.
+    fn run_cases(&self, path: &Path, format: Format) -> Result<Exit, Failure> {
+        if format != Format::Text {
+            return Err(Failure::bad_input("--cases writes listings, --format text"));
+        }
+        let cases: Result<Vec<Case>, _> = read_cases(path)?.collect();
+        let cases = cases.map_err(|error| Failure::bad_input(error.to_string()))?;
+        let mut backend = self.backend.select()?;
+        let source = format!("tess-{}", backend.name());
+        let count = Some(cases.len() as u64);
+        let header = Header { kind: Kind::Listings, count, source, notes: Vec::new() };
+        let mut failed = None;
+        let written = self.output.stream(|out| {
+            writeln!(out, "{header}")?;
+            for &case in &cases {
+                match OnePatch::tessellate(backend.as_mut(), case) {
+                    Ok(patch) => write!(out, "{}", patch.listing)?,
+                    Err(failure) => {
+                        failed = Some(failure);
+                        return Err(io::Error::other("the backend failed"));
+                    }
+                }
+            }
+            Ok(())
+        });
+        failed.map_or(written, Err).map(|()| Exit::Done)
+    }
 }

@@ -4,20 +4,17 @@
 mod bench;
 
 use super::check::{ConversionName, DenormalsName};
-use super::draw::PictureFormat;
-use crate::args::{name_of, shard};
+use crate::args::SelectionArgs;
 use crate::backends::quiet;
 use crate::failure::{Exit, Failure};
+use crate::formats::PictureFormat;
 use crate::output::form;
 use crate::output::{OutputArgs, json, note, progress};
-use crate::png;
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::PathBuf;
-use tess_core::{Domain, Partitioning};
 use tess_probe::{First, Prober, Report, cases, list, probe};
 use tess_verify::drawing::{self, DrawOptions};
-use tess_verify::generate::{Level, Selection, Shard};
 use tess_verify::strength::{Order, Strength};
 use tess_verify::vectors::Listing;
 
@@ -47,25 +44,8 @@ pub(crate) struct Args {
     /// Number of the device, as --list shows it
     #[arg(long, value_name = "N", default_value_t = 0)]
     device: usize,
-    /// How thorough: 1, 2 or 3, as for `tess gen`
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    #[arg(value_parser = clap::value_parser!(u8).range(1..=3))]
-    level: u8,
-    /// Seed of everything random
-    #[arg(long, value_name = "N", default_value_t = 1)]
-    seed: u64,
-    /// Number of random cases at the end
-    #[arg(long, value_name = "N")]
-    count: Option<u64>,
-    /// One domain only
-    #[arg(long, value_name = "NAME", value_parser = name_of::<Domain>())]
-    domain: Option<Domain>,
-    /// One partitioning only
-    #[arg(long, value_name = "NAME", value_parser = name_of::<Partitioning>())]
-    partitioning: Option<Partitioning>,
-    /// One of N disjoint parts, counted from 1
-    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
-    shard: Shard,
+    #[command(flatten)]
+    selection: SelectionArgs,
     /// Order of primitives that counts as equal
     #[arg(long, value_name = "NAME", default_value = "any")]
     order: OrderName,
@@ -123,7 +103,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         let Args { device, workload, checks, json, output, .. } = args;
         return bench::run(*device, workload, *checks, *json, output).map(|()| Exit::Done);
     }
-    let cases = cases(args.selection(), args.shard);
+    let cases = cases(args.selection.selection(), args.selection.shard);
     if cases.is_empty() {
         return Err(Failure::bad_input("these arguments select no case"));
     }
@@ -162,20 +142,6 @@ impl Args {
         Ok(Exit::Done)
     }
 
-    fn selection(&self) -> Selection {
-        Selection {
-            level: match self.level {
-                1 => Level::One,
-                2 => Level::Two,
-                _ => Level::Three,
-            },
-            seed: self.seed,
-            random: self.count,
-            domain: self.domain,
-            partitioning: self.partitioning,
-        }
-    }
-
     fn strength(&self) -> Strength {
         Strength {
             order: match self.order {
@@ -212,9 +178,6 @@ fn draw(file: &std::path::Path, first: &First) -> Result<(), Failure> {
     let expected = listing(case.patch().tessellate());
     let options = DrawOptions { size: 800, ..DrawOptions::default() };
     let (drawing, _) = drawing::overlay(&expected, &listing(output), &options);
-    let content = match form::choose(None, file)? {
-        PictureFormat::Svg => drawing.picture.to_svg().into_bytes(),
-        PictureFormat::Png => png::render(&drawing.picture)?,
-    };
-    OutputArgs { file: file.to_owned() }.write(&content)
+    let format: PictureFormat = form::choose(None, file)?;
+    OutputArgs { file: file.to_owned() }.write(&format.render(&drawing.picture)?)
 }

@@ -96,7 +96,7 @@ pub(super) enum Host {
     WritesFactors,
     /// Writes the contents of `tables.bin`, once.
     WritesTables,
-    /// Fills it with zeros before each run, and may read the status behind it.
+    /// Fills it with zeros before the first run; every run leaves it as the next one needs it.
     Clears,
     /// Dispatches and draws with it.
     UsesIndirectly,
@@ -169,9 +169,9 @@ impl Host {
             Resource::Job => Self::WritesJobs,
             Resource::Factors => Self::WritesFactors,
             Resource::Tables => Self::WritesTables,
-            Resource::Status | Resource::Catalogue => Self::Clears,
+            Resource::Catalogue => Self::Clears,
             Resource::Arguments | Resource::Draws => Self::UsesIndirectly,
-            Resource::Points | Resource::Indices => Self::Reads,
+            Resource::Status | Resource::Points | Resource::Indices => Self::Reads,
             Resource::Topologies
             | Resource::Contexts
             | Resource::Offsets

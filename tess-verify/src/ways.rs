@@ -1,17 +1,18 @@
-//! What explains that a device differs: freedoms that the specification leaves, and mistakes that turn
-//! a whole output round.
+//! What explains that a device differs: freedoms that the specification leaves (spec section 13), and
+//! mistakes that turn a whole output round.
 
-use crate::capture::Method;
-use crate::verdict::any_order;
-use serde::Serialize;
+use crate::case::Case;
+use crate::strength::{Conversion, Denormals, Strength};
+use std::collections::BTreeSet;
 use tess_core::fixed_point::ONE;
-use tess_core::{DomainPoint, Tessellation};
-use tess_verify::case::Case;
-use tess_verify::strength::{Conversion, Denormals, Strength};
+use tess_core::{Config, DomainPoint, OutputPrimitive, Tessellation};
 
-/// An explanation of a patch that is not the model's in any order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
+/// The largest factor of the model.
+const LARGEST: u32 = 64;
+
+/// An explanation of an output that differs from the model's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Way {
     /// Positive denormal outer factors are flushed to zero, which culls.
@@ -48,6 +49,15 @@ impl Way {
         Self::MirroredV,
     ];
 
+    /// Those that turn a whole output round.
+    pub const TURNS: [Self; 5] = [
+        Self::Reversed,
+        Self::Transposed,
+        Self::TransposedReversed,
+        Self::MirroredU,
+        Self::MirroredV,
+    ];
+
     /// Whether the specification leaves this to a device.
     #[must_use]
     pub const fn is_allowed(self) -> bool {
@@ -72,48 +82,66 @@ impl Way {
         }
     }
 
-    /// Whether this explains an output.
-    pub(crate) fn explains(
+    /// Whether this explains an output that differs in a strength. `max_level` is the largest factor
+    /// that the device takes, 64 if it is not known to be larger.
+    #[must_use]
+    pub fn explains(
         self,
         case: &Case,
         observed: &Tessellation,
-        method: Method,
+        strength: Strength,
         max_level: u32,
     ) -> bool {
-        let strict = any_order(method);
-        let flush = Strength { denormals: Denormals::Flush, ..strict };
+        let flush = Strength { denormals: Denormals::Flush, ..strength };
         let convert = |from: Strength| Strength { conversion: Conversion::Within06Ulp, ..from };
-        let turned = |turn: fn([u32; 2]) -> [u32; 2], reverse| {
-            !observed.points.is_empty()
-                && strict.accepts(case, &turn_round(observed, turn, reverse))
+        let turned = |turn: fn([u32; 2]) -> [u32; 2], reversed: bool| {
+            let case = if reversed { reverse(case) } else { *case };
+            !observed.points.is_empty() && strength.accepts(&case, &turn_round(observed, turn))
         };
         match self {
             Self::Flush => flush.accepts(case, observed),
-            Self::Conversion => convert(strict).accepts(case, observed),
+            Self::Conversion => convert(strength).accepts(case, observed),
             Self::FlushAndConversion => convert(flush).accepts(case, observed),
-            Self::Clamping => max_level > 64 && case.factors.iter().any(|factor| factor > 64.0),
+            Self::Clamping => {
+                let is_larger = case.factors.iter().any(|factor| factor > 64.0);
+                max_level > LARGEST && is_larger && has_more_places(case, observed)
+            }
             Self::Reversed => turned(|uv| uv, true),
             Self::Transposed => turned(|[u, v]| [v, u], true),
             Self::TransposedReversed => turned(|[u, v]| [v, u], false),
-            Self::MirroredU => turned(|[u, v]| [ONE - u, v], true),
-            Self::MirroredV => turned(|[u, v]| [u, ONE - v], true),
+            Self::MirroredU => turned(|[u, v]| [ONE.wrapping_sub(u), v], true),
+            Self::MirroredV => turned(|[u, v]| [u, ONE.wrapping_sub(v)], true),
         }
     }
 }
 
-/// An output with every point moved and, if so asked, every primitive's vertices reversed.
-fn turn_round(
-    output: &Tessellation,
-    turn: fn([u32; 2]) -> [u32; 2],
-    reverse: bool,
-) -> Tessellation {
+/// Whether a device cuts finer than the model: it has more distinct points.
+fn has_more_places(case: &Case, observed: &Tessellation) -> bool {
+    let places = |output: &Tessellation| {
+        let place = |point: &DomainPoint| (point.u.to_bits(), point.v.to_bits());
+        output.points.iter().map(place).collect::<BTreeSet<_>>().len()
+    };
+    places(observed) > places(&case.patch().tessellate())
+}
+
+/// The case with triangles that turn the other way.
+const fn reverse(case: &Case) -> Case {
+    let output = match case.config.output {
+        OutputPrimitive::TriangleCw => OutputPrimitive::TriangleCcw,
+        OutputPrimitive::TriangleCcw => OutputPrimitive::TriangleCw,
+        other => other,
+    };
+    Case { config: Config { output, ..case.config }, factors: case.factors }
+}
+
+/// An output with every point moved.
+fn turn_round(output: &Tessellation, turn: fn([u32; 2]) -> [u32; 2]) -> Tessellation {
     let point = |point: &DomainPoint| {
         let [u, v] = turn([point.u.to_bits(), point.v.to_bits()]);
         DomainPoint::from_bits(u, v)
     };
-    let mut indices = output.indices.clone();
-    if reverse {
-        indices.as_chunks_mut::<3>().0.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+    Tessellation {
+        points: output.points.iter().map(point).collect(),
+        indices: output.indices.clone(),
     }
-    Tessellation { points: output.points.iter().map(point).collect(), indices }
 }

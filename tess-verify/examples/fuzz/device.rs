@@ -1,0 +1,53 @@
+//! The tessellator under test, and what a fuzzer asks about it. Put yours in place of this one.
+
+use tess_core::{Config, PatchFactors, Tessellation};
+use tess_verify::backend::{Backend, BackendError};
+use tess_verify::case::Case;
+use tess_verify::checker::check_case;
+use tess_verify::second::SecondFormulation;
+use tess_verify::strength::Strength;
+
+/// A device: the model by random access, which may have a fault.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Device {
+    /// Whether it keeps 8 bits of a factor's fraction, where there are 16.
+    pub(crate) truncates: bool,
+}
+
+impl Backend for Device {
+    fn name(&self) -> &'static str {
+        "device"
+    }
+
+    fn device(&self) -> String {
+        "in this process".to_owned()
+    }
+
+    fn tessellate(
+        &mut self,
+        config: Config,
+        patches: &[PatchFactors],
+    ) -> Result<Vec<Tessellation>, BackendError> {
+        let cut = |factor| if self.truncates { cut_off(factor) } else { factor };
+        let seen: Vec<_> = patches.iter().map(|patch| patch.map(cut)).collect();
+        SecondFormulation.tessellate(config, &seen)
+    }
+}
+
+/// The device's answer for one case against the model's. The message of a finding begins with the
+/// case as a line, which `tess patch --cases` takes.
+///
+/// # Errors
+/// The first difference, or the device does not run.
+pub(crate) fn check(device: &mut Device, case: &Case) -> Result<(), String> {
+    match check_case(device, case, Strength::default()) {
+        Ok(None) => Ok(()),
+        Ok(Some(wrong)) => Err(format!("{case}\n{}\n{wrong}", case.command())),
+        Err(error) => Err(format!("{case}\n{error}")),
+    }
+}
+
+#[expect(clippy::float_arithmetic, reason = "exact: scaled by a power of two")]
+fn cut_off(factor: f32) -> f32 {
+    if (1.0..64.0).contains(&factor) { (factor * 256.0).floor() / 256.0 } else { factor }
+}

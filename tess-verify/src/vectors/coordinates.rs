@@ -1,0 +1,189 @@
+//! Listings by coordinates: the vertices of a patch's primitives in order, as captures have them.
+
+use super::error::VectorError;
+use super::lines::{Line, Lines};
+use super::listing::{end, primitive_size, too_many};
+use super::row::decimal;
+use crate::case::Case;
+use crate::coordinate::fixed;
+use crate::names::Named;
+use crate::quote::quoted;
+use std::fmt;
+use std::io::BufRead;
+use tess_core::fixed_point::ONE;
+use tess_core::{Domain, DomainPoint, MAX_INDICES, Tessellation};
+
+/// A case, and the coordinates of each vertex of each primitive of an output for it.
+///
+/// Its text is a record of a vector file of the kind `listings`, in the notation `hex`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Coordinates {
+    /// The line of the file that it starts on.
+    pub line: u64,
+    /// What was tessellated.
+    pub case: Case,
+    /// The vertices, as many for each primitive as it has.
+    pub vertices: Vec<Vertex>,
+}
+
+/// Coordinates of a vertex: 16.16 numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Vertex {
+    /// First coordinate.
+    pub u: u32,
+    /// Second coordinate.
+    pub v: u32,
+    /// Third coordinate, if it was captured.
+    pub w: Option<u32>,
+}
+
+impl Coordinates {
+    /// The output: each vertex a point of its own, in the order of the primitives.
+    #[must_use]
+    pub fn output(&self) -> Tessellation {
+        let points = self.vertices.iter().map(|vertex| DomainPoint::from_bits(vertex.u, vertex.v));
+        Tessellation {
+            points: points.collect(),
+            indices: (0..).take(self.vertices.len()).collect(),
+        }
+    }
+
+    /// The first vertex whose third coordinate is wrong, and what is right there: 1 - u - v on
+    /// triangles, 0 elsewhere.
+    pub(crate) fn wrong_third(&self) -> Option<(usize, u32, u32)> {
+        self.vertices.iter().enumerate().find_map(|(number, vertex)| {
+            let right = match self.case.domain() {
+                Domain::Triangle => ONE.wrapping_sub(vertex.u).wrapping_sub(vertex.v),
+                Domain::Isoline | Domain::Quad => 0,
+            };
+            let w = vertex.w.filter(|w| *w != right)?;
+            Some((number, w, right))
+        })
+    }
+}
+
+impl fmt::Display for Coordinates {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}\n{WORD} {} {}", self.case, Notation::Hex.name(), self.vertices.len())?;
+        for Vertex { u, v, w } in &self.vertices {
+            write!(f, "{u:05x} {v:05x}")?;
+            w.map_or(Ok(()), |w| write!(f, " {w:05x}"))?;
+            writeln!(f)?;
+        }
+        writeln!(f, "end")
+    }
+}
+
+/// How coordinates are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Notation {
+    /// 16.16 numbers of 5 to 8 hex digits: 10000 is 1.
+    Hex,
+    /// 16.16 numbers, decimal: 65536 is 1.
+    Decimal,
+    /// Numbers from 0 to 1, or `0x` and the bits of a binary32.
+    Float,
+}
+
+impl Named for Notation {
+    const WHAT: &'static str = "notation";
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("hex", Self::Hex), ("decimal", Self::Decimal), ("float", Self::Float)];
+}
+
+impl Notation {
+    fn parse(self, word: &str) -> Option<u32> {
+        match self {
+            Self::Hex => super::listing::parse_coordinate(word),
+            Self::Decimal => decimal(word),
+            Self::Float => fixed(match word.strip_prefix("0x") {
+                Some(digits) => u32::try_from(crate::case::parse_hex(digits, 8)?).ok()?,
+                None => word.parse::<f32>().ok()?.to_bits(),
+            }),
+        }
+    }
+
+    const fn right(self) -> &'static str {
+        match self {
+            Self::Hex => "5 to 8 hex digits, 10000 being 1",
+            Self::Decimal => "whole numbers of 2^-16, 65536 being 1",
+            Self::Float => {
+                "multiples of 2^-16 from 0 to 1, with 9 digits or as 0x and the bits of a binary32"
+            }
+        }
+    }
+}
+
+const WORD: &str = "coordinates";
+
+/// Whether a line announces coordinates.
+pub(super) fn is_announced(line: &Line<'_>) -> bool {
+    line.text.split(' ').next() == Some(WORD)
+}
+
+/// Reads what follows a case, from the line that announces coordinates to `end`.
+pub(super) fn read<R: BufRead>(
+    lines: &mut Lines<R>,
+    case: Case,
+    start: u64,
+) -> Result<Coordinates, VectorError> {
+    let (notation, count) = announced(lines.last())?;
+    let mut vertices = Vec::new();
+    loop {
+        let line = lines.expect(WORD)?;
+        if line.text == "end" || count == Some(vertices.len()) {
+            break;
+        }
+        if vertices.len() == MAX_INDICES {
+            return Err(line.error(WORD, too_many(MAX_INDICES + 1, MAX_INDICES)));
+        }
+        vertices.push(vertex(line, notation)?);
+    }
+    let line = lines.last();
+    end(line)?;
+    let (got, size) = (vertices.len(), primitive_size(&case));
+    if count.is_some_and(|count| count != got) {
+        let message = format!("{} vertices are announced, these are {got}", count.unwrap_or(0));
+        return Err(line.error(WORD, message));
+    }
+    if !got.is_multiple_of(size) {
+        let message = format!("{got} is no multiple of {size}, the size of a primitive");
+        return Err(line.error(WORD, message));
+    }
+    let numbers = || vertices.iter().flat_map(|vertex| [vertex.u, vertex.v]);
+    if notation == Notation::Decimal && numbers().max() == Some(1) {
+        let message = "no coordinate is above 1, which is 2^-16 in `decimal`; write `float`";
+        return Err(line.error(WORD, message));
+    }
+    Ok(Coordinates { line: start, case, vertices })
+}
+
+/// The notation, and the number of vertices if it is given.
+fn announced(line: Line<'_>) -> Result<(Notation, Option<usize>), VectorError> {
+    let mut words = line.text.split(' ').skip(1);
+    let notation = Notation::from_name(words.next().unwrap_or_default());
+    let notation = notation.map_err(|error| line.error(WORD, error.to_string()))?;
+    let count = words.next().map(|word| {
+        decimal(word).ok_or_else(|| line.error(WORD, format!("{} is not a number", quoted(word))))
+    });
+    let count = count.transpose()?;
+    if let Some(word) = words.next() {
+        return Err(line.error(WORD, format!("{} is one word too many", quoted(word))));
+    }
+    if count.is_some_and(|count| count > MAX_INDICES) {
+        return Err(line.error(WORD, too_many(count.unwrap_or(0), MAX_INDICES)));
+    }
+    Ok((notation, count))
+}
+
+fn vertex(line: Line<'_>, notation: Notation) -> Result<Vertex, VectorError> {
+    let numbers = line.text.split(' ').map(|word| notation.parse(word)).collect::<Option<Vec<_>>>();
+    match numbers.as_deref() {
+        Some(&[u, v]) => Ok(Vertex { u, v, w: None }),
+        Some(&[u, v, w]) => Ok(Vertex { u, v, w: Some(w) }),
+        _ => {
+            let (text, right) = (quoted(line.text), notation.right());
+            Err(line.error(WORD, format!("{text} is not u, v and perhaps w: {right}")))
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! Captures: vertices by coordinates, files without a count, what was asked, outputs that are turned
+//! round as a whole.
+
+use std::fmt::Write;
+use tess_core::fixed_point::ONE;
+use tess_core::{Domain, DomainPoint, OutputPrimitive, Tessellation};
+use tess_verify::backend::Backend;
+use tess_verify::case::Case;
+use tess_verify::checker::{CheckError, Report, Tested, check, check_asked};
+use tess_verify::core_backend::CoreBackend;
+use tess_verify::generate::{Level, Selection};
+use tess_verify::strength::{Elements, Order, Strength, vertices};
+use tess_verify::vectors::{Cases, Listing, VectorFile};
+use tess_verify::ways::Way;
+
+const ANY: Strength = strength(Order::Any);
+const SEQUENCE: Strength = strength(Order::Sequence);
+const EXACT: Strength = strength(Order::Exact);
+const TRI: &str = "case tri fractional_odd triangle_cw ruler 40200000 40400000 40600000 40200000";
+const QUAD: &str = "case quad integer triangle_cw ruler \
+                    40400000 40400000 40400000 40400000 40400000 40400000";
+const HEADER: &str = "# tess-vectors 1 kind=listings source=capture\n";
+
+const fn strength(order: Order) -> Strength {
+    use tess_verify::strength::{Conversion, Denormals};
+    let (conversion, denormals) = (Conversion::Exact, Denormals::Keep);
+    Strength { order, elements: Elements::Primitives, conversion, denormals }
+}
+
+fn run(text: &str, strength: Strength) -> Result<Report, CheckError> {
+    let file = VectorFile::new("capture", text.as_bytes())?;
+    check(file, &mut [Box::new(CoreBackend)], Tested::Listings(strength), &|_| ())
+}
+
+/// The verdict on records, in a file that marks its end.
+fn verdict(records: &str, strength: Strength) -> Report {
+    run(&format!("{HEADER}{records}# end\n"), strength).expect("a verdict")
+}
+
+fn error(text: &str) -> String {
+    run(text, ANY).expect_err("refused").to_string()
+}
+
+/// The places of an output's vertices.
+fn places(output: &Tessellation) -> Vec<[u32; 2]> {
+    vertices(output).flatten().map(|p| [p.u.to_bits(), p.v.to_bits()]).collect()
+}
+
+/// The model's record of a case by coordinates, each number written by `show`.
+fn record(line: &str, notation: &str, show: impl Fn(u32) -> String) -> String {
+    let case: Case = line.parse().expect("a case");
+    let mut text = format!("{line}\ncoordinates {notation}\n");
+    for [u, v] in places(&case.patch().tessellate()) {
+        writeln!(text, "{} {}", show(u), show(v)).expect("written");
+    }
+    text + "end\n"
+}
+
+fn hex(number: u32) -> String {
+    format!("{number:05x}")
+}
+
+fn float(number: u32) -> f32 {
+    f32::from_bits(number_bits(number))
+}
+
+/// The binary32 of a 16.16 number.
+fn number_bits(number: u32) -> u32 {
+    tess_core::fixed_point::coordinate_to_f32(DomainPoint::from_bits(number, 0).u).to_bits()
+}
+
+#[test]
+fn each_notation_is_the_models_sequence() {
+    for line in
+        [TRI, QUAD, &TRI.replace("triangle_cw", "line"), &QUAD.replace("triangle_cw", "point")]
+    {
+        let texts = [
+            record(line, "hex", hex),
+            record(line, "decimal", |number| number.to_string()),
+            record(line, "float", |number| format!("{:.9}", float(number))),
+            record(line, "float", |number| format!("0x{:08x}", number_bits(number))),
+        ];
+        for text in texts {
+            for strength in [EXACT, SEQUENCE, ANY] {
+                let report = verdict(&text, strength);
+                assert_eq!((report.cases, report.mismatches), (1, 0), "{text}{report:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn another_order_and_a_moved_vertex_are_seen() {
+    let right = record(TRI, "hex", hex);
+    let lines: Vec<&str> = right.lines().collect();
+    let mut swapped = lines.clone();
+    swapped.swap(2, 3);
+    swapped.swap(3, 4); // another leading vertex
+    let swapped = swapped.join("\n") + "\n";
+    assert_ne!(swapped, right, "a fault is planted");
+    assert_eq!(verdict(&swapped, ANY).mismatches, 0, "any order");
+    let report = verdict(&swapped, SEQUENCE);
+    assert_eq!(report.mismatches, 1, "the model's order");
+    let shown = report.differences[0].to_string();
+    assert!(shown.contains("index 0 of primitive 0: observed ("), "{shown}");
+    let moved = right.replacen("\n10000 00000", "\n10000 00001", 1);
+    assert_ne!(moved, right, "a fault is planted");
+    for strength in [EXACT, SEQUENCE, ANY] {
+        assert_eq!(verdict(&moved, strength).mismatches, 1, "{strength:?}");
+    }
+    let [a, b, c] = [2, 3, 4].map(|number| format!("{}\n", lines[number]));
+    let lost = right.replacen(&(a + &b + &c), "", 1);
+    assert_eq!(verdict(&lost, ANY).mismatches, 1, "a lost primitive");
+}
+
+#[test]
+fn third_coordinates_are_compared() {
+    let with_third = |third: fn(u32, u32) -> u32, line| {
+        let mut text = String::new();
+        for row in record(line, "hex", hex).lines() {
+            let numbers: Vec<_> =
+                row.split(' ').filter_map(|word| u32::from_str_radix(word, 16).ok()).collect();
+            match numbers[..] {
+                [u, v] if row.len() == 11 => {
+                    writeln!(text, "{row} {:05x}", third(u, v)).expect("written");
+                }
+                _ => writeln!(text, "{row}").expect("written"),
+            }
+        }
+        verdict(&text, SEQUENCE)
+    };
+    assert_eq!(with_third(|u, v| ONE - u - v, TRI).mismatches, 0, "1 - u - v");
+    assert_eq!(with_third(|_, _| 0, QUAD).mismatches, 0, "0");
+    let report = with_third(|u, v| (ONE - u - v) ^ u32::from(u == 0 && v == ONE), TRI);
+    assert_eq!(report.mismatches, 1, "one is wrong");
+    let shown = report.differences[0].mismatch.to_string();
+    assert!(shown.contains("third coordinate of vertex"), "{shown}");
+    assert!(shown.contains("observed 0x00001, expected 0x00000"), "{shown}");
+    assert_eq!(with_third(|_, _| 1, QUAD).mismatches, 1, "1 on a quad");
+}
+
+#[test]
+fn numbers_that_mean_something_else_are_refused() {
+    let file = |line: &str, rows: &str| format!("{HEADER}{TRI}\n{line}\n{rows}end\n# end\n");
+    for (line, rows, expected) in [
+        (
+            "coordinates hex",
+            "0 1\n",
+            "capture:4: coordinates: `0 1` is not u, v and perhaps w: 5 to 8",
+        ),
+        ("coordinates float", "0.1 1\n", "`0.1 1` is not u, v and perhaps w: multiples of 2^-16"),
+        ("coordinates float", "0 1.5\n", "multiples of 2^-16 from 0 to 1"),
+        ("coordinates float", "0 nan\n", "multiples of 2^-16 from 0 to 1"),
+        ("coordinates decimal", "0.5 1\n", "`0.5 1` is not u, v and perhaps w: whole numbers"),
+        ("coordinates decimal", "0 1\n1 0\n0 0\n", "no coordinate is above 1"),
+        ("coordinates", "", "unknown notation ``, expected one of: hex, decimal, float"),
+        ("coordinates hex 2 3", "", "`3` is one word too many"),
+        ("coordinates hex 99999", "", "99999 is too many: a patch has at most 24576"),
+        (
+            "coordinates hex 4",
+            "00000 00000\n00000 00000\n00000 00000\n",
+            "4 vertices are announced",
+        ),
+        ("coordinates hex 1", "00000 00000\n00000 00000\n", "a listing ends with `end`"),
+        ("coordinates hex", "00000 00000\n", "1 is no multiple of 3"),
+        ("points 1", "0 1\n", "`0 1` is not a point: u and v as 5 to 8 hex digits each"),
+    ] {
+        let error = error(&file(line, rows));
+        assert!(error.contains(expected), "{line} {rows:?}: {error}");
+    }
+    let points = Strength { elements: Elements::Points, ..SEQUENCE };
+    let file = format!("{HEADER}{}# end\n", record(TRI, "hex", hex));
+    let refused = run(&file, points).expect_err("no order of points").to_string();
+    assert!(
+        refused.starts_with("capture:2: coordinates: vertices by coordinates do not"),
+        "{refused}"
+    );
+    let points = Strength { elements: Elements::Points, ..ANY };
+    assert_eq!(run(&file, points).map(|report| report.mismatches).ok(), Some(0), "in any order");
+}
+
+#[test]
+fn a_file_without_a_count_marks_its_end() {
+    let record = record(QUAD, "hex", hex);
+    let cut = error(&format!("{HEADER}{record}"));
+    assert!(cut.contains("the last line must be `# end`, but the file ends after 1"), "{cut}");
+    let more = error(&format!("{HEADER}{record}# end\n{record}"));
+    assert!(more.contains("`# end` marks the end, but the file goes on"), "{more}");
+    let none = error(&format!("{HEADER}# end\n"));
+    assert!(none.contains("a file without records shows nothing"), "{none}");
+    let both = HEADER.replace("source", "count=1 source");
+    assert!(run(&format!("{both}{record}# end\n"), ANY).is_ok(), "a count and the mark");
+    let short = HEADER.replace("source", "count=2 source");
+    let error = error(&format!("{short}{record}# end\n"));
+    assert!(error.contains("case: a case is"), "the mark comes too early: {error}");
+}
+
+fn asked(asked: &str, records: &str) -> Result<Report, CheckError> {
+    let text = format!("{HEADER}{records}# end\n");
+    let file = VectorFile::new("capture", text.as_bytes())?;
+    let mut cases = Cases::new("asked", asked.as_bytes())?;
+    let mut one: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
+    check_asked(file, Some(&mut cases), &mut one, Tested::Listings(ANY), &|_| ())
+}
+
+#[test]
+fn what_was_asked_must_be_answered() {
+    let [tri, quad] = [TRI, QUAD].map(|line| record(line, "hex", hex));
+    let cases = format!("# two\n{TRI}\n\n{QUAD}\n");
+    let mismatches = |records: &str| asked(&cases, records).expect("a verdict").mismatches;
+    assert_eq!(mismatches(&format!("{tri}{quad}")), 0, "both");
+    assert_eq!(mismatches(&format!("{tri}{tri}")), 1, "the easy one twice");
+    assert_eq!(mismatches(&tri), 1, "one is missing");
+    assert_eq!(mismatches(&format!("{tri}{quad}{quad}")), 1, "one too many");
+    assert_eq!(mismatches(&format!("{quad}{tri}")), 2, "exchanged");
+    let report = asked(&cases, &format!("{tri}{tri}")).expect("a verdict");
+    let shown = report.differences[0].to_string();
+    assert!(shown.starts_with("record 2 (line "), "{shown}");
+    assert!(shown.contains(&format!("observed {TRI}, expected {QUAD}")), "{shown}");
+    let recorded = format!("{}{tri}{quad}", HEADER.replace("source", "count=2 source"));
+    let report = asked(&recorded, &format!("{tri}{quad}")).expect("a verdict");
+    assert_eq!(report.mismatches, 0, "cases of a vector file");
+    let error = |asked_for: &str| asked(asked_for, &tri).expect_err("refused").to_string();
+    assert_eq!(error("# none\n"), "asked:2: case: there is no case");
+    assert!(error("case tri\n").starts_with("asked:1: case: a case is"), "{}", error("case tri\n"));
+}
+
+/// Outputs of many cases, each changed by `change`.
+fn turned(strength: Strength, change: impl Fn(&Case) -> Tessellation) -> Report {
+    let cases: Vec<Case> = Selection { random: Some(300), ..Selection::level(Level::Three, 1) }
+        .cases()
+        .filter(|case| case.config.output == OutputPrimitive::TriangleCw)
+        .collect();
+    let listing = |case: &Case| Listing { line: 0, case: *case, output: change(case) }.to_string();
+    verdict(&cases.iter().map(listing).collect::<String>(), strength)
+}
+
+fn with_points(case: &Case, change: fn([u32; 2]) -> [u32; 2]) -> Tessellation {
+    let Tessellation { points, indices } = case.patch().tessellate();
+    let place = |point: DomainPoint| {
+        let [u, v] = change([point.u.to_bits(), point.v.to_bits()]);
+        DomainPoint::from_bits(u, v)
+    };
+    Tessellation { points: points.into_iter().map(place).collect(), indices }
+}
+
+#[test]
+fn one_mistake_that_explains_everything_is_named() {
+    let reversed = |case: &Case| {
+        let mut output = case.patch().tessellate();
+        if case.domain() != Domain::Isoline {
+            output.indices.chunks_mut(3).for_each(|triangle| triangle.swap(1, 2));
+        }
+        output
+    };
+    let report = turned(ANY, reversed);
+    assert!(report.mismatches > 30, "{report}");
+    assert_eq!(report.turn(), Some(Way::Reversed));
+    // Points keep their numbers, and triangles their vertices: a mirrored picture, in order.
+    for strength in [EXACT, SEQUENCE, ANY] {
+        let transposed = |case: &Case| with_points(case, |[u, v]| [v, u]);
+        let report = turned(strength, transposed);
+        assert!(report.mismatches > 30, "{report}");
+        assert_eq!(report.turn(), Some(Way::TransposedReversed), "{strength:?}");
+    }
+}
+
+#[test]
+fn one_other_difference_and_no_mistake_explains_everything() {
+    let report = turned(ANY, |case| {
+        let mut output = with_points(case, |[u, v]| [v, u]);
+        if case.domain() == Domain::Isoline {
+            output.points.truncate(1);
+        }
+        output
+    });
+    assert!(report.mismatches > 30, "{report}");
+    assert_eq!(report.turn(), None, "not all");
+    assert_eq!(turned(ANY, |case| case.patch().tessellate()).turn(), None, "nothing differs");
+}

@@ -1,0 +1,135 @@
+//! `tess gen`, `check` and `patch` with what a device was asked, and with what it got wrong.
+
+use crate::support::{directory, tess, tess_with_input};
+use std::fs::{read_to_string, write};
+
+const TRI: &str = "case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000";
+const QUAD: &str =
+    "case quad integer triangle_cw ruler 40400000 40400000 40400000 40400000 40400000 40400000";
+
+#[test]
+fn filters_select_configurations() {
+    let all = "gen --level 1 --domain quad --partitioning integer --count 40";
+    let cases = |words: &str| {
+        let run = tess(&format!("{all} {words}"));
+        assert_eq!(run.code, Some(0), "{words}: {}", run.stderr);
+        let rows = run.stdout.lines().filter(|line| line.starts_with("quad,integer,"));
+        rows.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let (whole, some) = (cases(""), cases("--output line --split center"));
+    assert!(some.len() > 60 && some.len() < whole.len(), "{} of {}", some.len(), whole.len());
+    assert!(some.iter().all(|row| row.starts_with("quad,integer,line,center,")), "{some:?}");
+    let systematic = |rows: &[String]| {
+        let chosen = |row: &&String| row.starts_with("quad,integer,line,center,");
+        rows[..rows.len() - 40].iter().filter(chosen).cloned().collect::<Vec<_>>()
+    };
+    assert_eq!(systematic(&whole), some[..some.len() - 40], "none is lost");
+    let header = tess(&format!("{all} --output line --split center")).stdout;
+    assert!(
+        header.lines().next().is_some_and(|h| h.ends_with("output=line split=center")),
+        "noted"
+    );
+}
+
+#[test]
+fn a_device_that_repeats_one_case_does_not_pass() {
+    let folder = directory("asked");
+    let asked = folder.join("asked.txt");
+    write(&asked, format!("{TRI}\n{QUAD}\n")).expect("written");
+    let right = tess(&format!("patch --cases {}", asked.display()));
+    assert_eq!(right.code, Some(0), "{}", right.stderr);
+    let check =
+        |listings: &str| tess_with_input(&format!("check - --cases {}", asked.display()), listings);
+    let run = check(&right.stdout);
+    assert_eq!(
+        (run.code, run.stdout.as_str()),
+        (Some(0), "2 cases, 0 mismatches\n"),
+        "{}",
+        run.stderr
+    );
+    let (header, body) = right.stdout.split_once('\n').expect("a header");
+    let (first, _) = body.split_once("case quad").expect("two cases");
+    let run = check(&format!("{header}\n{first}{first}"));
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.contains(&format!("observed {TRI}, expected {QUAD}")), "{}", run.stdout);
+    let run = check(&format!("{}\n{first}", header.replace("count=2", "count=1")));
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.contains(&format!("observed none, expected {QUAD}")), "{}", run.stdout);
+    let run = tess_with_input("check - --cases /nowhere", &right.stdout);
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+}
+
+#[test]
+fn failing_records_are_kept_and_can_be_asked_again() {
+    let folder = directory("failures");
+    let [device, failing] = ["device.txt", "failing.txt"].map(|name| folder.join(name));
+    let right = tess_with_input("patch --cases -", &format!("{TRI}\n{QUAD}\n{TRI}\n")).stdout;
+    let wrong = right.replacen("\n10000 10000\n", "\n10000 0ffff\n", 1);
+    assert_ne!(right, wrong, "a fault is planted in the quad");
+    write(&device, &wrong).expect("written");
+    let (device, failing) = (device.display(), failing.display());
+    let run = tess(&format!("check {device} --order any --failures {failing}"));
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    let beside = "point (10000, 0ffff): observed 1 times (but point (10000, 10000) 0 times, not 1)";
+    assert!(run.stdout.contains(beside), "{}", run.stdout);
+    let kept = read_to_string(failing.to_string()).expect("a file");
+    assert!(kept.contains(QUAD) && !kept.contains(TRI) && kept.ends_with("end\n# end\n"), "{kept}");
+    let again = tess(&format!("check {failing}"));
+    assert_eq!((again.code, again.stdout.contains("1 cases, 1 mismatches")), (Some(1), true));
+    let asked = tess(&format!("patch --cases {failing}"));
+    assert_eq!(asked.stdout.matches("\ncase ").count(), 1, "{}", asked.stdout);
+    assert_eq!(tess_with_input("check -", &asked.stdout).code, Some(0), "the model is right");
+    let run = tess_with_input(&format!("check - --failures {failing}"), &right);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(tess(&format!("check {failing}")).code, Some(2), "no record is left");
+    assert_eq!(tess_with_input("check - --failures -", &right).code, Some(2), "no file");
+}
+
+#[test]
+fn a_device_that_turns_the_other_way_reads_one_line() {
+    let cases = format!("{TRI}\n{QUAD}\n");
+    let ccw = cases.replace("triangle_cw", "triangle_ccw");
+    let turned =
+        tess_with_input("patch --cases -", &ccw).stdout.replace("triangle_ccw", "triangle_cw");
+    let run = tess_with_input("check - --order any", &turned);
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    let line = "one mistake explains all 2 differences: every triangle turns the other way\n";
+    assert!(run.stdout.contains(line), "{}", run.stdout);
+    assert_eq!(run.stdout.matches("\nrecord ").count(), 1, "{}", run.stdout);
+    assert!(run.stdout.ends_with("and 1 more\n2 cases, 2 mismatches\n"), "{}", run.stdout);
+}
+
+#[test]
+fn captures_by_coordinates() {
+    let capture = "# tess-vectors 1 kind=listings source=capture\n\
+        case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000\n\
+        coordinates float\n0 1 0\n0 0 1\n1 0 0\nend\n# end\n";
+    let run = tess_with_input("check - --order sequence", capture);
+    assert_eq!(
+        (run.code, run.stdout.as_str()),
+        (Some(0), "1 cases, 0 mismatches\n"),
+        "{}",
+        run.stderr
+    );
+    let run = tess_with_input("check -", &capture.replace("0 0 1", "0 0 0"));
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.contains("third coordinate of vertex 1 of primitive 0"), "{}", run.stdout);
+    for notation in ["hex", "decimal"] {
+        let run = tess_with_input("check -", &capture.replace("float", notation));
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+    }
+}
+
+#[test]
+fn a_patch_or_cases() {
+    let both = tess("patch tri --outer 1,1,1 --inner 1 --cases x");
+    assert_eq!(both.code, Some(2), "{}", both.stdout);
+    assert!(both.stderr.contains("--cases"), "{}", both.stderr);
+    for words in ["patch", "patch tri --inner 1"] {
+        let neither = tess(words);
+        assert_eq!(neither.code, Some(2), "{}", neither.stdout);
+        assert!(neither.stderr.contains("--outer"), "{}", neither.stderr);
+    }
+    let form = tess_with_input("patch --cases - --format json", TRI);
+    assert_eq!((form.code, form.stderr.contains("--format text")), (Some(2), true));
+}
