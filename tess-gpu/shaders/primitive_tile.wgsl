@@ -73,7 +73,13 @@ fn first_triangle(round: Round, before: Source, location: RingLocation, element:
         next = RingLocation(1u, 0u, 0u);
     }
     if ORDER == DRAWING {
-        next = location_of(source, element - source.begin);
+        next.ring = NEVER;
+        if number == before.number && source.is_regular {
+            next = drawn_behind(source.rings, location);
+        }
+        if next.ring == NEVER {
+            next = location_of(source, element - source.begin);
+        }
     }
     return stitch_triangles(stitch_from(source, next), next.step).first;
 }

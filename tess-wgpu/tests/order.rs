@@ -107,6 +107,8 @@ fn planted_faults_are_seen() {
     for (from, to) in [
         ("if ORDER == DRAWING {\n        return drawn", "if false {\n        return drawn"),
         ("let cut = max(min(min(end, COLUMN * column + 1u), half), 2u);", "let cut = 2u;"),
+        ("if step < border(sector", "if step <= border(sector"),
+        ("is_there = ring < sector.end && first", "is_there = first"),
         ("(max(first, cut + 1u) - cut - 1u)", "(max(first, cut + 1u) - cut)"),
         ("if rest < transition {", "if rest <= transition {"),
         ("next = location_of(source, element - source.begin);", ""),
