@@ -102,7 +102,11 @@ impl Args {
 /// Runs an example by its command line: `--screenshot FILE` draws one frame into a file, otherwise there is a
 /// window, which closes after `--frames COUNT` frames if that is given.
 pub(crate) fn run<S: Show>() -> Result<(), Box<dyn Error>> {
-    let args = Args::from_command_line()?;
+    run_with::<S>(Args::from_command_line()?)
+}
+
+/// The same with these options.
+pub(crate) fn run_with<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
     match args.text("screenshot") {
         Some(path) => {
             let gpu = pollster::block_on(Gpu::open())?;
