@@ -13,5 +13,5 @@ mod terrain;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let args = app::Args::from_command_line()?.or("points", "none");
-    app::run_with::<terrain::Terrain>(args)
+    app::run::<terrain::Terrain>(args)
 }

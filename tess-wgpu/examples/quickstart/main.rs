@@ -10,5 +10,5 @@ mod camera;
 mod show;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    app::run::<show::Quickstart>()
+    app::run::<show::Quickstart>(app::Args::from_command_line()?)
 }

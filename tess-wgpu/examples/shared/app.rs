@@ -34,6 +34,7 @@ pub(crate) trait Show: Sized {
 }
 
 /// A frame's moment and size.
+#[allow(dead_code, reason = "not every example moves")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
     pub(crate) seconds: f32,
@@ -99,14 +100,9 @@ impl Args {
     }
 }
 
-/// Runs an example by its command line: `--screenshot FILE` draws one frame into a file, otherwise there is a
+/// Runs an example by its options: `--screenshot FILE` draws one frame into a file, otherwise there is a
 /// window, which closes after `--frames COUNT` frames if that is given.
-pub(crate) fn run<S: Show>() -> Result<(), Box<dyn Error>> {
-    run_with::<S>(Args::from_command_line()?)
-}
-
-/// The same with these options.
-pub(crate) fn run_with<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
     match args.text("screenshot") {
         Some(path) => {
             let gpu = pollster::block_on(Gpu::open())?;

@@ -9,5 +9,5 @@ mod show;
 mod teapot;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    app::run::<show::Teapot>()
+    app::run::<show::Teapot>(app::Args::from_command_line()?)
 }

@@ -16,6 +16,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if args.text("bench").is_some() {
         bench::run(&args)
     } else {
-        app::run_with::<terrain::Terrain>(args)
+        app::run::<terrain::Terrain>(args)
     }
 }
