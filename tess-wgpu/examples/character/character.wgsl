@@ -1,4 +1,4 @@
-// A mesh of PN triangles, displaced along their normals. Needs tess_surface::shaders::BEZIER and PN.
+// A mesh of PN triangles, displaced along their normals. Needs tess_surface::shaders::BEZIER and POINT_NORMAL.
 
 struct Frame {
     clip_from_world: mat4x4f,
@@ -81,8 +81,8 @@ fn rounded(number: u32, uv: vec2f) -> Rounded {
 
 // How far a place is displaced: wool. It depends on the place alone, so that edges stay closed.
 fn height(at: vec3f) -> f32 {
-    let p = 19.0 * at;
-    return 0.022 * (sin(p.x) * sin(p.y + 0.7 * sin(p.z)) + 0.6 * sin(1.7 * p.z + p.x) * cos(1.9 * p.y));
+    let p = 27.0 * at;
+    return 0.014 * (sin(p.x) * sin(p.y + 0.7 * sin(p.z)) + 0.6 * sin(1.7 * p.z + p.x) * cos(1.9 * p.y));
 }
 
 fn domain(number: u32, uv: vec2f) -> Vertex {

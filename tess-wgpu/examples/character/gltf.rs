@@ -2,6 +2,7 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use glam::Vec3;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -65,7 +66,7 @@ pub(crate) struct Mesh {
     pub(crate) triangles: Vec<[u32; 3]>,
 }
 
-/// The faces of the cubes that no other cube covers; corners that several share have the mean normal.
+/// The faces of the cubes that no other cube covers, smoothed.
 pub(crate) fn animal() -> Mesh {
     let mut numbers = BTreeMap::new();
     let mut mesh = Mesh::default();
@@ -83,23 +84,47 @@ pub(crate) fn animal() -> Mesh {
                 // Counter-clockwise as seen from outside.
                 at[(axis + 1) % 3] += if side == 1 { a } else { b };
                 at[(axis + 2) % 3] += if side == 1 { b } else { a };
-                let number = *numbers.entry(at).or_insert_with(|| {
+                *numbers.entry(at).or_insert_with(|| {
                     mesh.positions.push(at.map(|c| SIZE * f32::from(c)));
-                    mesh.normals.push([0.0; 3]);
                     u32::try_from(mesh.positions.len() - 1).unwrap_or(u32::MAX)
-                });
-                mesh.normals[number as usize][axis] += f32::from(2 * side - 1);
-                number
+                })
             });
             let [a, b, c, d] = quad;
             mesh.triangles.extend([[a, b, c], [a, c, d]]);
         }
     }
-    for normal in &mut mesh.normals {
-        let length = normal.iter().map(|c| c * c).sum::<f32>().sqrt().max(1e-6);
-        *normal = normal.map(|c| c / length);
+    for _ in 0..2 {
+        smooth(&mut mesh);
     }
+    mesh.normals = normals(&mesh);
     mesh
+}
+
+/// Moves each corner half of the way to the mean of its neighbours.
+fn smooth(mesh: &mut Mesh) {
+    let mut sums = vec![(Vec3::ZERO, 0.0); mesh.positions.len()];
+    for &[a, b, c] in &mesh.triangles {
+        for (corner, beside) in [(a, b), (b, c), (c, a)] {
+            let (sum, count) = &mut sums[corner as usize];
+            *sum += Vec3::from(mesh.positions[beside as usize]);
+            *count += 1.0;
+        }
+    }
+    for (position, (sum, count)) in mesh.positions.iter_mut().zip(sums) {
+        *position = Vec3::from(*position).lerp(sum / count, 0.5).to_array();
+    }
+}
+
+/// The mean normal of the triangles around each corner, larger ones counting for more.
+fn normals(mesh: &Mesh) -> Vec<[f32; 3]> {
+    let mut sums = vec![Vec3::ZERO; mesh.positions.len()];
+    for &triangle in &mesh.triangles {
+        let [a, b, c] = triangle.map(|corner| Vec3::from(mesh.positions[corner as usize]));
+        for corner in triangle {
+            sums[corner as usize] += (b - a).cross(c - a);
+        }
+    }
+    sums.into_iter().map(|sum| sum.normalize_or(Vec3::Z).to_array()).collect()
 }
 
 /// A mesh as a glTF 2.0 file with its buffer inside.

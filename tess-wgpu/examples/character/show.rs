@@ -36,7 +36,8 @@ impl Show for Character {
         let bound = [Bound::Uniform(&frame), Bound::Read(&corners), Bound::Read(&indices)];
         let (layout, group) = bind(gpu, &bound);
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
-        let wgsl = [shaders::BEZIER, shaders::POINT_NORMAL, include_str!("character.wgsl")].join("\n");
+        let wgsl =
+            [shaders::BEZIER, shaders::POINT_NORMAL, include_str!("character.wgsl")].join("\n");
         let triangles = u32::try_from(mesh.triangles.len())?;
         let stage = TessellationStage::builder(&wgsl, Domain::Triangle, config, triangles)
             .bind_group(&layout, &group)
@@ -55,7 +56,7 @@ impl Show for Character {
         let target = Vec3::new(0.5, 0.1, 1.7);
         let angle = 0.6 * view.seconds - 2.1;
         let eye = target + Vec3::new(5.6 * libm::cosf(angle), 5.6 * libm::sinf(angle), 1.2);
-        let camera = Camera { eye, target, up: Vec3::Z, zoom: 2.2 };
+        let camera = Camera { eye, target, up: Vec3::Z, zoom: 2.7 };
         let [width, height] = view.size.map(|size| size as f32);
         let mut words = camera.clip_from_world(width / height).to_cols_array().to_vec();
         words.extend(eye.extend(0.5 * height * camera.zoom).to_array());
