@@ -125,8 +125,8 @@ impl TessellationStage {
         self.draw_as(pass, None);
     }
 
-    /// Draws one group of patches. Set a bind group in front of this, and it holds for the one draw, if
-    /// it is none of the stage's own.
+    /// Draws one group of patches. [`Self::set_bind_group`] in front of it gives the group a material of
+    /// its own.
     ///
     /// # Errors
     /// [`StageError::NoSuchGroup`].

@@ -34,6 +34,7 @@ pub(crate) trait Show: Sized {
 }
 
 /// A frame's moment and size.
+#[allow(dead_code, reason = "not every example moves")]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
     pub(crate) seconds: f32,
@@ -99,15 +100,17 @@ impl Args {
     }
 }
 
-/// Runs an example by its command line: `--screenshot FILE` draws one frame into a file, otherwise there is a
+/// Runs an example by its options: `--screenshot FILE` draws one frame into a file
+/// (`--width PIXELS`, `--seconds S`), otherwise there is a
 /// window, which closes after `--frames COUNT` frames if that is given.
-pub(crate) fn run<S: Show>() -> Result<(), Box<dyn Error>> {
-    let args = Args::from_command_line()?;
+pub(crate) fn run<S: Show>(args: Args) -> Result<(), Box<dyn Error>> {
     match args.text("screenshot") {
         Some(path) => {
             let gpu = pollster::block_on(Gpu::open())?;
-            let pixels = picture::<S>(&gpu, &args, [960, 720])?;
-            png_of::write(path, [960, 720], &pixels)
+            let width = args.number("width", 960_u32)?.next_multiple_of(64);
+            let size = [width, width * 3 / 4];
+            let pixels = picture::<S>(&gpu, &args, size)?;
+            png_of::write(path, size, &pixels)
         }
         None => window::run::<S>(args),
     }

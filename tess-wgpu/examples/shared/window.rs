@@ -155,8 +155,8 @@ impl<S: Show> Open<S> {
         self.gpu.queue.present(target);
         let took = self.last.elapsed();
         self.last = Instant::now();
-        let milliseconds = 1e3 * took.as_secs_f32();
-        self.window.set_title(&format!("{} - {milliseconds:.1} ms", self.show.title()));
+        let milliseconds = took.as_millis();
+        self.window.set_title(&format!("{} - {milliseconds} ms", self.show.title()));
         Ok(())
     }
 }

@@ -1,14 +1,13 @@
 //! The teapot: see README.md beside this file.
 
-#[path = "../shared/png_file.rs"]
-mod png_file;
+#[path = "../shared/app.rs"]
+mod app;
+#[path = "../shared/bindings.rs"]
+mod bindings;
+mod show;
+#[allow(dead_code, reason = "the picture without the stage is for other examples and tests")]
 mod teapot;
 
-use teapot::picture;
-use tess_wgpu::Gpu;
-
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let path = std::env::args().nth(1).unwrap_or_else(|| "teapot.png".to_owned());
-    let gpu = pollster::block_on(Gpu::open())?;
-    png_file::write(&path, &teapot::render(&gpu)?)
+    app::run::<show::Teapot>(app::Args::from_command_line()?)
 }

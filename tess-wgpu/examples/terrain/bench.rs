@@ -49,7 +49,7 @@ impl<'a> Bench<'a> {
         args: &Args,
     ) -> Result<Self, Box<dyn Error>> {
         let format = wgpu::TextureFormat::Rgba8Unorm;
-        let terrain = Terrain::new(gpu, format, &args.or("grid", "128"))?;
+        let terrain = Terrain::new(gpu, format, &args.or("grid", "256"))?;
         let color = app::view_of(&app::texture(gpu, format, SIZE));
         let depth = app::view_of(&app::texture(gpu, app::DEPTH, SIZE));
         Ok(Self { gpu, watch, terrain, color, depth })

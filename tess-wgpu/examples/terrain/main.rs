@@ -13,5 +13,9 @@ mod terrain;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let args = app::Args::from_command_line()?;
-    if args.text("bench").is_some() { bench::run(&args) } else { app::run::<terrain::Terrain>() }
+    if args.text("bench").is_some() {
+        bench::run(&args)
+    } else {
+        app::run::<terrain::Terrain>(args)
+    }
 }

@@ -30,6 +30,11 @@ fn ladder() -> Vec<f32> {
     all
 }
 
+/// The WGSL of the passes.
+pub(crate) fn source(setup: Setup) -> String {
+    Counting { group: 0, binding: 3 }.source(setup) + include_str!("../../shaders/fit.wgsl")
+}
+
 /// The passes that scale factors, and their buffers.
 #[derive(Debug)]
 pub(crate) struct Fit {
@@ -70,9 +75,7 @@ impl Fit {
         let (layout, bound) = passes::bind(device, "fit", &buffers)?;
         let (layout_of_decided, decided) =
             passes::bind(device, "fit arguments", &[(&arguments, Access::ReadWrite)])?;
-        let source = Counting { group: 0, binding: 3 }.source(setup)
-            + include_str!("../../shaders/fit.wgsl");
-        let module = passes::module(device, "fit", source)?;
+        let module = passes::module(device, "fit", source(setup))?;
         let pipeline = |entry_point| passes::pipeline(device, &module, entry_point, &[&layout]);
         Ok(Self {
             count_whole: pipeline("count_whole")?,

@@ -97,4 +97,74 @@ mod tests {
             .replace("place", "tess_place");
         assert_eq!(with_own_names(source), expected, "and nothing else");
     }
+
+    /// The least that a user writes, for a domain.
+    fn user(domain: Domain) -> String {
+        let kind = match domain {
+            Domain::Isoline => "IsolineFactors",
+            Domain::Triangle => "TriFactors",
+            Domain::Quad => "QuadFactors",
+        };
+        format!(
+            "struct Vertex {{ @builtin(position) position: vec4f }}\n\
+             fn hull(number: u32) -> {kind} {{ return {kind}(); }}\n\
+             fn domain(number: u32, uv: vec2f) -> Vertex {{ return Vertex(vec4f(uv, 0.0, 1.0)); }}\n"
+        )
+    }
+
+    /// Every module of the stage, with names of the stage's own shaders in the user's text.
+    fn modules() -> Vec<String> {
+        let mut all = Vec::new();
+        for domain in Domain::ALL {
+            let user = user(domain)
+                + "const ONE = 1.0; fn place() {} fn corner() {} struct Job { a: u32 }";
+            all.push(of_hull(&user, domain, 2));
+            for partitioning in tess_core::Partitioning::ALL {
+                for output in tess_core::OutputPrimitive::ALL {
+                    let setup = Setup::new(domain, tess_core::Config::new(partitioning, output));
+                    all.push(super::super::fit::source(setup));
+                    for points in [Points::Stored, Points::Pull, Points::PullWithoutIndices] {
+                        all.push(of_vertices(&user, setup, points, 1));
+                    }
+                }
+            }
+        }
+        all
+    }
+
+    #[test]
+    fn every_module_is_valid() {
+        use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};
+        for source in modules() {
+            let module = wgpu::naga::front::wgsl::parse_str(&source)
+                .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&source)));
+            let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
+            if let Err(error) = validator.validate(&module) {
+                panic!("{}", error.emit_to_string(&source));
+            }
+        }
+    }
+
+    /// As browsers see them.
+    #[test]
+    #[ignore = "needs tint, a part of Dawn: cargo test -p tess-wgpu --lib -- --ignored"]
+    fn tint_takes_every_module() {
+        use std::io::Write;
+        use std::process::{Command, Stdio};
+        for source in modules() {
+            let mut child = Command::new("tint")
+                .args(["--input-format", "wgsl", "--format", "wgsl", "-"])
+                .stdin(Stdio::piped())
+                .stdout(Stdio::null())
+                .stderr(Stdio::piped())
+                .spawn()
+                .unwrap_or_else(|error| panic!("tint, a part of Dawn, has to be there: {error}"));
+            let mut input = child.stdin.take().expect("it is piped");
+            input.write_all(source.as_bytes()).expect("tint reads");
+            drop(input);
+            let output = child.wait_with_output().expect("tint ends");
+            let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert!(output.status.success(), "{said}\n{source}");
+        }
+    }
 }

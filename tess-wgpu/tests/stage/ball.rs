@@ -10,7 +10,7 @@ use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
 /// Quads along an edge of the cube that the ball is made of.
-const CELLS: i16 = 3;
+const CELLS: i16 = 2;
 /// The quads.
 pub(crate) const QUADS: u32 = 6 * (CELLS as u32) * (CELLS as u32);
 

@@ -112,3 +112,18 @@ fn groups_are_drawn_one_by_one() {
         }
     }
 }
+
+/// As in a browser: nothing blocks.
+#[test]
+fn a_stage_is_made_and_read_without_blocking() {
+    let scene = scene(Domain::Triangle, Partitioning::Integer);
+    let built = pollster::block_on(scene.builder().build_async(&scene.gpu.device));
+    let mut stage = built.unwrap_or_else(|error| panic!("{error}"));
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    assert_eq!(compare(&observed, &pixels(scene.config, &scene.patches)), Ok(()), "as ever");
+    let bytes: Vec<u8> = (0..=255).collect();
+    let buffer = scene.gpu.upload("bytes", &bytes, Usage::COPY_SRC).expect("there is room");
+    assert_eq!(pollster::block_on(scene.gpu.read_async(&buffer, 100)), Ok(bytes[..100].to_vec()));
+    let beyond = pollster::block_on(scene.gpu.read_async(&buffer, 1000));
+    assert!(matches!(beyond, Err(tess_wgpu::Error::Refused { .. })), "{beyond:?}");
+}

@@ -51,8 +51,9 @@ fn wrong_wgsl_is_reported_with_the_users_line() {
             let expected = line_of(&right, from);
             match refusal(&scene, &wrong, points) {
                 StageError::Wgsl { line: Some(line), message } => {
-                    // A missing semicolon is found where the next token begins.
-                    assert!((expected..=expected + 2).contains(&line), "{line}: {message}");
+                    // A missing semicolon is found where the next token begins; a statement of
+                    // the wrong type is reported with its function, which begins a line before.
+                    assert!((expected - 1..=expected + 2).contains(&line), "{line}: {message}");
                     assert!(message.contains(says), "{message}");
                     let text = StageError::Wgsl { line: Some(line), message }.to_string();
                     assert!(text.starts_with(&format!("line {line} of your WGSL: ")), "{text}");

@@ -3,11 +3,14 @@
 #![expect(clippy::float_arithmetic, reason = "pixels and factors are floats")]
 
 mod ball;
+#[path = "../../examples/shared/bindings.rs"]
+mod bindings;
 #[path = "../../examples/shared/camera.rs"]
 mod camera;
 mod cracks;
 mod drawing;
 mod errors;
 mod model;
+mod porting;
 mod room;
 mod scene;

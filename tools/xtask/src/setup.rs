@@ -36,6 +36,11 @@ const TESTS: &[Need] = &[
         },
     },
     Need {
+        what: "an X server without a screen, and its libraries (a test of an example's window)",
+        packages: &["xvfb", "libx11-xcb1", "libxcursor1", "libxi6", "libxkbcommon-x11-0"],
+        is_there: || has_program("Xvfb"),
+    },
+    Need {
         what: "Verilator (tests of the SystemVerilog interface)",
         packages: &["verilator"],
         is_there: || has_program("verilator"),

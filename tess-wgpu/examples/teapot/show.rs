@@ -1,0 +1,56 @@
+//! The teapot in the tessellation stage.
+
+use crate::app::{self, Args, Show, View};
+use crate::bindings::{Bound, bind};
+use crate::teapot;
+use std::error::Error;
+use tess_surface::shaders;
+use tess_wgpu::{Gpu, TessellationStage};
+use wgpu::BufferUsages as Usage;
+
+/// The user's WGSL: the formulas of tess-surface, and what calls them.
+fn wgsl() -> String {
+    let stage = include_str!("stage.wgsl");
+    [shaders::BEZIER, shaders::FACTORS, &teapot::source()[shaders::BEZIER.len()..], stage]
+        .join("\n")
+}
+
+/// The teapot.
+pub(crate) struct Teapot(TessellationStage);
+
+impl Show for Teapot {
+    fn new(gpu: &Gpu, format: wgpu::TextureFormat, _: &Args) -> Result<Self, Box<dyn Error>> {
+        let nets = teapot::nets();
+        let nets = gpu.upload("nets", bytemuck::cast_slice(&nets), Usage::STORAGE)?;
+        let (layout, group) = bind(gpu, &[Bound::Read(&nets)]);
+        let setup = teapot::setup();
+        let wgsl = wgsl();
+        let builder =
+            TessellationStage::builder(&wgsl, setup.domain, setup.config, teapot::PATCHES);
+        let stage = builder
+            .bind_group(&layout, &group)
+            .target(format)
+            .fragment("shade")
+            .depth(app::depth())
+            .build(&gpu.device)?;
+        Ok(Self(stage))
+    }
+
+    fn prepare(
+        &mut self,
+        _: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        _: View,
+    ) -> Result<(), Box<dyn Error>> {
+        Ok(self.0.prepare(encoder, teapot::PATCHES)?)
+    }
+
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
+        self.0.draw(pass);
+    }
+
+    fn title(&self) -> String {
+        let drawn = self.0.feedback().map_or(0, |feedback| feedback.drawn);
+        format!("teapot: {drawn} triangles")
+    }
+}

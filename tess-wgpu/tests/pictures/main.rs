@@ -1,0 +1,92 @@
+//! The examples' pictures are those that a rasteriser on the CPU draws of the CPU's tessellation.
+
+#![expect(
+    clippy::float_arithmetic,
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "pictures are made of floats, and of bytes"
+)]
+
+#[allow(dead_code, reason = "its command line and its window are not used here")]
+#[path = "../../examples/shared/app.rs"]
+mod app;
+#[path = "../../examples/shared/bindings.rs"]
+mod bindings;
+#[path = "../../examples/shared/camera.rs"]
+mod camera;
+#[allow(dead_code, reason = "only its picture is used here")]
+#[path = "../../examples/quickstart/show.rs"]
+mod quickstart;
+#[allow(dead_code, reason = "the picture does not say more")]
+#[path = "../../../tools/cli/src/commands/mesh/output/raster.rs"]
+mod raster;
+mod reference;
+#[path = "../../examples/teapot/show.rs"]
+mod show;
+#[allow(dead_code, reason = "the picture without the stage is not drawn here")]
+#[path = "../../examples/teapot/teapot.rs"]
+mod teapot;
+#[allow(dead_code, reason = "nothing is measured here")]
+#[path = "../../examples/terrain/terrain.rs"]
+mod terrain;
+
+use app::{Args, Show};
+use tess_wgpu::Gpu;
+
+/// Pixels across and down; a row has a multiple of 256 bytes.
+const SIZE: [u32; 2] = [512, 384];
+
+/// A pixel differs if a channel is further off than this. Devices round colours and positions in ways of
+/// their own.
+const CHANNEL: i16 = 12;
+/// So many pixels of a thousand may differ: those on outlines, and on the edges of triangles.
+const PER_MILLE: usize = 10;
+
+fn gpu() -> Gpu {
+    pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn picture<S: Show>(gpu: &Gpu, args: &Args) -> Vec<u8> {
+    app::picture::<S>(gpu, args, SIZE).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// How many pixels of a thousand differ.
+fn difference(observed: &[u8], expected: &[[u8; 3]]) -> usize {
+    assert_eq!(observed.len(), 4 * expected.len(), "pictures of one size");
+    let differs = |(a, b): &(&[u8; 4], &[u8; 3])| {
+        (0..3).any(|k| (i16::from(a[k]) - i16::from(b[k])).abs() > CHANNEL)
+    };
+    let pairs = observed.as_chunks::<4>().0.iter().zip(expected);
+    1000 * pairs.filter(differs).count() / expected.len()
+}
+
+#[test]
+fn the_teapot_is_the_cpus() {
+    let observed = picture::<show::Teapot>(&gpu(), &Args::default());
+    let found = difference(&observed, &reference::teapot(SIZE, 0.0));
+    assert!(found <= PER_MILLE, "{found} pixels of a thousand differ");
+    let found = difference(&observed, &reference::teapot(SIZE, 0.02));
+    assert!(found > PER_MILLE, "a teapot that stands elsewhere differs in only {found}");
+}
+
+#[test]
+fn the_sea_of_the_quickstart_is_the_cpus() {
+    let observed = picture::<quickstart::Quickstart>(&gpu(), &Args::default());
+    let found = difference(&observed, &reference::sea(SIZE, 1.0));
+    assert!(found <= PER_MILLE, "{found} pixels of a thousand differ");
+    let found = difference(&observed, &reference::sea(SIZE, 0.9));
+    assert!(found > PER_MILLE, "lower waves differ in only {found}");
+}
+
+/// Where points come from makes no difference to a single pixel.
+#[test]
+fn the_terrain_is_the_same_without_buffers() {
+    let gpu = gpu();
+    let of = |points| picture::<terrain::Terrain>(&gpu, &Args::default().with("points", points));
+    let stored = of("stored");
+    let colours: std::collections::BTreeSet<_> = stored.as_chunks::<4>().0.iter().collect();
+    assert!(colours.len() > 5000, "{} colours of a terrain", colours.len());
+    assert!(of("pull") == stored, "without points");
+    assert!(of("none") == stored, "without points and indices");
+}
