@@ -4,7 +4,7 @@ use super::room::{Overflow, Room};
 use super::{TessellationStage, make};
 use crate::error::Error;
 use tess_core::{Config, Domain};
-use tess_gpu::Setup;
+use tess_gpu::{Order, Setup};
 
 /// Where the factors come from.
 #[derive(Clone, Copy, Debug, Default)]
@@ -68,7 +68,7 @@ impl<'a> StageBuilder<'a> {
     pub(super) const fn new(source: &'a str, domain: Domain, config: Config, patches: u32) -> Self {
         Self {
             source,
-            setup: Setup::new(domain, config),
+            setup: Setup { order: Order::Drawing, ..Setup::new(domain, config) },
             patches,
             layouts: Vec::new(),
             bind_groups: Vec::new(),
@@ -117,6 +117,13 @@ impl<'a> StageBuilder<'a> {
     /// Where points come from; from a buffer if this is not called.
     pub const fn points(mut self, points: Points) -> Self {
         self.points = points;
+        self
+    }
+
+    /// The order of the triangles of a patch in the index buffer; [`Order::Drawing`] if this is not called.
+    /// Without an index buffer it is [`Order::Specification`], as there is no vertex cache.
+    pub const fn order(mut self, order: Order) -> Self {
+        self.setup.order = order;
         self
     }
 

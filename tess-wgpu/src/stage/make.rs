@@ -23,10 +23,13 @@ pub(super) fn now<T>(work: impl Future<Output = Result<T, Error>>) -> Result<T, 
 }
 
 pub(super) async fn stage(
-    builder: StageBuilder<'_>,
+    mut builder: StageBuilder<'_>,
     device: &wgpu::Device,
 ) -> Result<TessellationStage, Error> {
     check(&builder, device)?;
+    if builder.points == Points::PullWithoutIndices {
+        builder.setup.order = Order::Specification;
+    }
     let StageBuilder { setup, patches, points, room, overflow, .. } = builder;
     let mut tessellator = Tessellator::new(device);
     let usage = Usage::STORAGE | Usage::COPY_DST;
