@@ -90,12 +90,6 @@ impl PatchView {
         Explanation::new(&self.listing.case).to_string()
     }
 
-    /// The same as JSON.
-    #[must_use]
-    pub fn explain_json(&self) -> String {
-        json(&Explanation::new(&self.listing.case))
-    }
-
     /// Where a point comes from, as `tess explain --point` prints it.
     #[must_use]
     pub fn point_text(&self, i: u32) -> Option<String> {

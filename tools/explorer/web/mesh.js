@@ -23,6 +23,7 @@ precision highp float;
 uniform vec4 edge;
 uniform float width;
 uniform float lit;
+uniform vec3 light;
 in vec4 fill;
 in vec3 corner;
 in vec3 facing;
@@ -30,7 +31,7 @@ out vec4 colour;
 void main() {
   vec3 pixels = corner / max(fwidth(corner), vec3(1e-9));
   float distance = min(min(pixels.x, pixels.y), pixels.z);
-  float light = mix(1.0, 0.45 + 0.55 * abs(dot(normalize(facing), normalize(vec3(0.5, -0.6, 0.8)))), lit);
+  float light = mix(1.0, 0.45 + 0.55 * abs(dot(normalize(facing), light)), lit);
   float near = width > 0.0 ? 1.0 - smoothstep(width - 0.5, width + 0.5, distance) : 0.0;
   colour = vec4(mix(fill.rgb * light, edge.rgb, near * edge.a), 1.0);
 }`;
@@ -53,7 +54,7 @@ export class Mesh {
       this.attributes[name] = { size: this.attributes[name], at: gl.getAttribLocation(this.program, name) };
     }
     this.uniforms = {};
-    for (const name of ["matrix", "origin", "edge", "width", "lit"]) {
+    for (const name of ["matrix", "origin", "edge", "width", "lit", "light"]) {
       this.uniforms[name] = gl.getUniformLocation(this.program, name);
     }
   }
@@ -77,8 +78,9 @@ export class Mesh {
     gl.vertexAttribPointer(at, size, type, type === gl.UNSIGNED_BYTE, 0, 0);
   }
 
-  // Draws the first `triangles`; `edge` is the colour of edges, RGBA from 0 to 1.
-  draw({ matrix, origin = [0, 0, 0], edge, width = 0.6, lit = false, depth = false, triangles = Infinity }) {
+  // Draws the first `triangles`; `edge` is the colour of edges, RGBA from 0 to 1; `light` the
+  // direction of the light on a surface.
+  draw({ matrix, origin = [0, 0, 0], edge, width = 0.6, light = null, depth = false, triangles = Infinity }) {
     const gl = this.gl;
     gl.viewport(0, 0, gl.canvas.width, gl.canvas.height);
     gl.clearColor(0, 0, 0, 0);
@@ -94,7 +96,8 @@ export class Mesh {
     gl.uniform3fv(this.uniforms.origin, origin);
     gl.uniform4fv(this.uniforms.edge, edge);
     gl.uniform1f(this.uniforms.width, width);
-    gl.uniform1f(this.uniforms.lit, lit ? 1 : 0);
+    gl.uniform1f(this.uniforms.lit, light ? 1 : 0);
+    gl.uniform3fv(this.uniforms.light, light ?? [0, 0, 1]);
     gl.drawArrays(gl.TRIANGLES, 0, Math.min(this.count, 3 * triangles));
   }
 }

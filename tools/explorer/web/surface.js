@@ -11,7 +11,7 @@ let name = "";
 let made = "";
 let sphere = [0, 0, 0, 1];
 // The direction of the eye from the centre, in radians, and its distance in radii.
-const orbit = { turn: 0.7, lift: 0.45, far: 3 };
+const orbit = { turn: 0.7, lift: 0.45, far: 2.4 };
 
 export function start() {
   new ResizeObserver(() => state.tab === "surface" && draw()).observe(canvas);
@@ -78,8 +78,14 @@ function draw() {
   const ratio = devicePixelRatio || 1;
   mesh.draw({
     matrix: projection(eye), edge: [...colourOf("--mesh-edge"), 0.75],
-    width: state.wire ? 0.5 * ratio : 0, lit: true, depth: true,
+    width: state.wire ? 0.5 * ratio : 0, light: lightFrom(eye), depth: true,
   });
+}
+
+// Over the eye's shoulder.
+function lightFrom(eye) {
+  const towards = [eye[0] - sphere[0], eye[1] - sphere[1], eye[2] - sphere[2] + 0.8 * sphere[3] * orbit.far / 2];
+  return towards.map((part) => part / Math.hypot(...towards));
 }
 
 function eyePosition() {
@@ -122,7 +128,7 @@ function projection(eye) {
   const right = unit(cross(forward, [0, 0, 1])), up = cross(right, forward);
   const far = 20 * radius, near = 0.02 * radius, open = 2.2;
   const aspect = canvas.width / canvas.height;
-  const sx = open / Math.max(aspect, 1) * (aspect < 1 ? 1 : 1), sy = sx * aspect;
+  const sx = open / Math.max(aspect, 1), sy = sx * aspect;
   const rows = [[...right.map((p) => p * sx), -dot(right, eye) * sx], [...up.map((p) => p * sy), -dot(up, eye) * sy]];
   const depth = (far + near) / (far - near), shift = -2 * far * near / (far - near);
   rows.push([...forward.map((p) => p * depth), -dot(forward, eye) * depth + shift]);
