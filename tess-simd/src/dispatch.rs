@@ -11,6 +11,7 @@ use crate::kernel::repeat::Repeat;
 use crate::level::Level;
 use crate::setup::Setup;
 use alloc::vec::Vec;
+#[cfg(target_arch = "x86_64")]
 use multiversion::multiversion;
 use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 

@@ -3,7 +3,7 @@
 use crate::{json, thrown};
 use serde::Serialize;
 use std::collections::BTreeMap;
-use tess_core::{Config, Counts, DomainPoint, PatchFactors, Tessellation};
+use tess_core::{Config, Counts, Domain, DomainPoint, PatchFactors, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::{
     Access, Capacity, Limits, Numbering, Plan, Resource, Setup, Stage, Workgroups, tables,
@@ -30,6 +30,24 @@ impl GpuTables {
     pub fn words(split: &str) -> Result<Vec<u32>, JsError> {
         Ok(tables::tables(Named::from_name(split).map_err(thrown)?))
     }
+}
+
+/// Every shader that the configuration of a case line can need, by entry point: JSON. For tests of a
+/// browser's compiler.
+///
+/// # Errors
+/// The line is no case.
+#[wasm_bindgen]
+pub fn shader_sources(line: &str) -> Result<String, JsError> {
+    let case: Case = line.parse().map_err(thrown)?;
+    let setup = setup(case.domain(), case.config);
+    let source = |stage: Stage| (stage.entry_point(), stage.source(stage.relevant(setup)));
+    Ok(json(&Stage::ALL.map(source).into_iter().collect::<BTreeMap<_, _>>()))
+}
+
+/// What the page has made: packed points, and indices that count from each patch's first point.
+fn setup(domain: Domain, config: Config) -> Setup {
+    Setup { numbering: Numbering::PerPatch, ..Setup::new(domain, config) }
 }
 
 /// A batch of patches of one configuration.
@@ -158,16 +176,14 @@ impl GpuBatch {
     }
 
     fn of(config: Config, patches: Vec<PatchFactors>) -> Self {
-        let domain = patches[0].domain();
-        let setup = Setup { numbering: Numbering::PerPatch, ..Setup::new(domain, config) };
+        let setup = setup(patches[0].domain(), config);
         let count = u32::try_from(patches.len()).unwrap_or(u32::MAX);
         let plan = Plan::new(setup, count, capacity(config, &patches), Limits::WEBGPU);
         Self { config, patches, plan }
     }
 
     fn setup(&self) -> Setup {
-        let setup = Setup::new(self.patches[0].domain(), self.config);
-        Setup { numbering: Numbering::PerPatch, ..setup }
+        setup(self.patches[0].domain(), self.config)
     }
 
     fn to_manifest(&self) -> Manifest {

@@ -15,7 +15,7 @@ mod timing;
 pub use choices::{choices, factor_bits, factor_text, step_factor};
 pub use comparison::{ListingFile, compare, simd};
 pub use curiosities::curiosities;
-pub use gpu::{GpuBatch, GpuTables};
+pub use gpu::{GpuBatch, GpuTables, shader_sources};
 pub use patch::PatchView;
 pub use surface::SurfaceView;
 pub use timing::{CpuBench, workload_names};

@@ -5,10 +5,7 @@ use std::f32::consts::TAU;
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors};
 use tess_simd::{Numbering, Output, Tessellator};
 use tess_surface::glam::Vec3;
-use tess_surface::{
-    DisplacedModel, Displacement, Face, FactorRule, HeightMap, Model, PolygonMesh, Sample, Sides,
-    Style, teapot,
-};
+use tess_surface::{Face, FactorRule, Model, PolygonMesh, Sample, Sides, Style, teapot};
 use tess_verify::names::Named;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -18,7 +15,6 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[derive(Debug)]
 pub struct SurfaceView {
     model: Model,
-    displacement: Option<Displacement>,
     vertices: Vec<Sample>,
     indices: Vec<u32>,
 }
@@ -94,13 +90,13 @@ impl SurfaceView {
 impl SurfaceView {
     fn named(name: &str) -> Result<Self, String> {
         let error = |error: tess_surface::MeshError| error.to_string();
-        let (model, displacement) = match name {
-            "flat" => (grid(4)?, None),
-            "teapot" => (Model::bezier(teapot::patches()).map_err(error)?, None),
-            "terrain" => (grid(12)?, Some(hills()?)),
+        let model = match name {
+            "flat" => Model::polygons(grid(4, |_, _| 0.0), Style::Flat).map_err(error)?,
+            "teapot" => Model::bezier(teapot::patches()).map_err(error)?,
+            "terrain" => Model::polygons(grid(16, hills), Style::PointNormal).map_err(error)?,
             other => return Err(format!("unknown surface {other}: flat, teapot or terrain")),
         };
-        Ok(Self { model, displacement, vertices: Vec::new(), indices: Vec::new() })
+        Ok(Self { model, vertices: Vec::new(), indices: Vec::new() })
     }
 
     fn tessellate(&mut self, partitioning: &str, rule: FactorRule) -> Result<(), String> {
@@ -121,57 +117,48 @@ impl SurfaceView {
     /// Every patch's domain points on its surface.
     fn evaluate(&mut self, output: &Output<[f32; 2], u32>) {
         let mut vertices = vec![Sample::default(); output.points().len()];
-        let displaced = self.displacement.as_ref().map(|by| DisplacedModel::new(&self.model, by));
         for (number, range) in output.ranges().iter().enumerate() {
             let own = range.first_point as usize..(range.first_point + range.points) as usize;
             let (points, samples) = (&output.points()[own.clone()], &mut vertices[own]);
-            match &displaced {
-                None => self.model.patch(number).samples(points, samples),
-                Some(displaced) => displaced.patch(number).samples(points, samples),
-            }
+            self.model.patch(number).samples(points, samples);
         }
         self.vertices = vertices;
     }
 }
 
-/// A square of `side` times `side` flat quads, 4 units wide, with z up and one unit of texture.
-#[expect(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "coordinates")]
-fn grid(side: u16) -> Result<Model, String> {
+/// A square of `side` times `side` quads, 4 units wide, with z up; `height` takes the place in the
+/// square, from 0 to 1.
+#[expect(clippy::float_arithmetic, reason = "coordinates")]
+fn grid(side: u16, height: fn(f32, f32) -> f32) -> PolygonMesh {
     let along = |k: u16| f32::from(k) / f32::from(side);
-    let corners = || (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y)));
+    let corners = (0..=side).flat_map(|y| (0..=side).map(move |x| (x, y)));
+    let corner = |x: u16, y: u16| u32::from(y) * u32::from(side + 1) + u32::from(x);
     let quad = |x: u16, y: u16| {
-        let corner = |x: u16, y: u16| u32::from(y) * u32::from(side + 1) + u32::from(x);
-        let corners =
+        let positions =
             Sides::Quad([corner(x, y), corner(x + 1, y), corner(x + 1, y + 1), corner(x, y + 1)]);
-        Face { positions: corners, normals: None, texcoords: Some(corners) }
+        Face { positions, normals: None, texcoords: None }
     };
-    let mesh = PolygonMesh {
-        positions: corners()
-            .map(|(x, y)| Vec3::new(4.0 * along(x) - 2.0, 4.0 * along(y) - 2.0, 0.0))
+    let place = |(x, y): (u16, u16)| {
+        let (x, y) = (along(x), along(y));
+        Vec3::new(4.0 * x - 2.0, 4.0 * y - 2.0, height(x, y))
+    };
+    PolygonMesh {
+        positions: corners.map(place).collect(),
+        faces: (0..side)
+            .flat_map(|y| (0..side).map(move |x| (x, y)))
+            .map(|(x, y)| quad(x, y))
             .collect(),
-        texcoords: corners().map(|(x, y)| [along(x), along(y)].into()).collect(),
-        faces: (0..side).flat_map(|y| (0..side).map(move |x| quad(x, y))).collect(),
         ..PolygonMesh::default()
-    };
-    Model::polygons(mesh, Style::Flat).map_err(|error| error.to_string())
+    }
 }
 
 /// Hills whose opposite borders fit.
 #[expect(clippy::float_arithmetic, reason = "heights")]
-fn hills() -> Result<Displacement, String> {
-    const SIDE: u8 = 64;
-    let wave = |turns: f32, k: u8, phase: f32| {
-        libm::sinf(TAU * (turns * f32::from(k) / f32::from(SIDE) + phase))
-    };
-    let height = |(x, y): (u8, u8)| {
-        0.5 * wave(1.0, x, 0.1) * wave(1.0, y, 0.3)
-            + 0.3 * wave(2.0, x, 0.7) * wave(3.0, y, 0.2)
-            + 0.15 * wave(5.0, x, 0.4) * wave(4.0, y, 0.9)
-    };
-    let texels = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (x, y))).map(height).collect();
-    HeightMap::new(SIDE.into(), SIDE.into(), texels)
-        .and_then(|map| Displacement::new(map, 0.7))
-        .ok_or_else(|| "the heights cannot be evaluated".to_owned())
+fn hills(x: f32, y: f32) -> f32 {
+    let wave = |turns: f32, along: f32, phase: f32| libm::sinf(TAU * (turns * along + phase));
+    0.4 * wave(1.0, x, 0.1) * wave(1.0, y, 0.3)
+        + 0.22 * wave(2.0, x, 0.7) * wave(3.0, y, 0.2)
+        + 0.08 * wave(5.0, x, 0.4) * wave(4.0, y, 0.9)
 }
 
 #[cfg(test)]

@@ -127,3 +127,28 @@ test("a file with many listings offers its cases", async () => {
   }
   await close(page);
 });
+
+test("the browser's compiler takes every shader of every configuration", async () => {
+  const page = await open();
+  const complaints = await page.evaluate(async () => {
+    const { choices, shader_sources } = await import("./tess_explorer.js");
+    const { open: openGpu } = await import("./gpu.js");
+    const { device } = await openGpu();
+    const known = JSON.parse(choices()), seen = new Set(), complaints = [];
+    for (const domain of known.domains) for (const { name } of known.partitionings) {
+      for (const output of known.outputs) for (const split of known.splits) {
+        const line = `case ${domain.name} ${name} ${output} ${split}${" 40400000".repeat(domain.factors.length)}`;
+        for (const [stage, code] of Object.entries(JSON.parse(shader_sources(line)))) {
+          if (seen.has(code)) continue;
+          seen.add(code);
+          const { messages } = await device.createShaderModule({ code }).getCompilationInfo();
+          for (const { type, message } of messages) if (type === "error") complaints.push(`${line}: ${stage}: ${message}`);
+        }
+      }
+    }
+    return { complaints, count: seen.size };
+  });
+  assert.deepEqual(complaints.complaints, []);
+  assert.ok(complaints.count > 100, `${complaints.count} different shaders`);
+  await close(page);
+});

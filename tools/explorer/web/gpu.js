@@ -2,8 +2,11 @@
 
 import { GpuTables } from "./tess_explorer.js";
 
-// A constant of the shaders that is wrong by a rounding step: what a planted fault changes.
-const FAULTS = [["const HALF = 0x8000u;", "const HALF = 0x8001u;"], ["const TWO_THIRDS = 0xaaaau;", "const TWO_THIRDS = 0xaaabu;"]];
+// What a planted fault changes in the shaders' `place`: where factors are fractional, and where they are integers.
+const FAULTS = [
+  ["fraction_of(context) + HALF) >> 16u", "fraction_of(context) + HALF + HALF) >> 16u"],
+  ["min(position, mirror) * context.y", "min(position, mirror) * context.y + 1u"],
+];
 
 let opened = null;
 
@@ -128,8 +131,9 @@ class Gpu {
     const [points, , primitives] = status;
     const each = prepared.manifest.index_bytes;
     const result = {
-      points: await this.read(prepared.buffers.Points, 8 * points),
-      indices: await this.read(prepared.buffers.Indices, each * primitives),
+      // Shaders that count wrong are told apart by what lies in the buffers.
+      points: await this.read(prepared.buffers.Points, Math.min(8 * points, prepared.manifest.buffers.Points)),
+      indices: await this.read(prepared.buffers.Indices, Math.min(each * primitives, prepared.manifest.buffers.Indices)),
     };
     this.release(prepared);
     const error = await this.device.popErrorScope();
