@@ -6,6 +6,7 @@
 mod choices;
 mod comparison;
 mod curiosities;
+mod differences;
 mod gpu;
 mod marks;
 mod patch;
@@ -15,6 +16,7 @@ mod timing;
 pub use choices::{choices, factor_bits, factor_text, step_factor};
 pub use comparison::{ListingFile, compare, simd};
 pub use curiosities::curiosities;
+pub use differences::difference_words;
 pub use gpu::{GpuBatch, GpuTables, shader_sources};
 pub use patch::PatchView;
 pub use surface::SurfaceView;

@@ -97,6 +97,16 @@ test("a dropped listing with one flipped triangle is marked", async () => {
   assert.match(await verdict("differ"), /^0 points and 1 primitives differ. First difference: index 1 of primitive 12: /);
   assert.ok(await redPixels(page) > 50, "the triangle is marked");
   await picture(page, "flipped-triangle");
+  await page.click("#tab-share");
+  await page.click('button[aria-label="Copy: Link to this view"]');
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  await page.click("#tab-compare");
+  const other = await open(link.slice(link.indexOf("#")));
+  assert.equal(await text(other, "verdict"), await text(page, "verdict"), "the link shows the wrong triangle");
+  assert.equal(await redPixels(other), await redPixels(page));
+  await enter(other, CASES[0]);
+  await other.waitForFunction(() => document.getElementById("verdict").textContent.startsWith("Paste"));
+  await close(other);
   await drop(lines.join("\n").replace(/end\n$/, ""));
   await verdict("ends");
   await close(page);

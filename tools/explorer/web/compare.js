@@ -1,6 +1,6 @@
 // Other results against the model's: split orders, partitionings, a device's listing, both backends.
 
-import { GpuBatch, ListingFile, PatchView, compare, simd } from "./tess_explorer.js";
+import { GpuBatch, ListingFile, PatchView, compare, difference_words, simd } from "./tess_explorer.js";
 import { element, formatLine, set, state } from "./state.js";
 import { contents, patch } from "./patch.js";
 import { draw, over } from "./picture.js";
@@ -48,8 +48,10 @@ function readListing(text) {
   else update(), draw();
 }
 
-export function update() {
+export function update(keys = new Set()) {
   if (!patch.view) return;
+  // A device's differences belong to the patch that they came with.
+  if (keys.has("line") && !keys.has("device") && state.device) set({ device: "" });
   element("against").value = state.against;
   element("fault").value = state.fault;
   if (file) element("listing-cases").value = patch.line;
@@ -125,7 +127,8 @@ function show() {
     const isOtherCase = other.line() !== patch.line;
     over.other = { ...contents(other), isOtherCase, differing: { points, primitives } };
     const counts = `${points.length} points and ${primitives.length} primitives differ.`;
-    const words = isOtherCase ? `In red: ${other.line()}. ` : "";
+    const isLong = state.against === "listing" && !equal && difference_words(patch.view, other) === undefined;
+    const words = isOtherCase ? `In red: ${other.line()}. ` : isLong ? "Too many differences for a link. " : "";
     say("verdict", equal ? "equal" : "different", words + (equal ? "Equal, bit by bit." : `${counts} First difference: ${first}`));
     other.free();
   }
@@ -138,8 +141,10 @@ function otherResult() {
   if (against === "split") return other({ split: patch.parts.split === "ruler" ? "center" : "ruler" });
   if (against === "simd") return cpuResult();
   if (against === "listing") {
+    if (!file && state.device) return patch.view.with_differences(state.device) ?? null;
     const listing = file?.listing(patch.line);
-    if (!listing) say("verdict", "absent", file ? "The listing has no such patch." : "Paste or drop a listing, such as `tess patch` writes.");
+    if (listing) set({ device: difference_words(patch.view, listing) ?? "" });
+    else say("verdict", "absent", file ? "The listing has no such patch." : "Paste or drop a listing, such as `tess patch` writes.");
     return listing ?? null;
   }
   if (against === "gpu") {

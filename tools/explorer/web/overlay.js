@@ -77,9 +77,14 @@ function differences(paint, view, { points, indices, size, isOtherCase, differin
   const draw = (t) => {
     const corners = cornersOf(places, indices, size, t).filter(([x]) => !Number.isNaN(x) && x !== undefined);
     if (corners.length === 1) mark(paint, ...corners[0], 5, css("--wrong"));
-    else path(paint, corners, size === 3), paint.stroke();
+    else {
+      path(paint, corners, size === 3);
+      if (size === 3 && !isOtherCase) paint.fill();
+      paint.stroke();
+    }
   };
   paint.strokeStyle = css("--wrong");
+  paint.fillStyle = css("--wrong", 0.35);
   paint.lineWidth = isOtherCase ? 1 : 2.5;
   const count = indices.length / size;
   const which = isOtherCase ? Array.from({ length: count }, (_, t) => t) : differing.primitives;

@@ -8,7 +8,7 @@ export const FIRST = "case quad fractional_odd triangle_cw ruler 40a00000 404000
 const DEFAULTS = {
   line: FIRST, tab: "patch", answer: "learn", theme: "", link: "none",
   colours: "order", numbers: "none", marks: "", built: "", pick: "", view: "",
-  against: "none", fault: "none",
+  against: "none", fault: "none", device: "",
   surface: "teapot", spacing: "fractional_odd", rule: "uniform", factor: "5", wire: "1", eye: "",
 };
 

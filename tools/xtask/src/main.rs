@@ -78,7 +78,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
     let after_setup =
         |command: &dyn Fn() -> Result<(), String>| setup::run().and_then(|()| command());
     Some(match *words {
-        ["test"] => after_setup(&test::run),
+        ["test"] => after_setup(&|| test::run(test::Browser::IfThere)),
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
