@@ -5,16 +5,18 @@ import { createRequire } from "node:module";
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
 
-const need = (name) => process.env[name] ?? fail(`${name} is not set: run \`cargo xtask explorer --test\``);
 const fail = (message) => { throw new Error(message); };
+const need = (name) => process.env[name] ?? fail(`${name} is not set: run \`cargo xtask explorer --test\``);
 
 export const address = need("EXPLORER");
 const { chromium } = createRequire(join(need("EXPLORER_MODULES"), "/"))("playwright-core");
 const shots = need("EXPLORER_SCREENSHOTS");
 
-const executablePath = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find(existsSync);
+const executablePath = process.env.PATH.split(":").map((folder) => join(folder, "chromium")).find(existsSync)
+  ?? fail("there is no program `chromium`: install it");
 // WebGPU and WebGL in software, so that a machine without a GPU will do. Chromium has no sandbox for root.
-const args = ["--no-sandbox", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"];
+const args = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"];
+if (process.getuid() === 0) args.push("--no-sandbox");
 
 let browser = null;
 const tests = [];
@@ -32,7 +34,7 @@ export async function open(fragment = "", options = {}) {
   page.on("pageerror", (error) => page.problems.push(error.stack));
   page.on("console", (message) => message.type() === "error" && page.problems.push(message.text()));
   page.on("request", (request) => {
-    const { url } = { url: request.url() };
+    const url = request.url();
     if (!url.startsWith(address) && !/^(blob|data):/.test(url)) page.problems.push(`asked for ${url}`);
   });
   await page.goto(address + fragment);

@@ -125,7 +125,9 @@ test("a link restores the view", async () => {
   await page.keyboard.press("ArrowLeft");
   const link = await copied(page, "Link to this view");
   const other = await open(link.slice(link.indexOf("#")));
-  const shown = (of) => of.evaluate(() => ({
+  const shown = (of) => of.evaluate(async () => ({
+    state: { ...(await import("./state.js")).state },
+    marked: document.getElementById("marks").checked,
     overlay: document.getElementById("overlay").toDataURL(),
     chosen: ["domain", "partitioning", "output", "split", "colours", "numbers", "case", "pick-point"].map((id) => document.getElementById(id).value),
   }));

@@ -87,6 +87,7 @@ export function linked({ domain, factors }, number, bits, link) {
 export function update(keys) {
   for (const key of ["link", "colours", "numbers"]) element(key).value = state[key];
   element("marks").checked = state.marks !== "";
+  element("marks-legend").hidden = state.marks === "";
   if (keys.has("line")) {
     load(state.line);
     if (!patch.view) load(FIRST, patch.error);

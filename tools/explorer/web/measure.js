@@ -6,7 +6,7 @@ import { copy } from "./share.js";
 import * as gpu from "./gpu.js";
 
 // Each number is the best of repeated passes that take so many seconds together.
-const SECONDS = 0.4;
+const SECONDS = 0.25;
 let isListed = false;
 
 export function start() {

@@ -39,7 +39,7 @@ pub(crate) fn build() -> Result<(), String> {
     setup::target(TARGET)?;
     let mut library = cargo("build --package tess-explorer --profile wasm --target");
     library.arg(TARGET);
-    // Every browser with WebGPU has it, and all others since 2023.
+    // Every browser with WebGPU has SIMD, and so has every other one since 2023.
     library.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", "-C target-feature=+simd128");
     command::run(&mut library)?;
     let page = page();
@@ -98,6 +98,8 @@ pub(crate) fn lacking() -> Option<String> {
 /// As for [`test`], but for the tests.
 pub(crate) fn tests() -> Result<Command, String> {
     setup::provide(BROWSER)?;
+    let mut format = cargo("fmt --check --manifest-path");
+    command::run(format.arg(source().join("bindgen/Cargo.toml")))?;
     build()?;
     let modules = target().join("explorer-test");
     fs::create_dir_all(&modules).map_err(|error| in_file(&modules, &error))?;

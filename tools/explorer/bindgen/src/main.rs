@@ -11,7 +11,12 @@ fn main() -> ExitCode {
         return ExitCode::from(2);
     };
     let mut bindgen = Bindgen::new();
-    let made = bindgen.input_path(&input).typescript(false).remove_name_section(true).remove_producers_section(true).web(true);
+    let made = bindgen
+        .input_path(&input)
+        .typescript(false)
+        .remove_name_section(true)
+        .remove_producers_section(true)
+        .web(true);
     match made.and_then(|bindgen| bindgen.generate(&folder)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
