@@ -17,8 +17,8 @@ export function drawOverlay(canvas, view, over, shown) {
   if (over.other) differences(paint, view, over.other);
   dots(paint, places, view);
   if (state.marks) marks(paint, places);
-  highlight(paint, places, state.pick, css("--accent"), 3);
-  if (over.hover !== state.pick) highlight(paint, places, over.hover, css("--accent", 0.8), 2);
+  highlight(paint, places, state.pick, css("--picked"), 3);
+  if (over.hover !== state.pick) highlight(paint, places, over.hover, css("--picked", 0.8), 2);
   numbers(paint, places, view, shown);
 }
 
@@ -95,11 +95,11 @@ function differences(paint, view, { points, indices, size, isOtherCase, differin
   }
 }
 
-function mark(paint, x, y, radius, colour) {
+function mark(paint, x, y, radius, colour, width = 2.5) {
   paint.beginPath();
   paint.arc(x, y, radius, 0, 2 * Math.PI);
   paint.strokeStyle = colour;
-  paint.lineWidth = 2.5;
+  paint.lineWidth = width;
   paint.stroke();
 }
 
@@ -129,18 +129,22 @@ function marks(paint, places) {
   });
 }
 
+// What is asked about: a ring around a point, a thick outline of a primitive, with a light rim.
 function highlight(paint, places, pick, colour, width) {
   if (!pick) return;
   const number = Number(pick.slice(1));
-  paint.strokeStyle = colour;
-  paint.lineWidth = width;
-  if (pick[0] === "p") {
-    if (2 * number < places.length) mark(paint, places[2 * number], places[2 * number + 1], 8, colour);
-  } else if (number < patch.primitives) {
-    const corners = cornersOf(places, patch.indices, patch.size, number);
-    if (corners.length === 1) return mark(paint, ...corners[0], 8, colour);
-    path(paint, corners, patch.size === 3);
-    paint.stroke();
+  const isPoint = pick[0] === "p";
+  if (number >= (isPoint ? places.length / 2 : patch.primitives)) return;
+  const corners = isPoint ? [[places[2 * number], places[2 * number + 1]]]
+    : cornersOf(places, patch.indices, patch.size, number);
+  for (const [stroke, extra] of [["rgb(255 255 255 / 0.9)", 3], [colour, 0]]) {
+    if (corners.length === 1) mark(paint, ...corners[0], 8, stroke, width + extra);
+    else {
+      path(paint, corners, corners.length === 3);
+      paint.strokeStyle = stroke;
+      paint.lineWidth = width + extra;
+      paint.stroke();
+    }
   }
 }
 
