@@ -52,3 +52,40 @@ fn edge(patch: &Patch, i: u32) -> Option<(FactorContext, u32)> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tess_core::fixed_point::ONE;
+    use tess_verify::case::Case;
+
+    fn listing(factor: &str, output: &str) -> Listing {
+        let line =
+            format!("case quad fractional_even {output} ruler{}", format!(" {factor}").repeat(6));
+        let case: Case = line.parse().expect("a case");
+        Listing { line: 0, case, output: case.patch().tessellate() }
+    }
+
+    #[test]
+    fn areas_fill_the_domain_whatever_the_winding() {
+        let square = 2.0 * f64::from(ONE) * f64::from(ONE);
+        for output in ["triangle_cw", "triangle_ccw"] {
+            let areas = areas(&listing("40600000", output));
+            assert!(areas.iter().all(|area| *area > 0.0), "{output}: none is flipped");
+            assert_eq!(areas.iter().sum::<f64>().to_bits(), square.to_bits(), "{output}");
+        }
+        assert!(
+            areas(&listing("40c00020", "triangle_cw")).iter().any(|area| *area < 0.0),
+            "flipped"
+        );
+        assert_eq!(areas(&listing("40600000", "line")), [0.0; 0], "lines have none");
+    }
+
+    #[test]
+    fn middles_and_splits_of_each_edge_are_marked() {
+        let case = listing("40600000", "triangle_cw").case;
+        let marks = points(&case.patch());
+        let count = |kind| marks.iter().filter(|mark| **mark == kind).count();
+        assert_eq!((count(1), count(2)), (4, 8), "one middle and two splits on each of four edges");
+    }
+}
