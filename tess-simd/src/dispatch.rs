@@ -11,6 +11,7 @@ use crate::kernel::repeat::Repeat;
 use crate::level::Level;
 use crate::setup::Setup;
 use alloc::vec::Vec;
+#[cfg(target_arch = "x86_64")]
 use multiversion::multiversion;
 use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 
@@ -26,11 +27,13 @@ macro_rules! at_each_level {
         pub(crate) fn $name $(<$($type: $bound),*>)? (level: Level, $($arg: $arg_type),*)
             $(-> $result)?
         {
+            #[cfg(target_arch = "x86_64")]
             #[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
             fn avx2 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
                 $kernel($($arg),*)
             }
 
+            #[cfg(target_arch = "x86_64")]
             #[multiversion(targets(
                 "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
             ))]
@@ -39,9 +42,12 @@ macro_rules! at_each_level {
             }
 
             match level {
-                Level::Baseline => $kernel($($arg),*),
+                #[cfg(target_arch = "x86_64")]
                 Level::Avx2 => avx2($($arg),*),
+                #[cfg(target_arch = "x86_64")]
                 Level::Avx512 => avx512($($arg),*),
+                // Elsewhere it is the only level that is available.
+                _ => $kernel($($arg),*),
             }
         }
     };

@@ -133,6 +133,23 @@ impl fmt::Display for CaseError {
 
 impl std::error::Error for CaseError {}
 
+/// A factor: decimal as Rust reads it (nan, inf, -0, 1e3), or `0x` and the bits of a binary32.
+///
+/// # Errors
+/// The text is neither.
+pub fn factor(text: &str) -> Result<f32, String> {
+    let text = text.trim();
+    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
+    let parsed = match hex {
+        Some(digits) if digits.starts_with('+') => None,
+        Some(digits) => u32::from_str_radix(digits, 16).ok().map(f32::from_bits),
+        None => text.parse().ok(),
+    };
+    parsed.ok_or_else(|| {
+        "a factor is a decimal number, nan, inf, or up to 8 hex digits after 0x".to_owned()
+    })
+}
+
 /// Factors from their hex bit patterns.
 ///
 /// # Errors
@@ -228,5 +245,26 @@ mod tests {
             "tess patch isoline --outer 0x40000000,0x3f800000 \
              --partitioning integer --output line --split ruler"
         );
+    }
+
+    #[test]
+    fn factors_in_every_notation() {
+        let cases = [
+            ("3", 0x4040_0000),
+            ("-0", 0x8000_0000),
+            ("0x80000000", 0x8000_0000),
+            ("0X7fc00001", 0x7FC0_0001),
+            ("inf", 0x7F80_0000),
+            ("-inf", 0xFF80_0000),
+            ("nan", 0x7FC0_0000),
+            (" 1e1 ", 0x4120_0000),
+            ("0x1", 1),
+        ];
+        for (text, bits) in cases {
+            assert_eq!(factor(text).map(f32::to_bits), Ok(bits), "{text}");
+        }
+        for text in ["", "x", "0x", "0x123456789", "0x+1", "1,2", "3f", "0x-1"] {
+            assert!(factor(text).is_err(), "{text:?} is no factor");
+        }
     }
 }

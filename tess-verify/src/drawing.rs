@@ -12,7 +12,7 @@ use crate::picture::{Colour, Picture, Position, Shape};
 use crate::vectors::{Listing, primitive_size};
 use colours::{GRID, INK, PAPER, POINT};
 use layout::Layout;
-pub use overlay::{Differences, overlay};
+pub use overlay::{Differences, differing, overlay};
 use tess_core::{Domain, OutputPrimitive};
 
 /// What a picture shows beside the primitives and points themselves.
@@ -95,7 +95,7 @@ impl Drawing {
 
     /// Fills first, edges over all of them.
     fn primitives(&mut self, patch: &Listing, options: &DrawOptions, points: &[Position]) {
-        let fills = fills(patch, options);
+        let fills = fills(patch, options.colours);
         let shapes = &mut self.picture.shapes;
         let edge_width = layout::edge_width(points.len());
         for (primitive, &fill) in patch.primitives().zip(&fills) {
@@ -150,7 +150,7 @@ impl Drawing {
     /// The points in the order of the primitives that they are.
     fn ordered_points(&mut self, patch: &Listing, options: &DrawOptions, points: &[Position]) {
         let (mut places, mut colours) = (Vec::new(), Vec::new());
-        for (primitive, fill) in patch.primitives().zip(fills(patch, options)) {
+        for (primitive, fill) in patch.primitives().zip(fills(patch, options.colours)) {
             if let Some([place]) = corners(primitive, points).as_deref() {
                 places.push(*place);
                 colours.push(fill);
@@ -181,10 +181,11 @@ impl Drawing {
     }
 }
 
-/// A colour for each primitive.
-fn fills(patch: &Listing, options: &DrawOptions) -> Vec<Colour> {
+/// A colour for each primitive, as [`draw`] fills it.
+#[must_use]
+pub fn fills(patch: &Listing, colours: Colours) -> Vec<Colour> {
     let count = patch.primitives().count();
-    match options.colours {
+    match colours {
         Colours::Plain => vec![colours::PLAIN; count],
         Colours::Order => (0..count).map(|t| colours::along_scale(t, count)).collect(),
         Colours::Rings => {

@@ -12,6 +12,7 @@ pub mod coverage;
 pub mod digest;
 pub mod drawing;
 pub mod explanation;
+pub mod formats;
 pub mod generate;
 pub mod names;
 pub mod picture;

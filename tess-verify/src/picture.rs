@@ -1,7 +1,12 @@
 //! A flat drawing: shapes, and the SVG file that they make.
 
 mod digits;
+#[cfg(feature = "png")]
+mod png;
 mod svg;
+
+#[cfg(feature = "png")]
+pub use png::PngError;
 
 /// A position in pixels, y down.
 pub type Position = [f64; 2];
@@ -66,6 +71,15 @@ impl Picture {
     #[must_use]
     pub fn to_svg(&self) -> String {
         svg::render(self)
+    }
+
+    /// The picture as a PNG file.
+    ///
+    /// # Errors
+    /// A size of 0, or one that memory does not hold.
+    #[cfg(feature = "png")]
+    pub fn to_png(&self) -> Result<Vec<u8>, PngError> {
+        png::render(self)
     }
 }
 

@@ -47,6 +47,16 @@ pub fn overlay(
     (drawing, differences)
 }
 
+/// The numbers of the points and of the primitives that differ between two results.
+#[must_use]
+pub fn differing(expected: &Listing, observed: &Listing) -> [Vec<usize>; 2] {
+    let [mut points, mut primitives] = [vec![], vec![]];
+    let places = |patch: &Listing| patch.output.points.clone();
+    for_each_difference(places(expected), places(observed), |i, _, _| points.push(i));
+    for_each_difference(expected.primitives(), observed.primitives(), |t, _, _| primitives.push(t));
+    [points, primitives]
+}
+
 /// Calls `each` with the positions at which two lists differ, and what they have there.
 fn for_each_difference<T: PartialEq>(
     expected: impl IntoIterator<Item = T>,

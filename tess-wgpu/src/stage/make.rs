@@ -9,7 +9,7 @@ use crate::{Tessellator, gpu};
 use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
-use tess_gpu::Setup;
+use tess_gpu::{Order, Setup};
 use wgpu::BufferUsages as Usage;
 
 /// What `work` gives where nothing has to be waited for.

@@ -4,7 +4,7 @@ use crate::failure::Failure;
 use crate::output::note;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
-use tess_verify::case::Case;
+use tess_verify::case::{Case, factor};
 use tess_verify::generate::{Level, Selection, Shard};
 use tess_verify::names::Named;
 
@@ -161,20 +161,6 @@ pub(crate) fn name_of<T: Named + Send + Sync>() -> impl TypedValueParser<Value =
         .try_map(|name| T::from_name(&name))
 }
 
-/// A factor: decimal as Rust reads it (nan, inf, -0, 1e3), or `0x` and the bits of a binary32.
-fn factor(text: &str) -> Result<f32, String> {
-    let text = text.trim();
-    let hex = text.strip_prefix("0x").or_else(|| text.strip_prefix("0X"));
-    let parsed = match hex {
-        Some(digits) if digits.starts_with('+') => None,
-        Some(digits) => u32::from_str_radix(digits, 16).ok().map(f32::from_bits),
-        None => text.parse().ok(),
-    };
-    parsed.ok_or_else(|| {
-        "a factor is a decimal number, nan, inf, or up to 8 hex digits after 0x".to_owned()
-    })
-}
-
 /// `I/N`, with I in 1..=N.
 pub(crate) fn shard(text: &str) -> Result<Shard, String> {
     let parts = text.split_once('/');
@@ -182,31 +168,5 @@ pub(crate) fn shard(text: &str) -> Result<Shard, String> {
     match numbers {
         Some((i, n)) if (1..=n).contains(&i) => Ok(Shard { part: i - 1, of: n }),
         _ => Err("a shard is I/N with I from 1 to N, such as 3/8".to_owned()),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn factors_in_every_notation() {
-        let cases = [
-            ("3", 0x4040_0000),
-            ("-0", 0x8000_0000),
-            ("0x80000000", 0x8000_0000),
-            ("0X7fc00001", 0x7FC0_0001),
-            ("inf", 0x7F80_0000),
-            ("-inf", 0xFF80_0000),
-            ("nan", 0x7FC0_0000),
-            (" 1e1 ", 0x4120_0000),
-            ("0x1", 1),
-        ];
-        for (text, bits) in cases {
-            assert_eq!(factor(text).map(f32::to_bits), Ok(bits), "{text}");
-        }
-        for text in ["", "x", "0x", "0x123456789", "0x+1", "1,2", "3f", "0x-1"] {
-            assert!(factor(text).is_err(), "{text:?} is no factor");
-        }
     }
 }

@@ -1,74 +1,12 @@
 //! A picture as PNG.
 
 use crate::failure::Failure;
-use tess_verify::picture::{Colour, Picture, Position, Shape};
-use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
+use tess_verify::picture::Picture;
 
 /// The picture as a PNG file.
 ///
 /// # Errors
 /// A size of 0, or one that memory does not hold.
 pub(crate) fn render(picture: &Picture) -> Result<Vec<u8>, Failure> {
-    let size = picture.size;
-    let mut pixels = Pixmap::new(size, size).ok_or_else(|| {
-        Failure::bad_input(format!("a picture of {size} x {size} pixels cannot be made"))
-    })?;
-    pixels.fill(tiny_skia::Color::WHITE);
-    picture.shapes.iter().for_each(|shape| draw(&mut pixels, shape));
-    pixels.encode_png().map_err(|error| Failure::bad_input(format!("cannot write PNG: {error}")))
-}
-
-/// Draws a shape; one without any extent leaves no mark.
-fn draw(pixels: &mut Pixmap, shape: &Shape) {
-    match shape {
-        Shape::Polygon { corners, fill } => {
-            if let Some(path) = path(corners, true) {
-                fill_path(pixels, &path, *fill);
-            }
-        }
-        Shape::Line { points, width, stroke } => {
-            if let Some(path) = path(points, false) {
-                stroke_path(pixels, &path, *stroke, single(*width));
-            }
-        }
-        Shape::Disc { centre: [x, y], radius, fill, rim } => {
-            let path = PathBuilder::from_circle(single(*x), single(*y), single(*radius));
-            if let Some(path) = path {
-                fill_path(pixels, &path, *fill);
-                stroke_path(pixels, &path, *rim, 1.0);
-            }
-        }
-    }
-}
-
-fn fill_path(pixels: &mut Pixmap, path: &Path, colour: Colour) {
-    pixels.fill_path(path, &paint(colour), FillRule::Winding, Transform::identity(), None);
-}
-
-fn stroke_path(pixels: &mut Pixmap, path: &Path, colour: Colour, width: f32) {
-    let stroke =
-        Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
-    pixels.stroke_path(path, &paint(colour), &stroke, Transform::identity(), None);
-}
-
-fn path(points: &[Position], closed: bool) -> Option<Path> {
-    let (first, rest) = points.split_first()?;
-    let mut path = PathBuilder::new();
-    path.move_to(single(first[0]), single(first[1]));
-    rest.iter().for_each(|[x, y]| path.line_to(single(*x), single(*y)));
-    if closed {
-        path.close();
-    }
-    path.finish()
-}
-
-fn paint(Colour(red, green, blue): Colour) -> Paint<'static> {
-    let mut paint = Paint { anti_alias: true, ..Paint::default() };
-    paint.set_color_rgba8(red, green, blue, 255);
-    paint
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "the rasteriser works in binary32")]
-const fn single(pixels: f64) -> f32 {
-    pixels as f32
+    picture.to_png().map_err(|error| Failure::bad_input(error.to_string()))
 }

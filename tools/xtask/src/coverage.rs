@@ -14,6 +14,7 @@ const CRATES: &[&str] = &[
     "tess-verify/",
     "bindings/c/",
     "tools/cli/",
+    "tools/explorer/",
     "tools/testkit/",
 ];
 

@@ -5,6 +5,7 @@ mod ci;
 mod command;
 mod coverage;
 mod covergroups;
+mod explorer;
 mod fuzz;
 mod levels;
 mod mutants;
@@ -31,6 +32,9 @@ usage: cargo xtask <command>
   setup   only set up: a Vulkan driver, C and C++ and shader compilers, Verilator, Icarus Verilog, Python
   python  build the Python package's wheel, install it in a fresh virtual environment, check its
           types and run its tests; `test` includes it. PYTHON names another interpreter
+  explorer [--serve | --test]
+          build the explorer's page in target/explorer; serve it on this machine and say where; or
+          test it in Chromium. `test` includes it where Node.js and Chromium are to be had
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
   ports [brief] [NAME...]
@@ -74,7 +78,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
     let after_setup =
         |command: &dyn Fn() -> Result<(), String>| setup::run().and_then(|()| command());
     Some(match *words {
-        ["test"] => after_setup(&test::run),
+        ["test"] => after_setup(&|| test::run(test::Browser::IfThere)),
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
@@ -85,6 +89,9 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["coverage"] => coverage::run(),
         ["publish"] => publish::dry_run(),
         ["python"] => after_setup(&python::run),
+        ["explorer"] => explorer::build(),
+        ["explorer", "--serve"] => explorer::serve(),
+        ["explorer", "--test"] => explorer::test(),
         ["covergroups"] => covergroups::write(),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),

@@ -1,8 +1,6 @@
 //! One tessellated patch in the forms that `--format` offers.
 
-mod csv;
 mod json;
-mod obj;
 
 use crate::failure::Failure;
 use crate::output::form::Form;
@@ -12,8 +10,9 @@ use tess_core::Tessellation;
 use tess_verify::backend::Backend;
 use tess_verify::case::Case;
 use tess_verify::drawing::{DrawOptions, draw};
+use tess_verify::formats;
 use tess_verify::picture::Picture;
-use tess_verify::vectors::{Header, Kind, Listing};
+use tess_verify::vectors::Listing;
 
 /// The forms of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -99,17 +98,6 @@ impl OnePatch {
     pub(crate) const fn output(&self) -> &Tessellation {
         &self.listing.output
     }
-
-    /// The first line of a vector file with this one record.
-    fn header(&self, kind: Kind) -> Header {
-        let source = format!("tess-{}", self.backend);
-        Header { kind, count: Some(1), source, notes: Vec::new() }
-    }
-
-    /// The patch as a file of one listing.
-    fn to_text(&self) -> String {
-        format!("{}\n{}", self.header(Kind::Listings), self.listing)
-    }
 }
 
 impl Format {
@@ -119,10 +107,10 @@ impl Format {
     /// The picture could not be made.
     pub(crate) fn render(self, patch: &OnePatch) -> Result<Vec<u8>, Failure> {
         Ok(match self {
-            Self::Text => patch.to_text().into_bytes(),
-            Self::Csv => csv::render(patch).into_bytes(),
+            Self::Text => formats::text(&patch.listing, patch.backend).into_bytes(),
+            Self::Csv => formats::csv(&patch.listing, patch.backend).into_bytes(),
             Self::Json => json::render(patch).into_bytes(),
-            Self::Obj => obj::render(patch).into_bytes(),
+            Self::Obj => formats::obj(&patch.listing).into_bytes(),
             Self::Svg => PictureFormat::Svg.render(&picture(patch))?,
             Self::Png => PictureFormat::Png.render(&picture(patch))?,
         })

@@ -1,0 +1,41 @@
+//! One patch in the text forms that `tess patch` writes.
+
+use crate::vectors::{Header, Kind, Listing, PatchRow, Sizes, primitive_size};
+use std::fmt::Write;
+
+/// A vector file of the kind `listings` with this one record; `backend` made it.
+#[must_use]
+pub fn text(patch: &Listing, backend: &str) -> String {
+    format!("{}\n{patch}", header(Kind::Listings, backend))
+}
+
+/// A vector file of the kind `patches` with one row: counts and digests.
+#[must_use]
+pub fn csv(patch: &Listing, backend: &str) -> String {
+    let header = header(Kind::Patches, backend);
+    let columns = Kind::Patches.columns().unwrap_or_default().join(",");
+    let row = PatchRow { case: patch.case, output: Sizes::of(&patch.output) };
+    format!("{header}\n{columns}\n{row}\n")
+}
+
+/// A Wavefront OBJ file of the flat patch: x = u, y = v, z = 0.
+#[must_use]
+pub fn obj(patch: &Listing) -> String {
+    let mut text = format!("# {}\n", patch.case.command());
+    for point in &patch.output.points {
+        let [u, v] = point.to_f32();
+        // Writing to a String does not fail. 16.16 numbers are exact in 16 decimals.
+        _ = writeln!(text, "v {u} {v} 0");
+    }
+    let element = ["p", "l", "f"][primitive_size(&patch.case) - 1];
+    for primitive in patch.primitives() {
+        let indices: Vec<_> = primitive.iter().map(|index| (index + 1).to_string()).collect();
+        _ = writeln!(text, "{element} {}", indices.join(" "));
+    }
+    text
+}
+
+/// The first line of a vector file with one record.
+fn header(kind: Kind, backend: &str) -> Header {
+    Header { kind, count: Some(1), source: format!("tess-{backend}"), notes: Vec::new() }
+}

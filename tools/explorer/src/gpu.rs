@@ -1,0 +1,297 @@
+//! What a page needs to run the shaders of `tess-gpu` on WebGPU, and the verdict on what they wrote.
+
+use crate::{json, thrown};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use tess_core::{Config, Counts, Domain, DomainPoint, PatchFactors, Tessellation};
+use tess_gpu::layout::{PackedPoint, factor_words};
+use tess_gpu::{
+    Access, Capacity, Limits, Numbering, Plan, Resource, Setup, Stage, Workgroups, tables,
+};
+use tess_verify::case::Case;
+use tess_verify::compare;
+use tess_verify::names::Named;
+use tess_verify::vectors::Listing;
+use tess_verify::workloads::{self, Workload};
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// The constant tables of a split order.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct GpuTables;
+
+#[wasm_bindgen]
+impl GpuTables {
+    /// The words of the buffer `Tables`.
+    ///
+    /// # Errors
+    /// An unknown split order.
+    pub fn words(split: &str) -> Result<Vec<u32>, JsError> {
+        Ok(tables::tables(Named::from_name(split).map_err(thrown)?))
+    }
+}
+
+/// Every shader that the configuration of a case line can need, by entry point: JSON. For tests of a
+/// browser's compiler.
+///
+/// # Errors
+/// The line is no case.
+#[wasm_bindgen]
+pub fn shader_sources(line: &str) -> Result<String, JsError> {
+    let case: Case = line.parse().map_err(thrown)?;
+    let setup = setup(case.domain(), case.config);
+    let source = |stage: Stage| (stage.entry_point(), stage.source(stage.relevant(setup)));
+    Ok(json(&Stage::ALL.map(source).into_iter().collect::<BTreeMap<_, _>>()))
+}
+
+/// What the page has made: packed points, and indices that count from each patch's first point.
+fn setup(domain: Domain, config: Config) -> Setup {
+    Setup { numbering: Numbering::PerPatch, ..Setup::new(domain, config) }
+}
+
+/// A batch of patches of one configuration.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct GpuBatch {
+    config: Config,
+    patches: Vec<PatchFactors>,
+    plan: Plan,
+}
+
+#[derive(Serialize)]
+struct Manifest {
+    split: &'static str,
+    /// Bytes of a primitive's indices.
+    index_bytes: u32,
+    /// Bytes by resource.
+    buffers: BTreeMap<String, u64>,
+    stages: BTreeMap<&'static str, Shader>,
+    dispatches: Vec<Step>,
+}
+
+#[derive(Serialize)]
+struct Shader {
+    source: String,
+    /// `uniform`, `read-only-storage` or `storage`, as WebGPU calls them, binding by binding.
+    bindings: Vec<&'static str>,
+}
+
+#[derive(Serialize)]
+struct Step {
+    stage: &'static str,
+    /// Resource, offset and size, binding by binding.
+    bindings: Vec<(String, u64, u64)>,
+    /// Workgroups along x, y and z, unless `indirect` says where they are.
+    workgroups: Option<[u32; 3]>,
+    /// Byte of the buffer `Arguments`.
+    indirect: Option<u64>,
+}
+
+#[wasm_bindgen]
+impl GpuBatch {
+    /// The patches of case lines, one a line, all of one domain and configuration.
+    ///
+    /// # Errors
+    /// A line that is no case or of another configuration than the first one.
+    #[wasm_bindgen(constructor)]
+    pub fn new(lines: &str) -> Result<Self, JsError> {
+        let cases = lines.lines().map(str::parse).collect::<Result<Vec<Case>, _>>();
+        Self::of_cases(&cases.map_err(thrown)?).map_err(thrown)
+    }
+
+    /// The patches of a workload of `tess bench`, or as many of the first ones as make 64 MiB of output.
+    ///
+    /// # Errors
+    /// There is no workload of that name.
+    pub fn workload(name: &str) -> Result<Self, JsError> {
+        let all = workloads::named(name);
+        let [workload] = &all[..] else {
+            return Err(thrown(format!("{name} is not the name of one workload")));
+        };
+        Ok(Self::of(workload.config, workload.patches[..fitting(workload)].to_vec()))
+    }
+
+    /// Buffers, shaders and dispatches: JSON.
+    #[must_use]
+    pub fn manifest(&self) -> String {
+        json(&self.to_manifest())
+    }
+
+    /// The contents of the buffer `Job`.
+    #[must_use]
+    pub fn jobs(&self) -> Vec<u8> {
+        self.plan.jobs()
+    }
+
+    /// The contents of the buffer `Factors`.
+    #[must_use]
+    pub fn factors(&self) -> Vec<u32> {
+        factor_words(&self.patches)
+    }
+
+    /// The first difference between the model and what the shaders wrote, in words; nothing if every
+    /// bit is equal. `points` has two words for each point.
+    #[must_use]
+    pub fn difference(&self, points: &[u32], indices: &[u32]) -> Option<String> {
+        let (mut points, mut indices) = (points.as_chunks::<2>().0, indices);
+        for &factors in &self.patches {
+            let case = Case { config: self.config, factors };
+            let expected = case.patch().tessellate();
+            let observed = Tessellation {
+                points: take(&mut points, expected.points.len()).iter().map(unpacked).collect(),
+                indices: take(&mut indices, expected.indices.len()).to_vec(),
+            };
+            if let Some(mismatch) = compare::tessellations(&case, &observed, &expected) {
+                return Some(format!("{case}: {mismatch}"));
+            }
+        }
+        None
+    }
+
+    /// What the shaders wrote for the batch's first patch, as a listing.
+    #[must_use]
+    pub fn listing(&self, points: &[u32], indices: &[u32]) -> String {
+        let points = points.as_chunks::<2>().0.iter().map(unpacked).collect();
+        let output = Tessellation { points, indices: indices.to_vec() };
+        let case = Case { config: self.config, factors: self.patches[0] };
+        Listing { line: 0, case, output }.to_string()
+    }
+
+    /// Triangles, segments or points of the whole batch.
+    #[must_use]
+    pub fn primitives(&self) -> u32 {
+        capacity(self.config, &self.patches).primitives
+    }
+}
+
+impl GpuBatch {
+    fn of_cases(cases: &[Case]) -> Result<Self, String> {
+        let Some(first) = cases.first() else { return Err("no case".into()) };
+        let is_alike = |case: &Case| case.config == first.config && case.domain() == first.domain();
+        match cases.iter().find(|case| !is_alike(case)) {
+            Some(case) => Err(format!("{case}: another configuration than `{first}`")),
+            None => Ok(Self::of(first.config, cases.iter().map(|case| case.factors).collect())),
+        }
+    }
+
+    fn of(config: Config, patches: Vec<PatchFactors>) -> Self {
+        let setup = setup(patches[0].domain(), config);
+        let count = u32::try_from(patches.len()).unwrap_or(u32::MAX);
+        let plan = Plan::new(setup, count, capacity(config, &patches), Limits::WEBGPU);
+        Self { config, patches, plan }
+    }
+
+    fn setup(&self) -> Setup {
+        setup(self.patches[0].domain(), self.config)
+    }
+
+    fn to_manifest(&self) -> Manifest {
+        let bytes = |&resource: &Resource| (name(resource), self.plan.buffer_size(resource));
+        let shader = |stage: Stage| Shader {
+            source: stage.source(stage.relevant(self.setup())),
+            bindings: stage.bindings().iter().map(|binding| kind(binding.0, binding.1)).collect(),
+        };
+        let stages: Vec<Stage> = self.plan.dispatches().map(|step| step.stage()).collect();
+        Manifest {
+            split: self.config.split.name(),
+            index_bytes: self.setup().primitive_bytes(),
+            buffers: Resource::ALL.iter().map(bytes).collect(),
+            stages: stages.iter().map(|&stage| (stage.entry_point(), shader(stage))).collect(),
+            dispatches: self.plan.dispatches().map(|step| to_step(&step)).collect(),
+        }
+    }
+}
+
+fn to_step(dispatch: &tess_gpu::Dispatch) -> Step {
+    let (workgroups, indirect) = match dispatch.workgroups() {
+        Workgroups::Direct(along) => (Some(along), None),
+        Workgroups::Indirect(at) => (None, Some(at)),
+    };
+    let bindings = dispatch.bindings().map(|(of, span)| (name(of), span.offset, span.size));
+    let stage = dispatch.stage().entry_point();
+    Step { stage, bindings: bindings.collect(), workgroups, indirect }
+}
+
+fn name(resource: Resource) -> String {
+    format!("{resource:?}")
+}
+
+const fn kind(resource: Resource, access: Access) -> &'static str {
+    match (resource, access) {
+        (Resource::Job, _) => "uniform",
+        (_, Access::Read) => "read-only-storage",
+        (_, Access::ReadWrite) => "storage",
+    }
+}
+
+/// Room for everything, from the model's counts; at least one of each, so that the plan has outputs.
+fn capacity(config: Config, patches: &[PatchFactors]) -> Capacity {
+    let mut capacity = Capacity { points: 0, primitives: 0 };
+    for &factors in patches {
+        let counts = Case { config, factors }.patch().counts();
+        capacity.points += counts.points;
+        capacity.primitives += counts.primitives;
+    }
+    Capacity { points: capacity.points.max(1), primitives: capacity.primitives.max(1) }
+}
+
+/// How many patches make up to 64 MiB of output.
+fn fitting(workload: &Workload) -> usize {
+    let mut bytes = 0;
+    let fits = |counts: &Counts| {
+        bytes += 8 * u64::from(counts.points) + 4 * u64::from(counts.indices);
+        bytes <= 64 << 20
+    };
+    workload.counts().take_while(fits).count()
+}
+
+/// The first `count` elements, or as many as there are, which are removed.
+fn take<'a, T>(rest: &mut &'a [T], count: usize) -> &'a [T] {
+    let (taken, left) = rest.split_at(count.min(rest.len()));
+    *rest = left;
+    taken
+}
+
+fn unpacked(words: &[u32; 2]) -> DomainPoint {
+    PackedPoint(*words).point()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_difference_is_named_with_its_case() {
+        let case = "case quad integer triangle_cw ruler";
+        let cases = ["40000000", "40400000"].map(|factor| {
+            format!("{case}{}", format!(" {factor}").repeat(6)).parse::<Case>().expect("a case")
+        });
+        let batch = GpuBatch::of_cases(&cases).expect("alike");
+        let outputs = cases.map(|case| case.patch().tessellate());
+        let pack = |p: &DomainPoint| [p.u.to_bits() | p.v.to_bits() << 17, p.v.to_bits() >> 15];
+        let mut points: Vec<u32> =
+            outputs.iter().flat_map(|output| output.points.iter().flat_map(pack)).collect();
+        let indices: Vec<u32> = outputs.iter().flat_map(|o| o.indices.clone()).collect();
+        assert_eq!(batch.difference(&points, &indices), None, "equal");
+        assert!(batch.difference(&points, &indices[1..]).is_some(), "too short");
+        points[2 * outputs[0].points.len()] ^= 1;
+        let difference = batch.difference(&points, &indices).expect("a fault");
+        assert!(difference.starts_with(&format!("{}: point 0 u", cases[1])), "{difference}");
+    }
+
+    #[test]
+    fn every_buffer_and_shader_is_there() {
+        let batch =
+            GpuBatch::of_cases(&["case tri pow2 point center 40000000 40000000 40000000 40000000"
+                .parse()
+                .expect("a case")])
+            .expect("one");
+        let manifest = batch.to_manifest();
+        for step in &manifest.dispatches {
+            let shader = &manifest.stages[step.stage];
+            assert_eq!(shader.bindings.len(), step.bindings.len(), "{}", step.stage);
+            assert_ne!(step.workgroups.is_some(), step.indirect.is_some(), "one of the two");
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! One patch and everything the page shows of it.
+
+use crate::{json, marks, thrown};
+use tess_core::{DomainPoint, Patch, Tessellation};
+use tess_verify::case::Case;
+use tess_verify::drawing::{Colours, DrawOptions, Drawing, draw, fills, has_rings};
+use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
+use tess_verify::formats;
+use tess_verify::picture::Colour;
+use tess_verify::vectors::{Listing, primitive_size};
+use wasm_bindgen::JsError;
+use wasm_bindgen::prelude::wasm_bindgen;
+
+/// A case with a result for it: the model's, a backend's or a listing's.
+#[wasm_bindgen]
+#[derive(Clone, Debug)]
+pub struct PatchView {
+    pub(crate) listing: Listing,
+    patch: Patch,
+}
+
+impl PatchView {
+    /// A case with the output that somebody gave for it.
+    pub(crate) fn of(case: Case, output: Tessellation) -> Self {
+        Self { listing: Listing { line: 0, case, output }, patch: case.patch() }
+    }
+
+    /// Colours by name. A patch without rings has them plain.
+    fn colours(&self, name: &str) -> Result<Colours, JsError> {
+        let Case { config, .. } = self.listing.case;
+        match name {
+            "order" => Ok(Colours::Order),
+            "rings" if has_rings(self.listing.case.domain(), config.output) => Ok(Colours::Rings),
+            "rings" | "plain" => Ok(Colours::Plain),
+            other => Err(thrown(format!("unknown colours {other}: plain, order or rings"))),
+        }
+    }
+
+    fn drawing(&self, colours: &str, indices: bool, size: u32) -> Result<Drawing, JsError> {
+        let colours = self.colours(colours)?;
+        Ok(draw(&self.listing, &DrawOptions { indices, colours, size }))
+    }
+}
+
+#[wasm_bindgen]
+impl PatchView {
+    /// The model's result for a case line.
+    ///
+    /// # Errors
+    /// The line is no case; the message says which part is wrong.
+    #[wasm_bindgen(constructor)]
+    pub fn new(line: &str) -> Result<Self, JsError> {
+        let case: Case = line.parse().map_err(thrown)?;
+        Ok(Self::of(case, case.patch().tessellate()))
+    }
+
+    /// The case as a line that `tess check` reads.
+    #[must_use]
+    pub fn line(&self) -> String {
+        self.listing.case.to_string()
+    }
+
+    /// The `tess patch` command of the case.
+    #[must_use]
+    pub fn command(&self) -> String {
+        self.listing.case.command()
+    }
+
+    /// u and v of each point, 16.16 bits.
+    #[must_use]
+    pub fn points(&self) -> Vec<u32> {
+        self.listing.output.points.iter().flat_map(|p| [p.u.to_bits(), p.v.to_bits()]).collect()
+    }
+
+    /// The index list.
+    #[must_use]
+    pub fn indices(&self) -> Vec<u32> {
+        self.listing.output.indices.clone()
+    }
+
+    /// Indices of a primitive: 1, 2 or 3.
+    #[must_use]
+    pub fn primitive_size(&self) -> usize {
+        primitive_size(&self.listing.case)
+    }
+
+    /// Every stage as `tess explain` prints it.
+    #[must_use]
+    pub fn explain(&self) -> String {
+        Explanation::new(&self.listing.case).to_string()
+    }
+
+    /// Where a point comes from, as `tess explain --point` prints it.
+    #[must_use]
+    pub fn point_text(&self, i: u32) -> Option<String> {
+        PointReport::new(&self.patch, i).map(|report| report.to_string())
+    }
+
+    /// The same as JSON.
+    #[must_use]
+    pub fn point_json(&self, i: u32) -> Option<String> {
+        PointReport::new(&self.patch, i).map(|report| json(&report))
+    }
+
+    /// Where a primitive comes from, as `tess explain --primitive` prints it.
+    #[must_use]
+    pub fn primitive_text(&self, t: u32) -> Option<String> {
+        PrimitiveReport::new(&self.patch, t).map(|report| report.to_string())
+    }
+
+    /// The same as JSON.
+    #[must_use]
+    pub fn primitive_json(&self, t: u32) -> Option<String> {
+        PrimitiveReport::new(&self.patch, t).map(|report| json(&report))
+    }
+
+    /// The listing alone, as it stands in a vector file.
+    #[must_use]
+    pub fn listing(&self) -> String {
+        self.listing.to_string()
+    }
+
+    /// The file that `tess patch` writes by default.
+    #[must_use]
+    pub fn text(&self) -> String {
+        formats::text(&self.listing, "core")
+    }
+
+    /// The file of `tess patch --format csv`.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        formats::csv(&self.listing, "core")
+    }
+
+    /// The file of `tess patch --format obj`.
+    #[must_use]
+    pub fn obj(&self) -> String {
+        formats::obj(&self.listing)
+    }
+
+    /// The picture of `tess draw`: `colours` is plain, order or rings; `size` in pixels.
+    ///
+    /// # Errors
+    /// Unknown colours.
+    pub fn svg(&self, colours: &str, indices: bool, size: u32) -> Result<String, JsError> {
+        Ok(self.drawing(colours, indices, size)?.picture.to_svg())
+    }
+
+    /// The same as a PNG file.
+    ///
+    /// # Errors
+    /// Unknown colours, or a size that cannot be drawn.
+    pub fn png(&self, colours: &str, indices: bool, size: u32) -> Result<Vec<u8>, JsError> {
+        self.drawing(colours, indices, size)?.picture.to_png().map_err(thrown)
+    }
+
+    /// Red, green and blue of each primitive, as the pictures have them; `colours` is plain, order or
+    /// rings.
+    ///
+    /// # Errors
+    /// Unknown colours.
+    pub fn fills(&self, colours: &str) -> Result<Vec<u8>, JsError> {
+        let fills = fills(&self.listing, self.colours(colours)?);
+        Ok(fills.into_iter().flat_map(|Colour(red, green, blue)| [red, green, blue]).collect())
+    }
+
+    /// Twice the signed area of each triangle in units of 2^-32: positive as the output primitive
+    /// demands, 0 without area, negative where it is flipped.
+    #[must_use]
+    pub fn areas(&self) -> Vec<f64> {
+        marks::areas(&self.listing)
+    }
+
+    /// For each point of an outer edge or a line: 1 in the exact middle of an even edge, 2 where the
+    /// edge is split; else 0.
+    #[must_use]
+    pub fn point_marks(&self) -> Vec<u8> {
+        marks::points(&self.patch)
+    }
+
+    /// A copy with one fault, so that a comparison can be seen to fail: the lowest bit of the
+    /// middle point's u is the other one.
+    #[must_use]
+    pub fn with_fault(&self) -> Self {
+        let mut faulty = self.clone();
+        let points = &mut faulty.listing.output.points;
+        let middle = points.len() / 2;
+        if let Some(point) = points.get_mut(middle) {
+            *point = DomainPoint::from_bits(point.u.to_bits() ^ 1, point.v.to_bits());
+        }
+        faulty
+    }
+}

@@ -1,0 +1,8 @@
+// Every test of the explorer.
+
+import "./patch.mjs";
+import "./compare.mjs";
+import "./views.mjs";
+import { runAll } from "./harness.mjs";
+
+await runAll();

@@ -1,0 +1,116 @@
+// The other views, other screens, and pictures of them to look at.
+
+import assert from "node:assert/strict";
+import { close, enter, open, picture, test } from "./harness.mjs";
+
+// How many different colours a canvas shows.
+const colours = async (page, id) => {
+  const shot = await page.locator(`#${id}`).screenshot();
+  return page.evaluate(async (bytes) => {
+    const bitmap = await createImageBitmap(new Blob([new Uint8Array(bytes)]));
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+    const paint = canvas.getContext("2d");
+    paint.drawImage(bitmap, 0, 0);
+    const { data } = paint.getImageData(0, 0, bitmap.width, bitmap.height);
+    return new Set(new Uint32Array(data.buffer)).size;
+  }, [...shot]);
+};
+
+test("the patch is drawn in both themes and on a phone", async () => {
+  const page = await open();
+  assert.ok(await colours(page, "canvases") > 60, "triangles in many colours");
+  await picture(page, "patch");
+  await page.click("#theme");
+  await page.waitForFunction(() => document.documentElement.dataset.theme === "dark");
+  await page.click("#tab-ask");
+  await page.fill("#pick-primitive", "12");
+  await page.selectOption("#numbers", "both");
+  await picture(page, "patch-dark");
+  await close(page);
+  const phone = await open("", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const width = await phone.evaluate(() => document.documentElement.scrollWidth);
+  assert.ok(width <= 390, `${width} pixels wide`);
+  await phone.tap("#overlay");
+  await phone.waitForFunction(() => document.getElementById("asked").textContent !== "");
+  await picture(phone, "phone");
+  await close(phone);
+});
+
+test("zooming reaches single units of 16.16", async () => {
+  const page = await open("#view=32768,32768,20000");
+  const scale = await page.evaluate(() => import("./picture.js").then(({ view }) => view.scale));
+  assert.ok(scale > 20, `${scale} pixels a unit`);
+  await page.focus("#overlay");
+  await page.keyboard.press("0");
+  await page.waitForFunction(() => import("./picture.js").then(({ view }) => view.zoom === 1));
+  await close(page);
+});
+
+test("building and animation move, and stop", async () => {
+  const page = await open();
+  await page.click("#build");
+  await page.waitForFunction(() => Number(document.getElementById("built").value) < 66);
+  await page.waitForFunction(() => document.getElementById("built").value === "66", null, { timeout: 60000 });
+  assert.equal(await page.getAttribute("#build", "aria-pressed"), "false", "whole again");
+  await page.click("#animation summary");
+  const before = await page.inputValue("#case");
+  await page.click("#animate");
+  await page.waitForFunction((line) => document.getElementById("case").value !== line, before);
+  await page.click("#animate");
+  assert.equal(await page.getAttribute("#animate", "aria-pressed"), "false");
+  await page.click("#tab-learn");
+  await page.click("[data-partitioning=fractional_even] summary");
+  await page.click("[data-partitioning=fractional_even] button");
+  await page.waitForFunction(() => document.getElementById("partitioning").value === "fractional_even");
+  await close(page);
+});
+
+test("every surface is drawn, with factors everywhere or by distance", async () => {
+  const page = await open("#tab=surface");
+  const counts = () => page.textContent("#surface-counts");
+  for (const [name, patches] of [["teapot", 32], ["terrain", 256], ["flat", 16]]) {
+    await page.selectOption("#surface", name);
+    await page.waitForFunction((count) => document.getElementById("surface-counts").textContent.startsWith(`${count} patches`), patches);
+    assert.ok(await colours(page, "solid") > 20, `${name} is drawn`);
+  }
+  const uniform = await counts();
+  await page.selectOption("#rule", "distance");
+  await page.waitForFunction((text) => document.getElementById("surface-counts").textContent !== text, uniform);
+  const far = await counts();
+  await page.focus("#solid");
+  for (let k = 0; k < 5; k++) await page.keyboard.press("+");
+  await page.waitForFunction((text) => document.getElementById("surface-counts").textContent !== text, far);
+  await page.selectOption("#surface", "teapot");
+  await page.selectOption("#rule", "uniform");
+  await page.waitForTimeout(300);
+  await picture(page, "surface");
+  await close(page);
+});
+
+test("the CPU and the GPU are measured at every workload", async () => {
+  const page = await open("#tab=measure");
+  await page.click("#measure");
+  await page.waitForFunction(() => document.getElementById("measure-note").textContent.startsWith("Best"), null, { timeout: 300000 });
+  const rows = await page.locator("#rates tbody tr").evaluateAll((all) => all.map((row) => [...row.cells].map((cell) => cell.textContent)));
+  assert.ok(rows.length >= 11, "workloads");
+  for (const [name, ...numbers] of rows) {
+    assert.ok(numbers.every((number) => Number(number.replaceAll(",", "")) > 0), `${name}: ${numbers}`);
+  }
+  await page.click("#copy-table");
+  const table = await page.evaluate(() => navigator.clipboard.readText());
+  assert.equal(table.trim().split("\n").length, rows.length + 2, "browser, heading, rows");
+  await picture(page, "measure");
+  await close(page);
+});
+
+test("without WebGPU the page says so and does without", async () => {
+  const page = await open("", { });
+  await page.addInitScript(() => Object.defineProperty(Navigator.prototype, "gpu", { get: () => undefined }));
+  await page.reload();
+  await page.waitForFunction(() => document.getElementById("badge-gpu").textContent !== "");
+  assert.equal(await page.textContent("#badge-gpu"), "GPU not compared: this browser has no WebGPU");
+  assert.equal(await page.textContent("#badge-cpu"), "CPU equal");
+  await enter(page, "case tri integer triangle_cw ruler 40800000 404ccccd 3fd9999a 40800000");
+  assert.match(await page.textContent("#counts"), /^17 points, 22 triangles/);
+  await close(page);
+});

@@ -1,0 +1,76 @@
+// The page: loads the WebAssembly, then redraws whatever a change of the state concerns.
+
+import load from "./tess_explorer.js";
+import * as state from "./state.js";
+import * as controls from "./controls.js";
+import * as picture from "./picture.js";
+import * as animation from "./animation.js";
+import * as ask from "./ask.js";
+import * as compare from "./compare.js";
+import * as share from "./share.js";
+import * as learn from "./learn.js";
+import * as surface from "./surface.js";
+import * as measure from "./measure.js";
+
+const { element, set } = state;
+
+// Two lists of tabs: the views of the page, and the answers about the patch.
+const TABS = { tab: ["patch", "surface", "measure"], answer: ["ask", "compare", "share", "learn"] };
+const PREFIX = { tab: "view", answer: "answer" };
+
+function startTabs(key) {
+  const names = TABS[key];
+  names.forEach((name, k) => {
+    const tab = element(`tab-${name}`);
+    tab.addEventListener("click", () => set({ [key]: name }));
+    tab.addEventListener("keydown", (event) => {
+      const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+      if (!by) return;
+      const next = names[(k + by + names.length) % names.length];
+      set({ [key]: next });
+      element(`tab-${next}`).focus();
+    });
+  });
+}
+
+function showTabs(key) {
+  for (const name of TABS[key]) {
+    const isChosen = state.state[key] === name;
+    element(`tab-${name}`).setAttribute("aria-selected", String(isChosen));
+    element(`tab-${name}`).tabIndex = isChosen ? 0 : -1;
+    element(`${PREFIX[key]}-${name}`).hidden = !isChosen;
+  }
+}
+
+const prefersDark = matchMedia("(prefers-color-scheme: dark)");
+
+function showTheme() {
+  document.documentElement.dataset.theme = state.state.theme || (prefersDark.matches ? "dark" : "light");
+}
+
+function startTheme() {
+  prefersDark.addEventListener("change", () => set({ theme: "" }));
+  element("theme").addEventListener("click", () =>
+    set({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" }));
+}
+
+async function start() {
+  await load({ module_or_path: new URL("tess_explorer_bg.wasm", import.meta.url) });
+  state.start();
+  const parts = [controls, compare, picture, animation, ask, share, learn, surface, measure];
+  Object.keys(TABS).forEach(startTabs);
+  startTheme();
+  parts.forEach((part) => part.start());
+  state.onChange((keys) => {
+    showTheme();
+    Object.keys(TABS).forEach(showTabs);
+    parts.forEach((part) => part.update?.(keys));
+    document.documentElement.dataset.drawn = state.state.line;
+  });
+  state.flush();
+}
+
+start().catch((error) => {
+  element("failure").textContent = `The explorer cannot start: ${error.message}. It needs WebAssembly with SIMD.`;
+  throw error;
+});
