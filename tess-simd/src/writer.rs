@@ -76,6 +76,7 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
 
     /// The next `length` elements, block for block made from those of `source`, of which `LEAST`
     /// elements are made in any case, where there is room.
+    #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(crate) fn blocks<S: Copy, const N: usize, const LEAST: usize>(
         &mut self,
@@ -160,6 +161,7 @@ fn write_cut<S: Copy, T>(room: &mut [T], source: &[S], element: impl Fn(S) -> T)
 }
 
 /// The last blocks of a slice that ends within one.
+#[cfg(target_arch = "x86_64")]
 #[cold]
 #[inline(never)]
 fn write_cut_blocks<S: Copy, T: Copy, const N: usize>(
