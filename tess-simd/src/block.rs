@@ -5,7 +5,7 @@ use crate::factor_context::{Context, point_counts};
 use crate::factors::process;
 use crate::lanes::{Column, EdgePoints, LANES, Lanes, is_odd};
 use crate::place::{Spacing, Spacings};
-use crate::points::EDGE;
+use crate::points::{EDGE, TRIANGLE_INSIDE};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
 /// Sixteen patches of one domain after factor processing, their output sizes known.
@@ -66,9 +66,15 @@ impl Block {
         };
         let counts = counts(config, domain, &processed, &points);
         let topologies = topologies(&points, &processed.minimum);
-        let small = small(config, domain, &points);
+        let small = small(domain, &points);
         let (fixed, minimum) = (processed.fixed, processed.minimum);
         Self { config, domain, fixed, points, spacings, minimum, topologies, small, counts }
+    }
+
+    /// Whether all of its patches are small.
+    #[inline(always)]
+    pub(crate) fn all_small(&self) -> bool {
+        self.small.iter().fold(1, |all, small| all & small) == 1
     }
 
     /// One of its patches.
@@ -116,8 +122,8 @@ impl BlockPatch<'_> {
         self.block.minimum[self.lane] == 1
     }
 
-    /// Whether none of its edges has more than [`EDGE`] points, and it is a quad or a triangle of
-    /// integer factors.
+    /// Whether it is a quad or a triangle of which no edge has more than [`EDGE`] points; nor has a
+    /// triangle's inside more than [`TRIANGLE_INSIDE`].
     #[inline(always)]
     pub(crate) const fn is_small(self) -> bool {
         self.block.small[self.lane] == 1
@@ -159,14 +165,21 @@ impl BlockPatch<'_> {
     /// The spacing of one factor's points.
     #[inline(always)]
     pub(crate) fn spacing(self, factor: usize) -> Spacing {
-        let i = factor * LANES + self.lane;
-        let Block { config, fixed, points, spacings, .. } = self.block;
         if self.integer() {
+            let i = factor * LANES + self.lane;
+            let Block { config, fixed, points, .. } = self.block;
             let odd = u32::from(is_odd(points[i]));
             Spacing::new(&Context::new(fixed[i], odd, config.split))
         } else {
-            spacings.get(i, points[i])
+            self.fractional_spacing(factor)
         }
+    }
+
+    /// [`Self::spacing`] where the partitioning is fractional.
+    #[inline(always)]
+    pub(crate) const fn fractional_spacing(self, factor: usize) -> Spacing {
+        let i = factor * LANES + self.lane;
+        self.block.spacings.get(i, self.block.points[i])
     }
 }
 
@@ -188,16 +201,13 @@ fn topologies(points: &Column, minimum: &Lanes) -> Lanes<u64> {
 
 /// 1 where a patch is small.
 #[inline(always)]
-fn small(config: Config, domain: Domain, points: &Column) -> Lanes {
-    let possible = match domain {
-        Domain::Isoline => false,
-        Domain::Triangle => config.partitioning.has_integer_factors(),
-        Domain::Quad => true,
-    };
-    let mut small = [u32::from(possible); LANES];
-    for points in points.as_chunks::<LANES>().0 {
+fn small(domain: Domain, points: &Column) -> Lanes {
+    let mut small = [u32::from(domain != Domain::Isoline); LANES];
+    for (factor, points) in points.as_chunks::<LANES>().0.iter().enumerate() {
+        let inside = domain == Domain::Triangle && factor >= Domain::Triangle.outer_factors();
+        let most = if inside { TRIANGLE_INSIDE } else { EDGE };
         for (small, &points) in small.iter_mut().zip(points) {
-            *small &= u32::from(points as usize <= EDGE);
+            *small &= u32::from(points as usize <= most);
         }
     }
     small

@@ -2,6 +2,7 @@
 
 use crate::batch::Batch;
 use crate::block::Block;
+use crate::block::BlockPatch;
 use crate::chunk::Chunk;
 use crate::counts::PartCounts;
 use crate::format::{IndexFormat, PointFormat};
@@ -9,10 +10,15 @@ use crate::kernel;
 use crate::kernel::emit::{Blocks, Caches, Offsets, Room};
 use crate::kernel::repeat::Repeat;
 use crate::level::Level;
+use crate::points::Code;
+#[cfg(target_arch = "x86_64")]
+use crate::points::permute;
 use crate::setup::Setup;
+use crate::writer::Writer;
 use alloc::vec::Vec;
 #[cfg(target_arch = "x86_64")]
 use multiversion::multiversion;
+use multiversion::target::match_target;
 use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 
 /// Defines a function that runs `$kernel` at a level: one instance for each, which the level's
@@ -77,13 +83,60 @@ at_each_level! {
 }
 
 at_each_level! {
-    /// [`kernel::emit::emit`] at a level.
-    fn emit<P: PointFormat, I: IndexFormat>(
+    /// [`kernel::emit::emit`] at the levels that have no permutes.
+    fn emit_runs<P: PointFormat, I: IndexFormat>(
         setup: &Setup,
         blocks: Blocks<'_>,
         room: Room<'_, P, I>,
         caches: &mut Caches,
-    ) -> Offsets = kernel::emit::emit;
+    ) -> Offsets = emit_with_runs;
+}
+
+/// [`kernel::emit::emit`] without permutes.
+#[inline(always)]
+fn emit_with_runs<P: PointFormat, I: IndexFormat>(
+    setup: &Setup,
+    blocks: Blocks<'_>,
+    room: Room<'_, P, I>,
+    caches: &mut Caches,
+) -> Offsets {
+    type Never<P> = fn(BlockPatch<'_>, &[Code], &mut Writer<'_, P>);
+    kernel::emit::emit(setup, blocks, room, caches, None::<Never<P>>)
+}
+
+/// [`kernel::emit::emit`] at a level.
+pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
+    level: Level,
+    setup: &Setup,
+    blocks: Blocks<'_>,
+    room: Room<'_, P, I>,
+    caches: &mut Caches,
+) -> Offsets {
+    #[multiversion(targets(
+        "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
+    ))]
+    fn avx512<P: PointFormat, I: IndexFormat>(
+        setup: &Setup,
+        blocks: Blocks<'_>,
+        room: Room<'_, P, I>,
+        caches: &mut Caches,
+    ) -> Offsets {
+        match_target! {
+            "x86_64+avx512f+avx512bw+avx512dq+avx512vl" => {
+                // Permutes are safe to call here, as this function has their instructions; a closure
+                // takes them to where they are needed.
+                kernel::emit::emit(setup, blocks, room, caches, Some(|patch: BlockPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {
+                    permute::emit(patch, codes, out);
+                }))
+            }
+            _ => emit_with_runs(setup, blocks, room, caches),
+        }
+    }
+
+    match level {
+        Level::Avx512 => avx512(setup, blocks, room, caches),
+        _ => emit_runs(level, setup, blocks, room, caches),
+    }
 }
 
 at_each_level! {

@@ -38,7 +38,7 @@ pub(crate) struct Count {
 impl Engine {
     pub(crate) fn new(setup: Setup) -> Self {
         let kept = Box::new([Block::EMPTY; _]);
-        let workspaces = Workspaces::new(setup.config);
+        let workspaces = Workspaces::new();
         Self { setup, workspaces, slices: Vec::new(), kept }
     }
 

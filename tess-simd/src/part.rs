@@ -11,7 +11,6 @@ use crate::output::{Buffers, Numbering, PatchRange};
 use crate::setup::Setup;
 use crate::target::Target;
 use alloc::boxed::Box;
-use tess_core::Config;
 
 /// What is the same for all parts of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -42,11 +41,11 @@ pub(crate) struct Workspace {
 }
 
 impl Workspace {
-    pub(crate) fn new(config: Config) -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             blocks: Box::new([Block::EMPTY; _]),
             ranges: [PatchRange::default(); _],
-            caches: Caches::new(config),
+            caches: Caches::new(),
         }
     }
 

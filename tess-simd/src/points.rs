@@ -1,18 +1,20 @@
 //! The domain points of a patch, in order (spec section 6).
 //!
 //! Every run of points along an edge is one coordinate held and the other read from a table of
-//! locations; seen from the other end a location is `ONE` minus itself. Of small quads, `lookup` notes
-//! where in one table of a patch's coordinates the points of each run lie.
+//! locations; seen from the other end a location is `ONE` minus itself. For small patches of fractional
+//! factors, `code` notes what each point is made of, and `permute` makes it.
 
+mod code;
 mod coordinate;
 mod isoline;
-mod lookup;
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod permute;
 mod quad;
 mod run;
 mod tables;
 mod triangle;
 
-pub(crate) use lookup::{Code, Coordinates, EDGE, codes, fixed_code};
+pub(crate) use code::{Code, EDGE, TRIANGLE_INSIDE, codes, corner};
 pub(crate) use tables::LocationTables;
 
 use crate::block::BlockPatch;

@@ -7,7 +7,7 @@
 
 mod small;
 
-pub(crate) use small::{SmallTemplate, SmallTemplates};
+pub(crate) use small::{SmallTemplate, SmallTemplates, Start, long};
 
 use crate::block::BlockPatch;
 use crate::connect;

@@ -14,7 +14,7 @@ use tess_core::Config;
 
 /// Tessellates batches of patches in one configuration.
 ///
-/// Making one makes its tables, which takes about a millisecond; it holds about 1.2 to 2.2 MB
+/// Making one makes its tables, which takes about a millisecond; it holds about 1.1 to 2.2 MB
 /// ([`Tessellator::memory`]). Make it once and keep it. After its first batch it allocates nothing
 /// but what an [`Output`] grows by.
 #[derive(Clone, Debug)]
@@ -41,11 +41,11 @@ impl Tessellator {
     ///
     /// They are threads of the rayon pool that the caller runs in, else of rayon's global pool,
     /// which is started with at most as many threads even if `RAYON_NUM_THREADS` asks for more. Each
-    /// takes 0.9 to 1.3 MB.
+    /// takes 1.1 MB.
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
-        self.0.workspaces = Workspaces::of_threads(threads, self.0.setup.config);
+        self.0.workspaces = Workspaces::of_threads(threads);
         self
     }
 

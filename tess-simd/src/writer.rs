@@ -74,6 +74,34 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         self.map::<_, N>(length, source, element);
     }
 
+    /// The next `length` elements, block for block made from those of `source`, of which `LEAST`
+    /// elements are made in any case, where there is room.
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    pub(crate) fn blocks<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        make: impl Fn(&[S; N]) -> [T; N],
+    ) {
+        let room = self.out.get_mut(self.at..).unwrap_or_default();
+        self.at += length;
+        let padded = length.next_multiple_of(N).max(LEAST);
+        let (Some(whole), Some(source)) = (room.get_mut(..padded), source.get(..padded)) else {
+            write_cut_blocks(room, source, make);
+            return;
+        };
+        let (least, more) = whole.as_chunks_mut::<N>().0.split_at_mut(LEAST / N);
+        let (source, more_source) = source.as_chunks::<N>().0.split_at(LEAST / N);
+        for k in 0..LEAST / N {
+            least[k] = make(&source[k]);
+        }
+        for (target, block) in more.iter_mut().zip(more_source) {
+            *target = make(block);
+            separate_blocks();
+        }
+    }
+
     /// The next `length` elements, each made from its number, in blocks of `N`.
     #[inline(always)]
     pub(crate) fn count<const N: usize>(&mut self, length: usize, element: impl Fn(u32) -> T) {
@@ -129,6 +157,20 @@ fn make<S: Copy, T: Copy + Default, const N: usize>(
 fn write_cut<S: Copy, T>(room: &mut [T], source: &[S], element: impl Fn(S) -> T) {
     for (target, &from) in room.iter_mut().zip(source) {
         *target = element(from);
+    }
+}
+
+/// The last blocks of a slice that ends within one.
+#[cfg(target_arch = "x86_64")]
+#[cold]
+#[inline(never)]
+fn write_cut_blocks<S: Copy, T: Copy, const N: usize>(
+    room: &mut [T],
+    source: &[S],
+    make: impl Fn(&[S; N]) -> [T; N],
+) {
+    for (room, block) in room.chunks_mut(N).zip(source.as_chunks::<N>().0) {
+        room.copy_from_slice(&make(block)[..room.len()]);
     }
 }
 

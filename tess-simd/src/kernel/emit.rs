@@ -4,14 +4,13 @@ use crate::block::{Block, BlockPatch};
 use crate::connect;
 use crate::format::{IndexFormat, PointFormat};
 use crate::lanes::LANES;
-use crate::level::Level;
 use crate::output::{Numbering, PatchRange};
-use crate::points::{self, Code, Coordinates, LocationTables};
+use crate::points::{self, Code, LocationTables};
 use crate::setup::Setup;
-use crate::template::{SmallTemplate, SmallTemplates, Templates};
+use crate::template::{SmallTemplate, SmallTemplates, Start, Templates, long};
 use crate::writer::Writer;
 use alloc::boxed::Box;
-use tess_core::{Config, DomainPoint};
+use tess_core::DomainPoint;
 
 /// Blocks to write.
 #[derive(Clone, Copy, Debug)]
@@ -46,26 +45,20 @@ pub(crate) struct Caches {
     tables: Box<LocationTables>,
     templates: Templates,
     small: SmallTemplates,
-    /// What the points of a block's small patches are made of.
-    coordinates: Box<[Coordinates; LANES]>,
 }
 
 impl Caches {
-    pub(crate) fn new(config: Config) -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             tables: Box::new(LocationTables::EMPTY),
             templates: Templates::new(),
-            small: SmallTemplates::new(config),
-            coordinates: Box::new([const { Coordinates::EMPTY }; LANES]),
+            small: SmallTemplates::new(),
         }
     }
 
     /// Bytes of memory that they take on the heap.
     pub(crate) fn bytes(&self) -> usize {
-        size_of::<LocationTables>()
-            + self.templates.bytes()
-            + self.small.bytes()
-            + size_of_val(&*self.coordinates)
+        size_of::<LocationTables>() + self.templates.bytes() + self.small.bytes()
     }
 }
 
@@ -75,25 +68,24 @@ struct Writers<'a, P, I> {
     indices: Writer<'a, I>,
 }
 
-/// Writes blocks; returns where their output ends in the batch.
+/// Writes the points of a small patch of fractional factors, whose codes are given.
+pub(crate) trait SmallPoints<P>: Fn(BlockPatch<'_>, &[Code], &mut Writer<'_, P>) {}
+
+impl<P, F: Fn(BlockPatch<'_>, &[Code], &mut Writer<'_, P>)> SmallPoints<P> for F {}
+
+/// Writes blocks; returns where their output ends in the batch. Without `small_points`, small patches of
+/// fractional factors are written as large ones are.
 #[inline(always)]
 pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
     setup: &Setup,
     blocks: Blocks<'_>,
     room: Room<'_, P, I>,
     caches: &mut Caches,
+    small_points: Option<impl SmallPoints<P>>,
 ) -> Offsets {
     let Blocks { blocks, mut first, numbering } = blocks;
     let mut out = Writers { points: Writer::new(room.points), indices: Writer::new(room.indices) };
-    let zero = core::hint::black_box(0);
     for (block, ranges) in blocks.iter().zip(room.ranges.chunks_mut(LANES)) {
-        // All of them first: what is read too soon after it was written waits for it.
-        for (lane, coordinates) in caches.coordinates.iter_mut().enumerate().take(ranges.len()) {
-            let patch = block.patch(lane);
-            if looked_up(setup, patch) {
-                coordinates.fill::<P>(patch, zero);
-            }
-        }
         for (lane, range) in ranges.iter_mut().enumerate() {
             let patch = block.patch(lane);
             *range = PatchRange {
@@ -102,14 +94,23 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
                 first_index: first.indices,
                 indices: patch.indices(),
             };
-            let base = numbering.base(first.points);
             first.points += range.points;
             first.indices += range.indices;
-            if range.points == 0 {
-                continue;
-            }
-            if looked_up(setup, patch) || (patch.is_small() && patch.integer()) {
-                emit_small(setup, (patch, lane), base, caches, &mut out);
+        }
+        caches.small.make_room();
+        let by_template = small_points.is_some() || setup.config.partitioning.has_integer_factors();
+        if by_template && block.all_small() {
+            emit_small(setup, (block, ranges), numbering, caches, &mut out, small_points.as_ref());
+            continue;
+        }
+        for (lane, range) in ranges.iter().enumerate().filter(|(_, range)| range.points != 0) {
+            let patch = block.patch(lane);
+            let base = numbering.base(range.first_point);
+            if by_template && patch.is_small() {
+                let start = caches.small.find(setup, patch, &mut caches.tables);
+                let template = caches.small.get(start);
+                points_of(patch, template, &mut out.points, small_points.as_ref());
+                indices_of(patch, template, base, &mut out.indices);
             } else {
                 emit_patch(setup, patch, base, caches, &mut out);
             }
@@ -118,39 +119,58 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
     first
 }
 
-/// Whether a patch's points are looked up. It pays with gathers, and until runs of points become
-/// long; below AVX-512 terrains of such patches took a seventh longer.
-#[inline(always)]
-fn looked_up(setup: &Setup, patch: BlockPatch<'_>) -> bool {
-    const MOST_POINTS: u32 = 64;
-    setup.level == Level::Avx512
-        && patch.is_small()
-        && !patch.integer()
-        && patch.points() <= MOST_POINTS
-}
-
-/// Writes a small patch that is not culled and whose first point is number `base`.
+/// Writes a block of small patches, stage by stage: where a stage's branches are predicted wrongly, the
+/// patches of the others are not begun anew.
 #[inline(always)]
 fn emit_small<P: PointFormat, I: IndexFormat>(
     setup: &Setup,
-    (patch, lane): (BlockPatch<'_>, usize),
-    base: u32,
+    (block, ranges): (&Block, &[PatchRange]),
+    numbering: Numbering,
     caches: &mut Caches,
     out: &mut Writers<'_, P, I>,
+    small_points: Option<&impl SmallPoints<P>>,
 ) {
-    let Caches { tables, small, coordinates, .. } = caches;
-    let SmallTemplate { indices, points, codes } = small.get(setup, patch, tables);
-    let count = patch.points() as usize;
-    if patch.integer() {
-        out.points.map::<_, 8>(count, points, |point: DomainPoint| {
-            P::from_bits(point.u.to_bits(), point.v.to_bits())
-        });
-    } else {
-        let coordinates = &coordinates[lane % LANES];
-        out.points.map::<_, 8>(count, codes, |code: Code| coordinates.point::<P>(code));
+    let Caches { small, tables, .. } = caches;
+    let mut starts = [Start::default(); LANES];
+    let lanes = ranges.iter().enumerate().filter(|(_, range)| range.points != 0);
+    for (lane, _) in lanes.clone() {
+        starts[lane] = small.find(setup, block.patch(lane), tables);
     }
+    for (lane, _) in lanes.clone() {
+        let template = small.get(starts[lane]);
+        points_of(block.patch(lane), template, &mut out.points, small_points);
+    }
+    for (lane, range) in lanes {
+        let base = numbering.base(range.first_point);
+        indices_of(block.patch(lane), small.get(starts[lane]), base, &mut out.indices);
+    }
+}
+
+/// Writes the points of a small patch.
+#[inline(always)]
+fn points_of<P: PointFormat>(
+    patch: BlockPatch<'_>,
+    SmallTemplate { points, .. }: SmallTemplate<'_>,
+    out: &mut Writer<'_, P>,
+    small_points: Option<&impl SmallPoints<P>>,
+) {
+    if patch.integer() {
+        out.map_least::<_, 8, 24>(patch.points() as usize, points, long);
+    } else if let Some(emit) = small_points {
+        emit(patch, points, out);
+    }
+}
+
+/// Writes the indices of a small patch whose first point is number `base`.
+#[inline(always)]
+fn indices_of<I: IndexFormat>(
+    patch: BlockPatch<'_>,
+    SmallTemplate { indices, .. }: SmallTemplate<'_>,
+    base: u32,
+    out: &mut Writer<'_, I>,
+) {
     let base = I::wrapping_from(base);
-    out.indices.map_least::<_, 16, 64>(patch.indices() as usize, indices, |index: u8| {
+    out.map_least::<_, 16, 64>(patch.indices() as usize, indices, |index: u8| {
         base.wrapping_add(I::wrapping_from(index.into()))
     });
 }

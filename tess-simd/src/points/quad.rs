@@ -7,7 +7,7 @@ use super::tables::FactorLocations;
 use crate::format::PointFormat;
 use crate::lanes::{EdgePoints, is_odd};
 use crate::writer::Writer;
-use tess_core::fixed_point::{HALF, ONE};
+use tess_core::fixed_point::ONE;
 
 /// The inside factors, by number.
 const U: usize = 4;
@@ -16,7 +16,7 @@ const V: usize = 5;
 /// Takes a walker over the runs of a patch.
 #[inline(always)]
 pub(super) fn walk(&[u0, v0, u1, v1, n_u, n_v]: &EdgePoints, walker: &mut impl Walker) {
-    let [zero, one, half] = [0, ONE, HALF].map(|number| walker.fixed(number));
+    let [zero, one] = [0, ONE].map(|number| walker.fixed(number));
     walker.run(u0 - 1, zero, back(0, 0));
     walker.run(v0 - 1, along(1, 0), zero);
     walker.run(u1 - 1, one, along(2, 0));
@@ -34,11 +34,18 @@ pub(super) fn walk(&[u0, v0, u1, v1, n_u, n_v]: &EdgePoints, walker: &mut impl W
     }
     if n_u > n_v {
         if !is_odd(n_v) {
+            let half = walker.at(middle(V, n_v));
             walker.run(n_u - 2 * ring_end, along(U, ring_end), half);
         }
     } else if !is_odd(n_u) {
+        let half = walker.at(middle(U, n_u));
         walker.run(n_v - 2 * ring_end, half, back(V, ring_end));
     }
+}
+
+/// The point in the middle of an axis: at `HALF`.
+const fn middle(factor: usize, points: u32) -> Place {
+    Place { factor, point: points / 2, mirrored: false }
 }
 
 #[inline(always)]

@@ -7,32 +7,96 @@ use crate::lanes::{EdgePoints, is_odd};
 use crate::writer::Writer;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
 
+/// The points of one edge of a ring: all but its last.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    pub(super) edge: usize,
+    /// The ring, and the point of the factor that it begins with.
+    pub(super) ring: u32,
+    /// The factor whose locations it takes.
+    pub(super) factor: usize,
+    pub(super) length: u32,
+}
+
+/// Takes the runs of points that a triangle has, in order.
+pub(super) trait Walker {
+    fn run(&mut self, run: Run);
+    /// Takes the point in the middle.
+    fn centre(&mut self);
+}
+
+/// How far a ring is inside, in two coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inset {
+    /// The coordinate that is the same along an edge of the ring.
+    pub(super) perpendicular: u32,
+    /// What the coordinates along an edge lose.
+    pub(super) shift: u32,
+}
+
+impl Inset {
+    /// The inset of the ring that has this location in the inside factor; none of the outer ring, 0.
+    #[inline(always)]
+    const fn new(location: u32) -> Self {
+        let perpendicular = (location.wrapping_mul(TWO_THIRDS) + HALF) >> 16;
+        Self { perpendicular, shift: perpendicular.div_ceil(2) }
+    }
+}
+
+/// Takes a walker over the runs of a patch.
 #[inline(always)]
-pub(super) fn emit<P: PointFormat>(
-    &[u0, v0, w0, inside, ..]: &EdgePoints,
-    [u0_locations, v0_locations, w0_locations, inside_locations, ..]: FactorLocations<'_>,
-    out: &mut Writer<'_, P>,
-) {
-    let mirror = |x| ONE.wrapping_sub(x);
-    run(out, u0 - 1, u0_locations.from(0), |x| P::from_bits(0, mirror(x)));
-    run(out, v0 - 1, v0_locations.from(0), |x| P::from_bits(x, 0));
-    run(out, w0 - 1, w0_locations.from(0), |x| P::from_bits(mirror(x), x));
+pub(super) fn walk(&[u0, v0, w0, inside, ..]: &EdgePoints, walker: &mut impl Walker) {
+    for (edge, points) in [u0, v0, w0].into_iter().enumerate() {
+        walker.run(Run { edge, ring: 0, factor: edge, length: points - 1 });
+    }
     for ring in 1..inside / 2 {
-        let count = inside - 1 - 2 * ring;
-        let locations = inside_locations.from(ring);
-        let perpendicular = (inside_locations.at(ring).wrapping_mul(TWO_THIRDS) + HALF) >> 16;
-        let shift = perpendicular.div_ceil(2);
-        // Edges 0 and 2 run from the other end; on edge 2, w = perpendicular.
-        let last = ONE - shift;
-        let rest = ONE - perpendicular;
-        run(out, count, locations, |x| P::from_bits(perpendicular, last.wrapping_sub(x)));
-        run(out, count, locations, |x| P::from_bits(x.wrapping_sub(shift), perpendicular));
-        run(out, count, locations, |x| {
-            let q = last.wrapping_sub(x);
-            P::from_bits(q, rest.wrapping_sub(q))
-        });
+        for edge in 0..3 {
+            walker.run(Run { edge, ring, factor: 3, length: inside - 1 - 2 * ring });
+        }
     }
     if !is_odd(inside) {
-        out.put([P::from_bits(ONE_THIRD, ONE_THIRD)]);
+        walker.centre();
+    }
+}
+
+#[inline(always)]
+pub(super) fn emit<P: PointFormat>(
+    edges: &EdgePoints,
+    locations: FactorLocations<'_>,
+    out: &mut Writer<'_, P>,
+) {
+    walk(edges, &mut Runs { locations, out });
+}
+
+/// Writes the points of each run.
+struct Runs<'a, 'o, P> {
+    locations: FactorLocations<'a>,
+    out: &'a mut Writer<'o, P>,
+}
+
+impl<P: PointFormat> Walker for Runs<'_, '_, P> {
+    #[inline(always)]
+    fn run(&mut self, Run { edge, ring, factor, length }: Run) {
+        let Self { locations, out } = self;
+        let location = if ring == 0 { 0 } else { locations[factor].at(ring) };
+        let Inset { perpendicular, shift } = Inset::new(location);
+        let locations = locations[factor].from(ring);
+        // Edges 0 and 2 run from the other end; on edge 2, w = perpendicular.
+        let (last, rest) = (ONE - shift, ONE - perpendicular);
+        match edge {
+            0 => run(out, length, locations, |x| P::from_bits(perpendicular, last.wrapping_sub(x))),
+            1 => {
+                run(out, length, locations, |x| P::from_bits(x.wrapping_sub(shift), perpendicular))
+            }
+            _ => run(out, length, locations, |x| {
+                let q = last.wrapping_sub(x);
+                P::from_bits(q, rest.wrapping_sub(q))
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn centre(&mut self) {
+        self.out.put([P::from_bits(ONE_THIRD, ONE_THIRD)]);
     }
 }

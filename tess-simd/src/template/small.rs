@@ -1,16 +1,17 @@
 //! Templates of small patches, of which many topologies are kept.
 //!
-//! Indices are bytes. Points are copied where the topology decides them, else looked up
-//! ([`Coordinates`](crate::points::Coordinates)).
+//! Indices are bytes. With integer factors the topology decides the points too, otherwise their codes.
 
 use super::{PADDING, write_minimum};
 use crate::block::BlockPatch;
 use crate::connect;
-use crate::points::{self, Code, EDGE, LocationTables, fixed_code};
+use crate::format::PointFormat;
+use crate::lanes::LANES;
+use crate::points::{self, EDGE, LocationTables, corner};
 use crate::setup::Setup;
 use crate::writer::Writer;
 use alloc::vec::Vec;
-use tess_core::{Config, DomainPoint};
+use tess_core::DomainPoint;
 
 /// The most points and indices of a small patch: a quad's whose edges have [`EDGE`] points.
 const POINTS: usize = EDGE * EDGE;
@@ -25,7 +26,7 @@ const INDEX_ROOM: usize = 224 << 10;
 /// Points of all templates.
 const POINT_ROOM: usize = 64 << 10;
 
-/// The templates of one configuration. 864 KiB for integer partitionings, 480 KiB for others.
+/// The templates of one configuration. 608 KiB.
 #[derive(Clone, Debug)]
 pub(crate) struct SmallTemplates {
     sets: Vec<Set>,
@@ -33,10 +34,7 @@ pub(crate) struct SmallTemplates {
     way: usize,
     indices: Vec<u8>,
     indices_used: usize,
-    /// Points of integer partitionings.
-    points: Vec<DomainPoint>,
-    /// Codes of points of the others.
-    codes: Vec<Code>,
+    points: Vec<SmallPoint>,
     points_used: usize,
 }
 
@@ -48,9 +46,12 @@ struct Set {
     starts: [Start; WAYS],
 }
 
+/// A point of a template: its coordinates if factors are integers ([`short`]), otherwise its code.
+type SmallPoint = [u16; 2];
+
 /// Where a template begins.
-#[derive(Clone, Copy, Debug)]
-struct Start {
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Start {
     point: u32,
     index: u32,
 }
@@ -59,14 +60,14 @@ impl Set {
     const EMPTY: Self =
         Self { topologies: [0; WAYS], starts: [Start { point: 0, index: 0 }; WAYS] };
 
-    /// The slot of a topology, without branches; [`WAYS`] if it has none.
+    /// The slot of a topology; [`WAYS`] or more if it has none.
     #[inline(always)]
     fn find(&self, topology: u64) -> usize {
-        let mut found = WAYS;
+        let mut found = 0_u32;
         for (way, &other) in self.topologies.iter().enumerate() {
-            found = if other == topology { way } else { found };
+            found |= u32::from(other == topology) << way;
         }
-        found
+        found.trailing_zeros() as usize
     }
 }
 
@@ -75,69 +76,74 @@ impl Set {
 pub(crate) struct SmallTemplate<'a> {
     /// Indices counted from the patch's first point, and then unspecified ones.
     pub(crate) indices: &'a [u8],
-    /// Points, and then unspecified ones; only if the partitioning is integer.
-    pub(crate) points: &'a [DomainPoint],
-    /// Codes of points, and then unspecified ones; only if the partitioning is not.
-    pub(crate) codes: &'a [Code],
+    /// Points, and then unspecified ones.
+    pub(crate) points: &'a [SmallPoint],
 }
 
 impl SmallTemplates {
-    pub(crate) fn new(config: Config) -> Self {
-        let integer = config.partitioning.has_integer_factors();
-        let (points, codes) = if integer { (POINT_ROOM, 0) } else { (0, POINT_ROOM) };
+    pub(crate) fn new() -> Self {
         Self {
             sets: alloc::vec![Set::EMPTY; SETS],
             way: 0,
             indices: alloc::vec![0; INDEX_ROOM],
             indices_used: 0,
-            points: alloc::vec![DomainPoint::default(); points],
-            codes: alloc::vec![Code::default(); codes],
+            points: alloc::vec![SmallPoint::default(); POINT_ROOM],
             points_used: 0,
         }
     }
 
     /// Bytes of memory that they take on the heap.
     pub(crate) fn bytes(&self) -> usize {
-        size_of_val(&self.sets[..])
-            + self.indices.len()
-            + size_of_val(&self.points[..])
-            + size_of_val(&self.codes[..])
+        size_of_val(&self.sets[..]) + self.indices.len() + size_of_val(&self.points[..])
     }
 
-    /// The template of a small patch that is not culled.
+    /// Makes room for the templates of a block; if there is none, all others are forgotten.
     #[inline(always)]
-    pub(crate) fn get(
+    pub(crate) fn make_room(&mut self) {
+        let full = self.indices_used + LANES * INDICES + PADDING > INDEX_ROOM
+            || self.points_used + LANES * POINTS + PADDING > POINT_ROOM;
+        if full {
+            self.forget();
+        }
+    }
+
+    #[cold]
+    fn forget(&mut self) {
+        self.sets.fill(Set::EMPTY);
+        (self.indices_used, self.points_used) = (0, 0);
+    }
+
+    /// Where the template of a small patch that is not culled begins. It is made if there is none.
+    #[inline(always)]
+    pub(crate) fn find(
         &mut self,
         setup: &Setup,
         patch: BlockPatch<'_>,
         tables: &mut LocationTables,
-    ) -> SmallTemplate<'_> {
+    ) -> Start {
         let topology = patch.topology();
-        let set = set(topology);
-        let Start { point, index } = match self.sets[set].starts.get(self.sets[set].find(topology))
-        {
+        let set = &self.sets[set(topology)];
+        match set.starts.get(set.find(topology)) {
             Some(&start) => start,
             None => self.make(setup, patch, tables),
-        };
-        SmallTemplate {
-            indices: self.indices.get(index as usize..).unwrap_or_default(),
-            points: self.points.get(point as usize..).unwrap_or_default(),
-            codes: self.codes.get(point as usize..).unwrap_or_default(),
         }
     }
 
-    /// Makes a template; if there is no room, all others are forgotten.
+    /// The template that begins here, found since there was room made last.
+    #[inline(always)]
+    pub(crate) fn get(&self, Start { point, index }: Start) -> SmallTemplate<'_> {
+        SmallTemplate {
+            indices: self.indices.get(index as usize..).unwrap_or_default(),
+            points: self.points.get(point as usize..).unwrap_or_default(),
+        }
+    }
+
+    /// Makes a template, for which there is room.
     #[cold]
     #[inline(never)]
     #[expect(clippy::cast_possible_truncation, reason = "places in the room; indices below 256")]
     fn make(&mut self, setup: &Setup, patch: BlockPatch<'_>, tables: &mut LocationTables) -> Start {
         let (points, indices) = (patch.points() as usize, patch.indices() as usize);
-        let full = self.indices_used + indices + PADDING > INDEX_ROOM
-            || self.points_used + points + PADDING > POINT_ROOM;
-        if full {
-            self.sets.fill(Set::EMPTY);
-            (self.indices_used, self.points_used) = (0, 0);
-        }
         let mut wide = [0_u16; INDICES.next_multiple_of(32)];
         self.write_points(setup, patch, tables, &mut wide);
         if !patch.is_minimum() {
@@ -172,16 +178,36 @@ impl SmallTemplates {
         } else if patch.integer() {
             points::emit(patch, tables, &mut Writer::new(&mut made));
         }
+        let to = &mut self.points[used..used + count];
         if patch.integer() {
-            self.points[used..used + count].copy_from_slice(&made[..count]);
+            for (to, point) in to.iter_mut().zip(made) {
+                *to = short(point);
+            }
         } else if patch.is_minimum() {
-            for (code, corner) in self.codes[used..].iter_mut().zip(&made[..count]) {
-                *code = fixed_code([corner.u.to_bits(), corner.v.to_bits()]);
+            for (to, point) in to.iter_mut().zip(made) {
+                *to = corner(patch.domain(), point);
             }
         } else {
-            points::codes(&patch.edges(), &mut self.codes[used..]);
+            points::codes(patch.domain(), &patch.edges(), to);
         }
     }
+}
+
+/// A point of a small patch of integer factors in half the room. `ONE` becomes the largest number, which
+/// no coordinate is.
+#[expect(clippy::cast_possible_truncation, reason = "16.16 numbers up to ONE")]
+fn short(point: DomainPoint) -> SmallPoint {
+    [point.u, point.v].map(|coordinate| coordinate.to_bits().min(u32::from(u16::MAX)) as u16)
+}
+
+/// The point that [`short`] shortened.
+#[inline(always)]
+pub(crate) fn long<P: PointFormat>(point: SmallPoint) -> P {
+    let [u, v] = point.map(|coordinate| {
+        let bits = u32::from(coordinate);
+        bits + ((bits + 1) >> 16)
+    });
+    P::from_bits(u, v)
 }
 
 /// The set of a topology: the upper bits of a product with 2^64 over the golden ratio, into which the

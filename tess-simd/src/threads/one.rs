@@ -3,15 +3,14 @@
 use crate::part::{self, Job, Workspace};
 use crate::setup::Setup;
 use crate::slices::{CountShare, Share};
-use tess_core::Config;
 
 /// The one workspace.
 #[derive(Clone, Debug)]
 pub(crate) struct Workspaces(Workspace);
 
 impl Workspaces {
-    pub(crate) fn new(config: Config) -> Self {
-        Self(Workspace::new(config))
+    pub(crate) fn new() -> Self {
+        Self(Workspace::new())
     }
 
     /// How many threads write at a time.

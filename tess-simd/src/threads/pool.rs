@@ -5,7 +5,6 @@ use crate::setup::Setup;
 use crate::slices::{CountShare, Share};
 use alloc::vec::Vec;
 use std::sync::{Mutex, PoisonError};
-use tess_core::Config;
 
 /// The most threads, and so workspaces, that a tessellator uses.
 pub(crate) const MAX_THREADS: usize = 256;
@@ -18,17 +17,17 @@ const SOON_COUNTED: usize = 1024;
 pub(crate) struct Workspaces(Vec<Mutex<Workspace>>);
 
 impl Workspaces {
-    pub(crate) fn new(config: Config) -> Self {
-        Self::of_threads(1, config)
+    pub(crate) fn new() -> Self {
+        Self::of_threads(1)
     }
 
     /// Workspaces for this many threads, at least one and at most [`MAX_THREADS`].
-    pub(crate) fn of_threads(threads: usize, config: Config) -> Self {
+    pub(crate) fn of_threads(threads: usize) -> Self {
         let threads = threads.clamp(1, MAX_THREADS);
         if threads > 1 {
             limit_global_pool();
         }
-        Self((0..threads).map(|_| Mutex::new(Workspace::new(config))).collect())
+        Self((0..threads).map(|_| Mutex::new(Workspace::new())).collect())
     }
 
     /// How many threads write at a time.
