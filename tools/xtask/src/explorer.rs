@@ -95,7 +95,7 @@ pub(crate) fn lacking() -> Option<String> {
 /// Makes everything ready, and gives the command that runs the tests.
 ///
 /// # Errors
-/// As for [`test`], but for the tests.
+/// As for [`test()`], but for the tests.
 pub(crate) fn tests() -> Result<Command, String> {
     setup::provide(BROWSER)?;
     let mut format = cargo("fmt --check --manifest-path");
