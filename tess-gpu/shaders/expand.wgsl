@@ -59,7 +59,7 @@ fn load_round(tile: Tile, first: u32, kind: u32, thread: u32) -> Round {
         atomicStore(&is_missing, 0u);
     }
     workgroupBarrier();
-    for (var i = thread; i < count; i += WORKGROUP) {
+    for (var i = thread; i < count; i += THREADS) {
         load_patch(i, first + i, tile, kind);
     }
     workgroupBarrier();

@@ -11,7 +11,7 @@
 @group(0) @binding(7) var<storage, read_write> points_out: array<vec2<u32>>;
 @group(0) @binding(8) var<storage, read> catalogue: array<u32>;
 
-@compute @workgroup_size(WORKGROUP)
+@compute @workgroup_size(THREADS)
 fn expand_points(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,

@@ -9,7 +9,7 @@
 @group(0) @binding(5) var<storage, read> tiles: array<u32>;
 @group(0) @binding(7) var<storage, read> catalogue: array<u32>;
 
-@compute @workgroup_size(WORKGROUP)
+@compute @workgroup_size(THREADS)
 fn expand_primitives(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,

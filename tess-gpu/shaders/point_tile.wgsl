@@ -47,7 +47,7 @@ fn write_points(round: Round, thread: u32, out: u32) {
     var source: PointSource;
     source.number = NEVER;
     let patch_number = job.first_patch + round.first;
-    for (var element = 2u * thread; element < tile_size(); element += 2u * WORKGROUP) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * THREADS) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
@@ -99,7 +99,7 @@ fn listed_point(round: Round, number: u32, element: u32) -> vec2<u32> {
 }
 
 fn write_listed_points(round: Round, thread: u32, out: u32) {
-    for (var element = 2u * thread; element < tile_size(); element += 2u * WORKGROUP) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * THREADS) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
@@ -121,13 +121,13 @@ fn has_same_points(topology: vec2<u32>) -> bool {
 fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
     let source = point_source_of(tile.first_patch, repeat.topology);
     let round = Round(tile.first_patch, 1u, 0u, 0u, false);
-    for (var i = thread; i < repeat.size; i += WORKGROUP) {
+    for (var i = thread; i < repeat.size; i += THREADS) {
         let run = run_at(round, source, location_of_point(source, i));
         scratch[i] = format_point(point_of_run(run, run.step), 0u);
     }
     workgroupBarrier();
     let end = tile.end - tile.base;
-    for (var element = tile.begin - tile.base + thread; element < end; element += WORKGROUP) {
+    for (var element = tile.begin - tile.base + thread; element < end; element += THREADS) {
         let position = element + repeat.before;
         let number = patch_at(repeat, position);
         points_out[out + element] = numbered(

@@ -1,4 +1,4 @@
-// needs: alike, {catalogue}, connect, {elements}, expand, {indices}, offsets, packing, rings, state, stitch, tile, topology; bindings: job, status
+// needs: alike, {catalogue}, connect, drawing, {elements}, expand, {indices}, offsets, packing, rings, state, stitch, tile, topology; bindings: job, status
 // A tile of primitives: each thread makes pairs of them, from their numbers alone. How a pair is stored is
 // in indices_u32.wgsl and indices_u16.wgsl.
 
@@ -37,7 +37,7 @@ fn stitch_from(source: Source, location: RingLocation) -> Stitch {
 fn write_triangles(round: Round, thread: u32, out: u32) {
     var source: Source;
     source.number = NEVER;
-    for (var element = 2u * thread; element < tile_size(); element += 2u * WORKGROUP) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * THREADS) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
@@ -91,7 +91,7 @@ fn listed_triangle(number: u32, element: u32) -> vec3<u32> {
 }
 
 fn write_listed_triangles(round: Round, thread: u32, out: u32) {
-    for (var element = 2u * thread; element < tile_size(); element += 2u * WORKGROUP) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * THREADS) {
         if element + 1u < round.begin || element >= round.end {
             continue;
         }
@@ -109,7 +109,7 @@ fn write_listed_triangles(round: Round, thread: u32, out: u32) {
 }
 
 fn write_sequences(round: Round, thread: u32, out: u32) {
-    for (var pair = 2u * thread; pair < tile_size(); pair += 2u * WORKGROUP) {
+    for (var pair = 2u * thread; pair < tile_size(); pair += 2u * THREADS) {
         for (var element = pair; element < pair + 2u; element++) {
             if element < round.begin || element >= round.end {
                 continue;
@@ -132,7 +132,7 @@ fn write_sequences(round: Round, thread: u32, out: u32) {
 fn keep_triangles(repeat: Repeat, thread: u32) {
     let is_regular = state_of(repeat.topology) == REGULAR;
     let source = Source(0u, 0u, 0u, is_regular, rings_of(repeat.topology));
-    for (var i = thread; i < repeat.size; i += WORKGROUP) {
+    for (var i = thread; i < repeat.size; i += THREADS) {
         let location = location_of(source, i);
         let triangle = stitch_triangles(stitch_from(source, location), location.step).first;
         let packed = packed_triangle(triangle);
@@ -181,7 +181,7 @@ fn copy_triangles(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
     workgroupBarrier();
     let begin = 3u * (tile.begin - tile.base);
     let end = 3u * (tile.end - tile.base);
-    for (var at = 2u * thread; at < end; at += 2u * WORKGROUP) {
+    for (var at = 2u * thread; at < end; at += 2u * THREADS) {
         if at + 1u < begin {
             continue;
         }

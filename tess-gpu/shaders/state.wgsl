@@ -1,7 +1,7 @@
 // needs: nothing
 // What every stage agrees on. `Setup::prelude` in src/setup.rs writes the constants in front of this
 // file: DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS, COPIES, ORDER; the sizes of
-// src/sizes.rs; the places in the tables of src/tables.rs; and SCRATCH for the stages that have one.
+// src/sizes.rs; the places in the tables of src/tables.rs; and SCRATCH and THREADS for the stages that expand.
 
 const ISOLINE = 0u;
 const TRIANGLE = 1u;

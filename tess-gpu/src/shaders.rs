@@ -173,7 +173,7 @@ impl Stage {
     /// Its WGSL, a whole module.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        let (file, scratch) = match self {
+        let (file, expansion) = match self {
             Self::Small => ("small", None),
             Self::Factors => ("factors", None),
             Self::Scan => ("scan", None),
@@ -181,11 +181,16 @@ impl Stage {
             Self::List => ("list", None),
             Self::Partition => ("partition", None),
             Self::Groups => ("groups", None),
-            Self::ExpandPoints => ("expand_points", Some(sizes::POINT_SCRATCH)),
-            Self::ExpandPrimitives => ("expand_primitives", Some(sizes::PRIMITIVE_SCRATCH)),
-            Self::ExpandSmall => ("expand_small", Some(sizes::POINT_SCRATCH)),
+            Self::ExpandPoints => {
+                ("expand_points", Some((sizes::POINT_SCRATCH, sizes::POINT_THREADS)))
+            }
+            Self::ExpandPrimitives => {
+                ("expand_primitives", Some((sizes::PRIMITIVE_SCRATCH, sizes::WORKGROUP)))
+            }
+            Self::ExpandSmall => ("expand_small", Some((sizes::POINT_SCRATCH, sizes::WORKGROUP))),
         };
-        let scratch = scratch.map(|entries| constants(&[("SCRATCH", entries)]));
+        let own = expansion
+            .map(|(entries, threads)| constants(&[("SCRATCH", entries), ("THREADS", threads)]));
         let is_list = matches!(self, Self::List);
         let stored = if is_list { "no_contexts" } else { "stored_contexts" };
         let [place, contexts] = files::placing(setup, stored);
@@ -196,7 +201,7 @@ impl Stage {
         // A small tile has fewer elements than the patch that would be made for copying.
         let copies = if matches!(self, Self::ExpandSmall) { Copies::Never } else { setup.copies };
         Setup { copies, ..setup }.prelude()
-            + &scratch.unwrap_or_default()
+            + &own.unwrap_or_default()
             + &files::joined(&[file], &choices)
     }
 

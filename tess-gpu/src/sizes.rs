@@ -6,6 +6,8 @@ use tess_core::{Patch, PatchFactors};
 
 /// Threads of a workgroup that expands a tile, partitions tiles or runs probes.
 pub const WORKGROUP: u32 = 64;
+/// Threads of a workgroup that expands points: a tile of unlike patches waits less with more of them.
+pub const POINT_THREADS: u32 = 128;
 /// Elements of a tile, points or primitives, unless the batch is small.
 pub const TILE: u32 = 1 << TILE_BITS;
 /// As a power of two.

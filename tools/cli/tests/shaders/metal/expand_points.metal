@@ -153,6 +153,8 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint COPIES = 1u;
+constant uint ORDER = 0u;
+constant uint COLUMN = 4u;
 constant uint WORKGROUP = 64u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
@@ -183,6 +185,7 @@ constant uint RING_STITCH = 4096u;
 constant uint MIRRORED_STRIP = 4160u;
 constant uint PLAIN_STRIP = 4224u;
 constant uint SCRATCH = 320u;
+constant uint THREADS = 128u;
 constant uint ISOLINE = 0u;
 constant uint TRIANGLE = 1u;
 constant uint QUAD = 2u;
@@ -198,6 +201,8 @@ constant uint RULER = 0u;
 constant uint CENTER = 1u;
 constant uint PACKED = 0u;
 constant uint F32_ = 1u;
+constant uint SPECIFICATION = 0u;
+constant uint DRAWING = 1u;
 constant uint PER_BATCH = 0u;
 constant uint PER_PATCH = 1u;
 constant uint POINTS = 0u;
@@ -1075,7 +1080,7 @@ Round load_round(
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
             uint _e20 = i_6;
-            i_6 = _e20 + WORKGROUP;
+            i_6 = _e20 + THREADS;
         }
         loop_init_1 = false;
         uint _e15 = i_6;
@@ -1349,7 +1354,7 @@ void write_points(
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_2) {
             uint _e101 = element_5;
-            element_5 = _e101 + 128u;
+            element_5 = _e101 + 256u;
         }
         loop_init_2 = false;
         uint _e14 = element_5;
@@ -1477,7 +1482,7 @@ void write_listed_points(
         loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
         if (!loop_init_3) {
             uint _e55 = element_7;
-            element_7 = _e55 + 128u;
+            element_7 = _e55 + 256u;
         }
         loop_init_3 = false;
         uint _e6 = element_7;
@@ -1561,7 +1566,7 @@ void copy_points(
         loop_bound_5 -= uint2(loop_bound_5.y == 0u, 1u);
         if (!loop_init_4) {
             uint _e27 = i_8;
-            i_8 = _e27 + WORKGROUP;
+            i_8 = _e27 + THREADS;
         }
         loop_init_4 = false;
         uint _e14 = i_8;
@@ -1589,7 +1594,7 @@ void copy_points(
         loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
         if (!loop_init_5) {
             uint _e61 = element_8;
-            element_8 = _e61 + WORKGROUP;
+            element_8 = _e61 + THREADS;
         }
         loop_init_5 = false;
         uint _e38 = element_8;

@@ -89,6 +89,13 @@ struct RingLocation {
     uint edge;
     uint step;
 };
+struct Sector {
+    uint edge;
+    uint transition;
+    uint along;
+    uint end;
+    uint inverse;
+};
 struct Stitch {
     uint size;
     uint steps_at;
@@ -140,6 +147,8 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint COPIES = 1u;
+constant uint ORDER = 0u;
+constant uint COLUMN = 4u;
 constant uint WORKGROUP = 64u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
@@ -170,6 +179,7 @@ constant uint RING_STITCH = 4096u;
 constant uint MIRRORED_STRIP = 4160u;
 constant uint PLAIN_STRIP = 4224u;
 constant uint SCRATCH = 128u;
+constant uint THREADS = 64u;
 constant uint ISOLINE = 0u;
 constant uint TRIANGLE = 1u;
 constant uint QUAD = 2u;
@@ -185,6 +195,8 @@ constant uint RULER = 0u;
 constant uint CENTER = 1u;
 constant uint PACKED = 0u;
 constant uint F32_ = 1u;
+constant uint SPECIFICATION = 0u;
+constant uint DRAWING = 1u;
 constant uint PER_BATCH = 0u;
 constant uint PER_PATCH = 1u;
 constant uint POINTS = 0u;
@@ -570,6 +582,247 @@ RingLocation next_edge(
     return RingLocation {is_last ? (location.ring + 1u) : location.ring, is_last ? 0u : (location.edge + 1u), 0u};
 }
 
+Sector sector_of(
+    Rings rings_8,
+    uint edge_8
+) {
+    uint _e2 = along_of(rings_8, edge_8);
+    uint regular = (2u * _e2) - 4u;
+    uint _e7 = outer_of(rings_8, edge_8);
+    uint _e11 = stitch_ring_end(rings_8);
+    return Sector {edge_8, (_e7 + _e2) - 4u, _e2, _e11, naga_div(2097151u + regular, regular)};
+}
+
+uint sectors_before(
+    Rings rings_9,
+    uint edge_9
+) {
+    uint _e2 = stitch_ring_end(rings_9);
+    uint _e3 = outer_sum(rings_9, edge_9);
+    uint outer_2 = (edge_9 == EDGES) ? (rings_9.boundary + EDGES) : _e3;
+    uint _e10 = along_sum(rings_9, edge_9);
+    uint along = (edge_9 == EDGES) ? rings_9.along : _e10;
+    return ((outer_2 + along) - (4u * edge_9)) + (((_e2 - 2u) * 2u) * (along - (edge_9 * (_e2 + 1u))));
+}
+
+uint transition_border(
+    Sector sector,
+    uint column
+) {
+    uint first_6 = metal::min(metal::max((8u * column) + 1u, 2u) - 2u, (2u * sector.along) - 4u);
+    return ((first_6 * sector.transition) * sector.inverse) >> 21u;
+}
+
+uint borders(
+    Sector sector_1,
+    uint end_4,
+    uint column_1
+) {
+    uint first_7 = (8u * column_1) + 1u;
+    uint half_ = (metal::max((2u * sector_1.along) + 1u, first_7) - first_7) >> 1u;
+    uint top = metal::max(end_4, 2u);
+    uint cut = metal::max(metal::min(metal::min(end_4, (COLUMN * column_1) + 1u), half_), 2u);
+    uint complete = metal::clamp(half_, 2u, top);
+    return ((cut - 2u) * ((metal::max(first_7, cut + 1u) - cut) - 1u)) + (((top - complete) * 2u) * (((sector_1.along + 1u) - complete) - top));
+}
+
+uint columns_before(
+    Sector sector_2,
+    uint column_2
+) {
+    uint _e2 = transition_border(sector_2, column_2);
+    uint _e4 = borders(sector_2, sector_2.end, column_2);
+    return _e2 + _e4;
+}
+
+uint nearer_column(
+    Sector sector_3,
+    uint column_3,
+    uint reach_1,
+    uint t
+) {
+    uint _e6 = columns_before(sector_3, column_3 + reach_1);
+    return column_3 + ((_e6 <= t) ? reach_1 : 0u);
+}
+
+uint rings_before(
+    Sector sector_4,
+    uint column_4,
+    uint ring_4
+) {
+    uint _e5 = borders(sector_4, ring_4, column_4 + 1u);
+    uint _e6 = borders(sector_4, ring_4, column_4);
+    return _e5 - _e6;
+}
+
+uint nearer_in_column(
+    Sector sector_5,
+    uint column_5,
+    uint ring_5,
+    uint reach_2,
+    uint t_1
+) {
+    bool local_3 = {};
+    uint next_2 = ring_5 + reach_2;
+    if (next_2 < sector_5.end) {
+        uint _e10 = rings_before(sector_5, column_5, next_2);
+        local_3 = _e10 <= t_1;
+    } else {
+        local_3 = false;
+    }
+    bool is_there = local_3;
+    return is_there ? next_2 : ring_5;
+}
+
+uint ring_border(
+    Sector sector_6,
+    uint ring_6,
+    uint column_6
+) {
+    uint first_8 = (8u * column_6) + 1u;
+    return metal::min(metal::max(first_8, 2u * ring_6) - (2u * ring_6), 2u * (sector_6.along - (2u * ring_6)));
+}
+
+RingLocation location_in_column(
+    Sector sector_7,
+    uint column_7,
+    uint t_2
+) {
+    uint ring_7 = 2u;
+    if (sector_7.end > 10u) {
+        uint _e8 = ring_7;
+        uint _e10 = nearer_in_column(sector_7, column_7, _e8, 16u, t_2);
+        ring_7 = _e10;
+        uint _e11 = ring_7;
+        uint _e13 = nearer_in_column(sector_7, column_7, _e11, 8u, t_2);
+        ring_7 = _e13;
+    }
+    uint _e14 = ring_7;
+    uint _e16 = nearer_in_column(sector_7, column_7, _e14, 4u, t_2);
+    ring_7 = _e16;
+    uint _e17 = ring_7;
+    uint _e19 = nearer_in_column(sector_7, column_7, _e17, 2u, t_2);
+    ring_7 = _e19;
+    uint _e20 = ring_7;
+    uint _e22 = nearer_in_column(sector_7, column_7, _e20, 1u, t_2);
+    ring_7 = _e22;
+    uint _e23 = ring_7;
+    uint _e24 = ring_border(sector_7, _e23, column_7);
+    uint _e26 = ring_7;
+    uint _e27 = rings_before(sector_7, column_7, _e26);
+    uint step = (_e24 + t_2) - _e27;
+    uint _e29 = ring_7;
+    return RingLocation {_e29, sector_7.edge, step};
+}
+
+RingLocation location_in_sector(
+    Sector sector_8,
+    uint t_3
+) {
+    uint column_8 = {};
+    uint _e4 = nearer_column(sector_8, 0u, 8u, t_3);
+    column_8 = _e4;
+    uint _e6 = column_8;
+    uint _e8 = nearer_column(sector_8, _e6, 4u, t_3);
+    column_8 = _e8;
+    uint _e9 = column_8;
+    uint _e11 = nearer_column(sector_8, _e9, 2u, t_3);
+    column_8 = _e11;
+    uint _e12 = column_8;
+    uint _e14 = nearer_column(sector_8, _e12, 1u, t_3);
+    column_8 = _e14;
+    uint _e15 = column_8;
+    uint _e16 = columns_before(sector_8, _e15);
+    uint rest_2 = t_3 - _e16;
+    uint _e18 = column_8;
+    uint _e19 = transition_border(sector_8, _e18);
+    uint _e20 = column_8;
+    uint _e23 = transition_border(sector_8, _e20 + 1u);
+    uint transition = _e23 - _e19;
+    if (rest_2 < transition) {
+        return RingLocation {1u, sector_8.edge, _e19 + rest_2};
+    }
+    uint _e30 = column_8;
+    RingLocation _e32 = location_in_column(sector_8, _e30, rest_2 - transition);
+    return _e32;
+}
+
+RingLocation drawn_location(
+    Rings rings_10,
+    uint t_4
+) {
+    uint edge_10 = {};
+    uint _e3 = sectors_before(rings_10, EDGES);
+    if (t_4 >= _e3) {
+        uint _e5 = stitch_ring_end(rings_10);
+        return RingLocation {_e5, 0u, t_4 - _e3};
+    }
+    uint _e12 = sectors_before(rings_10, 1u);
+    edge_10 = (t_4 >= _e12) ? 1u : 0u;
+    uint _e16 = edge_10;
+    uint _e19 = sectors_before(rings_10, 2u);
+    edge_10 = (t_4 >= _e19) ? 2u : _e16;
+    if (true) {
+        uint _e23 = edge_10;
+        uint _e26 = sectors_before(rings_10, 3u);
+        edge_10 = (t_4 >= _e26) ? 3u : _e23;
+    }
+    uint _e29 = edge_10;
+    Sector _e30 = sector_of(rings_10, _e29);
+    uint _e31 = edge_10;
+    uint _e32 = sectors_before(rings_10, _e31);
+    RingLocation _e34 = location_in_sector(_e30, t_4 - _e32);
+    return _e34;
+}
+
+uint border(
+    Sector sector_9,
+    uint ring_8,
+    uint column_9
+) {
+    if (ring_8 == 1u) {
+        uint _e5 = transition_border(sector_9, column_9);
+        return _e5;
+    }
+    uint _e6 = ring_border(sector_9, ring_8, column_9);
+    return _e6;
+}
+
+RingLocation drawn_behind(
+    Rings rings_11,
+    RingLocation location_1
+) {
+    uint column_10 = {};
+    bool local_4 = {};
+    uint _e3 = stitch_ring_end(rings_11);
+    if (location_1.ring == _e3) {
+        return RingLocation {4294967295u, 0u, 0u};
+    }
+    Sector _e10 = sector_of(rings_11, location_1.edge);
+    uint step_1 = location_1.step + 1u;
+    column_10 = naga_div((location_1.step + (2u * location_1.ring)) - 1u, 8u);
+    if (location_1.ring == 1u) {
+        column_10 = naga_div(naga_div((step_1 * ((2u * _e10.along) - 4u)) - 1u, _e10.transition) + 1u, 8u);
+    }
+    uint _e42 = column_10;
+    uint _e45 = border(_e10, location_1.ring, _e42 + 1u);
+    if (step_1 < _e45) {
+        return RingLocation {location_1.ring, location_1.edge, step_1};
+    }
+    uint ring_10 = location_1.ring + 1u;
+    uint _e53 = column_10;
+    uint _e54 = ring_border(_e10, ring_10, _e53);
+    if (ring_10 < _e10.end) {
+        uint _e59 = column_10;
+        uint _e62 = ring_border(_e10, ring_10, _e59 + 1u);
+        local_4 = _e54 < _e62;
+    } else {
+        local_4 = false;
+    }
+    bool is_there_1 = local_4;
+    return RingLocation {is_there_1 ? ring_10 : NEVER, location_1.edge, _e54};
+}
+
 uint outer_vertex(
     Stitch stitch,
     uint at_1
@@ -590,13 +843,13 @@ metal::uint3 oriented(
     uint c,
     bool begins_inner
 ) {
-    uint first_6 = begins_inner ? b : a;
+    uint first_9 = begins_inner ? b : a;
     uint second_2 = begins_inner ? a : c;
     uint third = begins_inner ? c : b;
     if (false) {
-        return metal::uint3(first_6, third, second_2);
+        return metal::uint3(first_9, third, second_2);
     }
-    return metal::uint3(first_6, second_2, third);
+    return metal::uint3(first_9, second_2, third);
 }
 
 Pair stitch_triangles(
@@ -653,26 +906,38 @@ Pair stitch_triangles(
     return Pair {_e64, _e76};
 }
 
-RingLocation triangle_location(
-    Rings rings_8,
-    uint t
+RingLocation specified_location(
+    Rings rings_12,
+    uint t_5
 ) {
-    uint transitions = (rings_8.boundary + rings_8.along) - 12u;
-    if (t < transitions) {
-        uint _e20 = outer_of(rings_8, 2u);
-        RingLocation _e25 = location_on_edges(1u, t, (rings_8.before_1_ + rings_8.v) - 4u, (rings_8.before_2_ + rings_8.sides) - 8u, (_e20 + rings_8.v) - 4u);
+    uint transitions = (rings_12.boundary + rings_12.along) - 12u;
+    if (t_5 < transitions) {
+        uint _e20 = outer_of(rings_12, 2u);
+        RingLocation _e25 = location_on_edges(1u, t_5, (rings_12.before_1_ + rings_12.v) - 4u, (rings_12.before_2_ + rings_12.sides) - 8u, (_e20 + rings_12.v) - 4u);
         return _e25;
     }
-    uint _e26 = stitch_ring_end(rings_8);
-    uint end_5 = _e26 - 2u;
-    uint form_2 = (2u * rings_8.along) - 24u;
-    uint _e36 = last_before(t - transitions, end_5, form_2, 8u);
-    uint rest_2 = (t - transitions) - (_e36 * (form_2 - (8u * _e36)));
-    if (_e36 == end_5) {
-        return RingLocation {_e36 + 2u, 0u, rest_2};
+    uint _e26 = stitch_ring_end(rings_12);
+    uint end_6 = _e26 - 2u;
+    uint form_2 = (2u * rings_12.along) - 24u;
+    uint _e36 = last_before(t_5 - transitions, end_6, form_2, 8u);
+    uint rest_3 = (t_5 - transitions) - (_e36 * (form_2 - (8u * _e36)));
+    if (_e36 == end_6) {
+        return RingLocation {_e36 + 2u, 0u, rest_3};
     }
-    RingLocation _e66 = location_on_ring(_e36 + 2u, rest_2, (2u * rings_8.v) - (4u * (_e36 + 2u)), (2u * rings_8.u) - (4u * (_e36 + 2u)));
+    RingLocation _e66 = location_on_ring(_e36 + 2u, rest_3, (2u * rings_12.v) - (4u * (_e36 + 2u)), (2u * rings_12.u) - (4u * (_e36 + 2u)));
     return _e66;
+}
+
+RingLocation triangle_location(
+    Rings rings_13,
+    uint t_6
+) {
+    if (false) {
+        RingLocation _e3 = drawn_location(rings_13, t_6);
+        return _e3;
+    }
+    RingLocation _e4 = specified_location(rings_13, t_6);
+    return _e4;
 }
 
 uint steps_of(
@@ -699,9 +964,9 @@ Stitch minimum_stitch(
 }
 
 Stitch rows(
-    Rings rings_9,
-    uint ring_4,
-    uint edge_8,
+    Rings rings_14,
+    uint ring_9,
+    uint edge_11,
     uint size_1,
     uint number_3,
     uint outer_ring,
@@ -709,108 +974,108 @@ Stitch rows(
     uint inner_ring,
     uint inner_1
 ) {
-    bool local_3 = {};
-    uint _e9 = ring_points(rings_9, ring_4);
-    bool walks_back = rings_9.short_ == ((2u * ring_4) + 1u);
+    bool local_5 = {};
+    uint _e9 = ring_points(rings_14, ring_9);
+    bool walks_back = rings_14.short_ == ((2u * ring_9) + 1u);
     uint _e16 = steps_of(number_3);
-    if (!((edge_8 == 3u))) {
-        local_3 = walks_back;
+    if (!((edge_11 == 3u))) {
+        local_5 = walks_back;
     } else {
-        local_3 = true;
+        local_5 = true;
     }
-    bool _e23 = local_3;
+    bool _e23 = local_5;
     return Stitch {size_1, _e16, outer_1, inner_1, _e23, {}, inner_ring, inner_ring + outer_ring, inner_ring + (walks_back ? (_e9 >> 1u) : _e9), (2u * inner_ring) + _e9};
 }
 
 Stitch transition_stitch(
-    Rings rings_10,
-    uint edge_9,
+    Rings rings_15,
+    uint edge_12,
     uint base_1
 ) {
-    uint _e3 = outer_of(rings_10, edge_9);
-    uint _e4 = along_of(rings_10, edge_9);
+    uint _e3 = outer_of(rings_15, edge_12);
+    uint _e4 = along_of(rings_15, edge_12);
     uint inner_points = _e4 - 2u;
-    uint ring_5 = base_1 + rings_10.boundary;
-    uint _e18 = outer_sum(rings_10, edge_9);
-    uint _e21 = along_sum(rings_10, edge_9);
-    Stitch _e26 = rows(rings_10, 1u, edge_9, (_e3 + inner_points) - 2u, ((TRANSITION_STRIDE * _e3) + inner_points) - 128u, base_1, (base_1 + _e18) - edge_9, ring_5, (ring_5 + _e21) - (3u * edge_9));
+    uint ring_11 = base_1 + rings_15.boundary;
+    uint _e18 = outer_sum(rings_15, edge_12);
+    uint _e21 = along_sum(rings_15, edge_12);
+    Stitch _e26 = rows(rings_15, 1u, edge_12, (_e3 + inner_points) - 2u, ((TRANSITION_STRIDE * _e3) + inner_points) - 128u, base_1, (base_1 + _e18) - edge_12, ring_11, (ring_11 + _e21) - (3u * edge_12));
     return _e26;
 }
 
 Stitch centre_stitch(
-    Rings rings_11,
+    Rings rings_16,
     uint base_2
 ) {
-    bool local_4 = {};
-    uint _e2 = stitch_ring_end(rings_11);
-    uint _e5 = first_of_ring(rings_11, _e2 - 1u);
-    uint first_7 = base_2 + _e5;
+    bool local_6 = {};
+    uint _e2 = stitch_ring_end(rings_16);
+    uint _e5 = first_of_ring(rings_16, _e2 - 1u);
+    uint first_10 = base_2 + _e5;
     if (false) {
-        Stitch _e12 = straight(1u, FAN_STITCH, first_7, first_7 + 2u);
+        Stitch _e12 = straight(1u, FAN_STITCH, first_10, first_10 + 2u);
         return _e12;
     }
-    uint quads = (metal::max(rings_11.u, rings_11.v) - rings_11.short_) + 1u;
-    uint along_u = (rings_11.u > rings_11.v) ? 1u : 0u;
-    if (rings_11.u <= rings_11.v) {
-        local_4 = (rings_11.v & 1u) == 0u;
+    uint quads = (metal::max(rings_16.u, rings_16.v) - rings_16.short_) + 1u;
+    uint along_u = (rings_16.u > rings_16.v) ? 1u : 0u;
+    if (rings_16.u <= rings_16.v) {
+        local_6 = (rings_16.v & 1u) == 0u;
     } else {
-        local_4 = false;
+        local_6 = false;
     }
-    bool is_mirrored = local_4;
+    bool is_mirrored = local_6;
     uint _e44 = steps_of(is_mirrored ? (MIRRORED_STRIP + quads) : PLAIN_STRIP);
-    return Stitch {2u * quads, _e44, first_7 + along_u, first_7, true, {}, NEVER, 0u, first_7 + along_u, (((2u * first_7) + (2u * quads)) + 1u) + along_u};
+    return Stitch {2u * quads, _e44, first_10 + along_u, first_10, true, {}, NEVER, 0u, first_10 + along_u, (((2u * first_10) + (2u * quads)) + 1u) + along_u};
 }
 
 Stitch ring_stitch(
-    Rings rings_12,
-    RingLocation location_1,
+    Rings rings_17,
+    RingLocation location_2,
     uint base_3
 ) {
-    uint ring_6 = location_1.ring;
-    uint _e5 = along_of(rings_12, location_1.edge);
-    uint inner_points_1 = _e5 - (2u * ring_6);
-    uint _e9 = first_of_ring(rings_12, ring_6);
+    uint ring_12 = location_2.ring;
+    uint _e5 = along_of(rings_17, location_2.edge);
+    uint inner_points_1 = _e5 - (2u * ring_12);
+    uint _e9 = first_of_ring(rings_17, ring_12);
     uint inner_ring_1 = base_3 + _e9;
-    uint _e13 = ring_points(rings_12, ring_6 - 1u);
+    uint _e13 = ring_points(rings_17, ring_12 - 1u);
     uint outer_ring_1 = inner_ring_1 - _e13;
-    uint _e16 = along_sum(rings_12, location_1.edge);
-    uint skip = _e16 - ((2u * ring_6) * location_1.edge);
-    Stitch _e33 = rows(rings_12, ring_6, location_1.edge, 2u * inner_points_1, RING_STITCH + inner_points_1, outer_ring_1, (outer_ring_1 + skip) + location_1.edge, inner_ring_1, (inner_ring_1 + skip) - location_1.edge);
+    uint _e16 = along_sum(rings_17, location_2.edge);
+    uint skip = _e16 - ((2u * ring_12) * location_2.edge);
+    Stitch _e33 = rows(rings_17, ring_12, location_2.edge, 2u * inner_points_1, RING_STITCH + inner_points_1, outer_ring_1, (outer_ring_1 + skip) + location_2.edge, inner_ring_1, (inner_ring_1 + skip) - location_2.edge);
     return _e33;
 }
 
 Stitch stitch_at(
-    Rings rings_13,
-    RingLocation location_2,
+    Rings rings_18,
+    RingLocation location_3,
     uint base_4
 ) {
-    if (location_2.ring == 1u) {
-        Stitch _e7 = transition_stitch(rings_13, location_2.edge, base_4);
+    if (location_3.ring == 1u) {
+        Stitch _e7 = transition_stitch(rings_18, location_3.edge, base_4);
         return _e7;
     }
-    uint _e9 = stitch_ring_end(rings_13);
-    if (location_2.ring == _e9) {
-        Stitch _e11 = centre_stitch(rings_13, base_4);
+    uint _e9 = stitch_ring_end(rings_18);
+    if (location_3.ring == _e9) {
+        Stitch _e11 = centre_stitch(rings_18, base_4);
         return _e11;
     }
-    Stitch _e12 = ring_stitch(rings_13, location_2, base_4);
+    Stitch _e12 = ring_stitch(rings_18, location_3, base_4);
     return _e12;
 }
 
 metal::uint3 triangle_of(
     metal::uint2 topology_10,
-    uint t_1,
+    uint t_7,
     device type_3 const& tables,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint _e2 = state_of(topology_10);
     if (_e2 == MINIMUM) {
         Stitch _e6 = minimum_stitch(0u);
-        Pair _e7 = stitch_triangles(_e6, t_1, tables, _buffer_sizes);
+        Pair _e7 = stitch_triangles(_e6, t_7, tables, _buffer_sizes);
         return _e7.first;
     }
     Rings _e9 = rings_of(topology_10);
-    RingLocation _e10 = triangle_location(_e9, t_1);
+    RingLocation _e10 = triangle_location(_e9, t_7);
     Stitch _e12 = stitch_at(_e9, _e10, 0u);
     Pair _e14 = stitch_triangles(_e12, _e10.step, tables, _buffer_sizes);
     return _e14.first;
@@ -818,21 +1083,21 @@ metal::uint3 triangle_of(
 
 uint sequence_first(
     metal::uint2 topology_11,
-    uint t_2,
+    uint t_8,
     uint base_5
 ) {
-    bool local_5 = {};
+    bool local_7 = {};
     if (false) {
-        local_5 = true;
+        local_7 = true;
     } else {
-        local_5 = false;
+        local_7 = false;
     }
-    bool _e8 = local_5;
+    bool _e8 = local_7;
     if (_e8) {
         uint _e11 = outer_points(topology_11, 1u);
-        return (base_5 + t_2) + naga_div(t_2, _e11 - 1u);
+        return (base_5 + t_8) + naga_div(t_8, _e11 - 1u);
     }
-    return base_5 + t_2;
+    return base_5 + t_8;
 }
 
 uint tile_size(
@@ -883,7 +1148,7 @@ void load_patch(
     device type_2 const& topologies,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local_6 = {};
+    bool local_8 = {};
     metal::uint2 topology_14 = topologies[metal::min(unsigned(patch_index_2), (_buffer_sizes.size9 - 0 - 8) / 8)];
     metal::uint2 _e7 = patch_offset(patch_index_2, offsets, job, _buffer_sizes);
     uint begin_1 = _e7[metal::min(unsigned(kind_2), 1u)] - tile_2.base;
@@ -894,11 +1159,11 @@ void load_patch(
     listed.inner[metal::min(unsigned(i), 127u)] = metal::uint2(_e16 - (words * begin_1), true ? _e7.x : 0u);
     if (_e16 == 0u) {
         uint _e35 = state_of(topology_14);
-        local_6 = _e35 != CULLED;
+        local_8 = _e35 != CULLED;
     } else {
-        local_6 = false;
+        local_8 = false;
     }
-    bool _e39 = local_6;
+    bool _e39 = local_8;
     if (_e39) {
         metal::atomic_store_explicit(&is_missing, 1u, metal::memory_order_relaxed);
         return;
@@ -923,7 +1188,7 @@ Round load_round(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint i_1 = {};
-    uint end_4 = {};
+    uint end_5 = {};
     uint count = metal::min(ROUND, (tile_3.last_patch - first) + 1u);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     if (thread_1 == 0u) {
@@ -938,7 +1203,7 @@ Round load_round(
         loop_bound_1 -= uint2(loop_bound_1.y == 0u, 1u);
         if (!loop_init_1) {
             uint _e20 = i_1;
-            i_1 = _e20 + WORKGROUP;
+            i_1 = _e20 + THREADS;
         }
         loop_init_1 = false;
         uint _e15 = i_1;
@@ -955,26 +1220,26 @@ Round load_round(
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     int _e25 = begins.inner[0];
     uint begin_2 = static_cast<uint>(metal::max(_e25, static_cast<int>(tile_3.begin - tile_3.base)));
-    end_4 = tile_3.end - tile_3.base;
+    end_5 = tile_3.end - tile_3.base;
     if ((first + count) <= tile_3.last_patch) {
         metal::uint2 _e40 = patch_offset(first + count, offsets, job, _buffer_sizes);
-        end_4 = _e40[metal::min(unsigned(kind_3), 1u)] - tile_3.base;
+        end_5 = _e40[metal::min(unsigned(kind_3), 1u)] - tile_3.base;
     }
-    uint _e44 = end_4;
+    uint _e44 = end_5;
     uint _e46 = metal::atomic_load_explicit(&is_missing, metal::memory_order_relaxed);
     return Round {first, count, begin_2, _e44, _e46 == 0u};
 }
 
 uint nearer_patch(
     uint found,
-    uint reach_1,
+    uint reach_3,
     uint last,
     uint element_1,
     threadgroup type_8& begins
 ) {
-    uint next_2 = metal::min(found + reach_1, last);
-    int _e8 = begins.inner[metal::min(unsigned(next_2), 127u)];
-    return (_e8 <= static_cast<int>(element_1)) ? next_2 : found;
+    uint next_3 = metal::min(found + reach_3, last);
+    int _e8 = begins.inner[metal::min(unsigned(next_3), 127u)];
+    return (_e8 <= static_cast<int>(element_1)) ? next_3 : found;
 }
 
 uint find_patch(
@@ -1024,7 +1289,7 @@ uint next_patch(
     threadgroup type_8& begins
 ) {
     uint found_2 = {};
-    bool local_7 = {};
+    bool local_9 = {};
     found_2 = number_4;
     uint2 loop_bound_2 = uint2(4294967295u);
     while(true) {
@@ -1034,11 +1299,11 @@ uint next_patch(
         if ((_e4 + 1u) < round_1.count) {
             uint _e12 = found_2;
             int _e16 = begins.inner[metal::min(unsigned(_e12 + 1u), 127u)];
-            local_7 = _e16 <= static_cast<int>(element_3);
+            local_9 = _e16 <= static_cast<int>(element_3);
         } else {
-            local_7 = false;
+            local_9 = false;
         }
-        bool _e20 = local_7;
+        bool _e20 = local_9;
         if (_e20) {
         } else {
             break;
@@ -1150,31 +1415,31 @@ Source load_source(
 
 RingLocation location_of(
     Source source,
-    uint t_3
+    uint t_9
 ) {
     if (source.is_regular) {
-        RingLocation _e4 = triangle_location(source.rings, t_3);
+        RingLocation _e4 = triangle_location(source.rings, t_9);
         return _e4;
     }
-    return RingLocation {1u, 0u, t_3};
+    return RingLocation {1u, 0u, t_9};
 }
 
 Stitch stitch_from(
     Source source_1,
-    RingLocation location_3
+    RingLocation location_4
 ) {
     if (!(source_1.is_regular)) {
         Stitch _e5 = minimum_stitch(source_1.base);
         return _e5;
     }
-    Stitch _e8 = stitch_at(source_1.rings, location_3, source_1.base);
+    Stitch _e8 = stitch_at(source_1.rings, location_4, source_1.base);
     return _e8;
 }
 
 metal::uint3 first_triangle(
     Round round_3,
     Source before,
-    RingLocation location_4,
+    RingLocation location_5,
     uint element_4,
     device type_2 const& offsets,
     constant Job& job,
@@ -1185,8 +1450,9 @@ metal::uint3 first_triangle(
 ) {
     Source source_2 = {};
     RingLocation next = {};
+    bool local_10 = {};
     source_2 = before;
-    RingLocation _e5 = next_edge(location_4);
+    RingLocation _e5 = next_edge(location_5);
     next = _e5;
     uint _e8 = next_patch(round_3, before.number, element_4, begins);
     if (_e8 != before.number) {
@@ -1194,11 +1460,34 @@ metal::uint3 first_triangle(
         source_2 = _e11;
         next = RingLocation {1u, 0u, 0u};
     }
-    Source _e16 = source_2;
-    RingLocation _e17 = next;
-    Stitch _e18 = stitch_from(_e16, _e17);
-    Pair _e20 = stitch_triangles(_e18, 0u, tables, _buffer_sizes);
-    return _e20.first;
+    if (false) {
+        next.ring = NEVER;
+        if (_e8 == before.number) {
+            bool _e24 = source_2.is_regular;
+            local_10 = _e24;
+        } else {
+            local_10 = false;
+        }
+        bool _e26 = local_10;
+        if (_e26) {
+            Rings _e28 = source_2.rings;
+            RingLocation _e29 = drawn_behind(_e28, location_5);
+            next = _e29;
+        }
+        uint _e31 = next.ring;
+        if (_e31 == NEVER) {
+            Source _e34 = source_2;
+            uint _e36 = source_2.begin;
+            RingLocation _e38 = location_of(_e34, element_4 - _e36);
+            next = _e38;
+        }
+    }
+    Source _e39 = source_2;
+    RingLocation _e40 = next;
+    Stitch _e41 = stitch_from(_e39, _e40);
+    uint _e43 = next.step;
+    Pair _e44 = stitch_triangles(_e41, _e43, tables, _buffer_sizes);
+    return _e44.first;
 }
 
 void write_triangles(
@@ -1215,9 +1504,10 @@ void write_triangles(
 ) {
     Source source_3 = {};
     uint element_5 = {};
-    bool local_8 = {};
-    bool local_9 = {};
-    bool local_10 = {};
+    bool local_11 = {};
+    bool local_12 = {};
+    bool local_13 = {};
+    bool local_14 = {};
     source_3.number = NEVER;
     element_5 = 2u * thread_2;
     uint2 loop_bound_3 = uint2(4294967295u);
@@ -1226,8 +1516,8 @@ void write_triangles(
         if (metal::all(loop_bound_3 == uint2(0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_2) {
-            uint _e77 = element_5;
-            element_5 = _e77 + 128u;
+            uint _e82 = element_5;
+            element_5 = _e82 + 128u;
         }
         loop_init_2 = false;
         uint _e9 = element_5;
@@ -1240,17 +1530,17 @@ void write_triangles(
             uint _e12 = element_5;
             if (!(((_e12 + 1u) < round_4.begin))) {
                 uint _e20 = element_5;
-                local_8 = _e20 >= round_4.end;
+                local_11 = _e20 >= round_4.end;
             } else {
-                local_8 = true;
+                local_11 = true;
             }
-            bool _e24 = local_8;
+            bool _e24 = local_11;
             if (_e24) {
                 continue;
             }
             uint _e25 = element_5;
-            uint first_8 = metal::max(_e25, round_4.begin);
-            uint _e28 = find_patch(round_4, first_8, begins);
+            uint first_11 = metal::max(_e25, round_4.begin);
+            uint _e28 = find_patch(round_4, first_11, begins);
             uint _e30 = source_3.number;
             if (_e28 != _e30) {
                 Source _e32 = load_source(round_4, _e28, offsets, job, begins, scratch, _buffer_sizes);
@@ -1258,36 +1548,42 @@ void write_triangles(
             }
             Source _e33 = source_3;
             uint _e35 = source_3.begin;
-            RingLocation _e37 = location_of(_e33, first_8 - _e35);
+            RingLocation _e37 = location_of(_e33, first_11 - _e35);
             Source _e38 = source_3;
             Stitch _e39 = stitch_from(_e38, _e37);
             Pair _e41 = stitch_triangles(_e39, _e37.step, tables, _buffer_sizes);
             uint _e42 = element_5;
             uint at_10 = (out + _e42) >> 1u;
             uint _e46 = element_5;
-            if (first_8 == _e46) {
+            if (first_11 == _e46) {
                 uint _e50 = element_5;
-                local_9 = (_e50 + 1u) < round_4.end;
+                local_12 = (_e50 + 1u) < round_4.end;
             } else {
-                local_9 = false;
+                local_12 = false;
             }
-            bool is_whole = local_9;
+            bool is_whole = local_12;
             if (is_whole) {
-                local_10 = (_e37.step + 1u) < _e39.size;
+                local_13 = true;
             } else {
-                local_10 = false;
+                local_13 = false;
             }
-            bool _e65 = local_10;
-            if (_e65) {
+            bool _e61 = local_13;
+            if (_e61) {
+                local_14 = (_e37.step + 1u) < _e39.size;
+            } else {
+                local_14 = false;
+            }
+            bool _e70 = local_14;
+            if (_e70) {
                 write_triangle_pair(at_10, _e41.first, _e41.second, indices_out, _buffer_sizes);
             } else {
-                uint _e68 = element_5;
-                write_triangle(at_10, first_8 != _e68, _e41.first, indices_out, _buffer_sizes);
+                uint _e73 = element_5;
+                write_triangle(at_10, first_11 != _e73, _e41.first, indices_out, _buffer_sizes);
                 if (is_whole) {
-                    Source _e72 = source_3;
-                    uint _e73 = element_5;
-                    metal::uint3 _e76 = first_triangle(round_4, _e72, _e37, _e73 + 1u, offsets, job, tables, begins, scratch, _buffer_sizes);
-                    write_triangle(at_10, true, _e76, indices_out, _buffer_sizes);
+                    Source _e77 = source_3;
+                    uint _e78 = element_5;
+                    metal::uint3 _e81 = first_triangle(round_4, _e77, _e37, _e78 + 1u, offsets, job, tables, begins, scratch, _buffer_sizes);
+                    write_triangle(at_10, true, _e81, indices_out, _buffer_sizes);
                 }
             }
         }
@@ -1319,8 +1615,8 @@ void write_listed_triangles(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint element_7 = {};
-    bool local_11 = {};
-    bool local_12 = {};
+    bool local_15 = {};
+    bool local_16 = {};
     element_7 = 2u * thread_3;
     uint2 loop_bound_4 = uint2(4294967295u);
     bool loop_init_3 = true;
@@ -1342,28 +1638,28 @@ void write_listed_triangles(
             uint _e9 = element_7;
             if (!(((_e9 + 1u) < round_5.begin))) {
                 uint _e17 = element_7;
-                local_11 = _e17 >= round_5.end;
+                local_15 = _e17 >= round_5.end;
             } else {
-                local_11 = true;
+                local_15 = true;
             }
-            bool _e21 = local_11;
+            bool _e21 = local_15;
             if (_e21) {
                 continue;
             }
             uint _e22 = element_7;
-            uint first_9 = metal::max(_e22, round_5.begin);
-            uint _e25 = find_patch(round_5, first_9, begins);
-            metal::uint3 _e26 = listed_triangle(_e25, first_9, catalogue, listed, _buffer_sizes);
+            uint first_12 = metal::max(_e22, round_5.begin);
+            uint _e25 = find_patch(round_5, first_12, begins);
+            metal::uint3 _e26 = listed_triangle(_e25, first_12, catalogue, listed, _buffer_sizes);
             uint _e27 = element_7;
             uint at_11 = (out_1 + _e27) >> 1u;
             uint _e31 = element_7;
-            if (first_9 == _e31) {
+            if (first_12 == _e31) {
                 uint _e35 = element_7;
-                local_12 = (_e35 + 1u) < round_5.end;
+                local_16 = (_e35 + 1u) < round_5.end;
             } else {
-                local_12 = false;
+                local_16 = false;
             }
-            bool _e41 = local_12;
+            bool _e41 = local_16;
             if (_e41) {
                 uint _e42 = element_7;
                 uint _e45 = next_patch(round_5, _e25, _e42 + 1u, begins);
@@ -1372,7 +1668,7 @@ void write_listed_triangles(
                 write_triangle_pair(at_11, _e26, _e49, indices_out, _buffer_sizes);
             } else {
                 uint _e50 = element_7;
-                write_triangle(at_11, first_9 != _e50, _e26, indices_out, _buffer_sizes);
+                write_triangle(at_11, first_12 != _e50, _e26, indices_out, _buffer_sizes);
             }
         }
     }
@@ -1392,7 +1688,7 @@ void write_sequences(
 ) {
     uint pair = {};
     uint element_8 = {};
-    bool local_13 = {};
+    bool local_17 = {};
     pair = 2u * thread_4;
     uint2 loop_bound_5 = uint2(4294967295u);
     bool loop_init_4 = true;
@@ -1433,11 +1729,11 @@ void write_sequences(
                     uint _e16 = element_8;
                     if (!((_e16 < round_6.begin))) {
                         uint _e22 = element_8;
-                        local_13 = _e22 >= round_6.end;
+                        local_17 = _e22 >= round_6.end;
                     } else {
-                        local_13 = true;
+                        local_17 = true;
                     }
-                    bool _e26 = local_13;
+                    bool _e26 = local_17;
                     if (_e26) {
                         continue;
                     }
@@ -1447,9 +1743,9 @@ void write_sequences(
                     uint base_9 = true ? _e32.x : 0u;
                     uint _e36 = element_8;
                     int _e39 = begins.inner[metal::min(unsigned(_e28), 127u)];
-                    uint t_4 = _e36 - static_cast<uint>(_e39);
+                    uint t_10 = _e36 - static_cast<uint>(_e39);
                     metal::uint2 _e44 = scratch.inner[metal::min(unsigned(_e28), 127u)];
-                    uint _e45 = sequence_first(_e44, t_4, base_9);
+                    uint _e45 = sequence_first(_e44, t_10, base_9);
                     if (false) {
                         uint _e47 = element_8;
                         write_two(out_2 + _e47, _e45, _e45 + 1u, indices_out, _buffer_sizes);
@@ -1484,7 +1780,7 @@ void keep_triangles(
         loop_bound_7 -= uint2(loop_bound_7.y == 0u, 1u);
         if (!loop_init_6) {
             uint _e36 = i_2;
-            i_2 = _e36 + WORKGROUP;
+            i_2 = _e36 + THREADS;
         }
         loop_init_6 = false;
         uint _e13 = i_2;
@@ -1526,14 +1822,14 @@ Corner next_corner(
     Repeat repeat_3,
     Corner it
 ) {
-    bool local_14 = {};
+    bool local_18 = {};
     bool is_last_corner = it.corner == 2u;
     if (is_last_corner) {
-        local_14 = (it.i + 1u) == repeat_3.size;
+        local_18 = (it.i + 1u) == repeat_3.size;
     } else {
-        local_14 = false;
+        local_18 = false;
     }
-    bool is_last_1 = local_14;
+    bool is_last_1 = local_18;
     return Corner {it.number + (is_last_1 ? 1u : 0u), is_last_1 ? 0u : (it.i + (is_last_corner ? 1u : 0u)), is_last_corner ? 0u : (it.corner + 1u)};
 }
 
@@ -1559,11 +1855,11 @@ void copy_triangles(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint at_8 = {};
-    bool local_15 = {};
+    bool local_19 = {};
     keep_triangles(repeat_5, thread_6, tables, scratch, _buffer_sizes);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     uint begin_3 = 3u * (tile_4.begin - tile_4.base);
-    uint end_6 = 3u * (tile_4.end - tile_4.base);
+    uint end_7 = 3u * (tile_4.end - tile_4.base);
     at_8 = 2u * thread_6;
     uint2 loop_bound_8 = uint2(4294967295u);
     bool loop_init_7 = true;
@@ -1576,7 +1872,7 @@ void copy_triangles(
         }
         loop_init_7 = false;
         uint _e17 = at_8;
-        if (_e17 < end_6) {
+        if (_e17 < end_7) {
         } else {
             break;
         }
@@ -1586,24 +1882,24 @@ void copy_triangles(
                 continue;
             }
             uint _e23 = at_8;
-            uint first_10 = metal::max(_e23, begin_3);
-            Corner _e25 = corner_at(repeat_5, first_10);
+            uint first_13 = metal::max(_e23, begin_3);
+            Corner _e25 = corner_at(repeat_5, first_13);
             uint _e26 = kept_index(repeat_5, _e25, scratch);
             uint _e27 = at_8;
-            if (first_10 == _e27) {
+            if (first_13 == _e27) {
                 uint _e31 = at_8;
-                local_15 = (_e31 + 1u) < end_6;
+                local_19 = (_e31 + 1u) < end_7;
             } else {
-                local_15 = false;
+                local_19 = false;
             }
-            bool _e36 = local_15;
+            bool _e36 = local_19;
             if (_e36) {
                 Corner _e37 = next_corner(repeat_5, _e25);
                 uint _e38 = kept_index(repeat_5, _e37, scratch);
                 uint _e41 = at_8;
                 write_two(((3u * out_3) + _e41) >> 1u, _e26, _e38, indices_out, _buffer_sizes);
             } else {
-                write_single((3u * out_3) + first_10, _e26, indices_out, _buffer_sizes);
+                write_single((3u * out_3) + first_13, _e26, indices_out, _buffer_sizes);
             }
         }
     }
@@ -1627,20 +1923,20 @@ void write_primitive_tile(
     device Status const& status,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local_16 = {};
+    bool local_20 = {};
     uint first_3 = {};
-    bool local_17 = {};
+    bool local_21 = {};
     uint _e6 = job.chunk;
     Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size11 - 32 - 16) / 16)];
     uint _e13 = job.primitive_tiles_at;
     Tile _e14 = tile_of(number_7, range.primitives_begin, range.primitives_end, _e13, job, tiles, _buffer_sizes);
     if (!((_e14.end == 0u))) {
         uint _e23 = status.overflow;
-        local_16 = _e23 != 0u;
+        local_20 = _e23 != 0u;
     } else {
-        local_16 = true;
+        local_20 = true;
     }
-    bool _e27 = local_16;
+    bool _e27 = local_20;
     if (_e27) {
         return;
     }
@@ -1674,11 +1970,11 @@ void write_primitive_tile(
             uint _e49 = first_3;
             Round _e51 = load_round(_e14, _e49, PRIMITIVES, thread_7, offsets, job, catalogue, begins, scratch, listed, is_missing, topologies, _buffer_sizes);
             if (IS_TRIANGLES) {
-                local_17 = _e51.is_listed;
+                local_21 = _e51.is_listed;
             } else {
-                local_17 = false;
+                local_21 = false;
             }
-            bool _e57 = local_17;
+            bool _e57 = local_21;
             if (_e57) {
                 write_listed_triangles(_e51, thread_7, out_4, catalogue, begins, listed, indices_out, _buffer_sizes);
             } else {

@@ -66,6 +66,13 @@ struct RingLocation {
     uint edge;
     uint step;
 };
+struct Sector {
+    uint edge;
+    uint transition;
+    uint along;
+    uint end;
+    uint inverse;
+};
 struct Stitch {
     uint size;
     uint steps_at;
@@ -124,6 +131,8 @@ constant uint POINT_FORMAT = 0u;
 constant uint NUMBERING = 0u;
 constant uint FACTORS = 6u;
 constant uint COPIES = 1u;
+constant uint ORDER = 0u;
+constant uint COLUMN = 4u;
 constant uint WORKGROUP = 64u;
 constant uint ROUND = 128u;
 constant uint SUMMED = 256u;
@@ -168,6 +177,8 @@ constant uint RULER = 0u;
 constant uint CENTER = 1u;
 constant uint PACKED = 0u;
 constant uint F32_ = 1u;
+constant uint SPECIFICATION = 0u;
+constant uint DRAWING = 1u;
 constant uint PER_BATCH = 0u;
 constant uint PER_PATCH = 1u;
 constant uint POINTS = 0u;
@@ -507,6 +518,251 @@ RingLocation next_edge(
     return RingLocation {is_last ? (location.ring + 1u) : location.ring, is_last ? 0u : (location.edge + 1u), 0u};
 }
 
+uint naga_div(uint lhs, uint rhs) {
+    return lhs / metal::select(rhs, 1u, rhs == 0u);
+}
+
+Sector sector_of(
+    Rings rings_8,
+    uint edge_11
+) {
+    uint _e2 = along_of(rings_8, edge_11);
+    uint regular = (2u * _e2) - 4u;
+    uint _e7 = outer_of(rings_8, edge_11);
+    uint _e11 = stitch_ring_end(rings_8);
+    return Sector {edge_11, (_e7 + _e2) - 4u, _e2, _e11, naga_div(2097151u + regular, regular)};
+}
+
+uint sectors_before(
+    Rings rings_9,
+    uint edge_12
+) {
+    uint _e2 = stitch_ring_end(rings_9);
+    uint _e3 = outer_sum(rings_9, edge_12);
+    uint outer_3 = (edge_12 == EDGES) ? (rings_9.boundary + EDGES) : _e3;
+    uint _e10 = along_sum(rings_9, edge_12);
+    uint along = (edge_12 == EDGES) ? rings_9.along : _e10;
+    return ((outer_3 + along) - (4u * edge_12)) + (((_e2 - 2u) * 2u) * (along - (edge_12 * (_e2 + 1u))));
+}
+
+uint transition_border(
+    Sector sector,
+    uint column
+) {
+    uint first = metal::min(metal::max((8u * column) + 1u, 2u) - 2u, (2u * sector.along) - 4u);
+    return ((first * sector.transition) * sector.inverse) >> 21u;
+}
+
+uint borders(
+    Sector sector_1,
+    uint end_2,
+    uint column_1
+) {
+    uint first_1 = (8u * column_1) + 1u;
+    uint half_ = (metal::max((2u * sector_1.along) + 1u, first_1) - first_1) >> 1u;
+    uint top = metal::max(end_2, 2u);
+    uint cut = metal::max(metal::min(metal::min(end_2, (COLUMN * column_1) + 1u), half_), 2u);
+    uint complete = metal::clamp(half_, 2u, top);
+    return ((cut - 2u) * ((metal::max(first_1, cut + 1u) - cut) - 1u)) + (((top - complete) * 2u) * (((sector_1.along + 1u) - complete) - top));
+}
+
+uint columns_before(
+    Sector sector_2,
+    uint column_2
+) {
+    uint _e2 = transition_border(sector_2, column_2);
+    uint _e4 = borders(sector_2, sector_2.end, column_2);
+    return _e2 + _e4;
+}
+
+uint nearer_column(
+    Sector sector_3,
+    uint column_3,
+    uint reach_1,
+    uint t_1
+) {
+    uint _e6 = columns_before(sector_3, column_3 + reach_1);
+    return column_3 + ((_e6 <= t_1) ? reach_1 : 0u);
+}
+
+uint rings_before(
+    Sector sector_4,
+    uint column_4,
+    uint ring_4
+) {
+    uint _e5 = borders(sector_4, ring_4, column_4 + 1u);
+    uint _e6 = borders(sector_4, ring_4, column_4);
+    return _e5 - _e6;
+}
+
+uint nearer_in_column(
+    Sector sector_5,
+    uint column_5,
+    uint ring_5,
+    uint reach_2,
+    uint t_2
+) {
+    bool local_1 = {};
+    uint next_1 = ring_5 + reach_2;
+    if (next_1 < sector_5.end) {
+        uint _e10 = rings_before(sector_5, column_5, next_1);
+        local_1 = _e10 <= t_2;
+    } else {
+        local_1 = false;
+    }
+    bool is_there = local_1;
+    return is_there ? next_1 : ring_5;
+}
+
+uint ring_border(
+    Sector sector_6,
+    uint ring_6,
+    uint column_6
+) {
+    uint first_2 = (8u * column_6) + 1u;
+    return metal::min(metal::max(first_2, 2u * ring_6) - (2u * ring_6), 2u * (sector_6.along - (2u * ring_6)));
+}
+
+RingLocation location_in_column(
+    Sector sector_7,
+    uint column_7,
+    uint t_3
+) {
+    uint ring_7 = 2u;
+    if (sector_7.end > 10u) {
+        uint _e8 = ring_7;
+        uint _e10 = nearer_in_column(sector_7, column_7, _e8, 16u, t_3);
+        ring_7 = _e10;
+        uint _e11 = ring_7;
+        uint _e13 = nearer_in_column(sector_7, column_7, _e11, 8u, t_3);
+        ring_7 = _e13;
+    }
+    uint _e14 = ring_7;
+    uint _e16 = nearer_in_column(sector_7, column_7, _e14, 4u, t_3);
+    ring_7 = _e16;
+    uint _e17 = ring_7;
+    uint _e19 = nearer_in_column(sector_7, column_7, _e17, 2u, t_3);
+    ring_7 = _e19;
+    uint _e20 = ring_7;
+    uint _e22 = nearer_in_column(sector_7, column_7, _e20, 1u, t_3);
+    ring_7 = _e22;
+    uint _e23 = ring_7;
+    uint _e24 = ring_border(sector_7, _e23, column_7);
+    uint _e26 = ring_7;
+    uint _e27 = rings_before(sector_7, column_7, _e26);
+    uint step_1 = (_e24 + t_3) - _e27;
+    uint _e29 = ring_7;
+    return RingLocation {_e29, sector_7.edge, step_1};
+}
+
+RingLocation location_in_sector(
+    Sector sector_8,
+    uint t_4
+) {
+    uint column_8 = {};
+    uint _e4 = nearer_column(sector_8, 0u, 8u, t_4);
+    column_8 = _e4;
+    uint _e6 = column_8;
+    uint _e8 = nearer_column(sector_8, _e6, 4u, t_4);
+    column_8 = _e8;
+    uint _e9 = column_8;
+    uint _e11 = nearer_column(sector_8, _e9, 2u, t_4);
+    column_8 = _e11;
+    uint _e12 = column_8;
+    uint _e14 = nearer_column(sector_8, _e12, 1u, t_4);
+    column_8 = _e14;
+    uint _e15 = column_8;
+    uint _e16 = columns_before(sector_8, _e15);
+    uint rest_3 = t_4 - _e16;
+    uint _e18 = column_8;
+    uint _e19 = transition_border(sector_8, _e18);
+    uint _e20 = column_8;
+    uint _e23 = transition_border(sector_8, _e20 + 1u);
+    uint transition = _e23 - _e19;
+    if (rest_3 < transition) {
+        return RingLocation {1u, sector_8.edge, _e19 + rest_3};
+    }
+    uint _e30 = column_8;
+    RingLocation _e32 = location_in_column(sector_8, _e30, rest_3 - transition);
+    return _e32;
+}
+
+RingLocation drawn_location(
+    Rings rings_10,
+    uint t_5
+) {
+    uint edge_13 = {};
+    uint _e3 = sectors_before(rings_10, EDGES);
+    if (t_5 >= _e3) {
+        uint _e5 = stitch_ring_end(rings_10);
+        return RingLocation {_e5, 0u, t_5 - _e3};
+    }
+    uint _e12 = sectors_before(rings_10, 1u);
+    edge_13 = (t_5 >= _e12) ? 1u : 0u;
+    uint _e16 = edge_13;
+    uint _e19 = sectors_before(rings_10, 2u);
+    edge_13 = (t_5 >= _e19) ? 2u : _e16;
+    if (true) {
+        uint _e23 = edge_13;
+        uint _e26 = sectors_before(rings_10, 3u);
+        edge_13 = (t_5 >= _e26) ? 3u : _e23;
+    }
+    uint _e29 = edge_13;
+    Sector _e30 = sector_of(rings_10, _e29);
+    uint _e31 = edge_13;
+    uint _e32 = sectors_before(rings_10, _e31);
+    RingLocation _e34 = location_in_sector(_e30, t_5 - _e32);
+    return _e34;
+}
+
+uint border(
+    Sector sector_9,
+    uint ring_8,
+    uint column_9
+) {
+    if (ring_8 == 1u) {
+        uint _e5 = transition_border(sector_9, column_9);
+        return _e5;
+    }
+    uint _e6 = ring_border(sector_9, ring_8, column_9);
+    return _e6;
+}
+
+RingLocation drawn_behind(
+    Rings rings_11,
+    RingLocation location_1
+) {
+    uint column_10 = {};
+    bool local_2 = {};
+    uint _e3 = stitch_ring_end(rings_11);
+    if (location_1.ring == _e3) {
+        return RingLocation {4294967295u, 0u, 0u};
+    }
+    Sector _e10 = sector_of(rings_11, location_1.edge);
+    uint step_2 = location_1.step + 1u;
+    column_10 = naga_div((location_1.step + (2u * location_1.ring)) - 1u, 8u);
+    if (location_1.ring == 1u) {
+        column_10 = naga_div(naga_div((step_2 * ((2u * _e10.along) - 4u)) - 1u, _e10.transition) + 1u, 8u);
+    }
+    uint _e42 = column_10;
+    uint _e45 = border(_e10, location_1.ring, _e42 + 1u);
+    if (step_2 < _e45) {
+        return RingLocation {location_1.ring, location_1.edge, step_2};
+    }
+    uint ring_11 = location_1.ring + 1u;
+    uint _e53 = column_10;
+    uint _e54 = ring_border(_e10, ring_11, _e53);
+    if (ring_11 < _e10.end) {
+        uint _e59 = column_10;
+        uint _e62 = ring_border(_e10, ring_11, _e59 + 1u);
+        local_2 = _e54 < _e62;
+    } else {
+        local_2 = false;
+    }
+    bool is_there_1 = local_2;
+    return RingLocation {is_there_1 ? ring_11 : NEVER, location_1.edge, _e54};
+}
+
 uint outer_vertex(
     Stitch stitch,
     uint at
@@ -527,13 +783,13 @@ metal::uint3 oriented(
     uint c,
     bool begins_inner
 ) {
-    uint first = begins_inner ? b : a;
+    uint first_3 = begins_inner ? b : a;
     uint second = begins_inner ? a : c;
     uint third = begins_inner ? c : b;
     if (false) {
-        return metal::uint3(first, third, second);
+        return metal::uint3(first_3, third, second);
     }
-    return metal::uint3(first, second, third);
+    return metal::uint3(first_3, second, third);
 }
 
 Pair stitch_triangles(
@@ -590,26 +846,38 @@ Pair stitch_triangles(
     return Pair {_e64, _e76};
 }
 
-RingLocation triangle_location(
-    Rings rings_8,
-    uint t_1
+RingLocation specified_location(
+    Rings rings_12,
+    uint t_6
 ) {
-    uint transitions = (rings_8.boundary + rings_8.along) - 12u;
-    if (t_1 < transitions) {
-        uint _e20 = outer_of(rings_8, 2u);
-        RingLocation _e25 = location_on_edges(1u, t_1, (rings_8.before_1_ + rings_8.v) - 4u, (rings_8.before_2_ + rings_8.sides) - 8u, (_e20 + rings_8.v) - 4u);
+    uint transitions = (rings_12.boundary + rings_12.along) - 12u;
+    if (t_6 < transitions) {
+        uint _e20 = outer_of(rings_12, 2u);
+        RingLocation _e25 = location_on_edges(1u, t_6, (rings_12.before_1_ + rings_12.v) - 4u, (rings_12.before_2_ + rings_12.sides) - 8u, (_e20 + rings_12.v) - 4u);
         return _e25;
     }
-    uint _e26 = stitch_ring_end(rings_8);
-    uint end_2 = _e26 - 2u;
-    uint form_3 = (2u * rings_8.along) - 24u;
-    uint _e36 = last_before(t_1 - transitions, end_2, form_3, 8u);
-    uint rest_3 = (t_1 - transitions) - (_e36 * (form_3 - (8u * _e36)));
-    if (_e36 == end_2) {
-        return RingLocation {_e36 + 2u, 0u, rest_3};
+    uint _e26 = stitch_ring_end(rings_12);
+    uint end_3 = _e26 - 2u;
+    uint form_3 = (2u * rings_12.along) - 24u;
+    uint _e36 = last_before(t_6 - transitions, end_3, form_3, 8u);
+    uint rest_4 = (t_6 - transitions) - (_e36 * (form_3 - (8u * _e36)));
+    if (_e36 == end_3) {
+        return RingLocation {_e36 + 2u, 0u, rest_4};
     }
-    RingLocation _e66 = location_on_ring(_e36 + 2u, rest_3, (2u * rings_8.v) - (4u * (_e36 + 2u)), (2u * rings_8.u) - (4u * (_e36 + 2u)));
+    RingLocation _e66 = location_on_ring(_e36 + 2u, rest_4, (2u * rings_12.v) - (4u * (_e36 + 2u)), (2u * rings_12.u) - (4u * (_e36 + 2u)));
     return _e66;
+}
+
+RingLocation triangle_location(
+    Rings rings_13,
+    uint t_7
+) {
+    if (false) {
+        RingLocation _e3 = drawn_location(rings_13, t_7);
+        return _e3;
+    }
+    RingLocation _e4 = specified_location(rings_13, t_7);
+    return _e4;
 }
 
 uint steps_of(
@@ -636,9 +904,9 @@ Stitch minimum_stitch(
 }
 
 Stitch rows(
-    Rings rings_9,
-    uint ring_4,
-    uint edge_11,
+    Rings rings_14,
+    uint ring_9,
+    uint edge_14,
     uint size_1,
     uint number_3,
     uint outer_ring,
@@ -646,134 +914,130 @@ Stitch rows(
     uint inner_ring,
     uint inner_1
 ) {
-    bool local_1 = {};
-    uint _e9 = ring_points(rings_9, ring_4);
-    bool walks_back = rings_9.short_ == ((2u * ring_4) + 1u);
+    bool local_3 = {};
+    uint _e9 = ring_points(rings_14, ring_9);
+    bool walks_back = rings_14.short_ == ((2u * ring_9) + 1u);
     uint _e16 = steps_of(number_3);
-    if (!((edge_11 == 3u))) {
-        local_1 = walks_back;
+    if (!((edge_14 == 3u))) {
+        local_3 = walks_back;
     } else {
-        local_1 = true;
+        local_3 = true;
     }
-    bool _e23 = local_1;
+    bool _e23 = local_3;
     return Stitch {size_1, _e16, outer_2, inner_1, _e23, {}, inner_ring, inner_ring + outer_ring, inner_ring + (walks_back ? (_e9 >> 1u) : _e9), (2u * inner_ring) + _e9};
 }
 
 Stitch transition_stitch(
-    Rings rings_10,
-    uint edge_12,
+    Rings rings_15,
+    uint edge_15,
     uint base_1
 ) {
-    uint _e3 = outer_of(rings_10, edge_12);
-    uint _e4 = along_of(rings_10, edge_12);
+    uint _e3 = outer_of(rings_15, edge_15);
+    uint _e4 = along_of(rings_15, edge_15);
     uint inner_points = _e4 - 2u;
-    uint ring_6 = base_1 + rings_10.boundary;
-    uint _e18 = outer_sum(rings_10, edge_12);
-    uint _e21 = along_sum(rings_10, edge_12);
-    Stitch _e26 = rows(rings_10, 1u, edge_12, (_e3 + inner_points) - 2u, ((TRANSITION_STRIDE * _e3) + inner_points) - 128u, base_1, (base_1 + _e18) - edge_12, ring_6, (ring_6 + _e21) - (3u * edge_12));
+    uint ring_12 = base_1 + rings_15.boundary;
+    uint _e18 = outer_sum(rings_15, edge_15);
+    uint _e21 = along_sum(rings_15, edge_15);
+    Stitch _e26 = rows(rings_15, 1u, edge_15, (_e3 + inner_points) - 2u, ((TRANSITION_STRIDE * _e3) + inner_points) - 128u, base_1, (base_1 + _e18) - edge_15, ring_12, (ring_12 + _e21) - (3u * edge_15));
     return _e26;
 }
 
 Stitch centre_stitch(
-    Rings rings_11,
+    Rings rings_16,
     uint base_2
 ) {
-    bool local_2 = {};
-    uint _e2 = stitch_ring_end(rings_11);
-    uint _e5 = first_of_ring(rings_11, _e2 - 1u);
-    uint first_1 = base_2 + _e5;
+    bool local_4 = {};
+    uint _e2 = stitch_ring_end(rings_16);
+    uint _e5 = first_of_ring(rings_16, _e2 - 1u);
+    uint first_4 = base_2 + _e5;
     if (false) {
-        Stitch _e12 = straight(1u, FAN_STITCH, first_1, first_1 + 2u);
+        Stitch _e12 = straight(1u, FAN_STITCH, first_4, first_4 + 2u);
         return _e12;
     }
-    uint quads = (metal::max(rings_11.u, rings_11.v) - rings_11.short_) + 1u;
-    uint along_u = (rings_11.u > rings_11.v) ? 1u : 0u;
-    if (rings_11.u <= rings_11.v) {
-        local_2 = (rings_11.v & 1u) == 0u;
+    uint quads = (metal::max(rings_16.u, rings_16.v) - rings_16.short_) + 1u;
+    uint along_u = (rings_16.u > rings_16.v) ? 1u : 0u;
+    if (rings_16.u <= rings_16.v) {
+        local_4 = (rings_16.v & 1u) == 0u;
     } else {
-        local_2 = false;
+        local_4 = false;
     }
-    bool is_mirrored = local_2;
+    bool is_mirrored = local_4;
     uint _e44 = steps_of(is_mirrored ? (MIRRORED_STRIP + quads) : PLAIN_STRIP);
-    return Stitch {2u * quads, _e44, first_1 + along_u, first_1, true, {}, NEVER, 0u, first_1 + along_u, (((2u * first_1) + (2u * quads)) + 1u) + along_u};
+    return Stitch {2u * quads, _e44, first_4 + along_u, first_4, true, {}, NEVER, 0u, first_4 + along_u, (((2u * first_4) + (2u * quads)) + 1u) + along_u};
 }
 
 Stitch ring_stitch(
-    Rings rings_12,
-    RingLocation location_1,
+    Rings rings_17,
+    RingLocation location_2,
     uint base_3
 ) {
-    uint ring_7 = location_1.ring;
-    uint _e5 = along_of(rings_12, location_1.edge);
-    uint inner_points_1 = _e5 - (2u * ring_7);
-    uint _e9 = first_of_ring(rings_12, ring_7);
+    uint ring_13 = location_2.ring;
+    uint _e5 = along_of(rings_17, location_2.edge);
+    uint inner_points_1 = _e5 - (2u * ring_13);
+    uint _e9 = first_of_ring(rings_17, ring_13);
     uint inner_ring_1 = base_3 + _e9;
-    uint _e13 = ring_points(rings_12, ring_7 - 1u);
+    uint _e13 = ring_points(rings_17, ring_13 - 1u);
     uint outer_ring_1 = inner_ring_1 - _e13;
-    uint _e16 = along_sum(rings_12, location_1.edge);
-    uint skip = _e16 - ((2u * ring_7) * location_1.edge);
-    Stitch _e33 = rows(rings_12, ring_7, location_1.edge, 2u * inner_points_1, RING_STITCH + inner_points_1, outer_ring_1, (outer_ring_1 + skip) + location_1.edge, inner_ring_1, (inner_ring_1 + skip) - location_1.edge);
+    uint _e16 = along_sum(rings_17, location_2.edge);
+    uint skip = _e16 - ((2u * ring_13) * location_2.edge);
+    Stitch _e33 = rows(rings_17, ring_13, location_2.edge, 2u * inner_points_1, RING_STITCH + inner_points_1, outer_ring_1, (outer_ring_1 + skip) + location_2.edge, inner_ring_1, (inner_ring_1 + skip) - location_2.edge);
     return _e33;
 }
 
 Stitch stitch_at(
-    Rings rings_13,
-    RingLocation location_2,
+    Rings rings_18,
+    RingLocation location_3,
     uint base_4
 ) {
-    if (location_2.ring == 1u) {
-        Stitch _e7 = transition_stitch(rings_13, location_2.edge, base_4);
+    if (location_3.ring == 1u) {
+        Stitch _e7 = transition_stitch(rings_18, location_3.edge, base_4);
         return _e7;
     }
-    uint _e9 = stitch_ring_end(rings_13);
-    if (location_2.ring == _e9) {
-        Stitch _e11 = centre_stitch(rings_13, base_4);
+    uint _e9 = stitch_ring_end(rings_18);
+    if (location_3.ring == _e9) {
+        Stitch _e11 = centre_stitch(rings_18, base_4);
         return _e11;
     }
-    Stitch _e12 = ring_stitch(rings_13, location_2, base_4);
+    Stitch _e12 = ring_stitch(rings_18, location_3, base_4);
     return _e12;
 }
 
 metal::uint3 triangle_of(
     metal::uint2 topology_12,
-    uint t_2,
+    uint t_8,
     device type_5 const& tables,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint _e2 = state_of(topology_12);
     if (_e2 == MINIMUM) {
         Stitch _e6 = minimum_stitch(0u);
-        Pair _e7 = stitch_triangles(_e6, t_2, tables, _buffer_sizes);
+        Pair _e7 = stitch_triangles(_e6, t_8, tables, _buffer_sizes);
         return _e7.first;
     }
     Rings _e9 = rings_of(topology_12);
-    RingLocation _e10 = triangle_location(_e9, t_2);
+    RingLocation _e10 = triangle_location(_e9, t_8);
     Stitch _e12 = stitch_at(_e9, _e10, 0u);
     Pair _e14 = stitch_triangles(_e12, _e10.step, tables, _buffer_sizes);
     return _e14.first;
 }
 
-uint naga_div(uint lhs, uint rhs) {
-    return lhs / metal::select(rhs, 1u, rhs == 0u);
-}
-
 uint sequence_first(
     metal::uint2 topology_13,
-    uint t_3,
+    uint t_9,
     uint base_5
 ) {
-    bool local_3 = {};
+    bool local_5 = {};
     if (false) {
-        local_3 = true;
+        local_5 = true;
     } else {
-        local_3 = false;
+        local_5 = false;
     }
-    bool _e8 = local_3;
+    bool _e8 = local_5;
     if (_e8) {
         uint _e11 = outer_points(topology_13, 1u);
-        return (base_5 + t_3) + naga_div(t_3, _e11 - 1u);
+        return (base_5 + t_9) + naga_div(t_9, _e11 - 1u);
     }
-    return base_5 + t_3;
+    return base_5 + t_9;
 }
 
 uint interior_points(
@@ -784,8 +1048,8 @@ uint interior_points(
         uint _e5 = inside_v(topology_14);
         return (_e1 - 2u) * (_e5 - 2u);
     }
-    uint half_ = _e1 >> 1u;
-    return ((_e1 & 1u) == 1u) ? (((3u * half_) * (half_ - 1u)) + 1u) : ((3u * (half_ - 1u)) * (half_ - 1u));
+    uint half_1 = _e1 >> 1u;
+    return ((_e1 & 1u) == 1u) ? (((3u * half_1) * (half_1 - 1u)) + 1u) : ((3u * (half_1 - 1u)) * (half_1 - 1u));
 }
 
 uint triangles_of(
@@ -842,25 +1106,25 @@ metal::uint2 context_of(
 uint fixed_from_bits(
     uint bits
 ) {
-    bool local_4 = {};
-    bool local_5 = {};
+    bool local_6 = {};
+    bool local_7 = {};
     uint shift = 134u - (bits >> 23u);
     uint mantissa = (bits & 8388607u) | 8388608u;
     uint quotient = mantissa >> shift;
     uint remainder = mantissa & ((1u << shift) - 1u);
-    uint half_1 = 1u << (shift - 1u);
-    if (!((remainder > half_1))) {
-        if (remainder == half_1) {
-            local_5 = (quotient & 1u) == 1u;
+    uint half_2 = 1u << (shift - 1u);
+    if (!((remainder > half_2))) {
+        if (remainder == half_2) {
+            local_7 = (quotient & 1u) == 1u;
         } else {
-            local_5 = false;
+            local_7 = false;
         }
-        bool _e31 = local_5;
-        local_4 = _e31;
+        bool _e31 = local_7;
+        local_6 = _e31;
     } else {
-        local_4 = true;
+        local_6 = true;
     }
-    bool up = local_4;
+    bool up = local_6;
     return quotient + (up ? 1u : 0u);
 }
 
@@ -870,9 +1134,9 @@ uint float_bits_from_coordinate(
     if (coordinate == 0u) {
         return 0u;
     }
-    uint top = metal::select(31 - metal::clz(coordinate), uint(-1), coordinate == 0);
-    uint mantissa_1 = (coordinate << (23u - top)) & 8388607u;
-    return ((top + 111u) << 23u) | mantissa_1;
+    uint top_1 = metal::select(31 - metal::clz(coordinate), uint(-1), coordinate == 0);
+    uint mantissa_1 = (coordinate << (23u - top_1)) & 8388607u;
+    return ((top_1 + 111u) << 23u) | mantissa_1;
 }
 
 uint inv_floor_of(
@@ -934,8 +1198,8 @@ uint place(
     uint _e7 = odd_of(context_7);
     uint p = flip ? (((2u * _e2) - position_1) - _e7) : position_1;
     uint _e10 = place_before_middle(context_7, p);
-    uint location_5 = flip ? (ONE - _e10) : _e10;
-    return (p == _e2) ? HALF : location_5;
+    uint location_6 = flip ? (ONE - _e10) : _e10;
+    return (p == _e2) ? HALF : location_6;
 }
 
 PatchAxes axes_of(
@@ -952,15 +1216,15 @@ PatchAxes axes_of(
 }
 
 uint inside_factor(
-    uint edge_13
+    uint edge_16
 ) {
-    bool local_6 = {};
+    bool local_8 = {};
     if (true) {
-        local_6 = (edge_13 & 1u) == 1u;
+        local_8 = (edge_16 & 1u) == 1u;
     } else {
-        local_6 = true;
+        local_8 = true;
     }
-    bool _e11 = local_6;
+    bool _e11 = local_8;
     return _e11 ? EDGES : 5u;
 }
 
@@ -972,35 +1236,35 @@ metal::uint2 inside_context(
 }
 
 RingLocation point_location(
-    Rings rings_14,
+    Rings rings_19,
     uint i_1
 ) {
-    uint ring_5 = 0u;
+    uint ring_10 = 0u;
     uint rest_2 = {};
     uint begin_1_1 = {};
     uint begin_2_1 = {};
     uint size_2_1 = {};
-    bool is_outer = i_1 < rings_14.boundary;
-    uint _e4 = point_ring_end(rings_14);
-    uint end_3 = _e4 - 1u;
+    bool is_outer = i_1 < rings_19.boundary;
+    uint _e4 = point_ring_end(rings_19);
+    uint end_4 = _e4 - 1u;
     rest_2 = i_1;
-    begin_1_1 = rings_14.before_1_ - 1u;
-    begin_2_1 = rings_14.before_2_ - 2u;
-    uint _e19 = outer_of(rings_14, 2u);
+    begin_1_1 = rings_19.before_1_ - 1u;
+    begin_2_1 = rings_19.before_2_ - 2u;
+    uint _e19 = outer_of(rings_19, 2u);
     size_2_1 = _e19 - 1u;
     if (!(is_outer)) {
-        uint form_4 = rings_14.along - 8u;
-        uint _e30 = last_before(i_1 - rings_14.boundary, end_3, form_4, EDGES);
-        ring_5 = _e30 + 1u;
-        rest_2 = (i_1 - rings_14.boundary) - (_e30 * (form_4 - (EDGES * _e30)));
-        uint _e44 = ring_5;
-        size_2_1 = (rings_14.v - 1u) - (2u * _e44);
+        uint form_4 = rings_19.along - 8u;
+        uint _e30 = last_before(i_1 - rings_19.boundary, end_4, form_4, EDGES);
+        ring_10 = _e30 + 1u;
+        rest_2 = (i_1 - rings_19.boundary) - (_e30 * (form_4 - (EDGES * _e30)));
+        uint _e44 = ring_10;
+        size_2_1 = (rings_19.v - 1u) - (2u * _e44);
         uint _e47 = size_2_1;
-        begin_1_1 = (_e30 == end_3) ? NEVER : _e47;
-        uint _e55 = ring_5;
-        begin_2_1 = (_e30 == end_3) ? NEVER : ((rings_14.sides - 2u) - (4u * _e55));
+        begin_1_1 = (_e30 == end_4) ? NEVER : _e47;
+        uint _e55 = ring_10;
+        begin_2_1 = (_e30 == end_4) ? NEVER : ((rings_19.sides - 2u) - (4u * _e55));
     }
-    uint _e61 = ring_5;
+    uint _e61 = ring_10;
     uint _e62 = rest_2;
     uint _e63 = begin_1_1;
     uint _e64 = begin_2_1;
@@ -1010,39 +1274,39 @@ RingLocation point_location(
 }
 
 RunShape shape_of(
-    Rings rings_15,
-    RingLocation location_3
+    Rings rings_20,
+    RingLocation location_4
 ) {
     uint form_2 = {};
-    bool local_7 = {};
+    bool local_9 = {};
     bool descends = {};
-    uint ring_8 = location_3.ring;
-    bool is_outer_1 = ring_8 == 0u;
-    uint _e5 = point_ring_end(rings_15);
-    bool is_centre = ring_8 == _e5;
-    uint edge_14 = is_centre ? ((rings_15.u > rings_15.v) ? 1u : 0u) : location_3.edge;
-    uint _e15 = along_of(rings_15, edge_14);
-    uint _e16 = outer_of(rings_15, edge_14);
+    uint ring_14 = location_4.ring;
+    bool is_outer_1 = ring_14 == 0u;
+    uint _e5 = point_ring_end(rings_20);
+    bool is_centre = ring_14 == _e5;
+    uint edge_17 = is_centre ? ((rings_20.u > rings_20.v) ? 1u : 0u) : location_4.edge;
+    uint _e15 = along_of(rings_20, edge_17);
+    uint _e16 = outer_of(rings_20, edge_17);
     uint points_3 = is_outer_1 ? _e16 : _e15;
-    uint last = (points_3 - 1u) - ring_8;
-    form_2 = edge_14 & 1u;
-    if (!((edge_14 == 0u))) {
-        local_7 = edge_14 == 3u;
+    uint last = (points_3 - 1u) - ring_14;
+    form_2 = edge_17 & 1u;
+    if (!((edge_17 == 0u))) {
+        local_9 = edge_17 == 3u;
     } else {
-        local_7 = true;
+        local_9 = true;
     }
-    bool _e32 = local_7;
+    bool _e32 = local_9;
     descends = _e32;
     if (false) {
-        form_2 = is_centre ? FORM_CORNER : edge_14;
-        descends = edge_14 != 1u;
+        form_2 = is_centre ? FORM_CORNER : edge_17;
+        descends = edge_17 != 1u;
     }
     uint _e44 = form_2;
-    uint _e45 = inside_factor(edge_14);
+    uint _e45 = inside_factor(edge_17);
     bool _e47 = descends;
     bool _e51 = descends;
-    uint _e55 = inside_factor(edge_14 + 1u);
-    return RunShape {(last - ring_8) + (is_centre ? 1u : 0u), _e44, is_outer_1 ? edge_14 : _e45, points_3, _e47 ? last : ring_8, _e51 ? DOWN : 1u, Constant {_e55, ring_8, edge_14 >= 2u, is_centre}};
+    uint _e55 = inside_factor(edge_17 + 1u);
+    return RunShape {(last - ring_14) + (is_centre ? 1u : 0u), _e44, is_outer_1 ? edge_17 : _e45, points_3, _e47 ? last : ring_14, _e51 ? DOWN : 1u, Constant {_e55, ring_14, edge_17 >= 2u, is_centre}};
 }
 
 uint constant_value(
@@ -1058,13 +1322,13 @@ uint constant_value(
 
 PointRun run_of(
     PatchAxes axes_1,
-    RingLocation location_4
+    RingLocation location_5
 ) {
     metal::uint2 context_9 = {};
-    RunShape _e3 = shape_of(axes_1.rings, location_4);
+    RunShape _e3 = shape_of(axes_1.rings, location_5);
     metal::uint2 _e5 = inside_context(axes_1, _e3.factor);
     context_9 = _e5;
-    if (location_4.ring == 0u) {
+    if (location_5.ring == 0u) {
         metal::uint2 _e13 = context_of(axes_1.patch_index, _e3.factor, _e3.points);
         context_9 = _e13;
     }
@@ -1072,7 +1336,7 @@ PointRun run_of(
     metal::uint2 _e18 = inside_context(axes_1, _e3.constant_.factor);
     uint _e19 = constant_value(constant_1, _e18);
     metal::uint2 _e21 = context_9;
-    return PointRun {_e3.size, location_4.step, _e19, _e3.form, _e21, _e3.first, _e3.sign};
+    return PointRun {_e3.size, location_5.step, _e19, _e3.form, _e21, _e3.first, _e3.sign};
 }
 
 PointRun line_run(
@@ -1119,7 +1383,7 @@ metal::uint2 corner(
     uint fixed,
     uint number_4
 ) {
-    bool local_8 = {};
+    bool local_10 = {};
     if (fixed != 0u) {
         return metal::uint2(fixed, fixed);
     }
@@ -1127,11 +1391,11 @@ metal::uint2 corner(
         return metal::uint2((number_4 == 2u) ? ONE : 0u, (number_4 == 0u) ? ONE : 0u);
     }
     if (!((number_4 == 1u))) {
-        local_8 = number_4 == 2u;
+        local_10 = number_4 == 2u;
     } else {
-        local_8 = true;
+        local_10 = true;
     }
-    bool _e27 = local_8;
+    bool _e27 = local_10;
     return metal::uint2(_e27 ? ONE : 0u, (number_4 >= 2u) ? ONE : 0u);
 }
 
@@ -1181,8 +1445,8 @@ metal::uint2 placed_point(
     uint described,
     uint patch_index_4
 ) {
-    uint ring_9 = (described >> 13u) & 31u;
-    Constant constant_3 = Constant {0u, ring_9, (described & 1048576u) != 0u, (described & 2097152u) != 0u};
+    uint ring_15 = (described >> 13u) & 31u;
+    Constant constant_3 = Constant {0u, ring_15, (described & 1048576u) != 0u, (described & 2097152u) != 0u};
     metal::uint2 _e21 = context_of(patch_index_4, (described >> 3u) & 7u, 0u);
     uint _e22 = constant_value(constant_3, _e21);
     metal::uint2 _e26 = context_of(patch_index_4, described & 7u, 0u);
@@ -1239,15 +1503,15 @@ metal::uint2 take_room(
     device type_7& catalogue,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local_9 = {};
+    bool local_11 = {};
     uint _e4 = metal::atomic_fetch_add_explicit(&catalogue[metal::min(unsigned(8192), (_buffer_sizes.size2 - 0 - 4) / 4)], counts_1.x, metal::memory_order_relaxed);
     uint _e8 = metal::atomic_fetch_add_explicit(&catalogue[metal::min(unsigned(8193), (_buffer_sizes.size2 - 0 - 4) / 4)], counts_1.y, metal::memory_order_relaxed);
     if (!(((_e4 + counts_1.x) > CATALOGUE_POINTS))) {
-        local_9 = (_e8 + counts_1.y) > CATALOGUE_TRIANGLES;
+        local_11 = (_e8 + counts_1.y) > CATALOGUE_TRIANGLES;
     } else {
-        local_9 = true;
+        local_11 = true;
     }
-    bool _e21 = local_9;
+    bool _e21 = local_11;
     if (_e21) {
         return metal::uint2(0u, 0u);
     }
