@@ -17,8 +17,7 @@ use crate::setup::Setup;
 use crate::writer::Writer;
 use alloc::vec::Vec;
 #[cfg(target_arch = "x86_64")]
-use multiversion::multiversion;
-use multiversion::target::match_target;
+use multiversion::{multiversion, target::match_target};
 use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 
 /// Defines a function that runs `$kernel` at a level: one instance for each, which the level's
@@ -112,6 +111,7 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
     room: Room<'_, P, I>,
     caches: &mut Caches,
 ) -> Offsets {
+    #[cfg(target_arch = "x86_64")]
     #[multiversion(targets(
         "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
     ))]
@@ -125,15 +125,17 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
             "x86_64+avx512f+avx512bw+avx512dq+avx512vl" => {
                 // Permutes are safe to call here, as this function has their instructions; a closure
                 // takes them to where they are needed.
-                kernel::emit::emit(setup, blocks, room, caches, Some(|patch: BlockPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {
+                let permute = |patch: BlockPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {
                     permute::emit(patch, codes, out);
-                }))
+                };
+                kernel::emit::emit(setup, blocks, room, caches, Some(permute))
             }
             _ => emit_with_runs(setup, blocks, room, caches),
         }
     }
 
     match level {
+        #[cfg(target_arch = "x86_64")]
         Level::Avx512 => avx512(setup, blocks, room, caches),
         _ => emit_runs(level, setup, blocks, room, caches),
     }
