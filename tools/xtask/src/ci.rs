@@ -21,7 +21,7 @@ pub(crate) fn run() -> Result<(), String> {
         command::run(&mut cargo(features))?;
     }
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
-    fuzz::run(fuzz::BRIEFLY)?;
+    fuzz::run_in_ci()?;
     ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;
     publish::dry_run()?;
     publish::deny_if_installed()?;
