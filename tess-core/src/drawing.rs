@@ -87,9 +87,8 @@ impl<const EDGES: usize> Drawing<EDGES> {
 
     /// The number in the specification's order of a stitch's first triangle.
     fn first_of_stitch(&self, ring: u32, edge: usize) -> u32 {
-        let rings = if ring == 1 { 1..1 } else { 1..ring };
         let whole = |ring| self.sectors.iter().map(|sector| sector.stitch(ring)).sum::<u32>();
-        let earlier: u32 = rings.map(whole).sum();
+        let earlier: u32 = (1..ring).map(whole).sum();
         earlier + self.sectors[..edge].iter().map(|sector| sector.stitch(ring)).sum::<u32>()
     }
 }
@@ -125,10 +124,12 @@ impl Sector {
     /// positive and within the stitch, then of whole stitches.
     fn borders(&self, end: u32, column: u32) -> u32 {
         let (first, whole) = (2 * COLUMN * column + 1, 2 * self.along);
-        let cut = end.min(COLUMN * column + 1).min((whole + 1).saturating_sub(first) / 2).max(2);
-        let complete = ((whole + 1).saturating_sub(first) / 2).clamp(2, end.max(2));
-        let cut = (cut - 2) * first.saturating_sub(cut + 1);
-        cut + (end.max(2) - complete) * (whole - 2 * (complete + end.max(2) - 1))
+        let half = (whole + 1).saturating_sub(first) / 2;
+        let top = end.max(2);
+        let cut = end.min(COLUMN * column + 1).min(half).max(2);
+        let complete = half.clamp(2, top);
+        (cut - 2) * first.saturating_sub(cut + 1)
+            + (top - complete) * (whole - 2 * (complete + top - 1))
     }
 
     /// The column of a step.

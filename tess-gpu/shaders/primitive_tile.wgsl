@@ -66,22 +66,27 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
 // order for drawing, of any element.
 fn first_triangle(round: Round, before: Source, location: RingLocation, element: u32) -> vec3<u32> {
     var source = before;
-    var next = next_edge(location);
+    var next = RingLocation(1u, 0u, 0u);
     let number = next_patch(round, before.number, element);
     if number != before.number {
         source = load_source(round, number);
-        next = RingLocation(1u, 0u, 0u);
-    }
-    if ORDER == DRAWING {
-        next.ring = NEVER;
-        if number == before.number && source.is_regular {
-            next = drawn_behind(source.rings, location);
-        }
-        if next.ring == NEVER {
-            next = location_of(source, element - source.begin);
-        }
+    } else if ORDER == SPECIFICATION {
+        next = next_edge(location);
+    } else {
+        next = drawn_next(source, location, element);
     }
     return stitch_triangles(stitch_from(source, next), next.step).first;
+}
+
+// The location of an element, in the order for drawing, behind the one at another location of its patch.
+fn drawn_next(source: Source, location: RingLocation, element: u32) -> RingLocation {
+    if source.is_regular {
+        let next = drawn_behind(source.rings, location);
+        if next.ring != NEVER {
+            return next;
+        }
+    }
+    return location_of(source, element - source.begin);
 }
 
 // A triangle of the catalogue for patch `number` of the round.

@@ -112,7 +112,7 @@ fn planted_faults_are_seen() {
         ("is_there = ring < sector.end && first", "is_there = first"),
         ("(max(first, cut + 1u) - cut - 1u)", "(max(first, cut + 1u) - cut)"),
         ("if rest < transition {", "if rest <= transition {"),
-        ("next = location_of(source, element - source.begin);", ""),
+        ("return location_of(source, element - source.begin);", "return location;"),
     ] {
         assert_ne!(difference(from, to), None, "{from}");
     }

@@ -1,7 +1,7 @@
 //! The library behind the program `tess`: [`main`] is all of it that others can call.
 //!
 //! `commands` has a folder for each command. What they share lies beside it: `args` (a patch on the
-//! command line), `backends` (who tessellates it), `formats` and `png` (what it is shown as), `output`
+//! command line), `backends` (who tessellates it), `formats` (what it is shown as), `output`
 //! and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and explanations are made by
 //! `tess-verify`.
 
@@ -12,7 +12,6 @@ mod coverage_file;
 mod failure;
 mod formats;
 mod output;
-mod png;
 
 #[cfg(feature = "fuzzing")]
 #[doc(hidden)]

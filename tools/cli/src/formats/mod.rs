@@ -4,7 +4,6 @@ mod json;
 
 use crate::failure::Failure;
 use crate::output::form::Form;
-use crate::png;
 use clap::ValueEnum;
 use tess_core::Tessellation;
 use tess_verify::backend::Backend;
@@ -57,7 +56,7 @@ impl PictureFormat {
     pub(crate) fn render(self, picture: &Picture) -> Result<Vec<u8>, Failure> {
         match self {
             Self::Svg => Ok(picture.to_svg().into_bytes()),
-            Self::Png => png::render(picture),
+            Self::Png => picture.to_png().map_err(|error| Failure::bad_input(error.to_string())),
         }
     }
 }

@@ -1436,11 +1436,26 @@ Stitch stitch_from(
     return _e8;
 }
 
+RingLocation drawn_next(
+    Source source_2,
+    RingLocation location_5,
+    uint element_4
+) {
+    if (source_2.is_regular) {
+        RingLocation _e5 = drawn_behind(source_2.rings, location_5);
+        if (_e5.ring != NEVER) {
+            return _e5;
+        }
+    }
+    RingLocation _e11 = location_of(source_2, element_4 - source_2.begin);
+    return _e11;
+}
+
 metal::uint3 first_triangle(
     Round round_3,
     Source before,
-    RingLocation location_5,
-    uint element_4,
+    RingLocation location_6,
+    uint element_5,
     device type_2 const& offsets,
     constant Job& job,
     device type_3 const& tables,
@@ -1448,46 +1463,29 @@ metal::uint3 first_triangle(
     threadgroup type_9& scratch,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    Source source_2 = {};
-    RingLocation next = {};
-    bool local_10 = {};
-    source_2 = before;
-    RingLocation _e5 = next_edge(location_5);
-    next = _e5;
-    uint _e8 = next_patch(round_3, before.number, element_4, begins);
-    if (_e8 != before.number) {
-        Source _e11 = load_source(round_3, _e8, offsets, job, begins, scratch, _buffer_sizes);
-        source_2 = _e11;
-        next = RingLocation {1u, 0u, 0u};
-    }
-    if (false) {
-        next.ring = NEVER;
-        if (_e8 == before.number) {
-            bool _e24 = source_2.is_regular;
-            local_10 = _e24;
+    Source source_3 = {};
+    RingLocation next = RingLocation {1u, 0u, 0u};
+    source_3 = before;
+    uint _e11 = next_patch(round_3, before.number, element_5, begins);
+    if (_e11 != before.number) {
+        Source _e14 = load_source(round_3, _e11, offsets, job, begins, scratch, _buffer_sizes);
+        source_3 = _e14;
+    } else {
+        if (true) {
+            RingLocation _e16 = next_edge(location_6);
+            next = _e16;
         } else {
-            local_10 = false;
-        }
-        bool _e26 = local_10;
-        if (_e26) {
-            Rings _e28 = source_2.rings;
-            RingLocation _e29 = drawn_behind(_e28, location_5);
-            next = _e29;
-        }
-        uint _e31 = next.ring;
-        if (_e31 == NEVER) {
-            Source _e34 = source_2;
-            uint _e36 = source_2.begin;
-            RingLocation _e38 = location_of(_e34, element_4 - _e36);
-            next = _e38;
+            Source _e17 = source_3;
+            RingLocation _e18 = drawn_next(_e17, location_6, element_5);
+            next = _e18;
         }
     }
-    Source _e39 = source_2;
-    RingLocation _e40 = next;
-    Stitch _e41 = stitch_from(_e39, _e40);
-    uint _e43 = next.step;
-    Pair _e44 = stitch_triangles(_e41, _e43, tables, _buffer_sizes);
-    return _e44.first;
+    Source _e19 = source_3;
+    RingLocation _e20 = next;
+    Stitch _e21 = stitch_from(_e19, _e20);
+    uint _e23 = next.step;
+    Pair _e24 = stitch_triangles(_e21, _e23, tables, _buffer_sizes);
+    return _e24.first;
 }
 
 void write_triangles(
@@ -1502,86 +1500,86 @@ void write_triangles(
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    Source source_3 = {};
-    uint element_5 = {};
+    Source source_4 = {};
+    uint element_6 = {};
+    bool local_10 = {};
     bool local_11 = {};
     bool local_12 = {};
     bool local_13 = {};
-    bool local_14 = {};
-    source_3.number = NEVER;
-    element_5 = 2u * thread_2;
+    source_4.number = NEVER;
+    element_6 = 2u * thread_2;
     uint2 loop_bound_3 = uint2(4294967295u);
     bool loop_init_2 = true;
     while(true) {
         if (metal::all(loop_bound_3 == uint2(0u))) { break; }
         loop_bound_3 -= uint2(loop_bound_3.y == 0u, 1u);
         if (!loop_init_2) {
-            uint _e82 = element_5;
-            element_5 = _e82 + 128u;
+            uint _e82 = element_6;
+            element_6 = _e82 + 128u;
         }
         loop_init_2 = false;
-        uint _e9 = element_5;
+        uint _e9 = element_6;
         uint _e10 = tile_size();
         if (_e9 < _e10) {
         } else {
             break;
         }
         {
-            uint _e12 = element_5;
+            uint _e12 = element_6;
             if (!(((_e12 + 1u) < round_4.begin))) {
-                uint _e20 = element_5;
-                local_11 = _e20 >= round_4.end;
+                uint _e20 = element_6;
+                local_10 = _e20 >= round_4.end;
             } else {
-                local_11 = true;
+                local_10 = true;
             }
-            bool _e24 = local_11;
+            bool _e24 = local_10;
             if (_e24) {
                 continue;
             }
-            uint _e25 = element_5;
+            uint _e25 = element_6;
             uint first_11 = metal::max(_e25, round_4.begin);
             uint _e28 = find_patch(round_4, first_11, begins);
-            uint _e30 = source_3.number;
+            uint _e30 = source_4.number;
             if (_e28 != _e30) {
                 Source _e32 = load_source(round_4, _e28, offsets, job, begins, scratch, _buffer_sizes);
-                source_3 = _e32;
+                source_4 = _e32;
             }
-            Source _e33 = source_3;
-            uint _e35 = source_3.begin;
+            Source _e33 = source_4;
+            uint _e35 = source_4.begin;
             RingLocation _e37 = location_of(_e33, first_11 - _e35);
-            Source _e38 = source_3;
+            Source _e38 = source_4;
             Stitch _e39 = stitch_from(_e38, _e37);
             Pair _e41 = stitch_triangles(_e39, _e37.step, tables, _buffer_sizes);
-            uint _e42 = element_5;
+            uint _e42 = element_6;
             uint at_10 = (out + _e42) >> 1u;
-            uint _e46 = element_5;
+            uint _e46 = element_6;
             if (first_11 == _e46) {
-                uint _e50 = element_5;
-                local_12 = (_e50 + 1u) < round_4.end;
+                uint _e50 = element_6;
+                local_11 = (_e50 + 1u) < round_4.end;
+            } else {
+                local_11 = false;
+            }
+            bool is_whole = local_11;
+            if (is_whole) {
+                local_12 = true;
             } else {
                 local_12 = false;
             }
-            bool is_whole = local_12;
-            if (is_whole) {
-                local_13 = true;
+            bool _e61 = local_12;
+            if (_e61) {
+                local_13 = (_e37.step + 1u) < _e39.size;
             } else {
                 local_13 = false;
             }
-            bool _e61 = local_13;
-            if (_e61) {
-                local_14 = (_e37.step + 1u) < _e39.size;
-            } else {
-                local_14 = false;
-            }
-            bool _e70 = local_14;
+            bool _e70 = local_13;
             if (_e70) {
                 write_triangle_pair(at_10, _e41.first, _e41.second, indices_out, _buffer_sizes);
             } else {
-                uint _e73 = element_5;
+                uint _e73 = element_6;
                 write_triangle(at_10, first_11 != _e73, _e41.first, indices_out, _buffer_sizes);
                 if (is_whole) {
-                    Source _e77 = source_3;
-                    uint _e78 = element_5;
+                    Source _e77 = source_4;
+                    uint _e78 = element_6;
                     metal::uint3 _e81 = first_triangle(round_4, _e77, _e37, _e78 + 1u, offsets, job, tables, begins, scratch, _buffer_sizes);
                     write_triangle(at_10, true, _e81, indices_out, _buffer_sizes);
                 }
@@ -1593,13 +1591,13 @@ void write_triangles(
 
 metal::uint3 listed_triangle(
     uint number_6,
-    uint element_6,
+    uint element_7,
     device type_3 const& catalogue,
     threadgroup type_9& listed,
     constant _mslBufferSizes& _buffer_sizes
 ) {
     metal::uint2 own = listed.inner[metal::min(unsigned(number_6), 127u)];
-    uint _e7 = catalogue_word(own.x + element_6, catalogue, _buffer_sizes);
+    uint _e7 = catalogue_word(own.x + element_7, catalogue, _buffer_sizes);
     metal::uint3 _e9 = unpacked_triangle(_e7, own.y);
     return _e9;
 }
@@ -1614,60 +1612,60 @@ void write_listed_triangles(
     device type_2& indices_out,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    uint element_7 = {};
+    uint element_8 = {};
+    bool local_14 = {};
     bool local_15 = {};
-    bool local_16 = {};
-    element_7 = 2u * thread_3;
+    element_8 = 2u * thread_3;
     uint2 loop_bound_4 = uint2(4294967295u);
     bool loop_init_3 = true;
     while(true) {
         if (metal::all(loop_bound_4 == uint2(0u))) { break; }
         loop_bound_4 -= uint2(loop_bound_4.y == 0u, 1u);
         if (!loop_init_3) {
-            uint _e52 = element_7;
-            element_7 = _e52 + 128u;
+            uint _e52 = element_8;
+            element_8 = _e52 + 128u;
         }
         loop_init_3 = false;
-        uint _e6 = element_7;
+        uint _e6 = element_8;
         uint _e7 = tile_size();
         if (_e6 < _e7) {
         } else {
             break;
         }
         {
-            uint _e9 = element_7;
+            uint _e9 = element_8;
             if (!(((_e9 + 1u) < round_5.begin))) {
-                uint _e17 = element_7;
-                local_15 = _e17 >= round_5.end;
+                uint _e17 = element_8;
+                local_14 = _e17 >= round_5.end;
             } else {
-                local_15 = true;
+                local_14 = true;
             }
-            bool _e21 = local_15;
+            bool _e21 = local_14;
             if (_e21) {
                 continue;
             }
-            uint _e22 = element_7;
+            uint _e22 = element_8;
             uint first_12 = metal::max(_e22, round_5.begin);
             uint _e25 = find_patch(round_5, first_12, begins);
             metal::uint3 _e26 = listed_triangle(_e25, first_12, catalogue, listed, _buffer_sizes);
-            uint _e27 = element_7;
+            uint _e27 = element_8;
             uint at_11 = (out_1 + _e27) >> 1u;
-            uint _e31 = element_7;
+            uint _e31 = element_8;
             if (first_12 == _e31) {
-                uint _e35 = element_7;
-                local_16 = (_e35 + 1u) < round_5.end;
+                uint _e35 = element_8;
+                local_15 = (_e35 + 1u) < round_5.end;
             } else {
-                local_16 = false;
+                local_15 = false;
             }
-            bool _e41 = local_16;
+            bool _e41 = local_15;
             if (_e41) {
-                uint _e42 = element_7;
+                uint _e42 = element_8;
                 uint _e45 = next_patch(round_5, _e25, _e42 + 1u, begins);
-                uint _e46 = element_7;
+                uint _e46 = element_8;
                 metal::uint3 _e49 = listed_triangle(_e45, _e46 + 1u, catalogue, listed, _buffer_sizes);
                 write_triangle_pair(at_11, _e26, _e49, indices_out, _buffer_sizes);
             } else {
-                uint _e50 = element_7;
+                uint _e50 = element_8;
                 write_triangle(at_11, first_12 != _e50, _e26, indices_out, _buffer_sizes);
             }
         }
@@ -1687,8 +1685,8 @@ void write_sequences(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint pair = {};
-    uint element_8 = {};
-    bool local_17 = {};
+    uint element_9 = {};
+    bool local_16 = {};
     pair = 2u * thread_4;
     uint2 loop_bound_5 = uint2(4294967295u);
     bool loop_init_4 = true;
@@ -1708,49 +1706,49 @@ void write_sequences(
         }
         {
             uint _e9 = pair;
-            element_8 = _e9;
+            element_9 = _e9;
             uint2 loop_bound_6 = uint2(4294967295u);
             bool loop_init_5 = true;
             while(true) {
                 if (metal::all(loop_bound_6 == uint2(0u))) { break; }
                 loop_bound_6 -= uint2(loop_bound_6.y == 0u, 1u);
                 if (!loop_init_5) {
-                    uint _e54 = element_8;
-                    element_8 = _e54 + 1u;
+                    uint _e54 = element_9;
+                    element_9 = _e54 + 1u;
                 }
                 loop_init_5 = false;
-                uint _e11 = element_8;
+                uint _e11 = element_9;
                 uint _e12 = pair;
                 if (_e11 < (_e12 + 2u)) {
                 } else {
                     break;
                 }
                 {
-                    uint _e16 = element_8;
+                    uint _e16 = element_9;
                     if (!((_e16 < round_6.begin))) {
-                        uint _e22 = element_8;
-                        local_17 = _e22 >= round_6.end;
+                        uint _e22 = element_9;
+                        local_16 = _e22 >= round_6.end;
                     } else {
-                        local_17 = true;
+                        local_16 = true;
                     }
-                    bool _e26 = local_17;
+                    bool _e26 = local_16;
                     if (_e26) {
                         continue;
                     }
-                    uint _e27 = element_8;
+                    uint _e27 = element_9;
                     uint _e28 = find_patch(round_6, _e27, begins);
                     metal::uint2 _e32 = patch_offset(round_6.first + _e28, offsets, job, _buffer_sizes);
                     uint base_9 = true ? _e32.x : 0u;
-                    uint _e36 = element_8;
+                    uint _e36 = element_9;
                     int _e39 = begins.inner[metal::min(unsigned(_e28), 127u)];
                     uint t_10 = _e36 - static_cast<uint>(_e39);
                     metal::uint2 _e44 = scratch.inner[metal::min(unsigned(_e28), 127u)];
                     uint _e45 = sequence_first(_e44, t_10, base_9);
                     if (false) {
-                        uint _e47 = element_8;
+                        uint _e47 = element_9;
                         write_two(out_2 + _e47, _e45, _e45 + 1u, indices_out, _buffer_sizes);
                     } else {
-                        uint _e51 = element_8;
+                        uint _e51 = element_9;
                         write_single(out_2 + _e51, _e45, indices_out, _buffer_sizes);
                     }
                 }
@@ -1771,7 +1769,7 @@ void keep_triangles(
     uint _e3 = state_of(repeat_1.topology);
     bool is_regular = _e3 == REGULAR;
     Rings _e10 = rings_of(repeat_1.topology);
-    Source source_4 = Source {0u, 0u, 0u, is_regular, {}, _e10};
+    Source source_5 = Source {0u, 0u, 0u, is_regular, {}, _e10};
     i_2 = thread_5;
     uint2 loop_bound_7 = uint2(4294967295u);
     bool loop_init_6 = true;
@@ -1790,8 +1788,8 @@ void keep_triangles(
         }
         {
             uint _e16 = i_2;
-            RingLocation _e17 = location_of(source_4, _e16);
-            Stitch _e18 = stitch_from(source_4, _e17);
+            RingLocation _e17 = location_of(source_5, _e16);
+            Stitch _e18 = stitch_from(source_5, _e17);
             Pair _e20 = stitch_triangles(_e18, _e17.step, tables, _buffer_sizes);
             metal::uint3 triangle_2 = _e20.first;
             uint _e22 = packed_triangle(triangle_2);
@@ -1812,24 +1810,24 @@ Corner corner_at(
     Repeat repeat_2,
     uint at_7
 ) {
-    uint element_9 = (at_7 * 43691u) >> 17u;
-    uint position_1 = element_9 + repeat_2.before;
+    uint element_10 = (at_7 * 43691u) >> 17u;
+    uint position_1 = element_10 + repeat_2.before;
     uint _e8 = patch_at(repeat_2, position_1);
-    return Corner {_e8, position_1 - (_e8 * repeat_2.size), at_7 - (3u * element_9)};
+    return Corner {_e8, position_1 - (_e8 * repeat_2.size), at_7 - (3u * element_10)};
 }
 
 Corner next_corner(
     Repeat repeat_3,
     Corner it
 ) {
-    bool local_18 = {};
+    bool local_17 = {};
     bool is_last_corner = it.corner == 2u;
     if (is_last_corner) {
-        local_18 = (it.i + 1u) == repeat_3.size;
+        local_17 = (it.i + 1u) == repeat_3.size;
     } else {
-        local_18 = false;
+        local_17 = false;
     }
-    bool is_last_1 = local_18;
+    bool is_last_1 = local_17;
     return Corner {it.number + (is_last_1 ? 1u : 0u), is_last_1 ? 0u : (it.i + (is_last_corner ? 1u : 0u)), is_last_corner ? 0u : (it.corner + 1u)};
 }
 
@@ -1855,7 +1853,7 @@ void copy_triangles(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint at_8 = {};
-    bool local_19 = {};
+    bool local_18 = {};
     keep_triangles(repeat_5, thread_6, tables, scratch, _buffer_sizes);
     metal::threadgroup_barrier(metal::mem_flags::mem_threadgroup);
     uint begin_3 = 3u * (tile_4.begin - tile_4.base);
@@ -1888,11 +1886,11 @@ void copy_triangles(
             uint _e27 = at_8;
             if (first_13 == _e27) {
                 uint _e31 = at_8;
-                local_19 = (_e31 + 1u) < end_7;
+                local_18 = (_e31 + 1u) < end_7;
             } else {
-                local_19 = false;
+                local_18 = false;
             }
-            bool _e36 = local_19;
+            bool _e36 = local_18;
             if (_e36) {
                 Corner _e37 = next_corner(repeat_5, _e25);
                 uint _e38 = kept_index(repeat_5, _e37, scratch);
@@ -1923,20 +1921,20 @@ void write_primitive_tile(
     device Status const& status,
     constant _mslBufferSizes& _buffer_sizes
 ) {
-    bool local_20 = {};
+    bool local_19 = {};
     uint first_3 = {};
-    bool local_21 = {};
+    bool local_20 = {};
     uint _e6 = job.chunk;
     Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size11 - 32 - 16) / 16)];
     uint _e13 = job.primitive_tiles_at;
     Tile _e14 = tile_of(number_7, range.primitives_begin, range.primitives_end, _e13, job, tiles, _buffer_sizes);
     if (!((_e14.end == 0u))) {
         uint _e23 = status.overflow;
-        local_20 = _e23 != 0u;
+        local_19 = _e23 != 0u;
     } else {
-        local_20 = true;
+        local_19 = true;
     }
-    bool _e27 = local_20;
+    bool _e27 = local_19;
     if (_e27) {
         return;
     }
@@ -1970,11 +1968,11 @@ void write_primitive_tile(
             uint _e49 = first_3;
             Round _e51 = load_round(_e14, _e49, PRIMITIVES, thread_7, offsets, job, catalogue, begins, scratch, listed, is_missing, topologies, _buffer_sizes);
             if (IS_TRIANGLES) {
-                local_21 = _e51.is_listed;
+                local_20 = _e51.is_listed;
             } else {
-                local_21 = false;
+                local_20 = false;
             }
-            bool _e57 = local_21;
+            bool _e57 = local_20;
             if (_e57) {
                 write_listed_triangles(_e51, thread_7, out_4, catalogue, begins, listed, indices_out, _buffer_sizes);
             } else {
