@@ -14,6 +14,17 @@ pub(crate) fn target() -> PathBuf {
     std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| workspace().join("target"), PathBuf::from)
 }
 
+/// Builds the program `tess`, and says where it is.
+pub(crate) fn program() -> Result<PathBuf, String> {
+    run(&mut cargo("build --package tess-program"))?;
+    Ok(target().join("debug").join(format!("tess{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// The message of an error with a file.
+pub(crate) fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
+    format!("{}: {error}", path.display())
+}
+
 /// `cargo` with these arguments, split at spaces, in the workspace.
 pub(crate) fn cargo(arguments: &str) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));

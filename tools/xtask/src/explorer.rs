@@ -1,6 +1,6 @@
 //! The explorer: builds its page, serves it, tests it in a browser.
 
-use crate::command::{self, cargo, workspace};
+use crate::command::{self, cargo, in_file, target, workspace};
 use crate::setup::{self, Need, has_program};
 use crate::tally;
 use std::fs;
@@ -121,19 +121,11 @@ pub(crate) fn tests() -> Result<Command, String> {
 
 /// The program `tess` that files and texts are compared with: `TESS_PROGRAM`, or one that is built now.
 fn program() -> Result<PathBuf, String> {
-    if let Some(program) = std::env::var_os("TESS_PROGRAM") {
-        return Ok(program.into());
-    }
-    command::run(&mut cargo("build --package tess-program"))?;
-    Ok(target().join("debug").join(format!("tess{}", std::env::consts::EXE_SUFFIX)))
+    std::env::var_os("TESS_PROGRAM").map_or_else(command::program, |program| Ok(program.into()))
 }
 
 fn source() -> PathBuf {
     workspace().join("tools/explorer")
-}
-
-fn target() -> PathBuf {
-    std::env::var_os("CARGO_TARGET_DIR").map_or_else(|| workspace().join("target"), PathBuf::from)
 }
 
 /// The folder of the finished page.
@@ -194,10 +186,6 @@ fn response(request: &str, folder: &Path) -> (&'static str, &'static str, Vec<u8
         Ok(body) if is_plain => ("200 OK", kind, body),
         _ => ("404 Not Found", "text/plain", b"no such file".to_vec()),
     }
-}
-
-fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("{}: {error}", path.display())
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! The Python package: its wheel, and its tests on the wheel in a fresh virtual environment.
 
-use crate::command::{self, cargo, workspace};
+use crate::command::{self, cargo, in_file, workspace};
 use crate::setup::{self, Need, has_program};
 use crate::tally;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 /// The interpreter that makes the virtual environment.
@@ -43,9 +43,7 @@ pub(crate) fn tests() -> Result<Command, String> {
     let wheel = environment.wheel()?;
     environment.install(&[&format!("{}[test,cocotb]", wheel.display())])?;
     environment.check_types()?;
-    command::run(&mut cargo("build --package tess-program"))?;
-    let name = format!("tess{}", std::env::consts::EXE_SUFFIX);
-    let program = command::target().join("debug").join(name);
+    let program = command::program()?;
     let mut tests = environment.python(&["-m", "pytest", "-q", "-p", "no:cacheprovider"]);
     tests.env("TESS_PROGRAM", program).env("TESS_COCOTB_BUILD", target().join("cocotb"));
     Ok(tests)
@@ -116,10 +114,6 @@ impl Environment {
         command::run(&mut self.python(&["-m", "mypy.stubtest", "tess_model"]))?;
         command::run(&mut self.python(&["-m", "mypy", "tests", "examples/cocotb", "benches"]))
     }
-}
-
-fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
-    format!("{}: {error}", path.display())
 }
 
 /// The interpreter that the variable `PYTHON` names, or the system's.
