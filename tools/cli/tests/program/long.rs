@@ -149,7 +149,7 @@ fn progress_is_shown_on_terminals() {
     let folder = directory("progress_is_shown_on_terminals");
     let file = folder.join("level-1.txt");
     let gen_level_1 = format!("gen --level 1 -o {}", file.display());
-    for words in [gen_level_1.as_str(), "verify --backend simd --random 20000"] {
+    for words in [gen_level_1.as_str(), "verify --backend simd --random 1000"] {
         let program = format!("{} {words}", env!("CARGO_BIN_EXE_tess"));
         let terminal = Command::new("script")
             .args(["-qec", &program, "/dev/null"])

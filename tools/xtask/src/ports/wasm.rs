@@ -1,4 +1,4 @@
-//! WebAssembly: the libraries build for a browser, and the tests run under Node.js.
+//! WebAssembly: the libraries compile for a browser, and the tests run under Node.js.
 
 use super::Extent;
 use super::cross;
@@ -20,14 +20,14 @@ const NODE: Need = Need {
     is_there: || has_program("node"),
 };
 
-/// Builds what a browser can use, then runs the tests of the model and of the CPU backend.
+/// Checks that what a browser can use compiles, then runs the tests of the model and of the CPU backend.
 pub(super) fn check(extent: Extent) -> Result<(), String> {
     setup::provide(&[NODE])?;
     setup::target(BROWSER)?;
     setup::target(WASI)?;
-    for package in ["tess-core", "tess-simd", "tess-gpu", "tess-surface"] {
-        command::run(cargo("build --package").args([package, "--target", BROWSER]))?;
-    }
+    let libraries = ["tess-core", "tess-simd", "tess-gpu", "tess-surface"];
+    let libraries = libraries.into_iter().flat_map(|package| ["--package", package]);
+    command::run(cargo("check --target").arg(BROWSER).args(libraries))?;
     let script = workspace().join("tools/xtask/src/ports/wasi.mjs");
     let runner = format!("node --no-warnings {}", script.display());
     let commands = if extent == Extent::Brief { cross::BRIEF } else { WHOLE };
