@@ -87,8 +87,8 @@ impl<const EDGES: usize> Drawing<EDGES> {
 
     /// The number in the specification's order of a stitch's first triangle.
     fn first_of_stitch(&self, ring: u32, edge: usize) -> u32 {
-        let whole = |ring| self.sectors.iter().map(|sector| sector.stitch(ring)).sum::<u32>();
-        let earlier: u32 = (1..ring).map(whole).sum();
+        let earlier = |sector: &Sector| sector.transition + sector.borders(ring, sector.columns());
+        let earlier: u32 = if ring == 1 { 0 } else { self.sectors.iter().map(earlier).sum() };
         earlier + self.sectors[..edge].iter().map(|sector| sector.stitch(ring)).sum::<u32>()
     }
 }

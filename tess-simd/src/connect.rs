@@ -2,6 +2,7 @@
 //!
 //! Vertex indices are modulo 2^32, so that one past the largest is 0 instead of an overflow.
 
+pub(crate) mod drawing;
 mod quad;
 mod rings;
 mod triangle;

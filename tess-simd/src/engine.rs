@@ -15,6 +15,7 @@ use crate::target::Target;
 use crate::threads::Workspaces;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use tess_core::drawing::Order;
 
 /// A setup, and the memory that batches need.
 #[derive(Clone, Debug)]
@@ -40,6 +41,13 @@ impl Engine {
         let kept = Box::new([Block::EMPTY; _]);
         let workspaces = Workspaces::new();
         Self { setup, workspaces, slices: Vec::new(), kept }
+    }
+
+    /// The same for triangles in this order. Templates that were made are forgotten.
+    pub(crate) fn in_order(mut self, order: Order) -> Self {
+        self.setup.order = order;
+        self.workspaces.forget();
+        self
     }
 
     /// Bytes of memory that it takes.

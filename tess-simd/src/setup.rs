@@ -3,11 +3,13 @@
 use crate::level::Level;
 use crate::stitch::Stitches;
 use tess_core::Config;
+use tess_core::drawing::Order;
 
-/// A configuration, the tables that follow from it, and the CPU level to run at.
+/// A configuration, the tables that follow from it, the order of triangles, and the CPU level to run at.
 #[derive(Clone, Debug)]
 pub(crate) struct Setup {
     pub(crate) config: Config,
+    pub(crate) order: Order,
     pub(crate) level: Level,
     pub(crate) stitches: Stitches,
 }
@@ -15,6 +17,7 @@ pub(crate) struct Setup {
 impl Setup {
     /// Makes the tables. The level is one that this machine can run.
     pub(crate) fn new(config: Config, level: Level) -> Self {
-        Self { config, level, stitches: Stitches::new(config) }
+        let order = Order::Specification;
+        Self { config, order, level, stitches: Stitches::new(config) }
     }
 }

@@ -10,7 +10,7 @@ mod small;
 pub(crate) use small::{SmallTemplate, SmallTemplates, Start, long};
 
 use crate::block::BlockPatch;
-use crate::connect;
+use crate::connect::{self, drawing};
 use crate::points::{self, LocationTables};
 use crate::setup::Setup;
 use crate::writer::Writer;
@@ -90,7 +90,7 @@ impl Templates {
         let topology = patch.topology();
         let slot = slot(topology);
         if self.slots[slot].topology != topology {
-            if !self.wanted(patch) {
+            if !drawing::reorders(setup, patch) && !self.wanted(patch) {
                 return None;
             }
             self.make(setup, patch, tables);
@@ -117,7 +117,7 @@ impl Templates {
     #[expect(clippy::cast_possible_truncation, reason = "places in the room")]
     fn make(&mut self, setup: &Setup, patch: BlockPatch<'_>, tables: &mut LocationTables) {
         let (points, indices) = (patch.points() as usize, patch.indices() as usize);
-        let full = self.indices_used + indices + PADDING > INDEX_ROOM
+        let full = self.indices_used + 2 * indices + PADDING > INDEX_ROOM
             || self.points_used + points + PADDING > POINT_ROOM;
         if full {
             self.slots.iter_mut().for_each(|slot| slot.topology = 0);
@@ -128,7 +128,7 @@ impl Templates {
         if patch.is_minimum() {
             write_minimum(setup.config, patch.domain(), point_room, index_room);
         } else {
-            connect::emit(setup, patch, 0, &mut Writer::new(index_room));
+            write_indices(setup, patch, index_room);
             if patch.integer() {
                 points::emit(patch, tables, &mut Writer::new(point_room));
             }
@@ -139,6 +139,20 @@ impl Templates {
         self.indices_used += indices;
         self.points_used += points;
     }
+}
+
+/// Writes a patch's indices in their order; the room behind them is overwritten.
+fn write_indices(setup: &Setup, patch: BlockPatch<'_>, room: &mut [u16]) {
+    if !drawing::reorders(setup, patch) {
+        return connect::emit(setup, patch, 0, &mut Writer::new(room));
+    }
+    let (mut ordered, specified) = room.split_at_mut(patch.indices() as usize);
+    connect::emit(setup, patch, 0, &mut Writer::new(specified));
+    drawing::runs(setup, patch, |run| {
+        let (to, rest) = core::mem::take(&mut ordered).split_at_mut(run.len());
+        to.copy_from_slice(&specified[run]);
+        ordered = rest;
+    });
 }
 
 /// Where a topology's template is kept: the upper bits of a product with 2^64 over the golden ratio.

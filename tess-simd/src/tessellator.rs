@@ -11,6 +11,7 @@ use crate::setup::Setup;
 #[cfg(feature = "rayon")]
 use crate::threads::{MAX_THREADS, Workspaces};
 use tess_core::Config;
+use tess_core::drawing::Order;
 
 /// Tessellates batches of patches in one configuration.
 ///
@@ -52,6 +53,16 @@ impl Tessellator {
     /// The most threads that [`Tessellator::threads`] uses.
     #[cfg(feature = "rayon")]
     pub const MAX_THREADS: usize = MAX_THREADS;
+
+    /// Writes triangles in this order; [`Order::Specification`] unless told otherwise.
+    ///
+    /// [`Order::Drawing`] has the same points and the same triangles, so that a vertex cache finds more of
+    /// its vertices: for renderers. Patches above some 300 points take about twice as long with it, unless
+    /// their point counts are those of a patch before.
+    #[must_use]
+    pub fn order(self, order: Order) -> Self {
+        Self(self.0.in_order(order))
+    }
 
     /// The configuration that it was made with.
     #[must_use]

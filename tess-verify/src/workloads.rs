@@ -12,6 +12,7 @@ pub use scenes::{
 
 use crate::digest::Fnv1a;
 use std::ops::Range;
+use tess_core::drawing::Order;
 use tess_core::{Config, Counts, Patch, PatchFactors};
 
 /// Patches of one domain and configuration, with the name that `tess bench --workload` takes.
@@ -124,9 +125,15 @@ impl Workload {
     /// [`Fnv1a::patch`] does.
     #[must_use]
     pub fn digest(&self) -> u64 {
+        self.digest_in(Order::Specification)
+    }
+
+    /// [`Self::digest`] of the output whose triangles are in this order.
+    #[must_use]
+    pub fn digest_in(&self, order: Order) -> u64 {
         let mut digest = Fnv1a::new();
         for &factors in &self.patches {
-            digest.patch(&Patch::new(self.config, factors).tessellate());
+            digest.patch(&Patch::new(self.config, factors).tessellate_in(order));
         }
         digest.finish()
     }

@@ -4,7 +4,7 @@
 
 use super::{PADDING, write_minimum};
 use crate::block::BlockPatch;
-use crate::connect;
+use crate::connect::{self, drawing};
 use crate::format::PointFormat;
 use crate::lanes::LANES;
 use crate::points::{self, EDGE, LocationTables, corner};
@@ -149,9 +149,12 @@ impl SmallTemplates {
         if !patch.is_minimum() {
             connect::emit(setup, patch, 0, &mut Writer::new(&mut wide));
         }
-        for (narrow, wide) in self.indices[self.indices_used..].iter_mut().zip(&wide[..indices]) {
-            *narrow = *wide as u8;
-        }
+        let mut to = self.indices[self.indices_used..].iter_mut();
+        drawing::runs(setup, patch, |run| {
+            for (wide, narrow) in wide[run].iter().zip(to.by_ref()) {
+                *narrow = *wide as u8;
+            }
+        });
         let start = Start { point: self.points_used as u32, index: self.indices_used as u32 };
         let set = &mut self.sets[set(patch.topology())];
         let way = set.topologies.iter().position(|&topology| topology == 0).unwrap_or(self.way);

@@ -13,6 +13,11 @@ impl Workspaces {
         Self(Workspace::new())
     }
 
+    /// Forgets what was kept from batch to batch.
+    pub(crate) fn forget(&mut self) {
+        self.0 = Workspace::new();
+    }
+
     /// How many threads write at a time.
     #[expect(clippy::unused_self, reason = "the same interface as with a pool")]
     pub(crate) const fn threads(&self) -> usize {

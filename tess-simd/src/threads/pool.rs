@@ -30,6 +30,11 @@ impl Workspaces {
         Self((0..threads).map(|_| Mutex::new(Workspace::new())).collect())
     }
 
+    /// Forgets what was kept from batch to batch.
+    pub(crate) fn forget(&mut self) {
+        self.0.fill_with(|| Mutex::new(Workspace::new()));
+    }
+
     /// How many threads write at a time.
     pub(crate) fn threads(&self) -> usize {
         self.0.len()

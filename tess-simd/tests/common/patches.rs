@@ -4,7 +4,7 @@ use tess_core::{
     Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch,
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
-use tess_simd::{Batch, Error, IndexFormat, Numbering, Output, PointFormat, Tessellator};
+use tess_simd::{Batch, Error, IndexFormat, Numbering, Order, Output, PointFormat, Tessellator};
 use tess_verify::random::SplitMix64;
 
 /// Every configuration there is.
@@ -103,7 +103,11 @@ impl Patches {
     }
 
     pub(crate) fn expected(&self, config: Config) -> Vec<Tessellation> {
-        self.all.iter().map(|&factors| Patch::new(config, factors).tessellate()).collect()
+        self.expected_in(Order::Specification, config)
+    }
+
+    pub(crate) fn expected_in(&self, order: Order, config: Config) -> Vec<Tessellation> {
+        self.all.iter().map(|&factors| Patch::new(config, factors).tessellate_in(order)).collect()
     }
 }
 

@@ -11,6 +11,7 @@ use super::table::{Row, name_of};
 use crate::failure::Failure;
 use std::fmt;
 use std::time::Duration;
+use tess_simd::Order;
 use tess_verify::backend::BackendError;
 use tess_verify::workloads::Workload;
 
@@ -23,6 +24,17 @@ pub(crate) struct Plan<'a> {
     pub(crate) working_set: WorkingSet,
     /// Interleaved samples, at least 1.
     pub(crate) samples: u32,
+}
+
+impl Plan<'_> {
+    /// What a row of this runner is called.
+    fn name(&self, runner: &dyn Runner) -> String {
+        let order = match runner.order() {
+            Order::Specification => "",
+            Order::Drawing => ", order for drawing",
+        };
+        format!("{}{}{order}", self.workload.name, runner.remark())
+    }
 }
 
 impl fmt::Display for Plan<'_> {
@@ -63,7 +75,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
     let (amount, seconds) = (parts.into_iter().sum::<Amount>(), run.seconds());
     let patches_per_s = amount.patches as f64 / seconds;
     Ok(Row {
-        workload: format!("{}{}", plan.workload.name, runner.remark()),
+        workload: plan.name(runner),
         backend: runner.backend(),
         level: runner.level(),
         working_set: plan.working_set.name(),
@@ -78,7 +90,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
 }
 
 fn check_digest(runner: &mut dyn Runner, workload: &Workload) -> Result<(), Failure> {
-    let (expected, observed) = (workload.digest(), runner.digest()?);
+    let (expected, observed) = (workload.digest_in(runner.order()), runner.digest()?);
     if expected == observed {
         return Ok(());
     }

@@ -18,6 +18,7 @@ use measure::{Plan, measure};
 use runner::{Runner, RunnerOptions, WorkingSet};
 use std::path::Path;
 use table::heading;
+use tess_simd::Order;
 use tess_verify::workloads::{self, Workload};
 
 /// Time the named workloads against filling the same bytes and against the core
@@ -27,6 +28,7 @@ Examples:
   tess bench --workload uniform-16 --workload uniform-64
   tess bench --backend simd --working-set cache --json > simd.json
   tess bench --backend simd --cpu-level avx2 --workload terrain
+  tess bench --backend simd --order drawing --workload uniform-64
   tess bench --backend gpu --no-copies --working-set stream --workload uniform
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
@@ -56,9 +58,30 @@ pub(crate) struct Args {
     /// Have the shaders expand each patch, also where its neighbours are alike
     #[arg(long)]
     no_copies: bool,
+    /// Order of the triangles that simd and gpu write
+    #[arg(long, value_name = "NAME", default_value = "specification")]
+    order: OrderName,
     /// Print one JSON array of objects
     #[arg(long)]
     json: bool,
+}
+
+/// An order of triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum OrderName {
+    /// That of the specification
+    Specification,
+    /// The same triangles for a vertex cache
+    Drawing,
+}
+
+impl From<OrderName> for Order {
+    fn from(name: OrderName) -> Self {
+        match name {
+            OrderName::Specification => Self::Specification,
+            OrderName::Drawing => Self::Drawing,
+        }
+    }
 }
 
 /// Runs the command.
@@ -76,10 +99,14 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     if args.no_copies && args.backend != BackendName::Gpu {
         return Err(Failure::bad_input("--no-copies goes with --backend gpu"));
     }
+    if args.order == OrderName::Drawing && args.backend == BackendName::Core {
+        return Err(Failure::bad_input("--order drawing goes with --backend simd or gpu"));
+    }
     let options = RunnerOptions {
         level,
         threads: args.threads,
         index_type,
+        order: args.order.into(),
         #[cfg(feature = "gpu")]
         no_copies: args.no_copies,
     };

@@ -3,7 +3,7 @@
 use clap::ValueEnum;
 use std::iter::Sum;
 use std::time::Duration;
-use tess_simd::Level;
+use tess_simd::{Level, Order};
 use tess_verify::backend::BackendError;
 use tess_verify::workloads::{IndexType, Workload};
 
@@ -69,6 +69,11 @@ pub(crate) trait Runner {
         ""
     }
 
+    /// The order of the triangles it writes.
+    fn order(&self) -> Order {
+        Order::Specification
+    }
+
     /// Width of the indices it writes.
     fn index_type(&self) -> IndexType;
 
@@ -90,7 +95,7 @@ pub(crate) trait Runner {
     ) -> Result<Vec<Amount>, BackendError>;
 
     /// Runs what is prepared, once over the workload's patches, and digests the output as
-    /// [`Workload::digest`] does.
+    /// [`Workload::digest_in`] does.
     ///
     /// # Errors
     /// The implementation failed.
@@ -118,6 +123,8 @@ pub(crate) struct RunnerOptions {
     pub(crate) threads: u32,
     /// Width of the indices.
     pub(crate) index_type: IndexType,
+    /// The order of triangles; backend core has the specification's alone.
+    pub(crate) order: Order,
     /// Whether the shaders expand each patch on its own.
     #[cfg(feature = "gpu")]
     pub(crate) no_copies: bool,

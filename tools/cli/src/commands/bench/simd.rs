@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use tess_core::DomainPoint;
 use tess_core::fixed::types::U16F16;
 use tess_simd::{
-    BatchCounts, Buffers, IndexFormat, Numbering, OwnedBatch, PatchRange, Tessellator,
+    BatchCounts, Buffers, IndexFormat, Numbering, Order, OwnedBatch, PatchRange, Tessellator,
 };
 use tess_verify::backend::BackendError;
 use tess_verify::digest::Fnv1a;
@@ -141,6 +141,10 @@ impl<I: Index> Runner for SimdRunner<I> {
         self.options.threads
     }
 
+    fn order(&self) -> Order {
+        self.options.order
+    }
+
     fn index_type(&self) -> IndexType {
         I::TYPE
     }
@@ -153,7 +157,8 @@ impl<I: Index> Runner for SimdRunner<I> {
         let threads = self.options.threads as usize;
         let mut tessellator = Tessellator::with_level(workload.config, self.options.level)
             .map_err(|error| BackendError::new(error.to_string()))?
-            .threads(threads);
+            .threads(threads)
+            .order(self.options.order);
         let patches = OwnedBatch::try_from(&workload.patches[..])
             .map_err(|error| BackendError::new(error.to_string()))?;
         let totals = workload.totals();

@@ -8,7 +8,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 use tess_core::{Counts, PatchFactors};
 use tess_gpu::layout::factor_words;
-use tess_gpu::{Copies, Setup};
+use tess_gpu::{Copies, Order, Setup};
 use tess_verify::backend::BackendError;
 use tess_verify::digest::Fnv1a;
 use tess_verify::workloads::{Calls, IndexType, Totals, Workload};
@@ -33,6 +33,7 @@ pub(super) struct GpuRunner {
     fill: Fill,
     index_type: IndexType,
     copies: Copies,
+    order: Order,
     workload: Option<(Setup, Vec<PatchFactors>)>,
     batches: Vec<Timed>,
     last_use: Option<Instant>,
@@ -65,6 +66,7 @@ impl GpuRunner {
             fill,
             index_type: options.index_type,
             copies: if options.no_copies { Copies::Never } else { Copies::WhereAlike },
+            order: options.order,
             workload: None,
             batches: Vec::new(),
             last_use: None,
@@ -162,6 +164,10 @@ impl Runner for GpuRunner {
         1
     }
 
+    fn order(&self) -> Order {
+        self.order
+    }
+
     fn index_type(&self) -> IndexType {
         self.index_type
     }
@@ -183,8 +189,9 @@ impl Runner for GpuRunner {
         working_set: WorkingSet,
     ) -> Result<Vec<Amount>, BackendError> {
         let first = workload.patches.first().ok_or_else(|| BackendError::new("no patches"))?;
-        let copies = self.copies;
-        let setup = Setup { copies, ..setup_of(first.domain(), workload.config, self.index_type) };
+        let (copies, order) = (self.copies, self.order);
+        let setup = setup_of(first.domain(), workload.config, self.index_type);
+        let setup = Setup { copies, order, ..setup };
         let counts: Vec<_> = workload.counts().collect();
         let (ranges, repeats) = match (working_set, workload.calls) {
             (WorkingSet::Cache, _) | (_, Calls::Group) => {

@@ -1,0 +1,37 @@
+//! The order in which a template's triangles are written.
+
+use crate::block::BlockPatch;
+use crate::setup::Setup;
+use core::ops::Range;
+use tess_core::drawing::{Drawing, Order};
+use tess_core::{Domain, OutputPrimitive};
+
+/// Whether a patch's triangles are written in another order than the specification's.
+#[inline(always)]
+pub(crate) const fn reorders(setup: &Setup, patch: BlockPatch<'_>) -> bool {
+    let triangles =
+        matches!(setup.config.output, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw);
+    matches!(setup.order, Order::Drawing)
+        && triangles
+        && !matches!(patch.domain(), Domain::Isoline)
+        && !patch.is_minimum()
+}
+
+/// All indices of a patch that is not culled, as ranges of their places in the specification's order, in
+/// the order in which they are written.
+pub(crate) fn runs(setup: &Setup, patch: BlockPatch<'_>, mut emit: impl FnMut(Range<usize>)) {
+    let mut written = 0;
+    if reorders(setup, patch) {
+        let emit = |Range { start, end }: Range<u32>| {
+            written += (end - start) as usize * 3;
+            emit(3 * start as usize..3 * end as usize);
+        };
+        match (patch.domain(), patch.edges()) {
+            (Domain::Quad, [u0, v0, u1, v1, inside_u, inside_v]) => {
+                Drawing::new([u0, v0, u1, v1], [inside_u, inside_v]).runs(emit);
+            }
+            (_, [u0, v0, w0, inside, ..]) => Drawing::new([u0, v0, w0], [inside; 2]).runs(emit),
+        }
+    }
+    emit(written..patch.indices() as usize);
+}
