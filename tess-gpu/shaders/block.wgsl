@@ -39,10 +39,17 @@ fn write_contexts(patch_index: u32, processed: Processed) {
 var<workgroup> first_topology: vec2<u32>;
 var<workgroup> differs: atomic<u32>;
 
+struct BlockSums {
+    // Points and primitives of the thread's patch, of the patches before it and of the whole block.
+    own: vec2<u32>,
+    before: vec2<u32>,
+    all: vec2<u32>,
+}
+
 // Processes a block: writes its patches' topologies, contexts and offsets within it, and the topology that all
-// of them have, if they do. The topologies' slots in the catalogue are with the block's one, or else with each. Returns the block's points and primitives. Called in uniform control flow by
-// all threads of a workgroup of BLOCK.
-fn process_block(block: u32, thread: u32) -> vec2<u32> {
+// of them have, if they do. The topologies' slots in the catalogue are with the block's one, or else with
+// each. Called in uniform control flow by all threads of a workgroup of BLOCK.
+fn process_block(block: u32, thread: u32) -> BlockSums {
     let patch_index = block * BLOCK + thread;
     var own = vec2<u32>(0u, 0u);
     var topology = vec2<u32>(0u, 0u);
@@ -78,5 +85,5 @@ fn process_block(block: u32, thread: u32) -> vec2<u32> {
     if thread == 0u && block * BLOCK < job.patches {
         offsets[job.alike_at + block] = select(vec2<u32>(0u, 0u), topology | slot, is_alike);
     }
-    return sums.all;
+    return BlockSums(own, sums.before, sums.all);
 }

@@ -15,7 +15,7 @@ fn factors(
     @builtin(local_invocation_index) thread: u32,
 ) {
     let block = workgroup.x + workgroup.y * job.max_workgroups;
-    let all = process_block(block, thread);
+    let all = process_block(block, thread).all;
     if thread == 0u && block + job.first_patch == 0u {
         empty_catalogue();
     }

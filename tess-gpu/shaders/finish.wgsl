@@ -24,7 +24,16 @@ fn tiles_in_window(begin: u32, end: u32, window: u32, window_tiles: u32) -> u32 
     return select(0u, last - first, last > first && end > begin);
 }
 
-fn workgroups_of(slot: u32, range: Range) -> u32 {
+// Dispatches of a chunk.
+fn slots() -> u32 {
+    return 1u + job.point_windows + job.primitive_windows;
+}
+
+// None if the output does not fit.
+fn workgroups_of(slot: u32, range: Range, is_overflow: u32) -> u32 {
+    if is_overflow != 0u {
+        return 0u;
+    }
     if slot == 0u {
         let count = tiles_between(range.points_begin, range.points_end)
             + tiles_between(range.primitives_begin, range.primitives_end);
@@ -39,26 +48,32 @@ fn workgroups_of(slot: u32, range: Range) -> u32 {
         slot - 1u - job.point_windows, job.primitive_window_tiles);
 }
 
-fn overflow() -> u32 {
-    let points = status.points_high != 0u || status.points > job.point_capacity;
-    let primitives = status.primitives_high != 0u || status.primitives > job.primitive_capacity;
+// Which output does not fit, of so many points and primitives, in two words each: 1, 2 or both.
+fn overflow(low: vec2<u32>, high: vec2<u32>) -> u32 {
+    let points = high.x != 0u || low.x > job.point_capacity;
+    let primitives = high.y != 0u || low.y > job.primitive_capacity;
     return select(0u, 1u, points) | select(0u, 2u, primitives);
+}
+
+fn write_draw(primitives: u32, is_overflow: u32) {
+    status.overflow = is_overflow;
+    arguments[0] = select(primitives * INDICES, 0u, is_overflow != 0u);
+    arguments[1] = 1u; // instances
+    arguments[2] = 0u; // first index
+    arguments[3] = 0u; // base vertex
+    arguments[4] = 0u; // first instance
 }
 
 // For the whole batch: the draw arguments, and the workgroups of every chunk in every window.
 fn finish(thread: u32) {
-    let slots = 1u + job.point_windows + job.primitive_windows;
-    let is_overflow = overflow();
-    for (var slot = thread; slot < job.chunks * slots; slot += SUMMED) {
-        let workgroups = workgroups_of(slot % slots, status.ranges[slot / slots]);
-        write_dispatch(slot, select(workgroups, 0u, is_overflow != 0u));
+    let is_overflow = overflow(
+        vec2<u32>(status.points, status.primitives),
+        vec2<u32>(status.points_high, status.primitives_high));
+    for (var slot = thread; slot < job.chunks * slots(); slot += SUMMED) {
+        let range = status.ranges[slot / slots()];
+        write_dispatch(slot, workgroups_of(slot % slots(), range, is_overflow));
     }
     if thread == 0u {
-        status.overflow = is_overflow;
-        arguments[0] = select(status.primitives * INDICES, 0u, is_overflow != 0u);
-        arguments[1] = 1u; // instances
-        arguments[2] = 0u; // first index
-        arguments[3] = 0u; // base vertex
-        arguments[4] = 0u; // first instance
+        write_draw(status.primitives, is_overflow);
     }
 }

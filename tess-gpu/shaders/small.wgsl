@@ -1,4 +1,4 @@
-// needs: block, finish, search, state
+// needs: block, finish, state, tile_size
 // A small batch: one workgroup does what the stages `factors`, `scan`, `totals` and `partition` do for
 // a large one, because four small dispatches take longer than their work. Its patches are
 // one section of one chunk, and their output is below 2^32.
@@ -16,13 +16,23 @@
 @compute @workgroup_size(BLOCK)
 fn small(@builtin(local_invocation_index) thread: u32) {
     var sum = vec2<u32>(0u, 0u);
+    // This thread's last patch that has output, and where that ends.
+    var last = NEVER;
+    var last_end = vec2<u32>(0u, 0u);
     for (var block = 0u; block * BLOCK < job.patches; block++) {
         workgroupBarrier(); // before a block's workgroup memory serves the next one
-        let all = process_block(block, thread);
+        let in_block = process_block(block, thread);
         if thread == 0u {
             offsets[job.blocks_at + block] = sum;
         }
-        sum += all;
+        if any(in_block.own != vec2<u32>(0u, 0u)) {
+            let begin = sum + in_block.before;
+            last = block * BLOCK + thread;
+            last_end = begin + in_block.own;
+            write_tiles(0u, begin.x, last_end.x, job.point_capacity, last);
+            write_tiles(job.primitive_tiles_at, begin.y, last_end.y, job.primitive_capacity, last);
+        }
+        sum += in_block.all;
     }
     let range = Range(0u, sum.x, 0u, sum.y);
     if thread == 0u {
@@ -33,14 +43,31 @@ fn small(@builtin(local_invocation_index) thread: u32) {
         status.primitives_high = 0u;
         status.ranges[0] = range;
     }
-    storageBarrier();
-    finish(thread);
-    if overflow() != 0u {
+    let is_overflow = overflow(sum, vec2<u32>(0u, 0u));
+    if thread < slots() {
+        write_dispatch(thread, workgroups_of(thread, range, is_overflow));
+    }
+    if thread == 0u {
+        write_draw(sum.y, is_overflow);
+    }
+    if is_overflow == 0u && last != NEVER {
+        // Behind the last tile: the patch of the last element.
+        if last_end.x == sum.x {
+            tiles[tile_end(sum.x)] = last;
+        }
+        if last_end.y == sum.y {
+            tiles[job.primitive_tiles_at + tile_end(sum.y)] = last;
+        }
+    }
+}
+
+// The table of tiles, as search.wgsl has it, from the patches: each is entered for the tiles that begin in it.
+// What does not fit is not entered.
+fn write_tiles(first_entry: u32, begin: u32, end: u32, capacity: u32, patch_index: u32) {
+    if end > capacity {
         return;
     }
-    let count = entries(range.points_begin, range.points_end)
-        + entries(range.primitives_begin, range.primitives_end);
-    for (var number = thread; number < count; number += BLOCK) {
-        write_entry(number, range);
+    for (var tile = tile_end(begin); tile < tile_end(end); tile++) {
+        tiles[first_entry + tile] = patch_index;
     }
 }

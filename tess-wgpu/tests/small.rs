@@ -95,11 +95,15 @@ fn planted_faults_are_seen() {
     let expected = Expected::new(setup, &patches);
     let (points, indices) = expected.words();
     for (right, wrong) in [
-        ("        sum += all;", ""),
-        ("offsets[job.blocks_at + block] = sum;", "offsets[job.blocks_at + block] = all;"),
+        ("        sum += in_block.all;", ""),
+        ("offsets[job.blocks_at + block] = sum;", "offsets[job.blocks_at + block] = in_block.all;"),
         ("offsets[job.sections_at] = vec2<u32>(0u, 0u);", "offsets[job.sections_at].x = 1u;"),
         ("let range = Range(0u, sum.x, 0u, sum.y);", "let range = Range(0u, sum.x, 0u, sum.x);"),
-        ("write_entry(number, range);\n    }", "write_entry(thread, range);\n    }"),
+        ("var tile = tile_end(begin);", "var tile = tile_end(begin + 1u);"),
+        ("tile < tile_end(end);", "tile < tile_end(begin) + 1u;"),
+        ("tiles[first_entry + tile] = patch_index;", "tiles[tile] = patch_index;"),
+        ("tiles[tile_end(sum.x)] = last;", ""),
+        ("tiles[job.primitive_tiles_at + tile_end(sum.y)] = last;", ""),
         ("block * BLOCK < job.patches; block++", "block * BLOCK < job.patches - BLOCK; block++"),
     ] {
         machine.plant(setup, right, wrong);

@@ -4,6 +4,7 @@
 mod ablation;
 mod crossover;
 mod groups;
+mod orders;
 
 use clap::{Parser, Subcommand};
 
@@ -23,6 +24,8 @@ enum Command {
     Crossover,
     /// Compare many meshes in one batch with as many batches
     Groups,
+    /// Draw the same triangles in several orders
+    Orders,
     /// Time each stage with parts of the shaders changed or left out
     Ablation(ablation::Arguments),
 }
@@ -31,6 +34,7 @@ fn main() -> Result<()> {
     match Arguments::parse().command {
         Command::Crossover => crossover::run(),
         Command::Groups => groups::run(),
+        Command::Orders => orders::run(),
         Command::Ablation(arguments) => ablation::run(&arguments),
     }
 }

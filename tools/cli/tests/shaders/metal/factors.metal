@@ -76,6 +76,11 @@ struct Processed {
     char _pad5[8];
 };
 typedef metal::uint2 type_9[1];
+struct BlockSums {
+    metal::uint2 own;
+    metal::uint2 before;
+    metal::uint2 all;
+};
 
 template <typename A>
 _atomic_compare_exchange_result_Uint_4_ naga_atomic_compare_exchange_weak_explicit(
@@ -1118,7 +1123,7 @@ void write_contexts(
     return;
 }
 
-metal::uint2 process_block(
+BlockSums process_block(
     uint block,
     uint thread_2,
     constant Job& job,
@@ -1224,7 +1229,8 @@ metal::uint2 process_block(
         metal::uint2 _e118 = slot;
         offsets[metal::min(unsigned(_e111 + block), (_buffer_sizes.size9 - 0 - 8) / 8)] = is_alike ? (_e117 | _e118) : metal::uint2(0u, 0u);
     }
-    return _e40.all;
+    metal::uint2 _e121 = own_1;
+    return BlockSums {_e121, _e40.before, _e40.all};
 }
 
 struct factorsInput {
@@ -1248,27 +1254,28 @@ kernel void factors(
     bool local_1 = {};
     uint _e6 = job.max_workgroups;
     uint block_1 = workgroup.x + (workgroup.y * _e6);
-    metal::uint2 _e9 = process_block(block_1, thread_, job, catalogue, tables, sums, raw_factors, contexts, first_topology, differs, topologies, offsets, _buffer_sizes);
+    BlockSums _e9 = process_block(block_1, thread_, job, catalogue, tables, sums, raw_factors, contexts, first_topology, differs, topologies, offsets, _buffer_sizes);
+    metal::uint2 all_1 = _e9.all;
     if (thread_ == 0u) {
-        uint _e16 = job.first_patch;
-        local = (block_1 + _e16) == 0u;
+        uint _e17 = job.first_patch;
+        local = (block_1 + _e17) == 0u;
     } else {
         local = false;
     }
-    bool _e21 = local;
-    if (_e21) {
+    bool _e22 = local;
+    if (_e22) {
         empty_catalogue(catalogue, _buffer_sizes);
     }
     if (thread_ == 0u) {
-        uint _e30 = job.patches;
-        local_1 = (block_1 * BLOCK) < _e30;
+        uint _e31 = job.patches;
+        local_1 = (block_1 * BLOCK) < _e31;
     } else {
         local_1 = false;
     }
-    bool _e33 = local_1;
-    if (_e33) {
-        uint _e37 = job.blocks_at;
-        offsets[metal::min(unsigned(_e37 + block_1), (_buffer_sizes.size9 - 0 - 8) / 8)] = _e9;
+    bool _e34 = local_1;
+    if (_e34) {
+        uint _e38 = job.blocks_at;
+        offsets[metal::min(unsigned(_e38 + block_1), (_buffer_sizes.size9 - 0 - 8) / 8)] = all_1;
         return;
     } else {
         return;

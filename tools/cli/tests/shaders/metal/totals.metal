@@ -204,55 +204,79 @@ uint tiles_in_window(
     return _e19 ? (last - first) : 0u;
 }
 
+uint slots(
+    constant Job& job
+) {
+    uint _e3 = job.point_windows;
+    uint _e7 = job.primitive_windows;
+    return (1u + _e3) + _e7;
+}
+
 uint workgroups_of(
     uint slot,
     Range range,
+    uint is_overflow,
     constant Job& job
 ) {
+    if (is_overflow != 0u) {
+        return 0u;
+    }
     if (slot == 0u) {
-        uint _e6 = tiles_between(range.points_begin, range.points_end, job);
-        uint _e9 = tiles_between(range.primitives_begin, range.primitives_end, job);
-        uint count = _e6 + _e9;
+        uint _e10 = tiles_between(range.points_begin, range.points_end, job);
+        uint _e13 = tiles_between(range.primitives_begin, range.primitives_end, job);
+        uint count = _e10 + _e13;
         return naga_div(((count + 2u) + WORKGROUP) - 1u, WORKGROUP);
     }
-    uint _e21 = job.point_windows;
-    if (slot <= _e21) {
-        uint _e29 = job.point_window_tiles;
-        uint _e30 = tiles_in_window(range.points_begin, range.points_end, slot - 1u, _e29, job);
-        return _e30;
+    uint _e25 = job.point_windows;
+    if (slot <= _e25) {
+        uint _e33 = job.point_window_tiles;
+        uint _e34 = tiles_in_window(range.points_begin, range.points_end, slot - 1u, _e33, job);
+        return _e34;
     }
-    uint _e37 = job.point_windows;
-    uint _e41 = job.primitive_window_tiles;
-    uint _e42 = tiles_in_window(range.primitives_begin, range.primitives_end, (slot - 1u) - _e37, _e41, job);
-    return _e42;
+    uint _e41 = job.point_windows;
+    uint _e45 = job.primitive_window_tiles;
+    uint _e46 = tiles_in_window(range.primitives_begin, range.primitives_end, (slot - 1u) - _e41, _e45, job);
+    return _e46;
 }
 
 uint overflow(
-    constant Job& job,
-    device Status const& status,
-    constant _mslBufferSizes& _buffer_sizes
+    metal::uint2 low,
+    metal::uint2 high_1,
+    constant Job& job
 ) {
     bool local_1 = {};
     bool local_2 = {};
-    uint _e2 = status.points_high;
-    if (!((_e2 != 0u))) {
-        uint _e10 = status.points;
-        uint _e13 = job.point_capacity;
-        local_1 = _e10 > _e13;
+    if (!((high_1.x != 0u))) {
+        uint _e11 = job.point_capacity;
+        local_1 = low.x > _e11;
     } else {
         local_1 = true;
     }
     bool points = local_1;
-    uint _e19 = status.primitives_high;
-    if (!((_e19 != 0u))) {
-        uint _e27 = status.primitives;
-        uint _e30 = job.primitive_capacity;
-        local_2 = _e27 > _e30;
+    if (!((high_1.y != 0u))) {
+        uint _e24 = job.primitive_capacity;
+        local_2 = low.y > _e24;
     } else {
         local_2 = true;
     }
-    bool primitives = local_2;
-    return (points ? 1u : 0u) | (primitives ? 2u : 0u);
+    bool primitives_1 = local_2;
+    return (points ? 1u : 0u) | (primitives_1 ? 2u : 0u);
+}
+
+void write_draw(
+    uint primitives,
+    uint is_overflow_1,
+    device type_3& arguments,
+    device Status& status,
+    constant _mslBufferSizes& _buffer_sizes
+) {
+    status.overflow = is_overflow_1;
+    arguments[metal::min(unsigned(0), (_buffer_sizes.size1 - 0 - 4) / 4)] = (is_overflow_1 != 0u) ? 0u : (primitives * INDICES);
+    arguments[metal::min(unsigned(1), (_buffer_sizes.size1 - 0 - 4) / 4)] = 1u;
+    arguments[metal::min(unsigned(2), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
+    arguments[metal::min(unsigned(3), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
+    arguments[metal::min(unsigned(4), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
+    return;
 }
 
 uint naga_mod(uint lhs, uint rhs) {
@@ -267,10 +291,11 @@ void finish(
     constant _mslBufferSizes& _buffer_sizes
 ) {
     uint slot_1 = {};
-    uint _e4 = job.point_windows;
-    uint _e8 = job.primitive_windows;
-    uint slots = (1u + _e4) + _e8;
-    uint _e10 = overflow(job, status, _buffer_sizes);
+    uint _e3 = status.points;
+    uint _e6 = status.primitives;
+    uint _e10 = status.points_high;
+    uint _e13 = status.primitives_high;
+    uint _e15 = overflow(metal::uint2(_e3, _e6), metal::uint2(_e10, _e13), job);
     slot_1 = thread_1;
     uint2 loop_bound = uint2(4294967295u);
     bool loop_init = true;
@@ -278,33 +303,31 @@ void finish(
         if (metal::all(loop_bound == uint2(0u))) { break; }
         loop_bound -= uint2(loop_bound.y == 0u, 1u);
         if (!loop_init) {
-            uint _e32 = slot_1;
-            slot_1 = _e32 + SUMMED;
+            uint _e36 = slot_1;
+            slot_1 = _e36 + SUMMED;
         }
         loop_init = false;
-        uint _e12 = slot_1;
-        uint _e15 = job.chunks;
-        if (_e12 < (_e15 * slots)) {
+        uint _e17 = slot_1;
+        uint _e20 = job.chunks;
+        uint _e21 = slots(job);
+        if (_e17 < (_e20 * _e21)) {
         } else {
             break;
         }
         {
-            uint _e18 = slot_1;
-            uint _e22 = slot_1;
-            Range _e25 = status.ranges[metal::min(unsigned(naga_div(_e22, slots)), (_buffer_sizes.size2 - 32 - 16) / 16)];
-            uint _e26 = workgroups_of(naga_mod(_e18, slots), _e25, job);
-            uint _e27 = slot_1;
-            write_dispatch(_e27, (_e10 != 0u) ? 0u : _e26, job, arguments, _buffer_sizes);
+            uint _e26 = slot_1;
+            uint _e27 = slots(job);
+            Range range_1 = status.ranges[metal::min(unsigned(naga_div(_e26, _e27)), (_buffer_sizes.size2 - 32 - 16) / 16)];
+            uint _e31 = slot_1;
+            uint _e32 = slot_1;
+            uint _e33 = slots(job);
+            uint _e35 = workgroups_of(naga_mod(_e32, _e33), range_1, _e15, job);
+            write_dispatch(_e31, _e35, job, arguments, _buffer_sizes);
         }
     }
     if (thread_1 == 0u) {
-        status.overflow = _e10;
         uint _e43 = status.primitives;
-        arguments[metal::min(unsigned(0), (_buffer_sizes.size1 - 0 - 4) / 4)] = (_e10 != 0u) ? 0u : (_e43 * INDICES);
-        arguments[metal::min(unsigned(1), (_buffer_sizes.size1 - 0 - 4) / 4)] = 1u;
-        arguments[metal::min(unsigned(2), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
-        arguments[metal::min(unsigned(3), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
-        arguments[metal::min(unsigned(4), (_buffer_sizes.size1 - 0 - 4) / 4)] = 0u;
+        write_draw(_e43, _e15, arguments, status, _buffer_sizes);
         return;
     } else {
         return;
