@@ -22,6 +22,9 @@ pub enum Order {
     Drawing,
 }
 
+/// Rings that have stitches, at most.
+const MAX_RINGS: usize = 32;
+
 /// Cells of a column along its edge.
 pub const COLUMN: u32 = 4;
 
@@ -72,13 +75,18 @@ impl<const EDGES: usize> Drawing<EDGES> {
     /// order, in the order for drawing; none is empty.
     pub fn runs(&self, mut emit: impl FnMut(Range<u32>)) {
         for (edge, sector) in self.sectors.iter().enumerate() {
+            let mut first = [0; MAX_RINGS];
+            for (ring, first) in (1..sector.end).zip(&mut first) {
+                *first = self.first_of_stitch(ring, edge);
+            }
             for column in 0..sector.columns() {
-                for ring in 1..sector.end {
-                    let first = self.first_of_stitch(ring, edge);
-                    let begin = first + sector.border(ring, column);
-                    let end = first + sector.border(ring, column + 1);
+                for (ring, first) in (1..sector.end).zip(first) {
+                    let begin = sector.border(ring, column);
+                    let end = sector.border(ring, column + 1);
                     if begin < end {
-                        emit(begin..end);
+                        emit(first + begin..first + end);
+                    } else if ring > 1 {
+                        break; // the rings further in have nothing in this column either
                     }
                 }
             }

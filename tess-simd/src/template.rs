@@ -90,7 +90,7 @@ impl Templates {
         let topology = patch.topology();
         let slot = slot(topology);
         if self.slots[slot].topology != topology {
-            if !drawing::reorders(setup, patch) && !self.wanted(patch) {
+            if !self.wanted(patch) {
                 return None;
             }
             self.make(setup, patch, tables);
@@ -111,18 +111,33 @@ impl Templates {
             || core::mem::replace(&mut self.last_large, topology) == topology
     }
 
-    /// Makes a template; if there is no room, all others are forgotten.
-    #[cold]
+    /// The indices of a patch without a template, counted from its first point and in the specification's
+    /// order, and then unspecified ones.
     #[inline(never)]
-    #[expect(clippy::cast_possible_truncation, reason = "places in the room")]
-    fn make(&mut self, setup: &Setup, patch: BlockPatch<'_>, tables: &mut LocationTables) {
-        let (points, indices) = (patch.points() as usize, patch.indices() as usize);
-        let full = self.indices_used + 2 * indices + PADDING > INDEX_ROOM
+    pub(crate) fn specified(&mut self, setup: &Setup, patch: BlockPatch<'_>) -> &[u16] {
+        self.make_room(0, patch.indices() as usize);
+        let room = &mut self.indices[self.indices_used..];
+        connect::emit(setup, patch, 0, &mut Writer::new(room));
+        room
+    }
+
+    /// Makes room for a template; if there is none, all others are forgotten.
+    fn make_room(&mut self, points: usize, indices: usize) {
+        let full = self.indices_used + indices + PADDING > INDEX_ROOM
             || self.points_used + points + PADDING > POINT_ROOM;
         if full {
             self.slots.iter_mut().for_each(|slot| slot.topology = 0);
             (self.indices_used, self.points_used) = (0, 0);
         }
+    }
+
+    /// Makes a template.
+    #[cold]
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, reason = "places in the room")]
+    fn make(&mut self, setup: &Setup, patch: BlockPatch<'_>, tables: &mut LocationTables) {
+        let (points, indices) = (patch.points() as usize, patch.indices() as usize);
+        self.make_room(points, 2 * indices);
         let index_room = &mut self.indices[self.indices_used..];
         let point_room = &mut self.points[self.points_used..];
         if patch.is_minimum() {
@@ -146,13 +161,9 @@ fn write_indices(setup: &Setup, patch: BlockPatch<'_>, room: &mut [u16]) {
     if !drawing::reorders(setup, patch) {
         return connect::emit(setup, patch, 0, &mut Writer::new(room));
     }
-    let (mut ordered, specified) = room.split_at_mut(patch.indices() as usize);
+    let (ordered, specified) = room.split_at_mut(patch.indices() as usize);
     connect::emit(setup, patch, 0, &mut Writer::new(specified));
-    drawing::runs(setup, patch, |run| {
-        let (to, rest) = core::mem::take(&mut ordered).split_at_mut(run.len());
-        to.copy_from_slice(&specified[run]);
-        ordered = rest;
-    });
+    drawing::emit(setup, patch, specified, &mut Writer::new(ordered), |index| index);
 }
 
 /// Where a topology's template is kept: the upper bits of a product with 2^64 over the golden ratio.

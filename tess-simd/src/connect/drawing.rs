@@ -2,6 +2,7 @@
 
 use crate::block::BlockPatch;
 use crate::setup::Setup;
+use crate::writer::Writer;
 use core::ops::Range;
 use tess_core::drawing::{Drawing, Order};
 use tess_core::{Domain, OutputPrimitive};
@@ -35,3 +36,21 @@ pub(crate) fn runs(setup: &Setup, patch: BlockPatch<'_>, mut emit: impl FnMut(Ra
     }
     emit(written..patch.indices() as usize);
 }
+
+/// Writes a patch's indices, of which `specified` has those in the specification's order and then unspecified
+/// ones.
+#[inline(always)]
+pub(crate) fn emit<I: Copy + Default>(
+    setup: &Setup,
+    patch: BlockPatch<'_>,
+    specified: &[u16],
+    out: &mut Writer<'_, I>,
+    index: impl Fn(u16) -> I,
+) {
+    runs(setup, patch, |run| {
+        out.map::<_, RUN>(run.len(), specified.get(run.start..).unwrap_or_default(), &index);
+    });
+}
+
+/// Indices written at a time: those of a column's row.
+const RUN: usize = 24;

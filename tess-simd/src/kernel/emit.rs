@@ -1,7 +1,7 @@
 //! Blocks of patches into buffers.
 
 use crate::block::{Block, BlockPatch};
-use crate::connect;
+use crate::connect::{self, drawing};
 use crate::format::{IndexFormat, PointFormat};
 use crate::lanes::LANES;
 use crate::output::{Numbering, PatchRange};
@@ -185,9 +185,15 @@ fn emit_patch<P: PointFormat, I: IndexFormat>(
     out: &mut Writers<'_, P, I>,
 ) {
     let Caches { tables, templates, .. } = caches;
+    let add = I::wrapping_from(base);
+    let add = |index: u16| add.wrapping_add(I::wrapping_from(index.into()));
     let Some(template) = templates.get(setup, patch, tables) else {
         points::emit(patch, tables, &mut out.points);
-        connect::emit(setup, patch, base, &mut out.indices);
+        if drawing::reorders(setup, patch) {
+            drawing::emit(setup, patch, templates.specified(setup, patch), &mut out.indices, add);
+        } else {
+            connect::emit(setup, patch, base, &mut out.indices);
+        }
         return;
     };
     if let Some(template) = template.points {
@@ -197,10 +203,5 @@ fn emit_patch<P: PointFormat, I: IndexFormat>(
     } else {
         points::emit(patch, tables, &mut out.points);
     }
-    let base = I::wrapping_from(base);
-    out.indices.map_least::<_, 16, 128>(
-        patch.indices() as usize,
-        template.indices,
-        |index: u16| base.wrapping_add(I::wrapping_from(index.into())),
-    );
+    out.indices.map_least::<_, 16, 128>(patch.indices() as usize, template.indices, add);
 }
