@@ -10,7 +10,7 @@ use crate::lanes::LANES;
 use crate::part::Part;
 use crate::setup::Setup;
 
-/// Slices for each thread: so many that shares of equal output can be made of them.
+/// Slices for each thread: so many that threads which are done can help the others.
 const SLICES_PER_THREAD: usize = 4;
 
 /// How a batch is cut.
@@ -77,41 +77,28 @@ pub(crate) struct Share<'a> {
 }
 
 #[cfg(feature = "rayon")]
-impl Share<'_> {
-    /// Cuts at least two slices in two shares of about the same output.
+impl<'a> Share<'a> {
+    /// Its slices, each a part of its own.
     #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
-    pub(crate) fn halve(self) -> (Self, Self) {
+    pub(crate) fn into_parts(self) -> impl Iterator<Item = Part<'a>> {
         use crate::kernel::emit::Offsets;
         use crate::output::BatchCounts;
-        let Self { part: Part { batch, target, first }, slice, counts } = self;
-        let half = bytes(counts) / 2;
-        let nearest = (1..counts.len()).min_by_key(|&n| bytes(&counts[..n]).abs_diff(half));
-        let (left, right) = counts.split_at(nearest.unwrap_or(1));
-        let PartCounts { points, indices, .. } = PartCounts::sum(left);
-        let (one, other) = cut(batch, left.len() * slice);
-        let (points, indices) = (points as usize, indices as usize);
-        let (target, other_target) =
-            target.split_at(BatchCounts { patches: one.len(), points, indices });
-        let second = Offsets {
-            points: first.points + points as u32,
-            indices: first.indices + indices as u32,
-        };
-        (
-            Self { part: Part { batch: one, target, first }, slice, counts: left },
-            Self {
-                part: Part { batch: other, target: other_target, first: second },
-                slice,
-                counts: right,
-            },
-        )
+        let Self { part, slice, counts } = self;
+        let mut rest = Some(part);
+        counts.iter().filter_map(move |counts| {
+            let Part { batch, target, first } = rest.take()?;
+            let (points, indices) = (counts.points as usize, counts.indices as usize);
+            let (one, others) = cut(batch, slice);
+            let (target, other_targets) =
+                target.split_at(BatchCounts { patches: one.len(), points, indices });
+            let next = Offsets {
+                points: first.points + points as u32,
+                indices: first.indices + indices as u32,
+            };
+            rest = Some(Part { batch: others, target: other_targets, first: next });
+            Some(Part { batch: one, target, first })
+        })
     }
-}
-
-/// The size of an output in the widest formats.
-#[cfg(feature = "rayon")]
-fn bytes(counts: &[PartCounts]) -> u64 {
-    let PartCounts { points, indices, .. } = PartCounts::sum(counts);
-    8 * points + 4 * indices
 }
 
 /// The patches before `patch` and those from it on.
@@ -143,7 +130,7 @@ mod tests {
 }
 
 #[cfg(all(test, feature = "rayon"))]
-mod halves {
+mod parts {
     use super::*;
     use crate::format::{AnyIndices, AnyPoints};
     use crate::kernel::emit::Offsets;
@@ -153,53 +140,42 @@ mod halves {
     use tess_core::{DomainPoint, QuadFactors};
 
     /// The lengths of points, indices and ranges.
-    fn lengths(target: &Target<'_>) -> (usize, usize, usize) {
+    fn lengths(target: &Target<'_>) -> (u64, u64, usize) {
         let (AnyPoints::Fixed(points), AnyIndices::U32(indices)) =
             (&target.points, &target.indices)
         else {
             panic!("other formats than there were");
         };
-        (points.len(), indices.len(), target.ranges.as_ref().map_or(0, |ranges| ranges.len()))
+        let ranges = target.ranges.as_ref().map_or(0, |ranges| ranges.len());
+        (points.len() as u64, indices.len() as u64, ranges)
     }
 
-    /// Slices of two patches with these points and indices, cut in two: how many are in the first
-    /// half.
-    #[expect(clippy::cast_possible_truncation, reason = "at most hundreds")]
-    fn halved(sizes: &[(u64, u64)]) -> usize {
-        let part = |&(points, indices)| PartCounts { points, indices, largest: 0 };
-        let counts: Vec<PartCounts> = sizes.iter().map(part).collect();
-        let all = PartCounts::sum(&counts);
+    /// Slices of two patches, the last of one, whose points and indices are given.
+    #[test]
+    fn each_slice_has_its_own_part() {
+        let sizes = [(3, 5), (0, 0), (7, 11), (2, 1)];
+        let part = |(points, indices)| PartCounts { points, indices, largest: 0 };
+        let counts: Vec<PartCounts> = sizes.into_iter().map(part).collect();
         let one = QuadFactors { u0: 1.0, v0: 1.0, u1: 1.0, v1: 1.0, inside_u: 1.0, inside_v: 1.0 };
-        let quads = alloc::vec![one; 2 * counts.len()];
-        let mut points = alloc::vec![DomainPoint::default(); all.points as usize];
-        let mut indices = alloc::vec![0_u32; all.indices as usize];
-        let mut ranges = alloc::vec![PatchRange::default(); quads.len()];
+        let quads = alloc::vec![one; 7];
+        let mut points = alloc::vec![DomainPoint::default(); 12];
+        let mut indices = alloc::vec![0_u32; 17];
+        let mut ranges = alloc::vec![PatchRange::default(); 7];
         let target = Buffers::new(&mut points, &mut indices).with_ranges(&mut ranges).into();
         let part =
             Part { batch: Batch::Quads(&quads), target, first: Offsets { points: 7, indices: 9 } };
-        let (one, other) = Share { part, slice: 2, counts: &counts }.halve();
-        for share in [&one, &other] {
-            let sum = PartCounts::sum(share.counts);
-            let patches = 2 * share.counts.len();
-            let expected = (sum.points as usize, sum.indices as usize, patches);
-            assert_eq!(lengths(&share.part.target), expected, "buffers");
-            assert_eq!((share.part.batch.len(), share.slice), (patches, 2), "patches");
-        }
-        let (points, indices, _) = lengths(&one.part.target);
-        let second = Offsets { points: 7 + points as u32, indices: 9 + indices as u32 };
-        assert_eq!(one.part.first, Offsets { points: 7, indices: 9 }, "the first one's place");
-        assert_eq!(other.part.first, second, "the second one's place");
-        assert_eq!(one.counts.len() + other.counts.len(), counts.len(), "every slice");
-        one.counts.len()
-    }
-
-    #[test]
-    fn halves_have_about_the_same_output() {
-        assert_eq!(halved(&[(10, 10); 8]), 4, "equal slices");
-        assert_eq!(halved(&[(0, 100), (0, 100), (100, 0)]), 2, "a point is 8 bytes, an index 4");
-        assert_eq!(halved(&[(0, 300), (100, 0), (50, 0)]), 1, "as many bytes as the others");
-        assert_eq!(halved(&[(900, 0), (1, 1), (1, 1), (1, 1)]), 1, "a large one");
-        assert_eq!(halved(&[(1, 1), (1, 1), (1, 1), (900, 0)]), 3, "and behind the others");
-        assert_eq!(halved(&[(0, 0), (0, 0)]), 1, "no output");
+        let share = Share { part, slice: 2, counts: &counts };
+        let found: Vec<_> = share
+            .into_parts()
+            .map(|part| (part.batch.len(), lengths(&part.target), part.first))
+            .collect();
+        let at = |points, indices| Offsets { points, indices };
+        let expected = [
+            (2, (3, 5, 2), at(7, 9)),
+            (2, (0, 0, 2), at(10, 14)),
+            (2, (7, 11, 2), at(10, 14)),
+            (1, (2, 1, 1), at(17, 25)),
+        ];
+        assert_eq!(found, expected, "patches, buffers and where the output begins");
     }
 }

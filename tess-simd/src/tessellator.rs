@@ -17,7 +17,7 @@ use tess_core::drawing::Order;
 ///
 /// Making one makes its tables, which takes about a millisecond; it holds about 1.1 to 2.2 MB
 /// ([`Tessellator::memory`]). Make it once and keep it. After its first batch it allocates nothing
-/// but what an [`Output`] grows by.
+/// but what an [`Output`] grows by and, on several threads, a short list for each batch.
 #[derive(Clone, Debug)]
 pub struct Tessellator(Engine);
 

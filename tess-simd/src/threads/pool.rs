@@ -1,4 +1,7 @@
-//! The threads of the current rayon pool: each takes the next slice when it has finished one.
+//! The threads of the current rayon pool.
+//!
+//! Each has slices of its own, always the same ones, so that its part of a buffer that is written again and
+//! again stays in its core's caches. A thread that has written them helps the others.
 
 use crate::part::{self, Job, Workspace};
 use crate::setup::Setup;
@@ -52,12 +55,27 @@ impl Workspaces {
 
     /// Writes a share, slice by slice.
     pub(crate) fn emit(&self, job: Job<'_>, share: Share<'_>) {
-        if share.counts.len() > 1 {
-            let (one, other) = share.halve();
-            rayon::join(|| self.emit(job, one), || self.emit(job, other));
-        } else {
-            self.lend(|workspace| part::emit(job, share.part, workspace));
+        if share.counts.len() <= 1 {
+            return self.lend(|workspace| part::emit(job, share.part, workspace));
         }
+        let slices: Vec<_> = share.into_parts().map(|part| Mutex::new(Some(part))).collect();
+        on_threads(self.threads(), &|| {
+            self.lend(|workspace| {
+                for slice in self.own_first(&slices) {
+                    let part = slice.lock().unwrap_or_else(PoisonError::into_inner).take();
+                    if let Some(part) = part {
+                        part::emit(job, part, workspace);
+                    }
+                }
+            })
+        });
+    }
+
+    /// All slices, from the first one of this thread on.
+    fn own_first<'a, T>(&self, slices: &'a [T]) -> impl Iterator<Item = &'a T> {
+        let own = rayon::current_thread_index().unwrap_or(0) % self.0.len();
+        let (before, from_own) = slices.split_at(own * slices.len() / self.0.len());
+        from_own.iter().chain(before)
     }
 
     /// Lends a workspace that is free, if possible always the same one to a thread; waits for one
@@ -70,6 +88,15 @@ impl Workspaces {
         let mut workspace =
             free.unwrap_or_else(|| self.0[own].lock().unwrap_or_else(PoisonError::into_inner));
         borrow(&mut workspace)
+    }
+}
+
+/// Does the same work on this many threads, if so many are idle.
+fn on_threads(threads: usize, work: &(impl Fn() + Sync)) {
+    if threads > 1 {
+        rayon::join(|| on_threads(threads / 2, work), || on_threads(threads - threads / 2, work));
+    } else {
+        work();
     }
 }
 

@@ -6,6 +6,7 @@ use crate::failure::Failure;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::hint::black_box;
 use std::ops::Range;
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 use tess_core::DomainPoint;
 use tess_core::fixed::types::U16F16;
@@ -228,27 +229,35 @@ impl<I: Index> Runner for SimdRunner<I> {
         for Batch { start, counts, .. } in &batches[parts[part].clone()] {
             let points = &mut self.points[start.0..][..counts.points];
             let indices = &mut self.indices[start.1..][..counts.indices];
-            self.pool.install(|| fill(points, indices, self.options.threads));
+            fill(points, indices, &self.pool);
             black_box((&mut self.points[..], &mut self.indices[..]));
         }
         Ok(start.elapsed())
     }
 }
 
-/// Fills both, each thread a part of each: about what it writes of a batch.
-fn fill<I: Index>(points: &mut [[f32; 2]], indices: &mut [I], threads: u32) {
-    if threads > 1 {
-        let (first, second) = points.split_at_mut(points.len() / 2);
-        let (one, other) = indices.split_at_mut(indices.len() / 2);
-        rayon::join(
-            || fill(first, one, threads / 2),
-            || fill(second, other, threads - threads / 2),
-        );
-    } else {
-        // Zeros, so that the compiler makes `memset` of both.
+/// Fills both, each thread always the same part of each: about what it writes of a batch.
+fn fill<I: Index>(points: &mut [[f32; 2]], indices: &mut [I], pool: &ThreadPool) {
+    // Zeros, so that the compiler makes `memset` of both.
+    let fill = |points: &mut [[f32; 2]], indices: &mut [I]| {
         points.fill([0.0; 2]);
         indices.fill(I::default());
+    };
+    let threads = pool.current_num_threads();
+    if threads == 1 {
+        return fill(points, indices);
     }
+    let each = |length: usize| length.div_ceil(threads).max(1);
+    let (each_points, each_indices) = (each(points.len()), each(indices.len()));
+    let (mut points, mut indices) =
+        (points.chunks_mut(each_points), indices.chunks_mut(each_indices));
+    let mut part = || (points.next().unwrap_or_default(), indices.next().unwrap_or_default());
+    let parts: Vec<_> = (0..threads).map(|_| Mutex::new(part())).collect();
+    pool.broadcast(|thread| {
+        let mut part = parts[thread.index()].lock().unwrap_or_else(PoisonError::into_inner);
+        let (points, indices) = &mut *part;
+        fill(points, indices);
+    });
 }
 
 /// The patches of a range.
