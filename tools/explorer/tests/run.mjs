@@ -3,6 +3,8 @@
 import "./patch.mjs";
 import "./compare.mjs";
 import "./views.mjs";
+import "./surface.mjs";
+import "./speed.mjs";
 import { runAll } from "./harness.mjs";
 
 await runAll();

@@ -53,6 +53,7 @@ class Gpu {
     for (const [name, bytes] of Object.entries(manifest.buffers)) {
       if (name === "Tables") continue;
       const usage = (name === "Job" ? GPUBufferUsage.UNIFORM : GPUBufferUsage.STORAGE)
+        | (name === "Points" ? GPUBufferUsage.VERTEX : name === "Indices" ? GPUBufferUsage.INDEX : 0)
         | (name === "Arguments" || name === "Draws" ? GPUBufferUsage.INDIRECT : 0)
         | GPUBufferUsage.COPY_SRC | GPUBufferUsage.COPY_DST;
       buffers[name] = this.device.createBuffer({ label: name, size: Math.max(16, Math.ceil(bytes / 16) * 16), usage });
