@@ -100,16 +100,19 @@ impl GpuBatch {
         Self::of_cases(&cases.map_err(thrown)?).map_err(thrown)
     }
 
-    /// The patches of a workload of `tess bench`, or as many of the first ones as make 64 MiB of output.
+    /// The patches of a workload of `tess bench`, or as many of the first ones as make so many MiB of output.
     ///
     /// # Errors
-    /// There is no workload of that name.
-    pub fn workload(name: &str) -> Result<Self, JsError> {
+    /// There is no workload of that name, or not one of its patches makes so little.
+    pub fn workload(name: &str, mebibytes: u32) -> Result<Self, JsError> {
         let all = workloads::named(name);
         let [workload] = &all[..] else {
             return Err(thrown(format!("{name} is not the name of one workload")));
         };
-        Ok(Self::of(workload.config, workload.patches[..fitting(workload)].to_vec()))
+        match fitting(workload, mebibytes) {
+            0 => Err(thrown(format!("a patch of {name} makes more than {mebibytes} MiB"))),
+            count => Ok(Self::of(workload.config, workload.patches[..count].to_vec())),
+        }
     }
 
     /// Buffers, shaders and dispatches: JSON.
@@ -242,12 +245,12 @@ fn capacity(config: Config, patches: &[PatchFactors]) -> Capacity {
     Capacity { points: capacity.points.max(1), primitives: capacity.primitives.max(1) }
 }
 
-/// How many patches make up to 64 MiB of output.
-fn fitting(workload: &Workload) -> usize {
+/// How many patches make up to so many MiB of output.
+fn fitting(workload: &Workload, mebibytes: u32) -> usize {
     let mut bytes = 0;
     let fits = |counts: &Counts| {
         bytes += 8 * u64::from(counts.points) + 4 * u64::from(counts.indices);
-        bytes <= 64 << 20
+        bytes <= u64::from(mebibytes) << 20
     };
     workload.counts().take_while(fits).count()
 }

@@ -36,9 +36,13 @@ class Gpu {
     const manifest = JSON.parse(batch.manifest());
     const buffers = this.buffers(manifest, batch);
     const steps = [];
-    for (const step of manifest.dispatches) {
-      const { source, bindings } = manifest.stages[step.stage];
-      const pipeline = await this.pipeline(step.stage, hasFault ? damaged(source) : source, bindings);
+    // All are compiled at the same time.
+    const pipelines = await Promise.all(manifest.dispatches.map(({ stage }) => {
+      const { source, bindings } = manifest.stages[stage];
+      return this.pipeline(stage, hasFault ? damaged(source) : source, bindings);
+    }));
+    for (const [number, step] of manifest.dispatches.entries()) {
+      const pipeline = pipelines[number];
       const entries = step.bindings.map(([resource, offset, size], binding) =>
         ({ binding, resource: { buffer: buffers[resource], offset, size } }));
       const group = this.device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries });

@@ -83,7 +83,8 @@ async function measureCpu(name) {
 }
 
 async function measureGpu(device, name) {
-  const batch = GpuBatch.workload(name);
+  // A mere trial needs less output.
+  const batch = GpuBatch.workload(name, seconds() > 0 ? 64 : 2);
   const prepared = await device.prepare(batch);
   if (seconds() > 0) await device.run(prepared);
   const best = await bestOf((times) => device.run(prepared, times));
