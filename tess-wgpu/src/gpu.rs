@@ -152,6 +152,10 @@ impl Gpu {
         loop {
             match work.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
                 Poll::Ready(done) => return done,
+                Poll::Pending if cfg!(target_arch = "wasm32") => {
+                    let reason = "a browser answers later; use the async form".to_owned();
+                    return Err(Error::Refused { reason });
+                }
                 Poll::Pending => self.wait()?,
             }
         }

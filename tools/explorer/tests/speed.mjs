@@ -1,14 +1,15 @@
 // How soon the first picture comes and how long each takes. Times are printed; none is demanded.
 
 import assert from "node:assert/strict";
-import { close, colours, open, test } from "./harness.mjs";
+import { close, colours, open, openWithoutGpu, test } from "./harness.mjs";
 
 const median = (list) => list.sort((a, b) => a - b)[Math.trunc(list.length / 2)];
 
 test("the first picture waits for nothing that it does not need", async () => {
   const times = [];
   for (let k = 0; k < 3; k++) {
-    const page = await open();
+    // The shaders of the page before would still be compiled.
+    const page = await openWithoutGpu();
     const { picture, fetched } = await page.evaluate(() => ({
       picture: performance.getEntriesByName("first picture")[0].startTime,
       fetched: performance.getEntriesByType("resource").map(({ name, startTime }) => [name.split("/").pop(), startTime]),

@@ -50,7 +50,7 @@ pub(crate) async fn draw(
         let feedback = stage.feedback();
         first = first.or(feedback);
         match feedback {
-            Some(last) if last.frame > 0 && last.drawn == last.primitives && last.scale == 1.0 => {
+            Some(last) if last.frame > 0 && last.drawn == last.primitives && last.scale >= 1.0 => {
                 break (last, picture);
             }
             _ if frames == MOST_FRAMES => {
@@ -113,12 +113,13 @@ async fn difference(
     is_wrong: bool,
 ) -> Result<Option<String>, Error> {
     let (mut expected_points, mut expected_indices) = (Vec::new(), Vec::<u32>::new());
+    let mut base = 0;
     for number in 0..PATCHES {
         let asked = number + u32::from(is_wrong && number + 1 == PATCHES);
         let whole = Patch::new(config(), factors(asked)).tessellate();
-        let base = expected_points.len() as u32;
-        expected_points.extend(whole.points.into_iter().map(|point| (number, point)));
         expected_indices.extend(whole.indices.into_iter().map(|index| base + index));
+        base += Patch::new(config(), factors(asked)).counts().points;
+        expected_points.extend(whole.points.into_iter().map(|point| (number, point)));
     }
     let (_, [Some(point_buffer), Some(index_buffer)]) = stage.inside() else {
         return Ok(Some("the stage stores no points".to_owned()));
