@@ -98,6 +98,13 @@ export async function pixels(page, id) {
   return { size, data: Buffer.from(text, "base64") };
 }
 
+// The part of it that is not as its ground.
+export async function covered(page, id) {
+  const { size: [width], data } = await pixels(page, id);
+  const words = new Uint32Array(data.buffer, data.byteOffset, data.length / 4);
+  return words.filter((word) => word !== words[10 * width + 10]).length / words.length;
+}
+
 // How many different colours it has.
 export async function colours(page, id) {
   const { data } = await pixels(page, id);

@@ -1,7 +1,7 @@
 // How soon the first picture comes and how long each takes. Times are printed; none is demanded.
 
 import assert from "node:assert/strict";
-import { close, colours, open, openWithoutGpu, test } from "./harness.mjs";
+import { close, covered, open, openWithoutGpu, test } from "./harness.mjs";
 
 const median = (list) => list.sort((a, b) => a - b)[Math.trunc(list.length / 2)];
 
@@ -34,7 +34,7 @@ test("the first picture has its triangles without WebGL", async () => {
       return kind.startsWith("webgl") ? null : get.call(this, kind, ...rest);
     };
   } });
-  assert.ok(await colours(page, "canvases") > 60, "triangles in many colours");
+  assert.ok(await covered(page, "canvases") > 0.3, "triangles are drawn");
   await close(page);
 });
 

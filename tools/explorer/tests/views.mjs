@@ -1,11 +1,11 @@
 // The other views, other screens, and pictures of them to look at.
 
 import assert from "node:assert/strict";
-import { close, colours, enter, open, openWithoutGpu, picture, test } from "./harness.mjs";
+import { close, colours, covered, enter, open, openWithoutGpu, picture, test } from "./harness.mjs";
 
 test("the patch is drawn in both themes and on a phone", async () => {
   const page = await open();
-  assert.ok(await colours(page, "canvases") > 60, "triangles in many colours");
+  assert.ok(await colours(page, "canvases") > 60 && await covered(page, "canvases") > 0.3, "triangles in many colours");
   await picture(page, "patch");
   await page.click("#theme");
   await page.waitForFunction(() => document.documentElement.dataset.theme === "dark");
