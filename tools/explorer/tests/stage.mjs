@@ -22,8 +22,14 @@ async function openStage() {
   return page;
 }
 
+// A page that hangs is given up.
+const draw = (page, fault = "", isWrong = false) => Promise.race([
+  drawHere(page, fault, isWrong),
+  new Promise((_, fail) => setTimeout(() => fail(new Error("the page hangs")), 180_000).unref()),
+]);
+
 // Draws, while a clock of the page counts: it stands still while something blocks.
-const draw = (page, fault = "", isWrong = false) => page.evaluate(async ([fault, isWrong]) => {
+const drawHere = (page, fault, isWrong) => page.evaluate(async ([fault, isWrong]) => {
   let ticks = 0;
   const clock = setInterval(() => ticks++, 1);
   try {

@@ -56,7 +56,7 @@ async function measure() {
 // Passes to time together: a browser's clock has steps of up to a millisecond.
 const LEAST = 0.03;
 
-const millions = (rate) => (rate / 1e6).toFixed(1);
+const millions = (rate) => (rate / 1e6).toFixed(rate < 1e6 ? 4 : 1);
 
 // The least seconds that one pass took.
 async function bestOf(passes) {
