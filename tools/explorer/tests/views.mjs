@@ -35,9 +35,11 @@ test("zooming reaches single units of 16.16", async () => {
 
 test("building and animation move, and stop", async () => {
   const page = await open();
+  // A small patch is built in two seconds.
+  await enter(page, `case quad integer triangle_cw ruler${" 40000000".repeat(6)}`);
   await page.click("#build");
-  await page.waitForFunction(() => Number(document.getElementById("built").value) < 66);
-  await page.waitForFunction(() => document.getElementById("built").value === "66", null, { timeout: 60000 });
+  await page.waitForFunction(() => Number(document.getElementById("built").value) < 8);
+  await page.waitForFunction(() => document.getElementById("built").value === "8", null, { timeout: 60000 });
   assert.equal(await page.getAttribute("#build", "aria-pressed"), "false", "whole again");
   await page.click("#animation summary");
   const before = await page.inputValue("#case");
