@@ -12,7 +12,7 @@ use tess_gpu::Resource;
 #[non_exhaustive]
 pub enum Error {
     /// No adapter gives a device. Install a Vulkan driver; Debian's `mesa-vulkan-drivers` has one
-    /// in software.
+    /// in software. In a browser: it has no WebGPU, or the page is neither from https nor from localhost.
     NoDevice {
         /// What wgpu says.
         reason: String,
@@ -111,8 +111,12 @@ impl fmt::Display for Error {
         match self {
             Self::NoDevice { reason } => write!(
                 f,
-                "no graphics adapter could be used ({reason}); install a Vulkan driver \
-                 (in software: Debian's mesa-vulkan-drivers)"
+                "no graphics adapter could be used ({reason}); {}",
+                if cfg!(target_arch = "wasm32") {
+                    "use a browser that has WebGPU, and a page from https or localhost"
+                } else {
+                    "install a Vulkan driver (in software: Debian's mesa-vulkan-drivers)"
+                }
             ),
             Self::DeviceLost { reason } => write!(f, "the graphics device was lost: {reason}"),
             Self::OutOfMemory => f.write_str("the graphics device is out of memory"),

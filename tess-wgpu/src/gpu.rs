@@ -4,7 +4,7 @@ use crate::error::{Error, checked};
 use std::fmt;
 use std::future::Future;
 use std::pin::{Pin, pin};
-use std::sync::mpsc;
+use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 
 /// A device with its queue and the adapter that it was made from. The fields are public: put your own
@@ -120,7 +120,7 @@ impl Gpu {
     /// The same without blocking: for a browser, and for programs that do something else meanwhile.
     ///
     /// Natively somebody has to ask the device whether it is done. The future does so whenever it is
-    /// polled, and asks to be polled again at once.
+    /// polled, and asks to be polled again at once. In a browser the device says so by itself.
     ///
     /// # Errors
     /// As [`Gpu::read`].
@@ -133,14 +133,12 @@ impl Gpu {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &staging, 0, size);
         self.submit(encoder)?;
-        let (sender, receiver) = mpsc::channel();
+        let answer = Arc::new(Mutex::new(Answer::default()));
+        let sender = Arc::clone(&answer);
         checked(&self.device, || {
-            staging.map_async(wgpu::MapMode::Read, .., move |result| {
-                // Nobody receives it if the future was dropped.
-                let _ = sender.send(result);
-            });
+            staging.map_async(wgpu::MapMode::Read, .., move |result| Answer::give(&sender, result));
         })?;
-        Arrival { device: &self.device, receiver }.await?;
+        Arrival { device: &self.device, answer }.await?;
         let view = staging.get_mapped_range(..).map_err(|error| lost(&error))?;
         Ok(view.to_vec())
     }
@@ -154,6 +152,10 @@ impl Gpu {
         loop {
             match work.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
                 Poll::Ready(done) => return done,
+                Poll::Pending if cfg!(target_arch = "wasm32") => {
+                    let reason = "a browser answers later; use the async form".to_owned();
+                    return Err(Error::Refused { reason });
+                }
                 Poll::Pending => self.wait()?,
             }
         }
@@ -173,10 +175,29 @@ impl Gpu {
     }
 }
 
-/// The answer to `map_async`.
+/// The answer to `map_async`, and who waits for it.
+#[derive(Default)]
+struct Answer {
+    result: Option<Result<(), wgpu::BufferAsyncError>>,
+    waiting: Option<Waker>,
+}
+
+impl Answer {
+    fn give(answer: &Mutex<Self>, result: Result<(), wgpu::BufferAsyncError>) {
+        let mut answer = answer.lock().unwrap_or_else(PoisonError::into_inner);
+        answer.result = Some(result);
+        let waiting = answer.waiting.take();
+        drop(answer);
+        if let Some(waker) = waiting {
+            waker.wake();
+        }
+    }
+}
+
+/// Waits for an answer.
 struct Arrival<'a> {
     device: &'a wgpu::Device,
-    receiver: mpsc::Receiver<Result<(), wgpu::BufferAsyncError>>,
+    answer: Arc<Mutex<Answer>>,
 }
 
 impl Future for Arrival<'_> {
@@ -186,14 +207,20 @@ impl Future for Arrival<'_> {
         if let Err(error) = self.device.poll(wgpu::PollType::Poll) {
             return Poll::Ready(Err(lost(&error)));
         }
-        match self.receiver.try_recv() {
-            Ok(result) => Poll::Ready(result.map_err(|error| lost(&error))),
-            Err(mpsc::TryRecvError::Disconnected) => Poll::Ready(Err(lost(&"it never answered"))),
-            Err(mpsc::TryRecvError::Empty) => {
-                context.waker().wake_by_ref();
-                Poll::Pending
-            }
+        // Whoever answers holds the other half until then.
+        let is_dropped = Arc::strong_count(&self.answer) == 1;
+        let mut answer = self.answer.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(result) = answer.result.take() {
+            return Poll::Ready(result.map_err(|error| lost(&error)));
         }
+        if is_dropped {
+            return Poll::Ready(Err(lost(&"it never answered")));
+        }
+        answer.waiting = Some(context.waker().clone());
+        if cfg!(not(target_arch = "wasm32")) {
+            context.waker().wake_by_ref();
+        }
+        Poll::Pending
     }
 }
 

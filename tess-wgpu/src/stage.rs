@@ -200,11 +200,12 @@ impl TessellationStage {
         self.output.room
     }
 
-    /// The batch that the frames run, and the buffer of its points, if there is one.
+    /// The batch that the frames run, and the buffers of its points and indices, where there are any.
     #[cfg(feature = "measure")]
     #[must_use]
-    pub const fn inside(&self) -> (&crate::Batch, Option<&wgpu::Buffer>) {
-        (&self.output.batch, self.output.points.as_ref())
+    pub const fn inside(&self) -> (&crate::Batch, [Option<&wgpu::Buffer>; 2]) {
+        let Output { batch, points, indices, .. } = &self.output;
+        (batch, [points.as_ref(), indices.as_ref()])
     }
 
     /// A user's WGSL with the stage's types and helpers, and `own` behind it.

@@ -21,8 +21,8 @@ pub enum StageError {
         /// The device's `max_storage_buffer_binding_size`.
         limit: u64,
     },
-    /// A limit of the device is too low. Open the device with WebGPU's default limits; OpenGL devices
-    /// without compute shaders cannot tessellate.
+    /// A limit of the device is too low. Open the device with WebGPU's default limits; WebGL and
+    /// OpenGL without compute shaders cannot tessellate.
     LimitTooLow {
         /// The limit, a member of `wgpu::Limits`.
         limit: &'static str,
@@ -80,8 +80,8 @@ impl fmt::Display for StageError {
             ),
             Self::LimitTooLow { limit, needed, got } => write!(
                 f,
-                "the device's limit {limit} is {got}, and {needed} is needed; \
-                 open it with WebGPU's default limits"
+                "the device's limit {limit} is {got}, and {needed} is needed; open it with WebGPU's \
+                 default limits (WebGL has no compute shaders, so it cannot tessellate)"
             ),
             Self::Wgsl { line: Some(line), message } => {
                 write!(f, "line {line} of your WGSL: {message}")

@@ -137,7 +137,7 @@ impl Ball {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         self.stage.prepare(&mut encoder, QUADS).expect("it is prepared");
         self.gpu.run(encoder).expect("the device finishes");
-        let (batch, points) = self.stage.inside();
+        let (batch, [points, _]) = self.stage.inside();
         let points = points.expect("they are stored");
         let status: Status =
             bytemuck::pod_read_unaligned(&self.gpu.read(batch.status(), 32).expect("it answers"));

@@ -4,7 +4,7 @@ use crate::drawing::scene;
 use crate::scene::{PATCHES, Scene, source};
 use tess_core::{Domain, Partitioning, PatchFactors};
 use tess_wgpu::stage::{Factors, PatchCount, Points, StageError};
-use tess_wgpu::{Error, TessellationStage};
+use tess_wgpu::{Error, Gpu, TessellationStage, Tessellator};
 use wgpu::BufferUsages as Usage;
 
 fn quads() -> Scene {
@@ -109,6 +109,39 @@ fn what_a_stage_cannot_do_is_refused() {
     });
     assert_eq!(drawn.map(|_| ()), Ok(()), "and the frame goes on");
     assert_eq!(refused, Some(StageError::NoSuchGroup { group: 0, groups: 0 }.into()));
+}
+
+/// A device with the limits of WebGL 2, which has no compute shaders.
+fn webgl() -> Gpu {
+    let open = async {
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+        let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
+        let descriptor = wgpu::DeviceDescriptor {
+            required_limits: wgpu::Limits::downlevel_webgl2_defaults(),
+            ..Default::default()
+        };
+        let (device, queue) = adapter.request_device(&descriptor).await.expect("a device");
+        Gpu { device, queue, info: adapter.get_info() }
+    };
+    pollster::block_on(open)
+}
+
+#[test]
+fn a_device_without_compute_shaders_is_refused() {
+    let gpu = webgl();
+    let scene = quads();
+    let source = source(Domain::Quad);
+    let built = TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
+        .target(wgpu::TextureFormat::Rgba8Unorm)
+        .build(&gpu.device);
+    let limit = "max_compute_workgroups_per_dimension";
+    let low = StageError::LimitTooLow { limit, needed: 1, got: 0 };
+    assert_eq!(built.err(), Some(low.clone().into()), "the stage");
+    assert!(low.to_string().contains("WebGL has no compute shaders"), "{low}");
+    let setup = tess_gpu::Setup::new(scene.domain, scene.config);
+    let patches = [PatchFactors::uniform(scene.domain, 3.0)];
+    let output = Tessellator::new(&gpu.device).tessellate(&gpu, setup, &patches);
+    assert!(matches!(output, Err(Error::Refused { .. })), "batches: {output:?}");
 }
 
 #[test]

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use tess_core::{Config, Counts, Domain, DomainPoint, PatchFactors, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::{
-    Access, Capacity, Limits, Numbering, Plan, Resource, Setup, Stage, Workgroups, tables,
+    Access, Capacity, Limits, Numbering, Order, Plan, Resource, Setup, Stage, Workgroups, tables,
 };
 use tess_verify::case::Case;
 use tess_verify::compare;
@@ -54,7 +54,7 @@ fn setup(domain: Domain, config: Config) -> Setup {
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct GpuBatch {
-    config: Config,
+    setup: Setup,
     patches: Vec<PatchFactors>,
     plan: Plan,
 }
@@ -100,16 +100,19 @@ impl GpuBatch {
         Self::of_cases(&cases.map_err(thrown)?).map_err(thrown)
     }
 
-    /// The patches of a workload of `tess bench`, or as many of the first ones as make 64 MiB of output.
+    /// The patches of a workload of `tess bench`, or as many of the first ones as make so many MiB of output.
     ///
     /// # Errors
-    /// There is no workload of that name.
-    pub fn workload(name: &str) -> Result<Self, JsError> {
+    /// There is no workload of that name, or not one of its patches makes so little.
+    pub fn workload(name: &str, mebibytes: u32) -> Result<Self, JsError> {
         let all = workloads::named(name);
         let [workload] = &all[..] else {
             return Err(thrown(format!("{name} is not the name of one workload")));
         };
-        Ok(Self::of(workload.config, workload.patches[..fitting(workload)].to_vec()))
+        match fitting(workload, mebibytes) {
+            0 => Err(thrown(format!("a patch of {name} makes more than {mebibytes} MiB"))),
+            count => Ok(Self::of(workload.config, workload.patches[..count].to_vec())),
+        }
     }
 
     /// Buffers, shaders and dispatches: JSON.
@@ -136,7 +139,7 @@ impl GpuBatch {
     pub fn difference(&self, points: &[u32], indices: &[u32]) -> Option<String> {
         let (mut points, mut indices) = (points.as_chunks::<2>().0, indices);
         for &factors in &self.patches {
-            let case = Case { config: self.config, factors };
+            let case = Case { config: self.setup.config, factors };
             let expected = case.patch().tessellate();
             let observed = Tessellation {
                 points: take(&mut points, expected.points.len()).iter().map(unpacked).collect(),
@@ -154,14 +157,14 @@ impl GpuBatch {
     pub fn listing(&self, points: &[u32], indices: &[u32]) -> String {
         let points = points.as_chunks::<2>().0.iter().map(unpacked).collect();
         let output = Tessellation { points, indices: indices.to_vec() };
-        let case = Case { config: self.config, factors: self.patches[0] };
+        let case = Case { config: self.setup.config, factors: self.patches[0] };
         Listing { line: 0, case, output }.to_string()
     }
 
     /// Triangles, segments or points of the whole batch.
     #[must_use]
     pub fn primitives(&self) -> u32 {
-        capacity(self.config, &self.patches).primitives
+        capacity(self.setup.config, &self.patches).primitives
     }
 }
 
@@ -179,23 +182,29 @@ impl GpuBatch {
         let setup = setup(patches[0].domain(), config);
         let count = u32::try_from(patches.len()).unwrap_or(u32::MAX);
         let plan = Plan::new(setup, count, capacity(config, &patches), Limits::WEBGPU);
-        Self { config, patches, plan }
+        Self { setup, patches, plan }
     }
 
-    fn setup(&self) -> Setup {
-        setup(self.patches[0].domain(), self.config)
+    /// A batch whose indices count from the batch's first point, in the order that draws fastest. It has
+    /// room for any factors of as many patches.
+    pub(crate) fn to_draw(config: Config, patches: &[PatchFactors]) -> Self {
+        let order = Order::Drawing;
+        let setup = Setup { order, ..Setup::new(patches[0].domain(), config) };
+        let count = u32::try_from(patches.len()).unwrap_or(u32::MAX);
+        let plan = Plan::new(setup, count, Capacity::worst_case(setup, count), Limits::WEBGPU);
+        Self { setup, patches: patches.to_vec(), plan }
     }
 
     fn to_manifest(&self) -> Manifest {
         let bytes = |&resource: &Resource| (name(resource), self.plan.buffer_size(resource));
         let shader = |stage: Stage| Shader {
-            source: stage.source(stage.relevant(self.setup())),
+            source: stage.source(stage.relevant(self.setup)),
             bindings: stage.bindings().iter().map(|binding| kind(binding.0, binding.1)).collect(),
         };
         let stages: Vec<Stage> = self.plan.dispatches().map(|step| step.stage()).collect();
         Manifest {
-            split: self.config.split.name(),
-            index_bytes: self.setup().primitive_bytes(),
+            split: self.setup.config.split.name(),
+            index_bytes: self.setup.primitive_bytes(),
             buffers: Resource::ALL.iter().map(bytes).collect(),
             stages: stages.iter().map(|&stage| (stage.entry_point(), shader(stage))).collect(),
             dispatches: self.plan.dispatches().map(|step| to_step(&step)).collect(),
@@ -236,12 +245,12 @@ fn capacity(config: Config, patches: &[PatchFactors]) -> Capacity {
     Capacity { points: capacity.points.max(1), primitives: capacity.primitives.max(1) }
 }
 
-/// How many patches make up to 64 MiB of output.
-fn fitting(workload: &Workload) -> usize {
+/// How many patches make up to so many MiB of output.
+fn fitting(workload: &Workload, mebibytes: u32) -> usize {
     let mut bytes = 0;
     let fits = |counts: &Counts| {
         bytes += 8 * u64::from(counts.points) + 4 * u64::from(counts.indices);
-        bytes <= 64 << 20
+        bytes <= u64::from(mebibytes) << 20
     };
     workload.counts().take_while(fits).count()
 }

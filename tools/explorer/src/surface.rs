@@ -1,27 +1,33 @@
-//! Patches on a surface, tessellated and evaluated on the CPU.
+//! Patches on a surface: their factors, what they are on the CPU, and what the GPU needs to draw them.
 
+use crate::gpu::GpuBatch;
 use crate::thrown;
 use std::f32::consts::TAU;
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::layout::factor_words;
 use tess_simd::{Numbering, Output, Tessellator};
-use tess_surface::glam::Vec3;
-use tess_surface::{Face, FactorRule, Model, PolygonMesh, Sample, Sides, Style, teapot};
+use tess_surface::glam::{Vec3, Vec4};
+use tess_surface::{
+    Face, FactorRule, Model, PolygonMesh, Sample, Sides, Style, Surface, shaders, teapot,
+};
 use tess_verify::names::Named;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// A model and its last tessellation.
+/// A model, the factors of its patches, and its last tessellation on the CPU.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct SurfaceView {
     model: Model,
+    config: Config,
+    factors: Vec<PatchFactors>,
     vertices: Vec<Sample>,
     indices: Vec<u32>,
 }
 
 #[wasm_bindgen]
 impl SurfaceView {
-    /// The surface `flat`, `teapot` or `terrain`.
+    /// The surface `flat`, `teapot` or `terrain`, with factors of 1.
     ///
     /// # Errors
     /// Another name.
@@ -44,15 +50,15 @@ impl SurfaceView {
         self.model.len()
     }
 
-    /// Tessellates with one factor everywhere.
+    /// Gives all patches one factor everywhere.
     ///
     /// # Errors
     /// An unknown partitioning.
     pub fn uniform(&mut self, partitioning: &str, factor: f32) -> Result<(), JsError> {
-        self.tessellate(partitioning, FactorRule::Uniform(factor)).map_err(thrown)
+        self.set_factors(partitioning, FactorRule::Uniform(factor)).map_err(thrown)
     }
 
-    /// Tessellates with factors by the distance from an eye; `scale` is the factor at distance 1.
+    /// Gives all patches factors by the distance from an eye; `scale` is the factor at distance 1.
     ///
     /// # Errors
     /// An unknown partitioning.
@@ -65,7 +71,15 @@ impl SurfaceView {
         z: f32,
     ) -> Result<(), JsError> {
         let eye = Vec3::new(x, y, z);
-        self.tessellate(partitioning, FactorRule::Distance { eye, scale }).map_err(thrown)
+        self.set_factors(partitioning, FactorRule::Distance { eye, scale }).map_err(thrown)
+    }
+
+    /// Tessellates on the CPU, and evaluates every point.
+    ///
+    /// # Errors
+    /// The output is too large for this machine.
+    pub fn tessellate(&mut self) -> Result<(), JsError> {
+        self.tessellate_here().map_err(thrown)
     }
 
     /// x, y and z of each vertex.
@@ -85,6 +99,89 @@ impl SurfaceView {
     pub fn indices(&self) -> Vec<u32> {
         self.indices.clone()
     }
+
+    /// The patches as a batch for the GPU, with room for any factors.
+    #[must_use]
+    pub fn batch(&self) -> GpuBatch {
+        GpuBatch::to_draw(self.config, &self.factors)
+    }
+
+    /// The raw factors, as the batch's buffer `Factors` holds them.
+    #[must_use]
+    pub fn factor_words(&self) -> Vec<u32> {
+        factor_words(&self.factors)
+    }
+
+    /// What the WGSL of [`Self::wgsl`] reads: 16 control points of each patch, x, y, z and 1, rows along
+    /// v; then, where there are any, 4 corner and 4 edge normals of each patch, with a fourth number of 0.
+    #[must_use]
+    pub fn nets(&self) -> Vec<f32> {
+        let surfaces = || (0..self.model.len()).map(|number| *self.model.patch(number).surface());
+        let points = surfaces().flat_map(|surface| net(&surface)).flat_map(|p| p.to_array());
+        let normals = surfaces().filter_map(|surface| match surface {
+            Surface::PnQuad(quad) => Some([quad.corner_normals, quad.edge_normals]),
+            _ => None,
+        });
+        let normals = normals.flatten().flatten().flat_map(|normal| normal.extend(0.0).to_array());
+        points.chain(normals).collect()
+    }
+
+    /// WGSL with the functions `surface_position` and `surface_normal` of a patch's number, u and v. They read
+    /// `nets`, an array of `vec4f`, which the caller declares.
+    #[must_use]
+    pub fn wgsl(&self) -> String {
+        let normal = match self.model.patch(0).surface() {
+            Surface::PnQuad(_) => [shaders::POINT_NORMAL, POINT_NORMAL].join("\n"),
+            _ => BEZIER_NORMAL.to_owned(),
+        };
+        let net = NET.replace("COUNT", &self.model.len().to_string());
+        [shaders::BEZIER, &net, &normal].join("\n")
+    }
+}
+
+const NET: &str = "
+const PATCHES = COUNTu;
+fn net_of(number: u32) -> array<vec4f, 16> {
+    var net: array<vec4f, 16>;
+    for (var k = 0u; k < 16u; k++) {
+        net[k] = nets[16u * number + k];
+    }
+    return net;
+}
+fn surface_position(number: u32, u: f32, v: f32) -> vec3f {
+    return bezier_patch_position(net_of(number), u, v);
+}";
+
+const BEZIER_NORMAL: &str = "
+fn surface_normal(number: u32, u: f32, v: f32) -> vec3f {
+    return bezier_patch_normal(net_of(number), u, v);
+}";
+
+const POINT_NORMAL: &str = "
+fn normals_of(first: u32) -> array<vec3f, 4> {
+    return array<vec3f, 4>(
+        nets[first].xyz, nets[first + 1u].xyz, nets[first + 2u].xyz, nets[first + 3u].xyz);
+}
+fn surface_normal(number: u32, u: f32, v: f32) -> vec3f {
+    let first = 16u * PATCHES + 8u * number;
+    return pn_quad_normal(normals_of(first), normals_of(first + 4u), u, v);
+}";
+
+/// The bicubic control points of a quad patch; a bilinear one's are raised to that degree.
+#[expect(clippy::float_arithmetic, reason = "coordinates")]
+fn net(surface: &Surface) -> Vec<Vec4> {
+    match surface {
+        Surface::Bezier(patch) => patch.points.concat(),
+        Surface::PnQuad(quad) => quad.patch.points.concat(),
+        Surface::Bilinear([a, b, c, d]) => {
+            let at = |k: u8| f32::from(k) / 3.0;
+            let point = |(row, column): (u8, u8)| {
+                a.lerp(*b, at(column)).lerp(d.lerp(*c, at(column)), at(row)).extend(1.0)
+            };
+            (0..4).flat_map(|row| (0..4).map(move |column| (row, column))).map(point).collect()
+        }
+        _ => unreachable!("the surfaces of the page are quads"),
+    }
 }
 
 impl SurfaceView {
@@ -96,18 +193,26 @@ impl SurfaceView {
             "terrain" => Model::polygons(grid(16, hills), Style::PointNormal).map_err(error)?,
             other => return Err(format!("unknown surface {other}: flat, teapot or terrain")),
         };
-        Ok(Self { model, vertices: Vec::new(), indices: Vec::new() })
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+        let (factors, vertices, indices) = (Vec::new(), Vec::new(), Vec::new());
+        let mut view = Self { model, config, factors, vertices, indices };
+        view.set_factors(Partitioning::Integer.name(), FactorRule::Uniform(1.0))?;
+        Ok(view)
     }
 
-    fn tessellate(&mut self, partitioning: &str, rule: FactorRule) -> Result<(), String> {
+    fn set_factors(&mut self, partitioning: &str, rule: FactorRule) -> Result<(), String> {
         let partitioning = Partitioning::from_name(partitioning).map_err(|e| e.to_string())?;
-        let factors: Vec<PatchFactors> =
-            (0..self.model.len()).map(|n| rule.factors(&self.model, n, partitioning)).collect();
-        let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+        let of_patch = |number| rule.factors(&self.model, number, partitioning);
+        self.factors = (0..self.model.len()).map(of_patch).collect();
+        self.config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+        Ok(())
+    }
+
+    fn tessellate_here(&mut self) -> Result<(), String> {
         let mut output: Output<[f32; 2], u32> = Output::new();
         let numbering = Numbering::PerBatch { base_vertex: 0 };
-        Tessellator::new(config)
-            .tessellate(&factors, numbering, &mut output)
+        Tessellator::new(self.config)
+            .tessellate(&self.factors, numbering, &mut output)
             .map_err(|error| error.to_string())?;
         self.evaluate(&output);
         self.indices = output.indices().to_vec();
@@ -171,12 +276,35 @@ mod tests {
             let mut view = SurfaceView::named(name).expect("a surface");
             let eye = Vec3::new(3.0, 1.0, 2.0);
             for rule in [FactorRule::Uniform(3.0), FactorRule::Distance { eye, scale: 20.0 }] {
-                view.tessellate("fractional_odd", rule).expect("tessellates");
+                view.set_factors("fractional_odd", rule).expect("a partitioning");
+                view.tessellate_here().expect("tessellates");
                 let count = view.vertices.len();
                 assert!(!view.indices.is_empty(), "{name} has triangles");
                 assert!(view.indices.iter().all(|&i| (i as usize) < count), "{name}");
                 assert!(view.vertices.iter().all(|v| v.position.is_finite()), "{name}");
             }
+        }
+    }
+
+    /// The nets that the GPU evaluates are the surfaces that the CPU does.
+    #[test]
+    fn every_surface_is_its_net() {
+        for name in ["flat", "teapot", "terrain"] {
+            let view = SurfaceView::named(name).expect("a surface");
+            for number in 0..view.model.len() {
+                let patch = view.model.patch(number);
+                let points = net(patch.surface());
+                let row = |k: usize| [0, 1, 2, 3].map(|column| points[4 * k + column]);
+                let rows = [0, 1, 2, 3].map(row);
+                let bezier = tess_surface::BezierPatch { points: rows };
+                for (u, v) in [(0.25, 0.5), (0.875, 0.125), (0.4, 0.7)] {
+                    let (here, there) = (patch.frame(u, v).position, bezier.frame(u, v).position);
+                    assert!(here.distance(there) < 1e-5, "{name} {number}: {here} and {there}");
+                }
+            }
+            let normals = view.nets().len() - 64 * view.model.len();
+            let expected = if name == "terrain" { 32 * view.model.len() } else { 0 };
+            assert_eq!(normals, expected, "{name}: normals of point-normal quads");
         }
     }
 }

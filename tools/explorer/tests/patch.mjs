@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { close, enter, open, patchWords, tess, test } from "./harness.mjs";
+import { close, enter, openWithoutGpu as open, patchWords, tess, test } from "./harness.mjs";
 
 const golden = readFileSync("golden/cases.txt", "utf8");
 const records = golden.split(/^(?=case )/m).slice(1);
@@ -204,6 +204,7 @@ test("links between factors, special values and curiosities change the patch", a
   assert.equal(await page.locator("#curiosities optgroup:last-child option").count(), 420);
   await page.locator("#curiosities").selectOption({ label: "0x060001 = 6.0000153" });
   await page.selectOption("#colours", "orientation");
+  await page.waitForFunction(() => document.documentElement.dataset.drawn.endsWith(document.getElementById("curiosities").value.slice(-8)));
   const areas = await page.evaluate(() => import("./patch.js").then(({ patch }) => [...patch.view.areas()]));
   assert.ok(areas.some((area) => area < 0), "a factor whose locations go backwards has flipped triangles");
   await close(page);

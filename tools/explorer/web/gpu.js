@@ -36,9 +36,13 @@ class Gpu {
     const manifest = JSON.parse(batch.manifest());
     const buffers = this.buffers(manifest, batch);
     const steps = [];
-    for (const step of manifest.dispatches) {
-      const { source, bindings } = manifest.stages[step.stage];
-      const pipeline = await this.pipeline(step.stage, hasFault ? damaged(source) : source, bindings);
+    // All are compiled at the same time.
+    const pipelines = await Promise.all(manifest.dispatches.map(({ stage }) => {
+      const { source, bindings } = manifest.stages[stage];
+      return this.pipeline(stage, hasFault ? damaged(source) : source, bindings);
+    }));
+    for (const [number, step] of manifest.dispatches.entries()) {
+      const pipeline = pipelines[number];
       const entries = step.bindings.map(([resource, offset, size], binding) =>
         ({ binding, resource: { buffer: buffers[resource], offset, size } }));
       const group = this.device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries });
@@ -53,6 +57,7 @@ class Gpu {
     for (const [name, bytes] of Object.entries(manifest.buffers)) {
       if (name === "Tables") continue;
       const usage = (name === "Job" ? GPUBufferUsage.UNIFORM : GPUBufferUsage.STORAGE)
+        | (name === "Points" ? GPUBufferUsage.VERTEX : name === "Indices" ? GPUBufferUsage.INDEX : 0)
         | (name === "Arguments" || name === "Draws" ? GPUBufferUsage.INDIRECT : 0)
         | GPUBufferUsage.COPY_SRC | GPUBufferUsage.COPY_DST;
       buffers[name] = this.device.createBuffer({ label: name, size: Math.max(16, Math.ceil(bytes / 16) * 16), usage });

@@ -1,16 +1,10 @@
-// The page: loads the WebAssembly, then redraws whatever a change of the state concerns.
+// The page: loads the WebAssembly, draws the first picture, then starts everything else; redraws whatever a
+// change of the state concerns.
 
 import load from "./tess_explorer.js";
 import * as state from "./state.js";
 import * as controls from "./controls.js";
 import * as picture from "./picture.js";
-import * as animation from "./animation.js";
-import * as ask from "./ask.js";
-import * as compare from "./compare.js";
-import * as share from "./share.js";
-import * as learn from "./learn.js";
-import * as surface from "./surface.js";
-import * as measure from "./measure.js";
 
 const { element, set } = state;
 
@@ -54,21 +48,36 @@ function startTheme() {
     set({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" }));
 }
 
+// What the first picture does without is fetched and started after it.
+const LATER = ["compare", "animation", "ask", "share", "learn", "surface", "measure"];
+
 async function start() {
   await load({ module_or_path: new URL("tess_explorer_bg.wasm", import.meta.url) });
-  state.start();
-  const parts = [controls, compare, picture, animation, ask, share, learn, surface, measure];
-  Object.keys(TABS).forEach(startTabs);
-  startTheme();
-  parts.forEach((part) => part.start());
+  const parts = [controls, picture];
   state.onChange((keys) => {
     showTheme();
     Object.keys(TABS).forEach(showTabs);
     parts.forEach((part) => part.update?.(keys));
     document.documentElement.dataset.drawn = state.state.line;
   });
-  state.flush();
+  state.start();
+  Object.keys(TABS).forEach(startTabs);
+  startTheme();
+  parts.forEach((part) => part.start());
+  state.showAll();
+  await isShown();
+  performance.mark("first picture");
+  const later = await Promise.all(LATER.map((name) => import(`./${name}.js`)));
+  picture.useWebGL();
+  later.forEach((part) => part.start());
+  // The picture comes last, as it shows what others lay over it.
+  parts.splice(1, 0, ...later);
+  state.showAll();
+  document.documentElement.dataset.ready = "";
 }
+
+// Resolves when a picture is on the screen.
+const isShown = () => new Promise((done) => requestAnimationFrame(() => setTimeout(done)));
 
 start().catch((error) => {
   element("failure").textContent = `The explorer cannot start: ${error.message}. It needs WebAssembly with SIMD.`;

@@ -5,8 +5,8 @@ import { element, state } from "./state.js";
 import { copy } from "./share.js";
 import * as gpu from "./gpu.js";
 
-// Each number is the best of repeated passes that take so many seconds together.
-const SECONDS = 0.25;
+// Each number is the best of repeated passes that take so many seconds together, at least of one.
+const seconds = () => Number(element("measure-seconds").value);
 let isListed = false;
 
 export function start() {
@@ -38,7 +38,7 @@ async function measure() {
   for (const row of element("rates").tBodies[0].rows) {
     note(`Measuring ${row.dataset.workload} ...${missing}`);
     await new Promise((resolve) => setTimeout(resolve, 20));
-    const [primitives, cpu] = measureCpu(row.dataset.workload);
+    const [primitives, cpu] = await measureCpu(row.dataset.workload);
     row.cells[1].textContent = primitives.toLocaleString("en");
     row.cells[2].textContent = millions(cpu);
     if (!device) continue;
@@ -56,37 +56,38 @@ async function measure() {
 // Passes to time together: a browser's clock has steps of up to a millisecond.
 const LEAST = 0.03;
 
-const millions = (rate) => (rate / 1e6).toFixed(1);
+const millions = (rate) => (rate / 1e6).toFixed(rate < 1e6 ? 4 : 1);
 
-function measureCpu(name) {
+// The least seconds that one pass took.
+async function bestOf(passes) {
+  let best = Infinity, spent = 0, times = 1;
+  do {
+    const began = performance.now();
+    await passes(times);
+    const took = (performance.now() - began) / 1000;
+    spent += took;
+    if (took < LEAST) times *= 2;
+    else best = Math.min(best, took / times);
+  } while (spent < seconds() || best === Infinity);
+  return best;
+}
+
+async function measureCpu(name) {
   const bench = new CpuBench(name);
   const primitives = bench.pass();
-  let best = Infinity, spent = 0, times = 1;
-  while (spent < SECONDS) {
-    const began = performance.now();
+  const best = await bestOf(async (times) => {
     for (let k = 0; k < times; k++) bench.pass();
-    const seconds = (performance.now() - began) / 1000;
-    spent += seconds;
-    if (seconds < LEAST) times *= 2;
-    else best = Math.min(best, seconds / times);
-  }
+  });
   bench.free();
   return [primitives, primitives / best];
 }
 
 async function measureGpu(device, name) {
-  const batch = GpuBatch.workload(name);
+  // A mere trial needs less output.
+  const batch = GpuBatch.workload(name, seconds() > 0 ? 64 : 2);
   const prepared = await device.prepare(batch);
-  await device.run(prepared);
-  let best = Infinity, spent = 0, times = 1;
-  while (spent < SECONDS) {
-    const began = performance.now();
-    await device.run(prepared, times);
-    const seconds = (performance.now() - began) / 1000;
-    spent += seconds;
-    if (seconds < LEAST) times *= 2;
-    else best = Math.min(best, seconds / times);
-  }
+  if (seconds() > 0) await device.run(prepared);
+  const best = await bestOf((times) => device.run(prepared, times));
   const primitives = batch.primitives();
   device.release(prepared);
   batch.free();

@@ -78,13 +78,17 @@ export class Mesh {
     gl.vertexAttribPointer(at, size, type, type === gl.UNSIGNED_BYTE, 0, 0);
   }
 
+  clear() {
+    this.gl.clearColor(0, 0, 0, 0);
+    this.gl.clear(this.gl.COLOR_BUFFER_BIT | this.gl.DEPTH_BUFFER_BIT);
+  }
+
   // Draws the first `triangles`; `edge` is the colour of edges, RGBA from 0 to 1; `light` the
   // direction of the light on a surface.
   draw({ matrix, origin = [0, 0, 0], edge, width = 0.6, light = null, depth = false, triangles = Infinity }) {
     const gl = this.gl;
     gl.viewport(0, 0, gl.canvas.width, gl.canvas.height);
-    gl.clearColor(0, 0, 0, 0);
-    gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+    this.clear();
     if (depth) gl.enable(gl.DEPTH_TEST); else gl.disable(gl.DEPTH_TEST);
     if (this.count === 0) return;
     if (!this.hasNormals) {
@@ -126,8 +130,16 @@ export function fit(canvas) {
   return true;
 }
 
-// A colour of the style sheet, as numbers from 0 to 1.
+const colours = new Map();
+
+// A colour of the style sheet, as numbers from 0 to 1. Asking the browser makes it lay the page out.
 export function colourOf(name) {
+  const key = `${document.documentElement.dataset.theme} ${name}`;
+  if (!colours.has(key)) colours.set(key, readColour(name));
+  return colours.get(key);
+}
+
+function readColour(name) {
   const text = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   return [1, 3, 5].map((at) => parseInt(text.slice(at, at + 2), 16) / 255);
 }

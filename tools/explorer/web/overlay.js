@@ -2,15 +2,17 @@
 
 import { state } from "./state.js";
 import { patch } from "./patch.js";
-import { css } from "./colours.js";
+import { css, fills } from "./colours.js";
 
-export function drawOverlay(canvas, view, over, shown) {
+export function drawOverlay(canvas, view, over, shown, hasTriangles) {
   const ratio = devicePixelRatio || 1;
-  const paint = canvas.getContext("2d");
+  // Drawn by the CPU: the first picture then waits for no GPU.
+  const paint = canvas.getContext("2d", { willReadFrequently: true });
   paint.setTransform(ratio, 0, 0, ratio, 0, 0);
   paint.clearRect(0, 0, view.width, view.height);
   paint.lineJoin = paint.lineCap = "round";
-  const places = screen(patch.points, view);
+  const places = view.toScreenAll(patch.points);
+  if (hasTriangles && patch.size === 3) triangles(paint, places, shown);
   outline(paint, view);
   if (patch.size === 2) lines(paint, places, shown);
   if (state.colours === "orientation" && patch.size === 3) degenerate(paint, places, shown);
@@ -20,15 +22,6 @@ export function drawOverlay(canvas, view, over, shown) {
   highlight(paint, places, state.pick, css("--picked"), 3);
   if (over.hover !== state.pick) highlight(paint, places, over.hover, css("--picked", 0.8), 2);
   numbers(paint, places, view, shown);
-}
-
-// x and y of each point.
-function screen(points, view) {
-  const places = new Float64Array(points.length);
-  for (let k = 0; k < points.length; k += 2) {
-    [places[k], places[k + 1]] = view.toScreen(points[k], points[k + 1]);
-  }
-  return places;
 }
 
 function path(paint, corners, isClosed = true) {
@@ -46,6 +39,18 @@ function outline(paint, view) {
 
 const cornersOf = (places, indices, size, t) =>
   [...indices.subarray(size * t, size * t + size)].map((i) => [places[2 * i], places[2 * i + 1]]);
+
+function triangles(paint, places, shown) {
+  const fill = fills(patch, state.colours);
+  paint.strokeStyle = css("--mesh-edge", 0.9);
+  paint.lineWidth = 1;
+  for (let t = 0; t < shown; t++) {
+    path(paint, cornersOf(places, patch.indices, 3, t));
+    paint.fillStyle = `rgb(${fill.subarray(3 * t, 3 * t + 3).join(" ")})`;
+    paint.fill();
+    paint.stroke();
+  }
+}
 
 function lines(paint, places, shown) {
   paint.strokeStyle = css("--ink", 0.9);
@@ -73,7 +78,7 @@ function degenerate(paint, places, shown) {
 
 // Another result: all of it as thin lines if it is of another case, and what differs in red.
 function differences(paint, view, { points, indices, size, isOtherCase, differing }) {
-  const places = screen(points, view);
+  const places = view.toScreenAll(points);
   const draw = (t) => {
     const corners = cornersOf(places, indices, size, t).filter(([x]) => !Number.isNaN(x) && x !== undefined);
     if (corners.length === 1) mark(paint, ...corners[0], 5, css("--wrong"));
@@ -90,7 +95,7 @@ function differences(paint, view, { points, indices, size, isOtherCase, differin
   const which = isOtherCase ? Array.from({ length: count }, (_, t) => t) : differing.primitives;
   which.filter((t) => t < count).forEach(draw);
   for (const i of isOtherCase ? [] : differing.points) {
-    const list = 2 * i < points.length ? places : screen(patch.points, view);
+    const list = 2 * i < points.length ? places : view.toScreenAll(patch.points);
     mark(paint, list[2 * i], list[2 * i + 1], 6, css("--wrong"));
   }
 }
@@ -107,12 +112,19 @@ function dots(paint, places, view) {
   const count = places.length / 2;
   const radius = Math.min(Math.max(30 / Math.sqrt(count) * Math.sqrt(view.zoom), 0.8), 4);
   paint.fillStyle = css("--point");
+  paint.beginPath();
   for (let k = 0; k < places.length; k += 2) {
-    if (places[k] < -9 || places[k] > view.width + 9 || places[k + 1] < -9 || places[k + 1] > view.height + 9) continue;
-    paint.beginPath();
-    paint.arc(places[k], places[k + 1], radius, 0, 7);
-    paint.fill();
+    const x = places[k], y = places[k + 1];
+    if (x < -9 || x > view.width + 9 || y < -9 || y > view.height + 9) continue;
+    // Of a pixel or two nobody sees the shape, and squares are faster.
+    if (radius < 1) {
+      paint.rect(x - radius, y - radius, 2 * radius, 2 * radius);
+    } else {
+      paint.moveTo(x + radius, y);
+      paint.arc(x, y, radius, 0, 7);
+    }
   }
+  paint.fill();
 }
 
 // A square in the exact middle of an even edge, a diamond where an edge is split.

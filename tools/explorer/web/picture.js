@@ -1,4 +1,4 @@
-// The picture of the patch: triangles by WebGL, everything else on a canvas above them.
+// The picture of the patch: triangles by WebGL where there is any, everything else on a canvas above them.
 
 import { Mesh, colourOf, fit } from "./mesh.js";
 import { Layout, View } from "./layout.js";
@@ -17,10 +17,15 @@ export let view = new View(new Layout("quad"));
 export const over = { other: null, hover: "" };
 
 export function start() {
-  mesh = Mesh.on(canvas);
-  if (!mesh) element("failure").textContent = "This browser has no WebGL 2: triangles are not drawn.";
   new ResizeObserver(() => draw()).observe(element("canvases"));
   listen();
+}
+
+// Lets WebGL draw the triangles, which can take a browser a second to begin with. Until then, and where there is
+// none, the canvas above has them.
+export function useWebGL() {
+  mesh = Mesh.on(canvas);
+  draw();
 }
 
 // The picture anew after these keys of the state changed.
@@ -41,14 +46,15 @@ function upload() {
   const { points, indices, size } = patch;
   if (size !== 3) return mesh.set(new Float32Array(0), new Uint8Array(0));
   const positions = new Float32Array(indices.length * 3);
-  const colours = new Uint8Array(indices.length * 4);
+  const colours = new Uint32Array(indices.length);
   const fill = fills(patch, state.colours);
   for (let k = 0; k < indices.length; k++) {
     positions[3 * k] = points[2 * indices[k]];
     positions[3 * k + 1] = points[2 * indices[k] + 1];
-    colours.set(fill.subarray(3 * Math.trunc(k / 3), 3 * Math.trunc(k / 3) + 3), 4 * k);
+    const at = k - k % 3;
+    colours[k] = fill[at] | fill[at + 1] << 8 | fill[at + 2] << 16 | 0xff000000;
   }
-  mesh.set(positions, colours);
+  mesh.set(positions, new Uint8Array(colours.buffer));
 }
 
 // How many primitives are shown.
@@ -71,7 +77,7 @@ export function draw() {
       width: 0.55 * ratio, triangles: shown(),
     });
   }
-  drawOverlay(overlay, view, over, shown());
+  drawOverlay(overlay, view, over, shown(), !mesh);
 }
 
 export function keepView() {

@@ -9,7 +9,7 @@ const DEFAULTS = {
   line: FIRST, tab: "patch", answer: "learn", theme: "", link: "none",
   colours: "order", numbers: "none", marks: "", built: "", pick: "", view: "",
   against: "none", fault: "none", device: "",
-  surface: "teapot", spacing: "fractional_odd", rule: "uniform", factor: "5", wire: "1", eye: "",
+  surface: "teapot", spacing: "fractional_odd", rule: "uniform", factor: "5", wire: "1", eye: "", kept: "", by: "gpu",
 };
 
 export const state = { ...DEFAULTS };
@@ -77,7 +77,12 @@ export function start() {
   known = JSON.parse(choices());
   addEventListener("hashchange", readAddress);
   readAddress();
+}
+
+// Calls every listener now, as if everything had changed.
+export function showAll() {
   Object.keys(DEFAULTS).forEach((key) => changed.add(key));
+  flush();
 }
 
 export function domainOf(name) {

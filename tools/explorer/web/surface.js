@@ -1,17 +1,22 @@
-// Patches on a surface: tessellated and evaluated by the CPU backend, drawn by WebGL.
+// Patches on a surface: tessellated and drawn by the GPU where there is WebGPU, else tessellated by the CPU
+// backend and drawn by WebGL.
 
 import { SurfaceView } from "./tess_explorer.js";
 import { Mesh, colourOf, fit } from "./mesh.js";
+import { eyeOf, fromText, lightOf, moved, projection, toText } from "./orbit.js";
+import { Solid } from "./solid.js";
 import { element, set, state } from "./state.js";
 
-const canvas = element("solid");
+const COLOUR = [0x8f, 0xb8, 0xdc];
+
+const canvas = element("solid"), gpuCanvas = element("solid-gpu");
 let mesh = null;
+let solid = null;
+// Why the GPU cannot draw.
+let missing = "";
 let surface = null;
-let name = "";
-let made = "";
+let name = "", made = "", loaded = "";
 let sphere = [0, 0, 0, 1];
-// The direction of the eye from the centre, in radians, and its distance in radii.
-const orbit = { turn: 0.7, lift: 0.45, far: 2.4 };
 
 export function start() {
   new ResizeObserver(() => state.tab === "surface" && draw()).observe(canvas);
@@ -21,7 +26,13 @@ export function start() {
   bind("surface-partitioning", "spacing");
   bind("rule", "rule");
   bind("surface-factor", "factor");
+  bind("surface-by", "by");
   bind("wireframe", "wire", (box) => (box.checked ? "1" : ""));
+  bind("freeze", "kept", (box) => (box.checked ? toText(orbit()) : ""));
+  listen();
+}
+
+function listen() {
   let held = null;
   canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
@@ -45,93 +56,130 @@ export function start() {
   });
 }
 
-function turn(by, up, away) {
-  orbit.turn += by;
-  orbit.lift = Math.min(Math.max(orbit.lift + up, -1.5), 1.5);
-  orbit.far = Math.min(Math.max(orbit.far * away, 1.15), 12);
-  set({ eye: [orbit.turn, orbit.lift, orbit.far].map((part) => part.toFixed(3)).join(",") });
-}
+const orbit = () => fromText(state.eye);
+const turn = (by, up, away) => set({ eye: toText(moved(orbit(), by, up, away)) });
 
-export function update(keys) {
+export function update() {
   if (state.tab !== "surface") return;
-  if (keys.has("eye") && state.eye) [orbit.turn, orbit.lift, orbit.far] = state.eye.split(",").map(Number);
   element("surface").value = state.surface;
   element("surface-partitioning").value = state.spacing;
   element("rule").value = state.rule;
   element("surface-factor").value = state.factor;
   element("surface-factor-text").textContent = Number(state.factor).toFixed(2);
+  element("surface-by").value = state.by;
   element("wireframe").checked = state.wire !== "";
+  element("freeze").checked = state.kept !== "";
   draw();
 }
 
 function draw() {
-  mesh ??= Mesh.on(canvas);
-  if (!mesh) return;
   if (name !== state.surface) {
     surface?.free();
     surface = new SurfaceView(state.surface);
-    [name, made, sphere] = [state.surface, "", surface.sphere()];
+    [name, made, loaded, sphere] = [state.surface, "", "", surface.sphere()];
   }
+  const isGpu = state.by === "gpu" && !missing;
+  gpuCanvas.hidden = !isGpu;
   fit(canvas);
-  const eye = eyePosition();
-  tessellate(eye);
-  const ratio = devicePixelRatio || 1;
-  mesh.draw({
-    matrix: projection(eye), edge: [...colourOf("--mesh-edge"), 0.75],
-    width: state.wire ? 0.5 * ratio : 0, light: lightFrom(eye), depth: true,
-  });
+  fit(gpuCanvas);
+  if (isGpu) return drawOnGpu();
+  drawOnCpu();
+  say("cpu", `Tessellated by the CPU, drawn by WebGL${state.by === "gpu" ? `: ${missing}` : ""}.`);
 }
 
-// Over the eye's shoulder.
-function lightFrom(eye) {
-  const towards = [eye[0] - sphere[0], eye[1] - sphere[1], eye[2] - sphere[2] + 0.8 * sphere[3] * orbit.far / 2];
-  return towards.map((part) => part / Math.hypot(...towards));
+function say(by, text) {
+  element("surface-note").dataset.by = by;
+  element("surface-note").textContent = text;
 }
 
-function eyePosition() {
-  const [x, y, z, radius] = sphere, { turn, lift, far } = orbit;
-  return [x + far * radius * Math.cos(lift) * Math.cos(turn), y + far * radius * Math.cos(lift) * Math.sin(turn), z + far * radius * Math.sin(lift)];
+// What both ways draw by.
+function scene() {
+  const eye = eyeOf(orbit(), sphere);
+  const width = state.wire ? 0.5 * (devicePixelRatio || 1) : 0;
+  const matrix = projection(eye, sphere, canvas.width / canvas.height);
+  return { matrix, edge: [...colourOf("--mesh-edge"), 0.75], width, light: lightOf(orbit(), eye, sphere) };
 }
 
-// Anew if the surface, its factors or, with factors by distance, the eye changed.
-function tessellate(eye) {
-  const keeps = element("freeze").checked && made.startsWith(recipe(""));
-  const wanted = recipe(state.rule === "distance" ? eye.join() : "");
-  if (keeps || made === wanted) return;
+// Sets the factors anew if they, the surface or, with factors by distance, the eye changed; whether they did.
+function setFactors() {
+  const eye = eyeOf(state.kept ? fromText(state.kept) : orbit(), sphere);
+  const wanted = [state.by, missing, state.spacing, state.rule, state.factor, state.rule === "distance" ? eye : ""].join(" ");
+  if (made === wanted) return false;
   made = wanted;
   const factor = Number(state.factor);
   if (state.rule === "uniform") surface.uniform(state.spacing, factor);
   else surface.by_distance(state.spacing, factor * sphere[3], ...eye);
+  return true;
+}
+
+function count(vertices, triangles) {
+  element("surface-counts").textContent = `${surface.patches()} patches, ${vertices} vertices, ${triangles} triangles`;
+}
+
+function drawOnCpu() {
+  mesh ??= Mesh.on(canvas);
+  if (!mesh) return say("none", "This browser has neither WebGPU nor WebGL 2.");
+  if (setFactors()) upload();
+  mesh.draw({ ...scene(), depth: true });
+}
+
+function upload() {
+  surface.tessellate();
   const positions = surface.positions(), normals = surface.normals(), indices = surface.indices();
   const gather = (list) => {
     const all = new Float32Array(indices.length * 3);
-    indices.forEach((i, k) => all.set(list.subarray(3 * i, 3 * i + 3), 3 * k));
+    for (let k = 0; k < indices.length; k++) {
+      for (let axis = 0; axis < 3; axis++) all[3 * k + axis] = list[3 * indices[k] + axis];
+    }
     return all;
   };
-  const colour = [0x8f, 0xb8, 0xdc, 0xff], colours = new Uint8Array(indices.length * 4);
-  for (let k = 0; k < colours.length; k++) colours[k] = colour[k % 4];
-  mesh.set(gather(positions), colours, gather(normals));
-  element("surface-counts").textContent =
-    `${surface.patches()} patches, ${positions.length / 3} vertices, ${indices.length / 3} triangles`;
+  const [red, green, blue] = COLOUR;
+  const colours = new Uint32Array(indices.length).fill((0xff000000 | blue << 16 | green << 8 | red) >>> 0);
+  mesh.set(gather(positions), new Uint8Array(colours.buffer), gather(normals));
+  count(positions.length / 3, indices.length / 3);
 }
 
-const recipe = (eye) => [state.surface, state.spacing, state.rule, state.factor, eye].join(" ");
+let busy = null;
+let isAgain = false;
 
-// Perspective from the eye to the centre, z up.
-function projection(eye) {
-  const [cx, cy, cz, radius] = sphere;
-  const subtract = (a, b) => a.map((part, k) => part - b[k]);
-  const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-  const unit = (a) => a.map((part) => part / Math.hypot(...a));
-  const forward = unit(subtract([cx, cy, cz], eye));
-  const right = unit(cross(forward, [0, 0, 1])), up = cross(right, forward);
-  const far = 20 * radius, near = 0.02 * radius, open = 2.2;
-  const aspect = canvas.width / canvas.height;
-  const sx = open / Math.max(aspect, 1), sy = sx * aspect;
-  const rows = [[...right.map((p) => p * sx), -dot(right, eye) * sx], [...up.map((p) => p * sy), -dot(up, eye) * sy]];
-  const depth = (far + near) / (far - near), shift = -2 * far * near / (far - near);
-  rows.push([...forward.map((p) => p * depth), -dot(forward, eye) * depth + shift]);
-  rows.push([...forward, -dot(forward, eye)]);
-  return [0, 1, 2, 3].flatMap((column) => rows.map((row) => row[column]));
+// One picture after the other, the last one of what is shown then.
+function drawOnGpu() {
+  isAgain = true;
+  busy ??= drawWhileAsked().finally(() => (busy = null));
+}
+
+// Resolves when the GPU has drawn what is shown. For tests.
+export const settled = () => busy;
+
+async function drawWhileAsked() {
+  try {
+    solid ??= await openSolid();
+    while (isAgain && state.by === "gpu" && state.tab === "surface") {
+      isAgain = false;
+      await drawOnce();
+    }
+  } catch (error) {
+    [missing] = error.message.split("\n");
+    draw();
+  }
+}
+
+async function openSolid() {
+  const opened = await Solid.on(gpuCanvas, COLOUR.map((part) => part / 255));
+  opened.gpu.device.lost.then(() => {
+    missing = "the graphics device was lost";
+    if (state.tab === "surface") draw();
+  });
+  return opened;
+}
+
+async function drawOnce() {
+  const isAnew = setFactors(), words = surface.factor_words(), wanted = `${name} ${state.spacing}`;
+  if (loaded !== wanted) await solid.load(surface);
+  if (isAnew || loaded !== wanted) solid.setFactors(words);
+  loaded = wanted;
+  await solid.draw(scene());
+  mesh?.clear();
+  if (isAnew) count(...await solid.counts());
+  say("gpu", "Tessellated and drawn by the GPU.");
 }

@@ -46,11 +46,7 @@ pub(crate) fn build() -> Result<(), String> {
     if page.exists() {
         fs::remove_dir_all(&page).map_err(|error| in_file(&page, &error))?;
     }
-    let mut bindgen = cargo("run --quiet --locked --manifest-path");
-    bindgen.arg(source().join("bindgen/Cargo.toml"));
-    bindgen.arg("--target-dir").arg(target().join("explorer-bindgen")).arg("--");
-    bindgen.arg(target().join(TARGET).join("wasm/tess_explorer.wasm")).arg(&page);
-    command::run(&mut bindgen)?;
+    bind("wasm/tess_explorer.wasm", &page)?;
     for file in files(&source().join("web"))? {
         let to = page.join(file.file_name().unwrap_or_default());
         fs::copy(&file, &to).map_err(|error| in_file(&file, &error))?;
@@ -62,6 +58,14 @@ pub(crate) fn build() -> Result<(), String> {
         return Err(format!("the page has {bytes} bytes; it may have {LARGEST}"));
     }
     Ok(())
+}
+
+/// Writes the JavaScript module of a WebAssembly file of the target folder.
+fn bind(file: &str, folder: &Path) -> Result<(), String> {
+    let mut bindgen = cargo("run --quiet --locked --manifest-path");
+    bindgen.arg(source().join("bindgen/Cargo.toml"));
+    bindgen.arg("--target-dir").arg(target().join("explorer-bindgen")).arg("--");
+    command::run(bindgen.arg(target().join(TARGET).join(file)).arg(folder))
 }
 
 /// Builds the page and serves it until the command is stopped.
@@ -108,6 +112,7 @@ pub(crate) fn tests() -> Result<Command, String> {
         npm.args(["install", "--no-save", "--no-package-lock", "--no-audit", "--no-fund"]);
         command::run(npm.arg(PLAYWRIGHT).current_dir(&modules))?;
     }
+    let stage = stage(&modules)?;
     let program = program()?;
     let listener = TcpListener::bind("127.0.0.1:0").map_err(|error| error.to_string())?;
     let address = address(&listener)?;
@@ -115,8 +120,17 @@ pub(crate) fn tests() -> Result<Command, String> {
     let mut node = Command::new("node");
     node.arg(source().join("tests/run.mjs")).current_dir(workspace());
     node.env("EXPLORER", format!("http://{address}/")).env("TESS_PROGRAM", program);
+    node.env("EXPLORER_STAGE", stage);
     node.env("EXPLORER_MODULES", &modules).env("EXPLORER_SCREENSHOTS", modules.join("screenshots"));
     Ok(node)
+}
+
+/// Builds the tessellation stage for the browser tests, which is no part of the page; where it is.
+fn stage(folder: &Path) -> Result<PathBuf, String> {
+    command::run(cargo("build --package tess-explorer-stage --target").arg(TARGET))?;
+    let stage = folder.join("stage");
+    bind("debug/tess_explorer_stage.wasm", &stage)?;
+    Ok(stage)
 }
 
 /// The program `tess` that files and texts are compared with: `TESS_PROGRAM`, or one that is built now.

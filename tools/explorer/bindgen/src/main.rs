@@ -1,6 +1,6 @@
 //! `explorer-bindgen INPUT.wasm FOLDER`: the JavaScript module of a WebAssembly file, for browsers.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use wasm_bindgen_cli_support::Bindgen;
 
@@ -17,11 +17,27 @@ fn main() -> ExitCode {
         .remove_name_section(true)
         .remove_producers_section(true)
         .web(true);
-    match made.and_then(|bindgen| bindgen.generate(&folder)) {
-        Ok(()) => ExitCode::SUCCESS,
+    let name = input.with_extension("js").file_name().map(|name| folder.join(name));
+    let made = made.and_then(|bindgen| bindgen.generate(&folder));
+    match made.and_then(|()| Ok(name.map(|path| without_descriptions(&path)).transpose()?)) {
+        Ok(_) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("{}: {error:#}", input.display());
             ExitCode::FAILURE
         }
     }
+}
+
+/// Removes the functions' descriptions, which would be downloaded for nobody: the Rust has them.
+fn without_descriptions(path: &Path) -> std::io::Result<()> {
+    let text = std::fs::read_to_string(path)?;
+    let mut is_inside = false;
+    let stays = |line: &&str| {
+        is_inside |= line.trim_start().starts_with("/**");
+        let stays = !is_inside;
+        is_inside &= !line.trim_end().ends_with("*/");
+        stays
+    };
+    let kept: String = text.split_inclusive('\n').filter(stays).collect();
+    std::fs::write(path, kept)
 }
