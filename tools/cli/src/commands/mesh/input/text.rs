@@ -143,14 +143,25 @@ mod tests {
 
     #[test]
     fn words_that_are_no_short_numbers() {
-        for word in ["", "-", ".", "1..2", "1.2.", "+1", "1e3", "--1", "nan", "0x1", "123456789.0"] {
+        for word in ["", "-", ".", "1..2", "1.2.", "+1", "1e3", "--1", "nan", "0x1", "123456789.0"]
+        {
             assert_eq!(decimal(word.as_bytes()), None, "{word}");
             let number = number(word.as_bytes()).ok().map(f32::to_bits);
             let expected = word.parse().ok().filter(|x: &f32| x.is_finite()).map(f32::to_bits);
             assert_eq!(number, expected, "{word}");
             assert_eq!(integer(word.as_bytes()), word.parse().ok(), "{word}");
         }
-        for word in ["0", "-0", ".5", "5.", "007", "-12", "16777217", "999999999999999999", "9223372036854775808"] {
+        for word in [
+            "0",
+            "-0",
+            ".5",
+            "5.",
+            "007",
+            "-12",
+            "16777217",
+            "999999999999999999",
+            "9223372036854775808",
+        ] {
             let expected: f32 = word.parse().expect("a number");
             assert_eq!(number(word.as_bytes()).map(f32::to_bits), Ok(expected.to_bits()), "{word}");
             assert_eq!(integer(word.as_bytes()), word.parse().ok(), "{word}");
@@ -159,7 +170,8 @@ mod tests {
 
     #[test]
     fn lines_and_words() {
-        let lines: Vec<_> = Lines(b"a  b\r\n\n c").map(|line| Words(line).collect::<Vec<_>>()).collect();
+        let lines: Vec<_> =
+            Lines(b"a  b\r\n\n c").map(|line| Words(line).collect::<Vec<_>>()).collect();
         assert_eq!(lines, [vec![&b"a"[..], b"b"], vec![], vec![b"c"]]);
     }
 }
