@@ -1,14 +1,16 @@
-//! Evaluation of surfaces on one thread, beside filling as many vertices: elements are vertices.
+//! Evaluation of surfaces on one thread at every CPU level, beside filling as many vertices: elements are
+//! vertices, at the domain points of factor 8.
 
-use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
+use std::time::Duration;
 use tess_core::{
     Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
 };
 use tess_surface::glam::Vec3;
 use tess_surface::{
-    DisplacedModel, Displacement, HeightMap, Model, Patch, PnCorner, PnTriangle, Sample, Surface,
-    pn, teapot,
+    DisplacedModel, Displacement, HeightMap, Level, Model, Patch, PnCorner, PnTriangle, Sample,
+    Surface, pn, teapot,
 };
 
 /// The domain points of a patch of these factors.
@@ -44,20 +46,24 @@ fn surface(criterion: &mut Criterion) {
 
     let mut samples = vec![Sample::default(); quad.len().max(triangle.len())];
     let mut group = criterion.benchmark_group("surface");
+    group.warm_up_time(Duration::from_millis(500)).measurement_time(Duration::from_secs(2));
     group.throughput(Throughput::Elements(quad.len() as u64));
     group.bench_function("fill", |bencher| {
         bencher.iter(|| black_box(&mut samples[..quad.len()]).fill(Sample::default()));
     });
-    group.bench_function("bicubic", |bencher| {
-        bencher.iter(|| bicubic.samples(black_box(&quad), &mut samples));
-    });
-    group.bench_function("bicubic, displaced", |bencher| {
-        bencher.iter(|| displaced.samples(black_box(&quad), &mut samples));
-    });
-    group.throughput(Throughput::Elements(triangle.len() as u64));
-    group.bench_function("PN triangle", |bencher| {
-        bencher.iter(|| pn.samples(black_box(&triangle), &mut samples));
-    });
+    for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+        group.throughput(Throughput::Elements(quad.len() as u64));
+        group.bench_function(BenchmarkId::new("bicubic", level), |bencher| {
+            bencher.iter(|| bicubic.samples_at_level(level, black_box(&quad), &mut samples));
+        });
+        group.bench_function(BenchmarkId::new("bicubic, displaced", level), |bencher| {
+            bencher.iter(|| displaced.samples_at_level(level, black_box(&quad), &mut samples));
+        });
+        group.throughput(Throughput::Elements(triangle.len() as u64));
+        group.bench_function(BenchmarkId::new("PN triangle", level), |bencher| {
+            bencher.iter(|| pn.samples_at_level(level, black_box(&triangle), &mut samples));
+        });
+    }
 }
 
 criterion_group!(benches, surface);
