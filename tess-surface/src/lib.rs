@@ -11,7 +11,7 @@ pub mod bezier;
 mod boundary;
 pub mod curve;
 mod dispatch;
-mod displaced;
+pub mod displaced;
 mod error;
 pub mod factors;
 mod formulas;
