@@ -1,5 +1,6 @@
 //! Evaluation of surfaces on one thread at every CPU level, beside filling as many vertices: elements are
 //! vertices, at the domain points of factor 8.
+#![expect(clippy::float_arithmetic, reason = "heights and corners are floats")]
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
