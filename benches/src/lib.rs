@@ -4,6 +4,7 @@
 //! cargo bench -p tess-benches --bench core -- --save-baseline before
 //! cargo bench -p tess-benches --bench core -- --baseline before
 //! cargo bench -p tess-benches --bench simd -- terrain
+//! cargo bench -p tess-benches --bench surface
 //! ```
 //!
 //! A [`Case`] is a workload's first batch of the working set `cache` with buffers for its output.

@@ -1,5 +1,6 @@
 //! The kernels, compiled once for each CPU level and chosen at run time.
 
+use crate::at_each_level;
 use crate::batch::Batch;
 use crate::block::Block;
 use crate::block::BlockPatch;
@@ -19,44 +20,6 @@ use alloc::vec::Vec;
 #[cfg(target_arch = "x86_64")]
 use multiversion::{multiversion, target::match_target};
 use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
-
-/// Defines a function that runs `$kernel` at a level: one instance for each, which the level's
-/// availability was checked for ([`Level::is_available`] asks for the same instructions).
-macro_rules! at_each_level {
-    (
-        $(#[$doc:meta])*
-        fn $name:ident $(<$($type:ident: $bound:ident),*>)? ($($arg:ident: $arg_type:ty),* $(,)?)
-            $(-> $result:ty)? = $kernel:path;
-    ) => {
-        $(#[$doc])*
-        pub(crate) fn $name $(<$($type: $bound),*>)? (level: Level, $($arg: $arg_type),*)
-            $(-> $result)?
-        {
-            #[cfg(target_arch = "x86_64")]
-            #[multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
-            fn avx2 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
-                $kernel($($arg),*)
-            }
-
-            #[cfg(target_arch = "x86_64")]
-            #[multiversion(targets(
-                "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
-            ))]
-            fn avx512 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
-                $kernel($($arg),*)
-            }
-
-            match level {
-                #[cfg(target_arch = "x86_64")]
-                Level::Avx2 => avx2($($arg),*),
-                #[cfg(target_arch = "x86_64")]
-                Level::Avx512 => avx512($($arg),*),
-                // Elsewhere it is the only level that is available.
-                _ => $kernel($($arg),*),
-            }
-        }
-    };
-}
 
 at_each_level! {
     /// [`kernel::count::count`] at a level.

@@ -97,3 +97,45 @@ const fn has_avx2() -> bool {
 const fn has_avx512() -> bool {
     false
 }
+
+/// Defines a function that runs `$kernel` at a level: one instance for each, which the level's
+/// availability was checked for ([`Level::is_available`] asks for the same instructions).
+///
+/// For this project's crates alone; one that uses it depends on `multiversion`.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! at_each_level {
+    (
+        $(#[$doc:meta])*
+        fn $name:ident $(<$($type:ident: $bound:ident),*>)? ($($arg:ident: $arg_type:ty),* $(,)?)
+            $(-> $result:ty)? = $kernel:path;
+    ) => {
+        $(#[$doc])*
+        pub(crate) fn $name $(<$($type: $bound),*>)? (level: $crate::Level, $($arg: $arg_type),*)
+            $(-> $result)?
+        {
+            #[cfg(target_arch = "x86_64")]
+            #[multiversion::multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
+            fn avx2 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
+                $kernel($($arg),*)
+            }
+
+            #[cfg(target_arch = "x86_64")]
+            #[multiversion::multiversion(targets(
+                "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
+            ))]
+            fn avx512 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
+                $kernel($($arg),*)
+            }
+
+            match level {
+                #[cfg(target_arch = "x86_64")]
+                $crate::Level::Avx2 => avx2($($arg),*),
+                #[cfg(target_arch = "x86_64")]
+                $crate::Level::Avx512 => avx512($($arg),*),
+                // Elsewhere it is the only level that is available.
+                _ => $kernel($($arg),*),
+            }
+        }
+    };
+}

@@ -4,9 +4,8 @@
 //! derivatives (chapter 14), rational patches (chapter 16).
 
 use crate::curve::Curve;
-use crate::frame::Frame;
-use crate::lanes::{Frames, Real, V4, Vector, de_casteljau, lerp};
-use crate::math::{plain_zero, project};
+use crate::frame::{Frame, Tangents};
+use crate::math::{Homogeneous, Vector, de_casteljau, lerp, plain_zero, project};
 use glam::{Vec3, Vec4};
 
 /// A bicubic patch over the unit square: `points[row][column]`, rows along v, columns along u.
@@ -28,6 +27,42 @@ struct Jet {
     uu: Vec4,
     uv: Vec4,
     vv: Vec4,
+}
+
+/// The control points of a patch in the form that they are evaluated in.
+#[derive(Debug)]
+pub(crate) enum Net {
+    Polynomial(PolynomialNet),
+    Rational(RationalNet),
+}
+
+/// The control points of a patch whose weights are all 1.
+#[derive(Debug)]
+pub(crate) struct PolynomialNet([[Vec3; 4]; 4]);
+
+impl PolynomialNet {
+    /// [`BezierPatch::frame`].
+    #[inline(always)]
+    pub(crate) fn frame(&self, u: f32, v: f32) -> Frame {
+        let (position, du, dv) = tensor(&self.0, u, v);
+        Frame { position: plain_zero(position), tangents: Tangents { du, dv } }
+    }
+}
+
+/// The control points of any patch.
+#[derive(Debug)]
+pub(crate) struct RationalNet([[Homogeneous; 4]; 4]);
+
+impl RationalNet {
+    /// [`BezierPatch::frame`].
+    #[inline(always)]
+    pub(crate) fn frame(&self, u: f32, v: f32) -> Frame {
+        let (s, su, sv) = tensor(&self.0, u, v);
+        let position = s.xyz / s.w;
+        let du = (su.xyz - position * su.w) / s.w;
+        let dv = (sv.xyz - position * sv.w) / s.w;
+        Frame { position: plain_zero(position), tangents: Tangents { du, dv } }
+    }
 }
 
 impl BezierPatch {
@@ -60,21 +95,19 @@ impl BezierPatch {
     /// Position and partial derivatives at (u, v) in the unit square.
     #[must_use]
     pub fn frame(&self, u: f32, v: f32) -> Frame {
-        let frame = self.frames::<f32>(u, v);
-        Frame { position: plain_zero(frame.position.to_vec3()), tangents: frame.tangents() }
+        match self.net() {
+            Net::Polynomial(net) => net.frame(u, v),
+            Net::Rational(net) => net.frame(u, v),
+        }
     }
 
-    /// [`BezierPatch::frame`] at one point or at eight.
-    #[inline(always)]
-    pub(crate) fn frames<T: Real>(&self, u: T, v: T) -> Frames<T> {
+    /// The control points in the form that they are evaluated in.
+    pub(crate) fn net(&self) -> Net {
         if self.is_polynomial() {
-            let (position, du, dv) = tensor(self.points, |point| point.truncate().into(), u, v);
-            return Frames { position, du, dv };
+            Net::Polynomial(PolynomialNet(self.points.map(|row| row.map(Vec4::truncate))))
+        } else {
+            Net::Rational(RationalNet(self.points.map(|row| row.map(Homogeneous::from))))
         }
-        let (s, su, sv): (V4<T>, _, _) = tensor(self.points, V4::from, u, v);
-        let position = s.xyz / s.w;
-        let quotient = |derivative: V4<T>| (derivative.xyz - position * derivative.w) / s.w;
-        Frames { position, du: quotient(su), dv: quotient(sv) }
     }
 
     /// Whether all weights are 1.
@@ -136,15 +169,11 @@ impl Jet {
 
 /// Point and partial derivatives of a tensor product of cubics.
 #[inline(always)]
-fn tensor<T: Real, V: Vector<T>>(
-    points: [[Vec4; 4]; 4],
-    point: impl Fn(Vec4) -> V,
-    u: T,
-    v: T,
-) -> (V, V, V) {
-    let [a, b, c, d] = points.map(|row| row.map(&point));
-    let rows = [de_casteljau(a, u), de_casteljau(b, u), de_casteljau(c, u), de_casteljau(d, u)];
-    let [(a, da), (b, db), (c, dc), (d, dd)] = rows;
+fn tensor<V: Vector>([a, b, c, d]: &[[V; 4]; 4], u: f32, v: f32) -> (V, V, V) {
+    let (a, da) = de_casteljau(*a, u);
+    let (b, db) = de_casteljau(*b, u);
+    let (c, dc) = de_casteljau(*c, u);
+    let (d, dd) = de_casteljau(*d, u);
     let (s, sv) = de_casteljau([a, b, c, d], v);
     (s, de_casteljau([da, db, dc, dd], v).0, sv)
 }

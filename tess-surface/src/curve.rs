@@ -1,7 +1,6 @@
 //! Cubic curves in homogeneous coordinates, and the direction in which they are evaluated.
 
-use crate::lanes::de_casteljau;
-use crate::math::{order_key, plain_zero, project};
+use crate::math::{de_casteljau, order_key, plain_zero, project};
 use glam::{Vec3, Vec4};
 
 /// A boundary of a patch: a straight line or a cubic Bezier curve, rational or not.
@@ -102,6 +101,7 @@ impl Direction {
     ///
     /// A symmetric curve is folded in its middle.
     #[must_use]
+    #[inline(always)]
     pub fn canonical(self, t: f32) -> f32 {
         match self {
             Self::Along => t,

@@ -1,7 +1,6 @@
 //! A point of a surface with its tangents.
 
-use crate::lanes::normal;
-use crate::math::existing;
+use crate::math::{existing, normal_or_not};
 use glam::Vec3;
 
 /// The partial derivatives of a surface's position by the domain coordinates.
@@ -27,6 +26,6 @@ impl Tangents {
     /// 2^-15.
     #[must_use]
     pub fn normal(&self) -> Option<Vec3> {
-        existing(normal::<f32>(self.du.into(), self.dv.into()))
+        existing(normal_or_not(self.du, self.dv))
     }
 }

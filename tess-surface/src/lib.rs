@@ -3,12 +3,18 @@
 #![expect(clippy::float_arithmetic, reason = "surfaces are evaluated in floating point")]
 
 extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
 
 pub mod bend;
 pub mod bezier;
+mod boundary;
 pub mod curve;
+mod dispatch;
+pub mod displaced;
 mod error;
 pub mod factors;
+mod formulas;
 mod frame;
 pub mod height;
 mod lanes;
@@ -26,15 +32,17 @@ mod topology;
 pub use bend::Bend;
 pub use bezier::BezierPatch;
 pub use curve::{Curve, Direction, Edge};
+pub use displaced::{DisplacedModel, DisplacedPatch};
 pub use error::{Fault, MAX_COORDINATE, MeshError, WrongDomain};
 pub use factors::FactorRule;
 pub use frame::{Frame, Tangents};
 pub use glam;
-pub use height::{DisplacedModel, DisplacedPatch, Displacement, HeightMap};
+pub use height::{Displacement, HeightMap};
 pub use mesh::{Face, PolygonMesh};
 pub use model::{Model, Style};
 pub use patch::{Patch, Sample, Surface};
 pub use pn::{PnCorner, PnQuad, PnTriangle};
 pub use sides::{Place, Sides};
 pub use tess_core;
+pub use tess_simd::{Level, LevelUnavailable};
 pub use topology::HalfEdge;

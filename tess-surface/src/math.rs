@@ -1,15 +1,17 @@
 //! Small vector operations, with every rounding spelled out.
 
 use crate::error::MAX_COORDINATE;
-use crate::lanes::V3;
+use core::ops::{Add, Mul, Sub};
 use glam::{Vec3, Vec4};
 
 /// The point that a homogeneous point stands for; exact for weight 1.
+#[inline(always)]
 pub(crate) fn project(point: Vec4) -> Vec3 {
     point.truncate() / point.w
 }
 
 /// The same point without negative zeros, so that equal points have equal bits.
+#[inline(always)]
 pub(crate) fn plain_zero(point: Vec3) -> Vec3 {
     point + Vec3::ZERO
 }
@@ -28,12 +30,164 @@ pub(crate) fn is_in_range(coordinates: &[f32]) -> bool {
     coordinates.iter().all(|coordinate| coordinate.abs() <= MAX_COORDINATE)
 }
 
-/// The unit vector of `v`; `None` where the length is zero, overflows or is NaN.
-pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
-    existing(V3::<f32>::from(v).unit())
+/// The square root, correctly rounded.
+#[inline(always)]
+pub(crate) fn sqrt(x: f32) -> f32 {
+    // The standard library's is an instruction of its own, also in vectors.
+    #[cfg(feature = "std")]
+    return x.sqrt();
+    #[cfg(not(feature = "std"))]
+    libm::sqrtf(x)
 }
 
-/// A vector with its bits of existence, as [`V3::unit`] gives it.
-pub(crate) fn existing((v, exists): (V3<f32>, f32)) -> Option<Vec3> {
-    (exists.to_bits() != 0).then(|| v.to_vec3())
+/// The greatest integer that is not above `x`, as `libm::floorf`, in operations that vectors have.
+#[inline(always)]
+pub(crate) fn floor(x: f32) -> f32 {
+    // From 2^23 on every number is an integer; adding it to a smaller one rounds that to an integer.
+    const INTEGERS: f32 = 8_388_608.0;
+    let nearest = ((x.abs() + INTEGERS) - INTEGERS).copysign(x);
+    let below = nearest - if nearest > x { 1.0 } else { 0.0 };
+    if x.abs() < INTEGERS { below } else { x }
+}
+
+/// The length of a vector.
+#[inline(always)]
+pub(crate) fn length(v: Vec3) -> f32 {
+    sqrt(v.dot(v))
+}
+
+/// One of two vectors, without a branch.
+#[inline(always)]
+pub(crate) fn select(condition: bool, one: Vec3, other: Vec3) -> Vec3 {
+    Vec3::new(
+        if condition { one.x } else { other.x },
+        if condition { one.y } else { other.y },
+        if condition { one.z } else { other.z },
+    )
+}
+
+/// The unit vector of `v`; `None` where the length is zero, overflows or is NaN.
+pub(crate) fn unit(v: Vec3) -> Option<Vec3> {
+    existing(unit_or_not(v))
+}
+
+/// A vector, if it exists.
+pub(crate) fn existing((v, exists): (Vec3, bool)) -> Option<Vec3> {
+    exists.then_some(v)
+}
+
+/// The unit vector of `v`, and whether there is one, without a branch.
+#[inline(always)]
+pub(crate) fn unit_or_not(v: Vec3) -> (Vec3, bool) {
+    // Scaled first, so that neither tiny nor huge vectors are lost in the squares.
+    let largest = v.x.abs().max(v.y.abs().max(v.z.abs()));
+    let scaled = v / largest;
+    let reciprocal = 1.0 / sqrt(scaled.dot(scaled));
+    (scaled * reciprocal, is_positive(largest) & is_positive(reciprocal))
+}
+
+/// The unit vector of du x dv, and whether there is one, without a branch: not where one of them is zero
+/// or they are parallel to within 2^-15.
+#[inline(always)]
+pub(crate) fn normal_or_not(du: Vec3, dv: Vec3) -> (Vec3, bool) {
+    const PARALLEL: f32 = 1.0 / (1u32 << 30) as f32;
+    let ((du, u_exists), (dv, v_exists)) = (unit_or_not(du), unit_or_not(dv));
+    let cross = du.cross(dv);
+    let (normal, exists) = unit_or_not(cross);
+    let area = cross.dot(cross);
+    (normal, exists & (area > PARALLEL) & (area < f32::INFINITY) & u_exists & v_exists)
+}
+
+/// Whether a number is above zero and finite.
+#[inline(always)]
+fn is_positive(x: f32) -> bool {
+    (x > 0.0) & (x < f32::INFINITY)
+}
+
+/// What can be interpolated.
+pub(crate) trait Vector:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f32, Output = Self>
+{
+}
+
+impl<V: Copy + Add<Output = V> + Sub<Output = V> + Mul<f32, Output = V>> Vector for V {}
+
+/// `a + (b - a) t`: exact at `t = 0`, and where `a` equals `b`.
+#[inline(always)]
+pub(crate) fn lerp<V: Vector>(a: V, b: V, t: f32) -> V {
+    a + (b - a) * t
+}
+
+/// Point and derivative of a cubic at `t`, by repeated linear interpolation.
+///
+/// Equal control points give that very point, as `a + (a - a) t` is `a`.
+#[inline(always)]
+pub(crate) fn de_casteljau<V: Vector>([a, b, c, d]: [V; 4], t: f32) -> (V, V) {
+    let (ab, bc, cd) = (lerp(a, b, t), lerp(b, c, t), lerp(c, d, t));
+    let (abc, bcd) = (lerp(ab, bc, t), lerp(bc, cd, t));
+    // The derivative from differences of control points, which keeps its relative precision
+    // where the curve nearly stands still.
+    let derivative = lerp(lerp(b - a, c - b, t), lerp(c - b, d - c, t), t) * 3.0;
+    (lerp(abc, bcd, t), derivative)
+}
+
+/// A homogeneous point, (w x, w y, w z) and w, in four numbers of their own: [`Vec4`] is a vector of the
+/// processor, which loops over lanes cannot make vectors of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Homogeneous {
+    pub(crate) xyz: Vec3,
+    pub(crate) w: f32,
+}
+
+impl From<Vec4> for Homogeneous {
+    #[inline(always)]
+    fn from(v: Vec4) -> Self {
+        Self { xyz: v.truncate(), w: v.w }
+    }
+}
+
+impl Add for Homogeneous {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self { xyz: self.xyz + other.xyz, w: self.w + other.w }
+    }
+}
+
+impl Sub for Homogeneous {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self { xyz: self.xyz - other.xyz, w: self.w - other.w }
+    }
+}
+
+impl Mul<f32> for Homogeneous {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: f32) -> Self {
+        Self { xyz: self.xyz * factor, w: self.w * factor }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::floor;
+
+    #[test]
+    fn floor_is_that_of_libm() {
+        let near = [0.0, 0.5, 1.0, 2.5, 8_388_607.5, 8_388_608.0, 16_777_216.0, f32::INFINITY];
+        let near =
+            near.map(f32::to_bits).into_iter().flat_map(|bits| bits.saturating_sub(2)..bits + 3);
+        let spread = (0..=u32::MAX).step_by(65_521);
+        for bits in near.chain(spread).flat_map(|bits| [bits, bits ^ 1 << 31]) {
+            let x = f32::from_bits(bits);
+            let (ours, theirs) = (floor(x), libm::floorf(x));
+            let same = ours.to_bits() == theirs.to_bits() || (ours.is_nan() && theirs.is_nan());
+            assert!(same, "{x:e}: {ours:e} {theirs:e}");
+        }
+    }
 }

@@ -58,7 +58,8 @@ impl Model {
         let edges = mesh.faces.iter().enumerate().flat_map(|(patch, face)| {
             (0..face.positions.as_slice().len()).map(move |edge| HalfEdge { patch, edge })
         });
-        let hashes = edges.map(|half| (key(half), half.slot())).collect();
+        let mut hashes = Vec::with_capacity(mesh.faces.len() * 4);
+        hashes.extend(edges.map(|half| (key(half), half.slot())));
         let is_forward = |half: HalfEdge| {
             let onwards = runs_onwards(&mesh.faces[half.patch].positions, half.edge);
             ends(half).is_sorted() == onwards

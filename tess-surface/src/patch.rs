@@ -8,8 +8,7 @@ use crate::bezier::BezierPatch;
 use crate::curve::{Curve, Direction, Edge};
 use crate::error::WrongDomain;
 use crate::frame::{Frame, Tangents};
-use crate::lanes::{Frames, Real, V3};
-use crate::math::unit;
+use crate::math::{plain_zero, unit};
 use crate::pn::{PnQuad, PnTriangle, normal_along};
 use crate::sides::{Place, Sides, corner_coordinates, edge_corners};
 use glam::{Vec2, Vec3};
@@ -134,24 +133,14 @@ impl Patch {
     /// differ.
     #[must_use]
     pub fn frame(&self, u: f32, v: f32) -> Frame {
-        let frame = self.frames::<f32>(u, v);
-        Frame { position: frame.position.to_vec3(), tangents: frame.tangents() }
-    }
-
-    /// [`Patch::frame`] at one point or at eight.
-    #[inline(always)]
-    pub(crate) fn frames<T: Real>(&self, u: T, v: T) -> Frames<T> {
-        let frames = match &self.surface {
-            Surface::FlatTriangle(corners) => {
-                let [a, b, c] = corners.map(V3::<T>::from);
-                Frames { position: c + (a - c) * u + (b - c) * v, du: a - c, dv: b - c }
-            }
-            Surface::Bilinear(corners) => bilinear(corners, u, v),
-            Surface::Bezier(patch) => patch.frames(u, v),
-            Surface::PnTriangle(triangle) => triangle.frames(u, v),
-            Surface::PnQuad(quad) => quad.patch.frames(u, v),
+        let frame = match &self.surface {
+            Surface::FlatTriangle(corners) => flat_frame(corners, u, v),
+            Surface::Bilinear(corners) => bilinear_frame(corners, u, v),
+            Surface::Bezier(patch) => patch.frame(u, v),
+            Surface::PnTriangle(triangle) => triangle.frame(u, v),
+            Surface::PnQuad(quad) => quad.patch.frame(u, v),
         };
-        Frames { position: frames.position.plain_zero(), ..frames }
+        Frame { position: plain_zero(frame.position), ..frame }
     }
 
     /// The position on the boundary, from the edge or the corner alone; `None` inside.
@@ -180,30 +169,24 @@ impl Patch {
             Surface::Bezier(patch) => tangents().normal().or_else(|| patch.limit_normal(u, v)),
             Surface::PnTriangle(triangle) => unit(match place {
                 Place::Inside => triangle.normal(u, v),
-                Place::Edge(edge, t) => {
-                    let [nu, nv, nw] = triangle.corners.map(|corner| corner.normal);
-                    let [vw, uw, uv] = triangle.edge_normals;
-                    let along = [[nw, vw, nv], [nw, uw, nu], [nv, uv, nu]];
-                    self.edge_normal(along[edge], edge, t)
-                }
+                Place::Edge(edge, t) => normal_in_direction(
+                    self.edges.as_slice()[edge].direction,
+                    triangle.boundary_normals()[edge],
+                    t,
+                ),
                 Place::Corner(corner) => triangle.corners[corner].normal,
             }),
             Surface::PnQuad(quad) => unit(match place {
                 Place::Inside => quad.normal(u, v),
-                Place::Edge(edge, t) => self.edge_normal(quad.boundary_normals()[edge], edge, t),
+                Place::Edge(edge, t) => normal_in_direction(
+                    self.edges.as_slice()[edge].direction,
+                    quad.boundary_normals()[edge],
+                    t,
+                ),
                 Place::Corner(corner) => quad.corner_normals[corner],
             }),
         };
         normal.or_else(|| tangents().normal()).unwrap_or(Vec3::Z)
-    }
-
-    /// A quadratic normal along an edge, evaluated in the edge's canonical direction.
-    fn edge_normal(&self, along: [Vec3; 3], edge: usize, t: f32) -> Vec3 {
-        let [a, middle, b] = along;
-        match self.edges.as_slice()[edge].direction {
-            Direction::Against => normal_along([b, middle, a], 1.0 - t),
-            Direction::Along | Direction::Symmetric => normal_along(along, t),
-        }
     }
 
     pub(crate) fn texcoord(&self, place: Place, u: f32, v: f32) -> Vec2 {
@@ -214,30 +197,35 @@ impl Patch {
                 let ends = [texcoords.as_slice()[start], texcoords.as_slice()[end]];
                 along_edge(self.edges.as_slice()[edge].direction, ends, t)
             }
-            (Place::Inside, _) => self.inside_texcoords::<f32>(u, v).to_vec3().truncate(),
+            (Place::Inside, _) => self.inside_texcoord(u, v),
         }
     }
 
-    /// Texture coordinates by the formula of the inside at one point or at eight; z is 0.
+    /// Texture coordinates by the formula of the inside.
     #[inline(always)]
-    pub(crate) fn inside_texcoords<T: Real>(&self, u: T, v: T) -> V3<T> {
-        let flat = |texcoord: Vec2| V3::<T>::from(texcoord.extend(0.0));
-        let one = T::from(1.0);
+    pub(crate) fn inside_texcoord(&self, u: f32, v: f32) -> Vec2 {
         match self.texcoords {
-            Sides::Triangle(corners) => {
-                let [a, b, c] = corners.map(flat);
-                a * u + b * v + c * (one - u - v)
-            }
-            Sides::Quad(corners) => {
-                let [a, b, c, d] = corners.map(flat);
-                (a * (one - u) + b * u) * (one - v) + (d * (one - u) + c * u) * v
+            Sides::Triangle([a, b, c]) => a * u + b * v + c * (1.0 - u - v),
+            Sides::Quad([a, b, c, d]) => {
+                (a * (1.0 - u) + b * u) * (1.0 - v) + (d * (1.0 - u) + c * u) * v
             }
         }
     }
 }
 
+/// A quadratic normal along an edge, evaluated in its canonical direction.
+#[inline(always)]
+pub(crate) fn normal_in_direction(direction: Direction, along: [Vec3; 3], t: f32) -> Vec3 {
+    let [a, middle, b] = along;
+    match direction {
+        Direction::Against => normal_along([b, middle, a], 1.0 - t),
+        Direction::Along | Direction::Symmetric => normal_along(along, t),
+    }
+}
+
 /// Texture coordinates on an edge, interpolated in its canonical direction.
-fn along_edge(direction: Direction, [start, end]: [Vec2; 2], t: f32) -> Vec2 {
+#[inline(always)]
+pub(crate) fn along_edge(direction: Direction, [start, end]: [Vec2; 2], t: f32) -> Vec2 {
     match direction {
         Direction::Against => end + (start - end) * (1.0 - t),
         Direction::Along | Direction::Symmetric => start + (end - start) * t,
@@ -263,13 +251,17 @@ fn boundary(surface: &Surface) -> Sides<Curve> {
     }
 }
 
+/// Position and tangents on the plane through three corners.
 #[inline(always)]
-fn bilinear<T: Real>(corners: &[Vec3; 4], u: T, v: T) -> Frames<T> {
-    let [a, b, c, d] = corners.map(V3::<T>::from);
+pub(crate) fn flat_frame(&[a, b, c]: &[Vec3; 3], u: f32, v: f32) -> Frame {
+    let tangents = Tangents { du: a - c, dv: b - c };
+    Frame { position: c + (a - c) * u + (b - c) * v, tangents }
+}
+
+/// Position and tangents on the bilinear surface of four corners.
+#[inline(always)]
+pub(crate) fn bilinear_frame(&[a, b, c, d]: &[Vec3; 4], u: f32, v: f32) -> Frame {
     let (low, high) = (a + (b - a) * u, d + (c - d) * u);
-    Frames {
-        position: low + (high - low) * v,
-        du: (b - a) * (T::from(1.0) - v) + (c - d) * v,
-        dv: high - low,
-    }
+    let tangents = Tangents { du: (b - a) * (1.0 - v) + (c - d) * v, dv: high - low };
+    Frame { position: low + (high - low) * v, tangents }
 }

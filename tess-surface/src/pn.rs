@@ -9,8 +9,7 @@
 //! Normals*, NVIDIA 2010.
 
 use crate::bezier::BezierPatch;
-use crate::frame::Frame;
-use crate::lanes::{Frames, Real, V3};
+use crate::frame::{Frame, Tangents};
 use glam::Vec3;
 
 /// A corner of a mesh face.
@@ -45,14 +44,9 @@ pub fn edge_normal(a: PnCorner, b: PnCorner) -> Vec3 {
 /// The quadratic normal along an edge, not of unit length: coefficients (first end, middle,
 /// second end) over the monomials, without binomial factors, as the paper has it.
 #[must_use]
-pub fn normal_along(along: [Vec3; 3], t: f32) -> Vec3 {
-    quadratic::<f32>(along.map(V3::from), t).to_vec3()
-}
-
-/// [`normal_along`] at one point or at eight.
 #[inline(always)]
-fn quadratic<T: Real>([a, middle, b]: [V3<T>; 3], t: T) -> V3<T> {
-    let s = T::from(1.0) - t;
+pub fn normal_along(along: [Vec3; 3], t: f32) -> Vec3 {
+    let ([a, middle, b], s) = (along, 1.0 - t);
     a * (s * s) + middle * (s * t) + b * (t * t)
 }
 
@@ -85,46 +79,45 @@ impl PnTriangle {
 
     /// Position and partial derivatives at (u, v).
     #[must_use]
-    pub fn frame(&self, u: f32, v: f32) -> Frame {
-        let frame = self.frames::<f32>(u, v);
-        Frame { position: frame.position.to_vec3(), tangents: frame.tangents() }
-    }
-
-    /// [`PnTriangle::frame`] at one point or at eight.
     #[inline(always)]
-    pub(crate) fn frames<T: Real>(&self, u: T, v: T) -> Frames<T> {
-        let w = T::from(1.0) - u - v;
-        let [b300, b030, b003] = self.corners.map(|corner| V3::<T>::from(corner.position));
-        let [[b012, b021], [b102, b201], [b120, b210]] = self.edges.map(|edge| edge.map(V3::from));
-        let b111 = V3::from(self.center);
+    pub fn frame(&self, u: f32, v: f32) -> Frame {
+        let w = 1.0 - u - v;
+        let [
+            PnCorner { position: b300, .. },
+            PnCorner { position: b030, .. },
+            PnCorner { position: b003, .. },
+        ] = self.corners;
+        let [[b012, b021], [b102, b201], [b120, b210]] = self.edges;
+        let b111 = self.center;
         let (uu, vv, ww) = (u * u, v * v, w * w);
-        let two = T::from(2.0);
-        let (uv, uw, vw) = (two * u * v, two * u * w, two * v * w);
+        let (uv, uw, vw) = (2.0 * u * v, 2.0 * u * w, 2.0 * v * w);
         // A third of the derivatives by u, v and w taken as independent.
         let by_u = b300 * uu + b120 * vv + b102 * ww + b210 * uv + b201 * uw + b111 * vw;
         let by_v = b210 * uu + b030 * vv + b012 * ww + b120 * uv + b111 * uw + b021 * vw;
         let by_w = b201 * uu + b021 * vv + b003 * ww + b111 * uv + b102 * uw + b012 * vw;
-        let three = T::from(3.0);
-        Frames {
-            position: by_u * u + by_v * v + by_w * w,
-            du: (by_u - by_w) * three,
-            dv: (by_v - by_w) * three,
-        }
+        let tangents = Tangents { du: (by_u - by_w) * 3.0, dv: (by_v - by_w) * 3.0 };
+        Frame { position: by_u * u + by_v * v + by_w * w, tangents }
     }
 
     /// The quadratic normal inside, not of unit length.
     #[must_use]
+    #[inline(always)]
     pub fn normal(&self, u: f32, v: f32) -> Vec3 {
-        self.normals::<f32>(u, v).to_vec3()
+        let w = 1.0 - u - v;
+        let [PnCorner { normal: nu, .. }, PnCorner { normal: nv, .. }, PnCorner { normal: nw, .. }] =
+            self.corners;
+        let [vw, uw, uv] = self.edge_normals;
+        nu * (u * u) + nv * (v * v) + nw * (w * w) + uv * (u * v) + vw * (v * w) + uw * (u * w)
     }
 
-    /// [`PnTriangle::normal`] at one point or at eight.
+    /// The quadratic normals along the edges u = 0, v = 0, w = 0.
+    #[must_use]
     #[inline(always)]
-    pub(crate) fn normals<T: Real>(&self, u: T, v: T) -> V3<T> {
-        let w = T::from(1.0) - u - v;
-        let [nu, nv, nw] = self.corners.map(|corner| V3::<T>::from(corner.normal));
-        let [vw, uw, uv] = self.edge_normals.map(V3::from);
-        nu * (u * u) + nv * (v * v) + nw * (w * w) + uv * (u * v) + vw * (v * w) + uw * (u * w)
+    pub(crate) fn boundary_normals(&self) -> [[Vec3; 3]; 3] {
+        let [PnCorner { normal: nu, .. }, PnCorner { normal: nv, .. }, PnCorner { normal: nw, .. }] =
+            self.corners;
+        let [vw, uw, uv] = self.edge_normals;
+        [[nw, vw, nv], [nw, uw, nu], [nv, uv, nu]]
     }
 
     /// The control net, for bounds: corners, edges, centre.
@@ -164,6 +157,7 @@ impl PnQuad {
 
     /// The quadratic normals along the edges u = 0, v = 0, u = 1, v = 1.
     #[must_use]
+    #[inline(always)]
     pub fn boundary_normals(&self) -> [[Vec3; 3]; 4] {
         let [n00, n10, n11, n01] = self.corner_normals;
         let [u0, v0, u1, v1] = self.edge_normals;
@@ -172,18 +166,13 @@ impl PnQuad {
 
     /// The blended normal inside, not of unit length.
     #[must_use]
-    pub fn normal(&self, u: f32, v: f32) -> Vec3 {
-        self.normals::<f32>(u, v).to_vec3()
-    }
-
-    /// [`PnQuad::normal`] at one point or at eight.
     #[inline(always)]
-    pub(crate) fn normals<T: Real>(&self, u: T, v: T) -> V3<T> {
-        let [n00, n10, n11, n01] = self.corner_normals.map(V3::<T>::from);
-        let [u0, v0, u1, v1] = self.boundary_normals().map(|edge| edge.map(V3::<T>::from));
-        let (not_u, not_v) = (T::from(1.0) - u, T::from(1.0) - v);
-        let along_v = quadratic(u0, v) * not_u + quadratic(u1, v) * u;
-        let along_u = quadratic(v0, u) * not_v + quadratic(v1, u) * v;
+    pub fn normal(&self, u: f32, v: f32) -> Vec3 {
+        let [n00, n10, n11, n01] = self.corner_normals;
+        let [u0, v0, u1, v1] = self.boundary_normals();
+        let (not_u, not_v) = (1.0 - u, 1.0 - v);
+        let along_v = normal_along(u0, v) * not_u + normal_along(u1, v) * u;
+        let along_u = normal_along(v0, u) * not_v + normal_along(v1, u) * v;
         let corners = (n00 * not_u + n10 * u) * not_v + (n01 * not_u + n11 * u) * v;
         along_u + along_v - corners
     }

@@ -29,17 +29,22 @@ impl<T> Sides<T> {
     }
 
     /// The values with `f` applied to each.
-    pub fn map<U>(self, f: impl FnMut(T) -> U) -> Sides<U> {
+    #[inline]
+    pub fn map<U>(self, mut f: impl FnMut(T) -> U) -> Sides<U> {
+        // The standard library's `map` of arrays is a loop that is not inlined.
         match self {
-            Self::Triangle(values) => Sides::Triangle(values.map(f)),
-            Self::Quad(values) => Sides::Quad(values.map(f)),
+            Self::Triangle([a, b, c]) => Sides::Triangle([f(a), f(b), f(c)]),
+            Self::Quad([a, b, c, d]) => Sides::Quad([f(a), f(b), f(c), f(d)]),
         }
     }
 
     /// The values with `f` applied to each one's number and itself.
+    #[inline]
     pub fn map_numbered<U>(self, mut f: impl FnMut(usize, T) -> U) -> Sides<U> {
-        let mut number = 0..;
-        self.map(|value| f(number.next().unwrap_or_default(), value))
+        match self {
+            Self::Triangle([a, b, c]) => Sides::Triangle([f(0, a), f(1, b), f(2, c)]),
+            Self::Quad([a, b, c, d]) => Sides::Quad([f(0, a), f(1, b), f(2, c), f(3, d)]),
+        }
     }
 
     /// The domain: triangle or quad.

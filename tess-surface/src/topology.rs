@@ -62,7 +62,9 @@ impl Topology {
         same: impl Fn(HalfEdge, HalfEdge) -> bool,
         is_forward: impl Fn(HalfEdge) -> bool,
     ) -> Result<Self, MeshError> {
-        hashes.sort_unstable();
+        if !hashes.is_empty() {
+            sort(&mut hashes);
+        }
         let mut topology = Self { twins: vec![ALONE; patches * 4], crowded: 0 };
         let mut sides: Vec<HalfEdge> = Vec::new();
         let mut others: Vec<HalfEdge> = Vec::new();
@@ -123,14 +125,63 @@ impl Topology {
 /// The number of the first point with the same coordinates, for each point.
 #[expect(clippy::cast_possible_truncation, reason = "faces index points with 32 bits")]
 pub(crate) fn weld(points: &[Vec3]) -> Vec<u32> {
-    let key = |i: u32| crate::math::order_key(points[i as usize].extend(0.0));
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    order.sort_unstable_by_key(|&i| (key(i), i));
-    let mut first = vec![0; points.len()];
-    for run in order.chunk_by(|&a, &b| key(a) == key(b)) {
-        run.iter().for_each(|&i| first[i as usize] = run[0]);
+    const NONE: u32 = u32::MAX;
+    let key = |point: &Vec3| (*point + Vec3::ZERO).to_array().map(f32::to_bits);
+    // At least half of the places stay empty.
+    let bits = (points.len() * 2).next_power_of_two().trailing_zeros();
+    let mut firsts = vec![NONE; 1 << bits];
+    let find = |(number, point): (usize, &Vec3)| {
+        let key_of_point = key(point);
+        let mut place = place(hash(key_of_point.map(u32::cast_signed).into_iter()), bits);
+        loop {
+            match firsts[place] {
+                NONE => {
+                    firsts[place] = number as u32;
+                    return number as u32;
+                }
+                first if key(&points[first as usize]) == key_of_point => return first,
+                _ => place = (place + 1) & ((1 << bits) - 1),
+            }
+        }
+    };
+    points.iter().enumerate().map(find).collect()
+}
+
+/// The place of a hash in a table of 2^`bits`.
+#[expect(clippy::cast_possible_truncation, reason = "tables are smaller than the address space")]
+fn place(hash: u64, bits: u32) -> usize {
+    // Fibonacci hashing: the high bits of a product depend on all bits of the hash.
+    let mixed = hash.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    (mixed >> (u64::BITS - bits.max(1))) as usize & ((1 << bits) - 1)
+}
+
+/// Sorts pairs by what comes first in them, then by the second: into buckets by their high bits, then
+/// bucket by bucket.
+#[expect(clippy::cast_possible_truncation, reason = "there are as many buckets as pairs at most")]
+fn sort(pairs: &mut Vec<(u64, u32)>) {
+    let largest = pairs.iter().fold(0, |largest, &(hash, _)| largest.max(hash));
+    let shift = (u64::BITS - largest.leading_zeros()).saturating_sub(pairs.len().ilog2());
+    let bucket = |hash: u64| (hash >> shift.min(63)) as usize;
+    let mut ends = vec![0; bucket(largest) + 2];
+    pairs.iter().for_each(|&(hash, _)| ends[bucket(hash) + 1] += 1);
+    let mut sum = 0;
+    for end in &mut ends {
+        sum += *end;
+        *end = sum;
     }
-    first
+    let mut sorted = vec![(0, 0); pairs.len()];
+    for &pair in &*pairs {
+        let place = &mut ends[bucket(pair.0)];
+        sorted[*place] = pair;
+        *place += 1;
+    }
+    // Every bucket's beginning has become its end.
+    let mut start = 0;
+    for end in ends {
+        sorted[start..end].sort_unstable();
+        start = end;
+    }
+    *pairs = sorted;
 }
 
 /// A hash of a curve's bits. Equality is checked, so collisions only cost time.

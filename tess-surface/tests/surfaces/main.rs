@@ -11,6 +11,8 @@ mod displacement;
 mod errors;
 mod factors;
 mod flatness;
+#[path = "../../../tess-simd/tests/common/levels.rs"]
+mod levels;
 mod models;
 mod normals;
 mod point_normal;

@@ -1,8 +1,9 @@
 //! Many vertices at a time: the bits of one at a time, whichever lanes they are in.
 
+use crate::levels::levels;
 use crate::models::{bumps, models, rational_ball};
 use tess_core::{Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_surface::{DisplacedModel, Model, Sample};
+use tess_surface::{DisplacedModel, Level, LevelUnavailable, Model, Sample};
 
 /// Domain points of a cut whose edges and inside are of several lengths.
 fn points(domain: Domain) -> Vec<[f32; 2]> {
@@ -18,21 +19,23 @@ fn bits(sample: &Sample) -> Vec<u32> {
     all.map(f32::to_bits).collect()
 }
 
-/// Compares in blocks of every length, so that a point comes into every lane.
+/// Compares in blocks of several lengths, so that a point comes into every lane, at every level.
 fn compare(
     name: &str,
     domain: Domain,
     one: impl Fn([f32; 2]) -> Sample,
-    many: impl Fn(&[[f32; 2]], &mut [Sample]),
+    many: impl Fn(Level, &[[f32; 2]], &mut [Sample]) -> Result<(), LevelUnavailable>,
 ) {
     let points = points(domain);
     let expected: Vec<_> = points.iter().map(|&point| bits(&one(point))).collect();
-    for length in [1, 3, 8, 13, points.len()] {
+    for (level, length) in
+        levels().into_iter().flat_map(|level| [1, 3, 8, 13, points.len()].map(|n| (level, n)))
+    {
         for (block, expected) in points.chunks(length).zip(expected.chunks(length)) {
             let mut samples = vec![Sample::default(); block.len()];
-            many(block, &mut samples);
+            many(level, block, &mut samples).expect("the level is there");
             let samples: Vec<_> = samples.iter().map(bits).collect();
-            assert_eq!(samples, expected, "{name}, blocks of {length}");
+            assert_eq!(samples, expected, "{name}, {level}, blocks of {length}");
         }
     }
 }
@@ -46,9 +49,58 @@ fn many_are_one_by_one() {
         for number in 0..model.len() {
             let patch = model.patch(number);
             let domain = patch.domain();
-            compare(name, domain, |at| patch.sample(at), |at, out| patch.samples(at, out));
+            compare(
+                name,
+                domain,
+                |at| patch.sample(at),
+                |level, at, out| patch.samples_at_level(level, at, out),
+            );
             let patch = displaced.patch(number);
-            compare(name, domain, |at| patch.sample(at), |at, out| patch.samples(at, out));
+            compare(
+                name,
+                domain,
+                |at| patch.sample(at),
+                |level, at, out| patch.samples_at_level(level, at, out),
+            );
+        }
+    }
+}
+
+/// The bits that every machine must give.
+#[test]
+fn every_machine_has_these_bits() {
+    let ball = Model::bezier(rational_ball()).expect("a model");
+    let (mut plain, mut displaced) = (Digest::default(), Digest::default());
+    for (_, model) in models().into_iter().chain([("rational ball", ball)]) {
+        let displacement = bumps();
+        let displaced_model = DisplacedModel::new(&model, &displacement);
+        for number in 0..model.len() {
+            let patch = model.patch(number);
+            let points = points(patch.domain());
+            let mut samples = vec![Sample::default(); points.len()];
+            patch.samples(&points, &mut samples);
+            plain.add(&samples);
+            displaced_model.patch(number).samples(&points, &mut samples);
+            displaced.add(&samples);
+        }
+    }
+    let found = [plain, displaced].map(|Digest(digest)| format!("{digest:016x}"));
+    assert_eq!(found, ["a9ee43bb95a47896", "1e0951e40fade537"], "as they are, displaced");
+}
+
+/// FNV-1a over words.
+struct Digest(u64);
+
+impl Default for Digest {
+    fn default() -> Self {
+        Self(0xCBF2_9CE4_8422_2325)
+    }
+}
+
+impl Digest {
+    fn add(&mut self, samples: &[Sample]) {
+        for word in samples.iter().flat_map(bits) {
+            self.0 = (self.0 ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01B3);
         }
     }
 }

@@ -4,7 +4,7 @@ use super::ending::{self, Guard};
 use super::stdout::stdout;
 use crate::failure::Failure;
 use std::fs::{self, File, Metadata, Permissions};
-use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
+use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
@@ -191,6 +191,18 @@ impl OutputFile {
         }
     }
 
+    /// Writes bytes to a place of the file, from any thread.
+    ///
+    /// # Errors
+    /// They cannot be written.
+    pub(crate) fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<()> {
+        let file = match &self.content {
+            Content::Partial(partial) => partial.file.as_file(),
+            Content::Spool(file, _) => file,
+        };
+        write_at(file, bytes, offset)
+    }
+
     /// Puts the whole output in its place.
     ///
     /// # Errors
@@ -225,6 +237,23 @@ impl OutputFile {
     }
 }
 
+#[cfg(unix)]
+fn write_at(file: &File, bytes: &[u8], offset: u64) -> io::Result<()> {
+    std::os::unix::fs::FileExt::write_all_at(file, bytes, offset)
+}
+
+#[cfg(windows)]
+fn write_at(file: &File, mut bytes: &[u8], mut offset: u64) -> io::Result<()> {
+    while !bytes.is_empty() {
+        let written = std::os::windows::fs::FileExt::seek_write(file, bytes, offset)?;
+        if written == 0 {
+            return Err(io::ErrorKind::WriteZero.into());
+        }
+        (bytes, offset) = (&bytes[written..], offset + written as u64);
+    }
+    Ok(())
+}
+
 fn copy(mut from: File, to: &mut impl Write) -> io::Result<()> {
     from.rewind()?;
     let mut from = BufReader::with_capacity(1 << 20, from);
@@ -244,11 +273,5 @@ impl Write for OutputFile {
 
     fn flush(&mut self) -> io::Result<()> {
         self.file().flush()
-    }
-}
-
-impl Seek for OutputFile {
-    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
-        self.file().seek(to)
     }
 }

@@ -53,8 +53,7 @@ impl Sum for Amount {
 /// A workload runs in parts, so that runs which are compared lie close together in time: a part is
 /// about a mebibyte of output on a CPU, as much as a device likes in one go elsewhere.
 /// [`Runner::run`] and [`Runner::fill`] write the same bytes to the same buffers in the same order;
-/// neither allocates on one
-/// thread. Both give their own time, so that a device can use its clock.
+/// on one thread neither allocates. Both give their own time, so that a device can use its clock.
 pub(crate) trait Runner {
     /// Name of the backend.
     fn backend(&self) -> &'static str;

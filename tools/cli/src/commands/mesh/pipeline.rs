@@ -1,20 +1,19 @@
 //! Factors, tessellation and evaluation, a block of patches at a time.
 //!
-//! Memory beyond the model is that of one block, whatever the model's size and the factors.
+//! Memory beyond the model is that of its patches' factors and of one block, whatever the factors.
 
-use super::output::Sink;
+use super::output::{Sink, Totals};
 use super::statistics::{Stage, Statistics};
 use crate::failure::Failure;
 use crate::output::progress;
 use rayon::prelude::*;
-use std::ops::Range;
 use tess_core::{
     Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
 };
 use tess_simd::{Batch, Numbering, Output, Tessellator};
 use tess_surface::{DisplacedModel, FactorRule, Model, Sample};
 
-/// Patches whose factors are held at a time.
+/// Patches that are counted and sorted by domain at a time.
 const FACTOR_BLOCK: usize = 8192;
 
 /// Largest number of vertices that are held at a time: 32 MiB of them and 24 MiB of indices.
@@ -78,24 +77,60 @@ pub(crate) fn run(
         vertices: Vec::new(),
     };
     statistics.patches = job.model.len();
+    let factors = statistics.time(Stage::Factors, || job.factors());
+    let totals = statistics.time(Stage::Tessellation, || stream.count(&factors))?;
+    statistics.time(Stage::Output, || sink.begin(totals))?;
     let bar = progress(job.model.len() as u64, "patches");
-    for start in (0..job.model.len()).step_by(FACTOR_BLOCK) {
-        let end = job.model.len().min(start + FACTOR_BLOCK);
-        stream.block_of_patches(start..end, sink, statistics)?;
-        bar.set_position(end as u64);
+    for (number, block) in factors.chunks(FACTOR_BLOCK).enumerate() {
+        let first = number * FACTOR_BLOCK;
+        stream.block_of_patches(first, block, sink, statistics)?;
+        bar.set_position((first + block.len()) as u64);
     }
     bar.finish_and_clear();
     Ok(())
 }
 
+impl Job<'_> {
+    /// The factors of all patches.
+    fn factors(&self) -> Vec<PatchFactors> {
+        let Self { model, rule, partitioning, .. } = self;
+        (0..model.len())
+            .into_par_iter()
+            .with_min_len(PATCHES_PER_TASK)
+            .map(|number| rule.factors(model, number, *partitioning))
+            .collect()
+    }
+}
+
+/// The error of a batch that cannot be tessellated.
+fn refused(error: tess_simd::Error) -> Failure {
+    Failure::bad_input(error.to_string())
+}
+
 impl Stream<'_> {
+    /// Vertices and indices of all patches.
+    fn count(&mut self, factors: &[PatchFactors]) -> Result<Totals, Failure> {
+        let mut totals = Totals::default();
+        for block in factors.chunks(FACTOR_BLOCK) {
+            let (triangles, quads) = by_domain(0, block);
+            for batch in [Batch::from(&triangles.factors[..]), Batch::from(&quads.factors[..])] {
+                let counted = self.tessellator.count(batch).map_err(refused)?;
+                totals.vertices += counted.points() as u64;
+                totals.indices += counted.indices() as u64;
+            }
+        }
+        Ok(totals)
+    }
+
+    /// Patches of consecutive numbers, from `first` on.
     fn block_of_patches(
         &mut self,
-        patches: Range<usize>,
+        first: usize,
+        factors: &[PatchFactors],
         sink: &mut dyn Sink,
         statistics: &mut Statistics,
     ) -> Result<(), Failure> {
-        let (triangles, quads) = statistics.time(Stage::Factors, || self.factors(patches));
+        let (triangles, quads) = by_domain(first, factors);
         for part in triangles.parts(|f| f.outer().into_iter().fold(f.inside, f32::max)) {
             self.group(part.0, Batch::from(part.1), sink, statistics)?;
         }
@@ -103,27 +138,6 @@ impl Stream<'_> {
             self.group(part.0, Batch::from(part.1), sink, statistics)?;
         }
         Ok(())
-    }
-
-    /// The factors of a range of patches, by domain.
-    fn factors(&self, patches: Range<usize>) -> (Group<TriangleFactors>, Group<QuadFactors>) {
-        let Job { model, rule, partitioning, .. } = self.job;
-        let factors: Vec<PatchFactors> = patches
-            .clone()
-            .into_par_iter()
-            .with_min_len(PATCHES_PER_TASK)
-            .map(|number| rule.factors(model, number, *partitioning))
-            .collect();
-        let mut triangles = Group { patches: Vec::new(), factors: Vec::new() };
-        let mut quads = Group { patches: Vec::new(), factors: Vec::new() };
-        for (number, factors) in patches.zip(factors) {
-            match factors {
-                PatchFactors::Triangle(factors) => triangles.push(number, factors),
-                PatchFactors::Quad(factors) => quads.push(number, factors),
-                PatchFactors::Isoline(_) => {} // no surface has isolines
-            }
-        }
-        (triangles, quads)
     }
 
     /// Tessellates and evaluates patches of one domain.
@@ -142,7 +156,7 @@ impl Stream<'_> {
             .time(Stage::Tessellation, || {
                 self.tessellator.tessellate(batch, numbering, &mut self.domain_points)
             })
-            .map_err(|error| Failure::bad_input(error.to_string()))?;
+            .map_err(refused)?;
         statistics.time(Stage::Evaluation, || self.evaluate(patches));
         let block = Block {
             first_vertex: statistics.vertices,
@@ -173,6 +187,23 @@ impl Stream<'_> {
             .with_min_len(PATCHES_PER_TASK)
             .for_each(|(number, points, out)| evaluate_patch(job, number, points, out));
     }
+}
+
+/// Consecutive patches, from number `first` on, with their factors, by domain.
+fn by_domain(
+    first: usize,
+    factors: &[PatchFactors],
+) -> (Group<TriangleFactors>, Group<QuadFactors>) {
+    let mut triangles = Group { patches: Vec::new(), factors: Vec::new() };
+    let mut quads = Group { patches: Vec::new(), factors: Vec::new() };
+    for (number, factors) in (first..).zip(factors) {
+        match *factors {
+            PatchFactors::Triangle(factors) => triangles.push(number, factors),
+            PatchFactors::Quad(factors) => quads.push(number, factors),
+            PatchFactors::Isoline(_) => {} // no surface has isolines
+        }
+    }
+    (triangles, quads)
 }
 
 fn evaluate_patch(job: &Job<'_>, number: usize, points: &[[f32; 2]], out: &mut [Sample]) {

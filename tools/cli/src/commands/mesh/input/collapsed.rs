@@ -5,6 +5,7 @@
 //! distinct corners lie on one line are dropped too, but the edges around them are then open.
 
 use glam::Vec3;
+use rayon::prelude::*;
 use tess_surface::{Face, Fault, PolygonMesh, Sides};
 
 /// What [`repair`] did.
@@ -52,7 +53,7 @@ pub(super) fn repair(mesh: &mut PolygonMesh) -> Collapsed {
     let mut collapsed = Collapsed::default();
     let without_area =
         |face: &Face| matches!(mesh.check_face(face), Err(Fault::RepeatedCorner | Fault::NoArea));
-    if !mesh.faces.iter().any(without_area) {
+    if !mesh.faces.par_iter().any(without_area) {
         return collapsed;
     }
     let mut kept = Vec::with_capacity(mesh.faces.len());

@@ -4,7 +4,7 @@
 //! and display attributes do not change a surface and are skipped. Points and lines have none; they
 //! are skipped and counted. Every other keyword is an error, so that no misspelt line is lost.
 
-use super::text::{number, quoted, without_mark};
+use super::text::{Lines, Words, integer, number, quoted, without_mark};
 use glam::{Vec2, Vec3};
 use tess_surface::{Face, PolygonMesh, Sides};
 
@@ -41,7 +41,7 @@ struct Corner {
 /// The first line that is malformed, or the first face with an index out of range.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
     let mut obj = Obj::default();
-    for (number, line) in (1..).zip(without_mark(bytes).split(|&byte| byte == b'\n')) {
+    for (number, line) in (1..).zip(Lines(without_mark(bytes))) {
         let read = obj.line(number, line);
         read.map_err(|what| format!("line {number}: {}: {what}", quoted(line)))?;
     }
@@ -53,7 +53,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
 
 impl Obj {
     fn line(&mut self, number: usize, line: &[u8]) -> Result<(), String> {
-        let mut words = line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty());
+        let mut words = Words(line);
         let Some(keyword) = words.next() else { return Ok(()) };
         let words = words.take_while(|word| !word.starts_with(b"#"));
         match keyword {
@@ -157,8 +157,7 @@ fn unread(keyword: &[u8]) -> Result<(), String> {
 
 /// Resolves an index: from 1, or from -1 backwards from the last of the `count` so far.
 fn resolve(part: &[u8], what: &str, count: usize) -> Result<u32, String> {
-    let number = std::str::from_utf8(part).ok().and_then(|text| text.parse::<i64>().ok());
-    let number = number.ok_or_else(|| {
+    let number = integer(part).ok_or_else(|| {
         format!("{} is not a {what} index; corners are v, v/vt, v//vn or v/vt/vn", quoted(part))
     })?;
     let index = match number {

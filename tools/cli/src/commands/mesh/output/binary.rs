@@ -1,116 +1,143 @@
 //! The binary part of glTF: interleaved vertices, then indices, and the JSON that describes them.
 //!
-//! How many vertices there will be is not known beforehand. So they go straight to the output and
-//! the indices to a second file, whose content is appended at the end, narrowed if it can be.
+//! How many vertices and indices there will be is known beforehand. So every thread makes the bytes of a
+//! part of a block, and writes them to their place.
 
-use super::{IndexWidth, Options};
+use super::{IndexWidth, Options, Totals};
 use crate::commands::mesh::input::Up;
 use crate::commands::mesh::pipeline::Block;
+use crate::output::OutputFile;
 use glam::Vec3;
+use rayon::prelude::*;
 use serde_json::{Value, json};
-use std::fs::File;
-use std::io::{self, BufReader, BufWriter, Read, Seek, Write};
+use std::io;
+use tess_surface::Sample;
 
 /// Position, normal and texture coordinates: eight floats.
-const STRIDE: u64 = 32;
+const STRIDE: usize = 32;
 
 /// The largest number of vertices that 16 bits can number: 65535 itself restarts primitives.
 const MAX_NARROW: u64 = 65535;
 
-/// Collects the binary part into `vertices`, which becomes the output.
-pub(super) struct Binary<W: Write> {
-    pub(super) vertices: BufWriter<W>,
-    indices: BufWriter<File>,
-    vertex_count: u64,
-    index_count: u64,
-    bounds: (Vec3, Vec3),
-    width: IndexWidth,
-    up: Up,
+/// Bytes that a thread writes at a time: they stay in its cache, and allocators keep so small pieces.
+const PART: usize = 1 << 16;
+
+/// The smallest and the largest coordinates of positions.
+type Bounds = (Vec3, Vec3);
+
+const EMPTY: Bounds = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+
+/// Writes the binary part into a file.
+pub(super) struct Binary {
+    pub(super) file: OutputFile,
+    /// Where the binary part begins in the file.
+    start: u64,
+    options: Options,
+    layout: Layout,
+    /// Indices written so far.
+    indices: u64,
 }
 
 /// What the JSON says of the binary part.
+#[derive(Clone, Copy)]
 pub(super) struct Layout {
-    vertex_count: u64,
-    index_count: u64,
+    totals: Totals,
     narrow: bool,
-    bounds: (Vec3, Vec3),
+    bounds: Bounds,
     up: Up,
 }
 
-impl<W: Write> Binary<W> {
-    pub(super) fn new(vertices: W, options: &Options) -> io::Result<Self> {
-        Ok(Self {
-            vertices: BufWriter::with_capacity(1 << 20, vertices),
-            indices: BufWriter::with_capacity(1 << 20, tempfile::tempfile()?),
-            vertex_count: 0,
-            index_count: 0,
-            bounds: (Vec3::INFINITY, Vec3::NEG_INFINITY),
-            width: options.indices,
-            up: options.up,
-        })
+impl Binary {
+    pub(super) const fn new(file: OutputFile, start: u64, options: &Options) -> Self {
+        let totals = Totals { vertices: 0, indices: 0 };
+        let layout = Layout { totals, narrow: false, bounds: EMPTY, up: options.up };
+        Self { file, start, options: *options, layout, indices: 0 }
     }
 
-    pub(super) fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
-        for vertex in block.vertices {
-            let [s, t] = vertex.texcoord.to_array();
-            let ([x, y, z], [nx, ny, nz]) = (vertex.position.to_array(), vertex.normal.to_array());
-            // glTF has (0, 0) at the upper left of the image.
-            let floats = [x, y, z, nx, ny, nz, s, 1.0 - t];
-            self.vertices.write_all(floats.map(f32::to_le_bytes).as_flattened())?;
-            self.bounds = (self.bounds.0.min(vertex.position), self.bounds.1.max(vertex.position));
+    /// Takes how much will come.
+    pub(super) fn begin(&mut self, totals: Totals) -> io::Result<()> {
+        let width = self.options.indices;
+        if width == IndexWidth::Bits16 && totals.vertices > MAX_NARROW {
+            return Err(io::Error::other("more than 65535 vertices need --indices 32 (or auto)"));
         }
-        self.vertex_count += block.vertices.len() as u64;
-        self.index_count += block.indices.len() as u64;
-        self.check()?;
-        for &index in block.indices {
-            let index = block.first_vertex + u64::from(index);
-            let index = u32::try_from(index).map_err(|_| too_large())?;
-            self.indices.write_all(&index.to_le_bytes())?;
+        if totals.vertices >= u64::from(u32::MAX) {
+            return Err(too_large());
         }
+        self.layout.totals = totals;
+        self.layout.narrow = width != IndexWidth::Bits32 && totals.vertices <= MAX_NARROW;
         Ok(())
     }
 
-    fn check(&self) -> io::Result<()> {
-        match self.width {
-            IndexWidth::Bits16 if self.vertex_count > MAX_NARROW => {
-                Err(io::Error::other("more than 65535 vertices need --indices 32 (or auto)"))
-            }
-            _ if self.vertex_count >= u64::from(u32::MAX) => Err(too_large()),
-            _ => Ok(()),
-        }
-    }
-
-    /// How large the binary part is or will be.
-    pub(super) fn layout(&self) -> Layout {
-        let narrow = self.width != IndexWidth::Bits32 && self.vertex_count <= MAX_NARROW;
-        Layout {
-            vertex_count: self.vertex_count,
-            index_count: self.index_count,
-            narrow,
-            bounds: self.bounds,
-            up: self.up,
-        }
-    }
-
-    /// Appends the indices; the binary part is whole then, a multiple of four bytes.
-    pub(super) fn finish(self, layout: &Layout) -> io::Result<W> {
-        let mut vertices = self.vertices;
-        let mut indices = self.indices.into_inner().map_err(io::IntoInnerError::into_error)?;
-        indices.rewind()?;
-        let mut indices = BufReader::with_capacity(1 << 20, indices);
-        if layout.narrow {
-            for _ in 0..layout.index_count {
-                let mut bytes = [0; 4];
-                indices.read_exact(&mut bytes)?;
-                vertices.write_all(&bytes[..2])?; // little endian: the low half
-            }
-            let padding: &[u8] = if layout.index_count.is_multiple_of(2) { &[] } else { &[0; 2] };
-            vertices.write_all(padding)?;
+    pub(super) fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
+        let (low, high) = self.write_vertices(block)?;
+        self.layout.bounds = (self.layout.bounds.0.min(low), self.layout.bounds.1.max(high));
+        let first = u32::try_from(block.first_vertex).map_err(|_| too_large())?;
+        if self.layout.narrow {
+            // The numbers of so few vertices have 16 bits.
+            self.write_indices(block, |index| {
+                let [low, high, ..] = (first + index).to_le_bytes();
+                [low, high]
+            })?;
         } else {
-            io::copy(&mut indices, &mut vertices)?;
+            self.write_indices(block, |index| (first + index).to_le_bytes())?;
         }
-        vertices.into_inner().map_err(io::IntoInnerError::into_error)
+        self.indices += block.indices.len() as u64;
+        Ok(())
     }
+
+    fn write_vertices(&self, block: &Block<'_>) -> io::Result<Bounds> {
+        let start = self.start + block.first_vertex * STRIDE as u64;
+        let parts = block.vertices.par_chunks(PART / STRIDE).enumerate();
+        let written = parts.map_init(Vec::new, |bytes, (number, vertices)| {
+            bytes.resize(vertices.len() * STRIDE, 0);
+            let mut bounds = EMPTY;
+            for (vertex, bytes) in vertices.iter().zip(bytes.as_chunks_mut().0) {
+                *bytes = vertex_bytes(vertex);
+                bounds = (bounds.0.min(vertex.position), bounds.1.max(vertex.position));
+            }
+            self.file.write_at(bytes, start + (number * PART) as u64)?;
+            Ok(bounds)
+        });
+        written.try_reduce(|| EMPTY, |a, b| Ok((a.0.min(b.0), a.1.max(b.1))))
+    }
+
+    fn write_indices<const N: usize>(
+        &self,
+        block: &Block<'_>,
+        bytes_of: impl Fn(u32) -> [u8; N] + Sync,
+    ) -> io::Result<()> {
+        let start = self.start + self.layout.vertex_bytes() + self.indices * N as u64;
+        let parts = block.indices.par_chunks(PART / N).enumerate();
+        let written = parts.map_init(Vec::new, |bytes, (number, indices)| {
+            bytes.resize(indices.len() * N, 0);
+            for (&index, bytes) in indices.iter().zip(bytes.as_chunks_mut().0) {
+                *bytes = bytes_of(index);
+            }
+            self.file.write_at(bytes, start + (number * PART) as u64)
+        });
+        written.collect()
+    }
+
+    /// Fills up the binary part, a multiple of four bytes.
+    pub(super) fn finish(self) -> io::Result<(OutputFile, Layout)> {
+        let Self { file, start, layout, .. } = self;
+        let padding = layout.length() - layout.vertex_bytes() - layout.index_bytes();
+        let end = start + layout.length();
+        file.write_at(&[0; 4][..usize::try_from(padding).unwrap_or(0)], end - padding)?;
+        Ok((file, layout))
+    }
+}
+
+fn vertex_bytes(vertex: &Sample) -> [u8; STRIDE] {
+    let [s, t] = vertex.texcoord.to_array();
+    let ([x, y, z], [nx, ny, nz]) = (vertex.position.to_array(), vertex.normal.to_array());
+    // glTF has (0, 0) at the upper left of the image.
+    let floats = [x, y, z, nx, ny, nz, s, 1.0 - t];
+    let mut bytes = [0; STRIDE];
+    for (bytes, float) in bytes.as_chunks_mut().0.iter_mut().zip(floats) {
+        *bytes = float.to_le_bytes();
+    }
+    bytes
 }
 
 fn too_large() -> io::Error {
@@ -118,18 +145,22 @@ fn too_large() -> io::Error {
 }
 
 impl Layout {
-    fn index_bytes(&self) -> u64 {
-        self.index_count * if self.narrow { 2 } else { 4 }
+    const fn vertex_bytes(&self) -> u64 {
+        self.totals.vertices * STRIDE as u64
+    }
+
+    const fn index_bytes(&self) -> u64 {
+        self.totals.indices * if self.narrow { 2 } else { 4 }
     }
 
     /// Length of the binary part in bytes.
     pub(super) fn length(&self) -> u64 {
-        (self.vertex_count * STRIDE + self.index_bytes()).next_multiple_of(4)
+        (self.vertex_bytes() + self.index_bytes()).next_multiple_of(4)
     }
 
     /// The document; `uri` names the file of the binary part, if it is a file of its own.
     pub(super) fn document(&self, uri: Option<&str>) -> Value {
-        let vertex_bytes = self.vertex_count * STRIDE;
+        let vertex_bytes = self.vertex_bytes();
         let mut buffer = json!({ "byteLength": self.length() });
         if let Some(uri) = uri {
             buffer["uri"] = uri.into();
@@ -143,7 +174,7 @@ impl Layout {
         let attribute = |offset: u64, kind: &str| {
             json!({
                 "bufferView": 0, "byteOffset": offset, "componentType": 5126,
-                "count": self.vertex_count, "type": kind,
+                "count": self.totals.vertices, "type": kind,
             })
         };
         let mut position = attribute(0, "VEC3");
@@ -151,7 +182,7 @@ impl Layout {
         position["max"] = json!(self.bounds.1.to_array());
         let indices = json!({
             "bufferView": 1, "componentType": if self.narrow { 5123 } else { 5125 },
-            "count": self.index_count, "type": "SCALAR",
+            "count": self.totals.indices, "type": "SCALAR",
         });
         json!({
             "asset": { "version": "2.0", "generator": concat!("tess ", env!("CARGO_PKG_VERSION")) },

@@ -1,11 +1,11 @@
 //! GLB: JSON and binary part in one file.
 
 use super::binary::Binary;
-use super::{Options, Sink};
+use super::{Options, Sink, Totals};
 use crate::commands::mesh::pipeline::Block;
 use crate::failure::Failure;
 use crate::output::OutputFile;
-use std::io::{self, Seek, SeekFrom, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// Room for the JSON, which is known last and stands first; the rest is filled with blanks, as
@@ -18,16 +18,13 @@ const BEFORE_BINARY: usize = 12 + 8 + JSON_ROOM + 8;
 /// The file while it grows.
 pub(super) struct Glb {
     path: PathBuf,
-    binary: Binary<OutputFile>,
+    binary: Binary,
 }
 
 impl Glb {
     pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
-        let failure = |error: io::Error| Failure::write(path, error);
-        let mut file = OutputFile::create(path)?;
-        file.write_all(&[0; BEFORE_BINARY]).map_err(failure)?;
-        let binary = Binary::new(file, options).map_err(failure)?;
-        Ok(Self { path: path.to_owned(), binary })
+        let file = OutputFile::create(path)?;
+        Ok(Self { path: path.to_owned(), binary: Binary::new(file, BEFORE_BINARY as u64, options) })
     }
 }
 
@@ -54,6 +51,10 @@ fn beginning(json: &str, length: u64) -> io::Result<Vec<u8>> {
 }
 
 impl Sink for Glb {
+    fn begin(&mut self, totals: Totals) -> Result<(), Failure> {
+        self.binary.begin(totals).map_err(|error| Failure::write(&self.path, error))
+    }
+
     fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
         self.binary.block(block).map_err(|error| Failure::write(&self.path, error))
     }
@@ -61,12 +62,10 @@ impl Sink for Glb {
     fn finish(self: Box<Self>) -> Result<(), Failure> {
         let Self { path, binary } = *self;
         let failure = |error: io::Error| Failure::write(&path, error);
-        let layout = binary.layout();
-        let beginning =
-            beginning(&layout.document(None).to_string(), layout.length()).map_err(failure)?;
-        let mut file = binary.finish(&layout).map_err(failure)?;
-        file.seek(SeekFrom::Start(0)).map_err(failure)?;
-        file.write_all(&beginning).map_err(failure)?;
+        let (file, layout) = binary.finish().map_err(failure)?;
+        let document = layout.document(None).to_string();
+        let beginning = beginning(&document, layout.length()).map_err(failure)?;
+        file.write_at(&beginning, 0).map_err(failure)?;
         file.finish().map_err(failure)
     }
 }

@@ -1,7 +1,7 @@
 //! glTF in two files: the JSON, and the binary part beside it with the extension `.bin`.
 
 use super::binary::Binary;
-use super::{Options, Sink};
+use super::{Options, Sink, Totals};
 use crate::commands::mesh::pipeline::Block;
 use crate::failure::Failure;
 use crate::output::OutputFile;
@@ -15,7 +15,7 @@ pub(super) struct Gltf {
     /// What the JSON calls the binary part.
     uri: String,
     json: OutputFile,
-    binary: Binary<OutputFile>,
+    binary: Binary,
 }
 
 impl Gltf {
@@ -37,8 +37,7 @@ impl Gltf {
             )));
         }
         let json = OutputFile::create(path)?;
-        let binary = Binary::new(OutputFile::create(&beside)?, options);
-        let binary = binary.map_err(|error| Failure::write(&beside, error))?;
+        let binary = Binary::new(OutputFile::create(&beside)?, 0, options);
         Ok(Self { path: path.to_owned(), uri, json, binary })
     }
 }
@@ -67,6 +66,10 @@ fn refers_to(gltf: &Path, uri: &str) -> bool {
 }
 
 impl Sink for Gltf {
+    fn begin(&mut self, totals: Totals) -> Result<(), Failure> {
+        self.binary.begin(totals).map_err(|error| Failure::write(&self.path, error))
+    }
+
     fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
         self.binary.block(block).map_err(|error| Failure::write(&self.path, error))
     }
@@ -74,10 +77,9 @@ impl Sink for Gltf {
     fn finish(self: Box<Self>) -> Result<(), Failure> {
         let Self { path, uri, mut json, binary } = *self;
         let failure = |error: io::Error| Failure::write(&path, error);
-        let layout = binary.layout();
+        let (binary, layout) = binary.finish().map_err(failure)?;
         let document = crate::output::json(&layout.document(Some(&uri)));
         json.write_all(document.as_bytes()).map_err(failure)?;
-        let binary = binary.finish(&layout).map_err(failure)?;
         OutputFile::finish_both(binary, json).map_err(failure)
     }
 }

@@ -14,8 +14,25 @@ use crate::failure::Failure;
 use crate::output::form::Form;
 use std::path::Path;
 
+/// How much there will be.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Totals {
+    /// Vertices of all blocks.
+    pub(crate) vertices: u64,
+    /// Three for each triangle.
+    pub(crate) indices: u64,
+}
+
 /// Takes the result block by block.
 pub(crate) trait Sink {
+    /// Takes how much there will be, before the first block.
+    ///
+    /// # Errors
+    /// The form cannot hold so much.
+    fn begin(&mut self, _totals: Totals) -> Result<(), Failure> {
+        Ok(())
+    }
+
     /// The next vertices and triangles.
     ///
     /// # Errors

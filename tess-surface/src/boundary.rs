@@ -1,0 +1,204 @@
+//! Vertices on edges and corners, eight at a time.
+
+use crate::curve::{Curve, Direction, Edge};
+use crate::lanes::{LANES, Lanes, Vertices};
+use crate::math::{Homogeneous, de_casteljau, lerp, plain_zero, select, unit_or_not};
+use crate::patch::{Patch, Surface, along_edge, normal_in_direction};
+use crate::sides::{Sides, edge_corners};
+use glam::{Vec3, Vec4};
+
+/// A curve in canonical direction, without branches.
+trait Along {
+    /// [`Curve::position`].
+    fn position(&self, t: f32) -> Vec3;
+}
+
+/// The ends.
+struct Line([Vec3; 2]);
+/// The control points of a cubic whose weights are all 1.
+struct Polynomial([Vec3; 4]);
+/// The control points of any cubic.
+struct Rational([Homogeneous; 4]);
+
+impl Along for Line {
+    #[inline(always)]
+    fn position(&self, t: f32) -> Vec3 {
+        let [a, b] = self.0;
+        at_ends(t, a, lerp(a, b, t), b)
+    }
+}
+
+impl Along for Polynomial {
+    #[inline(always)]
+    fn position(&self, t: f32) -> Vec3 {
+        let [a, .., d] = self.0;
+        at_ends(t, a, de_casteljau(self.0, t).0, d)
+    }
+}
+
+impl Along for Rational {
+    #[inline(always)]
+    fn position(&self, t: f32) -> Vec3 {
+        let [a, .., d] = self.0;
+        let point = de_casteljau(self.0, t).0;
+        at_ends(t, a.xyz / a.w, point.xyz / point.w, d.xyz / d.w)
+    }
+}
+
+/// `start` up to t = 0, `end` from t = 1 on.
+#[inline(always)]
+fn at_ends(t: f32, start: Vec3, between: Vec3, end: Vec3) -> Vec3 {
+    let inner = select(t >= 1.0, end, between);
+    select(t <= 0.0, start, inner)
+}
+
+/// The edges that the lanes' points are on: a bit for each.
+#[inline(always)]
+fn edges_of<T>(sides: &Sides<T>, u: &Lanes, v: &Lanes) -> Lanes<u32> {
+    let mut edges = [0; LANES];
+    for (lane, edges) in edges.iter_mut().enumerate() {
+        let (u, v) = (u[lane], v[lane]);
+        let low = u32::from(u <= 0.0) | u32::from(v <= 0.0) << 1;
+        *edges = match sides {
+            Sides::Triangle(_) => low | u32::from(1.0 - u - v <= 0.0) << 2,
+            Sides::Quad(_) => low | u32::from(u >= 1.0) << 2 | u32::from(v >= 1.0) << 3,
+        };
+    }
+    edges
+}
+
+/// The lanes' running coordinates on an edge.
+#[inline(always)]
+pub(crate) const fn running<T>(sides: &Sides<T>, edge: usize, vertices: &Vertices) -> Lanes {
+    match (sides, edge) {
+        (_, 1 | 3) | (Sides::Triangle(_), 2) => vertices.u,
+        _ => vertices.v,
+    }
+}
+
+impl Vertices {
+    /// Whether a lane's point is on an edge, without its ends.
+    #[inline(always)]
+    pub(crate) const fn is_on(&self, edge: usize, lane: usize) -> bool {
+        self.on_edges[lane] == 1 << edge
+    }
+
+    /// Whether any lane's point is on an edge, without its ends.
+    #[inline(always)]
+    pub(crate) fn any_on(&self, edge: usize) -> bool {
+        self.on_edges.contains(&(1 << edge))
+    }
+
+    /// Whether a lane's point is on a corner.
+    #[inline(always)]
+    pub(crate) const fn is_corner(&self, lane: usize) -> bool {
+        self.on_edges[lane].count_ones() > 1
+    }
+}
+
+impl Patch {
+    /// Replaces what points on edges and corners have from those alone.
+    #[inline(always)]
+    pub(crate) fn boundary(&self, vertices: &mut Vertices) {
+        vertices.on_edges = edges_of(self.edges(), &vertices.u, &vertices.v);
+        if vertices.on_edges == [0; LANES] {
+            return;
+        }
+        for (number, edge) in self.edges().as_slice().iter().enumerate() {
+            if vertices.any_on(number) {
+                let t = running(self.edges(), number, vertices);
+                curve_positions(vertices, number, edge, &t);
+                self.edge_texcoords(vertices, number, edge.direction, &t);
+                self.edge_normals(vertices, number, edge.direction, &t);
+            }
+        }
+        for lane in 0..LANES {
+            if vertices.is_corner(lane) {
+                self.corner_vertex(lane, vertices);
+            }
+        }
+    }
+
+    /// Texture coordinates on an edge.
+    #[inline(always)]
+    fn edge_texcoords(
+        &self,
+        vertices: &mut Vertices,
+        edge: usize,
+        direction: Direction,
+        t: &Lanes,
+    ) {
+        let [start, end] = edge_corners(self.edges())[edge];
+        let ends = [self.texcoords().as_slice()[start], self.texcoords().as_slice()[end]];
+        for (lane, &t) in t.iter().enumerate() {
+            let texcoord = along_edge(direction, ends, t);
+            if vertices.is_on(edge, lane) {
+                vertices.texcoord.set(lane, texcoord);
+            }
+        }
+    }
+
+    /// Normals on an edge, of surfaces where they follow from it.
+    #[inline(always)]
+    fn edge_normals(&self, vertices: &mut Vertices, edge: usize, direction: Direction, t: &Lanes) {
+        let along = match self.surface() {
+            Surface::PnTriangle(triangle) => triangle.boundary_normals()[edge],
+            Surface::PnQuad(quad) => quad.boundary_normals()[edge],
+            _ => return,
+        };
+        for (lane, &t) in t.iter().enumerate() {
+            let (normal, exists) = unit_or_not(normal_in_direction(direction, along, t));
+            let is_on = vertices.is_on(edge, lane);
+            vertices.normal.set(lane, select(is_on, normal, vertices.normal.get(lane)));
+            let inside = vertices.has_normal[lane];
+            vertices.has_normal[lane] = if is_on { u32::from(exists) } else { inside };
+        }
+    }
+
+    /// The vertex of a lane that is on a corner.
+    fn corner_vertex(&self, lane: usize, vertices: &mut Vertices) {
+        let (u, v) = (vertices.u[lane], vertices.v[lane]);
+        let place = self.place(u, v);
+        if let Some(position) = self.boundary_position(place) {
+            vertices.position.set(lane, position);
+        }
+        vertices.texcoord.set(lane, self.texcoord(place, u, v));
+        if matches!(self.surface(), Surface::PnTriangle(_) | Surface::PnQuad(_)) {
+            vertices.normal.set(lane, self.normal([u, v]));
+            vertices.has_normal[lane] = 1;
+        }
+    }
+}
+
+/// Positions on an edge.
+#[inline(always)]
+fn curve_positions(vertices: &mut Vertices, number: usize, edge: &Edge, t: &Lanes) {
+    let is_one = |point: &Vec4| point.w.to_bits() == 1.0f32.to_bits();
+    match edge.curve {
+        Curve::Line(ends) => along(vertices, number, edge.direction, t, &Line(ends)),
+        Curve::Cubic(points) if points.iter().all(is_one) => {
+            let curve = Polynomial(points.map(Vec4::truncate));
+            along(vertices, number, edge.direction, t, &curve);
+        }
+        Curve::Cubic(points) => {
+            let curve = Rational(points.map(Homogeneous::from));
+            along(vertices, number, edge.direction, t, &curve);
+        }
+    }
+}
+
+/// Positions on a curve.
+#[inline(always)]
+fn along(
+    vertices: &mut Vertices,
+    edge: usize,
+    direction: Direction,
+    t: &Lanes,
+    curve: &impl Along,
+) {
+    for (lane, &t) in t.iter().enumerate() {
+        let point = plain_zero(curve.position(direction.canonical(t)));
+        let inside = vertices.position.get(lane);
+        vertices.position.set(lane, select(vertices.is_on(edge, lane), point, inside));
+    }
+}

@@ -1,0 +1,340 @@
+//! Displacement along the normal by a height image.
+//!
+//! Neighbours may disagree about the normal and, on a seam of the image, about the texture
+//! coordinates. So on a shared edge the direction is the mean of both sides' normals and the
+//! texture coordinates are those of one of them; on a corner there is one direction and one
+//! pair of coordinates for all patches that meet there (as in I. Castaño, *Tessellation of
+//! Displaced Subdivision Surfaces in DX11*, Gamefest 2008). Shading follows J. F. Blinn,
+//! *Simulation of Wrinkled Surfaces*, SIGGRAPH 1978.
+
+use crate::boundary::running;
+use crate::curve::{Direction, Edge};
+use crate::dispatch;
+use crate::formulas::Formulas;
+use crate::frame::Tangents;
+use crate::height::Displacement;
+use crate::lanes::{INSIDE, LANES, Lanes2, Lanes3, Vertices};
+use crate::math::{length, plain_zero, select, unit, unit_or_not};
+use crate::model::Model;
+use crate::patch::{Patch, Sample};
+use crate::sides::{Place, Sides, corner_coordinates, edge_corners};
+use crate::topology::{HalfEdge, weld};
+use alloc::vec;
+use alloc::vec::Vec;
+use glam::{Vec2, Vec3};
+use tess_simd::{Level, LevelUnavailable};
+
+/// A direction and texture coordinates that several patches share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Anchor {
+    direction: Vec3,
+    texcoord: Vec2,
+}
+
+/// The corners of a model, each with one direction and one pair of texture coordinates.
+#[derive(Clone, Debug, PartialEq)]
+struct Anchors {
+    anchors: Vec<Anchor>,
+    /// The anchor of each corner, four numbers per patch.
+    of_corner: Vec<u32>,
+}
+
+impl Anchors {
+    /// The anchors of a model: sums of its patches' normals, in their order.
+    fn of(model: &Model) -> Self {
+        let mut positions = Vec::with_capacity(model.len() * 4);
+        let mut corners = Vec::with_capacity(model.len() * 4);
+        for number in 0..model.len() {
+            let patch = model.patch(number);
+            let samples = corner_coordinates(patch.edges()).map(|at| patch.sample(at));
+            let samples = samples.as_slice();
+            // The fourth corner of a triangle is its first one again, and is not used.
+            for corner in 0..4 {
+                let sample = samples.get(corner).unwrap_or(&samples[0]);
+                positions.push(sample.position);
+                corners.push((corner < samples.len()).then_some(*sample));
+            }
+        }
+        let of_corner = weld(&positions);
+        let none = Anchor { direction: Vec3::ZERO, texcoord: Vec2::ZERO };
+        let mut anchors = vec![none; positions.len()];
+        for (slot, corner) in corners.iter().enumerate() {
+            let (first, Some(sample)) = (of_corner[slot] as usize, corner) else { continue };
+            anchors[first].direction += sample.normal;
+            if first == slot {
+                anchors[first].texcoord = sample.texcoord;
+            }
+        }
+        for anchor in &mut anchors {
+            anchor.direction = unit(anchor.direction).unwrap_or(Vec3::ZERO);
+        }
+        Self { anchors, of_corner }
+    }
+
+    fn at(&self, patch: usize, corner: usize) -> Anchor {
+        self.anchors[self.of_corner[patch * 4 + corner] as usize]
+    }
+}
+
+/// A model and its displacement.
+#[derive(Clone, Debug)]
+pub struct DisplacedModel<'a> {
+    model: &'a Model,
+    displacement: &'a Displacement,
+    anchors: Anchors,
+}
+
+impl<'a> DisplacedModel<'a> {
+    /// Finds the directions and texture coordinates that patches share at their corners, which
+    /// evaluates every patch there.
+    #[must_use]
+    pub fn new(model: &'a Model, displacement: &'a Displacement) -> Self {
+        Self { model, displacement, anchors: Anchors::of(model) }
+    }
+
+    /// The model without its displacement.
+    #[must_use]
+    pub const fn model(&self) -> &'a Model {
+        self.model
+    }
+
+    /// Patch `number`, ready for evaluation.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    #[must_use]
+    pub fn patch(&self, number: usize) -> DisplacedPatch<'a> {
+        let Self { model, displacement, anchors } = self;
+        let patch = model.patch(number);
+        let sides = patch.edges().map_numbered(|edge, _| {
+            let half = HalfEdge { patch: number, edge };
+            let twin = model.twin(half);
+            Side {
+                corner: anchors.at(number, edge),
+                beyond: twin.map(|twin| (model.patch(twin.patch), twin.edge)),
+                leads: twin.is_none_or(|twin| half < twin),
+            }
+        });
+        DisplacedPatch { displacement, patch, sides }
+    }
+}
+
+/// A patch with its displacement and with what it shares with its neighbours.
+#[derive(Clone, Debug)]
+pub struct DisplacedPatch<'a> {
+    displacement: &'a Displacement,
+    patch: Patch,
+    sides: Sides<Side>,
+}
+
+/// What is shared at one edge and at the corner of the same number.
+#[derive(Clone, Debug)]
+struct Side {
+    corner: Anchor,
+    /// The patch beyond the edge, and the edge's number there.
+    beyond: Option<(Patch, usize)>,
+    /// Whether the edge has this patch's texture coordinates, not those of the patch beyond.
+    leads: bool,
+}
+
+impl DisplacedPatch<'_> {
+    /// The displaced vertex at the domain point (u, v), in 0..=1 as a tessellator outputs it.
+    #[must_use]
+    pub fn sample(&self, point: [f32; 2]) -> Sample {
+        let mut sample = [Sample::default()];
+        self.samples(&[point], &mut sample);
+        sample[0]
+    }
+
+    /// The displaced vertices at these domain points: the bits of [`DisplacedPatch::sample`] at each,
+    /// for a fraction of the time. Vertices or points that the other slice has no partner for are left
+    /// alone.
+    pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
+        dispatch::displaced_samples(Level::detect(), self, points, samples);
+    }
+
+    /// [`DisplacedPatch::samples`] with the instructions of a CPU level, which gives the same bits as
+    /// every other.
+    ///
+    /// # Errors
+    /// [`LevelUnavailable`] if this machine cannot run the level.
+    pub fn samples_at_level(
+        &self,
+        level: Level,
+        points: &[[f32; 2]],
+        samples: &mut [Sample],
+    ) -> Result<(), LevelUnavailable> {
+        dispatch::require(level)?;
+        dispatch::displaced_samples(level, self, points, samples);
+        Ok(())
+    }
+
+    /// The direction and the texture coordinates of the displacement at eight points.
+    #[inline(always)]
+    fn anchors(&self, beyond: &Sides<Option<Formulas<'_>>>, vertices: &Vertices) -> Anchors8 {
+        let mut anchors = Anchors8 { direction: vertices.normal, texcoord: vertices.texcoord };
+        if vertices.on_edges == [0; LANES] {
+            return anchors;
+        }
+        for (edge, beyond) in beyond.as_slice().iter().enumerate() {
+            if vertices.any_on(edge) {
+                self.edge_anchors(edge, beyond.as_ref(), vertices, &mut anchors);
+            }
+        }
+        for lane in 0..LANES {
+            if !vertices.is_corner(lane) {
+                continue;
+            }
+            if let Place::Corner(corner) = self.patch.place(vertices.u[lane], vertices.v[lane]) {
+                anchors.set(lane, self.sides.as_slice()[corner].corner);
+            }
+        }
+        anchors
+    }
+
+    /// The anchors of those points that are on an edge, in place of their own normals and texture
+    /// coordinates.
+    #[inline(always)]
+    fn edge_anchors(
+        &self,
+        edge: usize,
+        beyond: Option<&Formulas<'_>>,
+        vertices: &Vertices,
+        anchors: &mut Anchors8,
+    ) {
+        let side = &self.sides.as_slice()[edge];
+        let direction = self.patch.edges().as_slice()[edge].direction;
+        if direction == Direction::Symmetric {
+            // Collapsed, or without a canonical direction: the whole edge has those of one corner.
+            let corner = self.sides.as_slice()[edge_corners(&self.sides)[edge][0]].corner;
+            let on_edge = (0..LANES).filter(|&lane| vertices.is_on(edge, lane));
+            on_edge.for_each(|lane| anchors.set(lane, corner));
+            return;
+        }
+        let (Some((patch, their_edge)), Some(formulas)) = (&side.beyond, beyond) else { return };
+        let theirs = patch.edges().as_slice()[*their_edge].direction;
+        let own = running(self.patch.edges(), edge, vertices);
+        let mut points = [INSIDE; LANES];
+        for (lane, (point, own)) in points.iter_mut().zip(own).enumerate() {
+            if vertices.is_on(edge, lane) {
+                let t = theirs.canonical(direction.canonical(own));
+                *point = edge_point(patch.edges(), *their_edge, t);
+            }
+        }
+        let mut beyond = Vertices::at(&points);
+        formulas.evaluate(&mut beyond);
+        for lane in 0..LANES {
+            let (sum, exists) = unit_or_not(anchors.direction.get(lane) + beyond.normal.get(lane));
+            let sum = select(exists, sum, Vec3::ZERO);
+            let shared = vertices.is_on(edge, lane);
+            anchors.direction.set(lane, select(shared, sum, anchors.direction.get(lane)));
+            if shared & !side.leads {
+                anchors.texcoord.set(lane, beyond.texcoord.get(lane));
+            }
+        }
+    }
+
+    /// Moves the vertices along their anchors' directions, and turns their normals.
+    #[inline(always)]
+    fn displace(&self, vertices: &mut Vertices, anchors: &Anchors8) {
+        let Displacement { map, scale } = self.displacement;
+        let (heights, slopes) = map.samples(&anchors.texcoord);
+        for (lane, height) in heights.iter().enumerate() {
+            let offset = anchors.direction.get(lane) * (height * scale);
+            let position = plain_zero(vertices.position.get(lane) + offset);
+            vertices.position.set(lane, position);
+        }
+        let texcoords = self.patch.texcoords();
+        for lane in 0..LANES {
+            let (u, v) = (vertices.u[lane], vertices.v[lane]);
+            let (tu, tv) = texcoord_derivatives(texcoords, u, v);
+            let slope = slopes.get(lane) * *scale;
+            let tangents = Tangents { du: vertices.du.get(lane), dv: vertices.dv.get(lane) };
+            let normal = vertices.normal.get(lane);
+            let normal = wrinkled_normal(normal, tangents, [slope.dot(tu), slope.dot(tv)]);
+            vertices.normal.set(lane, normal);
+        }
+    }
+}
+
+/// [`DisplacedPatch::samples`], compiled for the level of the function that it is inlined into.
+#[inline(always)]
+pub(crate) fn samples(patch: &DisplacedPatch<'_>, points: &[[f32; 2]], samples: &mut [Sample]) {
+    let formulas = Formulas::of(&patch.patch);
+    let beyond = beyond(&patch.sides);
+    for (points, samples) in points.chunks(LANES).zip(samples.chunks_mut(LANES)) {
+        let mut vertices = Vertices::at(points);
+        formulas.evaluate(&mut vertices);
+        let anchors = patch.anchors(&beyond, &vertices);
+        patch.displace(&mut vertices, &anchors);
+        vertices.store(samples);
+    }
+}
+
+/// The formulas of the patches beyond the edges.
+#[inline(always)]
+fn beyond<'a>(sides: &'a Sides<Side>) -> Sides<Option<Formulas<'a>>> {
+    let of = |side: &'a Side| side.beyond.as_ref().map(|(patch, _)| Formulas::of(patch));
+    match sides {
+        Sides::Triangle([a, b, c]) => Sides::Triangle([of(a), of(b), of(c)]),
+        Sides::Quad([a, b, c, d]) => Sides::Quad([of(a), of(b), of(c), of(d)]),
+    }
+}
+
+/// The anchors of eight points.
+struct Anchors8 {
+    direction: Lanes3,
+    texcoord: Lanes2,
+}
+
+impl Anchors8 {
+    #[inline(always)]
+    const fn set(&mut self, lane: usize, anchor: Anchor) {
+        self.direction.set(lane, anchor.direction);
+        self.texcoord.set(lane, anchor.texcoord);
+    }
+}
+
+/// 2^-45, which brings the fourth powers of tangents of 2^32 to 2^58 into range.
+const SMALLER: f32 = 1.0 / 35_184_372_088_832.0;
+
+/// The normal over heights with these slopes along u and v.
+#[inline(always)]
+fn wrinkled_normal(normal: Vec3, Tangents { du, dv }: Tangents, [hu, hv]: [f32; 2]) -> Vec3 {
+    // The area is a square root of fourth powers. Where these overflow, so does it, and the
+    // whole is computed in smaller units of length.
+    let units = if length(du.cross(dv)) < f32::INFINITY { 1.0 } else { SMALLER };
+    wrinkled(normal, [du * units, dv * units], [hu * units, hv * units])
+}
+
+/// Blinn's N' = N + hu (n x Sv) + hv (Su x n), with N = Su x Sv taken along the shading normal.
+#[inline(always)]
+fn wrinkled(normal: Vec3, [du, dv]: [Vec3; 2], [hu, hv]: [f32; 2]) -> Vec3 {
+    let area = length(du.cross(dv));
+    let is_flat = area <= 1e-6 * du.dot(du).max(dv.dot(dv));
+    let (wrinkled, exists) =
+        unit_or_not(normal * area + normal.cross(dv) * hu + du.cross(normal) * hv);
+    select(exists & !is_flat, wrinkled, normal)
+}
+
+/// The domain point on an edge at its running coordinate `t`.
+#[inline(always)]
+fn edge_point(edges: &Sides<Edge>, edge: usize, t: f32) -> [f32; 2] {
+    match (edges, edge) {
+        (Sides::Triangle(_), 0) | (Sides::Quad(_), 0) => [0.0, t],
+        (Sides::Triangle(_), 1) | (Sides::Quad(_), 1) => [t, 0.0],
+        (Sides::Triangle(_), _) => [t, 1.0 - t],
+        (Sides::Quad(_), 2) => [1.0, t],
+        (Sides::Quad(_), _) => [t, 1.0],
+    }
+}
+
+#[inline(always)]
+fn texcoord_derivatives(texcoords: &Sides<Vec2>, u: f32, v: f32) -> (Vec2, Vec2) {
+    match *texcoords {
+        Sides::Triangle([a, b, c]) => (a - c, b - c),
+        Sides::Quad([a, b, c, d]) => {
+            ((b - a) * (1.0 - v) + (c - d) * v, (d - a) * (1.0 - u) + (c - b) * u)
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! The formulas of a surface's inside in the form that loops over lanes evaluate.
+//!
+//! They are methods of types, not closures: what is compiled for a CPU level is what is inlined into the
+//! level's function, and only functions can be inlined always.
+
+use crate::bezier::{Net, PolynomialNet, RationalNet};
+use crate::frame::{Frame, Tangents};
+use crate::lanes::{LANES, Vertices};
+use crate::math::{normal_or_not, plain_zero, unit_or_not};
+use crate::patch::{Patch, Surface, bilinear_frame, flat_frame};
+use crate::pn::{PnQuad, PnTriangle};
+use glam::Vec3;
+
+/// Position and tangents, without branches.
+trait Frames {
+    fn frame(&self, u: f32, v: f32) -> Frame;
+}
+
+impl Frames for [Vec3; 3] {
+    #[inline(always)]
+    fn frame(&self, u: f32, v: f32) -> Frame {
+        flat_frame(self, u, v)
+    }
+}
+
+impl Frames for [Vec3; 4] {
+    #[inline(always)]
+    fn frame(&self, u: f32, v: f32) -> Frame {
+        bilinear_frame(self, u, v)
+    }
+}
+
+impl Frames for PolynomialNet {
+    #[inline(always)]
+    fn frame(&self, u: f32, v: f32) -> Frame {
+        self.frame(u, v)
+    }
+}
+
+impl Frames for RationalNet {
+    #[inline(always)]
+    fn frame(&self, u: f32, v: f32) -> Frame {
+        self.frame(u, v)
+    }
+}
+
+impl Frames for PnTriangle {
+    #[inline(always)]
+    fn frame(&self, u: f32, v: f32) -> Frame {
+        self.frame(u, v)
+    }
+}
+
+/// The unit normal where the surface has one, without branches.
+trait Normals {
+    fn normal(&self, tangents: &Tangents, u: f32, v: f32) -> (Vec3, bool);
+}
+
+/// The normal of the plane that the tangents span.
+struct Spanned;
+
+impl Normals for Spanned {
+    #[inline(always)]
+    fn normal(&self, &Tangents { du, dv }: &Tangents, _: f32, _: f32) -> (Vec3, bool) {
+        normal_or_not(du, dv)
+    }
+}
+
+impl Normals for PnTriangle {
+    #[inline(always)]
+    fn normal(&self, _: &Tangents, u: f32, v: f32) -> (Vec3, bool) {
+        unit_or_not(self.normal(u, v))
+    }
+}
+
+impl Normals for PnQuad {
+    #[inline(always)]
+    fn normal(&self, _: &Tangents, u: f32, v: f32) -> (Vec3, bool) {
+        unit_or_not(self.normal(u, v))
+    }
+}
+
+/// The formulas of a patch, ready for many points.
+#[derive(Debug)]
+pub(crate) struct Formulas<'a> {
+    patch: &'a Patch,
+    /// The control points of a bicubic surface.
+    net: Option<Net>,
+}
+
+impl<'a> Formulas<'a> {
+    #[inline(always)]
+    pub(crate) fn of(patch: &'a Patch) -> Self {
+        let net = match patch.surface() {
+            Surface::Bezier(patch) => Some(patch.net()),
+            Surface::PnQuad(quad) => Some(quad.patch.net()),
+            _ => None,
+        };
+        Self { patch, net }
+    }
+
+    /// What the points of `vertices` have by the formulas of the inside.
+    #[inline(always)]
+    pub(crate) fn inside(&self, vertices: &mut Vertices) {
+        match (self.patch.surface(), &self.net) {
+            (_, Some(Net::Polynomial(net))) => vertices.frames(net),
+            (_, Some(Net::Rational(net))) => vertices.frames(net),
+            (Surface::FlatTriangle(corners), _) => vertices.frames(corners),
+            (Surface::Bilinear(corners), _) => vertices.frames(corners),
+            (Surface::PnTriangle(triangle), _) => vertices.frames(triangle),
+            (Surface::Bezier(_) | Surface::PnQuad(_), None) => {} // there is a net
+        }
+        match self.patch.surface() {
+            Surface::PnTriangle(triangle) => vertices.normals(triangle),
+            Surface::PnQuad(quad) => vertices.normals(quad),
+            _ => vertices.normals(&Spanned),
+        }
+        for lane in 0..LANES {
+            let texcoord = self.patch.inside_texcoord(vertices.u[lane], vertices.v[lane]);
+            vertices.texcoord.set(lane, texcoord);
+        }
+    }
+
+    /// The vertices at these points: what is inside by the formulas of the inside, the rest by those of
+    /// edges and corners.
+    #[inline(always)]
+    pub(crate) fn evaluate(&self, vertices: &mut Vertices) {
+        self.inside(vertices);
+        self.patch.boundary(vertices);
+        if vertices.has_normal.contains(&0) {
+            self.patch.other_normals(vertices);
+        }
+    }
+}
+
+impl Vertices {
+    #[inline(always)]
+    fn frames(&mut self, formulas: &impl Frames) {
+        for lane in 0..LANES {
+            let frame = formulas.frame(self.u[lane], self.v[lane]);
+            self.position.set(lane, plain_zero(frame.position));
+            self.du.set(lane, frame.tangents.du);
+            self.dv.set(lane, frame.tangents.dv);
+        }
+    }
+
+    #[inline(always)]
+    fn normals(&mut self, formulas: &impl Normals) {
+        for lane in 0..LANES {
+            let tangents = Tangents { du: self.du.get(lane), dv: self.dv.get(lane) };
+            let (normal, exists) = formulas.normal(&tangents, self.u[lane], self.v[lane]);
+            self.normal.set(lane, normal);
+            self.has_normal[lane] = u32::from(exists);
+        }
+    }
+}
+
+impl Patch {
+    /// The normals that the formulas do not give.
+    fn other_normals(&self, vertices: &mut Vertices) {
+        for lane in 0..LANES {
+            if vertices.has_normal[lane] == 0 {
+                vertices.normal.set(lane, self.normal([vertices.u[lane], vertices.v[lane]]));
+            }
+        }
+    }
+}
