@@ -9,6 +9,8 @@ mod bench;
 mod bindings;
 #[path = "../shared/camera.rs"]
 mod camera;
+#[path = "../shared/hills.rs"]
+mod hills;
 mod terrain;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -14,7 +14,7 @@ pub(super) struct Output {
     pub(super) room: Capacity,
     pub(super) batch: Batch,
     pub(super) points: Option<wgpu::Buffer>,
-    indices: Option<wgpu::Buffer>,
+    pub(super) indices: Option<wgpu::Buffer>,
     pulled: Option<wgpu::BindGroup>,
 }
 
