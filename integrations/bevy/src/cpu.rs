@@ -45,7 +45,9 @@ impl Tessellators {
         tessellator.tessellate(factors, numbering, &mut self.output)?;
         let mut vertices = Vec::with_capacity(self.output.points().len());
         for patch in 0..factors.len() {
-            if let (Some((points, _)), Ok(number)) = (self.output.patch(patch), u32::try_from(patch)) {
+            if let (Some((points, _)), Ok(number)) =
+                (self.output.patch(patch), u32::try_from(patch))
+            {
                 shape.vertices(number, points, &mut vertices);
             }
         }
@@ -103,7 +105,10 @@ pub(crate) fn tessellate(
         for (entity, .., fallback) in &surfaces {
             if fallback.is_some() {
                 commands.entity(entity).remove::<(
-                    Fallback, Mesh3d, MeshMaterial3d<StandardMaterial>, NotShadowCaster,
+                    Fallback,
+                    Mesh3d,
+                    MeshMaterial3d<StandardMaterial>,
+                    NotShadowCaster,
                 )>();
             }
         }
@@ -119,7 +124,9 @@ pub(crate) fn tessellate(
             triangles += old.triangles;
             continue;
         }
-        let Some(tessellation) = tessellate_one(&surface, &eye, &mut tessellators) else { continue };
+        let Some(tessellation) = tessellate_one(&surface, &eye, &mut tessellators) else {
+            continue;
+        };
         let count = tessellation.indices.len() as u64 / 3;
         triangles += count;
         let topology = match settings.wireframe {
@@ -165,7 +172,8 @@ fn tessellate_one(
         warn_once!("a shape has no Rust form (Shape::on_cpu) and is not drawn without compute");
         return None;
     };
-    let factors: Vec<_> = (0..surface.shape.patches()).map(|patch| shape.factors(patch, eye)).collect();
+    let factors: Vec<_> =
+        (0..surface.shape.patches()).map(|patch| shape.factors(patch, eye)).collect();
     tessellators
         .run(surface.config(), &factors, shape)
         .inspect_err(|problem| warn_once!("a surface cannot be tessellated: {problem}"))

@@ -16,7 +16,11 @@ pub(crate) struct View {
 
 impl View {
     /// The view of a camera whose picture is so many pixels high.
-    pub(crate) fn new(world_from_view: &GlobalTransform, clip_from_view: Mat4, height: u32) -> Self {
+    pub(crate) fn new(
+        world_from_view: &GlobalTransform,
+        clip_from_view: Mat4,
+        height: u32,
+    ) -> Self {
         let view_from_world = world_from_view.affine().inverse();
         Self {
             clip_from_world: clip_from_view * Mat4::from(view_from_world),
@@ -83,11 +87,8 @@ mod tests {
             Quat::IDENTITY,
             Vec3::new(0.0, 0.0, 10.0),
         ));
-        let clip_from_view = Mat4::perspective_infinite_reverse_rh(
-            core::f32::consts::FRAC_PI_2,
-            1.0,
-            0.1,
-        );
+        let clip_from_view =
+            Mat4::perspective_infinite_reverse_rh(core::f32::consts::FRAC_PI_2, 1.0, 0.1);
         let view = View::new(&camera, clip_from_view, 400);
         Eye { view, world_from_local: Affine3A::IDENTITY, rule }
     }

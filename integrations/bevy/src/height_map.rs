@@ -106,7 +106,8 @@ impl HeightMap {
             return Err(HeightMapError::NotFinite { index });
         }
         let (patches, colors) = (UVec2::splat(16), GroundColors::default());
-        let range = heights.iter().fold([f32::MAX, f32::MIN], |[low, high], &h| [low.min(h), high.max(h)]);
+        let range =
+            heights.iter().fold([f32::MAX, f32::MIN], |[low, high], &h| [low.min(h), high.max(h)]);
         Ok(Self { texels, heights, range, patches, size: Vec3::ONE, colors })
     }
 
@@ -163,7 +164,11 @@ impl HeightMap {
     }
 
     fn raised(&self, place: Vec2, height: f32) -> Vec3 {
-        Vec3::new((place.x - 0.5) * self.size.x, height * self.size.y, (place.y - 0.5) * self.size.z)
+        Vec3::new(
+            (place.x - 0.5) * self.size.x,
+            height * self.size.y,
+            (place.y - 0.5) * self.size.z,
+        )
     }
 
     fn is_outside(&self, patch: u32, eye: &Eye) -> bool {
@@ -210,9 +215,9 @@ impl Shape for HeightMap {
         Domain::Quad
     }
 
-    /// From x to z is clockwise as seen from above.
+    /// x times z points down.
     fn winding(&self) -> OutputPrimitive {
-        OutputPrimitive::TriangleCw
+        OutputPrimitive::TriangleCcw
     }
 
     fn patches(&self) -> u32 {

@@ -23,7 +23,13 @@ pub struct Look {
 impl Default for Look {
     fn default() -> Self {
         let StandardMaterial {
-            base_color, emissive, perceptual_roughness, metallic, reflectance, unlit, ..
+            base_color,
+            emissive,
+            perceptual_roughness,
+            metallic,
+            reflectance,
+            unlit,
+            ..
         } = StandardMaterial::default();
         Self { base_color, emissive, perceptual_roughness, metallic, reflectance, unlit }
     }
@@ -31,7 +37,16 @@ impl Default for Look {
 
 impl From<Look> for StandardMaterial {
     fn from(look: Look) -> Self {
-        let Look { base_color, emissive, perceptual_roughness, metallic, reflectance, unlit } = look;
-        Self { base_color, emissive, perceptual_roughness, metallic, reflectance, unlit, ..Self::default() }
+        let Look { base_color, emissive, perceptual_roughness, metallic, reflectance, unlit } =
+            look;
+        Self {
+            base_color,
+            emissive,
+            perceptual_roughness,
+            metallic,
+            reflectance,
+            unlit,
+            ..Self::default()
+        }
     }
 }

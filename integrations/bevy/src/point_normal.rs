@@ -51,7 +51,10 @@ impl fmt::Display for PointNormalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::WrongNormals { positions, normals } => {
-                write!(f, "there are {positions} positions and {normals} normals; give as many of both")
+                write!(
+                    f,
+                    "there are {positions} positions and {normals} normals; give as many of both"
+                )
             }
             Self::NoSuchCorner { triangle, corner, corners } => write!(
                 f,
@@ -93,7 +96,8 @@ impl PointNormalMesh {
             return Err(PointNormalError::Empty);
         }
         let corners: Vec<_> = positions.iter().zip(normals).map(|(&p, &n)| [p, n]).collect();
-        let is_finite = |corner: &[[f32; 3]; 2]| corner.as_flattened().iter().all(|x| x.is_finite());
+        let is_finite =
+            |corner: &[[f32; 3]; 2]| corner.as_flattened().iter().all(|x| x.is_finite());
         if let Some(corner) = corners.iter().position(|corner| !is_finite(corner)) {
             return Err(PointNormalError::NotFinite { corner });
         }

@@ -13,6 +13,10 @@ use tess_wgpu::TessellationStage;
 const TYPES: &str = include_str!("../shaders/types.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const FRAGMENT: &str = include_str!("../shaders/fragment.wesl");
+/// What fragment.wesl uses of Bevy. In one line, in front of the shape's first.
+const IMPORTS: &str = "import bevy_pbr::render::pbr_types as tess_pbr_types; \
+                       import bevy_pbr::render::pbr_functions as tess_pbr_functions; \
+                       import bevy_pbr::render::mesh_types as tess_mesh_types; ";
 
 /// The plugin's bind group in the stage's compute pass.
 const HULL_GROUP: &str = "0";
@@ -56,10 +60,10 @@ impl Key {
         Shader::from_wgsl(builder.vertex_shader(), format!("bevy_tess/surface_{number}.wgsl"))
     }
 
-    /// The shape's fragment shader comes first, as imports must.
+    /// The shape's text comes before the plugin's, with imports in front.
     fn fragment_shader(&self, number: usize) -> Shader {
         let own = [TYPES, FRAGMENT].join("\n").replace("TESS_GROUP", &DRAW_GROUP.to_string());
-        let source = format!("{}\n{own}", self.fragment);
+        let source = format!("{IMPORTS}{}\n{own}", self.fragment);
         Shader::from_wesl(source, format!("bevy_tess/fragment_{number}.wesl"))
     }
 }

@@ -16,10 +16,10 @@ pub trait Shape: Debug + Send + Sync + 'static {
     /// The domain of the patches: [`Domain::Quad`] or [`Domain::Triangle`].
     fn domain(&self) -> Domain;
 
-    /// Which way round triangles run in the domain; their front must be counter-clockwise as seen from
-    /// outside.
+    /// Which triangles face outwards: [`OutputPrimitive::TriangleCw`] if the derivative by u times that by v does,
+    /// [`OutputPrimitive::TriangleCcw`] if it points inwards.
     fn winding(&self) -> OutputPrimitive {
-        OutputPrimitive::TriangleCcw
+        OutputPrimitive::TriangleCw
     }
 
     /// The number of patches.

@@ -86,6 +86,7 @@ pub(crate) fn bind_group_layout() -> BindGroupLayoutDescriptor {
     };
     let surface = ShaderStages::COMPUTE | ShaderStages::VERTEX;
     let everywhere = surface | ShaderStages::FRAGMENT;
-    let entries = [entry(0, everywhere), entry(1, everywhere), entry(2, surface), entry(3, surface)];
+    let entries =
+        [entry(0, everywhere), entry(1, everywhere), entry(2, surface), entry(3, surface)];
     BindGroupLayoutDescriptor::new("bevy_tess", &entries)
 }

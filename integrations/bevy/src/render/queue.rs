@@ -96,9 +96,7 @@ pub(crate) fn queue(
 }
 
 /// The pipeline is found when the item is drawn.
-fn batch_set_key(
-    draw_function: bevy::render::render_phase::DrawFunctionId,
-) -> Opaque3dBatchSetKey {
+fn batch_set_key(draw_function: bevy::render::render_phase::DrawFunctionId) -> Opaque3dBatchSetKey {
     Opaque3dBatchSetKey {
         draw_function,
         pipeline: CachedRenderPipelineId::INVALID,
@@ -121,7 +119,11 @@ fn descriptor(
     key: MeshPipelineKey,
     wireframe: bool,
 ) -> RenderPipelineDescriptor {
-    let key = key | MeshPipelineKey::from_primitive_topology_and_strip_index(PrimitiveTopology::TriangleList, None);
+    let key = key
+        | MeshPipelineKey::from_primitive_topology_and_strip_index(
+            PrimitiveTopology::TriangleList,
+            None,
+        );
     let mut descriptor = mesh_pipeline
         .specialize(key, &layout_of_a_mesh())
         .expect("the mesh has the attributes that Bevy asks for");

@@ -109,7 +109,11 @@ impl Content {
         let upload = |label, contents: &[u8], usage| {
             // A binding is never empty.
             let contents = if contents.is_empty() { &[0; 4] } else { contents };
-            device.create_buffer_with_data(&BufferInitDescriptor { label: Some(label), contents, usage })
+            device.create_buffer_with_data(&BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage,
+            })
         };
         let usage = BufferUsages::STORAGE;
         let owners = upload("owners of patches", bytemuck::cast_slice(&owners), usage);
@@ -131,7 +135,13 @@ impl Content {
     }
 
     /// Writes what changes from frame to frame.
-    fn update(&self, items: &[&Item], view: View, visible: &HashSet<MainEntity>, queue: &RenderQueue) {
+    fn update(
+        &self,
+        items: &[&Item],
+        view: View,
+        visible: &HashSet<MainEntity>,
+        queue: &RenderQueue,
+    ) {
         queue.write_buffer(&self.view, 0, bytemuck::bytes_of(&GpuView::from(view)));
         let instance = |(item, &firsts): (&&Item, &[u32; 2])| {
             GpuInstance::new(item, firsts, visible.contains(&item.entity))
@@ -249,7 +259,8 @@ pub(crate) fn forget(mut stages: ResMut<Stages>, extracted: Res<Extracted>, stat
     let mut triangles = 0;
     for of_view in stages.of_views.values_mut() {
         of_view.retain(|_, prepared| std::mem::take(&mut prepared.is_used));
-        let feedbacks = of_view.values().filter_map(|prepared| prepared.stage.as_ref()?.0.feedback());
+        let feedbacks =
+            of_view.values().filter_map(|prepared| prepared.stage.as_ref()?.0.feedback());
         triangles += feedbacks.map(|feedback| feedback.drawn).sum::<u64>();
     }
     stages.of_views.retain(|_, of_view| !of_view.is_empty());
