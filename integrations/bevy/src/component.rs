@@ -3,7 +3,7 @@
 use crate::look::Look;
 use crate::rule::FactorRule;
 use crate::shape::Shape;
-use bevy::camera::visibility::{self, Visibility, VisibilityClass};
+use bevy::camera::visibility::{self, NoAutoAabb, Visibility, VisibilityClass};
 use bevy::ecs::prelude::*;
 use bevy::render::sync_world::SyncToRenderWorld;
 use bevy::transform::components::Transform;
@@ -13,7 +13,7 @@ use tess_core::{Config, Partitioning};
 
 /// A surface that is tessellated anew in each frame, by what each camera sees of it.
 #[derive(Clone, Component, Debug)]
-#[require(Transform, Visibility, VisibilityClass, SyncToRenderWorld)]
+#[require(Transform, Visibility, VisibilityClass, SyncToRenderWorld, NoAutoAabb)]
 #[component(on_add = visibility::add_visibility_class::<Tessellated>)]
 pub struct Tessellated {
     /// Its patches. Share them between entities that look alike in shape: they are then kept once.

@@ -6,10 +6,12 @@ use crate::is_on_cpu;
 use crate::look::Look;
 use crate::shape::{CpuShape, ShapeVertex};
 use bevy::asset::{Assets, Handle, RenderAssetUsages};
+use bevy::camera::primitives::Aabb;
 use bevy::camera::{Camera, Camera3d};
 use bevy::ecs::prelude::*;
 use bevy::light::NotShadowCaster;
 use bevy::log::warn_once;
+use bevy::math::Vec3A;
 use bevy::mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
 use bevy::pbr::{MeshMaterial3d, StandardMaterial};
 use bevy::platform::collections::HashMap;
@@ -86,7 +88,12 @@ pub(crate) struct Fallback {
     mesh: Handle<Mesh>,
 }
 
-type Surface<'a> = (Entity, Ref<'a, Tessellated>, &'a GlobalTransform, Option<&'a mut Fallback>);
+type Surface<'a> = (
+    Entity,
+    Ref<'a, Tessellated>,
+    &'a GlobalTransform,
+    Option<&'a mut Fallback>,
+);
 
 /// Makes the meshes if the CPU is to tessellate, and removes them if not.
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are what it uses")]
@@ -119,6 +126,9 @@ pub(crate) fn tessellate(
     for (entity, surface, transform, mut fallback) in &mut surfaces {
         let rule = surface.factors;
         let eye = Eye { view, world_from_local: transform.affine(), rule };
+        if is_out_of_sight(&surface, &eye) {
+            continue;
+        }
         let is_same = |old: &Fallback| old.eye == eye && old.wireframe == settings.wireframe;
         if let Some(old) = fallback.as_deref().filter(|old| is_same(old) && !surface.is_changed()) {
             triangles += old.triangles;
@@ -153,6 +163,16 @@ pub(crate) fn tessellate(
         ));
     }
     stats.set(triangles);
+}
+
+/// Whether the camera sees nothing of a surface; a mesh that it has is then as good as another.
+fn is_out_of_sight(surface: &Tessellated, eye: &Eye) -> bool {
+    let Aabb { center, half_extents } = surface.shape.bounds();
+    let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| [-1.0, 1.0].map(|z| Vec3A::new(x, y, z))));
+    let middle = eye.to_world(center.into());
+    let away = |corner: &Vec3A| middle.distance(eye.to_world((center + *corner * half_extents).into()));
+    let radius = corners.as_flattened().as_flattened().iter().map(away).fold(0.0, f32::max);
+    eye.is_outside(middle, radius)
 }
 
 /// The view of the first camera that is active.

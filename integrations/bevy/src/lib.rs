@@ -21,6 +21,7 @@ pub use shape::{CpuShape, DEFAULT_FRAGMENT, Shape, ShapeVertex};
 pub use tess_core;
 
 use bevy::app::{App, Plugin, PostUpdate};
+use bevy::asset::AssetEventSystems;
 use bevy::camera::primitives::Aabb;
 use bevy::camera::visibility::VisibilitySystems;
 use bevy::ecs::prelude::*;
@@ -40,7 +41,7 @@ impl Plugin for TessPlugin {
             (
                 set_bounds.before(VisibilitySystems::CalculateBounds),
                 setup::register.before(VisibilitySystems::CalculateBounds),
-                cpu::tessellate.after(TransformSystems::Propagate),
+                cpu::tessellate.after(TransformSystems::Propagate).before(AssetEventSystems),
             ),
         );
         app.init_resource::<setup::Setups>().init_resource::<cpu::Tessellators>();

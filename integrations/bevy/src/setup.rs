@@ -1,7 +1,7 @@
 //! Setups: what entities must have in common to be tessellated in one call, and their shaders.
 
 use crate::component::Tessellated;
-use bevy::asset::{Assets, Handle};
+use bevy::asset::{AssetServer, Assets, Handle};
 use bevy::ecs::prelude::*;
 use bevy::platform::collections::HashMap;
 use bevy::shader::Shader;
@@ -77,13 +77,29 @@ pub(crate) struct Setup {
 }
 
 /// All setups that there were, and that of each entity.
-#[derive(Debug, Default, Resource)]
+#[derive(Debug, Resource)]
 pub(crate) struct Setups {
+    /// The modules of [`IMPORTS`].
+    library: [Handle<Shader>; 3],
     all: HashMap<Key, Arc<Setup>>,
     of_entities: HashMap<Entity, Arc<Setup>>,
 }
 
+impl FromWorld for Setups {
+    fn from_world(world: &mut World) -> Self {
+        let assets = world.resource::<AssetServer>();
+        let library = ["pbr_types", "pbr_functions", "mesh_types"]
+            .map(|name| assets.load(format!("embedded://bevy_pbr/render/{name}.wesl")));
+        Self { library, all: HashMap::default(), of_entities: HashMap::default() }
+    }
+}
+
 impl Setups {
+    /// Whether the shaders' imports are there.
+    pub(crate) fn are_ready(&self, assets: &AssetServer) -> bool {
+        self.library.iter().all(|shader| assets.is_loaded(shader))
+    }
+
     pub(crate) fn of(&self, entity: Entity) -> Option<&Arc<Setup>> {
         self.of_entities.get(&entity)
     }

@@ -6,6 +6,7 @@ use crate::look::Look;
 use crate::rule::FactorRule;
 use crate::setup::{Setup, Setups};
 use crate::shape::Shape;
+use bevy::asset::AssetServer;
 use bevy::ecs::prelude::*;
 use bevy::math::Affine3A;
 use bevy::render::Extract;
@@ -37,11 +38,12 @@ pub(crate) fn extract(
     device: Res<RenderDevice>,
     settings: Extract<Res<TessSettings>>,
     setups: Extract<Res<Setups>>,
+    assets: Extract<Res<AssetServer>>,
     surfaces: Extract<Query<(Entity, &Tessellated, &GlobalTransform)>>,
 ) {
     extracted.items.clear();
     extracted.wireframe = settings.wireframe;
-    if is_on_cpu(&settings, Some(&device)) {
+    if is_on_cpu(&settings, Some(&device)) || !setups.are_ready(&assets) {
         return;
     }
     let item = |(entity, tessellated, transform): (Entity, &Tessellated, &GlobalTransform)| {
