@@ -88,12 +88,7 @@ pub(crate) struct Fallback {
     mesh: Handle<Mesh>,
 }
 
-type Surface<'a> = (
-    Entity,
-    Ref<'a, Tessellated>,
-    &'a GlobalTransform,
-    Option<&'a mut Fallback>,
-);
+type Surface<'a> = (Entity, Ref<'a, Tessellated>, &'a GlobalTransform, Option<&'a mut Fallback>);
 
 /// Makes the meshes if the CPU is to tessellate, and removes them if not.
 #[expect(clippy::too_many_arguments, reason = "a system's parameters are what it uses")]
@@ -168,9 +163,11 @@ pub(crate) fn tessellate(
 /// Whether the camera sees nothing of a surface; a mesh that it has is then as good as another.
 fn is_out_of_sight(surface: &Tessellated, eye: &Eye) -> bool {
     let Aabb { center, half_extents } = surface.shape.bounds();
-    let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| [-1.0, 1.0].map(|z| Vec3A::new(x, y, z))));
+    let corners =
+        [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| [-1.0, 1.0].map(|z| Vec3A::new(x, y, z))));
     let middle = eye.to_world(center.into());
-    let away = |corner: &Vec3A| middle.distance(eye.to_world((center + *corner * half_extents).into()));
+    let away =
+        |corner: &Vec3A| middle.distance(eye.to_world((center + *corner * half_extents).into()));
     let radius = corners.as_flattened().as_flattened().iter().map(away).fold(0.0, f32::max);
     eye.is_outside(middle, radius)
 }

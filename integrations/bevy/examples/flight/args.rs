@@ -12,6 +12,7 @@ Options:
   --wireframe        edges in place of triangles
   --pixels PIXELS    the length of a segment (8)
   --seconds SECONDS  the moment of a screenshot (0)
+  --above            looks straight down on the terrain, which hides a magenta background
   --size WxH         the size of a screenshot (960x600)
 
 Keys: w wireframe, c CPU or GPU, + and - finer and coarser, Escape ends.";
@@ -23,6 +24,7 @@ pub(crate) struct Args {
     pub(crate) cpu: bool,
     pub(crate) wireframe: bool,
     pub(crate) pixels: f32,
+    pub(crate) above: bool,
     pub(crate) seconds: f32,
     pub(crate) size: [u32; 2],
 }
@@ -35,6 +37,7 @@ impl Args {
             cpu: false,
             wireframe: false,
             pixels: 8.0,
+            above: false,
             seconds: 0.0,
             size: [960, 600],
         };
@@ -44,6 +47,7 @@ impl Args {
             match word.as_str() {
                 "--help" => return Ok(None),
                 "--screenshot" => args.screenshot = Some(value()?.into()),
+                "--above" => args.above = true,
                 "--cpu" => args.cpu = true,
                 "--wireframe" => args.wireframe = true,
                 "--pixels" => args.pixels = number(&word, &value()?, 0.25..=1000.0)?,

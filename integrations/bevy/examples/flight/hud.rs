@@ -2,7 +2,7 @@
 
 use bevy::color::palettes::css::{BLACK, WHITE};
 use bevy::diagnostic::{DiagnosticsStore, FrameTimeDiagnosticsPlugin};
-use bevy::math::Isometry3d;
+use bevy::math::{Isometry3d, ops};
 use bevy::prelude::*;
 use bevy_tess::{Backend, FactorRule, TessSettings, TessStats, Tessellated};
 
@@ -71,7 +71,7 @@ pub(crate) fn write(
         else {
             continue;
         };
-        let high = (0.5 * fov).tan();
+        let high = ops::tan(0.5 * fov);
         for (shift, color) in [(0.003, BLACK), (0.0, WHITE)] {
             let corner = Vec3::new(-0.97 * high * aspect_ratio + shift, 0.95 * high - shift, -1.0);
             let at = Isometry3d::new(camera.transform_point(corner), camera.rotation);

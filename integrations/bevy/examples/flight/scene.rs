@@ -4,6 +4,7 @@ use crate::args::Args;
 use crate::wool::Wool;
 use crate::{gltf, hills};
 use bevy::core_pipeline::tonemapping::Tonemapping;
+use bevy::math::ops;
 use bevy::pbr::{DistanceFog, FogFalloff};
 use bevy::prelude::*;
 use bevy_tess::{FactorRule, GroundColors, HeightMap, Look, PointNormalMesh, Shape, Tessellated};
@@ -41,7 +42,8 @@ pub(crate) fn set_up(
     let sun = DirectionalLight { illuminance: 9000.0, shadow_maps_enabled: true, ..default() };
     commands.spawn((sun, Transform::from_xyz(0.6, 0.6, 0.5).looking_at(Vec3::ZERO, Vec3::Y)));
     let sky = Color::srgb(0.66, 0.76, 0.88);
-    commands.insert_resource(ClearColor(sky));
+    let behind = if args.above { Color::srgb(1.0, 0.0, 1.0) } else { sky };
+    commands.insert_resource(ClearColor(behind));
     commands.spawn((
         Camera3d::default(),
         Projection::Perspective(PerspectiveProjection { fov: 1.17, ..default() }),
@@ -53,7 +55,7 @@ pub(crate) fn set_up(
             ..default()
         },
         AmbientLight { brightness: 300.0, ..default() },
-        flight(args.seconds),
+        flight(&args, args.seconds),
     ));
     Ok(())
 }
@@ -97,11 +99,14 @@ fn spread(number: u16, step: f32) -> f32 {
     (0.5 + step * f32::from(number)).fract()
 }
 
-/// Where the camera is after so many seconds: on a circle over the terrain.
-fn flight(seconds: f32) -> Transform {
+/// Where the camera is after so many seconds: on a circle over the terrain, or above it.
+fn flight(args: &Args, seconds: f32) -> Transform {
+    if args.above {
+        return Transform::from_xyz(0.0, 24.0, 0.0).looking_at(Vec3::ZERO, Vec3::NEG_Z);
+    }
     let angle = 0.12 * seconds - 2.0;
     let at = |angle: f32, radius: f32, height| {
-        Vec3::new(radius * angle.cos(), height, radius * angle.sin())
+        Vec3::new(radius * ops::cos(angle), height, radius * ops::sin(angle))
     };
     Transform::from_translation(at(angle, 24.0, 9.0))
         .looking_at(at(angle + 0.9, 16.0, 4.0), Vec3::Y)
@@ -118,6 +123,6 @@ pub(crate) fn fly(
         None => args.seconds + time.elapsed_secs(),
     };
     for mut camera in &mut cameras {
-        camera.set_if_neq(flight(seconds));
+        camera.set_if_neq(flight(&args, seconds));
     }
 }

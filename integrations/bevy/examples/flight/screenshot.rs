@@ -9,7 +9,7 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured, save_to_dis
 use bevy_tess::TessStats;
 
 /// So many frames in a row must have the same number of triangles.
-const STEADY: u32 = 8;
+const STEADY: u32 = 4;
 /// After so many frames something is wrong.
 const PATIENCE: u32 = 300;
 

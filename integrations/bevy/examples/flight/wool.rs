@@ -1,7 +1,7 @@
 //! A shape with hull and domain functions of its own: a rounded mesh, covered with wool.
 
 use bevy::camera::primitives::Aabb;
-use bevy::math::{Vec3, Vec3Swizzles, Vec4};
+use bevy::math::{Vec3, Vec4, ops};
 use bevy_tess::tess_core::{Domain, PatchFactors};
 use bevy_tess::{CpuShape, Eye, PointNormalMesh, Shape, ShapeVertex};
 use std::borrow::Cow;
@@ -64,13 +64,13 @@ const STEP: f32 = 0.001;
 
 fn height(at: Vec3) -> f32 {
     let p = 27.0 * at;
-    let waves = p.x.sin() * (p.y + 0.7 * p.z.sin()).sin()
-        + 0.6 * (1.7 * p.z + p.x).sin() * (1.9 * p.y).cos();
+    let waves = ops::sin(p.x) * ops::sin(p.y + 0.7 * ops::sin(p.z))
+        + 0.6 * ops::sin(1.7 * p.z + p.x) * ops::cos(1.9 * p.y);
     0.014 * waves
 }
 
 fn color(at: Vec3) -> Vec4 {
     let t = ((at.z - 1.9) / 0.4).clamp(0.0, 1.0);
     let (brown, cream) = (Vec3::new(0.55, 0.24, 0.09), Vec3::new(0.89, 0.69, 0.45));
-    brown.lerp(cream, t * t * (3.0 - 2.0 * t)).xyz().extend(1.0)
+    brown.lerp(cream, t * t * (3.0 - 2.0 * t)).extend(1.0)
 }
