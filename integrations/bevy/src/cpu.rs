@@ -30,13 +30,13 @@ pub(crate) struct Tessellators {
 /// Vertices and indices of a surface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Tessellation {
-    vertices: Vec<ShapeVertex>,
+    pub(crate) vertices: Vec<ShapeVertex>,
     indices: Vec<u32>,
 }
 
 impl Tessellators {
     /// Tessellates the patches with these factors.
-    fn run(
+    pub(crate) fn run(
         &mut self,
         config: Config,
         factors: &[PatchFactors],

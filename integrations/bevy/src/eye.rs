@@ -79,6 +79,7 @@ impl Eye {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use bevy::camera::{CameraProjection, PerspectiveProjection};
     use bevy::math::Quat;
 
     /// Looks along -z from (0, 0, 10), 90 degrees high, 400 pixels.
@@ -87,8 +88,9 @@ mod tests {
             Quat::IDENTITY,
             Vec3::new(0.0, 0.0, 10.0),
         ));
-        let clip_from_view =
-            Mat4::perspective_infinite_reverse_rh(core::f32::consts::FRAC_PI_2, 1.0, 0.1);
+        let fov = core::f32::consts::FRAC_PI_2;
+        let projection = PerspectiveProjection { fov, aspect_ratio: 1.0, ..Default::default() };
+        let clip_from_view = projection.get_clip_from_view();
         let view = View::new(&camera, clip_from_view, 400);
         Eye { view, world_from_local: Affine3A::IDENTITY, rule }
     }

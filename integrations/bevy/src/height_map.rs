@@ -85,7 +85,7 @@ impl fmt::Display for HeightMapError {
 
 impl std::error::Error for HeightMapError {}
 
-/// Words in front of the heights, as height_map.wgsl reads them.
+/// Words in front of the heights, as `height_map.wgsl` reads them.
 const HEADER: usize = 20;
 
 impl HeightMap {

@@ -71,6 +71,8 @@ impl Key {
 /// A setup and its shaders.
 #[derive(Debug)]
 pub(crate) struct Setup {
+    /// Its number among all setups.
+    pub(crate) number: usize,
     pub(crate) key: Key,
     pub(crate) vertex: Handle<Shader>,
     pub(crate) fragment: Handle<Shader>,
@@ -121,7 +123,7 @@ pub(crate) fn register(
         let setup = setups.all.entry(key).or_insert_with_key(|key| {
             let vertex = shaders.add(key.vertex_shader(number));
             let fragment = shaders.add(key.fragment_shader(number));
-            Arc::new(Setup { key: key.clone(), vertex, fragment })
+            Arc::new(Setup { number, key: key.clone(), vertex, fragment })
         });
         let setup = Arc::clone(setup);
         setups.of_entities.insert(entity, setup);

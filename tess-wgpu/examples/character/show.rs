@@ -37,8 +37,7 @@ impl Show for Character {
         let (layout, group) = bind(gpu, &bound);
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
         let own = include_str!("character.wgsl");
-        let wgsl =
-            [shaders::BEZIER, shaders::POINT_NORMAL, shaders::PN_TRIANGLE, own].join("\n");
+        let wgsl = [shaders::BEZIER, shaders::POINT_NORMAL, shaders::PN_TRIANGLE, own].join("\n");
         let triangles = u32::try_from(mesh.triangles.len())?;
         let stage = TessellationStage::builder(&wgsl, Domain::Triangle, config, triangles)
             .bind_group(&layout, &group)

@@ -118,8 +118,7 @@ fn groups_are_drawn_one_by_one() {
 fn pipeline_of_an_engine(scene: &Scene, wgsl: String) -> wgpu::RenderPipeline {
     let device = &scene.gpu.device;
     let source = wgpu::ShaderSource::Wgsl(wgsl.into());
-    let module =
-        device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
     let buffer = wgpu::VertexBufferLayout {
         array_stride: 8,
         step_mode: wgpu::VertexStepMode::Vertex,

@@ -30,12 +30,12 @@ impl<P: PhaseItem> RenderCommand<P> for DrawTessellated {
         pass: &mut TrackedRenderPass<'w>,
     ) -> RenderCommandResult {
         let view = view.retained_view_entity;
-        let Some((key, prepared, group)) = stages.into_inner().find(view, item.main_entity())
+        let Some((setup, prepared, group)) = stages.into_inner().find(view, item.main_entity())
         else {
             return RenderCommandResult::Skip;
         };
         let pipeline =
-            pipelines.of(key, view).and_then(|id| cache.into_inner().get_render_pipeline(id));
+            pipelines.of(setup, view).and_then(|id| cache.into_inner().get_render_pipeline(id));
         let (Some(pipeline), Some(drawn)) = (pipeline, prepared.drawn()) else {
             return RenderCommandResult::Skip;
         };

@@ -30,6 +30,7 @@ pub(crate) struct Item {
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Extracted {
     pub(crate) items: Vec<Item>,
+    pub(crate) is_on_gpu: bool,
     pub(crate) wireframe: bool,
 }
 
@@ -43,7 +44,8 @@ pub(crate) fn extract(
 ) {
     extracted.items.clear();
     extracted.wireframe = settings.wireframe;
-    if is_on_cpu(&settings, Some(&device)) || !setups.are_ready(&assets) {
+    extracted.is_on_gpu = !is_on_cpu(&settings, Some(&device));
+    if !extracted.is_on_gpu || !setups.are_ready(&assets) {
         return;
     }
     let item = |(entity, tessellated, transform): (Entity, &Tessellated, &GlobalTransform)| {

@@ -4,7 +4,7 @@ use super::draw::DrawTessellated;
 use super::extract::Extracted;
 use super::layout;
 use crate::component::Tessellated;
-use crate::setup::{DRAW_GROUP, Key, Setup};
+use crate::setup::{DRAW_GROUP, Setup};
 use bevy::asset::AssetId;
 use bevy::core_pipeline::core_3d::{Opaque3d, Opaque3dBatchSetKey, Opaque3dBinKey};
 use bevy::ecs::prelude::*;
@@ -28,16 +28,21 @@ use bevy::render::view::{ExtractedView, RenderVisibleEntities, RetainedViewEntit
 /// The pipelines of setups, for what cameras need of them.
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Pipelines {
-    all: HashMap<(Key, MeshPipelineKey, bool), CachedRenderPipelineId>,
+    /// By the setup's number, what the camera needs, and whether as a wireframe.
+    all: HashMap<(usize, MeshPipelineKey, bool), CachedRenderPipelineId>,
     /// The keys of this frame's cameras.
     views: HashMap<RetainedViewEntity, (MeshPipelineKey, bool)>,
 }
 
 impl Pipelines {
     /// The pipeline of a setup for a camera.
-    pub(crate) fn of(&self, key: &Key, view: RetainedViewEntity) -> Option<CachedRenderPipelineId> {
+    pub(crate) fn of(
+        &self,
+        setup: usize,
+        view: RetainedViewEntity,
+    ) -> Option<CachedRenderPipelineId> {
         let &(mesh_key, wireframe) = self.views.get(&view)?;
-        self.all.get(&(key.clone(), mesh_key, wireframe)).copied()
+        self.all.get(&(setup, mesh_key, wireframe)).copied()
     }
 }
 
@@ -72,7 +77,7 @@ pub(crate) fn queue(
         }
         pipelines.views.insert(of, (key, wireframe));
         for item in &extracted.items {
-            let own = (item.setup.key.clone(), key, wireframe);
+            let own = (item.setup.number, key, wireframe);
             pipelines.all.entry(own).or_insert_with(|| {
                 let descriptor = descriptor(&mesh_pipeline, &item.setup, key, wireframe);
                 cache.queue_render_pipeline(descriptor)
