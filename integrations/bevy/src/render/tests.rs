@@ -9,7 +9,7 @@ use bevy::app::PluginsState;
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::RenderTarget;
 use bevy::camera::primitives::Aabb;
-use bevy::core_pipeline::tonemapping::Tonemapping;
+use bevy::core_pipeline::tonemapping::{DebandDither, Tonemapping};
 use bevy::prelude::*;
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
 use bevy::render::render_resource::{Extent3d, TextureDimension, TextureFormat, TextureUsages};
@@ -58,7 +58,7 @@ fn app() -> App {
     app.world_mut().spawn((
         Camera3d::default(),
         RenderTarget::Image(image.into()),
-        Tonemapping::None,
+        (Tonemapping::None, DebandDither::Disabled),
         Transform::from_xyz(0.0, 0.0, 2.0),
     ));
     app
@@ -151,6 +151,7 @@ fn fragment(in: Vertex) -> @location(0) vec4<f32> {
 #[test]
 fn a_fragment_function_of_ones_own_is_drawn() {
     let mut app = app();
+    run(&mut app);
     assert_eq!(middle(&mut app), [0, 0, 0, 255], "before there is a surface");
     let wall = Tessellated::new(Wall { surface: SURFACE, fragment: GREEN });
     let entity = app.world_mut().spawn(wall).id();
