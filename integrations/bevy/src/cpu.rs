@@ -196,3 +196,23 @@ fn tessellate_one(
         .inspect_err(|problem| warn_once!("a surface cannot be tessellated: {problem}"))
         .ok()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wireframe_has_the_edges_of_each_triangle() {
+        let vertices = vec![ShapeVertex::default(); 4];
+        let made = Tessellation { vertices, indices: vec![0, 1, 2, 2, 1, 3] };
+        let lines = mesh(made.clone(), PrimitiveTopology::LineList);
+        let expected = Indices::U32(vec![0, 1, 1, 2, 2, 0, 2, 1, 1, 3, 3, 2]);
+        assert_eq!(lines.indices(), Some(&expected), "three lines each");
+        let triangles = mesh(made, PrimitiveTopology::TriangleList);
+        assert_eq!(
+            triangles.indices(),
+            Some(&Indices::U32(vec![0, 1, 2, 2, 1, 3])),
+            "as they were"
+        );
+    }
+}

@@ -279,3 +279,62 @@ impl CpuShape for HeightMap {
         }));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn map() -> HeightMap {
+        let heights = (0..35_u8).map(|i| f32::from(i * 37 % 35) / 35.0).collect();
+        let map = HeightMap::new(UVec2::new(7, 5), heights).expect("35 texels");
+        let map = map.with_size(Vec3::new(10.0, 2.0, 6.0));
+        map.with_patches(UVec2::new(3, 2)).expect("six patches")
+    }
+
+    /// The vertices of a patch where one coordinate is fixed.
+    fn edge(map: &HeightMap, patch: u32, of: impl Fn(f32) -> [f32; 2]) -> Vec<ShapeVertex> {
+        let points: Vec<_> = (0..=64_u8).map(|i| of(f32::from(i) / 64.0)).collect();
+        let mut vertices = Vec::new();
+        map.vertices(patch, &points, &mut vertices);
+        vertices
+    }
+
+    #[test]
+    fn patches_agree_on_the_bits_of_their_edges() {
+        let map = map();
+        let (right, left) = (edge(&map, 1, |t| [1.0, t]), edge(&map, 2, |t| [0.0, t]));
+        assert_eq!(right, left, "along z");
+        let (far, near) = (edge(&map, 1, |t| [t, 1.0]), edge(&map, 4, |t| [t, 0.0]));
+        assert_eq!(far, near, "along x");
+        assert_ne!(right, edge(&map, 2, |t| [1.0 / 65536.0, t]), "the next point would be seen");
+    }
+
+    #[test]
+    fn the_surface_is_in_its_box() {
+        let map = map();
+        let Aabb { center, half_extents } = map.bounds();
+        let all = (0..map.patches()).flat_map(|patch| edge(&map, patch, |t| [t, t]));
+        for ShapeVertex { position, .. } in all {
+            let off = (Vec3::from(position) - Vec3::from(center)).abs();
+            assert!(off.cmple(Vec3::from(half_extents) + 1e-5).all(), "{position:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_missing_is_named() {
+        let of = |x, y, heights: &[f32]| HeightMap::new(UVec2::new(x, y), heights.to_vec());
+        let texels = UVec2::new(2, 2);
+        let wrong = Err(HeightMapError::WrongLength { got: 3, texels });
+        assert_eq!(of(2, 2, &[0.0; 3]), wrong, "a height is missing");
+        assert!(of(0, 2, &[]).is_err(), "there is nothing");
+        let nan = Err(HeightMapError::NotFinite { index: 1 });
+        assert_eq!(of(2, 1, &[0.0, f32::NAN]), nan, "the second one");
+        for (x, z) in [(0, 1), (1, 257)] {
+            let got = UVec2::new(x, z);
+            let refused = map().with_patches(got);
+            assert_eq!(refused, Err(HeightMapError::WrongPatches { got }), "{x} x {z}");
+        }
+        let text = HeightMapError::WrongPatches { got: UVec2::new(1, 257) }.to_string();
+        assert!(text.contains("1 to 256"), "{text}");
+    }
+}

@@ -191,3 +191,42 @@ impl CpuShape for PointNormalMesh {
         }));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const POSITIONS: [[f32; 3]; 4] =
+        [[0.1, 0.0, 0.0], [1.3, 0.2, 0.1], [0.2, 1.1, 0.3], [1.2, 1.0, -0.4]];
+    const NORMALS: [[f32; 3]; 4] =
+        [[-0.6, 0.0, 0.8], [0.6, 0.0, 0.8], [0.0, 0.6, 0.8], [0.0, 0.0, 1.0]];
+
+    #[test]
+    fn triangles_agree_on_the_bits_of_their_edges() {
+        // They share the edge from corner 1 to corner 2.
+        let triangles = vec![[0, 1, 2], [3, 2, 1]];
+        let mesh = PointNormalMesh::new(&POSITIONS, &NORMALS, triangles).expect("it is whole");
+        let part = |i: u8| f32::from(i) / 64.0;
+        let along: Vec<_> = (0..=64).map(|i| [0.0, part(i)]).collect();
+        let back: Vec<_> = (0..=64).rev().map(|i| [0.0, part(i)]).collect();
+        let (one, other) = (mesh.points_of(0, &along), mesh.points_of(1, &back));
+        assert_eq!(one, other, "positions and normals");
+        assert_ne!(one, mesh.points_of(1, &along), "the other direction would be seen");
+    }
+
+    #[test]
+    fn what_is_missing_is_named() {
+        let of = |normals, triangles: &[[u32; 3]]| {
+            PointNormalMesh::new(&POSITIONS, normals, triangles.to_vec()).err()
+        };
+        let wrong = PointNormalError::WrongNormals { positions: 4, normals: 3 };
+        assert_eq!(of(&NORMALS[..3], &[[0, 1, 2]]), Some(wrong), "a normal is missing");
+        assert_eq!(of(&NORMALS, &[]), Some(PointNormalError::Empty), "no triangles");
+        let wrong = PointNormalError::NoSuchCorner { triangle: 1, corner: 4, corners: 4 };
+        assert_eq!(of(&NORMALS, &[[0, 1, 2], [0, 1, 4]]), Some(wrong), "there is no fifth");
+        let mut normals = NORMALS;
+        normals[2][1] = f32::INFINITY;
+        let wrong = PointNormalError::NotFinite { corner: 2 };
+        assert_eq!(of(&normals, &[[0, 1, 2]]), Some(wrong), "the third");
+    }
+}

@@ -14,6 +14,7 @@ mod hills;
 
 use args::Args;
 use bevy::app::ScheduleRunnerPlugin;
+use bevy::diagnostic::FrameTimeDiagnosticsPlugin;
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
 use bevy::window::ExitCondition;
@@ -41,7 +42,7 @@ fn main() -> ExitCode {
         app.add_plugins((without_window(), ScheduleRunnerPlugin::run_loop(Duration::ZERO)));
         app.add_systems(Startup, screenshot::set_up).add_systems(Update, screenshot::take);
     } else {
-        app.add_plugins(DefaultPlugins);
+        app.add_plugins((DefaultPlugins, FrameTimeDiagnosticsPlugin::default()));
         app.add_systems(Startup, hud::set_up);
         app.add_systems(Update, (hud::press, hud::write.after(scene::fly)));
     }
