@@ -1,5 +1,6 @@
 //! A rectangle of patches, raised by heights.
 
+use crate::bezier::quad_factors;
 use crate::eye::Eye;
 use crate::shape::{CpuShape, Shape, ShapeVertex};
 use bevy::camera::primitives::Aabb;
@@ -260,9 +261,8 @@ impl CpuShape for HeightMap {
         let corners = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
         let [a, b, c, d] =
             corners.map(|uv| eye.to_world(self.surface_at(self.place_of(patch, uv))));
-        let [u0, v0, u1, v1] = [eye.edge(a, d), eye.edge(a, b), eye.edge(b, c), eye.edge(d, c)];
-        let (inside_u, inside_v) = (0.5 * (v0 + v1), 0.5 * (u0 + u1));
-        PatchFactors::Quad(QuadFactors { u0, v0, u1, v1, inside_u, inside_v })
+        let edges = [eye.edge(a, d), eye.edge(a, b), eye.edge(b, c), eye.edge(d, c)];
+        PatchFactors::Quad(quad_factors(edges))
     }
 
     fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {

@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod bezier;
 mod component;
 mod cpu;
 mod eye;
@@ -11,6 +12,7 @@ mod rule;
 mod setup;
 mod shape;
 
+pub use bezier::{BezierError, BezierPatches, Net};
 pub use component::{Backend, TessSettings, TessStats, Tessellated};
 pub use eye::Eye;
 pub use height_map::{GroundColors, HeightMap, HeightMapError};

@@ -1,4 +1,4 @@
-//! Terrain, characters, stones, light and the camera's flight.
+//! Terrain, characters, a teapot, stones, light and the camera's flight.
 
 use crate::args::Args;
 use crate::wool::Wool;
@@ -7,9 +7,12 @@ use bevy::core_pipeline::tonemapping::Tonemapping;
 use bevy::math::ops;
 use bevy::pbr::{DistanceFog, FogFalloff};
 use bevy::prelude::*;
-use bevy_tess::{FactorRule, GroundColors, HeightMap, Look, PointNormalMesh, Shape, Tessellated};
+use bevy_tess::{
+    BezierPatches, FactorRule, GroundColors, HeightMap, Look, PointNormalMesh, Shape, Tessellated,
+};
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
+use tess_surface::{BezierPatch, teapot};
 
 /// Texels along each side of the height map.
 const TEXELS: u32 = 512;
@@ -30,6 +33,7 @@ pub(crate) fn set_up(
         let at = ground.surface_at(place(number));
         commands.spawn((character(number)?.with_factors(factors), standing(number, at)));
     }
+    commands.spawn((teapot()?.with_factors(factors), at_the_flight(&ground)));
     let stone = meshes.add(Cuboid::new(0.8, 5.0, 0.8));
     let grey = materials.add(Color::srgb(0.5, 0.5, 0.55));
     for number in 0..STONES {
@@ -80,6 +84,22 @@ fn character(number: u16) -> Result<Tessellated> {
     let look =
         Look { base_color: Color::hsl(hue, 0.25, 0.8), perceptual_roughness: 0.8, ..default() };
     Ok(Tessellated::shared(Arc::clone(shape)).with_look(look))
+}
+
+/// 32 patches of control points.
+fn teapot() -> Result<Tessellated> {
+    let net = |patch: BezierPatch| patch.points.map(|row| row.map(|p| [p.x, p.y, p.z]));
+    let patches = teapot::patches().into_iter().map(net).collect();
+    let base_color = Color::srgb(0.25, 0.4, 0.75);
+    let look = Look { base_color, perceptual_roughness: 0.25, ..default() };
+    Ok(Tessellated::new(BezierPatches::new(patches)?).with_look(look))
+}
+
+/// Where the camera flies by.
+fn at_the_flight(ground: &HeightMap) -> Transform {
+    let at = ground.surface_at(Vec2::new(0.54, 0.22));
+    let upright = Quat::from_rotation_x(-FRAC_PI_2);
+    Transform::from_translation(at).with_rotation(upright).with_scale(Vec3::splat(0.8))
 }
 
 /// The model's z is up, Bevy's y.
