@@ -285,7 +285,7 @@ mod tests {
     use super::*;
 
     fn map() -> HeightMap {
-        let heights = (0..35_u8).map(|i| f32::from(i * 37 % 35) / 35.0).collect();
+        let heights = (0..35_u16).map(|i| f32::from(i * 37 % 35) / 35.0).collect();
         let map = HeightMap::new(UVec2::new(7, 5), heights).expect("35 texels");
         let map = map.with_size(Vec3::new(10.0, 2.0, 6.0));
         map.with_patches(UVec2::new(3, 2)).expect("six patches")

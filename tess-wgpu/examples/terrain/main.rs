@@ -9,8 +9,6 @@ mod bench;
 mod bindings;
 #[path = "../shared/camera.rs"]
 mod camera;
-#[path = "../shared/hills.rs"]
-mod hills;
 mod terrain;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

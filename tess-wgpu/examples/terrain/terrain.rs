@@ -1,9 +1,11 @@
 //! A terrain that factors by size on the screen tessellate.
 
+#[path = "../shared/hills.rs"]
+mod hills;
+
 use crate::app::{self, Args, Show, View};
 use crate::bindings::{Bound, bind};
 use crate::camera::Camera;
-use crate::hills;
 use glam::Vec3;
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};

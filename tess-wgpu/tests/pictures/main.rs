@@ -15,8 +15,6 @@ mod app;
 mod bindings;
 #[path = "../../examples/shared/camera.rs"]
 mod camera;
-#[path = "../../examples/shared/hills.rs"]
-mod hills;
 #[allow(dead_code, reason = "only its picture is used here")]
 #[path = "../../examples/quickstart/show.rs"]
 mod quickstart;

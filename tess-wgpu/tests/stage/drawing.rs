@@ -215,5 +215,5 @@ fn a_stage_is_made_and_read_without_blocking() {
     let buffer = scene.gpu.upload("bytes", &bytes, Usage::COPY_SRC).expect("there is room");
     assert_eq!(pollster::block_on(scene.gpu.read_async(&buffer, 100)), Ok(bytes[..100].to_vec()));
     let beyond = pollster::block_on(scene.gpu.read_async(&buffer, 1000));
-    assert!(matches!(beyond, Err(tess_wgpu::Error::Refused { .. })), "{beyond:?}");
+    assert!(matches!(beyond, Err(Error::Refused { .. })), "{beyond:?}");
 }
