@@ -11,6 +11,9 @@ pub const BEZIER: &str = include_str!("../shaders/bezier.wgsl");
 /// Point-normal triangles and quads.
 pub const POINT_NORMAL: &str = include_str!("../shaders/pn.wgsl");
 
+/// A point-normal triangle at a domain point, closed along its edges. Needs [`BEZIER`] and [`POINT_NORMAL`].
+pub const PN_TRIANGLE: &str = include_str!("../shaders/pn_triangle.wgsl");
+
 /// Flat triangles, bilinear quads and displacement.
 pub const FLAT: &str = include_str!("../shaders/flat.wgsl");
 

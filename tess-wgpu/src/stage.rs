@@ -59,10 +59,30 @@ pub struct TessellationStage {
     origin: Origin,
     fit: Option<Fit>,
     pulled: Option<wgpu::BindGroupLayout>,
-    pipeline: wgpu::RenderPipeline,
+    /// None if the caller draws with its own.
+    pipeline: Option<wgpu::RenderPipeline>,
     output: Output,
     feedback: Feedbacks,
     frame: u64,
+}
+
+/// What a frame left on the device for an engine that records its own draws: indexed, triangle lists unless the
+/// configuration says otherwise, indices of 32 bits.
+#[derive(Clone, Copy, Debug)]
+pub struct DrawBuffers<'a> {
+    /// The vertex buffer, as [`StageBuilder::vertex_shader`] reads it.
+    pub points: &'a wgpu::Buffer,
+    /// The index buffer.
+    pub indices: &'a wgpu::Buffer,
+    /// The arguments of `draw_indexed_indirect` for all patches, at offset 0.
+    pub arguments: &'a wgpu::Buffer,
+    /// The arguments for each group, [`DrawBuffers::GROUP_BYTES`] apart.
+    pub group_arguments: &'a wgpu::Buffer,
+}
+
+impl DrawBuffers<'_> {
+    /// Bytes of the arguments of one group.
+    pub const GROUP_BYTES: u64 = size_of::<tess_gpu::layout::DrawIndexed>() as u64;
 }
 
 /// How many patches a frame has: a `u32`, or a `u32` in a buffer of the device.
@@ -120,7 +140,8 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Draws all patches of the last frame that was prepared.
+    /// Draws all patches of the last frame that was prepared. A stage that was made without a pipeline takes the
+    /// pass's pipeline and bind groups, which must be set.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_as(pass, None);
     }
@@ -139,13 +160,44 @@ impl TessellationStage {
     }
 
     fn draw_as(&self, pass: &mut wgpu::RenderPass<'_>, group: Option<u32>) {
-        pass.set_pipeline(&self.pipeline);
         let mut number = 0;
-        for own in &self.bind_groups {
-            pass.set_bind_group(number, own, &[]);
-            number += 1;
+        if let Some(pipeline) = &self.pipeline {
+            pass.set_pipeline(pipeline);
+            for own in &self.bind_groups {
+                pass.set_bind_group(number, own, &[]);
+                number += 1;
+            }
         }
         self.output.draw(pass, number, group);
+    }
+
+    /// The buffers of the last frame that was prepared, for an engine that records the draws itself. They are
+    /// others after a call of [`Self::prepare`] that made more room and after [`Self::set_groups`]. `None`
+    /// unless points and indices are stored.
+    #[must_use]
+    pub const fn buffers(&self) -> Option<DrawBuffers<'_>> {
+        match (&self.output.points, &self.output.indices) {
+            (Some(points), Some(indices)) => Some(DrawBuffers {
+                points,
+                indices,
+                arguments: self.output.batch.draw_arguments(),
+                group_arguments: self.output.batch.group_arguments(),
+            }),
+            _ => None,
+        }
+    }
+
+    /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of [`Self::prepare`] on. Nothing
+    /// is compiled; buffers of the same size are made.
+    ///
+    /// # Errors
+    /// [`Error::MisplacedGroup`]; [`Error::OutOfMemory`]. The groups are then what they were.
+    pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
+        let of_batch = (&self.factors, first_patches);
+        let (room, pulled) = (self.output.room, self.pulled.as_ref());
+        self.output = Output::new(&mut self.tessellator, self.form, room, of_batch, pulled)?;
+        self.groups = first_patches.to_vec();
+        Ok(())
     }
 
     /// Replaces one of the user's bind groups, by its number; from the next call of `prepare` or `draw`

@@ -1,4 +1,5 @@
-// A mesh of PN triangles, displaced along their normals. Needs tess_surface::shaders::BEZIER and POINT_NORMAL.
+// A mesh of PN triangles, displaced along their normals. Needs tess_surface::shaders::BEZIER,
+// POINT_NORMAL and PN_TRIANGLE.
 
 struct Frame {
     clip_from_world: mat4x4f,
@@ -14,12 +15,6 @@ struct Vertex {
     @builtin(position) position: vec4f,
     @location(0) world: vec3f,
     @location(1) normal: vec3f,
-}
-
-// A point of the rounded surface.
-struct Rounded {
-    position: vec3f,
-    normal: vec3f,
 }
 
 fn corner(number: u32, k: u32) -> PnCorner {
@@ -40,43 +35,8 @@ fn hull(number: u32) -> TriFactors {
     return tess_tri_factors(vec3f(edge(b, c), edge(a, c), edge(a, b)));
 }
 
-// A point on the edge from a to b, the same from both sides.
-fn on_edge(a: PnCorner, b: PnCorner, t: f32) -> Rounded {
-    let curve = array<vec4f, 4>(
-        vec4f(a.position, 1.0), vec4f(pn_edge_point(a, b), 1.0),
-        vec4f(pn_edge_point(b, a), 1.0), vec4f(b.position, 1.0));
-    let position = bezier_edge(curve, t);
-    let middle = pn_edge_normal(a, b);
-    if bezier_is_reversed(curve) {
-        return Rounded(position, normalize(pn_normal_along(b.normal, middle, a.normal, 1.0 - t)));
-    }
-    return Rounded(position, normalize(pn_normal_along(a.normal, middle, b.normal, t)));
-}
-
-fn inside(a: PnCorner, b: PnCorner, c: PnCorner, uv: vec2f) -> Rounded {
-    let edges = array<vec3f, 6>(
-        pn_edge_point(c, b), pn_edge_point(b, c), pn_edge_point(c, a),
-        pn_edge_point(a, c), pn_edge_point(b, a), pn_edge_point(a, b));
-    let middles = array<vec3f, 3>(pn_edge_normal(b, c), pn_edge_normal(a, c), pn_edge_normal(a, b));
-    return Rounded(
-        pn_triangle_position(array<vec3f, 3>(a.position, b.position, c.position), edges, uv.x, uv.y),
-        pn_triangle_normal(array<vec3f, 3>(a.normal, b.normal, c.normal), middles, uv.x, uv.y));
-}
-
-fn rounded(number: u32, uv: vec2f) -> Rounded {
-    let a = corner(number, 0u);
-    let b = corner(number, 1u);
-    let c = corner(number, 2u);
-    if uv.x <= 0.0 {
-        return on_edge(c, b, uv.y);
-    }
-    if uv.y <= 0.0 {
-        return on_edge(c, a, uv.x);
-    }
-    if 1.0 - uv.x - uv.y <= 0.0 {
-        return on_edge(b, a, uv.x);
-    }
-    return inside(a, b, c, uv);
+fn rounded(number: u32, uv: vec2f) -> PnPoint {
+    return pn_triangle_point(corner(number, 0u), corner(number, 1u), corner(number, 2u), uv);
 }
 
 // How far a place is displaced: wool. It depends on the place alone, so that edges stay closed.

@@ -36,8 +36,8 @@ impl Show for Character {
         let bound = [Bound::Uniform(&frame), Bound::Read(&corners), Bound::Read(&indices)];
         let (layout, group) = bind(gpu, &bound);
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
-        let wgsl =
-            [shaders::BEZIER, shaders::POINT_NORMAL, include_str!("character.wgsl")].join("\n");
+        let own = include_str!("character.wgsl");
+        let wgsl = [shaders::BEZIER, shaders::POINT_NORMAL, shaders::PN_TRIANGLE, own].join("\n");
         let triangles = u32::try_from(mesh.triangles.len())?;
         let stage = TessellationStage::builder(&wgsl, Domain::Triangle, config, triangles)
             .bind_group(&layout, &group)

@@ -1,7 +1,7 @@
 //! What a stage is made of.
 
 use super::room::{Overflow, Room};
-use super::{TessellationStage, make};
+use super::{TessellationStage, make, source};
 use crate::error::Error;
 use tess_core::{Config, Domain};
 use tess_gpu::{Order, Setup};
@@ -49,6 +49,8 @@ pub struct StageBuilder<'a> {
     pub(super) overflow: Overflow,
     pub(super) groups: Vec<u32>,
     pub(super) render: Render<'a>,
+    /// Whether the stage makes the render pipeline; if not, the caller does.
+    pub(super) makes_pipeline: bool,
 }
 
 /// The state of the render pipeline that is the user's.
@@ -96,6 +98,7 @@ impl<'a> StageBuilder<'a> {
                     conservative: false,
                 },
             },
+            makes_pipeline: true,
         }
     }
 
@@ -178,13 +181,36 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
+    /// Leaves the render pipeline to an engine that makes its own, from [`Self::vertex_shader`] and its own
+    /// fragment shader. The bind groups are then those of `hull` alone, the render state is not used, and
+    /// the engine draws with [`TessellationStage::buffers`].
+    pub const fn without_pipeline(mut self) -> Self {
+        self.makes_pipeline = false;
+        self
+    }
+
+    /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the user's text, line by
+    /// line as it is, and the stage's behind it. The entry point is `tess_vertex`. With [`Points::Stored`] it
+    /// takes one vertex buffer of 8 bytes a point, `Uint32x2` at location 0; otherwise the stage's
+    /// bindings are in the group behind the user's.
+    #[must_use]
+    pub fn vertex_shader(&self) -> String {
+        source::of_vertices(self.source, self.setup, self.points, self.own_group())
+    }
+
+    /// The number of the stage's own bind group: the one behind the user's.
+    pub(super) fn own_group(&self) -> u32 {
+        u32::try_from(self.layouts.len()).unwrap_or(u32::MAX)
+    }
+
     /// Compiles everything and makes every buffer.
     ///
     /// # Errors
     /// [`StageError::Wgsl`](super::StageError::Wgsl) for the user's WGSL; [`StageError::LimitTooLow`](super::StageError::LimitTooLow), [`Error::TooManyPatches`],
     /// [`StageError::TooManyFactors`](super::StageError::TooManyFactors), [`Error::TooManyToPull`], [`Error::BufferTooLarge`] or
     /// [`Error::OutOfMemory`] if the device does not allow so much; [`Error::FactorsTooShort`] or
-    /// [`Error::NotStorage`] for a buffer of factors; [`Error::MisplacedGroup`]; and
+    /// [`Error::NotStorage`] for a buffer of factors; [`Error::MisplacedGroup`];
+    /// [`StageError::NothingStored`](super::StageError::NothingStored) without a pipeline; and
     /// [`Error::Refused`] for what wgpu has against layouts or the render state.
     pub fn build(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
         make::now(make::stage(self, device))

@@ -65,6 +65,8 @@ pub enum StageError {
     },
     /// The factors of this stage do not come from the host. Make it with `Factors::Host`.
     NotHostFactors,
+    /// A stage without a pipeline has to store its points and indices. Leave out `points`.
+    NothingStored,
 }
 
 impl fmt::Display for StageError {
@@ -101,6 +103,9 @@ impl fmt::Display for StageError {
             ),
             Self::NotHostFactors => f.write_str(
                 "the factors of this stage do not come from the host; make it with Factors::Host",
+            ),
+            Self::NothingStored => f.write_str(
+                "a stage without a pipeline stores its points and indices; leave out `points`",
             ),
             Self::NoSuchGroup { group, groups } => {
                 write!(f, "the stage has {groups} groups, numbered from 0, and none is {group}")

@@ -38,7 +38,10 @@ pub(super) async fn stage(
     let count = gpu::empty(device, "number of patches", 4, usage)?;
     let origin = Origin::new(&builder, device, [&factors, &count]).await?;
     let pulled = pulled_layout(device, setup, points)?;
-    let pipeline = render_pipeline(&builder, device, pulled.as_ref()).await?;
+    let pipeline = match builder.makes_pipeline {
+        true => Some(render_pipeline(&builder, device, pulled.as_ref()).await?),
+        false => None,
+    };
     let buffer_limit = device.limits().max_buffer_size;
     let form = Form { setup, points, patches, buffer_limit };
     let capacity = form.initial(room);
@@ -73,8 +76,11 @@ pub(super) async fn stage(
 
 /// Refuses what the device cannot do.
 fn check(builder: &StageBuilder<'_>, device: &wgpu::Device) -> Result<(), Error> {
+    if !builder.makes_pipeline && builder.points != Points::Stored {
+        return Err(StageError::NothingStored.into());
+    }
     let limits = device.limits();
-    let groups = u32::try_from(builder.layouts.len()).unwrap_or(u32::MAX).saturating_add(1);
+    let groups = builder.own_group().saturating_add(1);
     for (limit, needed, got) in [
         ("max_compute_workgroups_per_dimension", 1, limits.max_compute_workgroups_per_dimension),
         ("max_storage_buffers_per_shader_stage", 8, limits.max_storage_buffers_per_shader_stage),
@@ -176,10 +182,8 @@ async fn render_pipeline(
     device: &wgpu::Device,
     pulled: Option<&wgpu::BindGroupLayout>,
 ) -> Result<wgpu::RenderPipeline, Error> {
-    let StageBuilder { source: user, setup, points, layouts, render, .. } = builder;
-    let group = u32::try_from(layouts.len()).unwrap_or(u32::MAX);
-    let joined = source::of_vertices(user, *setup, *points, group);
-    let module = user_module(device, "draw", user, joined).await?;
+    let StageBuilder { source: user, setup, layouts, render, .. } = builder;
+    let module = user_module(device, "draw", user, builder.vertex_shader()).await?;
     let layouts: Vec<_> = layouts.iter().chain(pulled).map(Some).collect();
     let stored = wgpu::VertexBufferLayout {
         array_stride: 8,

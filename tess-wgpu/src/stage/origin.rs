@@ -42,7 +42,7 @@ impl Origin {
         let workgroups = passes::workgroups(device, *patches);
         let given = match builder.factors {
             Factors::Hull => {
-                let own_group = u32::try_from(layouts.len()).unwrap_or(u32::MAX);
+                let own_group = builder.own_group();
                 let joined = source::of_hull(user, setup.domain, own_group);
                 let module = make::user_module(device, "hull", user, joined).await?;
                 let (layout, own) = passes::bind(device, "hull", &own)?;

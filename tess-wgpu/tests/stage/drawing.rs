@@ -1,9 +1,10 @@
 //! Every way to draw gives the model's triangles.
 
 use crate::model::{compare, drawn, pixels};
-use crate::scene::{PATCHES, Scene};
+use crate::scene::{FORMAT, PATCHES, Scene};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_wgpu::stage::{Factors, PatchCount, Points};
+use tess_wgpu::Error;
+use tess_wgpu::stage::{DrawBuffers, Factors, PatchCount, Points, StageError};
 use wgpu::BufferUsages as Usage;
 
 const WAYS: [Points; 3] = [Points::Stored, Points::Pull, Points::PullWithoutIndices];
@@ -113,6 +114,95 @@ fn groups_are_drawn_one_by_one() {
     }
 }
 
+/// A pipeline as an engine makes it, from the stage's vertex shader and its own layout and state.
+fn pipeline_of_an_engine(scene: &Scene, wgsl: String) -> wgpu::RenderPipeline {
+    let device = &scene.gpu.device;
+    let source = wgpu::ShaderSource::Wgsl(wgsl.into());
+    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+    let buffer = wgpu::VertexBufferLayout {
+        array_stride: 8,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Uint32x2],
+    };
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: None,
+        layout: None,
+        vertex: wgpu::VertexState {
+            module: &module,
+            entry_point: Some("tess_vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(buffer)],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: &module,
+            entry_point: None,
+            compilation_options: Default::default(),
+            targets: &[Some(FORMAT.into())],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+#[test]
+fn an_engine_draws_groups_with_its_own_pipeline() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let pipeline = pipeline_of_an_engine(&scene, scene.builder().vertex_shader());
+    let mut stage = scene.build(scene.builder().groups(&[0]).without_pipeline());
+    for groups in [&[0, 3, 6][..], &[0, 1, 1, 7], &[2]] {
+        stage.set_groups(groups).expect("they ascend");
+        let ends = groups[1..].iter().copied().chain([PATCHES]);
+        for (group, range) in groups.iter().zip(ends).map(|(&begin, end)| begin..end).enumerate() {
+            let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
+                let buffers = stage.buffers().expect("they are stored");
+                pass.set_pipeline(&pipeline);
+                pass.set_vertex_buffer(0, buffers.points.slice(..));
+                pass.set_index_buffer(buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
+                let at = DrawBuffers::GROUP_BYTES * group as u64;
+                pass.draw_indexed_indirect(buffers.group_arguments, at);
+            });
+            let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
+            let range = range.start as usize..range.end as usize;
+            patches[range.clone()].clone_from_slice(&scene.patches[range]);
+            let expected = pixels(scene.config, &patches);
+            let observed = observed.expect("it draws");
+            assert_eq!(compare(&observed, &expected), Ok(()), "group {group} of {groups:?}");
+            let others = pixels(scene.config, &scene.patches);
+            assert!(compare(&observed, &others).is_err(), "all patches would be seen");
+        }
+    }
+    let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
+        pass.set_pipeline(&pipeline);
+        stage.draw(pass);
+    });
+    let expected = pixels(scene.config, &scene.patches);
+    assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "the pass's pipeline");
+}
+
+#[test]
+fn misplaced_groups_leave_the_stage_as_it_was() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let mut stage = scene.build(scene.builder().groups(&[0, 3]));
+    let refused = stage.set_groups(&[4, 3]);
+    assert_eq!(refused, Err(Error::MisplacedGroup { group: 1, begin: 3, range: [4, PATCHES] }));
+    let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
+        stage.draw_group(pass, 1).expect("it is still there");
+    });
+    assert_ne!(drawn(&observed.expect("it draws")), 0, "patches 3 to 7");
+}
+
+#[test]
+fn a_stage_without_a_pipeline_stores_its_points() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    for points in [Points::Pull, Points::PullWithoutIndices] {
+        let refused = scene.builder().points(points).without_pipeline().build(&scene.gpu.device);
+        assert_eq!(refused.err(), Some(StageError::NothingStored.into()), "{points:?}");
+    }
+}
+
 /// As in a browser: nothing blocks.
 #[test]
 fn a_stage_is_made_and_read_without_blocking() {
@@ -125,5 +215,5 @@ fn a_stage_is_made_and_read_without_blocking() {
     let buffer = scene.gpu.upload("bytes", &bytes, Usage::COPY_SRC).expect("there is room");
     assert_eq!(pollster::block_on(scene.gpu.read_async(&buffer, 100)), Ok(bytes[..100].to_vec()));
     let beyond = pollster::block_on(scene.gpu.read_async(&buffer, 1000));
-    assert!(matches!(beyond, Err(tess_wgpu::Error::Refused { .. })), "{beyond:?}");
+    assert!(matches!(beyond, Err(Error::Refused { .. })), "{beyond:?}");
 }

@@ -48,7 +48,7 @@ pub(crate) struct Scene {
     source: String,
 }
 
-const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
+pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 
 impl Scene {
     pub(crate) fn new(domain: Domain, config: Config, patches: Vec<PatchFactors>) -> Self {

@@ -7,6 +7,7 @@ mod coverage;
 mod covergroups;
 mod explorer;
 mod fuzz;
+mod integrations;
 mod levels;
 mod mutants;
 mod packages;
@@ -35,6 +36,9 @@ usage: cargo xtask <command>
   explorer [--serve | --test]
           build the explorer's page in target/explorer; serve it on this machine and say where; or
           test it in Chromium. `test` includes it where Node.js and Chromium are to be had
+  integrations
+          build the plugin for Bevy, run its tests and its example, and compare the pictures of its two
+          ways to tessellate; `ci` leaves it out, as Bevy takes long to build
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
   ports [brief] [NAME...]
@@ -92,6 +96,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["explorer"] => explorer::build(),
         ["explorer", "--serve"] => explorer::serve(),
         ["explorer", "--test"] => explorer::test(),
+        ["integrations"] => after_setup(&integrations::run),
         ["covergroups"] => covergroups::write(),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),

@@ -1,0 +1,72 @@
+// What hull and domain functions call. Everything about an edge is the same from both sides.
+
+// The instance of each patch.
+@group(TESS_GROUP) @binding(2) var<storage, read> tess_owners: array<u32>;
+// The words of all shapes, one behind another.
+@group(TESS_GROUP) @binding(3) var<storage, read> tess_words: array<u32>;
+
+// A patch of an entity.
+struct TessPlace {
+    instance: u32,
+    // From 0 on in each entity.
+    patch_number: u32,
+    first_word: u32,
+}
+
+// The patch that the number of a hull or domain function means.
+fn tess_place(number: u32) -> TessPlace {
+    let instance = tess_owners[number];
+    let first = tess_instances[instance].first_patch;
+    return TessPlace(instance, number - first, tess_instances[instance].first_word);
+}
+
+// A word of the shape.
+fn tess_uint(at: TessPlace, word: u32) -> u32 {
+    return tess_words[at.first_word + word];
+}
+
+fn tess_float(at: TessPlace, word: u32) -> f32 {
+    return bitcast<f32>(tess_uint(at, word));
+}
+
+fn tess_vec3(at: TessPlace, word: u32) -> vec3<f32> {
+    return vec3<f32>(tess_float(at, word), tess_float(at, word + 1u), tess_float(at, word + 2u));
+}
+
+fn tess_to_world(at: TessPlace, local: vec3<f32>) -> vec3<f32> {
+    return (tess_instances[at.instance].world_from_local * vec4<f32>(local, 1.0)).xyz;
+}
+
+// The factor of an edge between two places in world space, by the entity's rule. It is 0 in an entity that the
+// camera does not see.
+fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
+    let rule = tess_instances[at.instance].rule;
+    let pixels = tess_view.pixels_per_unit;
+    switch u32(rule.x) {
+        case 1u: {
+            return tess_in_range(rule.y);
+        }
+        case 2u: {
+            if tess_view.is_orthographic != 0u {
+                return tess_in_range(distance(a, b) * pixels / rule.y);
+            }
+            return tess_edge_by_screen_size(a, b, tess_view.eye, pixels, rule.y);
+        }
+        case 3u: {
+            return tess_edge_by_distance(a, b, tess_view.eye, rule.y);
+        }
+        default: {
+            return 0.0;
+        }
+    }
+}
+
+// A vertex from what a shape knows, in local space.
+fn tess_vertex_of(
+    at: TessPlace, local: vec3<f32>, normal: vec3<f32>, uv: vec2<f32>, color: vec4<f32>,
+) -> Vertex {
+    let world = tess_to_world(at, local);
+    let turned = tess_instances[at.instance].normal_from_local * vec4<f32>(normal, 0.0);
+    let position = tess_view.clip_from_world * vec4<f32>(world, 1.0);
+    return Vertex(position, world, normalize(turned.xyz), uv, color, at.instance);
+}

@@ -1,0 +1,43 @@
+// What the plugin binds and what a domain function returns. The bind group's number is put in for TESS_GROUP.
+// The structs TessView and TessInstance are those of render/layout.rs.
+
+struct TessView {
+    clip_from_world: mat4x4<f32>,
+    eye: vec3<f32>,
+    // Pixels of a length of 1 at distance 1; with an orthographic projection at any distance.
+    pixels_per_unit: f32,
+    is_orthographic: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+    reserved_2: u32,
+}
+
+struct TessInstance {
+    world_from_local: mat4x4<f32>,
+    // The inverse transpose; its upper left 3 x 3 part is used.
+    normal_from_local: mat4x4<f32>,
+    base_color: vec4<f32>,
+    emissive: vec4<f32>,
+    // Perceptual roughness, metallic, reflectance, 1 if unlit.
+    material: vec4<f32>,
+    // The factor rule: its kind and its amount.
+    rule: vec4<f32>,
+    first_patch: u32,
+    first_word: u32,
+    reserved_0: u32,
+    reserved_1: u32,
+}
+
+// In world space.
+struct Vertex {
+    @builtin(position) position: vec4<f32>,
+    @location(0) world: vec3<f32>,
+    @location(1) normal: vec3<f32>,
+    @location(2) uv: vec2<f32>,
+    // Linear; multiplies the base colour.
+    @location(3) color: vec4<f32>,
+    @location(4) @interpolate(flat) instance: u32,
+}
+
+@group(TESS_GROUP) @binding(0) var<uniform> tess_view: TessView;
+@group(TESS_GROUP) @binding(1) var<storage, read> tess_instances: array<TessInstance>;

@@ -1,0 +1,98 @@
+//! The component, and what the user sets for all of them.
+
+use crate::look::Look;
+use crate::rule::FactorRule;
+use crate::shape::Shape;
+use bevy::camera::visibility::{self, NoAutoAabb, Visibility, VisibilityClass};
+use bevy::ecs::prelude::*;
+use bevy::render::sync_world::SyncToRenderWorld;
+use bevy::transform::components::Transform;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use tess_core::{Config, Partitioning};
+
+/// A surface that is tessellated anew in each frame, by what each camera sees of it.
+#[derive(Clone, Component, Debug)]
+#[require(Transform, Visibility, VisibilityClass, SyncToRenderWorld, NoAutoAabb)]
+#[component(on_add = visibility::add_visibility_class::<Tessellated>)]
+pub struct Tessellated {
+    /// Its patches. Share them between entities that look alike in shape: they are then kept once.
+    pub shape: Arc<dyn Shape>,
+    /// How many segments its edges get.
+    pub factors: FactorRule,
+    /// How factors become segments. Fractional ones do not pop as the camera moves.
+    pub partitioning: Partitioning,
+    /// How it looks.
+    pub look: Look,
+}
+
+impl Tessellated {
+    /// A surface of this shape, in segments of 8 pixels, with Bevy's default material.
+    pub fn new(shape: impl Shape) -> Self {
+        Self::shared(Arc::new(shape))
+    }
+
+    /// The same of a shape that other entities have too.
+    pub fn shared(shape: Arc<dyn Shape>) -> Self {
+        Self {
+            shape,
+            factors: FactorRule::default(),
+            partitioning: Partitioning::FractionalEven,
+            look: Look::default(),
+        }
+    }
+
+    /// The same surface with this rule.
+    #[must_use]
+    pub const fn with_factors(mut self, factors: FactorRule) -> Self {
+        self.factors = factors;
+        self
+    }
+
+    /// The same surface with this look.
+    #[must_use]
+    pub const fn with_look(mut self, look: Look) -> Self {
+        self.look = look;
+        self
+    }
+
+    pub(crate) fn config(&self) -> Config {
+        Config::new(self.partitioning, self.shape.winding())
+    }
+}
+
+/// How surfaces are tessellated and drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Resource)]
+pub struct TessSettings {
+    /// Who tessellates.
+    pub backend: Backend,
+    /// Whether edges are drawn in place of triangles. On the GPU the device must have the feature
+    /// `POLYGON_MODE_LINE`.
+    pub wireframe: bool,
+}
+
+/// Who tessellates.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Backend {
+    /// The GPU if it has compute shaders, or else the CPU.
+    #[default]
+    Auto,
+    /// The CPU, into ordinary meshes.
+    Cpu,
+}
+
+/// How many triangles the surfaces had lately; a frame or two late on the GPU.
+#[derive(Clone, Debug, Default, Resource)]
+pub struct TessStats(Arc<AtomicU64>);
+
+impl TessStats {
+    /// Triangles of all surfaces and cameras.
+    #[must_use]
+    pub fn triangles(&self) -> u64 {
+        self.0.load(Ordering::Relaxed)
+    }
+
+    pub(crate) fn set(&self, triangles: u64) {
+        self.0.store(triangles, Ordering::Relaxed);
+    }
+}

@@ -1,0 +1,218 @@
+//! The CPU in place of the GPU: surfaces become ordinary meshes, by the same domain points.
+
+use crate::component::{TessSettings, TessStats, Tessellated};
+use crate::eye::{Eye, View};
+use crate::is_on_cpu;
+use crate::look::Look;
+use crate::shape::{CpuShape, ShapeVertex};
+use bevy::asset::{Assets, Handle, RenderAssetUsages};
+use bevy::camera::primitives::Aabb;
+use bevy::camera::{Camera, Camera3d};
+use bevy::ecs::prelude::*;
+use bevy::light::NotShadowCaster;
+use bevy::log::warn_once;
+use bevy::math::Vec3A;
+use bevy::mesh::{Indices, Mesh, Mesh3d, PrimitiveTopology};
+use bevy::pbr::{MeshMaterial3d, StandardMaterial};
+use bevy::platform::collections::HashMap;
+use bevy::render::renderer::RenderDevice;
+use bevy::transform::components::GlobalTransform;
+use tess_core::{Config, PatchFactors};
+use tess_simd::{Numbering, Output, Tessellator};
+
+/// A tessellator for each configuration; they keep tables.
+#[derive(Debug, Default, Resource)]
+pub(crate) struct Tessellators {
+    all: HashMap<Config, Tessellator>,
+    output: Output<[f32; 2], u32>,
+}
+
+/// Vertices and indices of a surface.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Tessellation {
+    pub(crate) vertices: Vec<ShapeVertex>,
+    indices: Vec<u32>,
+}
+
+impl Tessellators {
+    /// Tessellates the patches with these factors.
+    pub(crate) fn run(
+        &mut self,
+        config: Config,
+        factors: &[PatchFactors],
+        shape: &dyn CpuShape,
+    ) -> Result<Tessellation, tess_simd::Error> {
+        let tessellator = self.all.entry(config).or_insert_with(|| Tessellator::new(config));
+        let numbering = Numbering::PerBatch { base_vertex: 0 };
+        tessellator.tessellate(factors, numbering, &mut self.output)?;
+        let mut vertices = Vec::with_capacity(self.output.points().len());
+        for patch in 0..factors.len() {
+            if let (Some((points, _)), Ok(number)) =
+                (self.output.patch(patch), u32::try_from(patch))
+            {
+                shape.vertices(number, points, &mut vertices);
+            }
+        }
+        Ok(Tessellation { vertices, indices: self.output.indices().to_vec() })
+    }
+}
+
+/// The mesh of a surface: triangles, or a line for each of their edges.
+pub(crate) fn mesh(of: Tessellation, topology: PrimitiveTopology) -> Mesh {
+    let Tessellation { vertices, indices } = of;
+    let indices = match topology {
+        PrimitiveTopology::LineList => {
+            let edges = |&[a, b, c]: &[u32; 3]| [a, b, b, c, c, a];
+            indices.as_chunks().0.iter().flat_map(edges).collect()
+        }
+        _ => indices,
+    };
+    let each = |of: fn(&ShapeVertex) -> [f32; 3]| vertices.iter().map(of).collect::<Vec<_>>();
+    let uvs: Vec<[f32; 2]> = vertices.iter().map(|vertex| vertex.uv).collect();
+    let colors: Vec<[f32; 4]> = vertices.iter().map(|vertex| vertex.color).collect();
+    Mesh::new(topology, RenderAssetUsages::default())
+        .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, each(|vertex| vertex.position))
+        .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, each(|vertex| vertex.normal))
+        .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, uvs)
+        .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, colors)
+        .with_inserted_indices(Indices::U32(indices))
+}
+
+/// What an entity's mesh was made from; made anew when it changes.
+#[derive(Clone, Component, Debug)]
+pub(crate) struct Fallback {
+    eye: Eye,
+    look: Look,
+    wireframe: bool,
+    triangles: u64,
+    mesh: Handle<Mesh>,
+}
+
+type Surface<'a> = (Entity, Ref<'a, Tessellated>, &'a GlobalTransform, Option<&'a mut Fallback>);
+
+/// Makes the meshes if the CPU is to tessellate, and removes them if not.
+#[expect(clippy::too_many_arguments, reason = "a system's parameters are what it uses")]
+pub(crate) fn tessellate(
+    mut commands: Commands,
+    settings: Res<TessSettings>,
+    stats: Res<TessStats>,
+    device: Option<Res<RenderDevice>>,
+    cameras: Query<(&Camera, &GlobalTransform), With<Camera3d>>,
+    mut surfaces: Query<Surface<'_>>,
+    mut tessellators: ResMut<Tessellators>,
+    mut meshes: ResMut<Assets<Mesh>>,
+    mut materials: ResMut<Assets<StandardMaterial>>,
+) {
+    if !is_on_cpu(&settings, device.as_deref()) {
+        for (entity, .., fallback) in &surfaces {
+            if fallback.is_some() {
+                commands.entity(entity).remove::<(
+                    Fallback,
+                    Mesh3d,
+                    MeshMaterial3d<StandardMaterial>,
+                    NotShadowCaster,
+                )>();
+            }
+        }
+        return;
+    }
+    let Some(view) = view_of(&cameras) else { return };
+    let mut triangles = 0;
+    for (entity, surface, transform, mut fallback) in &mut surfaces {
+        let rule = surface.factors;
+        let eye = Eye { view, world_from_local: transform.affine(), rule };
+        if is_out_of_sight(&surface, &eye) {
+            continue;
+        }
+        let is_same = |old: &Fallback| old.eye == eye && old.wireframe == settings.wireframe;
+        if let Some(old) = fallback.as_deref().filter(|old| is_same(old) && !surface.is_changed()) {
+            triangles += old.triangles;
+            continue;
+        }
+        let Some(tessellation) = tessellate_one(&surface, &eye, &mut tessellators) else {
+            continue;
+        };
+        let count = tessellation.indices.len() as u64 / 3;
+        triangles += count;
+        let topology = match settings.wireframe {
+            true => PrimitiveTopology::LineList,
+            false => PrimitiveTopology::TriangleList,
+        };
+        let made = mesh(tessellation, topology);
+        let (look, wireframe) = (surface.look, settings.wireframe);
+        if let Some(old) = fallback.as_deref_mut().filter(|old| old.look == look) {
+            let handle = old.mesh.clone();
+            *old = Fallback { eye, look, wireframe, triangles: count, mesh: handle.clone() };
+            if meshes.insert(&handle, made).is_err() {
+                warn_once!("the mesh of a surface is gone");
+            }
+            continue;
+        }
+        let handle = meshes.add(made);
+        commands.entity(entity).insert((
+            Mesh3d(handle.clone()),
+            MeshMaterial3d(materials.add(StandardMaterial::from(look))),
+            // As on the GPU.
+            NotShadowCaster,
+            Fallback { eye, look, wireframe, triangles: count, mesh: handle },
+        ));
+    }
+    stats.set(triangles);
+}
+
+/// Whether the camera sees nothing of a surface; a mesh that it has is then as good as another.
+fn is_out_of_sight(surface: &Tessellated, eye: &Eye) -> bool {
+    let Aabb { center, half_extents } = surface.shape.bounds();
+    let corners =
+        [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| [-1.0, 1.0].map(|z| Vec3A::new(x, y, z))));
+    let middle = eye.to_world(center.into());
+    let away =
+        |corner: &Vec3A| middle.distance(eye.to_world((center + *corner * half_extents).into()));
+    let radius = corners.as_flattened().as_flattened().iter().map(away).fold(0.0, f32::max);
+    eye.is_outside(middle, radius)
+}
+
+/// The view of the first camera that is active.
+fn view_of(cameras: &Query<(&Camera, &GlobalTransform), With<Camera3d>>) -> Option<View> {
+    let active = |&(camera, _): &(&Camera, &GlobalTransform)| camera.is_active;
+    let (camera, transform) = cameras.iter().find(active)?;
+    let height = camera.physical_viewport_size()?.y;
+    Some(View::new(transform, camera.clip_from_view(), height))
+}
+
+fn tessellate_one(
+    surface: &Tessellated,
+    eye: &Eye,
+    tessellators: &mut Tessellators,
+) -> Option<Tessellation> {
+    let Some(shape) = surface.shape.on_cpu() else {
+        warn_once!("a shape has no Rust form (Shape::on_cpu) and is not drawn without compute");
+        return None;
+    };
+    let factors: Vec<_> =
+        (0..surface.shape.patches()).map(|patch| shape.factors(patch, eye)).collect();
+    tessellators
+        .run(surface.config(), &factors, shape)
+        .inspect_err(|problem| warn_once!("a surface cannot be tessellated: {problem}"))
+        .ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wireframe_has_the_edges_of_each_triangle() {
+        let vertices = vec![ShapeVertex::default(); 4];
+        let made = Tessellation { vertices, indices: vec![0, 1, 2, 2, 1, 3] };
+        let lines = mesh(made.clone(), PrimitiveTopology::LineList);
+        let expected = Indices::U32(vec![0, 1, 1, 2, 2, 0, 2, 1, 1, 3, 3, 2]);
+        assert_eq!(lines.indices(), Some(&expected), "three lines each");
+        let triangles = mesh(made, PrimitiveTopology::TriangleList);
+        assert_eq!(
+            triangles.indices(),
+            Some(&Indices::U32(vec![0, 1, 2, 2, 1, 3])),
+            "as they were"
+        );
+    }
+}

@@ -1,0 +1,340 @@
+//! A rectangle of patches, raised by heights.
+
+use crate::bezier::quad_factors;
+use crate::eye::Eye;
+use crate::shape::{CpuShape, Shape, ShapeVertex};
+use bevy::camera::primitives::Aabb;
+use bevy::math::{FloatExt, UVec2, Vec2, Vec3};
+use std::borrow::Cow;
+use std::fmt;
+use tess_core::{Domain, OutputPrimitive, PatchFactors, QuadFactors};
+
+/// A rectangle over x and z, around the origin, raised along y by an image of heights.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightMap {
+    texels: UVec2,
+    heights: Vec<f32>,
+    /// The lowest and the highest height.
+    range: [f32; 2],
+    patches: UVec2,
+    size: Vec3,
+    colors: GroundColors,
+}
+
+/// Linear colours of the ground, which multiply the look's base colour. All are white by default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroundColors {
+    /// Of low ground.
+    pub low: Vec3,
+    /// Of high ground.
+    pub high: Vec3,
+    /// Of steep ground.
+    pub steep: Vec3,
+}
+
+impl Default for GroundColors {
+    fn default() -> Self {
+        Self { low: Vec3::ONE, high: Vec3::ONE, steep: Vec3::ONE }
+    }
+}
+
+/// Why there is no such height map.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum HeightMapError {
+    /// The number of heights is not that of the image's texels, or it is 0.
+    WrongLength {
+        /// Heights that there are.
+        got: usize,
+        /// Texels along x and z.
+        texels: UVec2,
+    },
+    /// A height is NaN or infinite.
+    NotFinite {
+        /// Its number.
+        index: usize,
+    },
+    /// There are no patches along a side, or more than [`HeightMap::MOST_PATCHES`].
+    WrongPatches {
+        /// Patches along x and z.
+        got: UVec2,
+    },
+}
+
+impl fmt::Display for HeightMapError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::WrongLength { got, texels } => write!(
+                f,
+                "there are {got} heights for an image of {} x {} texels; there must be one for each, \
+                 and at least one",
+                texels.x, texels.y
+            ),
+            Self::NotFinite { index } => {
+                write!(f, "height {index} is not finite; replace NaN and infinities")
+            }
+            Self::WrongPatches { got } => write!(
+                f,
+                "{} x {} patches; each side has 1 to {}; use several entities for more",
+                got.x,
+                got.y,
+                HeightMap::MOST_PATCHES
+            ),
+        }
+    }
+}
+
+impl std::error::Error for HeightMapError {}
+
+/// Words in front of the heights, as `height_map.wgsl` reads them.
+const HEADER: usize = 20;
+
+impl HeightMap {
+    /// The most patches along a side: up to here places in patches are exact.
+    pub const MOST_PATCHES: u32 = 256;
+
+    /// A map of `texels` heights, row by row along x, the first row at the least z. It is 1 x 1 x 1 large, one
+    /// unit high where a height is 1, and has 16 x 16 patches.
+    ///
+    /// # Errors
+    /// [`HeightMapError::WrongLength`], [`HeightMapError::NotFinite`].
+    pub fn new(texels: UVec2, heights: Vec<f32>) -> Result<Self, HeightMapError> {
+        let expected = u64::from(texels.x) * u64::from(texels.y);
+        if heights.is_empty() || expected != heights.len() as u64 {
+            return Err(HeightMapError::WrongLength { got: heights.len(), texels });
+        }
+        if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
+            return Err(HeightMapError::NotFinite { index });
+        }
+        let (patches, colors) = (UVec2::splat(16), GroundColors::default());
+        let range =
+            heights.iter().fold([f32::MAX, f32::MIN], |[low, high], &h| [low.min(h), high.max(h)]);
+        Ok(Self { texels, heights, range, patches, size: Vec3::ONE, colors })
+    }
+
+    /// The same map with this extent along x and z; heights are multiplied by the extent along y.
+    #[must_use]
+    pub const fn with_size(mut self, size: Vec3) -> Self {
+        self.size = size;
+        self
+    }
+
+    /// The same map with these colours.
+    #[must_use]
+    pub const fn with_colors(mut self, colors: GroundColors) -> Self {
+        self.colors = colors;
+        self
+    }
+
+    /// The same map in so many patches along x and z.
+    ///
+    /// # Errors
+    /// [`HeightMapError::WrongPatches`].
+    pub fn with_patches(mut self, patches: UVec2) -> Result<Self, HeightMapError> {
+        if patches.min_element() == 0 || patches.max_element() > Self::MOST_PATCHES {
+            return Err(HeightMapError::WrongPatches { got: patches });
+        }
+        self.patches = patches;
+        Ok(self)
+    }
+
+    /// The surface above a place, 0 to 1 along x and z, in local space.
+    #[must_use]
+    pub fn surface_at(&self, place: Vec2) -> Vec3 {
+        self.raised(place, self.height(place))
+    }
+
+    // What follows is height_map.wgsl in Rust, function by function.
+
+    fn height(&self, place: Vec2) -> f32 {
+        let scaled = place * self.texels.as_vec2() - 0.5;
+        let below = scaled.floor();
+        let part = scaled - below;
+        let last = self.texels.as_ivec2() - 1;
+        let a = below.as_ivec2().clamp(bevy::math::IVec2::ZERO, last).as_uvec2();
+        let b = (below.as_ivec2() + 1).clamp(bevy::math::IVec2::ZERO, last).as_uvec2();
+        let texel = |x: u32, z: u32| self.heights[(z * self.texels.x + x) as usize];
+        let near = texel(a.x, a.y).lerp(texel(b.x, a.y), part.x);
+        let far = texel(a.x, b.y).lerp(texel(b.x, b.y), part.x);
+        near.lerp(far, part.y)
+    }
+
+    fn place_of(&self, patch: u32, uv: Vec2) -> Vec2 {
+        let cell = UVec2::new(patch % self.patches.x, patch / self.patches.x).as_vec2();
+        (cell + uv) / self.patches.as_vec2()
+    }
+
+    fn raised(&self, place: Vec2, height: f32) -> Vec3 {
+        Vec3::new(
+            (place.x - 0.5) * self.size.x,
+            height * self.size.y,
+            (place.y - 0.5) * self.size.z,
+        )
+    }
+
+    fn is_outside(&self, patch: u32, eye: &Eye) -> bool {
+        let [lowest, highest] = self.range;
+        let [near, far] = [Vec2::ZERO, Vec2::ONE].map(|uv| self.place_of(patch, uv));
+        let middle = self.raised(0.5 * (near + far), 0.5 * (lowest + highest));
+        let center = eye.to_world(middle);
+        let radius = (0..8).map(|i| {
+            let x = if i & 1 == 0 { near.x } else { far.x };
+            let z = if i & 2 == 0 { near.y } else { far.y };
+            let high = if i & 4 == 0 { lowest } else { highest };
+            center.distance(eye.to_world(self.raised(Vec2::new(x, z), high)))
+        });
+        eye.is_outside(center, radius.fold(0.0, f32::max))
+    }
+
+    fn slope(&self, place: Vec2) -> Vec3 {
+        let step = self.texels.as_vec2().recip();
+        let (x, z) = (Vec2::new(step.x, 0.0), Vec2::new(0.0, step.y));
+        let along_x = self.height(place + x) - self.height(place - x);
+        let along_z = self.height(place + z) - self.height(place - z);
+        let extent = Vec2::new(self.size.x, self.size.z);
+        let rise = Vec2::new(along_x, along_z) * self.size.y / (2.0 * step * extent);
+        Vec3::new(-rise.x, 1.0, -rise.y).normalize()
+    }
+
+    fn tint(&self, high: f32, upward: f32) -> [f32; 4] {
+        let [lowest, highest] = self.range;
+        let part = (high - lowest) / (highest - lowest).max(1e-20);
+        let GroundColors { low, high: peak, steep } = self.colors;
+        let flat = low.lerp(peak, smoothstep(0.55, 0.85, part));
+        steep.lerp(flat, smoothstep(0.75, 0.9, upward)).extend(1.0).to_array()
+    }
+}
+
+/// The function of WGSL.
+fn smoothstep(low: f32, high: f32, at: f32) -> f32 {
+    let t = ((at - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+impl Shape for HeightMap {
+    fn domain(&self) -> Domain {
+        Domain::Quad
+    }
+
+    /// x times z points down.
+    fn winding(&self) -> OutputPrimitive {
+        OutputPrimitive::TriangleCcw
+    }
+
+    fn patches(&self) -> u32 {
+        self.patches.x * self.patches.y
+    }
+
+    fn bounds(&self) -> Aabb {
+        let [lowest, highest] = self.range;
+        let (a, b) = (self.raised(Vec2::ZERO, lowest), self.raised(Vec2::ONE, highest));
+        Aabb::from_min_max(a.min(b), a.max(b))
+    }
+
+    fn surface(&self) -> Cow<'static, str> {
+        Cow::Borrowed(include_str!("../shaders/height_map.wgsl"))
+    }
+
+    fn words(&self) -> Vec<u32> {
+        let [lowest, highest] = self.range;
+        let GroundColors { low, high, steep } = self.colors;
+        let mut words = vec![self.texels.x, self.texels.y, self.patches.x, self.patches.y];
+        let numbers = [self.size.to_array(), [lowest, highest, low.x]].concat();
+        words.extend(numbers.into_iter().map(f32::to_bits));
+        let colors = [low.y, low.z, high.x, high.y, high.z, steep.x, steep.y, steep.z];
+        words.extend(colors.map(f32::to_bits));
+        words.resize(HEADER, 0);
+        words.extend(self.heights.iter().map(|height| height.to_bits()));
+        words
+    }
+
+    fn on_cpu(&self) -> Option<&dyn CpuShape> {
+        Some(self)
+    }
+}
+
+impl CpuShape for HeightMap {
+    fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors {
+        if self.is_outside(patch, eye) {
+            return PatchFactors::Quad(QuadFactors::uniform(0.0));
+        }
+        let corners = [Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+        let [a, b, c, d] =
+            corners.map(|uv| eye.to_world(self.surface_at(self.place_of(patch, uv))));
+        let edges = [eye.edge(a, d), eye.edge(a, b), eye.edge(b, c), eye.edge(d, c)];
+        PatchFactors::Quad(quad_factors(edges))
+    }
+
+    fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
+        vertices.extend(points.iter().map(|&uv| {
+            let place = self.place_of(patch, uv.into());
+            let high = self.height(place);
+            let normal = self.slope(place);
+            ShapeVertex {
+                position: self.raised(place, high).to_array(),
+                normal: normal.to_array(),
+                uv: place.to_array(),
+                color: self.tint(high, normal.y),
+            }
+        }));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn map() -> HeightMap {
+        let heights = (0..35_u16).map(|i| f32::from(i * 37 % 35) / 35.0).collect();
+        let map = HeightMap::new(UVec2::new(7, 5), heights).expect("35 texels");
+        let map = map.with_size(Vec3::new(10.0, 2.0, 6.0));
+        map.with_patches(UVec2::new(3, 2)).expect("six patches")
+    }
+
+    /// The vertices of a patch where one coordinate is fixed.
+    fn edge(map: &HeightMap, patch: u32, of: impl Fn(f32) -> [f32; 2]) -> Vec<ShapeVertex> {
+        let points: Vec<_> = (0..=64_u8).map(|i| of(f32::from(i) / 64.0)).collect();
+        let mut vertices = Vec::new();
+        map.vertices(patch, &points, &mut vertices);
+        vertices
+    }
+
+    #[test]
+    fn patches_agree_on_the_bits_of_their_edges() {
+        let map = map();
+        let (right, left) = (edge(&map, 1, |t| [1.0, t]), edge(&map, 2, |t| [0.0, t]));
+        assert_eq!(right, left, "along z");
+        let (far, near) = (edge(&map, 1, |t| [t, 1.0]), edge(&map, 4, |t| [t, 0.0]));
+        assert_eq!(far, near, "along x");
+        assert_ne!(right, edge(&map, 2, |t| [1.0 / 65536.0, t]), "the next point would be seen");
+    }
+
+    #[test]
+    fn the_surface_is_in_its_box() {
+        let map = map();
+        let Aabb { center, half_extents } = map.bounds();
+        let all = (0..map.patches()).flat_map(|patch| edge(&map, patch, |t| [t, t]));
+        for ShapeVertex { position, .. } in all {
+            let off = (Vec3::from(position) - Vec3::from(center)).abs();
+            assert!(off.cmple(Vec3::from(half_extents) + 1e-5).all(), "{position:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_missing_is_named() {
+        let of = |x, y, heights: &[f32]| HeightMap::new(UVec2::new(x, y), heights.to_vec());
+        let texels = UVec2::new(2, 2);
+        let wrong = Err(HeightMapError::WrongLength { got: 3, texels });
+        assert_eq!(of(2, 2, &[0.0; 3]), wrong, "a height is missing");
+        assert!(of(0, 2, &[]).is_err(), "there is nothing");
+        let nan = Err(HeightMapError::NotFinite { index: 1 });
+        assert_eq!(of(2, 1, &[0.0, f32::NAN]), nan, "the second one");
+        for (x, z) in [(0, 1), (1, 257)] {
+            let got = UVec2::new(x, z);
+            let refused = map().with_patches(got);
+            assert_eq!(refused, Err(HeightMapError::WrongPatches { got }), "{x} x {z}");
+        }
+        let text = HeightMapError::WrongPatches { got: UVec2::new(1, 257) }.to_string();
+        assert!(text.contains("1 to 256"), "{text}");
+    }
+}

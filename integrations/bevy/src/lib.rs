@@ -1,0 +1,69 @@
+#![doc = include_str!("../README.md")]
+
+mod bezier;
+mod component;
+mod cpu;
+mod eye;
+mod height_map;
+mod look;
+mod point_normal;
+mod render;
+mod rule;
+mod setup;
+mod shape;
+
+pub use bezier::{BezierError, BezierPatches, Net};
+pub use component::{Backend, TessSettings, TessStats, Tessellated};
+pub use eye::Eye;
+pub use height_map::{GroundColors, HeightMap, HeightMapError};
+pub use look::Look;
+pub use point_normal::{PointNormalError, PointNormalMesh};
+pub use rule::FactorRule;
+pub use shape::{CpuShape, DEFAULT_FRAGMENT, Shape, ShapeVertex};
+pub use tess_core;
+
+use bevy::app::{App, Plugin, PostUpdate};
+use bevy::asset::AssetEventSystems;
+use bevy::camera::primitives::Aabb;
+use bevy::camera::visibility::VisibilitySystems;
+use bevy::ecs::prelude::*;
+use bevy::render::renderer::RenderDevice;
+use bevy::transform::TransformSystems;
+use component::Backend as Chosen;
+
+/// Draws every entity with a [`Tessellated`] in the main pass of every 3D camera.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TessPlugin;
+
+impl Plugin for TessPlugin {
+    fn build(&self, app: &mut App) {
+        app.init_resource::<TessSettings>().init_resource::<TessStats>();
+        app.add_systems(
+            PostUpdate,
+            (
+                set_bounds.before(VisibilitySystems::CalculateBounds),
+                setup::register.before(VisibilitySystems::CalculateBounds),
+                cpu::tessellate.after(TransformSystems::Propagate).before(AssetEventSystems),
+            ),
+        );
+        app.init_resource::<setup::Setups>().init_resource::<cpu::Tessellators>();
+        render::build(app);
+    }
+}
+
+/// Gives new surfaces the boxes that Bevy culls them by.
+fn set_bounds(mut commands: Commands, new: Query<(Entity, &Tessellated), Changed<Tessellated>>) {
+    for (entity, tessellated) in &new {
+        let bounds: Aabb = tessellated.shape.bounds();
+        commands.entity(entity).insert(bounds);
+    }
+}
+
+/// Whether the CPU tessellates: the user wants it, or the device lacks what compute needs.
+pub(crate) fn is_on_cpu(settings: &TessSettings, device: Option<&RenderDevice>) -> bool {
+    let Some(device) = device else { return true };
+    let limits = device.limits();
+    let can_compute = limits.max_compute_workgroups_per_dimension > 0
+        && limits.max_storage_buffers_per_shader_stage >= 8;
+    settings.backend == Chosen::Cpu || !can_compute
+}

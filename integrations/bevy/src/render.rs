@@ -1,0 +1,36 @@
+//! The render world: extraction, one stage for each camera and setup, draws.
+
+mod content;
+mod draw;
+mod extract;
+mod layout;
+mod queue;
+mod stages;
+#[cfg(test)]
+mod tests;
+
+use crate::component::TessStats;
+use bevy::app::App;
+use bevy::core_pipeline::core_3d::{Opaque3d, main_opaque_pass_3d};
+use bevy::core_pipeline::schedule::{Core3d, Core3dSystems};
+use bevy::ecs::prelude::*;
+use bevy::render::render_phase::AddRenderCommand;
+use bevy::render::{ExtractSchedule, GpuResourceAppExt, Render, RenderApp, RenderSystems};
+
+pub(crate) fn build(app: &mut App) {
+    let stats = app.world().resource::<TessStats>().clone();
+    let Some(render_app) = app.get_sub_app_mut(RenderApp) else { return };
+    render_app
+        .insert_resource(stats)
+        .init_resource::<extract::Extracted>()
+        .init_gpu_resource::<queue::Pipelines>()
+        .init_gpu_resource::<stages::Stages>()
+        .add_render_command::<Opaque3d, draw::DrawTessellated>()
+        .add_systems(ExtractSchedule, extract::extract)
+        .add_systems(Render, queue::queue.in_set(RenderSystems::Queue))
+        .add_systems(Render, stages::forget.in_set(RenderSystems::Cleanup))
+        .add_systems(
+            Core3d,
+            stages::prepare.in_set(Core3dSystems::MainPass).before(main_opaque_pass_3d),
+        );
+}

@@ -1,0 +1,92 @@
+//! What the shaders bind: types.wgsl and surface.wgsl in Rust.
+
+use super::extract::Item;
+use crate::eye::View;
+use crate::rule::FactorRule;
+use bevy::color::ColorToComponents;
+use bevy::math::{Mat3, Mat4};
+use bevy::render::render_resource::{
+    BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, BufferBindingType, ShaderStages,
+};
+use bytemuck::{Pod, Zeroable};
+
+/// `TessView` of types.wgsl.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct GpuView {
+    clip_from_world: [[f32; 4]; 4],
+    eye: [f32; 3],
+    pixels_per_unit: f32,
+    is_orthographic: u32,
+    reserved: [u32; 3],
+}
+
+impl From<View> for GpuView {
+    fn from(view: View) -> Self {
+        Self {
+            clip_from_world: view.clip_from_world.to_cols_array_2d(),
+            eye: view.eye.to_array(),
+            pixels_per_unit: view.pixels_per_unit,
+            is_orthographic: view.is_orthographic.into(),
+            reserved: [0; 3],
+        }
+    }
+}
+
+/// `TessInstance` of types.wgsl.
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+#[repr(C)]
+pub(crate) struct GpuInstance {
+    world_from_local: [[f32; 4]; 4],
+    normal_from_local: [[f32; 4]; 4],
+    base_color: [f32; 4],
+    emissive: [f32; 4],
+    material: [f32; 4],
+    rule: [f32; 4],
+    first_patch: u32,
+    first_word: u32,
+    reserved: [u32; 2],
+}
+
+impl GpuInstance {
+    /// An entity whose patches and words begin there.
+    pub(crate) fn new(item: &Item, [first_patch, first_word]: [u32; 2], is_visible: bool) -> Self {
+        let linear = Mat3::from(item.world_from_local.matrix3);
+        let look = &item.look;
+        let unlit = if look.unlit { 1.0 } else { 0.0 };
+        let [red, green, blue, _] = look.emissive.to_f32_array();
+        Self {
+            world_from_local: Mat4::from(item.world_from_local).to_cols_array_2d(),
+            normal_from_local: Mat4::from_mat3(linear.inverse().transpose()).to_cols_array_2d(),
+            base_color: look.base_color.to_linear().to_f32_array(),
+            emissive: [red, green, blue, 0.0],
+            material: [look.perceptual_roughness, look.metallic, look.reflectance, unlit],
+            rule: if is_visible { item.rule.words() } else { FactorRule::HIDDEN },
+            first_patch,
+            first_word,
+            reserved: [0; 2],
+        }
+    }
+}
+
+/// The layout of the plugin's bind group, in compute and render passes.
+pub(crate) fn bind_group_layout() -> BindGroupLayoutDescriptor {
+    let entry = |binding, visibility| BindGroupLayoutEntry {
+        binding,
+        visibility,
+        ty: BindingType::Buffer {
+            ty: match binding {
+                0 => BufferBindingType::Uniform,
+                _ => BufferBindingType::Storage { read_only: true },
+            },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let surface = ShaderStages::COMPUTE | ShaderStages::VERTEX;
+    let everywhere = surface | ShaderStages::FRAGMENT;
+    let entries =
+        [entry(0, everywhere), entry(1, everywhere), entry(2, surface), entry(3, surface)];
+    BindGroupLayoutDescriptor::new("bevy_tess", &entries)
+}

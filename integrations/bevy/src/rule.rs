@@ -1,0 +1,33 @@
+//! How many segments an edge gets.
+
+/// How many segments an edge gets, 1 to 64. Every rule gives both patches of an edge the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FactorRule {
+    /// The same factor everywhere.
+    Uniform(f32),
+    /// Segments of about so many pixels of the camera's picture.
+    Pixels(f32),
+    /// A factor inversely proportional to the distance from the camera; this one at distance 1.
+    Distance(f32),
+}
+
+impl Default for FactorRule {
+    fn default() -> Self {
+        Self::Pixels(8.0)
+    }
+}
+
+impl FactorRule {
+    /// The kind and the amount, as `tess_edge` of surface.wgsl reads them.
+    pub(crate) const fn words(self) -> [f32; 4] {
+        let (kind, amount) = match self {
+            Self::Uniform(factor) => (1.0, factor),
+            Self::Pixels(pixels) => (2.0, pixels),
+            Self::Distance(scale) => (3.0, scale),
+        };
+        [kind, amount, 0.0, 0.0]
+    }
+
+    /// The words of an entity that the camera does not see.
+    pub(crate) const HIDDEN: [f32; 4] = [0.0; 4];
+}

@@ -1,0 +1,131 @@
+//! Setups: what entities must have in common to be tessellated in one call, and their shaders.
+
+use crate::component::Tessellated;
+use bevy::asset::{AssetServer, Assets, Handle};
+use bevy::ecs::prelude::*;
+use bevy::platform::collections::HashMap;
+use bevy::shader::Shader;
+use std::borrow::Cow;
+use std::sync::Arc;
+use tess_core::{Config, Domain};
+use tess_wgpu::TessellationStage;
+
+const TYPES: &str = include_str!("../shaders/types.wgsl");
+const SURFACE: &str = include_str!("../shaders/surface.wgsl");
+const FRAGMENT: &str = include_str!("../shaders/fragment.wesl");
+/// What fragment.wesl uses of Bevy. In one line, in front of the shape's first.
+const IMPORTS: &str = "import bevy_pbr::render::pbr_types as tess_pbr_types; \
+                       import bevy_pbr::render::pbr_functions as tess_pbr_functions; \
+                       import bevy_pbr::render::mesh_types as tess_mesh_types; ";
+
+/// The plugin's bind group in the stage's compute pass.
+const HULL_GROUP: &str = "0";
+/// The plugin's bind group in the render pass, in the place of Bevy's group for meshes.
+pub(crate) const DRAW_GROUP: usize = 2;
+
+/// What the entities of one call have in common.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Key {
+    pub(crate) domain: Domain,
+    pub(crate) config: Config,
+    surface: Cow<'static, str>,
+    fragment: Cow<'static, str>,
+}
+
+impl Key {
+    fn new(tessellated: &Tessellated) -> Self {
+        let shape = &tessellated.shape;
+        Self {
+            domain: shape.domain(),
+            config: tessellated.config(),
+            surface: shape.surface(),
+            fragment: shape.fragment(),
+        }
+    }
+
+    /// The shape's WGSL, then the plugin's, for a bind group of this number.
+    fn joined(&self, group: &str) -> String {
+        let own = [TYPES, SURFACE].join("\n").replace("TESS_GROUP", group);
+        format!("{}\n{own}", self.surface)
+    }
+
+    /// What the stage's hull pass is compiled from.
+    pub(crate) fn hull_source(&self) -> String {
+        self.joined(HULL_GROUP)
+    }
+
+    fn vertex_shader(&self, number: usize) -> Shader {
+        let source = self.joined(&DRAW_GROUP.to_string());
+        let builder = TessellationStage::builder(&source, self.domain, self.config, 1);
+        Shader::from_wgsl(builder.vertex_shader(), format!("bevy_tess/surface_{number}.wgsl"))
+    }
+
+    /// The shape's text comes before the plugin's, with imports in front.
+    fn fragment_shader(&self, number: usize) -> Shader {
+        let own = [TYPES, FRAGMENT].join("\n").replace("TESS_GROUP", &DRAW_GROUP.to_string());
+        let source = format!("{IMPORTS}{}\n{own}", self.fragment);
+        Shader::from_wesl(source, format!("bevy_tess/fragment_{number}.wesl"))
+    }
+}
+
+/// A setup and its shaders.
+#[derive(Debug)]
+pub(crate) struct Setup {
+    /// Its number among all setups.
+    pub(crate) number: usize,
+    pub(crate) key: Key,
+    pub(crate) vertex: Handle<Shader>,
+    pub(crate) fragment: Handle<Shader>,
+}
+
+/// All setups that there were, and that of each entity.
+#[derive(Debug, Resource)]
+pub(crate) struct Setups {
+    /// The modules of [`IMPORTS`].
+    library: [Handle<Shader>; 3],
+    all: HashMap<Key, Arc<Setup>>,
+    of_entities: HashMap<Entity, Arc<Setup>>,
+}
+
+impl FromWorld for Setups {
+    fn from_world(world: &mut World) -> Self {
+        let assets = world.resource::<AssetServer>();
+        let library = ["pbr_types", "pbr_functions", "mesh_types"]
+            .map(|name| assets.load(format!("embedded://bevy_pbr/render/{name}.wesl")));
+        Self { library, all: HashMap::default(), of_entities: HashMap::default() }
+    }
+}
+
+impl Setups {
+    /// Whether the shaders' imports are there.
+    pub(crate) fn are_ready(&self, assets: &AssetServer) -> bool {
+        self.library.iter().all(|shader| assets.is_loaded(shader))
+    }
+
+    pub(crate) fn of(&self, entity: Entity) -> Option<&Arc<Setup>> {
+        self.of_entities.get(&entity)
+    }
+}
+
+/// Finds the setup of entities that are new or changed, and makes its shaders if it is new too.
+pub(crate) fn register(
+    mut setups: ResMut<Setups>,
+    mut shaders: ResMut<Assets<Shader>>,
+    changed: Query<(Entity, &Tessellated), Changed<Tessellated>>,
+    mut removed: RemovedComponents<Tessellated>,
+) {
+    for entity in removed.read() {
+        setups.of_entities.remove(&entity);
+    }
+    for (entity, tessellated) in &changed {
+        let key = Key::new(tessellated);
+        let number = setups.all.len();
+        let setup = setups.all.entry(key).or_insert_with_key(|key| {
+            let vertex = shaders.add(key.vertex_shader(number));
+            let fragment = shaders.add(key.fragment_shader(number));
+            Arc::new(Setup { number, key: key.clone(), vertex, fragment })
+        });
+        let setup = Arc::clone(setup);
+        setups.of_entities.insert(entity, setup);
+    }
+}

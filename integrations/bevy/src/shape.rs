@@ -1,0 +1,72 @@
+//! What a shape is: its patches, its WGSL, and the Rust form of it.
+
+use crate::eye::Eye;
+use bevy::camera::primitives::Aabb;
+use std::borrow::Cow;
+use std::fmt::Debug;
+use tess_core::{Domain, OutputPrimitive, PatchFactors};
+
+/// The default fragment shader: Bevy's lighting of the entity's [`Look`](crate::Look).
+pub const DEFAULT_FRAGMENT: &str = include_str!("../shaders/default_fragment.wesl");
+
+/// Patches and the functions that make a surface of them.
+///
+/// Entities whose shapes have the same texts, domain and winding are tessellated in one call.
+pub trait Shape: Debug + Send + Sync + 'static {
+    /// The domain of the patches: [`Domain::Quad`] or [`Domain::Triangle`].
+    fn domain(&self) -> Domain;
+
+    /// Which triangles face outwards: [`OutputPrimitive::TriangleCw`] if the derivative by u times that by v does,
+    /// [`OutputPrimitive::TriangleCcw`] if it points inwards.
+    fn winding(&self) -> OutputPrimitive {
+        OutputPrimitive::TriangleCw
+    }
+
+    /// The number of patches.
+    fn patches(&self) -> u32;
+
+    /// A box in local space that holds the whole surface.
+    fn bounds(&self) -> Aabb;
+
+    /// WGSL with `fn hull(number: u32) -> QuadFactors` (or `TriFactors`) and
+    /// `fn domain(number: u32, uv: vec2<f32>) -> Vertex`. It may call what the README lists, and
+    /// declares no name that begins with `tess_`.
+    fn surface(&self) -> Cow<'static, str>;
+
+    /// WESL with one `@fragment` function of a `Vertex`; it may import from Bevy.
+    fn fragment(&self) -> Cow<'static, str> {
+        Cow::Borrowed(DEFAULT_FRAGMENT)
+    }
+
+    /// The words that `surface` reads with `tess_uint` and `tess_float`. They are uploaded once; a shape
+    /// that changes is another shape.
+    fn words(&self) -> Vec<u32>;
+
+    /// The Rust form of `hull` and `domain`, for devices without compute. Without it the shape is not
+    /// drawn there, and the log says so.
+    fn on_cpu(&self) -> Option<&dyn CpuShape> {
+        None
+    }
+}
+
+/// The Rust form of a shape's functions.
+pub trait CpuShape {
+    /// What `hull` does: the factors of a patch.
+    fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors;
+
+    /// What `domain` does, in local space: appends a vertex for each of these domain points of a patch.
+    fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>);
+}
+
+/// A vertex in local space.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ShapeVertex {
+    /// Its position.
+    pub position: [f32; 3],
+    /// Its normal, of unit length.
+    pub normal: [f32; 3],
+    /// Its texture coordinates.
+    pub uv: [f32; 2],
+    /// A linear colour, which multiplies the base colour.
+    pub color: [f32; 4],
+}
