@@ -29,6 +29,12 @@ impl PartCounts {
             largest: sum.largest.max(part.largest),
         })
     }
+
+    /// The size of the output in the widest formats.
+    #[cfg(feature = "rayon")]
+    pub(crate) const fn bytes(&self) -> u64 {
+        8 * self.points + 4 * self.indices
+    }
 }
 
 /// Predicts the output sizes of a block.

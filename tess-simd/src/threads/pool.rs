@@ -3,6 +3,7 @@
 //! Each has slices of its own, always the same ones, so that its part of a buffer that is written again and
 //! again stays in its core's caches. A thread that has written them helps the others.
 
+use crate::counts::PartCounts;
 use crate::part::{self, Job, Workspace};
 use crate::setup::Setup;
 use crate::slices::{CountShare, Share};
@@ -58,10 +59,11 @@ impl Workspaces {
         if share.counts.len() <= 1 {
             return self.lend(|workspace| part::emit(job, share.part, workspace));
         }
+        let counts = share.counts;
         let slices: Vec<_> = share.into_parts().map(|part| Mutex::new(Some(part))).collect();
         on_threads(self.threads(), &|| {
             self.lend(|workspace| {
-                for slice in self.own_first(&slices) {
+                for slice in self.own_first(counts, &slices) {
                     let part = slice.lock().unwrap_or_else(PoisonError::into_inner).take();
                     if let Some(part) = part {
                         part::emit(job, part, workspace);
@@ -71,17 +73,33 @@ impl Workspaces {
         });
     }
 
-    /// All slices, from the first one of this thread on.
-    fn own_first<'a, T>(&self, slices: &'a [T]) -> impl Iterator<Item = &'a T> {
-        let own = rayon::current_thread_index().unwrap_or(0) % self.0.len();
-        let (before, from_own) = slices.split_at(own * slices.len() / self.0.len());
-        from_own.iter().chain(before)
+    /// All slices, which have these counts, from the first one of this thread on. Threads' own slices
+    /// have about the same output.
+    fn own_first<'a, T>(
+        &self,
+        counts: &[PartCounts],
+        slices: &'a [T],
+    ) -> impl Iterator<Item = &'a T> {
+        let (own, threads) = (self.own() as u64, self.0.len() as u64);
+        let before = PartCounts::sum(counts).bytes() * own / threads;
+        let mut sum = 0;
+        let first = counts.iter().position(|slice| {
+            sum += slice.bytes();
+            sum > before
+        });
+        let (others, from_own) = slices.split_at(first.unwrap_or(0));
+        from_own.iter().chain(others)
+    }
+
+    /// The number of the workspace and of the slices that are this thread's own.
+    fn own(&self) -> usize {
+        rayon::current_thread_index().unwrap_or(0) % self.0.len()
     }
 
     /// Lends a workspace that is free, if possible always the same one to a thread; waits for one
     /// if the pool has more threads than there are workspaces.
     fn lend<T>(&self, borrow: impl FnOnce(&mut Workspace) -> T) -> T {
-        let own = rayon::current_thread_index().unwrap_or(0) % self.0.len();
+        let own = self.own();
         let (before, from_own) = self.0.split_at(own);
         let free = from_own.iter().chain(before).find_map(|workspace| workspace.try_lock().ok());
         // Templates are entered when they are complete, so one that a panic left is still right.
