@@ -1,4 +1,4 @@
-//! The tessellation stage in a browser: a page calls [`draw_terrain`], and nothing in it blocks.
+//! The tessellation stage in a browser: a page calls `draw_terrain`, and nothing in it blocks.
 #![cfg(target_arch = "wasm32")]
 
 mod terrain;
