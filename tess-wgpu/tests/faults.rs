@@ -6,6 +6,7 @@ use common::device::Machine;
 use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::Setup;
+use tess_gpu::sizes::SMALL_PATCHES;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::Tessellator;
 
@@ -28,6 +29,23 @@ fn planted_faults_are_seen() {
             assert!(expected.compare(&written).is_err(), "{setup:?}: {wrong} went unnoticed");
         }
     }
+}
+
+/// The search for the patch of a tile, which a small batch does without.
+#[test]
+fn a_tile_of_another_patch_is_seen() {
+    let mut machine = Machine::open();
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    let setup = Setup::new(Domain::Quad, config);
+    let count = SMALL_PATCHES as usize + 1;
+    let patches = common::patches::random(Domain::Quad, count, &mut SplitMix64::new(5));
+    let expected = Expected::new(setup, &patches);
+    let (points, indices) = expected.words();
+    let written = machine.write(setup, &patches, points, indices);
+    assert_eq!(expected.compare(&written), Ok(()), "without a fault");
+    machine.plant(setup, "return patch_of(clamp(element, begin, end - 1u), kind);", "return 0u;");
+    let written = machine.write(setup, &patches, points, indices);
+    assert!(expected.compare(&written).is_err(), "the fault went unnoticed");
 }
 
 /// Text of a shader and what to put there.
@@ -54,7 +72,6 @@ const FAULTS: &[(Domain, Partitioning, &[Fault])] = &[
             ("next * (form - scale * next) <= goal", "next * (form - scale * next) < goal"),
             ("begins[next] <= i32(element)", "begins[next] < i32(element)"),
             ("sums[SIXTEENS + (thread >> 4u)]", "sums[SIXTEENS + (thread >> 5u)]"),
-            ("return patch_of(clamp(element, begin, end - 1u), kind);", "return 0u;"),
         ],
     ),
     (
