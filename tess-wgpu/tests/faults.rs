@@ -37,7 +37,7 @@ fn a_tile_of_another_patch_is_seen() {
     let mut machine = Machine::open();
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let setup = Setup::new(Domain::Quad, config);
-    let count = SMALL_PATCHES as usize + 1;
+    let count = SMALL_PATCHES + 1;
     let patches = common::patches::random(Domain::Quad, count, &mut SplitMix64::new(5));
     let expected = Expected::new(setup, &patches);
     let (points, indices) = expected.words();
