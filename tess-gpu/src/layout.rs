@@ -159,6 +159,13 @@ impl Topology {
 pub struct PackedPoint(pub [u32; 2]);
 
 impl PackedPoint {
+    /// A point of a patch, whose number is below 2^30.
+    #[must_use]
+    pub const fn new(point: DomainPoint, patch: u32) -> Self {
+        let (u, v) = (point.u.to_bits(), point.v.to_bits());
+        Self([u | v << 17, v >> 15 | patch << 2])
+    }
+
     /// The point.
     #[must_use]
     pub const fn point(self) -> DomainPoint {

@@ -40,7 +40,10 @@ impl Level {
     }
 
     /// Nothing if this machine can run the level.
-    pub(crate) fn require(self) -> Result<(), LevelUnavailable> {
+    ///
+    /// # Errors
+    /// [`LevelUnavailable`] if it, or this build, cannot.
+    pub fn require(self) -> Result<(), LevelUnavailable> {
         if self.is_available() { Ok(()) } else { Err(LevelUnavailable(self)) }
     }
 

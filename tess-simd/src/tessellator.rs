@@ -57,8 +57,8 @@ impl Tessellator {
     /// Writes triangles in this order; [`Order::Specification`] unless told otherwise.
     ///
     /// [`Order::Drawing`] has the same points and the same triangles, so that a vertex cache finds more of
-    /// its vertices: for renderers. Patches above some 300 points take about twice as long with it, unless
-    /// their point counts are those of a patch before.
+    /// its vertices: for renderers. Patches above some 300 points take two to four times as long with it,
+    /// unless their point counts are those of the large patch before.
     #[must_use]
     pub fn order(self, order: Order) -> Self {
         Self(self.0.in_order(order))

@@ -3,12 +3,7 @@
 use crate::displaced::DisplacedPatch;
 use crate::patch::{Patch, Sample};
 use crate::{displaced, samples};
-use tess_simd::{Level, LevelUnavailable, at_each_level};
-
-/// Nothing if this machine can run the level.
-pub(crate) fn require(level: Level) -> Result<(), LevelUnavailable> {
-    if level.is_available() { Ok(()) } else { Err(LevelUnavailable(level)) }
-}
+use tess_simd::at_each_level;
 
 at_each_level! {
     /// [`Patch::samples`] at a level.

@@ -164,7 +164,7 @@ impl DisplacedPatch<'_> {
         points: &[[f32; 2]],
         samples: &mut [Sample],
     ) -> Result<(), LevelUnavailable> {
-        dispatch::require(level)?;
+        level.require()?;
         dispatch::displaced_samples(level, self, points, samples);
         Ok(())
     }

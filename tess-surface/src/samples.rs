@@ -26,7 +26,7 @@ impl Patch {
         points: &[[f32; 2]],
         samples: &mut [Sample],
     ) -> Result<(), LevelUnavailable> {
-        dispatch::require(level)?;
+        level.require()?;
         dispatch::samples(level, self, points, samples);
         Ok(())
     }

@@ -278,7 +278,7 @@ mod tests {
         });
         let batch = GpuBatch::of_cases(&cases).expect("alike");
         let outputs = cases.map(|case| case.patch().tessellate());
-        let pack = |p: &DomainPoint| [p.u.to_bits() | p.v.to_bits() << 17, p.v.to_bits() >> 15];
+        let pack = |&point: &DomainPoint| PackedPoint::new(point, 0).0;
         let mut points: Vec<u32> =
             outputs.iter().flat_map(|output| output.points.iter().flat_map(pack)).collect();
         let indices: Vec<u32> = outputs.iter().flat_map(|o| o.indices.clone()).collect();

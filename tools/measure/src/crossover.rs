@@ -1,15 +1,13 @@
 //! Finds the batch size from which the GPU is faster than one thread of `tess-simd`.
 
 use crate::Result;
+use crate::timing::{SAMPLES, median};
 use std::time::{Duration, Instant};
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup};
 use tess_verify::workloads::{Workload, character, uniform};
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
-
-/// Runs whose median is taken.
-const SAMPLES: usize = 15;
 
 pub(crate) fn run() -> Result<()> {
     let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
@@ -94,11 +92,4 @@ fn on_both(gpu: &Gpu, batch: &Batch) -> Result<Duration> {
     batch.encode(&mut encoder);
     gpu.run(encoder)?;
     Ok(start.elapsed())
-}
-
-/// The middle of these times, in microseconds.
-#[expect(clippy::float_arithmetic, reason = "a unit of time")]
-pub(crate) fn median(mut times: Vec<Duration>) -> f64 {
-    times.sort_unstable();
-    times.get(times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6)
 }

@@ -1,9 +1,9 @@
 //! Times many meshes as groups of one batch, and as batches of their own.
 
 use crate::Result;
-use crate::crossover::median;
+use crate::timing::device_time;
 use std::ops::Range;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup};
@@ -66,14 +66,7 @@ fn batch(
 
 /// The median time of these batches, one after another, in microseconds.
 fn time(gpu: &Gpu, stopwatch: &Stopwatch, batches: &[Batch]) -> Result<f64> {
-    let mut times = Vec::new();
-    let start = Instant::now();
-    while times.len() < 15 || start.elapsed() < LONG_ENOUGH {
-        let nanoseconds = stopwatch.time(gpu, |encoder| {
-            batches.iter().for_each(|batch| batch.encode(encoder));
-        })?;
-        times.push(Duration::from_nanos(nanoseconds));
-    }
-    // The later half: by then the device has reached its clock.
-    Ok(median(times.split_off(times.len() / 2)))
+    device_time(gpu, stopwatch, LONG_ENOUGH, |encoder| {
+        batches.iter().for_each(|batch| batch.encode(encoder));
+    })
 }

@@ -5,6 +5,7 @@ mod ablation;
 mod crossover;
 mod groups;
 mod orders;
+mod timing;
 
 use clap::{Parser, Subcommand};
 

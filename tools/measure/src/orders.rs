@@ -1,12 +1,13 @@
 //! Times drawing the triangles of quads in several orders, which says what an order could gain.
 
 use crate::Result;
-use crate::crossover::median;
-use std::time::{Duration, Instant};
+use crate::timing::device_time;
+use std::time::Duration;
 use tess_core::drawing::{COLUMN, Order};
 use tess_core::{
     Config, DomainPoint, OutputPrimitive, Partitioning, Patch, PrimitiveOrigin, QuadFactors,
 };
+use tess_gpu::layout::PackedPoint;
 use tess_wgpu::{Gpu, Stopwatch, Wanted};
 
 /// Triangles of a draw.
@@ -77,16 +78,9 @@ fn candidates() -> Vec<Candidate> {
     for width in [2, 3, 4, 5, 6, 8, 12] {
         all.push((format!("columns of {width}"), Box::new(move |t| in_columns(t, width))));
     }
-    for width in [2, 3, 4, 6, 8, 14] {
+    for width in [2, 3, 4, 5, 6, 8, 14] {
         let strips = move |t: &Triangle| [t.cell[0] / width, t.cell[1], t.cell[0], t.number];
         all.push((format!("strips of {width}"), Box::new(strips)));
-    }
-    for side in [4, 5, 8] {
-        let blocks = move |t: &Triangle| {
-            let [u, v] = t.cell;
-            [u / side, v / side, v * 64 + u, t.number]
-        };
-        all.push((format!("squares of {side}"), Box::new(blocks)));
     }
     all
 }
@@ -127,8 +121,9 @@ fn draw(gpu: &Gpu, stopwatch: &Stopwatch, patch: &Patch, indices: &[u32]) -> Res
     let counts = patch.counts();
     let copies = TRIANGLES / counts.primitives;
     let points: Vec<DomainPoint> = patch.points().collect();
-    let packed: Vec<[u32; 2]> =
-        (0..copies).flat_map(|copy| points.iter().map(move |p| pack(p, copy))).collect();
+    let packed: Vec<PackedPoint> = (0..copies)
+        .flat_map(|copy| points.iter().map(move |&point| PackedPoint::new(point, copy)))
+        .collect();
     let all: Vec<u32> = (0..copies)
         .flat_map(|copy| indices.iter().map(move |index| copy * counts.points + index))
         .collect();
@@ -136,26 +131,14 @@ fn draw(gpu: &Gpu, stopwatch: &Stopwatch, patch: &Patch, indices: &[u32]) -> Res
     let indices = gpu.upload("indices", bytemuck::cast_slice(&all), wgpu::BufferUsages::INDEX)?;
     let pipeline = pipeline(gpu, copies.isqrt() + 1);
     let picture = picture(gpu);
-    let mut times = Vec::new();
-    let start = Instant::now();
-    while times.len() < 15 || start.elapsed() < LONG_ENOUGH {
-        let nanoseconds = stopwatch.time(gpu, |encoder| {
-            let mut pass = begin(encoder, &picture);
-            pass.set_pipeline(&pipeline);
-            pass.set_vertex_buffer(0, points.slice(..));
-            pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
-            pass.draw_indexed(0..counts.indices * copies, 0, 0..1);
-        })?;
-        times.push(Duration::from_nanos(nanoseconds));
-    }
-    let microseconds = median(times.split_off(times.len() / 2));
+    let microseconds = device_time(gpu, stopwatch, LONG_ENOUGH, |encoder| {
+        let mut pass = begin(encoder, &picture);
+        pass.set_pipeline(&pipeline);
+        pass.set_vertex_buffer(0, points.slice(..));
+        pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.draw_indexed(0..counts.indices * copies, 0, 0..1);
+    })?;
     Ok(f64::from(copies * counts.primitives) / microseconds / 1e3)
-}
-
-/// A point as `tess_gpu::layout::PackedPoint` has it.
-const fn pack(point: &DomainPoint, patch: u32) -> [u32; 2] {
-    let (u, v) = (point.u.to_bits(), point.v.to_bits());
-    [u | v << 17, v >> 15 | patch << 2]
 }
 
 fn picture(gpu: &Gpu) -> wgpu::TextureView {

@@ -113,7 +113,8 @@ impl BackendOptions {
     /// Exit code 3 if this machine cannot run the one that is asked for.
     pub(crate) fn level(self) -> Result<Level, Failure> {
         let level = self.cpu_level.unwrap_or_else(Level::detect);
-        if level.is_available() { Ok(level) } else { Err(unavailable(LevelUnavailable(level))) }
+        level.require().map_err(unavailable)?;
+        Ok(level)
     }
 
     /// Makes a backend ready as these options say, as far as they are for it.

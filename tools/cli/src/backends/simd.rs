@@ -24,9 +24,7 @@ impl<I: IndexFormat> Simd<I> {
     /// # Errors
     /// This machine cannot run that level.
     pub(crate) fn with_level(level: Level) -> Result<Self, LevelUnavailable> {
-        if !level.is_available() {
-            return Err(LevelUnavailable(level));
-        }
+        level.require()?;
         Ok(Self { level, tessellators: HashMap::new(), output: Output::new() })
     }
 }

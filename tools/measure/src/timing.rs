@@ -1,0 +1,31 @@
+//! Medians of times.
+
+use crate::Result;
+use std::time::{Duration, Instant};
+use tess_wgpu::{Gpu, Stopwatch};
+
+/// Runs whose median is taken, at least.
+pub(crate) const SAMPLES: usize = 15;
+
+/// The median time of this work on the device, which runs for so long, in microseconds.
+pub(crate) fn device_time(
+    gpu: &Gpu,
+    stopwatch: &Stopwatch,
+    long_enough: Duration,
+    work: impl Fn(&mut wgpu::CommandEncoder),
+) -> Result<f64> {
+    let mut times = Vec::new();
+    let start = Instant::now();
+    while times.len() < SAMPLES || start.elapsed() < long_enough {
+        times.push(Duration::from_nanos(stopwatch.time(gpu, &work)?));
+    }
+    // The later half: by then the device has reached its clock.
+    Ok(median(times.split_off(times.len() / 2)))
+}
+
+/// The middle of these times, in microseconds.
+#[expect(clippy::float_arithmetic, reason = "a unit of time")]
+pub(crate) fn median(mut times: Vec<Duration>) -> f64 {
+    times.sort_unstable();
+    times.get(times.len() / 2).map_or(0.0, |time| time.as_secs_f64() * 1e6)
+}
