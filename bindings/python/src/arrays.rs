@@ -56,9 +56,7 @@ pub(crate) fn writable<'py, T: Element, D: numpy::ndarray::Dimension>(
     what: &str,
     array: &Bound<'py, numpy::PyArray<T, D>>,
 ) -> PyResult<PyReadwriteArray<'py, T, D>> {
-    if !array.is_c_contiguous() {
-        return Err(output(format!("{what}: the array is not C-contiguous")));
-    }
+    addresses(what, array)?;
     if !array.data().is_aligned() {
         return Err(output(format!("{what}: the array is not aligned to its elements")));
     }
@@ -68,12 +66,19 @@ pub(crate) fn writable<'py, T: Element, D: numpy::ndarray::Dimension>(
     })
 }
 
-/// The addresses that a contiguous array covers.
+/// The addresses that an array of `out` covers.
+///
+/// # Errors
+/// It is not C-contiguous: its elements may lie before its first one, and apart.
 pub(crate) fn addresses<T: Element, D: numpy::ndarray::Dimension>(
+    what: &str,
     array: &Bound<'_, numpy::PyArray<T, D>>,
-) -> Range<usize> {
+) -> PyResult<Range<usize>> {
+    if !array.is_c_contiguous() {
+        return Err(output(format!("{what}: the array is not C-contiguous")));
+    }
     let start = array.data() as usize;
-    start..start + array.len() * size_of::<T>()
+    Ok(start..start + array.len() * size_of::<T>())
 }
 
 /// Whether two address ranges have a byte in common.

@@ -252,14 +252,14 @@ impl<'py> Arrays<'py> {
     /// Refuses arrays that share memory.
     fn check_overlap(&self) -> PyResult<()> {
         let points = match &self.points {
-            Points::Float(array) => addresses(array),
-            Points::Fixed(array) => addresses(array),
+            Points::Float(array) => addresses("points", array)?,
+            Points::Fixed(array) => addresses("points", array)?,
         };
         let indices = match &self.indices {
-            Indices::Long(array) => addresses(array),
-            Indices::Short(array) => addresses(array),
+            Indices::Long(array) => addresses("indices", array)?,
+            Indices::Short(array) => addresses("indices", array)?,
         };
-        let ranges = addresses(&self.ranges);
+        let ranges = addresses("ranges", &self.ranges)?;
         for (one, a, other, b) in [
             ("points", &points, "indices", &indices),
             ("points", &points, "ranges", &ranges),

@@ -176,6 +176,17 @@ def test_arrays_that_share_memory(pair: "tuple[int, int]") -> None:
     assert len(tessellate("quad", factors, out=tuple(out)).points) > 0, "neighbours are fine"
 
 
+def test_arrays_backwards_share_nothing_with_what_follows_them() -> None:
+    factors = quads()
+    points, indices, ranges = out_arrays(factors)
+    memory = np.zeros(indices.size + ranges.size, np.uint32)
+    backwards = memory[: indices.size][::-1]
+    behind = memory[indices.size :].reshape(ranges.shape)
+    with pytest.raises(OutputError, match="indices: the array is not C-contiguous"):
+        tessellate("quad", factors, out=(points, backwards, behind))
+    assert not memory.any(), "nothing is written"
+
+
 def test_factors_and_output_in_one_memory() -> None:
     factors = quads()
     expected = tessellate("quad", factors)
