@@ -3,6 +3,7 @@
 use crate::at_each_level;
 use crate::batch::Batch;
 use crate::block::Block;
+#[cfg(target_arch = "x86_64")]
 use crate::block::BlockPatch;
 use crate::chunk::Chunk;
 use crate::counts::PartCounts;
@@ -11,10 +12,11 @@ use crate::kernel;
 use crate::kernel::emit::{Blocks, Caches, Offsets, Room};
 use crate::kernel::repeat::Repeat;
 use crate::level::Level;
-use crate::points::Code;
+use crate::points::Coordinates;
 #[cfg(target_arch = "x86_64")]
-use crate::points::permute;
+use crate::points::{Code, permute};
 use crate::setup::Setup;
+#[cfg(target_arch = "x86_64")]
 use crate::writer::Writer;
 use alloc::vec::Vec;
 #[cfg(target_arch = "x86_64")]
@@ -46,24 +48,23 @@ at_each_level! {
 
 at_each_level! {
     /// [`kernel::emit::emit`] at the levels that have no permutes.
-    fn emit_runs<P: PointFormat, I: IndexFormat>(
+    fn emit_by_lookups<P: PointFormat, I: IndexFormat>(
         setup: &Setup,
         blocks: Blocks<'_>,
         room: Room<'_, P, I>,
         caches: &mut Caches,
-    ) -> Offsets = emit_with_runs;
+    ) -> Offsets = emit_with_lookups;
 }
 
 /// [`kernel::emit::emit`] without permutes.
 #[inline(always)]
-fn emit_with_runs<P: PointFormat, I: IndexFormat>(
+fn emit_with_lookups<P: PointFormat, I: IndexFormat>(
     setup: &Setup,
     blocks: Blocks<'_>,
     room: Room<'_, P, I>,
     caches: &mut Caches,
 ) -> Offsets {
-    type Never<P> = fn(BlockPatch<'_>, &[Code], &mut Writer<'_, P>);
-    kernel::emit::emit(setup, blocks, room, caches, None::<Never<P>>)
+    kernel::emit::emit(setup, blocks, room, caches, &mut Coordinates::new())
 }
 
 /// [`kernel::emit::emit`] at a level.
@@ -91,16 +92,16 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
                 let permute = |patch: BlockPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {
                     permute::emit(patch, codes, out);
                 };
-                kernel::emit::emit(setup, blocks, room, caches, Some(permute))
+                kernel::emit::emit(setup, blocks, room, caches, &mut permute::Permutes(permute))
             }
-            _ => emit_with_runs(setup, blocks, room, caches),
+            _ => emit_with_lookups(setup, blocks, room, caches),
         }
     }
 
     match level {
         #[cfg(target_arch = "x86_64")]
         Level::Avx512 => avx512(setup, blocks, room, caches),
-        _ => emit_runs(level, setup, blocks, room, caches),
+        _ => emit_by_lookups(level, setup, blocks, room, caches),
     }
 }
 

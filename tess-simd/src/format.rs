@@ -1,6 +1,5 @@
 //! What points and indices look like in memory.
 
-use crate::reciprocal::to_f32;
 use tess_core::DomainPoint;
 
 /// A point format: `[f32; 2]`, or [`DomainPoint`] for pairs of 16.16 numbers. Both are exact.
@@ -79,12 +78,15 @@ mod sealed {
 pub(crate) use sealed::{AnyIndices, AnyPoints};
 
 impl sealed::Point for [f32; 2] {
-    /// A product of a number of at most 17 bits and a power of two is exact.
+    /// From 128 on binary32 numbers are the multiples of 2^-16: the mantissa of `128 + x` is `x` in 16.16.
     #[inline(always)]
-    #[expect(clippy::float_arithmetic, reason = "an exact scaling by a power of two")]
+    #[expect(
+        clippy::float_arithmetic,
+        reason = "a difference of multiples of 2^-16 below 2^8 is exact"
+    )]
     fn coordinate(bits: u32) -> u32 {
-        const TWO_POW_MINUS_16: f32 = 1.0 / 65536.0;
-        (to_f32(bits) * TWO_POW_MINUS_16).to_bits()
+        const FROM: f32 = 128.0;
+        (f32::from_bits(FROM.to_bits() | bits) - FROM).to_bits()
     }
 
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Locations along one dimension, a whole edge at a time (spec section 5).
 
 use crate::factor_context::Context;
-use crate::lanes::{Column, LANES, MAX_FACTORS, is_odd};
+use crate::lanes::{Column, LANES, MAX_FACTORS};
 use tess_core::SplitOrder;
 use tess_core::fixed_point::{HALF, ONE};
 
@@ -112,11 +112,17 @@ impl Locations {
 /// The location of point `p < spacing.points`; unspecified beyond. Free of branches.
 #[inline(always)]
 pub(crate) fn place(spacing: &Spacing, p: u32) -> u32 {
+    let opposite = spacing.points.wrapping_sub(1 + p);
+    let x = place_in_half(spacing, p.min(opposite));
+    if p > opposite { ONE.wrapping_sub(x) } else { x }
+}
+
+/// The location of a point in the first half of an edge, the middle included; unspecified beyond.
+/// Free of branches.
+#[inline(always)]
+pub(crate) const fn place_in_half(spacing: &Spacing, position: u32) -> u32 {
     let Spacing { points, split, step, lag } = *spacing;
-    let position = p.min(points.wrapping_sub(1 + p));
     let sum = position.wrapping_mul(step).wrapping_sub(if position > split { lag } else { 0 });
     let x = sum.wrapping_add(HALF) >> 16;
-    let x = if p >= points / 2 { ONE.wrapping_sub(x) } else { x };
-    let middle = !is_odd(points) && p == points / 2;
-    if middle { HALF } else { x }
+    if 2 * position + 1 == points { HALF } else { x }
 }

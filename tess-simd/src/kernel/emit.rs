@@ -69,19 +69,18 @@ struct Writers<'a, P, I> {
 }
 
 /// Writes the points of a small patch of fractional factors, whose codes are given.
-pub(crate) trait SmallPoints<P>: Fn(BlockPatch<'_>, &[Code], &mut Writer<'_, P>) {}
+pub(crate) trait SmallPoints<P> {
+    fn emit(&mut self, patch: BlockPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>);
+}
 
-impl<P, F: Fn(BlockPatch<'_>, &[Code], &mut Writer<'_, P>)> SmallPoints<P> for F {}
-
-/// Writes blocks; returns where their output ends in the batch. Without `small_points`, small patches of
-/// fractional factors are written as large ones are.
+/// Writes blocks; returns where their output ends in the batch.
 #[inline(always)]
 pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
     setup: &Setup,
     blocks: Blocks<'_>,
     room: Room<'_, P, I>,
     caches: &mut Caches,
-    small_points: Option<impl SmallPoints<P>>,
+    small_points: &mut impl SmallPoints<P>,
 ) -> Offsets {
     let Blocks { blocks, mut first, numbering } = blocks;
     let mut out = Writers { points: Writer::new(room.points), indices: Writer::new(room.indices) };
@@ -98,18 +97,17 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
             first.indices += range.indices;
         }
         caches.small.make_room();
-        let by_template = small_points.is_some() || setup.config.partitioning.has_integer_factors();
-        if by_template && block.all_small() {
-            emit_small(setup, (block, ranges), numbering, caches, &mut out, small_points.as_ref());
+        if block.all_small() {
+            emit_small(setup, (block, ranges), numbering, caches, &mut out, small_points);
             continue;
         }
         for (lane, range) in ranges.iter().enumerate().filter(|(_, range)| range.points != 0) {
             let patch = block.patch(lane);
             let base = numbering.base(range.first_point);
-            if by_template && patch.is_small() {
+            if patch.is_small() {
                 let start = caches.small.find(setup, patch, &mut caches.tables);
                 let template = caches.small.get(start);
-                points_of(patch, template, &mut out.points, small_points.as_ref());
+                points_of(patch, template, &mut out.points, small_points);
                 indices_of(patch, template, base, &mut out.indices);
             } else {
                 emit_patch(setup, patch, base, caches, &mut out);
@@ -128,7 +126,7 @@ fn emit_small<P: PointFormat, I: IndexFormat>(
     numbering: Numbering,
     caches: &mut Caches,
     out: &mut Writers<'_, P, I>,
-    small_points: Option<&impl SmallPoints<P>>,
+    small_points: &mut impl SmallPoints<P>,
 ) {
     let Caches { small, tables, .. } = caches;
     let mut starts = [Start::default(); LANES];
@@ -152,12 +150,12 @@ fn points_of<P: PointFormat>(
     patch: BlockPatch<'_>,
     SmallTemplate { points, .. }: SmallTemplate<'_>,
     out: &mut Writer<'_, P>,
-    small_points: Option<&impl SmallPoints<P>>,
+    small_points: &mut impl SmallPoints<P>,
 ) {
     if patch.integer() {
         out.map_least::<_, 8, 24>(patch.points() as usize, points, long);
-    } else if let Some(emit) = small_points {
-        emit(patch, points, out);
+    } else {
+        small_points.emit(patch, points, out);
     }
 }
 

@@ -6,6 +6,7 @@
 use super::code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Term};
 use crate::block::BlockPatch;
 use crate::format::PointFormat;
+use crate::kernel::emit::SmallPoints;
 use crate::writer::Writer;
 use bytemuck::must_cast;
 use core::arch::x86_64::{
@@ -30,6 +31,16 @@ const LEAST: usize = 32;
     reason = "a single bit of sixteen"
 )]
 const INSIDE: i32 = (Domain::Quad.outer_factors() * HALF_EDGE) as i32 * (1 << LOCATION);
+
+/// Takes [`emit`] to where it is needed: a closure that calls it.
+pub(crate) struct Permutes<F>(pub(crate) F);
+
+impl<P, F: Fn(BlockPatch<'_>, &[Code], &mut Writer<'_, P>)> SmallPoints<P> for Permutes<F> {
+    #[inline(always)]
+    fn emit(&mut self, patch: BlockPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>) {
+        self.0(patch, codes, out);
+    }
+}
 
 /// Writes the points of a small patch of fractional factors.
 #[inline]

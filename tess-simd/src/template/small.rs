@@ -181,17 +181,22 @@ impl SmallTemplates {
         } else if patch.integer() {
             points::emit(patch, tables, &mut Writer::new(&mut made));
         }
-        let to = &mut self.points[used..used + count];
+        let (to, domain) = (&mut self.points[used..used + count], patch.domain());
         if patch.integer() {
             for (to, point) in to.iter_mut().zip(made) {
                 *to = short(point);
             }
-        } else if patch.is_minimum() {
+            return;
+        }
+        if patch.is_minimum() {
             for (to, point) in to.iter_mut().zip(made) {
-                *to = corner(patch.domain(), point);
+                *to = corner(domain, point);
             }
         } else {
-            points::codes(patch.domain(), &patch.edges(), to);
+            points::codes(domain, &patch.edges(), to);
+        }
+        for code in to {
+            *code = points::for_level(setup.level, domain, *code);
         }
     }
 }

@@ -1,0 +1,160 @@
+//! Points of small patches from their codes, by look-up.
+//!
+//! All coordinates that a patch's codes name are computed at once into a table, in the format of the output. A
+//! point is then two of its elements, wherever no level has instructions for more.
+
+use super::code::{CENTRE, Code, HALF_EDGE, LOCATION, MINUS, RINGS, TERMS, Term};
+use super::triangle::Inset;
+use crate::block::BlockPatch;
+use crate::format::PointFormat;
+use crate::kernel::emit::SmallPoints;
+use crate::place::place_in_half;
+use crate::writer::Writer;
+use core::hint::black_box;
+use tess_core::Domain;
+use tess_core::fixed_point::{ONE, ONE_THIRD};
+
+/// Points made at a time.
+const STEP: usize = 8;
+/// As many points are made of any patch.
+const LEAST: usize = 24;
+
+/// Coordinates at the same positions of one factor.
+type Row = [u32; HALF_EDGE];
+
+/// The rows of a quad: one of locations for each factor, then from here on one of their opposites. A
+/// triangle's outer factors have as many.
+const QUAD_OPPOSITE: usize = Domain::Quad.factors();
+const TRIANGLE_OPPOSITE: usize = Domain::Triangle.outer_factors();
+/// Where the rows of a triangle's inner rings begin: four for each, one for every term that has a location.
+const INNER: usize = 2 * TRIANGLE_OPPOSITE;
+const ROWS_OF_RING: usize = TERMS.len() - 1;
+/// The row of a triangle's coordinates without a location: one for each ring, 0 for the outer one, then the
+/// centre's.
+const HELD: usize = INNER + ROWS_OF_RING * (RINGS - 1);
+/// As many coordinates as a byte can number, so that none is out of range.
+const PLACES: usize = 256;
+const ROWS: usize = PLACES / HALF_EDGE;
+
+const _: () =
+    assert!(HELD < ROWS && RINGS < HALF_EDGE && 2 * QUAD_OPPOSITE <= ROWS, "all rows fit");
+
+/// The coordinates of a patch.
+#[derive(Clone, Debug)]
+pub(crate) struct Coordinates {
+    rows: [Row; ROWS],
+    /// The positions of half an edge. The compiler does not know them, or it would treat each of them
+    /// in a way of its own instead of all in one vector.
+    positions: Row,
+}
+
+/// Where the coordinate of a code stands in [`Coordinates`].
+#[expect(clippy::cast_possible_truncation, reason = "below 256")]
+pub(crate) fn place_of(domain: Domain, code: u16) -> u16 {
+    let number = usize::from((code & !MINUS) >> LOCATION);
+    let (factor, position) = (number / HALF_EDGE, number % HALF_EDGE);
+    let (row, position) = if domain == Domain::Triangle {
+        place_in_triangle(usize::from(code % (1 << LOCATION)), factor, position)
+    } else if code & MINUS == 0 {
+        (factor, position)
+    } else {
+        (QUAD_OPPOSITE + factor, position)
+    };
+    (row * HALF_EDGE + position) as u16
+}
+
+/// The row and the position of a term's sum with a location.
+fn place_in_triangle(number: usize, factor: usize, position: usize) -> (usize, usize) {
+    if number == usize::from(CENTRE) {
+        return (HELD, RINGS);
+    }
+    let (term, ring) = (TERMS[number / RINGS], number % RINGS);
+    match term {
+        Term::Perpendicular => (HELD, ring),
+        Term::Back | Term::Third if ring == 0 => (factor, position),
+        Term::Last | Term::LastThird if ring == 0 => (TRIANGLE_OPPOSITE + factor, position),
+        _ => (INNER + ROWS_OF_RING * (ring - 1) + term as usize - 1, position),
+    }
+}
+
+impl<P: PointFormat> SmallPoints<P> for Coordinates {
+    #[inline(always)]
+    fn emit(&mut self, patch: BlockPatch<'_>, places: &[Code], out: &mut Writer<'_, P>) {
+        if patch.domain() == Domain::Triangle {
+            self.fill_triangle::<P>(patch);
+        } else {
+            self.fill_quad::<P>(patch);
+        }
+        let [coordinates] = self.rows.as_flattened().as_chunks::<PLACES>().0 else {
+            return debug_assert!(false, "a place is a byte");
+        };
+        out.map_least::<_, STEP, LEAST>(patch.points() as usize, places, |[u, v]: Code| {
+            let [u, v] = [usize::from(u) % PLACES, usize::from(v) % PLACES];
+            P::from_coordinates([coordinates[u], coordinates[v]])
+        });
+    }
+}
+
+impl Coordinates {
+    /// A table of no patch yet.
+    pub(crate) fn new() -> Self {
+        Self { rows: [[0; HALF_EDGE]; ROWS], positions: black_box([0, 1, 2, 3, 4, 5, 6, 7]) }
+    }
+
+    /// Computes the coordinates of a quad.
+    #[inline(always)]
+    fn fill_quad<P: PointFormat>(&mut self, patch: BlockPatch<'_>) {
+        for factor in 0..QUAD_OPPOSITE {
+            let locations = self.locations(patch, factor);
+            self.rows[factor] = row::<P>(locations, |x| x);
+            self.rows[QUAD_OPPOSITE + factor] = row::<P>(locations, |x| ONE.wrapping_sub(x));
+        }
+    }
+
+    /// Computes the coordinates of a triangle, those of the rings it has.
+    #[inline(always)]
+    fn fill_triangle<P: PointFormat>(&mut self, patch: BlockPatch<'_>) {
+        for factor in 0..TRIANGLE_OPPOSITE {
+            let locations = self.locations(patch, factor);
+            self.rows[factor] = row::<P>(locations, |x| x);
+            self.rows[TRIANGLE_OPPOSITE + factor] = row::<P>(locations, |x| ONE.wrapping_sub(x));
+        }
+        let inside = self.locations(patch, TRIANGLE_OPPOSITE);
+        let insets = inside.map(Inset::new);
+        self.rows[HELD] = row::<P>(insets.map(|inset| inset.perpendicular), |x| x);
+        self.rows[HELD][RINGS] = P::coordinate(ONE_THIRD);
+        let rings = self.rows[INNER..HELD].as_chunks_mut::<ROWS_OF_RING>().0;
+        let end = (patch.edge_points(TRIANGLE_OPPOSITE) as usize / 2).min(RINGS);
+        for ring in 1..end {
+            let Inset { perpendicular, shift } = insets[ring];
+            let (last, third) = (ONE - shift, shift.wrapping_sub(perpendicular));
+            // The terms in their order.
+            rings[ring - 1] = [
+                row::<P>(inside, |x| x.wrapping_sub(shift)),
+                row::<P>(inside, |x| last.wrapping_sub(x)),
+                row::<P>(inside, |x| x.wrapping_add(third)),
+                row::<P>(inside, |x| third.wrapping_add(ONE).wrapping_sub(x)),
+            ];
+        }
+    }
+
+    /// The locations of half the edge of a factor.
+    #[inline(always)]
+    fn locations(&self, patch: BlockPatch<'_>, factor: usize) -> Row {
+        let spacing = patch.fractional_spacing(factor);
+        let mut row = self.positions;
+        for x in &mut row {
+            *x = place_in_half(&spacing, *x);
+        }
+        row
+    }
+}
+
+/// Coordinates from locations, as they stand in memory.
+#[inline(always)]
+fn row<P: PointFormat>(mut row: Row, coordinate: impl Fn(u32) -> u32) -> Row {
+    for x in &mut row {
+        *x = P::coordinate(coordinate(*x));
+    }
+    row
+}
