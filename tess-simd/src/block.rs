@@ -15,6 +15,8 @@ pub(crate) struct Block {
     domain: Domain,
     fixed: Column,
     points: Column,
+    /// Unspecified where factors are integers: few spacings are ever needed there. See
+    /// [`BlockPatch::spacing`].
     spacings: Spacings,
     minimum: Lanes,
     topologies: Lanes<u64>,
@@ -39,36 +41,41 @@ impl Block {
 
     /// Processes the raw factors of a block; zeros count as culled.
     #[inline(always)]
-    pub(crate) fn new(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
+    pub(crate) fn set(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
         match domain {
             Domain::Isoline => {
-                Self::of_factors::<{ Domain::Isoline.factors() * LANES }>(config, domain, raw)
+                self.set_factors::<{ Domain::Isoline.factors() * LANES }>(config, domain, raw);
             }
             Domain::Triangle => {
-                Self::of_factors::<{ Domain::Triangle.factors() * LANES }>(config, domain, raw)
+                self.set_factors::<{ Domain::Triangle.factors() * LANES }>(config, domain, raw);
             }
             Domain::Quad => {
-                Self::of_factors::<{ Domain::Quad.factors() * LANES }>(config, domain, raw)
+                self.set_factors::<{ Domain::Quad.factors() * LANES }>(config, domain, raw);
             }
         }
     }
 
-    /// [`Block::new`] for patches whose factors are the first `ALL` elements of a column.
+    /// The output sizes of a block's patches.
     #[inline(always)]
-    fn of_factors<const ALL: usize>(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
+    pub(crate) fn counts_of(config: Config, domain: Domain, raw: &Column<f32>) -> BlockCounts {
+        let mut block = Self::EMPTY;
+        block.set(config, domain, raw);
+        block.counts
+    }
+
+    /// [`Block::set`] for patches whose factors are the first `ALL` elements of a column.
+    #[inline(always)]
+    fn set_factors<const ALL: usize>(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
         let processed = process(config, domain, raw);
         let points = point_counts::<ALL>(&processed.fixed, &processed.odd);
-        // Where factors are integers, few spacings are ever needed: see `BlockPatch::spacing`.
-        let spacings = if config.partitioning.has_integer_factors() {
-            Spacings::NONE
-        } else {
-            Spacings::new::<ALL>(&processed.fixed, &processed.odd, config.split)
-        };
-        let counts = counts(config, domain, &processed, &points);
-        let topologies = topologies(&points, &processed.minimum);
-        let small = small(domain, &points);
-        let (fixed, minimum) = (processed.fixed, processed.minimum);
-        Self { config, domain, fixed, points, spacings, minimum, topologies, small, counts }
+        if !config.partitioning.has_integer_factors() {
+            self.spacings = Spacings::new::<ALL>(&processed.fixed, &processed.odd, config.split);
+        }
+        (self.config, self.domain) = (config, domain);
+        self.counts = counts(config, domain, &processed, &points);
+        self.topologies = topologies(&points, &processed.minimum);
+        self.small = small(domain, &points);
+        (self.fixed, self.points, self.minimum) = (processed.fixed, points, processed.minimum);
     }
 
     /// Whether all of its patches are small.

@@ -18,7 +18,8 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
         let Stretch { patches, times } = Stretch::new(batch, first);
         chunk.load(&batch.slice(&(first..first + patches)));
         for number in 0..patches.div_ceil(LANES) {
-            sums.add(&Block::new(config, domain, &chunk.block(number)).counts, times);
+            let counts = Block::counts_of(config, domain, &chunk.block(number));
+            sums.add(&counts, times);
         }
         first += patches * times;
     }

@@ -161,12 +161,16 @@ impl Times {
     }
 }
 
-/// The mean time of as many runs as take a fifth of a millisecond for each thread, in seconds.
+/// The mean time of as many runs as take a fifth of a millisecond for each thread, in seconds. The first run of
+/// several threads is not timed: it wakes them.
 fn sample(
     threads: u32,
     run: &mut impl FnMut() -> Result<Duration, BackendError>,
 ) -> Result<f64, BackendError> {
     let long_enough = Duration::from_micros(200) * threads;
+    if threads > 1 {
+        run()?;
+    }
     let (mut time, mut runs) = (Duration::ZERO, 0u32);
     while time < long_enough && runs < 10_000 {
         time += run()?;
