@@ -3,7 +3,9 @@
 use super::builder::{Points, Render};
 use super::output::Output;
 use super::room::{Form, Overflow};
-use super::{Factors, Fit, Origin, StageBuilder, StageError, TessellationStage, origin, source};
+use super::{
+    Factors, Fit, Origin, StageBuilder, StageError, TessellationStage, flat, origin, source,
+};
 use crate::error::{Error, checked};
 use crate::{Tessellator, gpu};
 use std::future::Future;
@@ -183,7 +185,9 @@ async fn render_pipeline(
     pulled: Option<&wgpu::BindGroupLayout>,
 ) -> Result<wgpu::RenderPipeline, Error> {
     let StageBuilder { source: user, setup, layouts, render, .. } = builder;
-    let module = user_module(device, "draw", user, builder.vertex_shader()).await?;
+    let shader = builder.vertex_shader();
+    let module = user_module(device, "draw", user, shader.clone()).await?;
+    flat::check(device, &shader)?;
     let layouts: Vec<_> = layouts.iter().chain(pulled).map(Some).collect();
     let stored = wgpu::VertexBufferLayout {
         array_stride: 8,
