@@ -4,7 +4,7 @@ mod builder;
 mod error;
 mod feedback;
 mod fit;
-mod flat;
+mod gl;
 mod make;
 mod origin;
 mod output;

@@ -16,19 +16,24 @@ pub(crate) fn is_asked() -> bool {
 #[expect(clippy::print_stdout, reason = "another process reads it")]
 pub(crate) fn answer() {
     match pollster::block_on(Gpu::open()) {
-        Ok(gpu) => print!("{:?}", gpu.info.backend),
+        Ok(gpu) => print!("{}", gpu.name()),
         Err(error) => print!("{error}"),
     }
 }
 
-/// What a process with these variables says.
-fn ask(variables: &[(&str, &str)]) -> String {
+/// What this program says in an environment with these variables.
+fn say(arguments: &[&str], variables: &[(&str, &str)]) -> String {
     let own = std::env::current_exe().expect("a test has a path");
     let mut command = Command::new(own);
-    command.arg(QUESTION).env_remove("WGPU_BACKEND").envs(variables.iter().copied());
+    command.args(arguments).env_remove("WGPU_BACKEND").envs(variables.iter().copied());
     let output = command.output().expect("it starts");
     assert!(output.status.success(), "{output:?}");
     String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// The adapter in an environment with these variables, or why there is none.
+fn adapter(variables: &[(&str, &str)]) -> String {
+    say(&[QUESTION], variables)
 }
 
 /// There is no Vulkan.
@@ -41,23 +46,37 @@ const OLD: [(&str, &str); 3] = [
     ("MESA_EXTENSION_OVERRIDE", "-GL_ARB_compute_shader -GL_ARB_shader_storage_buffer_object"),
 ];
 
+/// There is OpenGL ES alone, since Mesa gives no OpenGL of the version that wgpu asks for.
+const ES: (&str, &str) = ("MESA_GL_VERSION_OVERRIDE", "3.2");
+
 pub(crate) fn opengl_is_last() {
-    assert_eq!(ask(&[]), "Vulkan", "where there is Vulkan too");
-    assert_eq!(ask(&OLD), "Vulkan", "however old OpenGL is");
-    assert_eq!(ask(&NO_VULKAN), "Gl", "where there is no Vulkan");
+    let is = |variables: &[(&str, &str)], backend| {
+        let adapter = adapter(variables);
+        assert!(adapter.contains(backend), "{adapter}, not{backend} with {variables:?}");
+    };
+    is(&[], " (vulkan, ");
+    is(&OLD, " (vulkan, ");
+    is(&NO_VULKAN, " (gl, ");
+    is(&[("WGPU_BACKEND", "gl")], " (gl, ");
+    is(&[("WGPU_BACKEND", "gl,vulkan")], " (vulkan, ");
 }
 
-pub(crate) fn old_opengl_is_refused() {
-    let said = ask(&[&NO_VULKAN[..], &OLD].concat());
-    assert!(said.contains("lacks compute shaders, which OpenGL has from 4.3"), "{said}");
-    assert!(said.contains("install a driver of Vulkan"), "what to do: {said}");
+pub(crate) fn what_is_lacking_is_said() {
+    let old = adapter(&[&NO_VULKAN[..], &OLD].concat());
+    assert!(old.contains("lacks compute shaders, which OpenGL has from 4.3"), "{old}");
+    assert!(old.contains("install a driver of Vulkan"), "what to do: {old}");
+    let metal = adapter(&[("WGPU_BACKEND", "metal")]);
+    assert!(metal.contains("WGPU_BACKEND allows no other"), "{metal}");
+    let none = adapter(&[("WGPU_BACKEND", "glide")]);
+    assert!(none.contains("WGPU_BACKEND is none of vulkan, metal, dx12, gl"), "{none}");
 }
 
-pub(crate) fn the_variable_is_heeded() {
-    let with = |backends| ask(&[("WGPU_BACKEND", backends)]);
-    assert_eq!(with("gl"), "Gl");
-    assert_eq!(with("vulkan"), "Vulkan");
-    assert_eq!(with("gl,vulkan"), "Vulkan", "OpenGL is last");
-    assert!(with("metal").contains("WGPU_BACKEND allows no other"), "{}", with("metal"));
-    assert!(with("glide").contains("WGPU_BACKEND is none of vulkan"), "{}", with("glide"));
+/// The tests of OpenGL, on OpenGL ES.
+pub(crate) fn opengl_es_equals_the_model() {
+    let adapter = adapter(&[ES, ("WGPU_BACKEND", "gl")]);
+    assert!(adapter.contains("OpenGL ES 3."), "{adapter}");
+    for test in [crate::LARGE_BATCH, crate::PICTURES] {
+        let said = say(&["--exact", test], &[ES]);
+        assert!(said.contains("1 passed"), "{said}");
+    }
 }

@@ -21,19 +21,22 @@ mod scene;
 use libtest_mimic::{Arguments, Failed, Trial};
 use tess_wgpu::Gpu;
 
+const LARGE_BATCH: &str = "a_large_batch_equals_the_model";
+const PICTURES: &str = "the_stage_draws_the_models_triangles";
+
 const TESTS: &[(&str, fn(Gpu))] = &[
     ("small_batches_equal_the_model", batches::small_ones_equal_the_model),
-    ("a_large_batch_equals_the_model", batches::a_large_one_equals_the_model),
+    (LARGE_BATCH, batches::a_large_one_equals_the_model),
     ("planted_faults_are_seen", batches::planted_faults_are_seen),
-    ("the_stage_draws_the_models_triangles", pictures::every_way_to_draw),
+    (PICTURES, pictures::every_way_to_draw),
     ("flat_members_of_the_first_vertex_are_refused", pictures::flat_members_are_refused),
 ];
 
-/// Those that take from the driver what it has, in a process of its own: Mesa can be asked to.
+/// Those that need another environment, in processes of their own: Mesa can be asked for less than it has.
 const OF_MESA: &[(&str, fn())] = &[
     ("opengl_is_the_last_choice", choice::opengl_is_last),
-    ("opengl_without_compute_shaders_is_refused", choice::old_opengl_is_refused),
-    ("the_variable_is_heeded", choice::the_variable_is_heeded),
+    ("what_is_lacking_is_said", choice::what_is_lacking_is_said),
+    ("opengl_es_equals_the_model", choice::opengl_es_equals_the_model),
 ];
 
 fn main() {

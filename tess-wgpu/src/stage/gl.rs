@@ -1,12 +1,28 @@
-//! What `@interpolate(flat)` means on OpenGL.
+//! What wgpu leaves to its users on OpenGL.
 
 use super::StageError;
 use crate::error::Error;
 
-/// Refuses a vertex shader whose struct `Vertex` has a member that takes the value of a primitive's first vertex, if
-/// the device takes that of the last: wgpu leaves OpenGL's order as it is.
-pub(super) fn check(device: &wgpu::Device, shader: &str) -> Result<(), Error> {
-    if device.adapter_info().backend != wgpu::Backend::Gl {
+pub(super) fn is_gl(device: &wgpu::Device) -> bool {
+    device.adapter_info().backend == wgpu::Backend::Gl
+}
+
+/// The attributes of the stage's vertex buffer: a point at location 0.
+///
+/// On OpenGL the other locations have it too, unread. wgpu leaves locations enabled that another pipeline used;
+/// once their buffer is gone, OpenGL ES refuses indirect draws, and draws nothing.
+pub(super) fn attributes(device: &wgpu::Device) -> Vec<wgpu::VertexAttribute> {
+    let count = if is_gl(device) { device.limits().max_vertex_attributes } else { 1 };
+    let format = wgpu::VertexFormat::Uint32x2;
+    (0..count)
+        .map(|shader_location| wgpu::VertexAttribute { format, offset: 0, shader_location })
+        .collect()
+}
+
+/// Refuses a vertex shader whose struct `Vertex` has a member that takes the value of a primitive's first vertex,
+/// since OpenGL takes that of the last.
+pub(super) fn check_flat_members(device: &wgpu::Device, shader: &str) -> Result<(), Error> {
+    if !is_gl(device) {
         return Ok(());
     }
     match first_vertex_member(shader) {
