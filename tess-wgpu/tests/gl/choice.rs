@@ -39,8 +39,9 @@ fn adapter(variables: &[(&str, &str)]) -> String {
 /// There is no Vulkan.
 const NO_VULKAN: [(&str, &str); 2] =
     [("VK_DRIVER_FILES", "/nonexistent"), ("VK_ICD_FILENAMES", "/nonexistent")];
-/// OpenGL is an old one.
-const OLD: [(&str, &str); 3] = [
+/// OpenGL is an old one, of a GPU by its name, which wgpu prefers to a driver in software.
+const OLD: [(&str, &str); 4] = [
+    ("force_gl_renderer", "Intel"),
     ("MESA_GL_VERSION_OVERRIDE", "3.3"),
     ("MESA_GLSL_VERSION_OVERRIDE", "330"),
     ("MESA_EXTENSION_OVERRIDE", "-GL_ARB_compute_shader -GL_ARB_shader_storage_buffer_object"),
