@@ -24,7 +24,9 @@ use tess_wgpu::Gpu;
 const LARGE_BATCH: &str = "a_large_batch_equals_the_model";
 const PICTURES: &str = "the_stage_draws_the_models_triangles";
 
-const TESTS: &[(&str, fn(Gpu))] = &[
+type Test = fn(Gpu);
+
+const TESTS: &[(&str, Test)] = &[
     ("small_batches_equal_the_model", batches::small_ones_equal_the_model),
     (LARGE_BATCH, batches::a_large_one_equals_the_model),
     ("planted_faults_are_seen", batches::planted_faults_are_seen),
