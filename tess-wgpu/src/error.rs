@@ -12,9 +12,10 @@ use tess_gpu::Resource;
 #[non_exhaustive]
 pub enum Error {
     /// No adapter gives a device. Install a Vulkan driver; Debian's `mesa-vulkan-drivers` has one
-    /// in software. OpenGL from 4.3 or ES 3.1 on will do too, with the feature `gles`. In a browser: it has no WebGPU, or the page is neither from https nor from localhost.
+    /// in software. OpenGL from 4.3 or ES 3.1 on will do too, with the feature `gles`. In a browser: it has no
+    /// WebGPU, or the page is neither from https nor from localhost.
     NoDevice {
-        /// What wgpu says.
+        /// What wgpu says of each adapter or backend that was tried, and whether `WGPU_BACKEND` restricts them.
         reason: String,
     },
     /// The device was lost. Open another one and make every object anew.
