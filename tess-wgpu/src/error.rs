@@ -12,9 +12,10 @@ use tess_gpu::Resource;
 #[non_exhaustive]
 pub enum Error {
     /// No adapter gives a device. Install a Vulkan driver; Debian's `mesa-vulkan-drivers` has one
-    /// in software. In a browser: it has no WebGPU, or the page is neither from https nor from localhost.
+    /// in software. OpenGL from 4.3 or ES 3.1 on will do too, with the feature `gles`. In a browser: it has no
+    /// WebGPU, or the page is neither from https nor from localhost.
     NoDevice {
-        /// What wgpu says.
+        /// What wgpu says of each adapter or backend that was tried, and whether `WGPU_BACKEND` restricts them.
         reason: String,
     },
     /// The device was lost. Open another one and make every object anew.
@@ -106,18 +107,24 @@ pub enum Error {
     },
 }
 
+/// What to do where there is no device.
+fn remedy() -> &'static str {
+    if cfg!(target_arch = "wasm32") {
+        "use a browser that has WebGPU, and a page from https or localhost"
+    } else if wgpu::Instance::enabled_backend_features().contains(wgpu::Backends::GL) {
+        "install a driver of Vulkan (in software: Debian's mesa-vulkan-drivers), or of OpenGL 4.3 or ES 3.1"
+    } else {
+        "install a Vulkan driver (in software: Debian's mesa-vulkan-drivers), or build with the feature \
+         `gles` for a driver of OpenGL 4.3 or ES 3.1"
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoDevice { reason } => write!(
-                f,
-                "no graphics adapter could be used ({reason}); {}",
-                if cfg!(target_arch = "wasm32") {
-                    "use a browser that has WebGPU, and a page from https or localhost"
-                } else {
-                    "install a Vulkan driver (in software: Debian's mesa-vulkan-drivers)"
-                }
-            ),
+            Self::NoDevice { reason } => {
+                write!(f, "no graphics adapter could be used ({reason}); {}", remedy())
+            }
             Self::DeviceLost { reason } => write!(f, "the graphics device was lost: {reason}"),
             Self::OutOfMemory => f.write_str("the graphics device is out of memory"),
             Self::BufferTooLarge { buffer, needed, limit } => write!(

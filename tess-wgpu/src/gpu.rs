@@ -1,6 +1,7 @@
 //! A device, and moving bytes to and from it.
 
 use crate::error::{Error, checked};
+use crate::open;
 use std::fmt;
 use std::future::Future;
 use std::pin::{Pin, pin};
@@ -29,7 +30,11 @@ pub enum Wanted {
 }
 
 impl Gpu {
-    /// Opens the first adapter with WebGPU's default limits.
+    /// Opens the first adapter with WebGPU's default limits. OpenGL, in builds that have it (the feature `gles`),
+    /// is used where nothing else gives a device.
+    ///
+    /// The environment variable `WGPU_BACKEND` restricts the choice, as in other programs over wgpu: to `vulkan`,
+    /// `metal`, `dx12`, `gl`, or several with commas between them.
     ///
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
@@ -42,36 +47,13 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
     pub async fn open_with(wanted: Wanted, optional: wgpu::Features) -> Result<Self, Error> {
-        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-        // The shaders write no dispatch sizes beyond the limits; checking costs dispatches more.
-        descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
-        let instance = wgpu::Instance::new(descriptor);
-        let options = wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            ..Default::default()
-        };
-        let unavailable = |error: &dyn fmt::Display| Error::NoDevice { reason: error.to_string() };
-        let adapter =
-            instance.request_adapter(&options).await.map_err(|error| unavailable(&error))?;
-        let required_limits = match wanted {
-            Wanted::Defaults => wgpu::Limits::default(),
-            Wanted::Everything => adapter.limits(),
-        };
-        let descriptor = wgpu::DeviceDescriptor {
-            required_features: adapter.features() & optional,
-            required_limits,
-            ..Default::default()
-        };
-        let (device, queue) =
-            adapter.request_device(&descriptor).await.map_err(|error| unavailable(&error))?;
-        Ok(Self { device, queue, info: adapter.get_info() })
+        open::first(wanted, optional).await
     }
 
     /// The name and driver of the adapter, for messages.
     #[must_use]
     pub fn name(&self) -> String {
-        let wgpu::AdapterInfo { name, driver_info, backend, .. } = &self.info;
-        format!("{name} ({backend}, {driver_info})")
+        open::name(&self.info)
     }
 
     /// A buffer with these bytes.

@@ -4,6 +4,7 @@ mod builder;
 mod error;
 mod feedback;
 mod fit;
+mod gl;
 mod make;
 mod origin;
 mod output;

@@ -94,9 +94,9 @@ impl<S> App<S> {
 impl<S: Show> Open<S> {
     fn new(events: &ActiveEventLoop, args: &Args) -> Result<Self, Box<dyn Error>> {
         let window = Arc::new(events.create_window(Window::default_attributes())?);
-        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle(
-            Box::new(events.owned_display_handle()),
-        ));
+        let display = Box::new(events.owned_display_handle());
+        let descriptor = wgpu::InstanceDescriptor::new_with_display_handle(display);
+        let instance = wgpu::Instance::new(descriptor.with_env());
         let surface = instance.create_surface(Arc::clone(&window))?;
         let options = wgpu::RequestAdapterOptions {
             compatible_surface: Some(&surface),

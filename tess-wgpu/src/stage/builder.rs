@@ -206,7 +206,8 @@ impl<'a> StageBuilder<'a> {
     /// Compiles everything and makes every buffer.
     ///
     /// # Errors
-    /// [`StageError::Wgsl`](super::StageError::Wgsl) for the user's WGSL; [`StageError::LimitTooLow`](super::StageError::LimitTooLow), [`Error::TooManyPatches`],
+    /// [`StageError::Wgsl`](super::StageError::Wgsl) for the user's WGSL, on OpenGL also
+    /// [`StageError::FlatOfFirstVertex`](super::StageError::FlatOfFirstVertex); [`StageError::LimitTooLow`](super::StageError::LimitTooLow), [`Error::TooManyPatches`],
     /// [`StageError::TooManyFactors`](super::StageError::TooManyFactors), [`Error::TooManyToPull`], [`Error::BufferTooLarge`] or
     /// [`Error::OutOfMemory`] if the device does not allow so much; [`Error::FactorsTooShort`] or
     /// [`Error::NotStorage`] for a buffer of factors; [`Error::MisplacedGroup`];

@@ -39,6 +39,13 @@ pub enum StageError {
         /// What the compiler says.
         message: String,
     },
+    /// A member of `Vertex` is `@interpolate(flat)`, which takes the value of a primitive's first vertex, and OpenGL
+    /// takes that of the last. Write `@interpolate(flat, either)` if a primitive's vertices share the value,
+    /// as they do that of their patch; otherwise draw with Vulkan, Metal or Direct3D.
+    FlatOfFirstVertex {
+        /// Name of the member.
+        member: String,
+    },
     /// The number of patches is read from a buffer that lacks the usage `COPY_SRC`, at an offset that is no
     /// multiple of 4, or behind its end.
     BadPatchCount {
@@ -94,6 +101,13 @@ impl fmt::Display for StageError {
                  `fn domain(number: u32, uv: vec2<f32>) -> Vertex`, unless factors are given also \
                  `fn hull(number: u32) -> QuadFactors` (`TriFactors`, `IsolineFactors`), and no \
                  name that begins with `tess_`; its bindings are in the groups that the builder got"
+            ),
+            Self::FlatOfFirstVertex { member } => write!(
+                f,
+                "`{member}` of your `struct Vertex` is flat with the value of a primitive's first vertex, \
+                 and OpenGL takes that of the last; write `@interpolate(flat, either)` if a \
+                 primitive's vertices share the value, as they do that of their patch; otherwise \
+                 draw with Vulkan, Metal or Direct3D"
             ),
             Self::BadPatchCount { offset, size, usage } => write!(
                 f,

@@ -3,7 +3,9 @@
 use super::builder::{Points, Render};
 use super::output::Output;
 use super::room::{Form, Overflow};
-use super::{Factors, Fit, Origin, StageBuilder, StageError, TessellationStage, origin, source};
+use super::{
+    Factors, Fit, Origin, StageBuilder, StageError, TessellationStage, gl, origin, source,
+};
 use crate::error::{Error, checked};
 use crate::{Tessellator, gpu};
 use std::future::Future;
@@ -183,15 +185,19 @@ async fn render_pipeline(
     pulled: Option<&wgpu::BindGroupLayout>,
 ) -> Result<wgpu::RenderPipeline, Error> {
     let StageBuilder { source: user, setup, layouts, render, .. } = builder;
-    let module = user_module(device, "draw", user, builder.vertex_shader()).await?;
+    let shader = builder.vertex_shader();
+    let module = user_module(device, "draw", user, shader.clone()).await?;
+    gl::check_flat_members(device, &shader)?;
     let layouts: Vec<_> = layouts.iter().chain(pulled).map(Some).collect();
-    let stored = wgpu::VertexBufferLayout {
-        array_stride: 8,
+    let has_points = pulled.is_none();
+    let attributes = gl::attributes(device);
+    let buffer = wgpu::VertexBufferLayout {
+        array_stride: if has_points { 8 } else { 0 },
         step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Uint32x2],
+        attributes: &attributes,
     };
-    let buffers = [Some(stored)];
-    let buffers = if pulled.is_none() { &buffers[..] } else { &[] };
+    let buffers = [Some(buffer)];
+    let buffers = if has_points || gl::is_gl(device) { &buffers[..] } else { &[] };
     let Render { fragment, targets, depth, multisample, primitive } = render;
     let layout = checked(device, || {
         device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {

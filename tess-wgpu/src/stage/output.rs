@@ -1,6 +1,7 @@
 //! What depends on the room: the batch, and the buffers that it writes.
 
 use super::builder::Points;
+use super::gl;
 use super::room::Form;
 use crate::error::{Error, checked};
 use crate::{Batch, Outputs, Tessellator, gpu};
@@ -15,6 +16,8 @@ pub(super) struct Output {
     pub(super) batch: Batch,
     pub(super) points: Option<wgpu::Buffer>,
     pub(super) indices: Option<wgpu::Buffer>,
+    /// What stands for the points where [`gl::attributes`] need a buffer that nothing reads.
+    unread: Option<wgpu::Buffer>,
     pulled: Option<wgpu::BindGroup>,
 }
 
@@ -41,6 +44,9 @@ impl Output {
         let indices = (points != Points::PullWithoutIndices)
             .then(|| make("indices", index_bytes, Usage::INDEX))
             .transpose()?;
+        let unread = (stored.is_none() && gl::is_gl(&device))
+            .then(|| gpu::empty(&device, "unread", 8, Usage::VERTEX))
+            .transpose()?;
         let outputs = match (&stored, &indices) {
             (Some(points), Some(indices)) => Outputs::Buffers { points, indices },
             (None, Some(indices)) => Outputs::Indices { points: room.points, indices },
@@ -51,7 +57,7 @@ impl Output {
             Some(layout) => Some(bind(tessellator, form, layout, &batch)?),
             None => None,
         };
-        Ok(Self { room, batch, points: stored, indices, pulled })
+        Ok(Self { room, batch, points: stored, indices, unread, pulled })
     }
 
     /// Draws with the arguments of the whole batch or of one of its groups. Pipeline and user's bind
@@ -68,7 +74,7 @@ impl Output {
                 (self.batch.group_arguments(), u64::from(group) * size_of::<DrawIndexed>() as u64)
             }
         };
-        if let Some(points) = &self.points {
+        if let Some(points) = self.points.as_ref().or(self.unread.as_ref()) {
             pass.set_vertex_buffer(0, points.slice(..));
         }
         if let Some(pulled) = &self.pulled {

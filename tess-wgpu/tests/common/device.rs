@@ -31,7 +31,11 @@ pub(crate) struct Written {
 impl Machine {
     /// An adapter with WebGPU's default limits. None is a failure, not a reason to skip.
     pub(crate) fn open() -> Self {
-        let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+        Self::on(pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}")))
+    }
+
+    /// This device.
+    pub(crate) fn on(gpu: Gpu) -> Self {
         let tessellator = Tessellator::new(&gpu.device);
         Self { gpu, tessellator }
     }

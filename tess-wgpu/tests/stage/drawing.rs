@@ -1,6 +1,6 @@
 //! Every way to draw gives the model's triangles.
 
-use crate::model::{compare, drawn, pixels};
+use crate::model::{compare, drawn};
 use crate::scene::{FORMAT, PATCHES, Scene};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_wgpu::Error;
@@ -35,7 +35,7 @@ fn every_way_to_draw_gives_the_models_triangles() {
     for domain in [Domain::Triangle, Domain::Quad] {
         for partitioning in [Partitioning::Integer, Partitioning::FractionalOdd] {
             let scene = scene(domain, partitioning);
-            let expected = pixels(scene.config, &scene.patches);
+            let expected = scene.pixels(&scene.patches);
             for points in WAYS {
                 let mut stage = scene.build(scene.builder().points(points));
                 let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
@@ -53,7 +53,7 @@ fn another_factor_is_another_picture() {
     for patch in 0..8 {
         let mut patches = scene.patches.clone();
         patches[patch] = PatchFactors::uniform(Domain::Quad, 9.5);
-        let difference = compare(&observed, &pixels(scene.config, &patches));
+        let difference = compare(&observed, &scene.pixels(&patches));
         assert!(difference.is_err(), "patch {patch} makes no difference");
     }
 }
@@ -61,7 +61,7 @@ fn another_factor_is_another_picture() {
 #[test]
 fn factors_come_from_the_host_or_a_buffer_too() {
     let scene = scene(Domain::Quad, Partitioning::FractionalEven);
-    let expected = pixels(scene.config, &scene.patches);
+    let expected = scene.pixels(&scene.patches);
     let given = Factors::Buffer(&scene.factors);
     let mut stage = scene.build(scene.builder().factors(given));
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
@@ -81,7 +81,7 @@ fn the_number_of_patches_changes_from_frame_to_frame() {
     let scene = scene(Domain::Quad, Partitioning::Integer);
     let mut stage = scene.build(scene.builder());
     for count in [3, 8, 0, 1, 7] {
-        let expected = pixels(scene.config, &scene.patches[..count]);
+        let expected = scene.pixels(&scene.patches[..count]);
         let host = u32::try_from(count).expect("a few");
         let observed = scene.frame(&mut stage, host.into()).expect("it draws");
         assert_eq!(compare(&observed, &expected), Ok(()), "{count} patches, from the host");
@@ -107,7 +107,7 @@ fn groups_are_drawn_one_by_one() {
             });
             let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
             patches[range.clone()].clone_from_slice(&scene.patches[range]);
-            let expected = pixels(scene.config, &patches);
+            let expected = scene.pixels(&patches);
             let observed = observed.expect("it draws");
             assert_eq!(compare(&observed, &expected), Ok(()), "group {group}, {points:?}");
         }
@@ -167,10 +167,10 @@ fn an_engine_draws_groups_with_its_own_pipeline() {
             let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
             let range = range.start as usize..range.end as usize;
             patches[range.clone()].clone_from_slice(&scene.patches[range]);
-            let expected = pixels(scene.config, &patches);
+            let expected = scene.pixels(&patches);
             let observed = observed.expect("it draws");
             assert_eq!(compare(&observed, &expected), Ok(()), "group {group} of {groups:?}");
-            let others = pixels(scene.config, &scene.patches);
+            let others = scene.pixels(&scene.patches);
             assert!(compare(&observed, &others).is_err(), "all patches would be seen");
         }
     }
@@ -178,7 +178,7 @@ fn an_engine_draws_groups_with_its_own_pipeline() {
         pass.set_pipeline(&pipeline);
         stage.draw(pass);
     });
-    let expected = pixels(scene.config, &scene.patches);
+    let expected = scene.pixels(&scene.patches);
     assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "the pass's pipeline");
 }
 
@@ -210,7 +210,7 @@ fn a_stage_is_made_and_read_without_blocking() {
     let built = pollster::block_on(scene.builder().build_async(&scene.gpu.device));
     let mut stage = built.unwrap_or_else(|error| panic!("{error}"));
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
-    assert_eq!(compare(&observed, &pixels(scene.config, &scene.patches)), Ok(()), "as ever");
+    assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "as ever");
     let bytes: Vec<u8> = (0..=255).collect();
     let buffer = scene.gpu.upload("bytes", &bytes, Usage::COPY_SRC).expect("there is room");
     assert_eq!(pollster::block_on(scene.gpu.read_async(&buffer, 100)), Ok(bytes[..100].to_vec()));

@@ -9,22 +9,23 @@ pub(crate) const PATCH: u32 = 64;
 /// round positions to 1/256 of a pixel.
 const MARGIN: f64 = 1.0 / 64.0;
 
-/// The pixels of some patches, `None` where the model does not say.
-pub(crate) fn pixels(config: Config, patches: &[PatchFactors]) -> Vec<Option<Pixel>> {
+/// The pixels of some patches, `None` where the model does not say. Each says where the corner `flat` of its
+/// triangle is.
+pub(crate) fn pixels(config: Config, patches: &[PatchFactors], flat: usize) -> Vec<Option<Pixel>> {
     let mut all = vec![Some([0; 4]); (SIZE[0] * SIZE[1]) as usize];
     for (number, &factors) in (0_u32..).zip(patches) {
         let whole = Patch::new(config, factors).tessellate();
         let uvs: Vec<[f32; 2]> = whole.points.iter().map(|point| point.to_f32()).collect();
         for triangle in whole.indices.chunks_exact(3) {
             let corners = [0, 1, 2].map(|k| uvs[triangle[k] as usize]);
-            fill(&mut all, number, corners);
+            fill(&mut all, corners, corners[flat], number);
         }
     }
     all
 }
 
-/// Fills a triangle of a patch.
-fn fill(all: &mut [Option<Pixel>], number: u32, corners: [[f32; 2]; 3]) {
+/// Fills a triangle of a patch with what `flat`, one of its corners, says.
+fn fill(all: &mut [Option<Pixel>], corners: [[f32; 2]; 3], flat: [f32; 2], number: u32) {
     let at = corners.map(|uv| uv.map(|c| f64::from(c) * f64::from(PATCH)));
     for y in 0..PATCH {
         for x in 0..PATCH {
@@ -33,7 +34,7 @@ fn fill(all: &mut [Option<Pixel>], number: u32, corners: [[f32; 2]; 3]) {
             let row = number / 4 * PATCH + y;
             let pixel = &mut all[(row * SIZE[0] + column) as usize];
             if distance > MARGIN {
-                let [u, v] = corners[0].map(f32::to_bits);
+                let [u, v] = flat.map(f32::to_bits);
                 *pixel = Some([u, v, number, 1]);
             } else if distance > -MARGIN {
                 *pixel = None;

@@ -1,7 +1,7 @@
 //! Frames that do not fit are coarser or empty, and a stage that may makes more room.
 
 use crate::drawing::{scene, some_factors};
-use crate::model::{compare, drawn, pixels};
+use crate::model::{compare, drawn};
 use crate::scene::{PATCHES, Scene};
 use tess_core::{Domain, Partitioning, Patch, PatchFactors};
 use tess_gpu::Capacity;
@@ -73,7 +73,7 @@ fn a_frame_that_does_not_fit_is_coarser() {
                 );
                 assert!(feedback.drawn <= u64::from(room.primitives) && feedback.drawn > 0);
                 let patches = scaled(&scene.patches, scene.domain, feedback.scale);
-                let expected = pixels(scene.config, &patches);
+                let expected = scene.pixels(&patches);
                 assert_eq!(compare(&observed, &expected), Ok(()), "{points:?} in {room:?}");
             }
         }
@@ -100,7 +100,7 @@ fn the_scale_is_the_greatest_of_the_ladder_that_fits() {
             assert!(fits(at(scale)), "1/{part}: {scale}");
             // A step of the ladder is 1.6 percent.
             assert!(!fits(at(scale * 1.017)), "1/{part}: {scale} could be more");
-            let expected = pixels(scene.config, &scaled(&scene.patches, scene.domain, scale));
+            let expected = scene.pixels(&scaled(&scene.patches, scene.domain, scale));
             assert_eq!(compare(&observed, &expected), Ok(()), "1/{part}");
         } else {
             assert_eq!(drawn(&observed), 0, "1/{part}: nothing fits");
@@ -116,7 +116,7 @@ fn a_frame_that_does_not_fit_is_empty_if_so_asked() {
         let builder = || scene.builder().overflow(Overflow::DrawNothing).points(points);
         let mut stage = scene.build(builder().room(Room::Exactly(room)));
         let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
-        let expected = pixels(scene.config, &scene.patches);
+        let expected = scene.pixels(&scene.patches);
         assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}");
         for room in too_little(room) {
             let mut stage = scene.build(builder().room(Room::Exactly(room)));
@@ -142,7 +142,7 @@ fn not_even_the_coarsest_frame_fits() {
     let mut stage = scene.build(scene.builder().room(Room::Exactly(room)));
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
     let patches = scaled(&scene.patches, scene.domain, 1.0 / 64.0);
-    assert_eq!(compare(&observed, &pixels(scene.config, &patches)), Ok(()), "they just fit");
+    assert_eq!(compare(&observed, &scene.pixels(&patches)), Ok(()), "they just fit");
 }
 
 #[test]
@@ -156,7 +156,7 @@ fn factors_that_are_no_numbers_stay_culled() {
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
     let scale = feedback(&scene, &mut stage, 0).scale;
     assert!(scale < 1.0, "{scale}");
-    let expected = pixels(scene.config, &scaled(&scene.patches, scene.domain, scale));
+    let expected = scene.pixels(&scaled(&scene.patches, scene.domain, scale));
     assert_eq!(compare(&observed, &expected), Ok(()), "four patches are drawn");
 }
 
@@ -173,7 +173,7 @@ fn automatic_room_grows_until_everything_fits() {
             scene.frame(&mut stage, PATCHES.into()).expect("it draws");
             feedback(&scene, &mut stage, 0);
             let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
-            let expected = pixels(scene.config, &scene.patches);
+            let expected = scene.pixels(&scene.patches);
             assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}, {overflow:?}");
             let after = stage.capacity();
             assert!(before.primitives < needed(&scene).primitives, "it did not fit at first");

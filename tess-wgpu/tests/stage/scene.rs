@@ -11,7 +11,8 @@ pub(crate) const SIZE: [u32; 2] = [4 * model::PATCH, 2 * model::PATCH];
 /// The most patches.
 pub(crate) const PATCHES: u32 = 8;
 
-/// A pixel: the bits of u and v of its triangle's first vertex, the patch, and 1; or four zeros.
+/// A pixel: the bits of u and v of its triangle's first vertex (on OpenGL: of its last), the patch, and 1; or
+/// four zeros.
 pub(crate) type Pixel = [u32; 4];
 
 /// The user's WGSL for a domain.
@@ -34,6 +35,10 @@ pub(crate) fn source(domain: Domain) -> String {
     include_str!("scene.wgsl").replace("HULL", hull)
 }
 
+fn is_gl(gpu: &Gpu) -> bool {
+    gpu.info.backend == wgpu::Backend::Gl
+}
+
 /// A device, a target and the patches' factors.
 #[derive(Debug)]
 pub(crate) struct Scene {
@@ -53,6 +58,11 @@ pub(crate) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Uint;
 impl Scene {
     pub(crate) fn new(domain: Domain, config: Config, patches: Vec<PatchFactors>) -> Self {
         let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+        Self::on(gpu, domain, config, patches)
+    }
+
+    /// On this device.
+    pub(crate) fn on(gpu: Gpu, domain: Domain, config: Config, patches: Vec<PatchFactors>) -> Self {
         let words = tess_gpu::layout::factor_words(&patches);
         let bytes = bytemuck::cast_slice(&words);
         let factors = gpu.upload("given", bytes, Usage::STORAGE).expect("the device has room");
@@ -85,8 +95,16 @@ impl Scene {
             usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
             view_formats: &[],
         });
-        let source = source(domain);
+        let mut source = source(domain);
+        if is_gl(&gpu) {
+            source = source.replace("@interpolate(flat)", "@interpolate(flat, either)");
+        }
         Self { gpu, domain, config, patches, factors, layout, group, target, source }
+    }
+
+    /// What the model says of these patches.
+    pub(crate) fn pixels(&self, patches: &[PatchFactors]) -> Vec<Option<Pixel>> {
+        model::pixels(self.config, patches, if is_gl(&self.gpu) { 2 } else { 0 })
     }
 
     /// A stage of [`PATCHES`] patches at most, before it is built.

@@ -1,4 +1,5 @@
-// Patches in a grid of 4 x 2, each 64 pixels wide; every pixel says which vertex its triangle begins with.
+// Patches in a grid of 4 x 2, each 64 pixels wide; every pixel says which vertex its triangle begins with
+// (on OpenGL: ends with).
 // The setup's constants FACTORS and the type of the hull's result are put in for KIND.
 
 @group(0) @binding(0) var<storage, read> given: array<f32>;

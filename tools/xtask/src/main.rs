@@ -30,7 +30,8 @@ usage: cargo xtask <command>
   ci      what continuous integration runs: formatting, lints, documentation, features,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test`
-  setup   only set up: a Vulkan driver, C and C++ and shader compilers, Verilator, Icarus Verilog, Python
+  setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
+          Icarus Verilog, Python
   python  build the Python package's wheel, install it in a fresh virtual environment, check its
           types and run its tests; `test` includes it. PYTHON names another interpreter
   explorer [--serve | --test]

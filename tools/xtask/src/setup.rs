@@ -23,6 +23,11 @@ const TESTS: &[Need] = &[
         is_there: has_vulkan,
     },
     Need {
+        what: "an OpenGL driver through EGL (tests of wgpu's OpenGL backend)",
+        packages: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
+        is_there: has_opengl,
+    },
+    Need {
         what: "C and C++ compilers and make (tests of the C interface)",
         packages: &["gcc", "g++", "libc6-dev", "make"],
         is_there: || ["cc", "c++", "make"].into_iter().all(has_program),
@@ -174,11 +179,19 @@ pub(crate) fn has_subcommand(name: &str) -> bool {
 fn has_vulkan() -> bool {
     let has_driver = std::env::var_os("VK_DRIVER_FILES").is_some()
         || ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d"]
-            .iter()
-            .any(|folder| {
-                std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some())
-            });
+            .into_iter()
+            .any(has_files);
     has_driver && has_library("libvulkan.so.1")
+}
+
+/// Whether EGL's dispatcher and any driver's manifest are where it looks for them.
+fn has_opengl() -> bool {
+    ["/usr/share/glvnd/egl_vendor.d", "/etc/glvnd/egl_vendor.d"].into_iter().any(has_files)
+        && has_library("libEGL.so.1")
+}
+
+fn has_files(folder: &str) -> bool {
+    std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some())
 }
 
 fn has_library(name: &str) -> bool {

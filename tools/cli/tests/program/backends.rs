@@ -119,10 +119,27 @@ fn gpu_equals_recorded_stages() {
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 #[test]
 fn no_adapter_is_reported() {
-    let none = [("VK_DRIVER_FILES", "/nonexistent"), ("VK_ICD_FILENAMES", "/nonexistent")];
+    let none = [
+        ("VK_DRIVER_FILES", "/nonexistent"),
+        ("VK_ICD_FILENAMES", "/nonexistent"),
+        // OpenGL would take its place.
+        ("WGPU_BACKEND", "vulkan"),
+    ];
     let run = tess_with_environment(&format!("check {GOLDEN}/cases.txt --backend gpu"), &none);
     assert_eq!(run.code, Some(3), "{}{}", run.stdout, run.stderr);
     assert!(run.stdout.is_empty() && !run.stderr.is_empty(), "a message: {}", run.stderr);
+}
+
+#[cfg(all(feature = "gles", target_os = "linux"))]
+#[test]
+fn opengl_equals_recorded_cases() {
+    let gl = [("WGPU_BACKEND", "gl")];
+    let run = tess_with_environment(&format!("check {GOLDEN}/cases.txt --backend gpu"), &gl);
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.ends_with(" cases, 0 mismatches\n"), "{}", run.stdout);
+    let bench = "bench --backend gpu --workload uniform-1 --samples 1 --working-set cache";
+    let run = tess_with_environment(bench, &gl);
+    assert!(run.stdout.contains(" (gl, "), "the device: {}{}", run.stdout, run.stderr);
 }
 
 /// Servers have no `XDG_RUNTIME_DIR`, which Mesa's loader complains about.

@@ -1,0 +1,70 @@
+//! The choice of an adapter.
+
+use crate::{Error, Gpu, Wanted};
+use wgpu::Backends;
+
+/// Opens the first adapter that gives a device: those of OpenGL come last, since wgpu would prefer an old GPU
+/// with too little of OpenGL to a Vulkan driver in software.
+pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Gpu, Error> {
+    let asked = Backends::from_env();
+    let backends = asked.unwrap_or_else(wgpu::Instance::enabled_backend_features);
+    let mut reasons = Vec::new();
+    for some in [backends - Backends::GL, backends & Backends::GL] {
+        if some.is_empty() {
+            continue;
+        }
+        match of(some, wanted, optional).await {
+            Ok(gpu) => return Ok(gpu),
+            Err(reason) => reasons.push(reason),
+        }
+    }
+    match (asked, reasons.is_empty()) {
+        (Some(_), true) => {
+            reasons.push("WGPU_BACKEND is none of vulkan, metal, dx12, gl".to_owned());
+        }
+        (Some(_), false) => reasons.push("WGPU_BACKEND allows no other".to_owned()),
+        (None, true) => reasons.push("this program has no backend of wgpu built in".to_owned()),
+        (None, false) => {}
+    }
+    Err(Error::NoDevice { reason: reasons.join("; ") })
+}
+
+/// Opens the first adapter of these backends, or says why not.
+async fn of(backends: Backends, wanted: Wanted, optional: wgpu::Features) -> Result<Gpu, String> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = backends;
+    // The shaders write no dispatch sizes beyond the limits; checking costs dispatches more.
+    descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
+    let instance = wgpu::Instance::new(descriptor);
+    let options = wgpu::RequestAdapterOptions {
+        power_preference: wgpu::PowerPreference::HighPerformance,
+        ..Default::default()
+    };
+    let adapter = instance.request_adapter(&options).await.map_err(|error| error.to_string())?;
+    let info = adapter.get_info();
+    let has = adapter.get_downlevel_capabilities().flags;
+    if !has.contains(wgpu::DownlevelFlags::COMPUTE_SHADERS) {
+        let name = name(&info);
+        return Err(format!(
+            "{name} lacks compute shaders, which OpenGL has from 4.3 or ES 3.1 on"
+        ));
+    }
+    let required_limits = match wanted {
+        Wanted::Defaults => wgpu::Limits::default(),
+        Wanted::Everything => adapter.limits(),
+    };
+    let descriptor = wgpu::DeviceDescriptor {
+        required_features: adapter.features() & optional,
+        required_limits,
+        ..Default::default()
+    };
+    let device = adapter.request_device(&descriptor).await;
+    let (device, queue) = device.map_err(|error| format!("{}: {error}", name(&info)))?;
+    Ok(Gpu { device, queue, info })
+}
+
+/// The name and driver of an adapter.
+pub(crate) fn name(info: &wgpu::AdapterInfo) -> String {
+    let wgpu::AdapterInfo { name, driver_info, backend, .. } = info;
+    format!("{name} ({backend}, {driver_info})")
+}

@@ -1,0 +1,82 @@
+//! What wgpu leaves to its users on OpenGL.
+
+use super::StageError;
+use crate::error::Error;
+
+pub(super) fn is_gl(device: &wgpu::Device) -> bool {
+    device.adapter_info().backend == wgpu::Backend::Gl
+}
+
+/// The attributes of the stage's vertex buffer: a point at location 0.
+///
+/// On OpenGL the other locations have it too, unread. wgpu leaves locations enabled that another pipeline used;
+/// once their buffer is gone, OpenGL ES refuses indirect draws, and draws nothing.
+pub(super) fn attributes(device: &wgpu::Device) -> Vec<wgpu::VertexAttribute> {
+    let count = if is_gl(device) { device.limits().max_vertex_attributes } else { 1 };
+    let format = wgpu::VertexFormat::Uint32x2;
+    (0..count)
+        .map(|shader_location| wgpu::VertexAttribute { format, offset: 0, shader_location })
+        .collect()
+}
+
+/// Refuses a vertex shader whose struct `Vertex` has a member that takes the value of a primitive's first vertex,
+/// since OpenGL takes that of the last.
+pub(super) fn check_flat_members(device: &wgpu::Device, shader: &str) -> Result<(), Error> {
+    if !is_gl(device) {
+        return Ok(());
+    }
+    match first_vertex_member(shader) {
+        Some(member) => Err(StageError::FlatOfFirstVertex { member }.into()),
+        None => Ok(()),
+    }
+}
+
+/// The first member of `Vertex` that is `@interpolate(flat)` or `@interpolate(flat, first)`.
+#[cfg(not(target_arch = "wasm32"))]
+fn first_vertex_member(shader: &str) -> Option<String> {
+    use wgpu::naga::{Binding, Interpolation, Sampling, TypeInner, front::wgsl};
+    // What does not compile is reported by wgpu.
+    let module = wgsl::parse_str(shader).ok()?;
+    let vertex = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some("Vertex"))?.1;
+    let TypeInner::Struct { members, .. } = &vertex.inner else { return None };
+    let member = members.iter().find(|member| {
+        matches!(
+            member.binding,
+            Some(Binding::Location {
+                interpolation: Some(Interpolation::Flat),
+                sampling: None | Some(Sampling::First),
+                ..
+            })
+        )
+    });
+    member?.name.clone()
+}
+
+/// A browser's OpenGL has no compute shaders, so nothing comes as far as this.
+#[cfg(target_arch = "wasm32")]
+fn first_vertex_member(_: &str) -> Option<String> {
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flat_members_of_the_vertex_are_found() {
+        for (attribute, is_first) in [
+            ("@interpolate(flat)", true),
+            ("@interpolate(flat, first)", true),
+            ("@interpolate(flat, either)", false),
+            ("@interpolate(linear)", false),
+            ("", false),
+        ] {
+            let shader = format!(
+                "struct Other {{ @location(0) @interpolate(flat) a: f32 }}\n\
+                 struct Vertex {{ @builtin(position) p: vec4<f32>, @location(0) {attribute} b: f32 }}"
+            );
+            let expected = is_first.then(|| "b".to_owned());
+            assert_eq!(first_vertex_member(&shader), expected, "{attribute}");
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Which adapter is opened, and what is said where there is none: by this program as a process of its own, whose
+//! environment takes from the drivers what they have.
+
+use std::process::Command;
+use tess_wgpu::Gpu;
+
+/// The argument that asks for [`answer`].
+const QUESTION: &str = "which-adapter";
+
+/// Whether this process was started to say which adapter there is.
+pub(crate) fn is_asked() -> bool {
+    std::env::args().nth(1).is_some_and(|argument| argument == QUESTION)
+}
+
+/// Says which adapter there is, or why there is none.
+#[expect(clippy::print_stdout, reason = "another process reads it")]
+pub(crate) fn answer() {
+    match pollster::block_on(Gpu::open()) {
+        Ok(gpu) => print!("{}", gpu.name()),
+        Err(error) => print!("{error}"),
+    }
+}
+
+/// What this program says in an environment with these variables.
+fn say(arguments: &[&str], variables: &[(&str, &str)]) -> String {
+    let own = std::env::current_exe().expect("a test has a path");
+    let mut command = Command::new(own);
+    command.args(arguments).env_remove("WGPU_BACKEND").envs(variables.iter().copied());
+    let output = command.output().expect("it starts");
+    assert!(output.status.success(), "{output:?}");
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// The adapter in an environment with these variables, or why there is none.
+fn adapter(variables: &[(&str, &str)]) -> String {
+    say(&[QUESTION], variables)
+}
+
+/// There is no Vulkan.
+const NO_VULKAN: [(&str, &str); 2] =
+    [("VK_DRIVER_FILES", "/nonexistent"), ("VK_ICD_FILENAMES", "/nonexistent")];
+/// OpenGL is an old one, of a GPU by its name, which wgpu prefers to a driver in software.
+const OLD: [(&str, &str); 4] = [
+    ("force_gl_renderer", "Intel"),
+    ("MESA_GL_VERSION_OVERRIDE", "3.3"),
+    ("MESA_GLSL_VERSION_OVERRIDE", "330"),
+    ("MESA_EXTENSION_OVERRIDE", "-GL_ARB_compute_shader -GL_ARB_shader_storage_buffer_object"),
+];
+
+/// There is OpenGL ES alone, since Mesa gives no OpenGL of the version that wgpu asks for.
+const ES: (&str, &str) = ("MESA_GL_VERSION_OVERRIDE", "3.2");
+
+pub(crate) fn opengl_is_last() {
+    let is = |variables: &[(&str, &str)], backend| {
+        let adapter = adapter(variables);
+        assert!(adapter.contains(backend), "{adapter}, not{backend} with {variables:?}");
+    };
+    is(&[], " (vulkan, ");
+    is(&OLD, " (vulkan, ");
+    is(&NO_VULKAN, " (gl, ");
+    is(&[("WGPU_BACKEND", "gl")], " (gl, ");
+    is(&[("WGPU_BACKEND", "gl,vulkan")], " (vulkan, ");
+}
+
+pub(crate) fn what_is_lacking_is_said() {
+    let old = adapter(&[&NO_VULKAN[..], &OLD].concat());
+    assert!(old.contains("lacks compute shaders, which OpenGL has from 4.3"), "{old}");
+    assert!(old.contains("install a driver of Vulkan"), "what to do: {old}");
+    let metal = adapter(&[("WGPU_BACKEND", "metal")]);
+    assert!(metal.contains("WGPU_BACKEND allows no other"), "{metal}");
+    let none = adapter(&[("WGPU_BACKEND", "glide")]);
+    assert!(none.contains("WGPU_BACKEND is none of vulkan, metal, dx12, gl"), "{none}");
+}
+
+/// The tests of OpenGL, on OpenGL ES.
+pub(crate) fn opengl_es_equals_the_model() {
+    let adapter = adapter(&[ES, ("WGPU_BACKEND", "gl")]);
+    assert!(adapter.contains("OpenGL ES 3."), "{adapter}");
+    for test in [crate::LARGE_BATCH, crate::PICTURES] {
+        let said = say(&["--exact", test], &[ES]);
+        assert!(said.contains("1 passed"), "{said}");
+    }
+}
