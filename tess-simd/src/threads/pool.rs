@@ -1,17 +1,23 @@
 //! The threads of the current rayon pool.
 //!
 //! Each has slices of its own, always the same ones, so that its part of a buffer that is written again and
-//! again stays in its core's caches. A thread that has written them helps the others.
+//! again stays in its core's caches. A thread that has written them helps the others, and when nothing is left
+//! it waits for them: threads that leave a batch together are still awake when the next one comes.
 
 use crate::counts::PartCounts;
 use crate::part::{self, Job, Workspace};
 use crate::setup::Setup;
 use crate::slices::{CountShare, Share};
 use alloc::vec::Vec;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 /// The most threads, and so workspaces, that a tessellator uses.
 pub(crate) const MAX_THREADS: usize = 256;
+
+/// The longest that a thread waits for the others. Then it may sleep.
+const TOGETHER: Duration = Duration::from_micros(100);
 
 /// Patches that are counted in a few microseconds.
 const SOON_COUNTED: usize = 1024;
@@ -61,15 +67,21 @@ impl Workspaces {
         }
         let counts = share.counts;
         let slices: Vec<_> = share.into_parts().map(|part| Mutex::new(Some(part))).collect();
+        let written = AtomicUsize::new(0);
         on_threads(self.threads(), &|| {
             self.lend(|workspace| {
                 for slice in self.own_first(counts, &slices) {
                     let part = slice.lock().unwrap_or_else(PoisonError::into_inner).take();
                     if let Some(part) = part {
                         part::emit(job, part, workspace);
+                        written.fetch_add(1, Ordering::Relaxed);
                     }
                 }
-            })
+            });
+            let start = Instant::now();
+            while written.load(Ordering::Relaxed) < slices.len() && start.elapsed() < TOGETHER {
+                std::thread::yield_now();
+            }
         });
     }
 
