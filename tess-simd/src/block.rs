@@ -3,7 +3,7 @@
 use crate::counts::{BlockCounts, counts};
 use crate::factor_context::{Context, point_counts};
 use crate::factors::process;
-use crate::lanes::{Column, EdgePoints, LANES, Lanes, is_odd};
+use crate::lanes::{Column, EdgePoints, LANES, Lanes, MAX_FACTORS, is_odd};
 use crate::place::{Spacing, Spacings};
 use crate::points::{EDGE, TRIANGLE_INSIDE};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
@@ -15,6 +15,7 @@ pub(crate) struct Block {
     domain: Domain,
     fixed: Column,
     points: Column,
+    /// Of use where the partitioning is fractional.
     spacings: Spacings,
     minimum: Lanes,
     topologies: Lanes<u64>,
@@ -38,37 +39,36 @@ impl Block {
     };
 
     /// Processes the raw factors of a block; zeros count as culled.
+    ///
+    /// It is written where it stays: as a result, it would be copied.
     #[inline(always)]
-    pub(crate) fn new(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
+    pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
+        use Domain::{Isoline, Quad, Triangle};
         match domain {
-            Domain::Isoline => {
-                Self::of_factors::<{ Domain::Isoline.factors() * LANES }>(config, domain, raw)
-            }
-            Domain::Triangle => {
-                Self::of_factors::<{ Domain::Triangle.factors() * LANES }>(config, domain, raw)
-            }
-            Domain::Quad => {
-                Self::of_factors::<{ Domain::Quad.factors() * LANES }>(config, domain, raw)
-            }
+            Isoline => self.process_as::<{ all(Isoline) }>(config, domain, raw),
+            Triangle => self.process_as::<{ all(Triangle) }>(config, domain, raw),
+            Quad => self.process_as::<{ all(Quad) }>(config, domain, raw),
         }
     }
 
-    /// [`Block::new`] for patches whose factors are the first `ALL` elements of a column.
+    /// [`Self::process`] for patches whose factors are the first `ALL` elements of a column.
     #[inline(always)]
-    fn of_factors<const ALL: usize>(config: Config, domain: Domain, raw: &Column<f32>) -> Self {
+    fn process_as<const ALL: usize>(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
         let processed = process(config, domain, raw);
-        let points = point_counts::<ALL>(&processed.fixed, &processed.odd);
+        let columns = (&processed.fixed, &processed.odd);
         // Where factors are integers, few spacings are ever needed: see `BlockPatch::spacing`.
-        let spacings = if config.partitioning.has_integer_factors() {
-            Spacings::NONE
+        let points = if config.partitioning.has_integer_factors() {
+            point_counts::<ALL>(columns.0, columns.1)
         } else {
-            Spacings::new::<ALL>(&processed.fixed, &processed.odd, config.split)
+            let mut points = [0; LANES * MAX_FACTORS];
+            self.spacings.fill::<ALL>(&mut points, columns, config.split);
+            points
         };
-        let counts = counts(config, domain, &processed, &points);
-        let topologies = topologies(&points, &processed.minimum);
-        let small = small(domain, &points);
-        let (fixed, minimum) = (processed.fixed, processed.minimum);
-        Self { config, domain, fixed, points, spacings, minimum, topologies, small, counts }
+        (self.config, self.domain) = (config, domain);
+        self.counts = counts(config, domain, &processed, &points);
+        self.topologies = topologies(&points, &processed.minimum);
+        self.small = small(domain, &points);
+        (self.fixed, self.points, self.minimum) = (processed.fixed, points, processed.minimum);
     }
 
     /// Whether all of its patches are small.
@@ -82,6 +82,27 @@ impl Block {
     pub(crate) const fn patch(&self, lane: usize) -> BlockPatch<'_> {
         BlockPatch { block: self, lane }
     }
+}
+
+/// The output sizes of a block alone.
+#[inline(always)]
+pub(crate) fn block_counts(config: Config, domain: Domain, raw: &Column<f32>) -> BlockCounts {
+    let processed = process(config, domain, raw);
+    let points = match domain {
+        Domain::Isoline => {
+            point_counts::<{ all(Domain::Isoline) }>(&processed.fixed, &processed.odd)
+        }
+        Domain::Triangle => {
+            point_counts::<{ all(Domain::Triangle) }>(&processed.fixed, &processed.odd)
+        }
+        Domain::Quad => point_counts::<{ all(Domain::Quad) }>(&processed.fixed, &processed.odd),
+    };
+    counts(config, domain, &processed, &points)
+}
+
+/// Elements of a column that a domain's factors have.
+const fn all(domain: Domain) -> usize {
+    domain.factors() * LANES
 }
 
 /// One patch of a block. Factors are numbered in the core's order.

@@ -1,12 +1,12 @@
 //! Locations along one dimension, a whole edge at a time (spec section 5).
 
 use crate::factor_context::Context;
-use crate::lanes::{Column, LANES, MAX_FACTORS, is_odd};
+use crate::lanes::{Column, LANES, MAX_FACTORS};
 use tess_core::SplitOrder;
 use tess_core::fixed_point::{HALF, ONE};
 
 /// Locations computed at a time.
-const STEP: usize = 16;
+const STEP: u32 = 16;
 /// Room for an edge's 65 locations and for reading whole blocks from any start.
 const ROOM: usize = 112;
 
@@ -51,17 +51,22 @@ impl Spacings {
         Self { split: NONE, step: NONE, lag: NONE }
     };
 
-    /// The spacings of the first `ALL` elements of two columns.
+    /// Computes the spacings of the first `ALL` elements of two columns, and their point counts; other
+    /// elements stay as they are.
     #[inline(always)]
-    pub(crate) fn new<const ALL: usize>(fixed: &Column, odd: &Column, order: SplitOrder) -> Self {
-        let mut all = Self::NONE;
+    pub(crate) fn fill<const ALL: usize>(
+        &mut self,
+        points: &mut Column,
+        (fixed, odd): (&Column, &Column),
+        order: SplitOrder,
+    ) {
         for i in 0..ALL {
             let spacing = Spacing::new(&Context::new(fixed[i], odd[i], order));
-            all.split[i] = spacing.split;
-            all.step[i] = spacing.step;
-            all.lag[i] = spacing.lag;
+            points[i] = spacing.points;
+            self.split[i] = spacing.split;
+            self.step[i] = spacing.step;
+            self.lag[i] = spacing.lag;
         }
-        all
     }
 
     /// The spacing of an element with this many points.
@@ -84,13 +89,14 @@ impl Locations {
     /// Computes the locations of points `0..spacing.points`.
     #[inline(always)]
     pub(crate) fn fill(&mut self, spacing: &Spacing) {
-        let mut p = 0;
-        for chunk in self.0.as_chunks_mut::<STEP>().0 {
-            for location in chunk {
-                *location = place(spacing, p);
-                p += 1;
+        const FIRST: [u32; STEP as usize] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+        let mut start = 0;
+        for chunk in self.0.as_chunks_mut::<{ STEP as usize }>().0 {
+            for (location, p) in chunk.iter_mut().zip(FIRST) {
+                *location = place(spacing, start + p);
             }
-            if p >= spacing.points {
+            start += STEP;
+            if start >= spacing.points {
                 break;
             }
         }
@@ -110,13 +116,18 @@ impl Locations {
 }
 
 /// The location of point `p < spacing.points`; unspecified beyond. Free of branches.
+///
+/// Numbers of points are compared as signed integers, as every level has instructions for them.
 #[inline(always)]
 pub(crate) fn place(spacing: &Spacing, p: u32) -> u32 {
     let Spacing { points, split, step, lag } = *spacing;
-    let position = p.min(points.wrapping_sub(1 + p));
-    let sum = position.wrapping_mul(step).wrapping_sub(if position > split { lag } else { 0 });
+    let mirrored = points.wrapping_sub(1 + p);
+    let is_mirrored = p.cast_signed() > mirrored.cast_signed();
+    let position = p.cast_signed().min(mirrored.cast_signed()).cast_unsigned();
+    let is_behind = position.cast_signed() > split.cast_signed();
+    let sum = position.wrapping_mul(step).wrapping_sub(if is_behind { lag } else { 0 });
     let x = sum.wrapping_add(HALF) >> 16;
-    let x = if p >= points / 2 { ONE.wrapping_sub(x) } else { x };
-    let middle = !is_odd(points) && p == points / 2;
-    if middle { HALF } else { x }
+    let x = if is_mirrored { ONE.wrapping_sub(x) } else { x };
+    let is_middle = p == mirrored;
+    if is_middle { HALF } else { x }
 }
