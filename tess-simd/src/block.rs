@@ -3,7 +3,7 @@
 use crate::counts::{BlockCounts, counts};
 use crate::factor_context::{Context, point_counts};
 use crate::factors::process;
-use crate::lanes::{Column, EdgePoints, LANES, Lanes, is_odd};
+use crate::lanes::{Column, EdgePoints, LANES, Lanes, MAX_FACTORS, is_odd};
 use crate::place::{Spacing, Spacings};
 use crate::points::{EDGE, TRIANGLE_INSIDE};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
@@ -15,8 +15,7 @@ pub(crate) struct Block {
     domain: Domain,
     fixed: Column,
     points: Column,
-    /// Unspecified where factors are integers: few spacings are ever needed there. See
-    /// [`BlockPatch::spacing`].
+    /// Unspecified where factors are integers: see [`BlockPatch::spacing`].
     spacings: Spacings,
     minimum: Lanes,
     topologies: Lanes<u64>,
@@ -40,37 +39,31 @@ impl Block {
     };
 
     /// Processes the raw factors of a block; zeros count as culled.
+    ///
+    /// It is written where it stays: as a result, it would be copied.
     #[inline(always)]
-    pub(crate) fn set(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
+    pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
+        use Domain::{Isoline, Quad, Triangle};
         match domain {
-            Domain::Isoline => {
-                self.set_factors::<{ Domain::Isoline.factors() * LANES }>(config, domain, raw);
-            }
-            Domain::Triangle => {
-                self.set_factors::<{ Domain::Triangle.factors() * LANES }>(config, domain, raw);
-            }
-            Domain::Quad => {
-                self.set_factors::<{ Domain::Quad.factors() * LANES }>(config, domain, raw);
-            }
+            Isoline => self.process_as::<{ all(Isoline) }>(config, domain, raw),
+            Triangle => self.process_as::<{ all(Triangle) }>(config, domain, raw),
+            Quad => self.process_as::<{ all(Quad) }>(config, domain, raw),
         }
     }
 
-    /// The output sizes of a block's patches.
+    /// [`Self::process`] for patches whose factors are the first `ALL` elements of a column.
     #[inline(always)]
-    pub(crate) fn counts_of(config: Config, domain: Domain, raw: &Column<f32>) -> BlockCounts {
-        let mut block = Self::EMPTY;
-        block.set(config, domain, raw);
-        block.counts
-    }
-
-    /// [`Block::set`] for patches whose factors are the first `ALL` elements of a column.
-    #[inline(always)]
-    fn set_factors<const ALL: usize>(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
+    fn process_as<const ALL: usize>(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
         let processed = process(config, domain, raw);
-        let points = point_counts::<ALL>(&processed.fixed, &processed.odd);
-        if !config.partitioning.has_integer_factors() {
-            self.spacings = Spacings::new::<ALL>(&processed.fixed, &processed.odd, config.split);
-        }
+        let (fixed, odd) = (&processed.fixed, &processed.odd);
+        // Where factors are integers, few spacings are ever needed.
+        let points = if config.partitioning.has_integer_factors() {
+            point_counts::<ALL>(fixed, odd)
+        } else {
+            let mut points = [0; LANES * MAX_FACTORS];
+            self.spacings.fill::<ALL>(&mut points, (fixed, odd), config.split);
+            points
+        };
         (self.config, self.domain) = (config, domain);
         self.counts = counts(config, domain, &processed, &points);
         self.topologies = topologies(&points, &processed.minimum);
@@ -89,6 +82,25 @@ impl Block {
     pub(crate) const fn patch(&self, lane: usize) -> BlockPatch<'_> {
         BlockPatch { block: self, lane }
     }
+}
+
+/// The output sizes of a block alone.
+#[inline(always)]
+pub(crate) fn block_counts(config: Config, domain: Domain, raw: &Column<f32>) -> BlockCounts {
+    use Domain::{Isoline, Quad, Triangle};
+    let processed = process(config, domain, raw);
+    let (fixed, odd) = (&processed.fixed, &processed.odd);
+    let points = match domain {
+        Isoline => point_counts::<{ all(Isoline) }>(fixed, odd),
+        Triangle => point_counts::<{ all(Triangle) }>(fixed, odd),
+        Quad => point_counts::<{ all(Quad) }>(fixed, odd),
+    };
+    counts(config, domain, &processed, &points)
+}
+
+/// Elements of a column that a domain's factors have.
+const fn all(domain: Domain) -> usize {
+    domain.factors() * LANES
 }
 
 /// One patch of a block. Factors are numbered in the core's order.

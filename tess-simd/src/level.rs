@@ -10,7 +10,7 @@ pub enum Level {
     Baseline,
     /// AVX2 on x86-64.
     Avx2,
-    /// AVX-512 (F, BW, CD, DQ, VL) on x86-64.
+    /// AVX-512 on x86-64, as processors have it from Ice Lake and Zen 4 on.
     Avx512,
 }
 
@@ -81,6 +81,8 @@ fn has_avx2() -> bool {
         && std::is_x86_feature_detected!("popcnt")
 }
 
+/// All that `multiversion` asks for where a target has AVX-512: on a processor with less it would run what was
+/// compiled for the baseline.
 #[cfg(all(feature = "std", target_arch = "x86_64"))]
 fn has_avx512() -> bool {
     has_avx2()
@@ -89,6 +91,15 @@ fn has_avx512() -> bool {
         && std::is_x86_feature_detected!("avx512cd")
         && std::is_x86_feature_detected!("avx512dq")
         && std::is_x86_feature_detected!("avx512vl")
+        && std::is_x86_feature_detected!("avx512bitalg")
+        && std::is_x86_feature_detected!("avx512ifma")
+        && std::is_x86_feature_detected!("avx512vbmi")
+        && std::is_x86_feature_detected!("avx512vbmi2")
+        && std::is_x86_feature_detected!("avx512vnni")
+        && std::is_x86_feature_detected!("avx512vpopcntdq")
+        && std::is_x86_feature_detected!("gfni")
+        && std::is_x86_feature_detected!("vaes")
+        && std::is_x86_feature_detected!("vpclmulqdq")
 }
 
 #[cfg(not(all(feature = "std", target_arch = "x86_64")))]

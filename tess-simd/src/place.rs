@@ -6,7 +6,7 @@ use tess_core::SplitOrder;
 use tess_core::fixed_point::{HALF, ONE};
 
 /// Locations computed at a time.
-const STEP: usize = 16;
+const STEP: u32 = 16;
 /// Room for an edge's 65 locations and for reading whole blocks from any start.
 const ROOM: usize = 112;
 
@@ -51,17 +51,22 @@ impl Spacings {
         Self { split: NONE, step: NONE, lag: NONE }
     };
 
-    /// The spacings of the first `ALL` elements of two columns.
+    /// Computes the spacings of the first `ALL` elements of two columns, and their point counts; other
+    /// elements stay as they are.
     #[inline(always)]
-    pub(crate) fn new<const ALL: usize>(fixed: &Column, odd: &Column, order: SplitOrder) -> Self {
-        let mut all = Self::NONE;
+    pub(crate) fn fill<const ALL: usize>(
+        &mut self,
+        points: &mut Column,
+        (fixed, odd): (&Column, &Column),
+        order: SplitOrder,
+    ) {
         for i in 0..ALL {
             let spacing = Spacing::new(&Context::new(fixed[i], odd[i], order));
-            all.split[i] = spacing.split;
-            all.step[i] = spacing.step;
-            all.lag[i] = spacing.lag;
+            points[i] = spacing.points;
+            self.split[i] = spacing.split;
+            self.step[i] = spacing.step;
+            self.lag[i] = spacing.lag;
         }
-        all
     }
 
     /// The spacing of an element with this many points.
@@ -84,13 +89,14 @@ impl Locations {
     /// Computes the locations of points `0..spacing.points`.
     #[inline(always)]
     pub(crate) fn fill(&mut self, spacing: &Spacing) {
-        let mut p = 0;
-        for chunk in self.0.as_chunks_mut::<STEP>().0 {
-            for location in chunk {
-                *location = place(spacing, p);
-                p += 1;
+        const FIRST: [u32; STEP as usize] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+        let mut start = 0;
+        for chunk in self.0.as_chunks_mut::<{ STEP as usize }>().0 {
+            for (location, p) in chunk.iter_mut().zip(FIRST) {
+                *location = place(spacing, start + p);
             }
-            if p >= spacing.points {
+            start += STEP;
+            if start >= spacing.points {
                 break;
             }
         }
@@ -110,19 +116,24 @@ impl Locations {
 }
 
 /// The location of point `p < spacing.points`; unspecified beyond. Free of branches.
+///
+/// Numbers of points are compared as signed integers, as every level has instructions for them.
 #[inline(always)]
 pub(crate) fn place(spacing: &Spacing, p: u32) -> u32 {
-    let opposite = spacing.points.wrapping_sub(1 + p);
-    let x = place_in_half(spacing, p.min(opposite));
-    if p > opposite { ONE.wrapping_sub(x) } else { x }
+    let mirrored = spacing.points.wrapping_sub(1 + p);
+    let is_mirrored = p.cast_signed() > mirrored.cast_signed();
+    let position = p.cast_signed().min(mirrored.cast_signed()).cast_unsigned();
+    let x = place_in_half(spacing, position);
+    if is_mirrored { ONE.wrapping_sub(x) } else { x }
 }
 
-/// The location of a point in the first half of an edge, the middle included; unspecified beyond.
-/// Free of branches.
+/// The location of a point of an edge's first half, its middle included; unspecified beyond. Free of branches.
 #[inline(always)]
 pub(crate) const fn place_in_half(spacing: &Spacing, position: u32) -> u32 {
     let Spacing { points, split, step, lag } = *spacing;
-    let sum = position.wrapping_mul(step).wrapping_sub(if position > split { lag } else { 0 });
+    let is_behind = position.cast_signed() > split.cast_signed();
+    let sum = position.wrapping_mul(step).wrapping_sub(if is_behind { lag } else { 0 });
     let x = sum.wrapping_add(HALF) >> 16;
-    if 2 * position + 1 == points { HALF } else { x }
+    let is_middle = position.wrapping_mul(2).wrapping_add(1) == points;
+    if is_middle { HALF } else { x }
 }

@@ -2,15 +2,15 @@
 
 use tess_core::fixed_point::ONE;
 
-/// 1/n with 16 fraction bits, rounded half up, for `n` in 1..=64: `(ONE + n / 2) / n`.
+/// 1/n with 16 fraction bits, rounded to the nearest, for `n` in 1..=64: `(ONE + n / 2) / n`.
 ///
-/// The quotient of two integers below 2^17 and 2^7 lies at least 1/64 below the next integer or
-/// on it; binary32 keeps it to 2^-8, so the truncated quotient is exact.
+/// `ONE / n` lies at least 1/128 off the middle of two integers, and its binary32 is off by 2^-9 at most.
+/// So adding 2^23 rounds it to the right integer, which then stands in the mantissa.
 #[inline(always)]
-#[expect(clippy::float_arithmetic, reason = "exact after truncation, as shown above")]
+#[expect(clippy::float_arithmetic, reason = "the rounding of the sum is the one that is asked for")]
 pub(crate) fn reciprocal(n: u32) -> u32 {
-    let quotient = to_f32(ONE + n / 2) / to_f32(n);
-    truncate(quotient)
+    let quotient = to_f32(ONE) / to_f32(n);
+    (quotient + TWO_POW_23).to_bits() & MANTISSA
 }
 
 /// An integer below 2^24, exactly.
@@ -18,18 +18,6 @@ pub(crate) fn reciprocal(n: u32) -> u32 {
 #[expect(clippy::cast_possible_wrap, reason = "below 2^24; signed conversions are one instruction")]
 pub(crate) const fn to_f32(x: u32) -> f32 {
     x as i32 as f32
-}
-
-/// The integer part of a number in 0..2^23.
-///
-/// Adding 2^23 rounds to an integer, which then stands in the mantissa; where that rounded up, one
-/// is taken off again.
-#[inline(always)]
-#[expect(clippy::float_arithmetic, reason = "sums below 2^24 round to the nearest integer")]
-fn truncate(x: f32) -> u32 {
-    let rounded = x + TWO_POW_23;
-    let integer = rounded.to_bits() & MANTISSA;
-    integer - u32::from(rounded - TWO_POW_23 > x)
 }
 
 /// From here on to its double, binary32 numbers are exactly the integers.

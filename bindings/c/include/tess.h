@@ -230,7 +230,7 @@
 #define TESS_LEVEL_AVX2 2
 
 /**
- * CPU level: AVX-512 (F, BW, CD, DQ, VL) on x86-64.
+ * CPU level: AVX-512 on x86-64, as processors have it from Ice Lake and Zen 4 on.
  */
 #define TESS_LEVEL_AVX512 3
 

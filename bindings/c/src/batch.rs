@@ -26,7 +26,7 @@ pub const TESS_LEVEL_DETECT: u32 = 0;
 pub const TESS_LEVEL_BASELINE: u32 = 1;
 /// CPU level: AVX2 on x86-64.
 pub const TESS_LEVEL_AVX2: u32 = 2;
-/// CPU level: AVX-512 (F, BW, CD, DQ, VL) on x86-64.
+/// CPU level: AVX-512 on x86-64, as processors have it from Ice Lake and Zen 4 on.
 pub const TESS_LEVEL_AVX512: u32 = 3;
 
 /// Tessellates batches. Made by `tess_batch_create`, given back to `tess_batch_free`.

@@ -1,7 +1,7 @@
 //! Output sizes, without output.
 
 use crate::batch::Batch;
-use crate::block::Block;
+use crate::block::{Block, block_counts};
 use crate::chunk::{Chunk, Stretch};
 use crate::counts::{BlockCounts, PartCounts};
 use crate::kernel::front_end;
@@ -18,8 +18,7 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
         let Stretch { patches, times } = Stretch::new(batch, first);
         chunk.load(&batch.slice(&(first..first + patches)));
         for number in 0..patches.div_ceil(LANES) {
-            let counts = Block::counts_of(config, domain, &chunk.block(number));
-            sums.add(&counts, times);
+            sums.add(&block_counts(config, domain, &chunk.block(number)), times);
         }
         first += patches * times;
     }

@@ -17,6 +17,6 @@ pub(crate) fn process(config: Config, batch: &Batch<'_>, blocks: &mut [Block; Ch
         if number * LANES >= patches {
             break;
         }
-        block.set(config, domain, &chunk.block(number));
+        block.process(config, domain, &chunk.block(number));
     }
 }
