@@ -40,6 +40,11 @@ pub(crate) fn emit<P: PointFormat>(
     }
 }
 
+/// Writes the points of a small patch of fractional factors, whose codes are given.
+pub(crate) trait SmallPoints<P> {
+    fn emit(&mut self, patch: BlockPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>);
+}
+
 /// A code as the points of small patches are written from at a CPU level: itself for permutes, otherwise
 /// where its coordinates stand in [`Coordinates`].
 pub(crate) fn for_level(level: Level, domain: Domain, code: Code) -> Code {

@@ -5,7 +5,7 @@ use crate::connect::{self, drawing};
 use crate::format::{IndexFormat, PointFormat};
 use crate::lanes::LANES;
 use crate::output::{Numbering, PatchRange};
-use crate::points::{self, Code, LocationTables};
+use crate::points::{self, LocationTables, SmallPoints};
 use crate::setup::Setup;
 use crate::template::{SmallTemplate, SmallTemplates, Start, Templates, long};
 use crate::writer::Writer;
@@ -66,11 +66,6 @@ impl Caches {
 struct Writers<'a, P, I> {
     points: Writer<'a, P>,
     indices: Writer<'a, I>,
-}
-
-/// Writes the points of a small patch of fractional factors, whose codes are given.
-pub(crate) trait SmallPoints<P> {
-    fn emit(&mut self, patch: BlockPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>);
 }
 
 /// Writes blocks; returns where their output ends in the batch.

@@ -3,11 +3,11 @@
 //! All coordinates that a patch's codes name are computed at once into a table, in the format of the output. A
 //! point is then two of its elements, wherever no level has instructions for more.
 
+use super::SmallPoints;
 use super::code::{CENTRE, Code, HALF_EDGE, LOCATION, MINUS, RINGS, TERMS, Term};
 use super::triangle::Inset;
 use crate::block::BlockPatch;
 use crate::format::PointFormat;
-use crate::kernel::emit::SmallPoints;
 use crate::place::place_in_half;
 use crate::writer::Writer;
 use core::hint::black_box;

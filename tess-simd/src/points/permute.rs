@@ -3,10 +3,10 @@
 //! All locations and terms that a patch's codes name are computed at once into a few vectors. Two of
 //! them are one table of 32 entries for the instruction `vpermi2d`.
 
+use super::SmallPoints;
 use super::code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Term};
 use crate::block::BlockPatch;
 use crate::format::PointFormat;
-use crate::kernel::emit::SmallPoints;
 use crate::writer::Writer;
 use bytemuck::must_cast;
 use core::arch::x86_64::{
