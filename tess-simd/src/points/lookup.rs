@@ -81,9 +81,10 @@ impl<P: PointFormat> SmallPoints<P> for Coordinates {
     #[inline(always)]
     fn emit(&mut self, patch: BlockPatch<'_>, places: &[Code], out: &mut Writer<'_, P>) {
         if patch.domain() == Domain::Triangle {
-            self.fill_triangle::<P>(patch);
+            self.fill_edges::<P, TRIANGLE_OPPOSITE>(patch);
+            self.fill_rings::<P>(patch);
         } else {
-            self.fill_quad::<P>(patch);
+            self.fill_edges::<P, QUAD_OPPOSITE>(patch);
         }
         let [coordinates] = self.rows.as_flattened().as_chunks::<PLACES>().0 else {
             return debug_assert!(false, "a place is a byte");
@@ -101,24 +102,19 @@ impl Coordinates {
         Self { rows: [[0; HALF_EDGE]; ROWS], positions: black_box([0, 1, 2, 3, 4, 5, 6, 7]) }
     }
 
-    /// Computes the coordinates of a quad.
+    /// Computes the coordinates of the first factors' locations and of their opposites.
     #[inline(always)]
-    fn fill_quad<P: PointFormat>(&mut self, patch: BlockPatch<'_>) {
-        for factor in 0..QUAD_OPPOSITE {
+    fn fill_edges<P: PointFormat, const FACTORS: usize>(&mut self, patch: BlockPatch<'_>) {
+        for factor in 0..FACTORS {
             let locations = self.locations(patch, factor);
             self.rows[factor] = row::<P>(locations, |x| x);
-            self.rows[QUAD_OPPOSITE + factor] = row::<P>(locations, |x| ONE.wrapping_sub(x));
+            self.rows[FACTORS + factor] = row::<P>(locations, |x| ONE.wrapping_sub(x));
         }
     }
 
-    /// Computes the coordinates of a triangle, those of the rings it has.
+    /// Computes the coordinates of a triangle's inner rings and its centre.
     #[inline(always)]
-    fn fill_triangle<P: PointFormat>(&mut self, patch: BlockPatch<'_>) {
-        for factor in 0..TRIANGLE_OPPOSITE {
-            let locations = self.locations(patch, factor);
-            self.rows[factor] = row::<P>(locations, |x| x);
-            self.rows[TRIANGLE_OPPOSITE + factor] = row::<P>(locations, |x| ONE.wrapping_sub(x));
-        }
+    fn fill_rings<P: PointFormat>(&mut self, patch: BlockPatch<'_>) {
         let inside = self.locations(patch, TRIANGLE_OPPOSITE);
         let insets = inside.map(Inset::new);
         self.rows[HELD] = row::<P>(insets.map(|inset| inset.perpendicular), |x| x);

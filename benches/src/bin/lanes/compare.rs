@@ -2,8 +2,9 @@
 
 use crate::factor_context::Context;
 use crate::lanes::Column;
+use crate::levels::{ALL, Factors};
 use crate::place::Spacing;
-use crate::work::{ALL, Factors, Stage, Work};
+use crate::work::{Stage, Work};
 use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 use tess_simd::Level;
 

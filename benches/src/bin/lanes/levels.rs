@@ -2,11 +2,20 @@
 
 use crate::by_wide;
 use crate::factors::{self, Processed};
-use crate::lanes::Column;
+use crate::lanes::{Column, LANES, MAX_FACTORS};
 use crate::place::{Locations, Spacing, Spacings};
-use crate::work::{ALL, Factors};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_simd::at_each_level;
+
+/// Factors of a block of quads.
+pub(crate) const ALL: usize = LANES * MAX_FACTORS;
+
+/// Fixed-point factors of a block and their parities.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Factors {
+    pub(crate) fixed: Column,
+    pub(crate) odd: Column,
+}
 
 at_each_level! {
     /// Factor processing of quads.

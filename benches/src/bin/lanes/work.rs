@@ -2,16 +2,13 @@
 
 use crate::by_wide;
 use crate::factors::Processed;
-use crate::lanes::{Column, LANES, MAX_FACTORS};
-use crate::levels;
+use crate::lanes::{Column, LANES};
+use crate::levels::{self, ALL, Factors};
 use crate::place::{Locations, Spacing, Spacings};
 use std::hint::black_box;
 use tess_core::{Partitioning, SplitOrder};
 use tess_simd::Level;
 use tess_verify::random::SplitMix64;
-
-/// Factors of a block of quads.
-pub(crate) const ALL: usize = LANES * MAX_FACTORS;
 
 /// Blocks that are timed: their inputs and results fit the first cache.
 const BLOCKS: usize = 8;
@@ -52,13 +49,6 @@ impl Stage {
             Self::Locations => "locations",
         }
     }
-}
-
-/// Fixed-point factors of a block and their parities.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Factors {
-    pub(crate) fixed: Column,
-    pub(crate) odd: Column,
 }
 
 /// Inputs of each stage, block by block or edge by edge, and results of the arrays and of `wide`.
