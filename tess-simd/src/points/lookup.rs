@@ -22,12 +22,12 @@ const LEAST: usize = 24;
 /// Coordinates at the same positions of one factor.
 type Row = [u32; HALF_EDGE];
 
-/// The rows of a quad: one of locations for each factor, then from here on one of their opposites. A
-/// triangle's outer factors have as many.
-const QUAD_OPPOSITE: usize = Domain::Quad.factors();
-const TRIANGLE_OPPOSITE: usize = Domain::Triangle.outer_factors();
+/// The first rows: one of locations for each factor of a quad or each outer one of a triangle, then one of
+/// opposites for each of them.
+const QUAD_FACTORS: usize = Domain::Quad.factors();
+const TRIANGLE_OUTER: usize = Domain::Triangle.outer_factors();
 /// Where the rows of a triangle's inner rings begin: four for each, one for every term that has a location.
-const INNER: usize = 2 * TRIANGLE_OPPOSITE;
+const INNER: usize = 2 * TRIANGLE_OUTER;
 const ROWS_OF_RING: usize = TERMS.len() - 1;
 /// The row of a triangle's coordinates without a location: one for each ring, 0 for the outer one, then the
 /// centre's.
@@ -36,8 +36,7 @@ const HELD: usize = INNER + ROWS_OF_RING * (RINGS - 1);
 const PLACES: usize = 256;
 const ROWS: usize = PLACES / HALF_EDGE;
 
-const _: () =
-    assert!(HELD < ROWS && RINGS < HALF_EDGE && 2 * QUAD_OPPOSITE <= ROWS, "all rows fit");
+const _: () = assert!(HELD < ROWS && RINGS < HALF_EDGE && 2 * QUAD_FACTORS <= ROWS, "all rows fit");
 
 /// The coordinates of a patch.
 #[derive(Clone, Debug)]
@@ -58,7 +57,7 @@ pub(crate) fn place_of(domain: Domain, code: u16) -> u16 {
     } else if code & MINUS == 0 {
         (factor, position)
     } else {
-        (QUAD_OPPOSITE + factor, position)
+        (QUAD_FACTORS + factor, position)
     };
     (row * HALF_EDGE + position) as u16
 }
@@ -72,7 +71,7 @@ fn place_in_triangle(number: usize, factor: usize, position: usize) -> (usize, u
     match term {
         Term::Perpendicular => (HELD, ring),
         Term::Back | Term::Third if ring == 0 => (factor, position),
-        Term::Last | Term::LastThird if ring == 0 => (TRIANGLE_OPPOSITE + factor, position),
+        Term::Last | Term::LastThird if ring == 0 => (TRIANGLE_OUTER + factor, position),
         _ => (INNER + ROWS_OF_RING * (ring - 1) + term as usize - 1, position),
     }
 }
@@ -81,10 +80,10 @@ impl<P: PointFormat> SmallPoints<P> for Coordinates {
     #[inline(always)]
     fn emit(&mut self, patch: BlockPatch<'_>, places: &[Code], out: &mut Writer<'_, P>) {
         if patch.domain() == Domain::Triangle {
-            self.fill_edges::<P, TRIANGLE_OPPOSITE>(patch);
+            self.fill_edges::<P, TRIANGLE_OUTER>(patch);
             self.fill_rings::<P>(patch);
         } else {
-            self.fill_edges::<P, QUAD_OPPOSITE>(patch);
+            self.fill_edges::<P, QUAD_FACTORS>(patch);
         }
         let [coordinates] = self.rows.as_flattened().as_chunks::<PLACES>().0 else {
             return debug_assert!(false, "a place is a byte");
@@ -115,12 +114,12 @@ impl Coordinates {
     /// Computes the coordinates of a triangle's inner rings and its centre.
     #[inline(always)]
     fn fill_rings<P: PointFormat>(&mut self, patch: BlockPatch<'_>) {
-        let inside = self.locations(patch, TRIANGLE_OPPOSITE);
+        let inside = self.locations(patch, TRIANGLE_OUTER);
         let insets = inside.map(Inset::new);
         self.rows[HELD] = row::<P>(insets.map(|inset| inset.perpendicular), |x| x);
         self.rows[HELD][RINGS] = P::coordinate(ONE_THIRD);
         let rings = self.rows[INNER..HELD].as_chunks_mut::<ROWS_OF_RING>().0;
-        let end = (patch.edge_points(TRIANGLE_OPPOSITE) as usize / 2).min(RINGS);
+        let end = (patch.edge_points(TRIANGLE_OUTER) as usize / 2).min(RINGS);
         for ring in 1..end {
             let Inset { perpendicular, shift } = insets[ring];
             let (last, third) = (ONE - shift, shift.wrapping_sub(perpendicular));
