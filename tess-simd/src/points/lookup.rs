@@ -16,8 +16,6 @@ use tess_core::fixed_point::{ONE, ONE_THIRD};
 
 /// Points made at a time.
 const STEP: usize = 8;
-/// As many points are made of any patch.
-const LEAST: usize = 24;
 
 /// Coordinates at the same positions of one factor.
 type Row = [u32; HALF_EDGE];
@@ -77,7 +75,9 @@ fn place_in_triangle(number: usize, factor: usize, position: usize) -> (usize, u
 }
 
 impl<P: PointFormat> SmallPoints<P> for Coordinates {
-    #[inline(always)]
+    // Only what is inlined has a level's instructions. WebAssembly has one level, and a page to load.
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
     fn emit(&mut self, patch: BlockPatch<'_>, places: &[Code], out: &mut Writer<'_, P>) {
         if patch.domain() == Domain::Triangle {
             self.fill_edges::<P, TRIANGLE_OUTER>(patch);
@@ -88,7 +88,7 @@ impl<P: PointFormat> SmallPoints<P> for Coordinates {
         let [coordinates] = self.rows.as_flattened().as_chunks::<PLACES>().0 else {
             return debug_assert!(false, "a place is a byte");
         };
-        out.map_least::<_, STEP, LEAST>(patch.points() as usize, places, |[u, v]: Code| {
+        out.map::<_, STEP>(patch.points() as usize, places, |[u, v]: Code| {
             let [u, v] = [usize::from(u) % PLACES, usize::from(v) % PLACES];
             P::from_coordinates([coordinates[u], coordinates[v]])
         });
