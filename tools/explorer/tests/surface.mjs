@@ -15,12 +15,20 @@ async function drawn(page) {
     await frame();
     await frame();
   });
+  // A page that is new says it when its modules are there.
+  await page.waitForSelector("#surface-note[data-by]", { state: "attached" });
   return page.getAttribute("#surface-note", "data-by");
 }
 
 // The view that these words of the address describe, drawn `by` the GPU or the CPU: pixels and counts.
 async function shown(page, words, by) {
-  await page.evaluate((hash) => (location.hash = hash), `tab=surface&by=${by}&${words}`);
+  await page.evaluate(async (hash) => {
+    if (location.hash === `#${hash}`) return;
+    await new Promise((done) => {
+      addEventListener("hashchange", done, { once: true });
+      location.hash = hash;
+    });
+  }, `tab=surface&by=${by}&${words}`);
   assert.equal(await drawn(page), by, `${words}: ${await text(page, "surface-note")}`);
   return { ...await pixels(page, "solids"), counts: await text(page, "surface-counts") };
 }
