@@ -94,6 +94,8 @@ pub(crate) fn emit<P: PointFormat, I: IndexFormat>(
                 };
                 kernel::emit::emit(setup, blocks, room, caches, &mut permute::Permutes(permute))
             }
+            // Compiled, but not run: the level is available only where all of these are. It would take the
+            // codes of permutes for places (`points::for_level`).
             _ => emit_with_lookups(setup, blocks, room, caches),
         }
     }

@@ -48,15 +48,14 @@ pub(crate) fn described(array: &Bound<'_, PyUntypedArray>) -> String {
     format!("{} of shape {:?}", array.dtype(), array.shape())
 }
 
-/// An array of `out` that can be written as one slice.
+/// An array of `out`, which is C-contiguous (see [`addresses`]), to be written as one slice.
 ///
 /// # Errors
-/// It is read-only, not C-contiguous, misaligned, or borrowed by another call.
+/// It is read-only, misaligned, or borrowed by another call.
 pub(crate) fn writable<'py, T: Element, D: numpy::ndarray::Dimension>(
     what: &str,
     array: &Bound<'py, numpy::PyArray<T, D>>,
 ) -> PyResult<PyReadwriteArray<'py, T, D>> {
-    addresses(what, array)?;
     if !array.data().is_aligned() {
         return Err(output(format!("{what}: the array is not aligned to its elements")));
     }

@@ -53,7 +53,13 @@ fn leave_locations_enabled(scene: &Scene, stage: &mut TessellationStage) {
             return vec4<u32>(7u);
         }
     ";
-    let pipeline = pipeline(&scene.gpu.device, WGSL);
+    let layout = |attributes| {
+        let step_mode = wgpu::VertexStepMode::Vertex;
+        Some(wgpu::VertexBufferLayout { array_stride: 4, step_mode, attributes })
+    };
+    let [first, second] =
+        [wgpu::vertex_attr_array![0 => Float32], wgpu::vertex_attr_array![5 => Float32]];
+    let pipeline = scene.pipeline(WGSL.to_owned(), "place", &[layout(&first), layout(&second)]);
     let buffer = |coordinates: [f32; 3]| {
         let bytes = bytemuck::bytes_of(&coordinates);
         scene.gpu.upload("theirs", bytes, wgpu::BufferUsages::VERTEX).expect("it fits")
@@ -70,38 +76,6 @@ fn leave_locations_enabled(scene: &Scene, stage: &mut TessellationStage) {
     assert!(is_drawn, "the other pipeline draws its triangle");
     drop(buffers);
     scene.gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device is idle");
-}
-
-fn pipeline(device: &wgpu::Device, wgsl: &str) -> wgpu::RenderPipeline {
-    let source = wgpu::ShaderSource::Wgsl(wgsl.into());
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
-    let buffer = |attributes| {
-        let step_mode = wgpu::VertexStepMode::Vertex;
-        Some(wgpu::VertexBufferLayout { array_stride: 4, step_mode, attributes })
-    };
-    let [first, second] =
-        [wgpu::vertex_attr_array![0 => Float32], wgpu::vertex_attr_array![5 => Float32]];
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: None,
-            compilation_options: Default::default(),
-            buffers: &[buffer(&first), buffer(&second)],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: None,
-            compilation_options: Default::default(),
-            targets: &[Some(FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }
 
 pub(crate) fn flat_members_are_refused(gpu: Gpu) {

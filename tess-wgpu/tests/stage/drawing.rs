@@ -1,7 +1,7 @@
 //! Every way to draw gives the model's triangles.
 
 use crate::model::{compare, drawn};
-use crate::scene::{FORMAT, PATCHES, Scene};
+use crate::scene::{PATCHES, Scene};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_wgpu::Error;
 use tess_wgpu::stage::{DrawBuffers, Factors, PatchCount, Points, StageError};
@@ -114,43 +114,16 @@ fn groups_are_drawn_one_by_one() {
     }
 }
 
-/// A pipeline as an engine makes it, from the stage's vertex shader and its own layout and state.
-fn pipeline_of_an_engine(scene: &Scene, wgsl: String) -> wgpu::RenderPipeline {
-    let device = &scene.gpu.device;
-    let source = wgpu::ShaderSource::Wgsl(wgsl.into());
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
-    let buffer = wgpu::VertexBufferLayout {
+#[test]
+fn an_engine_draws_groups_with_its_own_pipeline() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let points = wgpu::VertexBufferLayout {
         array_stride: 8,
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![0 => Uint32x2],
     };
-    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: None,
-        layout: None,
-        vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("tess_vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(buffer)],
-        },
-        primitive: Default::default(),
-        depth_stencil: None,
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module: &module,
-            entry_point: None,
-            compilation_options: Default::default(),
-            targets: &[Some(FORMAT.into())],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
-}
-
-#[test]
-fn an_engine_draws_groups_with_its_own_pipeline() {
-    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
-    let pipeline = pipeline_of_an_engine(&scene, scene.builder().vertex_shader());
+    let shader = scene.builder().vertex_shader();
+    let pipeline = scene.pipeline(shader, "tess_vertex", &[Some(points)]);
     let mut stage = scene.build(scene.builder().groups(&[0]).without_pipeline());
     for groups in [&[0, 3, 6][..], &[0, 1, 1, 7], &[2]] {
         stage.set_groups(groups).expect("they ascend");

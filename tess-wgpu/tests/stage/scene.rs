@@ -107,6 +107,40 @@ impl Scene {
         model::pixels(self.config, patches, if is_gl(&self.gpu) { 2 } else { 0 })
     }
 
+    /// A pipeline as an engine makes it: the entry point of a shader, vertex buffers, and a state of its own.
+    pub(crate) fn pipeline(
+        &self,
+        wgsl: String,
+        entry_point: &str,
+        buffers: &[Option<wgpu::VertexBufferLayout<'_>>],
+    ) -> wgpu::RenderPipeline {
+        let device = &self.gpu.device;
+        let source = wgpu::ShaderSource::Wgsl(wgsl.into());
+        let module =
+            device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+        device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: None,
+            layout: None,
+            vertex: wgpu::VertexState {
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: Default::default(),
+                buffers,
+            },
+            primitive: Default::default(),
+            depth_stencil: None,
+            multisample: Default::default(),
+            fragment: Some(wgpu::FragmentState {
+                module: &module,
+                entry_point: None,
+                compilation_options: Default::default(),
+                targets: &[Some(FORMAT.into())],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+
     /// A stage of [`PATCHES`] patches at most, before it is built.
     pub(crate) fn builder(&self) -> StageBuilder<'_> {
         TessellationStage::builder(&self.source, self.domain, self.config, PATCHES)
