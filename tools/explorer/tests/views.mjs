@@ -33,6 +33,19 @@ test("zooming reaches single units of 16.16", async () => {
   await close(page);
 });
 
+test("a link that is followed wins over what the page remembers", async () => {
+  const page = await openWithoutGpu();
+  await page.evaluate(async () => {
+    const { link } = await import("./state.js");
+    location.hash = "#tab=surface&surface=flat";
+    // The event of the new address is still to come, and the page writes its own.
+    link();
+  });
+  await page.waitForFunction(() => document.getElementById("surface").value === "flat", null, { timeout: 5000 });
+  assert.ok(await page.isVisible("#view-surface"));
+  await close(page);
+});
+
 test("building and animation move, and stop", async () => {
   const page = await open();
   // A small patch is built in two seconds.

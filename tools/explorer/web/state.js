@@ -64,8 +64,9 @@ export function link() {
   return location.href;
 }
 
-export function readAddress() {
-  const words = new URLSearchParams(location.hash.slice(1));
+// Takes the state from the part of an address that begins with `#`.
+function read(fragment) {
+  const words = new URLSearchParams(fragment.slice(1));
   const values = { ...DEFAULTS };
   for (const key of Object.keys(DEFAULTS)) {
     if (words.has(key)) values[key] = words.get(key);
@@ -75,8 +76,9 @@ export function readAddress() {
 
 export function start() {
   known = JSON.parse(choices());
-  addEventListener("hashchange", readAddress);
-  readAddress();
+  // The event's own address: the page may have remembered its state in between.
+  addEventListener("hashchange", ({ newURL }) => read(new URL(newURL).hash));
+  read(location.hash);
 }
 
 // Calls every listener now, as if everything had changed.
