@@ -17,7 +17,12 @@ pub(crate) fn target() -> PathBuf {
 /// Builds the program `tess`, and says where it is.
 pub(crate) fn program() -> Result<PathBuf, String> {
     run(&mut cargo("build --package tess-program"))?;
-    Ok(target().join("debug").join(format!("tess{}", std::env::consts::EXE_SUFFIX)))
+    Ok(built_program())
+}
+
+/// Where builds of the program `tess` and of its tests put it.
+pub(crate) fn built_program() -> PathBuf {
+    target().join("debug").join(format!("tess{}", std::env::consts::EXE_SUFFIX))
 }
 
 /// The message of an error with a file.

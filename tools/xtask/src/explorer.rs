@@ -88,7 +88,7 @@ pub(crate) fn serve() -> Result<(), String> {
 /// # Errors
 /// A test fails, or something cannot be installed.
 pub(crate) fn test() -> Result<(), String> {
-    tally::run([tests()?])
+    tally::run([tests(&program()?)?])
 }
 
 /// What the tests lack and this system cannot install; `None` if they can run.
@@ -96,11 +96,11 @@ pub(crate) fn lacking() -> Option<String> {
     setup::provide(BROWSER).err()
 }
 
-/// Makes everything ready, and gives the command that runs the tests.
+/// Makes everything ready, and gives the command that runs the tests, which compare with this program `tess`.
 ///
 /// # Errors
 /// As for [`test()`], but for the tests.
-pub(crate) fn tests() -> Result<Command, String> {
+pub(crate) fn tests(program: &Path) -> Result<Command, String> {
     setup::provide(BROWSER)?;
     let mut format = cargo("fmt --check --manifest-path");
     command::run(format.arg(source().join("bindgen/Cargo.toml")))?;
@@ -113,7 +113,6 @@ pub(crate) fn tests() -> Result<Command, String> {
         command::run(npm.arg(PLAYWRIGHT).current_dir(&modules))?;
     }
     let stage = stage(&modules)?;
-    let program = program()?;
     let listener = TcpListener::bind("127.0.0.1:0").map_err(|error| error.to_string())?;
     let address = address(&listener)?;
     std::thread::spawn(move || answer_all(&listener));

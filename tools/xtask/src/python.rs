@@ -3,7 +3,7 @@
 use crate::command::{self, cargo, in_file, workspace};
 use crate::setup::{self, Need, has_program};
 use crate::tally;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 /// The interpreter that makes the virtual environment.
@@ -28,14 +28,14 @@ const TOOLS: &[&str] = &["maturin>=1.9,<2"];
 /// # Errors
 /// A lint, a type or a test fails, or a package of the environment cannot be had.
 pub(crate) fn run() -> Result<(), String> {
-    tally::run([tests()?])
+    tally::run([tests(&command::program()?)?])
 }
 
-/// Makes everything ready, and gives the command that runs the tests.
+/// Makes everything ready, and gives the command that runs the tests, which compare with this program `tess`.
 ///
 /// # Errors
 /// As for [`run`], but for the tests.
-pub(crate) fn tests() -> Result<Command, String> {
+pub(crate) fn tests(program: &Path) -> Result<Command, String> {
     setup::provide(&[PYTHON, ICARUS])?;
     lint()?;
     let environment = Environment::fresh()?;
@@ -43,7 +43,6 @@ pub(crate) fn tests() -> Result<Command, String> {
     let wheel = environment.wheel()?;
     environment.install(&[&format!("{}[test,cocotb]", wheel.display())])?;
     environment.check_types()?;
-    let program = command::program()?;
     let mut tests = environment.python(&["-m", "pytest", "-q", "-p", "no:cacheprovider"]);
     tests.env("TESS_PROGRAM", program).env("TESS_COCOTB_BUILD", target().join("cocotb"));
     Ok(tests)

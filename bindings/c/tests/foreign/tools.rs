@@ -57,7 +57,12 @@ pub(crate) fn libraries() -> Result<Libraries, String> {
 fn build() -> Result<Libraries, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let mut command = Command::new(cargo);
-    command.args(["build", "-p", "tess-capi", "--lib", "--message-format=json"]);
+    // A larger build that the tests are part of has the libraries already.
+    match std::env::var("TESS_CAPI_BUILD") {
+        Ok(build) => command.args(build.split_whitespace()).arg("--no-run"),
+        Err(_) => command.args(["build", "-p", "tess-capi", "--lib"]),
+    };
+    command.arg("--message-format=json");
     let messages = run(command.current_dir(crate_folder()))?;
     let files: Vec<PathBuf> = messages.lines().filter_map(artifacts).flatten().collect();
     let with = |extension: &str| {
