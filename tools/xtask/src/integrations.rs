@@ -23,6 +23,7 @@ pub(crate) fn run() -> Result<(), String> {
     bevy.cargo("fmt --all --check")?;
     bevy.cargo("clippy --all-targets -- -D warnings")?;
     bevy.cargo("test")?;
+    bevy.cargo("test --examples")?;
     bevy.cargo("build --example flight")?;
     let [gpu, cpu] = [bevy.draw("gpu", "")?, bevy.draw("cpu", "--cpu")?];
     differing(&gpu, &cpu, "by the GPU and by the CPU")?;

@@ -79,3 +79,77 @@ pub(crate) fn write(
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use bevy_tess::{BezierPatches, FactorRule};
+
+    const PIXELS: f32 = 8.0;
+
+    /// The example's keys, and one surface.
+    fn app() -> App {
+        let mut app = App::new();
+        app.init_resource::<ButtonInput<KeyCode>>().insert_resource(TessSettings::default());
+        app.add_message::<AppExit>().add_systems(Update, press);
+        let patch = BezierPatches::new(vec![[[[0.0; 3]; 4]; 4]]).expect("one patch");
+        app.world_mut().spawn(Tessellated::new(patch).with_factors(FactorRule::Pixels(PIXELS)));
+        app
+    }
+
+    /// Presses a key and lets it go again.
+    fn strike(app: &mut App, key: KeyCode) {
+        app.world_mut().resource_mut::<ButtonInput<KeyCode>>().press(key);
+        app.update();
+        let mut keys = app.world_mut().resource_mut::<ButtonInput<KeyCode>>();
+        keys.release(key);
+        keys.clear();
+        app.update();
+    }
+
+    fn pixels(app: &mut App) -> f32 {
+        let mut surfaces = app.world_mut().query::<&Tessellated>();
+        let surface = surfaces.single(app.world()).expect("one surface");
+        let FactorRule::Pixels(pixels) = surface.factors else { panic!("by pixels") };
+        pixels
+    }
+
+    #[test]
+    fn w_is_the_wireframe_and_c_the_backend() {
+        let mut app = app();
+        let settings = |app: &App| *app.world().resource::<TessSettings>();
+        let before = settings(&app);
+        strike(&mut app, KeyCode::KeyW);
+        assert_eq!(settings(&app), TessSettings { wireframe: true, ..before }, "w");
+        strike(&mut app, KeyCode::KeyC);
+        let both = TessSettings { wireframe: true, backend: Backend::Cpu };
+        assert_eq!(settings(&app), both, "c");
+        strike(&mut app, KeyCode::KeyW);
+        strike(&mut app, KeyCode::KeyC);
+        assert_eq!(settings(&app), before, "both again");
+    }
+
+    #[test]
+    fn plus_is_finer_and_minus_coarser() {
+        for [plus, minus] in
+            [[KeyCode::Equal, KeyCode::Minus], [KeyCode::NumpadAdd, KeyCode::NumpadSubtract]]
+        {
+            let mut app = app();
+            strike(&mut app, plus);
+            assert!(pixels(&mut app) < PIXELS, "{plus:?}: shorter segments");
+            strike(&mut app, minus);
+            strike(&mut app, minus);
+            assert!(pixels(&mut app) > PIXELS, "{minus:?}: longer segments");
+        }
+    }
+
+    #[test]
+    fn escape_ends_and_other_keys_do_nothing() {
+        let mut app = app();
+        let ends = |app: &App| app.should_exit().is_some();
+        strike(&mut app, KeyCode::KeyQ);
+        assert!(!ends(&app) && pixels(&mut app) == PIXELS, "q");
+        strike(&mut app, KeyCode::Escape);
+        assert!(ends(&app), "Escape");
+    }
+}
