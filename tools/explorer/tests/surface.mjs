@@ -15,8 +15,6 @@ async function drawn(page) {
     await frame();
     await frame();
   });
-  // A page that is new says it when its modules are there.
-  await page.waitForSelector("#surface-note[data-by]", { state: "attached" });
   return page.getAttribute("#surface-note", "data-by");
 }
 

@@ -83,7 +83,7 @@ pub(crate) fn write(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bevy_tess::{BezierPatches, FactorRule};
+    use bevy_tess::BezierPatches;
 
     const PIXELS: f32 = 8.0;
 
