@@ -13,7 +13,7 @@ import sys
 
 AVX2 = "+avx2,+bmi1,+bmi2,+lzcnt,+popcnt"
 AVX512 = AVX2 + ",+avx512f,+avx512bw,+avx512cd,+avx512dq,+avx512vl"
-NODE = ["node", "--no-warnings", "tools/xtask/src/ports/wasi.mjs"]
+NODE = ["node", "--no-warnings", "dev/xtask/src/ports/wasi.mjs"]
 QEMU = ["qemu-aarch64-static", "-L", "/usr/aarch64-linux-gnu"]
 X86, ARM, WASM = "x86_64-unknown-linux-gnu", "aarch64-unknown-linux-gnu", "wasm32-wasip1"
 

@@ -5,7 +5,7 @@ use std::process::Command;
 
 #[test]
 fn a_program_without_the_standard_library_links_and_runs() {
-    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../tools/nostd-proof/Cargo.toml");
+    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/../dev/nostd-proof/Cargo.toml");
     let target = concat!(env!("CARGO_TARGET_TMPDIR"), "/nostd-proof");
     let mut build = Command::new(env!("CARGO"));
     build.args(["build", "--quiet", "--manifest-path", manifest, "--target-dir", target]);

@@ -28,7 +28,7 @@ pub(super) fn check(extent: Extent) -> Result<(), String> {
     let libraries = ["tess-core", "tess-simd", "tess-gpu", "tess-surface"];
     let libraries = libraries.into_iter().flat_map(|package| ["--package", package]);
     command::run(cargo("check --target").arg(BROWSER).args(libraries))?;
-    let script = workspace().join("tools/xtask/src/ports/wasi.mjs");
+    let script = workspace().join("dev/xtask/src/ports/wasi.mjs");
     let runner = format!("node --no-warnings {}", script.display());
     let commands = if extent == Extent::Brief { cross::BRIEF } else { WHOLE };
     tally::run(commands.iter().map(|arguments| {

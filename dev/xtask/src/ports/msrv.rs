@@ -30,7 +30,7 @@ mod tests {
         let root = command::workspace();
         let read = |path: &str| fs::read_to_string(root.join(path)).expect(path);
         assert!(!read("README.md").contains("Rust 1."), "README.md refers to Cargo.toml");
-        let own = ["fuzz/Cargo.toml", "tools/nostd-proof/Cargo.toml"].map(read);
+        let own = ["fuzz/Cargo.toml", "dev/nostd-proof/Cargo.toml"].map(read);
         let members = packages::published().expect("packages");
         let members = members
             .iter()

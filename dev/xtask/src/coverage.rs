@@ -15,7 +15,7 @@ const CRATES: &[&str] = &[
     "bindings/c/",
     "tools/cli/",
     "tools/explorer/",
-    "tools/testkit/",
+    "dev/testkit/",
 ];
 
 /// Runs the tests of the workspace with counters in every line and prints how many lines they reach.
