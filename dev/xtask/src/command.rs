@@ -37,6 +37,11 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     command
 }
 
+/// The interpreter that the variable `PYTHON` names, or the system's.
+pub(crate) fn python() -> Command {
+    Command::new(std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into()))
+}
+
 /// The command as a person would type it.
 pub(crate) fn shown(command: &Command) -> String {
     let program = Path::new(command.get_program()).file_name().unwrap_or_default();

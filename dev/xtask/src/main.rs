@@ -2,6 +2,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program talks to its user")]
 
 mod ci;
+mod circles;
 mod command;
 mod coverage;
 mod covergroups;
@@ -42,6 +43,8 @@ usage: cargo xtask <command>
           ways to tessellate; `ci` leaves it out, as Bevy takes long to build
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
+  circles [FOLDER...]
+          show the modules that import each other in a circle, in all crates or those in these folders
   ports [brief] [NAME...]
           check other compilers, processors and hosts: msrv, i686, aarch64, s390x, wasm,
           miri; installs emulators and compilers. `brief` runs the tests that take seconds
@@ -86,6 +89,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["test"] => after_setup(&|| test::run(test::Browser::IfThere)),
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
+        ["circles", ref names @ ..] => circles::run(names),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
         ["ports", ref names @ ..] => ports::run(names, Extent::Whole),
         ["fuzz"] => after_setup(&|| fuzz::run(fuzz::BRIEFLY)),

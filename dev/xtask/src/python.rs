@@ -1,24 +1,10 @@
 //! The Python package: its wheel, and its tests on the wheel in a fresh virtual environment.
 
 use crate::command::{self, cargo, in_file, workspace};
-use crate::setup::{self, Need, has_program};
+use crate::setup::{self, ICARUS, PYTHON};
 use crate::tally;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
-
-/// The interpreter that makes the virtual environment.
-pub(crate) const PYTHON: Need = Need {
-    what: "Python 3.9 or later with the modules venv and ensurepip (tests of the Python package)",
-    packages: &["python3", "python3-venv"],
-    is_there: has_python,
-};
-
-/// The second simulator of the cocotb bench.
-pub(crate) const ICARUS: Need = Need {
-    what: "Icarus Verilog (tests of the cocotb bench)",
-    packages: &["iverilog"],
-    is_there: || has_program("iverilog"),
-};
+use std::process::Command;
 
 /// What the virtual environment gets beside the wheel; the wheel's extras name the rest.
 const TOOLS: &[&str] = &["maturin>=1.9,<2"];
@@ -72,7 +58,7 @@ impl Environment {
     /// One without anything of an earlier run.
     fn fresh() -> Result<Self, String> {
         let folder = target().join("venv");
-        command::run(interpreter().args(["-m", "venv", "--clear"]).arg(&folder))?;
+        command::run(command::python().args(["-m", "venv", "--clear"]).arg(&folder))?;
         Ok(Self(folder))
     }
 
@@ -113,16 +99,4 @@ impl Environment {
         command::run(&mut self.python(&["-m", "mypy.stubtest", "tess_model"]))?;
         command::run(&mut self.python(&["-m", "mypy", "tests", "examples/cocotb", "benches"]))
     }
-}
-
-/// The interpreter that the variable `PYTHON` names, or the system's.
-fn interpreter() -> Command {
-    Command::new(std::env::var_os("PYTHON").unwrap_or_else(|| "python3".into()))
-}
-
-fn has_python() -> bool {
-    let test = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 9))";
-    let mut python = interpreter();
-    python.args(["-c", test]).stdout(Stdio::null()).stderr(Stdio::null());
-    python.status().is_ok_and(|status| status.success())
 }

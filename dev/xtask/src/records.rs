@@ -1,6 +1,7 @@
 //! Measurements as data: `benches/records/NAME.json`, described in the README beside them.
 
 pub(crate) mod performance;
+mod rates;
 mod table;
 pub(crate) mod take;
 mod targets;

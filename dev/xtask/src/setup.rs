@@ -1,7 +1,9 @@
 //! Sets up what commands need beyond Rust.
 
+mod needs;
+
 use crate::command;
-use crate::python;
+pub(crate) use needs::{ICARUS, PYTHON};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
@@ -15,48 +17,9 @@ pub(crate) struct Need {
     pub(crate) is_there: fn() -> bool,
 }
 
-/// What the tests of the workspace need.
-const TESTS: &[Need] = &[
-    Need {
-        what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
-        packages: &["libvulkan1", "mesa-vulkan-drivers"],
-        is_there: has_vulkan,
-    },
-    Need {
-        what: "an OpenGL driver through EGL (tests of wgpu's OpenGL backend)",
-        packages: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
-        is_there: has_opengl,
-    },
-    Need {
-        what: "C and C++ compilers and make (tests of the C interface)",
-        packages: &["gcc", "g++", "libc6-dev", "make"],
-        is_there: || ["cc", "c++", "make"].into_iter().all(has_program),
-    },
-    Need {
-        what: "compilers of shaders and Vulkan's header (tests of `tess shaders` and `tess probe`)",
-        packages: &["spirv-tools", "glslang-tools", "libvulkan-dev"],
-        is_there: || {
-            ["spirv-val", "glslangValidator"].into_iter().all(has_program)
-                && Path::new("/usr/include/vulkan/vulkan.h").exists()
-        },
-    },
-    Need {
-        what: "an X server without a screen, and its libraries (a test of an example's window)",
-        packages: &["xvfb", "libx11-xcb1", "libxcursor1", "libxi6", "libxkbcommon-x11-0"],
-        is_there: || has_program("Xvfb"),
-    },
-    Need {
-        what: "Verilator (tests of the SystemVerilog interface)",
-        packages: &["verilator"],
-        is_there: || has_program("verilator"),
-    },
-    python::ICARUS,
-    python::PYTHON,
-];
-
 /// Provides what the tests of the workspace need.
 pub(crate) fn run() -> Result<(), String> {
-    provide(TESTS)
+    provide(needs::TESTS)
 }
 
 /// Installs what is missing where the system allows it.
@@ -173,30 +136,6 @@ pub(crate) fn has_subcommand(name: &str) -> bool {
         .stderr(Stdio::null())
         .status()
         .is_ok_and(|status| status.success())
-}
-
-/// Whether the loader and any driver's manifest are where Vulkan looks for them.
-fn has_vulkan() -> bool {
-    let has_driver = std::env::var_os("VK_DRIVER_FILES").is_some()
-        || ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d"]
-            .into_iter()
-            .any(has_files);
-    has_driver && has_library("libvulkan.so.1")
-}
-
-/// Whether EGL's dispatcher and any driver's manifest are where it looks for them.
-fn has_opengl() -> bool {
-    ["/usr/share/glvnd/egl_vendor.d", "/etc/glvnd/egl_vendor.d"].into_iter().any(has_files)
-        && has_library("libEGL.so.1")
-}
-
-fn has_files(folder: &str) -> bool {
-    std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some())
-}
-
-fn has_library(name: &str) -> bool {
-    let known = Command::new("/sbin/ldconfig").arg("-p").output();
-    known.is_ok_and(|list| String::from_utf8_lossy(&list.stdout).contains(name))
 }
 
 /// Whether a folder of `PATH` has this file.

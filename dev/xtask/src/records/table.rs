@@ -1,25 +1,10 @@
 //! A record as a Markdown table.
 #![expect(clippy::float_arithmetic, reason = "units of measurements")]
 
+use super::rates::{Column, RATES, digits, number};
 use super::targets::{self, Target};
 use super::{Record, Row};
 use serde_json::Value;
-
-/// A column of the rows of `tess bench`.
-pub(super) struct Column {
-    pub(super) title: &'static str,
-    pub(super) key: &'static str,
-    /// What a value is divided by.
-    pub(super) unit: f64,
-}
-
-pub(super) const RATES: &[Column] = &[
-    Column { title: "M patches/s", key: "patches_per_s", unit: 1e6 },
-    Column { title: "G triangles/s", key: "triangles_per_s", unit: 1e9 },
-    Column { title: "GB/s", key: "bytes_per_s", unit: 1e9 },
-    Column { title: "of fill", key: "fill_ratio", unit: 1.0 },
-    Column { title: "of core", key: "core_ratio", unit: 1.0 },
-];
 
 /// The command, where and when it ran, and its rows.
 pub(super) fn block(record: &Record, targets: &[Target]) -> String {
@@ -79,10 +64,6 @@ fn as_printed(record: &Record) -> (Vec<String>, Vec<Vec<String>>) {
     (titles, record.rows.iter().map(cells).collect())
 }
 
-pub(super) fn number(row: &Row, key: &str) -> Option<f64> {
-    row.get(key).and_then(Value::as_f64)
-}
-
 /// A value without quotes; nothing for `null` or a key that is missing.
 fn text(row: &Row, key: &str) -> String {
     match row.get(key) {
@@ -92,29 +73,10 @@ fn text(row: &Row, key: &str) -> String {
     }
 }
 
-/// Three significant digits, never fewer than those before the point, without zeros at the end.
-pub(super) fn digits(value: f64) -> String {
-    let decimals = [(100.0, 0), (10.0, 1), (1.0, 2), (0.1, 3), (0.01, 4)]
-        .into_iter()
-        .find_map(|(from, decimals)| (value >= from).then_some(decimals));
-    let text = format!("{value:.*}", decimals.unwrap_or(5));
-    match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use serde_json::json;
-
-    #[test]
-    fn three_digits_count() {
-        let shown = [27430.4, 173.1, 14.85, 4.0749, 9.8, 0.5661, 0.0571, 0.00123].map(digits);
-        let expected = ["27430", "173", "14.8", "4.07", "9.8", "0.566", "0.0571", "0.00123"];
-        assert_eq!(shown, expected, "digits");
-    }
 
     fn row(workload: &str, working_set: &str, fill_ratio: f64) -> Row {
         let row = json!({ "workload": workload, "backend": "simd", "working_set": working_set,

@@ -1,7 +1,7 @@
 //! Speeds that the project aims at: `benches/targets.json`.
 
 use super::Row;
-use super::table::{RATES, digits, number};
+use super::rates::{RATES, digits, number};
 use crate::command::workspace;
 use serde::Deserialize;
 use serde_json::Value;

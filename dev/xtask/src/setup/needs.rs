@@ -1,0 +1,90 @@
+//! What the tests need from the system.
+
+use super::{Need, has_program};
+use crate::command;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+/// What the tests of the workspace need.
+pub(super) const TESTS: &[Need] = &[
+    Need {
+        what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
+        packages: &["libvulkan1", "mesa-vulkan-drivers"],
+        is_there: has_vulkan,
+    },
+    Need {
+        what: "an OpenGL driver through EGL (tests of wgpu's OpenGL backend)",
+        packages: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
+        is_there: has_opengl,
+    },
+    Need {
+        what: "C and C++ compilers and make (tests of the C interface)",
+        packages: &["gcc", "g++", "libc6-dev", "make"],
+        is_there: || ["cc", "c++", "make"].into_iter().all(has_program),
+    },
+    Need {
+        what: "compilers of shaders and Vulkan's header (tests of `tess shaders` and `tess probe`)",
+        packages: &["spirv-tools", "glslang-tools", "libvulkan-dev"],
+        is_there: || {
+            ["spirv-val", "glslangValidator"].into_iter().all(has_program)
+                && Path::new("/usr/include/vulkan/vulkan.h").exists()
+        },
+    },
+    Need {
+        what: "an X server without a screen, and its libraries (a test of an example's window)",
+        packages: &["xvfb", "libx11-xcb1", "libxcursor1", "libxi6", "libxkbcommon-x11-0"],
+        is_there: || has_program("Xvfb"),
+    },
+    Need {
+        what: "Verilator (tests of the SystemVerilog interface)",
+        packages: &["verilator"],
+        is_there: || has_program("verilator"),
+    },
+    ICARUS,
+    PYTHON,
+];
+
+/// The interpreter that makes the virtual environment.
+pub(crate) const PYTHON: Need = Need {
+    what: "Python 3.9 or later with the modules venv and ensurepip (tests of the Python package)",
+    packages: &["python3", "python3-venv"],
+    is_there: has_python,
+};
+
+/// The second simulator of the cocotb bench.
+pub(crate) const ICARUS: Need = Need {
+    what: "Icarus Verilog (tests of the cocotb bench)",
+    packages: &["iverilog"],
+    is_there: || has_program("iverilog"),
+};
+
+/// Whether the loader and any driver's manifest are where Vulkan looks for them.
+fn has_vulkan() -> bool {
+    let has_driver = std::env::var_os("VK_DRIVER_FILES").is_some()
+        || ["/usr/share/vulkan/icd.d", "/etc/vulkan/icd.d", "/usr/local/share/vulkan/icd.d"]
+            .into_iter()
+            .any(has_files);
+    has_driver && has_library("libvulkan.so.1")
+}
+
+/// Whether EGL's dispatcher and any driver's manifest are where it looks for them.
+fn has_opengl() -> bool {
+    ["/usr/share/glvnd/egl_vendor.d", "/etc/glvnd/egl_vendor.d"].into_iter().any(has_files)
+        && has_library("libEGL.so.1")
+}
+
+fn has_files(folder: &str) -> bool {
+    std::fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_some())
+}
+
+fn has_library(name: &str) -> bool {
+    let known = Command::new("/sbin/ldconfig").arg("-p").output();
+    known.is_ok_and(|list| String::from_utf8_lossy(&list.stdout).contains(name))
+}
+
+fn has_python() -> bool {
+    let test = "import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 9))";
+    let mut python = command::python();
+    python.args(["-c", test]).stdout(Stdio::null()).stderr(Stdio::null());
+    python.status().is_ok_and(|status| status.success())
+}
