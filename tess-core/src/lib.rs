@@ -4,10 +4,10 @@
 #[cfg(feature = "alloc")]
 extern crate alloc;
 
+pub mod cache_order;
 mod connect;
 pub mod counts;
 mod d3d_float;
-pub mod drawing;
 mod error;
 pub mod factor_context;
 pub mod factors;
@@ -26,6 +26,7 @@ mod sink;
 pub mod state;
 pub mod stitch;
 
+pub use cache_order::Order;
 pub use counts::{Counts, MAX_INDICES, MAX_POINTS};
 pub use error::{Buffer, BufferTooSmall};
 pub use factor_context::FactorContext;

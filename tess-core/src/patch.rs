@@ -1,8 +1,8 @@
 //! One patch: the model's front door.
 
-use crate::counts::{Counts, counts};
 #[cfg(feature = "alloc")]
-use crate::drawing::Order;
+use crate::cache_order::Order;
+use crate::counts::{Counts, counts};
 use crate::error::{Buffer, BufferTooSmall};
 use crate::factors::{ProcessedPatch, process};
 use crate::locate::origin::PointOrigin;
@@ -13,7 +13,7 @@ use crate::patch_factors::PatchFactors;
 use crate::sink::{Sink, Slices};
 use crate::state::Config;
 use crate::stitch::Stitch;
-use crate::{connect, drawing, locate, points};
+use crate::{cache_order, connect, locate, points};
 
 /// A patch whose factors have been processed, ready to be tessellated or probed.
 ///
@@ -98,10 +98,10 @@ impl Patch {
     #[must_use]
     pub fn tessellate_in(&self, order: Order) -> crate::Tessellation {
         let mut out = self.tessellate();
-        if order == Order::Drawing && self.counts.indices == 3 * self.counts.primitives {
+        if order == Order::VertexCache && self.counts.indices == 3 * self.counts.primitives {
             let specified = out.indices.clone();
             for (t, triangle) in (0..).zip(specified.chunks_exact(3)) {
-                if let Some(at) = self.drawing_position(t) {
+                if let Some(at) = self.cache_position(t) {
                     out.indices[3 * at as usize..][..3].copy_from_slice(triangle);
                 }
             }
@@ -135,11 +135,11 @@ impl Patch {
         locate::primitive::primitive(self.config, &self.processed, location)
     }
 
-    /// Where primitive `t` is in the order for [drawing](crate::drawing); `None` if the patch has no such
+    /// Where primitive `t` is in the [vertex-cache order](crate::cache_order); `None` if the patch has no such
     /// primitive. Constant time.
     #[must_use]
-    pub fn drawing_position(&self, t: u32) -> Option<u32> {
-        Some(drawing::position(&self.processed, self.locate_primitive(t)?, t))
+    pub fn cache_position(&self, t: u32) -> Option<u32> {
+        Some(cache_order::position(&self.processed, self.locate_primitive(t)?, t))
     }
 
     /// All points in order, each by random access.

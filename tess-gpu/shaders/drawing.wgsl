@@ -1,6 +1,6 @@
 // needs: rings, state
-// The order for drawing: the column of cells, the ring and the step of a triangle from its number, in closed
-// form. `tess_core::drawing` says what the order is and has the same functions the other way round.
+// The vertex-cache order: the column of cells, the ring and the step of a triangle from its number, in closed
+// form. `tess_core::cache_order` says what the order is and has the same functions the other way round.
 
 // The stitches along one outer edge.
 struct Sector {

@@ -63,7 +63,7 @@ fn write_triangles(round: Round, thread: u32, out: u32) {
 }
 
 // The triangle of an element that begins a stitch, the one behind a location or the first of a patch; in the
-// order for drawing, of any element.
+// vertex-cache order, of any element.
 fn first_triangle(round: Round, before: Source, location: RingLocation, element: u32) -> vec3<u32> {
     var source = before;
     var next = RingLocation(1u, 0u, 0u);
@@ -78,7 +78,7 @@ fn first_triangle(round: Round, before: Source, location: RingLocation, element:
     return stitch_triangles(stitch_from(source, next), next.step).first;
 }
 
-// The location of an element, in the order for drawing, behind the one at another location of its patch.
+// The location of an element, in the vertex-cache order, behind the one at another location of its patch.
 fn drawn_next(source: Source, location: RingLocation, element: u32) -> RingLocation {
     if source.is_regular {
         let next = drawn_behind(source.rings, location);

@@ -13,4 +13,4 @@ pub use plan::{Dispatch, Plan, Workgroups, Written};
 pub use setup::{Copies, IndexType, Numbering, PointFormat, Setup};
 pub use shaders::{Counting, Probe, Pull, Stage};
 pub use sizes::{Capacity, Limits, Span};
-pub use tess_core::drawing::Order;
+pub use tess_core::Order;

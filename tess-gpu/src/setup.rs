@@ -1,8 +1,8 @@
 //! What the patches of a batch have in common.
 
 use crate::{sizes, tables};
-use tess_core::drawing::{self, Order};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_core::{Order, cache_order};
 
 /// How domain points are stored, in 8 bytes either way.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -135,7 +135,7 @@ impl Setup {
             ("NUMBERING", u32::from(self.numbering == Numbering::PerPatch)),
             ("FACTORS", self.factors()),
             ("COPIES", u32::from(self.copies == Copies::WhereAlike)),
-            ("ORDER", u32::from(self.order == Order::Drawing)),
+            ("ORDER", u32::from(self.order == Order::VertexCache)),
         ];
         constants(&setup) + &constants(&SHARED)
     }
@@ -143,7 +143,7 @@ impl Setup {
 
 /// The constants of [`sizes`] and [`tables`], which every shader has.
 const SHARED: [(&str, u32); 30] = [
-    ("COLUMN", drawing::COLUMN),
+    ("COLUMN", cache_order::COLUMN),
     ("WORKGROUP", sizes::WORKGROUP),
     ("ROUND", sizes::ROUND),
     ("SUMMED", sizes::SUMMED),

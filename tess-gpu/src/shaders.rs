@@ -3,7 +3,7 @@
 use crate::bindings::{Access, Binding, Resource};
 use crate::setup::{Copies, IndexType, Numbering, PointFormat, Setup, constants};
 use crate::sizes;
-use tess_core::drawing::Order;
+use tess_core::Order;
 use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 
 #[cfg(any(target_arch = "wasm32", test))]

@@ -15,7 +15,7 @@ use crate::target::Target;
 use crate::threads::Workspaces;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use tess_core::drawing::Order;
+use tess_core::Order;
 
 /// A setup, and the memory that batches need.
 #[derive(Clone, Debug)]

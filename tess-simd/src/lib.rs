@@ -45,5 +45,5 @@ pub use output::{BatchCounts, Buffers, ExactOutput, Numbering, Output, PatchRang
 pub use owned::OwnedBatch;
 pub use probe::{contexts, fixed_factors, locations};
 pub use tess_core;
-pub use tess_core::drawing::Order;
+pub use tess_core::Order;
 pub use tessellator::Tessellator;

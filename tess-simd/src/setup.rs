@@ -3,7 +3,7 @@
 use crate::level::Level;
 use crate::stitch::Stitches;
 use tess_core::Config;
-use tess_core::drawing::Order;
+use tess_core::Order;
 
 /// A configuration, the tables that follow from it, the order of triangles, and the CPU level to run at.
 #[derive(Clone, Debug)]

@@ -11,7 +11,7 @@ use crate::setup::Setup;
 #[cfg(feature = "rayon")]
 use crate::threads::{MAX_THREADS, Workspaces};
 use tess_core::Config;
-use tess_core::drawing::Order;
+use tess_core::Order;
 
 /// Tessellates batches of patches in one configuration.
 ///
@@ -56,7 +56,7 @@ impl Tessellator {
 
     /// Writes triangles in this order; [`Order::Specification`] unless told otherwise.
     ///
-    /// [`Order::Drawing`] has the same points and the same triangles, so that a vertex cache finds more of
+    /// [`Order::VertexCache`] has the same points and the same triangles, so that a vertex cache finds more of
     /// its vertices: for renderers. Patches above some 300 points take two to four times as long with it,
     /// unless their point counts are those of the large patch before.
     #[must_use]

@@ -1,4 +1,4 @@
-//! The order for drawing: what the model has in that order, bit for bit.
+//! The vertex-cache order: what the model has in that order, bit for bit.
 
 #[path = "common/levels.rs"]
 mod levels;
@@ -15,12 +15,12 @@ use tess_simd::{Level, Numbering, Order, Output, Tessellator};
 
 fn tessellator(config: Config, level: Level) -> Tessellator {
     let tessellator = Tessellator::with_level(config, level);
-    tessellator.unwrap_or_else(|error| panic!("{error}")).order(Order::Drawing)
+    tessellator.unwrap_or_else(|error| panic!("{error}")).order(Order::VertexCache)
 }
 
 /// A batch of one domain, in both index formats.
 fn compare_both(tessellator: &mut Tessellator, domain: Domain, patches: &Patches) {
-    let expected = patches.expected_in(Order::Drawing, tessellator.config());
+    let expected = patches.expected_in(Order::VertexCache, tessellator.config());
     let (structures, columns) = (patches.structures(domain), patches.columns(domain));
     let numbering = Numbering::PerBatch { base_vertex: 77 };
     compare::<_, u32>(
@@ -86,9 +86,9 @@ fn the_order_can_be_changed() {
     let patches = Patches::random(5, Domain::Quad, 100);
     let batch = patches.structures(Domain::Quad);
     let (specified, drawn) =
-        (patches.expected(config), patches.expected_in(Order::Drawing, config));
+        (patches.expected(config), patches.expected_in(Order::VertexCache, config));
     let mut tessellator = Tessellator::new(config);
-    for order in [Order::Specification, Order::Drawing, Order::Specification] {
+    for order in [Order::Specification, Order::VertexCache, Order::Specification] {
         tessellator = tessellator.order(order);
         let mut output = Output::<DomainPoint, u32>::new();
         tessellator.tessellate(batch, Numbering::PerPatch, &mut output).expect("a batch that fits");
@@ -96,6 +96,10 @@ fn the_order_can_be_changed() {
             difference(&patches.all, expected, Numbering::PerPatch, &output, |p| p).is_none()
         };
         let found = [equals(&specified), equals(&drawn)];
-        assert_eq!(found, [order == Order::Specification, order == Order::Drawing], "{order:?}");
+        assert_eq!(
+            found,
+            [order == Order::Specification, order == Order::VertexCache],
+            "{order:?}"
+        );
     }
 }

@@ -12,7 +12,7 @@ pub use scenes::{
 
 use crate::digest::Fnv1a;
 use std::ops::Range;
-use tess_core::drawing::Order;
+use tess_core::Order;
 use tess_core::{Config, Counts, Patch, PatchFactors};
 
 /// Patches of one domain and configuration, with the name that `tess bench --workload` takes.

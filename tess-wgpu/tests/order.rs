@@ -1,4 +1,4 @@
-//! The order for drawing: what the model has in that order, bit for bit, whichever way a tile is made.
+//! The vertex-cache order: what the model has in that order, bit for bit, whichever way a tile is made.
 
 mod common;
 
@@ -11,7 +11,7 @@ use tess_verify::random::SplitMix64;
 use tess_wgpu::Tessellator;
 
 fn setup(domain: Domain, partitioning: Partitioning, output: OutputPrimitive) -> Setup {
-    Setup { order: Order::Drawing, ..Setup::new(domain, Config::new(partitioning, output)) }
+    Setup { order: Order::VertexCache, ..Setup::new(domain, Config::new(partitioning, output)) }
 }
 
 fn triangles(domain: Domain) -> Setup {

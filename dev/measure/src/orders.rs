@@ -3,10 +3,10 @@
 use crate::Result;
 use crate::timing::device_time;
 use std::time::Duration;
-use tess_core::drawing::{COLUMN, Order};
 use tess_core::{
     Config, DomainPoint, OutputPrimitive, Partitioning, Patch, PrimitiveOrigin, QuadFactors,
 };
+use tess_core::{Order, cache_order::COLUMN};
 use tess_gpu::layout::PackedPoint;
 use tess_wgpu::{Gpu, Stopwatch, Wanted};
 
@@ -61,8 +61,8 @@ pub(crate) fn run() -> Result<()> {
         for (name, key) in candidates() {
             let indices = sorted(&patch, factor.into(), key.as_ref());
             if name == format!("columns of {COLUMN}") {
-                let drawing = patch.tessellate_in(Order::Drawing).indices;
-                assert_eq!(indices, drawing, "the order for drawing has columns of {COLUMN}");
+                let drawing = patch.tessellate_in(Order::VertexCache).indices;
+                assert_eq!(indices, drawing, "the vertex-cache order has columns of {COLUMN}");
             }
             let rate = draw(&gpu, &stopwatch, &patch, &indices)?;
             println!("factor {factor:<3} {name:<18} {rate:>7.3}");
@@ -85,7 +85,7 @@ fn candidates() -> Vec<Candidate> {
     all
 }
 
-/// As `tess_core::drawing` has it where all factors are equal.
+/// As `tess_core::cache_order` has it where all factors are equal.
 fn in_columns(triangle: &Triangle, width: u32) -> [u32; 4] {
     let (ring, edge, step) = match triangle.origin {
         PrimitiveOrigin::Transition { edge, step } => (1, edge, step),

@@ -4,7 +4,8 @@ use crate::block::BlockPatch;
 use crate::setup::Setup;
 use crate::writer::Writer;
 use core::ops::Range;
-use tess_core::drawing::{Drawing, Order};
+use tess_core::Order;
+use tess_core::cache_order::CacheOrder;
 use tess_core::{Domain, OutputPrimitive};
 
 /// Whether a patch's triangles are written in another order than the specification's.
@@ -12,7 +13,7 @@ use tess_core::{Domain, OutputPrimitive};
 pub(crate) const fn reorders(setup: &Setup, patch: BlockPatch<'_>) -> bool {
     let triangles =
         matches!(setup.config.output, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw);
-    matches!(setup.order, Order::Drawing)
+    matches!(setup.order, Order::VertexCache)
         && triangles
         && !matches!(patch.domain(), Domain::Isoline)
         && !patch.is_minimum()
@@ -29,9 +30,9 @@ pub(crate) fn runs(setup: &Setup, patch: BlockPatch<'_>, mut emit: impl FnMut(Ra
         };
         match (patch.domain(), patch.edges()) {
             (Domain::Quad, [u0, v0, u1, v1, inside_u, inside_v]) => {
-                Drawing::new([u0, v0, u1, v1], [inside_u, inside_v]).runs(emit);
+                CacheOrder::new([u0, v0, u1, v1], [inside_u, inside_v]).runs(emit);
             }
-            (_, [u0, v0, w0, inside, ..]) => Drawing::new([u0, v0, w0], [inside; 2]).runs(emit),
+            (_, [u0, v0, w0, inside, ..]) => CacheOrder::new([u0, v0, w0], [inside; 2]).runs(emit),
         }
     }
     emit(written..patch.indices() as usize);

@@ -70,7 +70,7 @@ impl<'a> StageBuilder<'a> {
     pub(super) const fn new(source: &'a str, domain: Domain, config: Config, patches: u32) -> Self {
         Self {
             source,
-            setup: Setup { order: Order::Drawing, ..Setup::new(domain, config) },
+            setup: Setup { order: Order::VertexCache, ..Setup::new(domain, config) },
             patches,
             layouts: Vec::new(),
             bind_groups: Vec::new(),
@@ -123,7 +123,7 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// The order of the triangles of a patch in the index buffer; [`Order::Drawing`] if this is not called.
+    /// The order of the triangles of a patch in the index buffer; [`Order::VertexCache`] if this is not called.
     /// Without an index buffer it is [`Order::Specification`], as there is no vertex cache.
     pub const fn order(mut self, order: Order) -> Self {
         self.setup.order = order;

@@ -22,7 +22,7 @@ pub(crate) fn small_ones_equal_the_model(gpu: Gpu) {
                 Setup::new(domain, Config { split, ..Config::new(partitioning, output) });
             match (2 * row + column) % 4 {
                 0 => setup.point_format = PointFormat::F32,
-                1 => setup.order = Order::Drawing,
+                1 => setup.order = Order::VertexCache,
                 2 => (setup.numbering, setup.index_type) = (Numbering::PerPatch, IndexType::U16),
                 _ => {}
             }

@@ -188,7 +188,7 @@ impl GpuBatch {
     /// A batch whose indices count from the batch's first point, in the order that draws fastest. It has
     /// room for any factors of as many patches.
     pub(crate) fn to_draw(config: Config, patches: &[PatchFactors]) -> Self {
-        let order = Order::Drawing;
+        let order = Order::VertexCache;
         let setup = Setup { order, ..Setup::new(patches[0].domain(), config) };
         let count = u32::try_from(patches.len()).unwrap_or(u32::MAX);
         let plan = Plan::new(setup, count, Capacity::worst_case(setup, count), Limits::WEBGPU);

@@ -33,7 +33,7 @@ pub struct Times {
     pub fixed_drawn: f64,
     /// Milliseconds of the compute shaders and of drawing what they give.
     pub compute_drawn: f64,
-    /// Milliseconds of the compute shaders, which write triangles in the order for drawing.
+    /// Milliseconds of the compute shaders, which write triangles in the vertex-cache order.
     pub ordered: f64,
     /// Milliseconds of the same and of drawing what they give.
     pub ordered_drawn: f64,
@@ -99,8 +99,8 @@ impl Way {
         Self::Compute(Order::Specification),
         Self::FixedDrawn,
         Self::ComputeDrawn(Order::Specification),
-        Self::Compute(Order::Drawing),
-        Self::ComputeDrawn(Order::Drawing),
+        Self::Compute(Order::VertexCache),
+        Self::ComputeDrawn(Order::VertexCache),
     ];
 }
 
@@ -161,7 +161,7 @@ impl Bench {
             fixed_drawn: make(&drawing, &tessellating, Vertices::Patches)?,
             compute_drawn: make(&drawing, &drawn, Vertices::Points)?,
             compute: compute(Order::Specification)?,
-            ordered: compute(Order::Drawing)?,
+            ordered: compute(Order::VertexCache)?,
             discarding,
             drawing,
             program,
@@ -223,7 +223,7 @@ impl Bench {
     const fn compute_in(&self, order: Order) -> &Compute {
         match order {
             Order::Specification => &self.compute,
-            Order::Drawing => &self.ordered,
+            Order::VertexCache => &self.ordered,
         }
     }
 

@@ -31,7 +31,7 @@ impl Plan<'_> {
     fn name(&self, runner: &dyn Runner) -> String {
         let order = match runner.order() {
             Order::Specification => "",
-            Order::Drawing => ", order for drawing",
+            Order::VertexCache => ", vertex-cache order",
         };
         format!("{}{}{order}", self.workload.name, runner.remark())
     }

@@ -28,7 +28,7 @@ Examples:
   tess bench --workload uniform-16 --workload uniform-64
   tess bench --backend simd --working-set cache --json > simd.json
   tess bench --backend simd --cpu-level avx2 --workload terrain
-  tess bench --backend simd --order drawing --workload uniform-64
+  tess bench --backend simd --order cache --workload uniform-64
   tess bench --backend gpu --no-copies --working-set stream --workload uniform
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
@@ -72,14 +72,14 @@ enum OrderName {
     /// That of the specification
     Specification,
     /// The same triangles for a vertex cache
-    Drawing,
+    Cache,
 }
 
 impl From<OrderName> for Order {
     fn from(name: OrderName) -> Self {
         match name {
             OrderName::Specification => Self::Specification,
-            OrderName::Drawing => Self::Drawing,
+            OrderName::Cache => Self::VertexCache,
         }
     }
 }
@@ -99,8 +99,8 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     if args.no_copies && args.backend != BackendName::Gpu {
         return Err(Failure::bad_input("--no-copies goes with --backend gpu"));
     }
-    if args.order == OrderName::Drawing && args.backend == BackendName::Core {
-        return Err(Failure::bad_input("--order drawing goes with --backend simd or gpu"));
+    if args.order == OrderName::Cache && args.backend == BackendName::Core {
+        return Err(Failure::bad_input("--order cache goes with --backend simd or gpu"));
     }
     let options = RunnerOptions {
         level,

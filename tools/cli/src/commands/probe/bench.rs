@@ -41,7 +41,7 @@ pub(super) fn run(
 }
 
 /// Milliseconds and billions of triangles a second, of tessellation alone and from factors to pixels:
-/// the fixed-function stage, the compute shaders, and these with the order for drawing.
+/// the fixed-function stage, the compute shaders, and these with the vertex-cache order.
 #[expect(
     clippy::float_arithmetic,
     clippy::cast_precision_loss,

@@ -1,7 +1,7 @@
-//! The order for drawing has every triangle once, and its vertices come back soon.
+//! The vertex-cache order has every triangle once, and its vertices come back soon.
 
 use std::collections::VecDeque;
-use tess_core::drawing::Drawing;
+use tess_core::cache_order::CacheOrder;
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, ProcessedPatch,
     QuadFactors, TriangleFactors,
@@ -11,17 +11,17 @@ fn config() -> Config {
     Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw)
 }
 
-/// For each place in the order for drawing, the triangle that is there.
+/// For each place in the vertex-cache order, the triangle that is there.
 fn drawn(patch: &Patch) -> Vec<u32> {
     let count = patch.counts().primitives;
     let mut drawn = vec![None; count as usize];
     for t in 0..count {
-        let position = patch.drawing_position(t).expect("a triangle of the patch");
+        let position = patch.cache_position(t).expect("a triangle of the patch");
         let place = drawn.get_mut(position as usize);
         let place = place.unwrap_or_else(|| panic!("triangle {t} of {count} is at {position}"));
         assert_eq!(place.replace(t), None, "two triangles at {position}: {t} is the second");
     }
-    assert_eq!(patch.drawing_position(count), None, "one past the end");
+    assert_eq!(patch.cache_position(count), None, "one past the end");
     drawn.into_iter().flatten().collect()
 }
 
@@ -32,12 +32,12 @@ fn run_by_run(patch: &Patch) -> Vec<u32> {
     match patch.processed() {
         ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => {
             let outer = factors.outer().map(|factor| factor.context.points);
-            Drawing::new(outer, [factors.inside.context.points; 2]).runs(add);
+            CacheOrder::new(outer, [factors.inside.context.points; 2]).runs(add);
         }
         ProcessedPatch::Regular(PatchFactors::Quad(factors)) => {
             let outer = factors.outer().map(|factor| factor.context.points);
             let inside = factors.inside().map(|factor| factor.context.points);
-            Drawing::new(outer, inside).runs(add);
+            CacheOrder::new(outer, inside).runs(add);
         }
         _ => {}
     }
@@ -113,7 +113,7 @@ fn what_has_no_rings_keeps_its_order() {
             let factors = PatchFactors::uniform(domain, 9.0);
             let patch = Patch::new(Config::new(Partitioning::Integer, output), factors);
             for t in 0..patch.counts().primitives {
-                assert_eq!(patch.drawing_position(t), Some(t), "{domain:?} {output:?}");
+                assert_eq!(patch.cache_position(t), Some(t), "{domain:?} {output:?}");
             }
         }
     }

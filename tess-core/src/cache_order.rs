@@ -1,10 +1,10 @@
-//! An order for drawing: the same triangles, so that vertices come back soon.
+//! The vertex-cache order: the same triangles, in an order in which a vertex is used again soon.
 //!
 //! The specification walks around a patch ring by ring, so nearly every vertex is met twice, with a
 //! whole ring between. Here each outer edge's share of the rings is cut across into columns of
 //! [`COLUMN`] cells, and a column is walked from the outer edge inwards before the next one begins.
 //! What is inside the innermost ring comes last, as in the specification. No specification asks for
-//! this order; renderers do.
+//! this order; it serves renderers.
 
 use crate::factors::ProcessedPatch;
 use crate::locate::origin::PrimitiveOrigin;
@@ -17,9 +17,9 @@ pub enum Order {
     /// That of the specification (sections 7 and 8), bit for bit.
     #[default]
     Specification,
-    /// The same triangles, for a vertex cache. Points keep their order and numbers; lines and points are
-    /// written as the specification says.
-    Drawing,
+    /// The same triangles, ordered for a vertex cache. Points keep their order and numbers; lines and
+    /// points are written as the specification says.
+    VertexCache,
 }
 
 /// Rings that have stitches, at most.
@@ -28,9 +28,9 @@ const MAX_RINGS: usize = 32;
 /// Cells of a column along its edge.
 pub const COLUMN: u32 = 4;
 
-/// The order for drawing of a regular triangle or quad patch, whose output is triangles.
+/// The vertex-cache order of a regular triangle or quad patch, whose output is triangles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Drawing<const EDGES: usize> {
+pub struct CacheOrder<const EDGES: usize> {
     sectors: [Sector; EDGES],
 }
 
@@ -45,7 +45,7 @@ struct Sector {
     end: u32,
 }
 
-impl<const EDGES: usize> Drawing<EDGES> {
+impl<const EDGES: usize> CacheOrder<EDGES> {
     /// The order of a patch with these points along each outer edge, and along each inside axis:
     /// u and v of a quad, the one of a triangle twice.
     #[must_use]
@@ -72,7 +72,7 @@ impl<const EDGES: usize> Drawing<EDGES> {
     }
 
     /// All triangles up to the innermost ring as ranges of their numbers in the specification's
-    /// order, in the order for drawing; none is empty.
+    /// order, in the vertex-cache order; none is empty.
     pub fn runs(&self, mut emit: impl FnMut(Range<u32>)) {
         for (edge, sector) in self.sectors.iter().enumerate() {
             let mut first = [0; MAX_RINGS];
@@ -168,12 +168,12 @@ pub(crate) fn position(patch: &ProcessedPatch, origin: PrimitiveOrigin, t: u32) 
     match patch {
         ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => {
             let outer = factors.outer().map(|factor| factor.context.points);
-            Drawing::new(outer, [factors.inside.context.points; 2]).position(origin, t)
+            CacheOrder::new(outer, [factors.inside.context.points; 2]).position(origin, t)
         }
         ProcessedPatch::Regular(PatchFactors::Quad(factors)) => {
             let outer = factors.outer().map(|factor| factor.context.points);
             let inside = factors.inside().map(|factor| factor.context.points);
-            Drawing::new(outer, inside).position(origin, t)
+            CacheOrder::new(outer, inside).position(origin, t)
         }
         _ => t,
     }
