@@ -1,11 +1,13 @@
 //! Who counts and writes: the threads of a rayon pool, or the calling thread alone.
 //!
-//! Both define [`Workspaces`], what is kept from batch to batch.
+//! Both define [`Workspaces`], which is kept from batch to batch.
 
 #[cfg(not(feature = "rayon"))]
 mod one;
+pub(crate) mod part;
 #[cfg(feature = "rayon")]
 mod pool;
+pub(crate) mod slices;
 
 #[cfg(not(feature = "rayon"))]
 pub(crate) use one::Workspaces;

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PySlice, PyTuple};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
-use tess_simd::{BatchCounts, Buffers, Counted, IndexFormat, Numbering, PatchRange, PointFormat};
+use tess_simd::{BatchCounts, Buffers, Counted, IndexFormat, Numbering, PatchRange, OutputPoint};
 use tess_verify::names::Named;
 
 /// Tessellates batches in one configuration, on the CPU's vector units.
@@ -290,7 +290,7 @@ impl<'py> Arrays<'py> {
         }
     }
 
-    fn write_indices<P: PointFormat>(
+    fn write_indices<P: OutputPoint>(
         &self,
         py: Python<'py>,
         counted: Counted<'_>,
@@ -338,7 +338,7 @@ impl<'py> Arrays<'py> {
 }
 
 /// Writes without the interpreter's lock.
-fn run<P: PointFormat, I: IndexFormat>(
+fn run<P: OutputPoint, I: IndexFormat>(
     py: Python<'_>,
     mut counted: Counted<'_>,
     numbering: Numbering,

@@ -1,8 +1,9 @@
 //! The calling thread alone.
 
-use crate::part::{self, Job, Workspace};
-use crate::setup::Setup;
-use crate::slices::{CountShare, Share};
+use crate::data::level::Level;
+use crate::threads::part::{self, Job, Workspace};
+use crate::threads::slices::{CountShare, Share};
+use tess_core::Config;
 
 /// The one workspace.
 #[derive(Clone, Debug)]
@@ -31,8 +32,8 @@ impl Workspaces {
 
     /// Counts a share, slice by slice.
     #[expect(clippy::unused_self, reason = "the same interface as with a pool")]
-    pub(crate) fn count(&self, setup: &Setup, share: CountShare<'_>) {
-        share.count(setup);
+    pub(crate) fn count(&self, level: Level, config: Config, share: CountShare<'_>) {
+        share.count(level, config);
     }
 
     /// Writes a share, which has one slice.

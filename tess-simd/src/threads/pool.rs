@@ -4,14 +4,15 @@
 //! again stays in its core's caches. A thread that has written them helps the others, and when nothing is left
 //! it waits for them: threads that leave a batch together are still awake when the next one comes.
 
-use crate::counts::PartCounts;
-use crate::part::{self, Job, Workspace};
-use crate::setup::Setup;
-use crate::slices::{CountShare, Share};
+use crate::data::level::Level;
+use crate::stages::counts::PartCounts;
+use crate::threads::part::{self, Job, Workspace};
+use crate::threads::slices::{CountShare, Share};
 use alloc::vec::Vec;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
+use tess_core::Config;
 
 /// The most threads, and so workspaces, that a tessellator uses.
 pub(crate) const MAX_THREADS: usize = 256;
@@ -56,8 +57,8 @@ impl Workspaces {
     }
 
     /// Counts a share on all threads.
-    pub(crate) fn count(&self, setup: &Setup, share: CountShare<'_>) {
-        count_on(self.threads(), setup, share);
+    pub(crate) fn count(&self, level: Level, config: Config, share: CountShare<'_>) {
+        count_on(self.threads(), level, config, share);
     }
 
     /// Writes a share, slice by slice.
@@ -131,15 +132,15 @@ fn on_threads(threads: usize, work: &(impl Fn() + Sync)) {
 }
 
 /// Counts a share on this many threads, unless that takes less than waking them.
-fn count_on(threads: usize, setup: &Setup, share: CountShare<'_>) {
+fn count_on(threads: usize, level: Level, config: Config, share: CountShare<'_>) {
     if threads > 1 && share.batch.len() > SOON_COUNTED && share.counts.len() > 1 {
         let (one, other) = share.halve();
         rayon::join(
-            || count_on(threads / 2, setup, one),
-            || count_on(threads - threads / 2, setup, other),
+            || count_on(threads / 2, level, config, one),
+            || count_on(threads - threads / 2, level, config, other),
         );
     } else {
-        share.count(setup);
+        share.count(level, config);
     }
 }
 

@@ -4,7 +4,7 @@ use tess_core::{
     Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch,
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
-use tess_simd::{Batch, Error, IndexFormat, Numbering, Order, Output, PointFormat, Tessellator};
+use tess_simd::{Batch, Error, IndexFormat, Numbering, Order, Output, OutputPoint, Tessellator};
 use tess_verify::random::SplitMix64;
 
 /// Every configuration there is.
@@ -138,7 +138,7 @@ impl Bits for u32 {
 
 /// The first difference between an output and the core's patches, with the patch that can be run
 /// again.
-pub(crate) fn difference<P: PointFormat + Bits, I: IndexFormat + Bits>(
+pub(crate) fn difference<P: OutputPoint + Bits, I: IndexFormat + Bits>(
     patches: &[PatchFactors],
     expected: &[Tessellation],
     numbering: Numbering,
@@ -198,7 +198,7 @@ fn first(
 }
 
 /// Runs a batch in one pair of formats and compares it.
-pub(crate) fn compare<P: PointFormat + Bits, I: IndexFormat + Bits>(
+pub(crate) fn compare<P: OutputPoint + Bits, I: IndexFormat + Bits>(
     tessellator: &mut Tessellator,
     (patches, batch): (&Patches, Batch<'_>),
     expected: &[Tessellation],

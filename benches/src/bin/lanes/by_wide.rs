@@ -1,10 +1,10 @@
 //! The stages of the front end, formula by formula, over vectors of `wide` instead of arrays; functions have
 //! the names that they have in `tess-simd`.
 
-use crate::factors::Processed;
-use crate::lanes::{Column, LANES, Lanes, MAX_FACTORS};
-use crate::place::Spacing;
-use crate::reciprocal::{MANTISSA, TWO_POW_23};
+use crate::data::lanes::{Column, LANES, Lanes, MAX_FACTORS};
+use crate::stages::factors::Processed;
+use crate::stages::place::Spacing;
+use crate::stages::reciprocal::{MANTISSA, TWO_POW_23};
 use bytemuck::must_cast;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{Domain, Partitioning, SplitOrder};
@@ -68,7 +68,7 @@ fn bit(mask: I) -> U {
     must_cast::<I, U>(mask) & U::ONE
 }
 
-/// Factor processing of quads: [`crate::factors::process`]. Written in place, as a result is copied.
+/// Factor processing of quads: [`crate::stages::factors::process`]. Written in place, as a result is copied.
 #[inline(always)]
 pub(crate) fn process(partitioning: Partitioning, raw: &Column<f32>, processed: &mut Processed) {
     for first in (0..LANES).step_by(WIDTH) {
@@ -179,7 +179,7 @@ fn round(x: F) -> U {
     }
 }
 
-/// The contexts of as many factors: [`crate::factor_context::Context`].
+/// The contexts of as many factors: [`crate::stages::factor_context::Context`].
 #[derive(Clone, Copy, Debug)]
 struct Context {
     inv_floor: U,
@@ -227,7 +227,7 @@ fn reciprocal(n: U) -> U {
     round(F::splat(65536.0) / signed(n).round_float())
 }
 
-/// The spacings of a block of fractional factors: [`crate::place::Spacings`] and the point counts.
+/// The spacings of a block of fractional factors: [`crate::stages::place::Spacings`] and the point counts.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spacings {
     pub(crate) points: Column,
@@ -261,7 +261,7 @@ impl Spacings {
     }
 }
 
-/// The locations of an edge: [`crate::place::Locations`].
+/// The locations of an edge: [`crate::stages::place::Locations`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Locations(pub(crate) [u32; 112]);
 

@@ -1,9 +1,9 @@
 //! Both forms, bit for bit.
 
-use crate::factor_context::Context;
-use crate::lanes::Column;
+use crate::data::lanes::Column;
 use crate::levels::{ALL, Factors};
-use crate::place::Spacing;
+use crate::stages::factor_context::Context;
+use crate::stages::place::Spacing;
 use crate::work::{Stage, Work};
 use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 use tess_simd::Level;

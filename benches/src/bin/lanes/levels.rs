@@ -1,9 +1,9 @@
 //! Both forms of each stage, compiled for each CPU level as `tess-simd` does it.
 
 use crate::by_wide;
-use crate::factors::{self, Processed};
-use crate::lanes::{Column, LANES, MAX_FACTORS};
-use crate::place::{Locations, Spacing, Spacings};
+use crate::data::lanes::{Column, LANES, MAX_FACTORS};
+use crate::stages::factors::{self, Processed};
+use crate::stages::place::{Locations, Spacing, Spacings};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_simd::at_each_level;
 

@@ -16,11 +16,15 @@
 )]
 #[path = "../../../../tess-simd/src"]
 mod arrays {
-    pub(crate) mod factor_context;
-    pub(crate) mod factors;
-    pub(crate) mod lanes;
-    pub(crate) mod place;
-    pub(crate) mod reciprocal;
+    pub(crate) mod data {
+        pub(crate) mod lanes;
+    }
+    pub(crate) mod stages {
+        pub(crate) mod factor_context;
+        pub(crate) mod factors;
+        pub(crate) mod place;
+        pub(crate) mod reciprocal;
+    }
 }
 
 mod by_wide;
@@ -29,7 +33,7 @@ mod levels;
 mod timing;
 mod work;
 
-use arrays::{factor_context, factors, lanes, place, reciprocal};
+use arrays::{data, stages};
 use std::process::ExitCode;
 use tess_simd::Level;
 use work::{Form, Stage, Work};

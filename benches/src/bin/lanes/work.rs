@@ -1,10 +1,10 @@
 //! What the stages are run on, and their results in both forms.
 
 use crate::by_wide;
-use crate::factors::Processed;
-use crate::lanes::{Column, LANES};
+use crate::data::lanes::{Column, LANES};
 use crate::levels::{self, ALL, Factors};
-use crate::place::{Locations, Spacing, Spacings};
+use crate::stages::factors::Processed;
+use crate::stages::place::{Locations, Spacing, Spacings};
 use std::hint::black_box;
 use tess_core::{Partitioning, SplitOrder};
 use tess_simd::Level;

@@ -9,7 +9,7 @@ use crate::boundary;
 use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus};
 use std::mem::{MaybeUninit, size_of};
 use tess_simd::{
-    BatchCounts, Buffers, IndexFormat, Numbering, PatchRange, PointFormat, Tessellator,
+    BatchCounts, Buffers, IndexFormat, Numbering, OutputPoint, PatchRange, Tessellator,
 };
 
 /// The caller's buffers, which need not be initialised.
@@ -24,7 +24,7 @@ struct Room<'a, P, I> {
 ///
 /// # Safety
 /// - As for [`super::tess_batch_run`], the buffers' elements being `P` and `I`.
-pub(super) unsafe fn run<P: PointFormat, I: IndexFormat>(
+pub(super) unsafe fn run<P: OutputPoint, I: IndexFormat>(
     batch: &mut TessBatch,
     (factors, factor_count): (*const f32, usize),
     output: &TessBatchOutput,
@@ -81,7 +81,7 @@ const PART_PATCHES: usize = 64;
 ///
 /// The batch backend takes initialised slices. So that initialising the room does not send it
 /// through memory twice, that is done part by part, each just before its output is written.
-fn write<P: PointFormat, I: IndexFormat>(
+fn write<P: OutputPoint, I: IndexFormat>(
     tessellator: &mut Tessellator,
     patches: Patches<'_>,
     numbering: Numbering,

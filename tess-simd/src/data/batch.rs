@@ -1,0 +1,237 @@
+//! What goes in: the raw factors of many patches of one domain.
+
+use crate::data::error::Error;
+use alloc::vec::Vec;
+use core::ops::Range;
+use tess_core::{Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
+
+/// The raw factors of patches of one domain, in one of three layouts: a structure for each patch,
+/// as a hull shader writes them; the core's [`PatchFactors`]; or a slice for each factor
+/// (columns). `From` makes it from any of them.
+///
+/// Every bit pattern of every factor is valid. The patches must have one domain, and the columns
+/// one length: [`Tessellator::count`](crate::Tessellator::count) returns an error otherwise.
+///
+/// ```
+/// use tess_simd::Batch;
+/// use tess_simd::tess_core::{Domain, IsolineFactors};
+///
+/// let (density, detail) = ([2.0, 3.0, 4.0], [1.0; 3]);
+/// let batch = Batch::from(IsolineFactors { density: &density[..], detail: &detail[..] });
+/// assert_eq!((batch.len(), batch.domain()), (3, Domain::Isoline));
+/// ```
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub enum Batch<'a> {
+    /// Isolines, patch by patch.
+    Isolines(&'a [IsolineFactors]),
+    /// Triangles, patch by patch.
+    Triangles(&'a [TriangleFactors]),
+    /// Quads, patch by patch.
+    Quads(&'a [QuadFactors]),
+    /// Patches of any one domain, patch by patch. Up to a fifth slower than the structures above
+    /// where patches are small; see [`OwnedBatch`](crate::OwnedBatch).
+    Patches(&'a [PatchFactors]),
+    /// Patches, factor by factor: a column for each factor.
+    Columns(PatchFactors<&'a [f32]>),
+}
+
+/// Conversions from a slice of structures, and from what is borrowed as one.
+macro_rules! from_structures {
+    ($factors:ty, $layout:ident) => {
+        impl<'a> From<&'a [$factors]> for Batch<'a> {
+            fn from(patches: &'a [$factors]) -> Self {
+                Self::$layout(patches)
+            }
+        }
+
+        impl<'a, const N: usize> From<&'a [$factors; N]> for Batch<'a> {
+            fn from(patches: &'a [$factors; N]) -> Self {
+                Self::$layout(patches)
+            }
+        }
+
+        impl<'a> From<&'a Vec<$factors>> for Batch<'a> {
+            fn from(patches: &'a Vec<$factors>) -> Self {
+                Self::$layout(patches)
+            }
+        }
+    };
+}
+from_structures!(IsolineFactors, Isolines);
+from_structures!(TriangleFactors, Triangles);
+from_structures!(QuadFactors, Quads);
+from_structures!(PatchFactors, Patches);
+
+/// A conversion from a column for each factor.
+macro_rules! from_columns {
+    ($columns:ty) => {
+        impl<'a> From<$columns> for Batch<'a> {
+            fn from(columns: $columns) -> Self {
+                Self::Columns(columns.into())
+            }
+        }
+    };
+}
+from_columns!(IsolineFactors<&'a [f32]>);
+from_columns!(TriangleFactors<&'a [f32]>);
+from_columns!(QuadFactors<&'a [f32]>);
+from_columns!(PatchFactors<&'a [f32]>);
+
+impl Batch<'_> {
+    /// The domain of its patches: that of the first if it is made of [`PatchFactors`], a quad if
+    /// there is none.
+    #[must_use]
+    pub fn domain(&self) -> Domain {
+        match self {
+            Self::Isolines(_) => Domain::Isoline,
+            Self::Triangles(_) => Domain::Triangle,
+            Self::Quads(_) => Domain::Quad,
+            Self::Patches(patches) => patches.first().map_or(Domain::Quad, PatchFactors::domain),
+            Self::Columns(columns) => columns.domain(),
+        }
+    }
+
+    /// The number of patches: the length of the shortest column if it is made of columns.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Isolines(patches) => patches.len(),
+            Self::Triangles(patches) => patches.len(),
+            Self::Quads(patches) => patches.len(),
+            Self::Patches(patches) => patches.len(),
+            Self::Columns(columns) => shortest(columns),
+        }
+    }
+
+    /// Whether it has no patches.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Whether its patches have one domain and its columns one length.
+    ///
+    /// # Errors
+    /// [`Error::MixedDomains`], [`Error::UnevenColumns`].
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        match self {
+            Self::Isolines(_) | Self::Triangles(_) | Self::Quads(_) => Ok(()),
+            Self::Patches(patches) => one_domain(self.domain(), patches),
+            Self::Columns(columns) => one_length(columns),
+        }
+    }
+
+    /// The patches of a range; `None` if it does not lie within the batch.
+    ///
+    /// ```
+    /// # use tess_simd::Batch;
+    /// # use tess_simd::tess_core::QuadFactors;
+    /// let patches = [QuadFactors::uniform(2.0); 10];
+    /// let batch = Batch::from(&patches);
+    /// assert_eq!(batch.get(4..10).map(|part| part.len()), Some(6));
+    /// assert!(batch.get(4..11).is_none());
+    /// ```
+    #[must_use]
+    pub fn get(&self, range: Range<usize>) -> Option<Self> {
+        (range.start <= range.end && range.end <= self.len()).then(|| self.slice(&range))
+    }
+
+    /// How many patches, from this one on, have the same factors, bit for bit; 0 if there is none.
+    pub(crate) fn run(&self, first: usize) -> usize {
+        let quads = |a: &QuadFactors, b: &QuadFactors| differ(*a, *b);
+        match *self {
+            Self::Isolines(patches) => run(patches, first, |a, b| differ(*a, *b)),
+            Self::Triangles(patches) => run(patches, first, |a, b| differ(*a, *b)),
+            Self::Quads(patches) => run(patches, first, quads),
+            Self::Patches(patches) => run(patches, first, |a, b| match (*a, *b) {
+                (PatchFactors::Isoline(a), PatchFactors::Isoline(b)) => differ(a, b),
+                (PatchFactors::Triangle(a), PatchFactors::Triangle(b)) => differ(a, b),
+                (PatchFactors::Quad(a), PatchFactors::Quad(b)) => differ(a, b),
+                _ => 1,
+            }),
+            Self::Columns(columns) => run_of_columns(&columns, first),
+        }
+    }
+
+    /// The patches of a range that lies within it.
+    pub(crate) fn slice(&self, range: &Range<usize>) -> Self {
+        match *self {
+            Self::Isolines(patches) => Self::Isolines(part(patches, range)),
+            Self::Triangles(patches) => Self::Triangles(part(patches, range)),
+            Self::Quads(patches) => Self::Quads(part(patches, range)),
+            Self::Patches(patches) => Self::Patches(part(patches, range)),
+            Self::Columns(columns) => Self::Columns(columns.map(|column| part(column, range))),
+        }
+    }
+}
+
+fn shortest(columns: &PatchFactors<&[f32]>) -> usize {
+    columns.iter().map(<[f32]>::len).min().unwrap_or(0)
+}
+
+fn one_length(columns: &PatchFactors<&[f32]>) -> Result<(), Error> {
+    let length = shortest(columns);
+    match columns.iter().map(<[f32]>::len).find(|&other| other != length) {
+        None => Ok(()),
+        Some(longer) => Err(Error::UnevenColumns { lengths: [length, longer] }),
+    }
+}
+
+fn one_domain(expected: Domain, patches: &[PatchFactors]) -> Result<(), Error> {
+    match patches.iter().position(|patch| patch.domain() != expected) {
+        None => Ok(()),
+        Some(patch) => Err(Error::MixedDomains { patch, found: patches[patch].domain(), expected }),
+    }
+}
+
+/// 0 if two patches have the same factors, bit for bit.
+#[inline(always)]
+fn differ<const N: usize>(a: impl Into<[f32; N]>, b: impl Into<[f32; N]>) -> u32 {
+    let (a, b) = (a.into(), b.into());
+    let mut different = 0;
+    for factor in 0..N {
+        different |= a[factor].to_bits() ^ b[factor].to_bits();
+    }
+    different
+}
+
+/// How many patches, from the first on, are like it in every column. Looks twice as far as the columns
+/// have agreed so far: one of them may stay the same where another one does not.
+fn run_of_columns(columns: &PatchFactors<&[f32]>, first: usize) -> usize {
+    let mut sight = 16;
+    loop {
+        let end = first.saturating_add(sight);
+        let run = |column: &[f32]| {
+            let seen = column.get(..end).unwrap_or(column);
+            run(seen, first, |a, b| differ([*a], [*b]))
+        };
+        let least = columns.iter().map(run).min().unwrap_or(0);
+        if least < sight {
+            return least;
+        }
+        sight *= 2;
+    }
+}
+
+/// How many elements, from the first on, are like it.
+#[inline(always)]
+fn run<T>(all: &[T], first: usize, differ: impl Fn(&T, &T) -> u32) -> usize {
+    /// Elements compared at a time, as vectors.
+    const COMPARED_AT_ONCE: usize = 16;
+    let Some((one, rest)) = all.get(first..).and_then(<[T]>::split_first) else { return 0 };
+    if rest.first().is_none_or(|next| differ(one, next) != 0) {
+        return 1;
+    }
+    let blocks = rest.as_chunks::<COMPARED_AT_ONCE>().0;
+    let alike = |block: &&[T; COMPARED_AT_ONCE]| {
+        block.iter().fold(0, |different, other| different | differ(one, other)) == 0
+    };
+    let whole = COMPARED_AT_ONCE * blocks.iter().take_while(alike).count();
+    let others = rest[whole..].iter().take_while(|other| differ(one, other) == 0);
+    1 + whole + others.count()
+}
+
+fn part<'a, T>(slice: &'a [T], range: &Range<usize>) -> &'a [T] {
+    slice.get(range.clone()).unwrap_or_default()
+}

@@ -1,0 +1,120 @@
+//! The raw factors of several packets, factor by factor.
+
+use crate::data::batch::Batch;
+use crate::data::lanes::{Column, LANES, MAX_FACTORS};
+use tess_core::{Domain, PatchFactors};
+
+/// The factors of up to [`Chunk::PATCHES`] patches, factor by factor.
+///
+/// Packets are read from here and not from the batch, because a wide load that follows the narrow
+/// stores of its elements too closely waits for them.
+#[derive(Clone, Debug)]
+pub(crate) struct Chunk([[f32; Self::PATCHES]; MAX_FACTORS]);
+
+/// What is worked through at a time: the patches of a chunk, or one patch and those that repeat it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    /// Patches that differ, at most [`Chunk::PATCHES`]; 1 if it repeats.
+    pub(crate) patches: usize,
+    /// How often they follow each other.
+    pub(crate) times: usize,
+}
+
+impl Stretch {
+    /// So many equal patches are faster to repeat than to process.
+    const WORTH_REPEATING: usize = 8;
+
+    /// The patches of a batch from `start` on, of which there are some.
+    #[inline(always)]
+    pub(crate) fn new(batch: &Batch<'_>, start: usize) -> Self {
+        let times = batch.run(start);
+        if times >= Self::WORTH_REPEATING {
+            Self { patches: 1, times }
+        } else {
+            Self { patches: Chunk::PATCHES.min(batch.len() - start), times: 1 }
+        }
+    }
+}
+
+impl Chunk {
+    pub(crate) const PACKETS: usize = 4;
+    pub(crate) const PATCHES: usize = Self::PACKETS * LANES;
+    pub(crate) const EMPTY: Self = Self([[0.0; Self::PATCHES]; MAX_FACTORS]);
+
+    /// Loads the patches of a batch, as many as there is room for. Factors are zero where the last
+    /// packet has no patch, or one of another domain.
+    #[inline(always)]
+    pub(crate) fn load(&mut self, batch: &Batch<'_>) {
+        match batch {
+            Batch::Isolines(patches) => self.load_structures(patches, |&patch| Some(patch.into())),
+            Batch::Triangles(patches) => self.load_structures(patches, |&patch| Some(patch.into())),
+            Batch::Quads(patches) => self.load_structures(patches, |&patch| Some(patch.into())),
+            Batch::Patches(patches) => self.load_patches(batch.domain(), patches),
+            Batch::Columns(columns) => self.load_columns(columns, batch.len()),
+        }
+    }
+
+    #[inline(always)]
+    fn load_patches(&mut self, domain: Domain, patches: &[PatchFactors]) {
+        match domain {
+            Domain::Isoline => self.load_structures(patches, |patch| match *patch {
+                PatchFactors::Isoline(factors) => Some(factors.into()),
+                _ => None,
+            }),
+            Domain::Triangle => self.load_structures(patches, |patch| match *patch {
+                PatchFactors::Triangle(factors) => Some(factors.into()),
+                _ => None,
+            }),
+            Domain::Quad => self.load_structures(patches, |patch| match *patch {
+                PatchFactors::Quad(factors) => Some(factors.into()),
+                _ => None,
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn load_structures<F, const N: usize>(
+        &mut self,
+        patches: &[F],
+        factors: impl Fn(&F) -> Option<[f32; N]>,
+    ) {
+        let patches = patches.get(..Self::PATCHES).unwrap_or(patches);
+        for (i, patch) in patches.iter().enumerate().take(Self::PATCHES) {
+            let Some(factors) = factors(patch) else { break };
+            for (values, factor) in self.0.iter_mut().zip(factors) {
+                values[i] = factor;
+            }
+        }
+        self.clear(patches.len());
+    }
+
+    #[inline(always)]
+    fn load_columns(&mut self, columns: &PatchFactors<&[f32]>, patches: usize) {
+        let end = patches.min(Self::PATCHES);
+        for (values, column) in self.0.iter_mut().zip(columns.iter()) {
+            let source = column.get(..end).unwrap_or_default();
+            values[..source.len()].copy_from_slice(source);
+        }
+        self.clear(end);
+    }
+
+    /// Zeros from a patch to the end of its packet.
+    #[inline(always)]
+    fn clear(&mut self, first: usize) {
+        for i in first..first.next_multiple_of(LANES).min(Self::PATCHES) {
+            for values in &mut self.0 {
+                values[i] = 0.0;
+            }
+        }
+    }
+
+    /// The factors of the patches of a packet, `number` packets into the chunk.
+    #[inline(always)]
+    pub(crate) fn packet(&self, number: usize) -> Column<f32> {
+        let mut column = [0.0; LANES * MAX_FACTORS];
+        for (lanes, values) in column.as_chunks_mut::<LANES>().0.iter_mut().zip(&self.0) {
+            *lanes = values.as_chunks().0[number % Self::PACKETS];
+        }
+        column
+    }
+}

@@ -1,0 +1,35 @@
+//! Sixteen patches side by side.
+//!
+//! A *lane* is a patch of a packet of sixteen, which fill one vector of AVX-512, two of AVX2 or
+//! four of SSE; a *column* is one quantity of all factors of a packet, factor by factor. Stages are
+//! branch-free functions of one element, mapped over a column: plain loops over arrays of a fixed
+//! size, which the compiler turns into vectors of whatever width the CPU level has.
+
+use tess_core::Domain;
+
+/// Patches in a packet.
+pub(crate) const LANES: usize = 16;
+
+/// The most factors that a patch has: a quad's.
+pub(crate) const MAX_FACTORS: usize = Domain::Quad.factors();
+
+/// One quantity of the patches of a packet.
+pub(crate) type Lanes<T = u32> = [T; LANES];
+
+/// One quantity of all factors of a packet: element `factor * LANES + lane`.
+pub(crate) type Column<T = u32> = [T; LANES * MAX_FACTORS];
+
+/// Point counts of a patch's edges and inside axes, in the order of its factors.
+pub(crate) type EdgePoints = [u32; MAX_FACTORS];
+
+/// Whether the parity of an edge with this many points is odd: its segments are one fewer.
+#[inline(always)]
+pub(crate) const fn is_odd(points: u32) -> bool {
+    points.is_multiple_of(2)
+}
+
+/// One factor's part of a column.
+#[inline(always)]
+pub(crate) fn factor<T>(column: &Column<T>, factor: usize) -> &Lanes<T> {
+    &column.as_chunks().0[factor]
+}

@@ -1,0 +1,158 @@
+//! What comes out: points, indices, and where each patch's part of them lies.
+
+use crate::data::format::{IndexFormat, OutputPoint};
+use alloc::vec::Vec;
+use tess_core::DomainPoint;
+
+/// What an index counts from.
+///
+/// `tess-gpu` has the same names; its batches count from 0. C calls them
+/// `TESS_NUMBERING_PER_PATCH` and `TESS_NUMBERING_PER_BATCH`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Numbering {
+    /// Each patch's indices count from its own first point and are those of the core. 16 bits are
+    /// always enough.
+    PerPatch,
+    /// All indices count through the points of the batch: one vertex buffer for all patches.
+    PerBatch {
+        /// Number of the first point of the batch.
+        base_vertex: u32,
+    },
+}
+
+impl Numbering {
+    /// The number of a patch's first point, which is this point of the batch.
+    #[inline(always)]
+    pub(crate) const fn base(self, first_point: u32) -> u32 {
+        match self {
+            Self::PerPatch => 0,
+            Self::PerBatch { base_vertex } => base_vertex.wrapping_add(first_point),
+        }
+    }
+}
+
+/// Where one patch's output lies. A culled patch has no points and no indices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[repr(C)]
+pub struct PatchRange {
+    /// Number of its first point in the batch's points.
+    pub first_point: u32,
+    /// Number of its points, at most 4225.
+    pub points: u32,
+    /// Number of its first index in the batch's indices.
+    pub first_index: u32,
+    /// Number of its indices, at most 24576.
+    pub indices: u32,
+}
+
+/// Output sizes of a batch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct BatchCounts {
+    /// Patches, culled ones included: elements of the range buffer.
+    pub patches: usize,
+    /// Elements of the point buffer.
+    pub points: usize,
+    /// Elements of the index buffer.
+    pub indices: usize,
+}
+
+/// The caller's buffers that a batch is written to. They may be larger than needed: what lies behind
+/// the output stays as it is.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Buffers<'a, P = [f32; 2], I = u32> {
+    /// Receives the points of all patches, one patch after another.
+    pub points: &'a mut [P],
+    /// Receives the indices of all patches, one patch after another.
+    pub indices: &'a mut [I],
+    /// Receives one range for each patch, if ranges are wanted.
+    pub ranges: Option<&'a mut [PatchRange]>,
+}
+
+impl<'a, P: OutputPoint, I: IndexFormat> Buffers<'a, P, I> {
+    /// Buffers for points and indices; ranges are not written.
+    #[must_use]
+    pub const fn new(points: &'a mut [P], indices: &'a mut [I]) -> Self {
+        Self { points, indices, ranges: None }
+    }
+
+    /// The same buffers and one for ranges.
+    #[must_use]
+    pub const fn with_ranges(self, ranges: &'a mut [PatchRange]) -> Self {
+        Self { ranges: Some(ranges), ..self }
+    }
+}
+
+/// Buffers that grow as needed and keep their memory: once they are as large as the largest batch,
+/// nothing is allocated any more.
+#[derive(Clone, Debug)]
+pub struct Output<P = [f32; 2], I = u32> {
+    points: Vec<P>,
+    indices: Vec<I>,
+    ranges: Vec<PatchRange>,
+    counts: BatchCounts,
+}
+
+/// An output of 16.16 points and 32-bit indices, the core's formats.
+pub type ExactOutput = Output<DomainPoint, u32>;
+
+impl<P: OutputPoint, I: IndexFormat> Output<P, I> {
+    /// An empty output, without memory yet.
+    #[must_use]
+    pub const fn new() -> Self {
+        let counts = BatchCounts { patches: 0, points: 0, indices: 0 };
+        Self { points: Vec::new(), indices: Vec::new(), ranges: Vec::new(), counts }
+    }
+
+    /// The points of all patches of the last batch, one patch after another.
+    #[must_use]
+    pub fn points(&self) -> &[P] {
+        self.points.get(..self.counts.points).unwrap_or_default()
+    }
+
+    /// The indices of all patches of the last batch, one patch after another.
+    #[must_use]
+    pub fn indices(&self) -> &[I] {
+        self.indices.get(..self.counts.indices).unwrap_or_default()
+    }
+
+    /// A range for each patch of the last batch: where its output lies.
+    #[must_use]
+    pub fn ranges(&self) -> &[PatchRange] {
+        self.ranges.get(..self.counts.patches).unwrap_or_default()
+    }
+
+    /// The points and the indices of patch `i` of the last batch; `None` if it has no such patch.
+    #[must_use]
+    pub fn patch(&self, i: usize) -> Option<(&[P], &[I])> {
+        let range = self.ranges().get(i)?;
+        let points = self.points.get(range.first_point as usize..)?.get(..range.points as usize)?;
+        let indices =
+            self.indices.get(range.first_index as usize..)?.get(..range.indices as usize)?;
+        Some((points, indices))
+    }
+
+    /// Room for a batch of these sizes.
+    pub(crate) fn make_room(&mut self, counts: BatchCounts) -> Buffers<'_, P, I> {
+        self.counts = counts;
+        Buffers {
+            points: room(&mut self.points, counts.points),
+            indices: room(&mut self.indices, counts.indices),
+            ranges: Some(room(&mut self.ranges, counts.patches)),
+        }
+    }
+}
+
+impl<P: OutputPoint, I: IndexFormat> Default for Output<P, I> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The first `length` elements of a vector that only ever grows.
+fn room<T: Copy + Default>(vector: &mut Vec<T>, length: usize) -> &mut [T] {
+    if vector.len() < length {
+        vector.resize(length, T::default());
+    }
+    &mut vector[..length]
+}

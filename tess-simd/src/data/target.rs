@@ -1,0 +1,48 @@
+//! The caller's buffers, in formats that are known at run time.
+//!
+//! Below the public interface nothing depends on the formats' types, so that everything is compiled
+//! once, in this crate, for each pair of formats.
+
+use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
+use crate::data::output::{Buffers, PatchRange};
+
+/// Buffers for exactly one part of a batch.
+#[derive(Debug)]
+pub(crate) struct Target<'a> {
+    pub(crate) points: AnyPoints<'a>,
+    pub(crate) indices: AnyIndices<'a>,
+    pub(crate) ranges: Option<&'a mut [PatchRange]>,
+}
+
+impl<'a, P: OutputPoint, I: IndexFormat> From<Buffers<'a, P, I>> for Target<'a> {
+    fn from(buffers: Buffers<'a, P, I>) -> Self {
+        let Buffers { points, indices, ranges } = buffers;
+        Self { points: P::any(points), indices: I::any(indices), ranges }
+    }
+}
+
+#[cfg(feature = "rayon")]
+impl Target<'_> {
+    /// The buffers of the first patches, whose output has these sizes, and those of the others.
+    pub(crate) fn split_at(self, sizes: crate::data::output::BatchCounts) -> (Self, Self) {
+        let (points, more_points) = match self.points {
+            AnyPoints::F32(all) => both(all.split_at_mut(sizes.points), AnyPoints::F32),
+            AnyPoints::Fixed(all) => both(all.split_at_mut(sizes.points), AnyPoints::Fixed),
+        };
+        let (indices, more_indices) = match self.indices {
+            AnyIndices::U16(all) => both(all.split_at_mut(sizes.indices), AnyIndices::U16),
+            AnyIndices::U32(all) => both(all.split_at_mut(sizes.indices), AnyIndices::U32),
+        };
+        let (ranges, more_ranges) =
+            self.ranges.map(|all| both(all.split_at_mut(sizes.patches), Some)).unwrap_or_default();
+        (
+            Self { points, indices, ranges },
+            Self { points: more_points, indices: more_indices, ranges: more_ranges },
+        )
+    }
+}
+
+#[cfg(feature = "rayon")]
+fn both<T, U>((one, other): (T, T), f: impl Fn(T) -> U) -> (U, U) {
+    (f(one), f(other))
+}

@@ -1,0 +1,7 @@
+//! What a user of the crate calls.
+
+pub(crate) mod counted;
+pub(crate) mod groups;
+pub(crate) mod owned;
+pub(crate) mod taps;
+pub(crate) mod tessellator;

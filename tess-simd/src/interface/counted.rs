@@ -1,0 +1,166 @@
+//! A batch whose output sizes are known.
+
+use crate::data::batch::Batch;
+use crate::data::chunk::Chunk;
+use crate::data::error::{Buffer, Error};
+use crate::data::format::{IndexFormat, OutputPoint};
+use crate::data::output::{BatchCounts, Buffers, Numbering, Output};
+use crate::data::target::Target;
+use crate::interface::tessellator::Tessellator;
+use crate::kernels::emit::Offsets;
+use crate::levels;
+use crate::stages::counts::PartCounts;
+use crate::threads::part::{Job, Part};
+use crate::threads::slices::{CountShare, Share, Slicing};
+
+/// A batch whose output was counted, ready to be written any number of times. Made by
+/// [`Tessellator::count`](crate::Tessellator::count), which it borrows, so that it cannot be
+/// written after the tessellator counted another batch.
+///
+/// ```compile_fail,E0499
+/// # use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
+/// # use tess_simd::{Numbering, Output, Tessellator};
+/// # let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+/// # let (one, other) = ([QuadFactors::from([1.0; 6])], [QuadFactors::from([2.0; 6])]);
+/// # let mut output: Output = Output::new();
+/// let mut tessellator = Tessellator::new(config);
+/// let mut first = tessellator.count(&one)?;
+/// let second = tessellator.count(&other)?; // the tessellator is borrowed
+/// first.tessellate(Numbering::PerPatch, &mut output)?;
+/// # Ok::<(), tess_simd::Error>(())
+/// ```
+#[derive(Debug)]
+#[must_use = "a count alone writes nothing"]
+pub struct Counted<'a> {
+    tessellator: &'a mut Tessellator,
+    batch: Batch<'a>,
+    total: PartCounts,
+    slicing: Slicing,
+    /// Whether the tessellator kept the batch's packets.
+    kept: bool,
+}
+
+impl<'a> Counted<'a> {
+    /// Counts a batch. One of at most a chunk goes through the front end here, for the write too.
+    pub(crate) fn new(tessellator: &'a mut Tessellator, batch: Batch<'a>) -> Result<Self, Error> {
+        batch.check()?;
+        let Tessellator { level, settings, workspaces, slices, kept: packets } = tessellator;
+        let slicing = Slicing::new(batch.len(), workspaces.threads());
+        slices.clear();
+        let kept = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
+        if kept {
+            slices.push(levels::count_and_keep(*level, settings.config, &batch, packets));
+        } else {
+            slices.resize(slicing.slices, PartCounts::default());
+            let share = CountShare { batch, slice: slicing.patches, counts: slices };
+            workspaces.count(*level, settings.config, share);
+        }
+        let total = PartCounts::sum(slices);
+        if total.points.max(total.indices) > u64::from(u32::MAX) {
+            return Err(Error::BatchTooLarge { points: total.points, indices: total.indices });
+        }
+        Ok(Self { tessellator, batch, total, slicing, kept })
+    }
+
+    /// The number of patches, culled ones included: elements of the range buffer.
+    #[must_use]
+    pub fn patches(&self) -> usize {
+        self.batch.len()
+    }
+
+    /// The number of points: elements of the point buffer, below 2^32.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
+    pub const fn points(&self) -> usize {
+        self.total.points as usize
+    }
+
+    /// The number of indices: elements of the index buffer, below 2^32.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
+    pub const fn indices(&self) -> usize {
+        self.total.indices as usize
+    }
+
+    /// All three sizes.
+    #[must_use]
+    pub fn counts(&self) -> BatchCounts {
+        BatchCounts { patches: self.patches(), points: self.points(), indices: self.indices() }
+    }
+
+    /// The largest index under a numbering; `None` if the batch has no points.
+    #[must_use]
+    pub fn largest_index(&self, numbering: Numbering) -> Option<u64> {
+        let end = match numbering {
+            Numbering::PerPatch => u64::from(self.total.largest),
+            Numbering::PerBatch { .. } if self.total.points == 0 => 0,
+            Numbering::PerBatch { base_vertex } => u64::from(base_vertex) + self.total.points,
+        };
+        end.checked_sub(1)
+    }
+
+    /// Writes the batch into the caller's buffers.
+    ///
+    /// # Errors
+    /// [`Error::BufferTooSmall`] or [`Error::IndexTooLarge`]; then nothing is written.
+    pub fn write<P: OutputPoint, I: IndexFormat>(
+        &mut self,
+        numbering: Numbering,
+        buffers: Buffers<'_, P, I>,
+    ) -> Result<BatchCounts, Error> {
+        self.check_indices::<I>(numbering)?;
+        let counts = self.counts();
+        let ranges = match buffers.ranges {
+            Some(ranges) => Some(prefix(ranges, counts.patches, Buffer::Ranges)?),
+            None => None,
+        };
+        let buffers = Buffers {
+            points: prefix(buffers.points, counts.points, Buffer::Points)?,
+            indices: prefix(buffers.indices, counts.indices, Buffer::Indices)?,
+            ranges,
+        };
+        self.emit(numbering, buffers.into());
+        Ok(counts)
+    }
+
+    /// Writes the batch into an output object, which grows if it must.
+    ///
+    /// # Errors
+    /// [`Error::IndexTooLarge`]; then the output stays as it was.
+    pub fn tessellate<P: OutputPoint, I: IndexFormat>(
+        &mut self,
+        numbering: Numbering,
+        output: &mut Output<P, I>,
+    ) -> Result<BatchCounts, Error> {
+        self.check_indices::<I>(numbering)?;
+        let counts = self.counts();
+        let target = output.make_room(counts).into();
+        self.emit(numbering, target);
+        Ok(counts)
+    }
+
+    /// Writes the batch into buffers of exactly its sizes.
+    fn emit(&mut self, numbering: Numbering, target: Target<'_>) {
+        let Tessellator { level, settings, workspaces, slices, kept } = &mut *self.tessellator;
+        let kept = self.kept.then_some(&**kept);
+        let part = Part { batch: self.batch, target, first: Offsets::default() };
+        let job = Job { level: *level, settings, numbering, kept };
+        workspaces.emit(job, Share { part, slice: self.slicing.patches, counts: slices });
+    }
+
+    /// Whether the largest index fits.
+    fn check_indices<I: IndexFormat>(&self, numbering: Numbering) -> Result<(), Error> {
+        match self.largest_index(numbering) {
+            Some(largest) if largest > I::LARGEST => {
+                Err(Error::IndexTooLarge { largest, format: I::LARGEST })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The first `needed` elements of a caller's buffer.
+fn prefix<T>(slice: &mut [T], needed: usize, buffer: Buffer) -> Result<&mut [T], Error> {
+    let got = slice.len();
+    slice.get_mut(..needed).ok_or(Error::BufferTooSmall { buffer, needed, got })
+}

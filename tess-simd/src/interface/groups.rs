@@ -1,0 +1,123 @@
+//! Groups: the meshes of a batch, each with its own part of the output.
+
+use crate::data::output::PatchRange;
+use core::fmt;
+
+/// Where the output of each group of patches lies.
+///
+/// `ranges` is what a batch says of its patches; `starts` has the numbers of the patches at which groups
+/// begin. A group ends where the next one begins, the last one with the batch. As the patches of a
+/// batch lie one after another, so does a group's output: a renderer tessellates all meshes
+/// of a frame in one call and draws each on its own.
+///
+/// ```
+/// use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
+/// use tess_simd::{Numbering, Output, Tessellator, group_ranges};
+///
+/// let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+/// let patches = [1.0, 1.0, 1.0, 2.0, 2.0].map(QuadFactors::uniform);
+/// let mut output: Output = Output::new();
+/// Tessellator::new(config).tessellate(&patches, Numbering::PerPatch, &mut output)?;
+///
+/// let groups: Vec<_> = group_ranges(output.ranges(), &[0, 3])?.collect();
+/// assert_eq!((groups[0].first_index, groups[0].indices), (0, 3 * 6));
+/// assert_eq!((groups[1].first_index, groups[1].indices), (18, 2 * 24));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`BadGroup`] if a group begins before the one before it, or past the end of the batch.
+pub fn group_ranges<'a>(
+    ranges: &'a [PatchRange],
+    starts: &'a [u32],
+) -> Result<impl ExactSizeIterator<Item = PatchRange> + 'a, BadGroup> {
+    let mut lowest = 0;
+    for (group, &start) in starts.iter().enumerate() {
+        if start < lowest || start as usize > ranges.len() {
+            return Err(BadGroup { group, start, lowest, patches: ranges.len() });
+        }
+        lowest = start;
+    }
+    Ok((0..starts.len()).map(move |group| {
+        let start = starts[group] as usize;
+        let end = starts.get(group + 1).map_or(ranges.len(), |&next| next as usize);
+        joined(&ranges[start..end], end_of(&ranges[..start]))
+    }))
+}
+
+/// The range of patches that follow each other; an empty one at `first` if there are none.
+fn joined(ranges: &[PatchRange], first: (u32, u32)) -> PatchRange {
+    let (first_point, first_index) = first;
+    let (end_point, end_index) = if ranges.is_empty() { first } else { end_of(ranges) };
+    PatchRange {
+        first_point,
+        points: end_point.wrapping_sub(first_point),
+        first_index,
+        indices: end_index.wrapping_sub(first_index),
+    }
+}
+
+/// The first point and the first index behind these patches.
+fn end_of(ranges: &[PatchRange]) -> (u32, u32) {
+    ranges.last().map_or((0, 0), |last| {
+        (last.first_point.wrapping_add(last.points), last.first_index.wrapping_add(last.indices))
+    })
+}
+
+/// A group of patches begins where it cannot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BadGroup {
+    /// Number of the group.
+    pub group: usize,
+    /// The patch at which it begins.
+    pub start: u32,
+    /// The patch at which the group before it begins; 0 for the first group.
+    pub lowest: u32,
+    /// Patches of the batch.
+    pub patches: usize,
+}
+
+impl fmt::Display for BadGroup {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { group, start, lowest, patches } = self;
+        write!(f, "group {group} begins at patch {start}; it must be in {lowest}..={patches}")
+    }
+}
+
+impl core::error::Error for BadGroup {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+
+    /// Three patches of 4, 0 and 9 points, and of 6, 0 and 24 indices.
+    const RANGES: [PatchRange; 3] = [
+        PatchRange { first_point: 0, points: 4, first_index: 0, indices: 6 },
+        PatchRange { first_point: 4, points: 0, first_index: 6, indices: 0 },
+        PatchRange { first_point: 4, points: 9, first_index: 6, indices: 24 },
+    ];
+
+    fn groups(starts: &[u32]) -> Vec<[u32; 4]> {
+        let groups = group_ranges(&RANGES, starts).expect("groups");
+        groups.map(|g| [g.first_point, g.points, g.first_index, g.indices]).collect()
+    }
+
+    #[test]
+    fn groups_follow_each_other() {
+        assert_eq!(groups(&[]), [[0; 4]; 0], "none");
+        assert_eq!(groups(&[0]), [[0, 13, 0, 30]], "all");
+        assert_eq!(groups(&[0, 1]), [[0, 4, 0, 6], [4, 9, 6, 24]], "a culled patch in one");
+        assert_eq!(groups(&[1, 1, 2]), [[4, 0, 6, 0], [4, 0, 6, 0], [4, 9, 6, 24]], "empty ones");
+        assert_eq!(groups(&[0, 3]), [[0, 13, 0, 30], [13, 0, 30, 0]], "one behind the last patch");
+    }
+
+    #[test]
+    fn groups_that_cannot_be() {
+        let bad = |starts: &[u32]| group_ranges(&RANGES, starts).err();
+        let past = BadGroup { group: 1, start: 4, lowest: 0, patches: 3 };
+        assert_eq!(bad(&[0, 4]), Some(past), "past the end");
+        let back = BadGroup { group: 2, start: 1, lowest: 2, patches: 3 };
+        assert_eq!(bad(&[0, 2, 1]), Some(back), "back");
+    }
+}

@@ -1,0 +1,146 @@
+//! The front door: a configuration, ready to take batches.
+
+use crate::data::batch::Batch;
+use crate::data::chunk::Chunk;
+use crate::data::error::Error;
+use crate::data::format::{IndexFormat, OutputPoint};
+use crate::data::level::{Level, LevelUnavailable};
+use crate::data::output::{BatchCounts, Buffers, Numbering, Output};
+use crate::interface::counted::Counted;
+use crate::stages::counts::PartCounts;
+use crate::stages::packet::Packet;
+use crate::stages::settings::Settings;
+#[cfg(feature = "rayon")]
+use crate::threads::MAX_THREADS;
+use crate::threads::Workspaces;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use tess_core::Config;
+use tess_core::Order;
+
+/// Tessellates batches of patches in one configuration.
+///
+/// Making one makes its tables, which takes about a millisecond; it holds about 1.1 to 2.2 MB
+/// ([`Tessellator::memory`]). Make it once and keep it. After its first batch it allocates nothing
+/// but what an [`Output`] grows by and, on several threads, a short list for each batch.
+#[derive(Clone, Debug)]
+pub struct Tessellator {
+    pub(super) level: Level,
+    pub(super) settings: Settings,
+    pub(super) workspaces: Workspaces,
+    /// The counts of each slice of the batch that was counted last.
+    pub(super) slices: Vec<PartCounts>,
+    /// The packets of the batch that was counted last, if it had at most one chunk.
+    pub(super) kept: Box<[Packet; Chunk::PACKETS]>,
+}
+
+impl Tessellator {
+    /// A tessellator at the most capable CPU level of this machine.
+    #[must_use]
+    pub fn new(config: Config) -> Self {
+        Self::at(config, Level::detect())
+    }
+
+    /// A tessellator at a CPU level.
+    ///
+    /// # Errors
+    /// [`LevelUnavailable`] if this machine or this build cannot run it.
+    pub fn with_level(config: Config, level: Level) -> Result<Self, LevelUnavailable> {
+        level.require()?;
+        Ok(Self::at(config, level))
+    }
+
+    /// A tessellator at a CPU level that this machine can run.
+    fn at(config: Config, level: Level) -> Self {
+        Self {
+            level,
+            settings: Settings::new(config),
+            workspaces: Workspaces::new(),
+            slices: Vec::new(),
+            kept: Box::new([Packet::EMPTY; _]),
+        }
+    }
+
+    /// Spreads batches over this many threads: at least one and at most
+    /// [`Tessellator::MAX_THREADS`]. The output stays the same.
+    ///
+    /// They are threads of the rayon pool that the caller runs in, else of rayon's global pool,
+    /// which is started with at most as many threads even if `RAYON_NUM_THREADS` asks for more. Each
+    /// takes 1.1 MB.
+    #[cfg(feature = "rayon")]
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.workspaces = Workspaces::of_threads(threads);
+        self
+    }
+
+    /// The most threads that [`Tessellator::threads`] uses.
+    #[cfg(feature = "rayon")]
+    pub const MAX_THREADS: usize = MAX_THREADS;
+
+    /// Writes triangles in this order; [`Order::Specification`] unless told otherwise.
+    ///
+    /// [`Order::VertexCache`] has the same points and the same triangles, so that a vertex cache finds more of
+    /// its vertices: for renderers. Patches above some 300 points take two to four times as long with it,
+    /// unless their point counts are those of the large patch before.
+    #[must_use]
+    pub fn order(mut self, order: Order) -> Self {
+        self.settings.order = order;
+        // The templates have their triangles in the order before.
+        self.workspaces.forget();
+        self
+    }
+
+    /// The configuration that it was made with.
+    #[must_use]
+    pub const fn config(&self) -> Config {
+        self.settings.config
+    }
+
+    /// The CPU level that it runs at.
+    #[must_use]
+    pub const fn level(&self) -> Level {
+        self.level
+    }
+
+    /// Bytes of memory that its tables and workspaces take.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        self.settings.stitches.bytes() + self.workspaces.bytes() + size_of_val(&*self.kept)
+    }
+
+    /// Counts a batch: the sizes of the buffers that it needs, and then a `write` into them.
+    ///
+    /// # Errors
+    /// [`Error::UnevenColumns`], [`Error::MixedDomains`], [`Error::BatchTooLarge`].
+    pub fn count<'a>(&'a mut self, batch: impl Into<Batch<'a>>) -> Result<Counted<'a>, Error> {
+        Counted::new(self, batch.into())
+    }
+
+    /// Tessellates a batch into the caller's buffers: [`Tessellator::count`] and [`Counted::write`]
+    /// in one.
+    ///
+    /// # Errors
+    /// Any [`Error`]; then nothing is written.
+    pub fn write<'a, P: OutputPoint, I: IndexFormat>(
+        &'a mut self,
+        batch: impl Into<Batch<'a>>,
+        numbering: Numbering,
+        buffers: Buffers<'_, P, I>,
+    ) -> Result<BatchCounts, Error> {
+        self.count(batch)?.write(numbering, buffers)
+    }
+
+    /// Tessellates a batch into an output object, which grows if it must.
+    ///
+    /// # Errors
+    /// Any [`Error`] but [`Error::BufferTooSmall`]; then the output stays as it was.
+    pub fn tessellate<'a, P: OutputPoint, I: IndexFormat>(
+        &'a mut self,
+        batch: impl Into<Batch<'a>>,
+        numbering: Numbering,
+        output: &mut Output<P, I>,
+    ) -> Result<BatchCounts, Error> {
+        self.count(batch)?.tessellate(numbering, output)
+    }
+}

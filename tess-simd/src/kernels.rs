@@ -1,0 +1,9 @@
+//! The kernels: functions over many patches, compiled once for each CPU level.
+//!
+//! The layer `levels` calls them; they call the stages. Every function from here down is
+//! `#[inline(always)]`, because only inlined code gets the instructions of a level's function.
+
+pub(crate) mod emit;
+pub(crate) mod front_end;
+pub(crate) mod repeat;
+pub(crate) mod taps;

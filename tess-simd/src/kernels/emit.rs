@@ -1,0 +1,206 @@
+//! Packets of patches into buffers.
+
+use crate::data::format::{IndexFormat, OutputPoint};
+use crate::data::lanes::LANES;
+use crate::data::output::{Numbering, PatchRange};
+use crate::data::writer::Writer;
+use crate::stages::connect::{self, cache_order};
+use crate::stages::packet::{Packet, PacketPatch};
+use crate::stages::points::{self, CompactPoints, LocationTables};
+use crate::stages::settings::Settings;
+use crate::stages::template::{CompactTemplate, CompactTemplates, Start, Templates, long};
+use alloc::boxed::Box;
+use tess_core::DomainPoint;
+
+/// Packets to write.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Packets<'a> {
+    pub(crate) packets: &'a [Packet],
+    pub(crate) first: Offsets,
+    pub(crate) numbering: Numbering,
+}
+
+/// Where packets are written.
+#[derive(Debug)]
+pub(crate) struct Room<'a, P, I> {
+    /// At least as long as the packets' output. What follows that may be overwritten.
+    pub(crate) points: &'a mut [P],
+    /// As `points`.
+    pub(crate) indices: &'a mut [I],
+    /// As long as there are patches; the packets may have more lanes than that.
+    pub(crate) ranges: &'a mut [PatchRange],
+}
+
+/// The output of a batch before some patch of it: where that patch's output begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Offsets {
+    pub(crate) points: u32,
+    pub(crate) indices: u32,
+}
+
+/// What is kept from patch to patch and from batch to batch. All of it follows from the
+/// configuration and the patches' factors.
+#[derive(Clone, Debug)]
+pub(crate) struct Caches {
+    tables: Box<LocationTables>,
+    templates: Templates,
+    compact: CompactTemplates,
+}
+
+impl Caches {
+    pub(crate) fn new() -> Self {
+        Self {
+            tables: Box::new(LocationTables::EMPTY),
+            templates: Templates::new(),
+            compact: CompactTemplates::new(),
+        }
+    }
+
+    /// Bytes of memory that they take on the heap.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of::<LocationTables>() + self.templates.bytes() + self.compact.bytes()
+    }
+}
+
+/// Writers of both kinds of output.
+struct Writers<'a, P, I> {
+    points: Writer<'a, P>,
+    indices: Writer<'a, I>,
+}
+
+/// Writes packets; returns where their output ends in the batch.
+#[inline(always)]
+pub(crate) fn emit<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
+    settings: &Settings,
+    packets: Packets<'_>,
+    room: Room<'_, P, I>,
+    caches: &mut Caches,
+    compact_points: &mut M,
+) -> Offsets {
+    let Packets { packets, mut first, numbering } = packets;
+    let mut out = Writers { points: Writer::new(room.points), indices: Writer::new(room.indices) };
+    for (packet, ranges) in packets.iter().zip(room.ranges.chunks_mut(LANES)) {
+        for (lane, range) in ranges.iter_mut().enumerate() {
+            let patch = packet.patch(lane);
+            *range = PatchRange {
+                first_point: first.points,
+                points: patch.points(),
+                first_index: first.indices,
+                indices: patch.indices(),
+            };
+            first.points += range.points;
+            first.indices += range.indices;
+        }
+        caches.compact.make_room();
+        if packet.all_compact() {
+            emit_compact(settings, (packet, ranges), numbering, caches, &mut out, compact_points);
+            continue;
+        }
+        for (lane, range) in ranges.iter().enumerate().filter(|(_, range)| range.points != 0) {
+            let patch = packet.patch(lane);
+            let base = numbering.base(range.first_point);
+            if patch.is_compact() {
+                let start = caches.compact.find(settings, patch, &mut caches.tables, M::kept);
+                let template = caches.compact.get(start);
+                points_of(patch, template, &mut out.points, compact_points);
+                indices_of(patch, template, base, &mut out.indices);
+            } else {
+                emit_patch(settings, patch, base, caches, &mut out);
+            }
+        }
+    }
+    first
+}
+
+/// Writes a packet of compact patches, stage by stage: where a stage's branches are predicted wrongly, the
+/// patches of the others are not begun anew.
+#[inline(always)]
+fn emit_compact<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
+    settings: &Settings,
+    (packet, ranges): (&Packet, &[PatchRange]),
+    numbering: Numbering,
+    caches: &mut Caches,
+    out: &mut Writers<'_, P, I>,
+    compact_points: &mut M,
+) {
+    let Caches { compact, tables, .. } = caches;
+    let mut starts = [Start::default(); LANES];
+    let lanes = ranges.iter().enumerate().filter(|(_, range)| range.points != 0);
+    for (lane, _) in lanes.clone() {
+        starts[lane] = compact.find(settings, packet.patch(lane), tables, M::kept);
+    }
+    for (lane, _) in lanes.clone() {
+        let template = compact.get(starts[lane]);
+        points_of(packet.patch(lane), template, &mut out.points, compact_points);
+    }
+    for (lane, range) in lanes {
+        let base = numbering.base(range.first_point);
+        indices_of(packet.patch(lane), compact.get(starts[lane]), base, &mut out.indices);
+    }
+}
+
+/// Writes the points of a compact patch.
+#[inline(always)]
+fn points_of<P: OutputPoint>(
+    patch: PacketPatch<'_>,
+    CompactTemplate { points, .. }: CompactTemplate<'_>,
+    out: &mut Writer<'_, P>,
+    compact_points: &mut impl CompactPoints<P>,
+) {
+    if patch.integer() {
+        out.map_least::<_, 8, 24>(patch.points() as usize, points, long);
+    } else {
+        compact_points.emit(patch, points, out);
+    }
+}
+
+/// Writes the indices of a compact patch whose first point is number `base`.
+#[inline(always)]
+fn indices_of<I: IndexFormat>(
+    patch: PacketPatch<'_>,
+    CompactTemplate { indices, .. }: CompactTemplate<'_>,
+    base: u32,
+    out: &mut Writer<'_, I>,
+) {
+    let base = I::wrapping_from(base);
+    out.map_least::<_, 16, 64>(patch.indices() as usize, indices, |index: u8| {
+        base.wrapping_add(I::wrapping_from(index.into()))
+    });
+}
+
+/// Writes any other patch that is not culled and whose first point is number `base`.
+#[inline(always)]
+fn emit_patch<P: OutputPoint, I: IndexFormat>(
+    settings: &Settings,
+    patch: PacketPatch<'_>,
+    base: u32,
+    caches: &mut Caches,
+    out: &mut Writers<'_, P, I>,
+) {
+    let Caches { tables, templates, .. } = caches;
+    let add = I::wrapping_from(base);
+    let add = |index: u16| add.wrapping_add(I::wrapping_from(index.into()));
+    let Some(template) = templates.get(settings, patch, tables) else {
+        points::emit(patch, tables, &mut out.points);
+        if cache_order::reorders(settings, patch) {
+            cache_order::emit(
+                settings,
+                patch,
+                templates.specified(settings, patch),
+                &mut out.indices,
+                add,
+            );
+        } else {
+            connect::emit(settings, patch, base, &mut out.indices);
+        }
+        return;
+    };
+    if let Some(template) = template.points {
+        out.points.map::<_, 8>(patch.points() as usize, template, |point: DomainPoint| {
+            P::from_bits(point.u.to_bits(), point.v.to_bits())
+        });
+    } else {
+        points::emit(patch, tables, &mut out.points);
+    }
+    out.indices.map_least::<_, 16, 128>(patch.indices() as usize, template.indices, add);
+}

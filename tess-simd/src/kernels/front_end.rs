@@ -1,0 +1,85 @@
+//! The front end over a batch: raw factors to packets, and output sizes without output.
+
+use crate::data::batch::Batch;
+use crate::data::chunk::{Chunk, Stretch};
+use crate::data::lanes::LANES;
+use crate::stages::counts::{PacketCounts, PartCounts};
+use crate::stages::packet::{Packet, packet_counts};
+use tess_core::Config;
+
+/// Takes the patches of a batch, at most those of a chunk, through the front end. Patches past its end
+/// count as culled; packets that have none but those stay as they are.
+#[inline(always)]
+pub(crate) fn process(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
+    let mut chunk = Chunk::EMPTY;
+    chunk.load(batch);
+    let (patches, domain) = (batch.len(), batch.domain());
+    for (number, packet) in packets.iter_mut().enumerate() {
+        if number * LANES >= patches {
+            break;
+        }
+        packet.process(config, domain, &chunk.packet(number));
+    }
+}
+
+/// Predicts the output sizes of patches.
+#[inline(always)]
+pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
+    let mut sums = Sums::default();
+    let mut chunk = Chunk::EMPTY;
+    let (mut first, domain) = (0, batch.domain());
+    while first < batch.len() {
+        let Stretch { patches, times } = Stretch::new(batch, first);
+        chunk.load(&batch.slice(&(first..first + patches)));
+        for number in 0..patches.div_ceil(LANES) {
+            sums.add(&packet_counts(config, domain, &chunk.packet(number)), times);
+        }
+        first += patches * times;
+    }
+    sums.total()
+}
+
+/// Takes the patches of a batch, at most those of a chunk, through the front end and predicts their
+/// output sizes.
+#[inline(always)]
+pub(crate) fn count_and_keep(
+    config: Config,
+    batch: &Batch<'_>,
+    kept: &mut [Packet; Chunk::PACKETS],
+) -> PartCounts {
+    let mut sums = Sums::default();
+    process(config, batch, kept);
+    for packet in kept.iter().take(batch.len().div_ceil(LANES)) {
+        sums.add(&packet.counts, 1);
+    }
+    sums.total()
+}
+
+/// Sums lane by lane.
+#[derive(Default)]
+struct Sums {
+    points: [u64; LANES],
+    indices: [u64; LANES],
+    largest: [u32; LANES],
+}
+
+impl Sums {
+    #[inline(always)]
+    fn add(&mut self, counts: &PacketCounts, times: usize) {
+        let times = times as u64;
+        for lane in 0..LANES {
+            self.points[lane] += times * u64::from(counts.points[lane]);
+            self.indices[lane] += times * u64::from(counts.indices[lane]);
+            self.largest[lane] = counts.points[lane].max(self.largest[lane]);
+        }
+    }
+
+    #[inline(always)]
+    fn total(self) -> PartCounts {
+        PartCounts {
+            points: self.points.into_iter().sum(),
+            indices: self.indices.into_iter().sum(),
+            largest: self.largest.into_iter().max().unwrap_or(0),
+        }
+    }
+}

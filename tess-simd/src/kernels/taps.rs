@@ -1,0 +1,62 @@
+//! The stages of the front end on their own.
+
+use crate::data::lanes::{Column, LANES, MAX_FACTORS};
+use crate::stages::factor_context::Context;
+use crate::stages::factors;
+use crate::stages::place::{Locations, Spacing};
+use alloc::vec::Vec;
+use tess_core::fixed_point::ONE;
+use tess_core::{
+    Config, Domain, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, SplitOrder,
+};
+
+/// See [`crate::fixed_factors`].
+#[inline(always)]
+pub(crate) fn fixed_factors(
+    partitioning: Partitioning,
+    values: &[f32],
+    factors: &mut [[FixedFactor; 2]],
+) {
+    const PLAIN: Column<f32> = [3.0; LANES * MAX_FACTORS];
+    const INSIDE: usize = Domain::Triangle.outer_factors() * LANES;
+    let config = Config::new(partitioning, OutputPrimitive::Point);
+    for (values, factors) in values.chunks(LANES).zip(factors.chunks_mut(LANES)) {
+        let (mut outer, mut inside) = (PLAIN, PLAIN);
+        outer[..values.len()].copy_from_slice(values);
+        inside[INSIDE..INSIDE + values.len()].copy_from_slice(values);
+        let outer = factors::process(config, Domain::Triangle, &outer);
+        let inside = factors::process(config, Domain::Triangle, &inside);
+        for (lane, factors) in factors.iter_mut().enumerate() {
+            let bits = [outer.fixed[lane] * outer.alive[lane], inside.fixed[INSIDE + lane]];
+            *factors = bits.map(FixedFactor::from_bits);
+        }
+    }
+}
+
+/// See [`crate::contexts`].
+#[inline(always)]
+pub(crate) fn contexts(
+    split: SplitOrder,
+    parity: Parity,
+    factors: &[FixedFactor],
+    contexts: &mut [FactorContext],
+) {
+    let odd = parity.odd();
+    let highest = (64 - odd) << 16;
+    for (factor, context) in factors.iter().zip(contexts) {
+        // Between the even factor 1, which acts as 2, and 2 itself there is none.
+        let lowest = if factor.to_bits() <= ONE { ONE } else { (2 - odd) << 16 };
+        let fixed = factor.to_bits().clamp(lowest, highest);
+        *context = FactorContext::from(&Context::new(fixed, odd, split));
+    }
+}
+
+/// See [`crate::locations`].
+#[inline(always)]
+pub(crate) fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) {
+    let mut table = Locations::EMPTY;
+    for context in contexts {
+        table.fill(&Spacing::new(&Context::from(context)));
+        locations.extend(table.from(0).iter().take(context.points as usize));
+    }
+}

@@ -1,0 +1,117 @@
+//! The kernels, compiled once for each CPU level and chosen at run time.
+
+use crate::at_each_level;
+use crate::data::batch::Batch;
+use crate::data::chunk::Chunk;
+use crate::data::format::{IndexFormat, OutputPoint};
+#[cfg(target_arch = "x86_64")]
+use crate::data::level::with_avx512;
+#[cfg(target_arch = "x86_64")]
+use crate::data::writer::Writer;
+use crate::kernels;
+use crate::kernels::emit::{Caches, Offsets, Packets, Room};
+use crate::kernels::repeat::Repeat;
+use crate::stages::counts::PartCounts;
+use crate::stages::packet::Packet;
+#[cfg(target_arch = "x86_64")]
+use crate::stages::packet::PacketPatch;
+use crate::stages::points::Lookup;
+#[cfg(target_arch = "x86_64")]
+use crate::stages::points::{Code, permute, permute::Permutes};
+use crate::stages::settings::Settings;
+use alloc::vec::Vec;
+#[cfg(target_arch = "x86_64")]
+use multiversion::target::match_target;
+use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
+
+at_each_level! {
+    /// [`kernels::front_end::count`] at a level.
+    fn count(config: Config, batch: &Batch<'_>) -> PartCounts = kernels::front_end::count;
+}
+
+at_each_level! {
+    /// [`kernels::front_end::count_and_keep`] at a level.
+    fn count_and_keep(
+        config: Config,
+        batch: &Batch<'_>,
+        kept: &mut [Packet; Chunk::PACKETS],
+    ) -> PartCounts = kernels::front_end::count_and_keep;
+}
+
+at_each_level! {
+    /// [`kernels::front_end::process`] at a level.
+    fn process(
+        config: Config,
+        batch: &Batch<'_>,
+        packets: &mut [Packet; Chunk::PACKETS],
+    ) = kernels::front_end::process;
+}
+
+at_each_level! {
+    /// [`kernels::emit::emit`] at a level: points of compact patches by permutes where the level has
+    /// them, otherwise by look-up.
+    fn emit<P: OutputPoint, I: IndexFormat>(
+        settings: &Settings,
+        packets: Packets<'_>,
+        room: Room<'_, P, I>,
+        caches: &mut Caches,
+    ) -> Offsets = emit_by_lookup, avx512 = emit_by_permutes;
+}
+
+#[inline(always)]
+fn emit_by_lookup<P: OutputPoint, I: IndexFormat>(
+    settings: &Settings,
+    packets: Packets<'_>,
+    room: Room<'_, P, I>,
+    caches: &mut Caches,
+) -> Offsets {
+    kernels::emit::emit(settings, packets, room, caches, &mut Lookup::new())
+}
+
+#[cfg(target_arch = "x86_64")]
+with_avx512! {
+    fn emit_by_permutes<P: OutputPoint, I: IndexFormat>(
+        settings: &Settings,
+        packets: Packets<'_>,
+        room: Room<'_, P, I>,
+        caches: &mut Caches,
+    ) -> Offsets {
+        // A closure has the instructions of the function around it; a method of a trait cannot.
+        let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {
+            permute::emit(patch, codes, out);
+        };
+        kernels::emit::emit(settings, packets, room, caches, &mut Permutes(permute))
+    }
+}
+
+at_each_level! {
+    /// [`kernels::repeat::repeat`] at a level.
+    fn repeat<P: OutputPoint, I: IndexFormat>(
+        repeat: Repeat,
+        room: Room<'_, P, I>,
+    ) -> Offsets = kernels::repeat::repeat;
+}
+
+at_each_level! {
+    /// [`kernels::taps::fixed_factors`] at a level.
+    fn fixed_factors(
+        partitioning: Partitioning,
+        values: &[f32],
+        factors: &mut [[FixedFactor; 2]],
+    ) = kernels::taps::fixed_factors;
+}
+
+at_each_level! {
+    /// [`kernels::taps::contexts`] at a level.
+    fn contexts(
+        split: SplitOrder,
+        parity: Parity,
+        factors: &[FixedFactor],
+        contexts: &mut [FactorContext],
+    ) = kernels::taps::contexts;
+}
+
+at_each_level! {
+    /// [`kernels::taps::locations`] at a level.
+    fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) = kernels::taps::locations;
+}

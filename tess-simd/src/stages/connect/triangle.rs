@@ -1,0 +1,26 @@
+//! The triangles of a triangle patch (spec section 7).
+
+use super::rings::Rings;
+use crate::data::format::IndexFormat;
+use crate::data::lanes::{EdgePoints, is_odd};
+use crate::data::writer::Writer;
+use crate::stages::stitch::Stitches;
+use tess_core::OutputPrimitive;
+
+/// The innermost ring of an even inside factor is a single point, not a row of points.
+#[inline(always)]
+pub(super) fn emit<I: IndexFormat>(
+    &[u0, v0, w0, inside, ..]: &EdgePoints,
+    stitches: &Stitches,
+    base: u32,
+    output: OutputPrimitive,
+    out: &mut Writer<'_, I>,
+) {
+    let rings = Rings { outer: [u0, v0, w0], along: [inside; 3], row_at: [0; 3] };
+    let innermost = rings.emit(stitches, base, out);
+    if is_odd(inside) {
+        let [a, b, c] = [0, 1, 2].map(|k| I::wrapping_from(innermost.wrapping_add(k)));
+        let clockwise = output == OutputPrimitive::TriangleCw;
+        out.put(if clockwise { [a, b, c] } else { [a, c, b] });
+    }
+}

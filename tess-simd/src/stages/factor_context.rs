@@ -1,0 +1,113 @@
+//! Factor contexts of a packet (spec section 4).
+
+use crate::data::lanes::{Column, LANES, MAX_FACTORS};
+use crate::stages::reciprocal::reciprocal;
+use tess_core::fixed_point::{HALF, ONE};
+use tess_core::{FactorContext, Parity, SplitOrder};
+
+/// The context of one factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Context {
+    pub(crate) odd: u32,
+    pub(crate) inv_floor: u32,
+    pub(crate) inv_ceil: u32,
+    pub(crate) fraction: u32,
+    pub(crate) half_points: u32,
+    pub(crate) split: u32,
+    pub(crate) points: u32,
+}
+
+/// The point counts of the first `ALL` elements of two columns, alone; 0 for the others.
+#[inline(always)]
+pub(crate) fn point_counts<const ALL: usize>(fixed: &Column, odd: &Column) -> Column {
+    let mut points = [0; LANES * MAX_FACTORS];
+    for i in 0..ALL {
+        points[i] = 2 * ((half(fixed[i], odd[i]) + 0xFFFF) >> 16) + 1 - odd[i];
+    }
+    points
+}
+
+impl Context {
+    /// The context of a factor in range: 1..=63 if odd, 1 or 2..=64 if even. Free of branches.
+    #[inline(always)]
+    pub(crate) fn new(fixed: u32, odd: u32, order: SplitOrder) -> Self {
+        let half = half(fixed, odd);
+        let floor = half >> 16;
+        let ceil = (half + 0xFFFF) >> 16;
+        let split = match order {
+            // With no points to rank, which an odd factor of floor 1 has, the position is 0, not 1.
+            SplitOrder::Ruler => {
+                let points = floor - odd;
+                2 * drop_most_significant_bit(points) + u32::from(points != 0)
+            }
+            SplitOrder::Center => ceil.wrapping_sub(1 + odd),
+        };
+        Self {
+            odd,
+            inv_floor: reciprocal(2 * floor - odd),
+            inv_ceil: reciprocal(2 * ceil - odd),
+            fraction: half & 0xFFFF,
+            half_points: ceil,
+            split: if floor == ceil { ceil + 1 } else { split },
+            points: 2 * ceil + 1 - odd,
+        }
+    }
+}
+
+/// Half of a factor, from which the points of a half edge follow, in 16.16: at most 32.
+///
+/// An odd factor has one half more. The even factor 1 acts as 2; there is none between these.
+#[inline(always)]
+fn half(fixed: u32, odd: u32) -> u32 {
+    let half = ((fixed + 1) >> 1) + HALF * odd;
+    half.cast_signed().max(ONE.cast_signed()).cast_unsigned()
+}
+
+/// Clears the highest set bit of `x <= 32`; 0 stays 0.
+#[inline(always)]
+const fn drop_most_significant_bit(x: u32) -> u32 {
+    let x1 = x | (x >> 1);
+    let x2 = x1 | (x1 >> 2);
+    let below = (x2 | (x2 >> 4)) >> 1;
+    x & below
+}
+
+impl From<&FactorContext> for Context {
+    fn from(context: &FactorContext) -> Self {
+        let FactorContext { parity, inv_floor, inv_ceil, fraction, half_points, split, points } =
+            *context;
+        Self { odd: parity.odd(), inv_floor, inv_ceil, fraction, half_points, split, points }
+    }
+}
+
+impl From<&Context> for FactorContext {
+    fn from(context: &Context) -> Self {
+        let Context { odd, inv_floor, inv_ceil, fraction, half_points, split, points } = *context;
+        let parity = if odd == 1 { Parity::Odd } else { Parity::Even };
+        Self { parity, inv_floor, inv_ceil, fraction, half_points, split, points }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn most_significant_bits() {
+        assert_eq!(drop_most_significant_bit(0), 0, "no bit");
+        for x in 1..=32u32 {
+            assert_eq!(drop_most_significant_bit(x), x - (1 << x.ilog2()), "{x}");
+        }
+    }
+
+    /// Half a factor, rounded up, and one half more where the parity is odd; an even 1 acts as 2.
+    #[test]
+    fn halves() {
+        for fixed in ONE..=64 * ONE {
+            let rounded = fixed / 2 + fixed % 2;
+            assert_eq!(half(fixed, 1), rounded + HALF, "{fixed:#x}, odd");
+            let even = if fixed < 2 * ONE { ONE } else { rounded };
+            assert_eq!(half(fixed, 0), even, "{fixed:#x}, even");
+        }
+    }
+}

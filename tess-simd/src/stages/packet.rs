@@ -1,0 +1,238 @@
+//! A packet of patches after the front end: factors, contexts and counts.
+
+use crate::data::lanes::{Column, EdgePoints, LANES, Lanes, MAX_FACTORS, is_odd};
+use crate::stages::counts::{PacketCounts, counts};
+use crate::stages::factor_context::{Context, point_counts};
+use crate::stages::factors::process;
+use crate::stages::place::{Spacing, Spacings};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+
+/// The most points of an edge, or of a quad's inside factor, of a compact patch.
+pub(crate) const COMPACT_EDGE: usize = 16;
+
+/// The most points of the inside factor of a compact triangle.
+pub(crate) const COMPACT_TRIANGLE_INSIDE: usize = 13;
+
+/// Sixteen patches of one domain after factor processing, their output sizes known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Packet {
+    config: Config,
+    domain: Domain,
+    fixed: Column,
+    points: Column,
+    /// Unspecified where factors are integers: see [`PacketPatch::spacing`].
+    spacings: Spacings,
+    minimum: Lanes,
+    topologies: Lanes<u64>,
+    /// See [`PacketPatch::is_compact`].
+    compact: Lanes,
+    pub(crate) counts: PacketCounts,
+}
+
+impl Packet {
+    /// A packet of culled patches.
+    pub(crate) const EMPTY: Self = Self {
+        config: Config::new(Partitioning::Integer, OutputPrimitive::Point),
+        domain: Domain::Quad,
+        fixed: [0; _],
+        points: [0; _],
+        spacings: Spacings::NONE,
+        minimum: [0; _],
+        topologies: [0; _],
+        compact: [0; _],
+        counts: PacketCounts { points: [0; _], indices: [0; _] },
+    };
+
+    /// Processes the raw factors of a packet; zeros count as culled.
+    ///
+    /// It is written where it stays: as a result, it would be copied.
+    #[inline(always)]
+    pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
+        use Domain::{Isoline, Quad, Triangle};
+        match domain {
+            Isoline => self.process_as::<{ all(Isoline) }>(config, domain, raw),
+            Triangle => self.process_as::<{ all(Triangle) }>(config, domain, raw),
+            Quad => self.process_as::<{ all(Quad) }>(config, domain, raw),
+        }
+    }
+
+    /// [`Self::process`] for patches whose factors are the first `ALL` elements of a column.
+    #[inline(always)]
+    fn process_as<const ALL: usize>(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
+        let processed = process(config, domain, raw);
+        let (fixed, odd) = (&processed.fixed, &processed.odd);
+        // Where factors are integers, few spacings are ever needed.
+        let points = if config.partitioning.has_integer_factors() {
+            point_counts::<ALL>(fixed, odd)
+        } else {
+            let mut points = [0; LANES * MAX_FACTORS];
+            self.spacings.fill::<ALL>(&mut points, (fixed, odd), config.split);
+            points
+        };
+        (self.config, self.domain) = (config, domain);
+        self.counts = counts(config, domain, &processed, &points);
+        self.topologies = topologies(&points, &processed.minimum);
+        self.compact = compact(domain, &points);
+        (self.fixed, self.points, self.minimum) = (processed.fixed, points, processed.minimum);
+    }
+
+    /// Whether all of its patches are compact.
+    #[inline(always)]
+    pub(crate) fn all_compact(&self) -> bool {
+        self.compact.iter().fold(1, |all, compact| all & compact) == 1
+    }
+
+    /// One of its patches.
+    #[inline(always)]
+    pub(crate) const fn patch(&self, lane: usize) -> PacketPatch<'_> {
+        PacketPatch { packet: self, lane }
+    }
+}
+
+/// The output sizes of a packet alone.
+#[inline(always)]
+pub(crate) fn packet_counts(config: Config, domain: Domain, raw: &Column<f32>) -> PacketCounts {
+    use Domain::{Isoline, Quad, Triangle};
+    let processed = process(config, domain, raw);
+    let (fixed, odd) = (&processed.fixed, &processed.odd);
+    let points = match domain {
+        Isoline => point_counts::<{ all(Isoline) }>(fixed, odd),
+        Triangle => point_counts::<{ all(Triangle) }>(fixed, odd),
+        Quad => point_counts::<{ all(Quad) }>(fixed, odd),
+    };
+    counts(config, domain, &processed, &points)
+}
+
+/// Elements of a column that a domain's factors have.
+const fn all(domain: Domain) -> usize {
+    domain.factors() * LANES
+}
+
+/// One patch of a packet. Factors are numbered in the core's order.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct PacketPatch<'a> {
+    packet: &'a Packet,
+    lane: usize,
+}
+
+impl PacketPatch<'_> {
+    /// Its domain.
+    #[inline(always)]
+    pub(crate) const fn domain(self) -> Domain {
+        self.packet.domain
+    }
+
+    /// The number of its points; 0 if it is culled.
+    #[inline(always)]
+    pub(crate) const fn points(self) -> u32 {
+        self.packet.counts.points[self.lane]
+    }
+
+    /// The number of its indices; 0 if it is culled.
+    #[inline(always)]
+    pub(crate) const fn indices(self) -> u32 {
+        self.packet.counts.indices[self.lane]
+    }
+
+    /// Whether all factors are integers, so that a point count says all about a factor.
+    #[inline(always)]
+    pub(crate) const fn integer(self) -> bool {
+        self.packet.config.partitioning.has_integer_factors()
+    }
+
+    /// Whether it is a minimum patch.
+    #[inline(always)]
+    pub(crate) const fn is_minimum(self) -> bool {
+        self.packet.minimum[self.lane] == 1
+    }
+
+    /// Whether it is a quad or a triangle of which no edge has more than [`COMPACT_EDGE`] points; nor has a
+    /// triangle's inside more than [`COMPACT_TRIANGLE_INSIDE`].
+    #[inline(always)]
+    pub(crate) const fn is_compact(self) -> bool {
+        self.packet.compact[self.lane] == 1
+    }
+
+    /// A number for each topology of a domain, not 0.
+    #[inline(always)]
+    pub(crate) const fn topology(self) -> u64 {
+        self.packet.topologies[self.lane]
+    }
+
+    /// The point counts of its factors.
+    #[inline(always)]
+    pub(crate) const fn edges(self) -> EdgePoints {
+        let Self { packet: Packet { points, .. }, lane } = self;
+        [
+            points[lane],
+            points[LANES + lane],
+            points[2 * LANES + lane],
+            points[3 * LANES + lane],
+            points[4 * LANES + lane],
+            points[5 * LANES + lane],
+        ]
+    }
+
+    /// The point count of one factor.
+    #[inline(always)]
+    pub(crate) const fn edge_points(self, factor: usize) -> u32 {
+        self.packet.points[factor * LANES + self.lane]
+    }
+
+    /// A number that tells the contexts of one split order apart; not 0.
+    #[inline(always)]
+    pub(crate) const fn key(self, factor: usize) -> u32 {
+        let i = factor * LANES + self.lane;
+        (self.packet.fixed[i] << 1) | (self.packet.points[i] & 1)
+    }
+
+    /// The spacing of one factor's points.
+    #[inline(always)]
+    pub(crate) fn spacing(self, factor: usize) -> Spacing {
+        if self.integer() {
+            let i = factor * LANES + self.lane;
+            let Packet { config, fixed, points, .. } = self.packet;
+            let odd = u32::from(is_odd(points[i]));
+            Spacing::new(&Context::new(fixed[i], odd, config.split))
+        } else {
+            self.fractional_spacing(factor)
+        }
+    }
+
+    /// [`Self::spacing`] where the partitioning is fractional.
+    #[inline(always)]
+    pub(crate) const fn fractional_spacing(self, factor: usize) -> Spacing {
+        let i = factor * LANES + self.lane;
+        self.packet.spacings.get(i, self.packet.points[i])
+    }
+}
+
+/// A number for each topology: the point counts of all factors, after a leading 1, and whether it
+/// is a minimum patch.
+#[inline(always)]
+fn topologies(points: &Column, minimum: &Lanes) -> Lanes<u64> {
+    let mut topologies = [1; LANES];
+    for points in points.as_chunks::<LANES>().0 {
+        for (topology, &points) in topologies.iter_mut().zip(points) {
+            *topology = (*topology << 7) | u64::from(points);
+        }
+    }
+    for (topology, &minimum) in topologies.iter_mut().zip(minimum) {
+        *topology = (*topology << 1) | u64::from(minimum);
+    }
+    topologies
+}
+
+/// 1 where a patch is compact.
+#[inline(always)]
+fn compact(domain: Domain, points: &Column) -> Lanes {
+    let mut compact = [u32::from(domain != Domain::Isoline); LANES];
+    for (factor, points) in points.as_chunks::<LANES>().0.iter().enumerate() {
+        let inside = domain == Domain::Triangle && factor >= Domain::Triangle.outer_factors();
+        let most = if inside { COMPACT_TRIANGLE_INSIDE } else { COMPACT_EDGE };
+        for (compact, &points) in compact.iter_mut().zip(points) {
+            *compact &= u32::from(points as usize <= most);
+        }
+    }
+    compact
+}

@@ -1,0 +1,52 @@
+//! The domain points of a patch, in order (spec section 6).
+//!
+//! Every run of points along an edge is one coordinate held and the other read from a table of
+//! locations; seen from the other end a location is `ONE` minus itself. For compact patches of fractional
+//! factors, `code` notes what each point is made of, and `permute` or `lookup` makes it.
+
+mod coordinate_code;
+mod isoline;
+mod lookup;
+#[cfg(target_arch = "x86_64")]
+pub(crate) mod permute;
+mod quad;
+mod tables;
+mod triangle;
+
+pub(crate) use coordinate_code::{Code, codes, corner};
+pub(crate) use lookup::Lookup;
+pub(crate) use tables::LocationTables;
+
+use crate::data::format::OutputPoint;
+use crate::data::writer::Writer;
+use crate::stages::packet::PacketPatch;
+use tess_core::Domain;
+
+/// Points written at a time.
+const POINTS_AT_ONCE: usize = 8;
+
+/// Emits the points of a regular patch.
+#[inline(always)]
+pub(crate) fn emit<P: OutputPoint>(
+    patch: PacketPatch<'_>,
+    tables: &mut LocationTables,
+    out: &mut Writer<'_, P>,
+) {
+    let (edges, locations) = (&patch.edges(), tables.of(patch));
+    match patch.domain() {
+        Domain::Isoline => isoline::emit(edges, locations, out),
+        Domain::Triangle => triangle::emit(edges, locations, out),
+        Domain::Quad => quad::emit(edges, locations, out),
+    }
+}
+
+/// How the points of compact patches of fractional factors are made.
+///
+/// One type decides what a template keeps of a code and who reads it, so that the two go together.
+pub(crate) trait CompactPoints<P> {
+    /// What a template keeps of the code of a coordinate.
+    fn kept(domain: Domain, code: u16) -> u16;
+
+    /// Writes the points of a patch from what its template keeps.
+    fn emit(&mut self, patch: PacketPatch<'_>, kept: &[Code], out: &mut Writer<'_, P>);
+}

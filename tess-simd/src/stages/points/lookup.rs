@@ -1,0 +1,156 @@
+//! Points of compact patches from their codes, by look-up.
+//!
+//! All coordinates that a patch's codes name are computed at once into a table, in the format of the output. A
+//! point is then two of its elements, wherever no level has instructions for more.
+
+use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, MINUS, RINGS, TERMS, Term};
+use super::triangle::Inset;
+use super::{CompactPoints, POINTS_AT_ONCE};
+use crate::data::format::OutputPoint;
+use crate::data::writer::Writer;
+use crate::stages::packet::PacketPatch;
+use crate::stages::place::place_in_half;
+use core::hint::black_box;
+use tess_core::Domain;
+use tess_core::fixed_point::{ONE, ONE_THIRD};
+
+/// Lookup at the same positions of one factor.
+type Row = [u32; HALF_EDGE];
+
+/// The first rows: one of locations for each factor of a quad or each outer one of a triangle, then one of
+/// opposites for each of them.
+const QUAD_FACTORS: usize = Domain::Quad.factors();
+const TRIANGLE_OUTER: usize = Domain::Triangle.outer_factors();
+/// Where the rows of a triangle's inner rings begin: four for each, one for every term that has a location.
+const INNER: usize = 2 * TRIANGLE_OUTER;
+const ROWS_OF_RING: usize = TERMS.len() - 1;
+/// The row of a triangle's coordinates without a location: one for each ring, 0 for the outer one, then the
+/// centre's.
+const HELD: usize = INNER + ROWS_OF_RING * (RINGS - 1);
+/// As many coordinates as a byte can number, so that none is out of range.
+const ENTRIES: usize = 256;
+const ROWS: usize = ENTRIES / HALF_EDGE;
+
+const _: () = assert!(HELD < ROWS && RINGS < HALF_EDGE && 2 * QUAD_FACTORS <= ROWS, "all rows fit");
+
+/// The coordinates of a patch.
+#[derive(Clone, Debug)]
+pub(crate) struct Lookup {
+    rows: [Row; ROWS],
+    /// The positions of half an edge. The compiler does not know them, or it would treat each of them
+    /// in a way of its own instead of all in one vector.
+    positions: Row,
+}
+
+/// Where the coordinate of a code stands in [`Lookup`].
+#[expect(clippy::cast_possible_truncation, reason = "below 256")]
+fn entry_of(domain: Domain, code: u16) -> u16 {
+    let number = usize::from((code & !MINUS) >> LOCATION);
+    let (factor, position) = (number / HALF_EDGE, number % HALF_EDGE);
+    let (row, position) = if domain == Domain::Triangle {
+        triangle_entry(usize::from(code % (1 << LOCATION)), factor, position)
+    } else if code & MINUS == 0 {
+        (factor, position)
+    } else {
+        (QUAD_FACTORS + factor, position)
+    };
+    (row * HALF_EDGE + position) as u16
+}
+
+/// The row and the position of a term's sum with a location.
+fn triangle_entry(number: usize, factor: usize, position: usize) -> (usize, usize) {
+    if number == usize::from(CENTRE) {
+        return (HELD, RINGS);
+    }
+    let (term, ring) = (TERMS[number / RINGS], number % RINGS);
+    match term {
+        Term::Perpendicular => (HELD, ring),
+        Term::Back | Term::Third if ring == 0 => (factor, position),
+        Term::Last | Term::LastThird if ring == 0 => (TRIANGLE_OUTER + factor, position),
+        _ => (INNER + ROWS_OF_RING * (ring - 1) + term as usize - 1, position),
+    }
+}
+
+impl<P: OutputPoint> CompactPoints<P> for Lookup {
+    fn kept(domain: Domain, code: u16) -> u16 {
+        entry_of(domain, code)
+    }
+
+    // Only what is inlined has a level's instructions. WebAssembly has one level, and a page to load.
+    #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+    #[cfg_attr(target_arch = "wasm32", inline(never))]
+    fn emit(&mut self, patch: PacketPatch<'_>, entries: &[Code], out: &mut Writer<'_, P>) {
+        if patch.domain() == Domain::Triangle {
+            self.fill_edges::<P, TRIANGLE_OUTER>(patch);
+            self.fill_rings::<P>(patch);
+        } else {
+            self.fill_edges::<P, QUAD_FACTORS>(patch);
+        }
+        let [coordinates] = self.rows.as_flattened().as_chunks::<ENTRIES>().0 else {
+            return debug_assert!(false, "an entry's number is a byte");
+        };
+        out.map::<_, POINTS_AT_ONCE>(patch.points() as usize, entries, |[u, v]: Code| {
+            let [u, v] = [usize::from(u) % ENTRIES, usize::from(v) % ENTRIES];
+            P::from_coordinates([coordinates[u], coordinates[v]])
+        });
+    }
+}
+
+impl Lookup {
+    /// A table of no patch yet.
+    pub(crate) fn new() -> Self {
+        Self { rows: [[0; HALF_EDGE]; ROWS], positions: black_box([0, 1, 2, 3, 4, 5, 6, 7]) }
+    }
+
+    /// Computes the coordinates of the first factors' locations and of their opposites.
+    #[inline(always)]
+    fn fill_edges<P: OutputPoint, const FACTORS: usize>(&mut self, patch: PacketPatch<'_>) {
+        for factor in 0..FACTORS {
+            let locations = self.locations(patch, factor);
+            self.rows[factor] = row::<P>(locations, |x| x);
+            self.rows[FACTORS + factor] = row::<P>(locations, |x| ONE.wrapping_sub(x));
+        }
+    }
+
+    /// Computes the coordinates of a triangle's inner rings and its centre.
+    #[inline(always)]
+    fn fill_rings<P: OutputPoint>(&mut self, patch: PacketPatch<'_>) {
+        let inside = self.locations(patch, TRIANGLE_OUTER);
+        let insets = inside.map(Inset::new);
+        self.rows[HELD] = row::<P>(insets.map(|inset| inset.perpendicular), |x| x);
+        self.rows[HELD][RINGS] = P::coordinate(ONE_THIRD);
+        let rings = self.rows[INNER..HELD].as_chunks_mut::<ROWS_OF_RING>().0;
+        let end = (patch.edge_points(TRIANGLE_OUTER) as usize / 2).min(RINGS);
+        for ring in 1..end {
+            let Inset { perpendicular, shift } = insets[ring];
+            let (last, third) = (ONE - shift, shift.wrapping_sub(perpendicular));
+            // The terms in their order.
+            rings[ring - 1] = [
+                row::<P>(inside, |x| x.wrapping_sub(shift)),
+                row::<P>(inside, |x| last.wrapping_sub(x)),
+                row::<P>(inside, |x| x.wrapping_add(third)),
+                row::<P>(inside, |x| third.wrapping_add(ONE).wrapping_sub(x)),
+            ];
+        }
+    }
+
+    /// The locations of half the edge of a factor.
+    #[inline(always)]
+    fn locations(&self, patch: PacketPatch<'_>, factor: usize) -> Row {
+        let spacing = patch.fractional_spacing(factor);
+        let mut row = self.positions;
+        for x in &mut row {
+            *x = place_in_half(&spacing, *x);
+        }
+        row
+    }
+}
+
+/// Lookup from locations, as they stand in memory.
+#[inline(always)]
+fn row<P: OutputPoint>(mut row: Row, coordinate: impl Fn(u32) -> u32) -> Row {
+    for x in &mut row {
+        *x = P::coordinate(coordinate(*x));
+    }
+    row
+}

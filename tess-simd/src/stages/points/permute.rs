@@ -1,0 +1,177 @@
+//! Points of compact patches from their codes, by permutes of AVX-512.
+//!
+//! All locations and terms that a patch's codes name are computed at once into a few vectors. Two of
+//! them are one table of 32 entries for the instruction `vpermi2d`.
+
+use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Term};
+use super::{CompactPoints, POINTS_AT_ONCE};
+use crate::data::format::OutputPoint;
+use crate::data::level::with_avx512;
+use crate::data::writer::Writer;
+use crate::stages::packet::PacketPatch;
+use bytemuck::must_cast;
+use core::arch::x86_64::{
+    __m256i, __m512i, _mm512_add_epi32, _mm512_cmpeq_epi32_mask, _mm512_cmpgt_epu32_mask,
+    _mm512_cvtepi16_epi32, _mm512_mask_add_epi32, _mm512_mask_blend_epi32, _mm512_mask_mov_epi32,
+    _mm512_mask_set1_epi32, _mm512_mask_sub_epi32, _mm512_movepi32_mask, _mm512_mullo_epi32,
+    _mm512_permutex2var_epi32, _mm512_permutexvar_epi32, _mm512_set1_epi32, _mm512_srli_epi32,
+    _mm512_sub_epi32, _mm512_test_epi32_mask,
+};
+use tess_core::Domain;
+use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
+
+/// As many points are made of any patch: most compact ones have no more.
+const LEAST: usize = 32;
+
+/// Set in a code whose location is of a quad's inside factor: the fifth or sixth.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "a single bit of sixteen"
+)]
+const INSIDE: i32 = (Domain::Quad.outer_factors() * HALF_EDGE) as i32 * (1 << LOCATION);
+
+/// Takes [`emit`] to where it is needed: a closure that calls it.
+pub(crate) struct Permutes<F>(pub(crate) F);
+
+impl<P, F: Fn(PacketPatch<'_>, &[Code], &mut Writer<'_, P>)> CompactPoints<P> for Permutes<F> {
+    /// The code itself.
+    fn kept(_: Domain, code: u16) -> u16 {
+        code
+    }
+
+    #[inline(always)]
+    fn emit(&mut self, patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>) {
+        self.0(patch, codes, out);
+    }
+}
+
+/// How sixteen terms are made.
+#[derive(Clone, Copy)]
+struct Recipe {
+    location: [u32; 16],
+    constant: [u32; 16],
+    perpendicular: u16,
+    less_perpendicular: u16,
+    shift: u16,
+    less_shift: u16,
+}
+
+/// All terms, in the order of their numbers.
+#[expect(clippy::cast_possible_truncation, reason = "numbers of lanes")]
+const RECIPES: [Recipe; 2] = {
+    let mut all = [Recipe {
+        location: [HALF_EDGE as u32; 16],
+        constant: [ONE_THIRD; 16],
+        perpendicular: 0,
+        less_perpendicular: 0,
+        shift: 0,
+        less_shift: 0,
+    }; 2];
+    let mut number = 0;
+    while number < CENTRE as usize {
+        let (term, ring) = (TERMS[number / RINGS], number % RINGS);
+        let (recipe, lane) = (&mut all[number / 16], number % 16);
+        recipe.location[lane] = (HALF_EDGE + ring) as u32;
+        recipe.constant[lane] = match term {
+            Term::Last | Term::LastThird => ONE,
+            _ => 0,
+        };
+        let bit = 1 << lane;
+        match term {
+            Term::Perpendicular => recipe.perpendicular |= bit,
+            Term::Back | Term::Last => recipe.less_shift |= bit,
+            Term::Third | Term::LastThird => {
+                recipe.shift |= bit;
+                recipe.less_perpendicular |= bit;
+            }
+        }
+        number += 1;
+    }
+    all
+};
+
+with_avx512! {
+    /// Writes the points of a compact patch of fractional factors.
+    pub(crate) fn emit<P: OutputPoint>(patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>) {
+        let points = patch.points() as usize;
+        let [a, b] = [locations(patch, 0), locations(patch, 2)];
+        if patch.domain() == Domain::Triangle {
+            let [c, d] = terms(b);
+            out.blocks::<_, POINTS_AT_ONCE, LEAST>(points, codes, |codes| {
+                let codes = extended(codes);
+                let location = _mm512_permutex2var_epi32(a, _mm512_srli_epi32::<LOCATION>(codes), b);
+                let term = _mm512_permutex2var_epi32(c, codes, d);
+                let sum = _mm512_add_epi32(term, location);
+                let minus = _mm512_movepi32_mask(codes);
+                point(_mm512_mask_sub_epi32(sum, minus, term, location))
+            });
+        } else {
+            let c = locations(patch, 4);
+            let one = _mm512_set1_epi32(ONE.cast_signed());
+            let inside = _mm512_set1_epi32(INSIDE);
+            out.blocks::<_, POINTS_AT_ONCE, LEAST>(points, codes, |codes| {
+                let codes = extended(codes);
+                let number = _mm512_srli_epi32::<LOCATION>(codes);
+                let outer = _mm512_permutex2var_epi32(a, number, b);
+                let is_inside = _mm512_test_epi32_mask(codes, inside);
+                let location =
+                    _mm512_mask_blend_epi32(is_inside, outer, _mm512_permutexvar_epi32(number, c));
+                let minus = _mm512_movepi32_mask(codes);
+                point(_mm512_mask_sub_epi32(location, minus, one, location))
+            });
+        }
+    }
+
+    /// The codes of eight points, their signs extended.
+    fn extended(codes: &[Code; POINTS_AT_ONCE]) -> __m512i {
+        _mm512_cvtepi16_epi32(must_cast::<_, __m256i>(*codes))
+    }
+
+    /// The locations of half the edges of two factors.
+    fn locations(patch: PacketPatch<'_>, first: usize) -> __m512i {
+        const POSITIONS: [u32; 16] = [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3, 4, 5, 6, 7];
+        const MIDDLE_OF: [u32; 16] = [1, 3, 5, 7, 9, 11, 13, 15, 1, 3, 5, 7, 9, 11, 13, 15];
+        let (one, other) = (patch.fractional_spacing(first), patch.fractional_spacing(first + 1));
+        let both = |one: u32, other: u32| {
+            _mm512_mask_set1_epi32(_mm512_set1_epi32(one.cast_signed()), 0xFF00, other.cast_signed())
+        };
+        let positions = must_cast(POSITIONS);
+        let sums = _mm512_mullo_epi32(positions, both(one.step, other.step));
+        let behind = _mm512_cmpgt_epu32_mask(positions, both(one.split, other.split));
+        let sums = _mm512_mask_sub_epi32(sums, behind, sums, both(one.lag, other.lag));
+        let half = _mm512_set1_epi32(HALF.cast_signed());
+        let rounded = _mm512_srli_epi32::<16>(_mm512_add_epi32(sums, half));
+        let middle = _mm512_cmpeq_epi32_mask(must_cast(MIDDLE_OF), both(one.points, other.points));
+        _mm512_mask_mov_epi32(rounded, middle, half)
+    }
+
+    /// The terms of a triangle, from a vector whose second half has the inside factor's locations.
+    fn terms(inside: __m512i) -> [__m512i; 2] {
+        [half_of_terms::<0>(inside), half_of_terms::<1>(inside)]
+    }
+
+    /// One vector of terms: `constant`, plus and minus what the masks keep of two numbers.
+    fn half_of_terms<const HALF_OF: usize>(inside: __m512i) -> __m512i {
+        let recipe = const { &RECIPES[HALF_OF] };
+        let location = _mm512_permutexvar_epi32(must_cast(recipe.location), inside);
+        let sum = _mm512_mullo_epi32(location, _mm512_set1_epi32(TWO_THIRDS.cast_signed()));
+        let half = _mm512_set1_epi32(HALF.cast_signed());
+        let perpendicular = _mm512_srli_epi32::<16>(_mm512_add_epi32(sum, half));
+        let shift = _mm512_sub_epi32(perpendicular, _mm512_srli_epi32::<1>(perpendicular));
+        let sum = must_cast(recipe.constant);
+        let sum = _mm512_mask_add_epi32(sum, recipe.perpendicular, sum, perpendicular);
+        let sum = _mm512_mask_sub_epi32(sum, recipe.less_perpendicular, sum, perpendicular);
+        let sum = _mm512_mask_add_epi32(sum, recipe.shift, sum, shift);
+        _mm512_mask_sub_epi32(sum, recipe.less_shift, sum, shift)
+    }
+
+    /// Eight points from their coordinates.
+    fn point<P: OutputPoint>(coordinates: __m512i) -> [P; POINTS_AT_ONCE] {
+        let mut points = [P::default(); POINTS_AT_ONCE];
+        for (point, [u, v]) in points.iter_mut().zip(must_cast::<_, [[u32; 2]; POINTS_AT_ONCE]>(coordinates)) {
+            *point = P::from_bits(u, v);
+        }
+        points
+    }
+}

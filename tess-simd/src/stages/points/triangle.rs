@@ -1,0 +1,105 @@
+//! Triangle points: the outer ring, then the interior rings, then the centre (spec section 6).
+
+use super::POINTS_AT_ONCE;
+use super::tables::FactorLocations;
+use crate::data::format::OutputPoint;
+use crate::data::lanes::{EdgePoints, is_odd};
+use crate::data::writer::Writer;
+use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
+
+/// The points of one edge of a ring: all but its last.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Run {
+    pub(super) edge: usize,
+    /// The ring, and the point of the factor that it begins with.
+    pub(super) ring: u32,
+    /// The factor whose locations it takes.
+    pub(super) factor: usize,
+    pub(super) length: u32,
+}
+
+/// Takes the runs of points that a triangle has, in order.
+pub(super) trait TriangleWalker {
+    fn run(&mut self, run: Run);
+    /// Takes the point in the middle.
+    fn centre(&mut self);
+}
+
+/// How far a ring is inside, in two coordinates.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inset {
+    /// The coordinate that is the same along an edge of the ring.
+    pub(super) perpendicular: u32,
+    /// What the coordinates along an edge lose.
+    pub(super) shift: u32,
+}
+
+impl Inset {
+    /// The inset of the ring that has this location in the inside factor; none of the outer ring, 0.
+    /// Unspecified for a number that is no location of half an edge.
+    #[inline(always)]
+    pub(super) const fn new(location: u32) -> Self {
+        let perpendicular = location.wrapping_mul(TWO_THIRDS).wrapping_add(HALF) >> 16;
+        Self { perpendicular, shift: perpendicular.div_ceil(2) }
+    }
+}
+
+/// Takes a walker over the runs of a patch.
+#[inline(always)]
+pub(super) fn walk(&[u0, v0, w0, inside, ..]: &EdgePoints, walker: &mut impl TriangleWalker) {
+    for (edge, points) in [u0, v0, w0].into_iter().enumerate() {
+        walker.run(Run { edge, ring: 0, factor: edge, length: points - 1 });
+    }
+    for ring in 1..inside / 2 {
+        for edge in 0..3 {
+            walker.run(Run { edge, ring, factor: 3, length: inside - 1 - 2 * ring });
+        }
+    }
+    if !is_odd(inside) {
+        walker.centre();
+    }
+}
+
+#[inline(always)]
+pub(super) fn emit<P: OutputPoint>(
+    edges: &EdgePoints,
+    locations: FactorLocations<'_>,
+    out: &mut Writer<'_, P>,
+) {
+    walk(edges, &mut Runs { locations, out });
+}
+
+/// Writes the points of each run.
+struct Runs<'a, 'o, P> {
+    locations: FactorLocations<'a>,
+    out: &'a mut Writer<'o, P>,
+}
+
+impl<P: OutputPoint> TriangleWalker for Runs<'_, '_, P> {
+    #[inline(always)]
+    fn run(&mut self, Run { edge, ring, factor, length }: Run) {
+        let Self { locations, out } = self;
+        let location = if ring == 0 { 0 } else { locations[factor].at(ring) };
+        let Inset { perpendicular, shift } = Inset::new(location);
+        let locations = locations[factor].from(ring);
+        // Edges 0 and 2 run from the other end; on edge 2, w = perpendicular.
+        let (last, rest) = (ONE - shift, ONE - perpendicular);
+        match edge {
+            0 => out.map::<_, POINTS_AT_ONCE>(length as usize, locations, |x| {
+                P::from_bits(perpendicular, last.wrapping_sub(x))
+            }),
+            1 => out.map::<_, POINTS_AT_ONCE>(length as usize, locations, |x| {
+                P::from_bits(x.wrapping_sub(shift), perpendicular)
+            }),
+            _ => out.map::<_, POINTS_AT_ONCE>(length as usize, locations, |x| {
+                let q = last.wrapping_sub(x);
+                P::from_bits(q, rest.wrapping_sub(q))
+            }),
+        }
+    }
+
+    #[inline(always)]
+    fn centre(&mut self) {
+        self.out.put([P::from_bits(ONE_THIRD, ONE_THIRD)]);
+    }
+}

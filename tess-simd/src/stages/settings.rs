@@ -1,0 +1,21 @@
+//! What a tessellator is made for.
+
+use crate::stages::stitch::Stitches;
+use tess_core::Config;
+use tess_core::Order;
+
+/// What all patches of a tessellator share: the configuration, the order of triangles, and the stitch
+/// tables that follow from the configuration.
+#[derive(Clone, Debug)]
+pub(crate) struct Settings {
+    pub(crate) config: Config,
+    pub(crate) order: Order,
+    pub(crate) stitches: Stitches,
+}
+
+impl Settings {
+    /// Makes the tables.
+    pub(crate) fn new(config: Config) -> Self {
+        Self { config, order: Order::Specification, stitches: Stitches::new(config) }
+    }
+}

@@ -1,0 +1,12 @@
+//! Stitches as tables (spec sections 7.2 to 7.4).
+//!
+//! Which entries of its two rows a stitch connects depends on point counts and parities alone. A
+//! table holds one code for each index (`step_code`), made from the core's steps (`tables`); `rows`
+//! turns them into indices.
+
+mod rows;
+mod step_code;
+mod tables;
+
+pub(crate) use rows::{Replaced, Rows};
+pub(crate) use tables::Stitches;

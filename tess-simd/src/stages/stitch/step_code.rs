@@ -1,0 +1,26 @@
+//! The codes of stitches: one for each index.
+//!
+//! Entry `k` of the outer row is `k`, entry `k` of the inner row is `k - 128`. With rows that run
+//! up by one, an index is its code plus a constant that its sign chooses.
+
+/// Codes turned into indices at a time; tables are padded to it.
+pub(crate) const CODES_AT_ONCE: usize = 32;
+
+/// What a row position gains as inner row.
+const INNER: i8 = i8::MIN;
+
+/// No position of any row.
+pub(crate) const NOWHERE: i8 = i8::MAX;
+
+/// The code of an entry of the outer row, at most 64.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "at most 64")]
+pub(crate) const fn outer(k: u32) -> i8 {
+    k as i8
+}
+
+/// The code of an entry of the inner row, at most 63.
+#[inline(always)]
+pub(crate) const fn inner(k: u32) -> i8 {
+    outer(k) + INNER
+}

@@ -1,0 +1,185 @@
+//! Templates of patches.
+//!
+//! A patch's indices, counted from its own first point, depend on its point counts alone, and with
+//! integer factors so do its points. Compact patches of a topology that was seen before, and large
+//! ones of the topology of the patch before, are copied.
+//! The templates are made by the same emission that larger patches go through.
+
+mod compact;
+
+pub(crate) use compact::{CompactTemplate, CompactTemplates, Start, long};
+
+use crate::data::writer::Writer;
+use crate::stages::connect::{self, cache_order};
+use crate::stages::packet::PacketPatch;
+use crate::stages::points::{self, LocationTables};
+use crate::stages::settings::Settings;
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use tess_core::{Config, Domain, DomainPoint, Patch, PatchFactors};
+
+/// The most points of a patch whose template is kept at once: those of a quad of factor 16.
+const ALWAYS_KEPT: usize = 17 * 17;
+
+/// Templates kept at a time. Two topologies that share a slot replace each other.
+const SLOTS: usize = 1024;
+/// Indices of all templates.
+const INDEX_ROOM: usize = 96 << 10;
+/// Points of all templates.
+const POINT_ROOM: usize = 24 << 10;
+/// Room to read whole blocks.
+const PADDING: usize = 128;
+
+/// The templates of one configuration. 404 KiB.
+#[derive(Clone, Debug)]
+pub(crate) struct Templates {
+    slots: Box<[Slot; SLOTS]>,
+    /// Topology of the last large patch that had no template.
+    last_large: u64,
+    indices: Vec<u16>,
+    points: Vec<DomainPoint>,
+    indices_used: usize,
+    points_used: usize,
+}
+
+/// Where a template begins.
+#[derive(Clone, Copy, Debug)]
+struct Slot {
+    /// See [`PacketPatch::topology`]; 0 if there is none.
+    topology: u64,
+    point: u32,
+    index: u32,
+}
+
+/// One patch's template.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Template<'a> {
+    /// Indices counted from the patch's first point, and then unspecified ones.
+    pub(crate) indices: &'a [u16],
+    /// Points, and then unspecified ones; only if the topology decides them.
+    pub(crate) points: Option<&'a [DomainPoint]>,
+}
+
+impl Templates {
+    pub(crate) fn new() -> Self {
+        Self {
+            slots: Box::new([Slot { topology: 0, point: 0, index: 0 }; SLOTS]),
+            last_large: 0,
+            indices: alloc::vec![0; INDEX_ROOM],
+            points: alloc::vec![DomainPoint::default(); POINT_ROOM],
+            indices_used: 0,
+            points_used: 0,
+        }
+    }
+
+    /// Bytes of memory that they take on the heap.
+    pub(crate) const fn bytes(&self) -> usize {
+        size_of::<[Slot; SLOTS]>()
+            + INDEX_ROOM * size_of::<u16>()
+            + POINT_ROOM * size_of::<DomainPoint>()
+    }
+
+    /// The template of a patch that is not culled, if there is one or should be.
+    #[inline(always)]
+    pub(crate) fn get(
+        &mut self,
+        settings: &Settings,
+        patch: PacketPatch<'_>,
+        tables: &mut LocationTables,
+    ) -> Option<Template<'_>> {
+        let topology = patch.topology();
+        let slot = slot(topology);
+        if self.slots[slot].topology != topology {
+            if !self.wanted(patch) {
+                return None;
+            }
+            self.make(settings, patch, tables);
+        }
+        let Slot { point, index, .. } = self.slots[slot];
+        let decided = patch.integer() || patch.is_minimum();
+        Some(Template {
+            indices: self.indices.get(index as usize..).unwrap_or_default(),
+            points: decided.then(|| self.points.get(point as usize..).unwrap_or_default()),
+        })
+    }
+
+    /// Whether a patch is not large or like the large patch before.
+    #[inline(always)]
+    fn wanted(&mut self, patch: PacketPatch<'_>) -> bool {
+        let topology = patch.topology();
+        patch.points() as usize <= ALWAYS_KEPT
+            || core::mem::replace(&mut self.last_large, topology) == topology
+    }
+
+    /// The indices of a patch without a template, counted from its first point and in the specification's
+    /// order, and then unspecified ones.
+    #[inline(never)]
+    pub(crate) fn specified(&mut self, settings: &Settings, patch: PacketPatch<'_>) -> &[u16] {
+        self.make_room(0, patch.indices() as usize);
+        let room = &mut self.indices[self.indices_used..];
+        connect::emit(settings, patch, 0, &mut Writer::new(room));
+        room
+    }
+
+    /// Makes room for a template; if there is none, all others are forgotten.
+    fn make_room(&mut self, points: usize, indices: usize) {
+        let full = self.indices_used + indices + PADDING > INDEX_ROOM
+            || self.points_used + points + PADDING > POINT_ROOM;
+        if full {
+            self.slots.iter_mut().for_each(|slot| slot.topology = 0);
+            (self.indices_used, self.points_used) = (0, 0);
+        }
+    }
+
+    /// Makes a template.
+    #[cold]
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, reason = "places in the room")]
+    fn make(&mut self, settings: &Settings, patch: PacketPatch<'_>, tables: &mut LocationTables) {
+        let (points, indices) = (patch.points() as usize, patch.indices() as usize);
+        self.make_room(points, 2 * indices);
+        let index_room = &mut self.indices[self.indices_used..];
+        let point_room = &mut self.points[self.points_used..];
+        if patch.is_minimum() {
+            write_minimum(settings.config, patch.domain(), point_room, index_room);
+        } else {
+            write_indices(settings, patch, index_room);
+            if patch.integer() {
+                points::emit(patch, tables, &mut Writer::new(point_room));
+            }
+        }
+        let topology = patch.topology();
+        self.slots[slot(topology)] =
+            Slot { topology, point: self.points_used as u32, index: self.indices_used as u32 };
+        self.indices_used += indices;
+        self.points_used += points;
+    }
+}
+
+/// Writes a patch's indices in their order; the room behind them is overwritten.
+fn write_indices(settings: &Settings, patch: PacketPatch<'_>, room: &mut [u16]) {
+    if !cache_order::reorders(settings, patch) {
+        return connect::emit(settings, patch, 0, &mut Writer::new(room));
+    }
+    let (ordered, specified) = room.split_at_mut(patch.indices() as usize);
+    connect::emit(settings, patch, 0, &mut Writer::new(specified));
+    cache_order::emit(settings, patch, specified, &mut Writer::new(ordered), |index| index);
+}
+
+/// Where a topology's template is kept: the upper bits of a product with 2^64 over the golden ratio.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the upper ten bits")]
+const fn slot(topology: u64) -> usize {
+    (topology.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SLOTS.ilog2())) as usize % SLOTS
+}
+
+/// Writes the minimum patch of a domain, as the core makes it.
+#[expect(clippy::cast_possible_truncation, reason = "indices of at most 4 points")]
+fn write_minimum(config: Config, domain: Domain, points: &mut [DomainPoint], indices: &mut [u16]) {
+    let mut wide = [0; 8];
+    let written = Patch::new(config, PatchFactors::uniform(domain, 1.0)).write(points, &mut wide);
+    debug_assert!(written.is_ok(), "a minimum patch has at most 4 points and 6 indices");
+    for (narrow, wide) in indices.iter_mut().zip(wide) {
+        *narrow = wide as u16;
+    }
+}

@@ -1,0 +1,242 @@
+//! Templates of compact patches, of which many topologies are kept.
+//!
+//! Indices are bytes. With integer factors the topology decides the points too, otherwise their codes.
+
+use super::{PADDING, write_minimum};
+use crate::data::format::OutputPoint;
+use crate::data::lanes::LANES;
+use crate::data::writer::Writer;
+use crate::stages::connect::{self, cache_order};
+use crate::stages::packet::COMPACT_EDGE;
+use crate::stages::packet::PacketPatch;
+use crate::stages::points::{self, LocationTables, corner};
+use crate::stages::settings::Settings;
+use alloc::vec::Vec;
+use tess_core::{Domain, DomainPoint};
+
+/// The most points and indices of a compact patch: a quad's whose edges have [`COMPACT_EDGE`] points.
+const POINTS: usize = COMPACT_EDGE * COMPACT_EDGE;
+const INDICES: usize = 6 * (COMPACT_EDGE - 1) * (COMPACT_EDGE - 1);
+
+/// Sets of slots. A topology belongs to one of them, and may be in any slot of it.
+const SETS: usize = 2048;
+/// Slots of a set. Topologies that find none free replace each other.
+const WAYS: usize = 4;
+/// Indices of all templates.
+const INDEX_ROOM: usize = 224 << 10;
+/// Points of all templates.
+const POINT_ROOM: usize = 64 << 10;
+
+/// The templates of one configuration. 608 KiB.
+#[derive(Clone, Debug)]
+pub(crate) struct CompactTemplates {
+    sets: Vec<Set>,
+    /// The slot that is filled next, of any set.
+    way: usize,
+    indices: Vec<u8>,
+    indices_used: usize,
+    points: Vec<CompactPoint>,
+    points_used: usize,
+}
+
+/// Where the templates of some topologies begin.
+#[derive(Clone, Copy, Debug)]
+struct Set {
+    /// See [`PacketPatch::topology`]; 0 if there is none.
+    topologies: [u64; WAYS],
+    starts: [Start; WAYS],
+}
+
+/// What is kept of a code: see [`points::CompactPoints::kept`].
+pub(crate) type Kept = fn(Domain, u16) -> u16;
+
+/// A point of a template: its coordinates if factors are integers ([`short`]), otherwise its code.
+type CompactPoint = [u16; 2];
+
+/// Where a template begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Start {
+    point: u32,
+    index: u32,
+}
+
+impl Set {
+    const EMPTY: Self =
+        Self { topologies: [0; WAYS], starts: [Start { point: 0, index: 0 }; WAYS] };
+
+    /// The slot of a topology; [`WAYS`] or more if it has none.
+    #[inline(always)]
+    fn find(&self, topology: u64) -> usize {
+        let mut found = 0_u32;
+        for (way, &other) in self.topologies.iter().enumerate() {
+            found |= u32::from(other == topology) << way;
+        }
+        found.trailing_zeros() as usize
+    }
+}
+
+/// One patch's template.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct CompactTemplate<'a> {
+    /// Indices counted from the patch's first point, and then unspecified ones.
+    pub(crate) indices: &'a [u8],
+    /// Points, and then unspecified ones.
+    pub(crate) points: &'a [CompactPoint],
+}
+
+impl CompactTemplates {
+    pub(crate) fn new() -> Self {
+        Self {
+            sets: alloc::vec![Set::EMPTY; SETS],
+            way: 0,
+            indices: alloc::vec![0; INDEX_ROOM],
+            indices_used: 0,
+            points: alloc::vec![CompactPoint::default(); POINT_ROOM],
+            points_used: 0,
+        }
+    }
+
+    /// Bytes of memory that they take on the heap.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of_val(&self.sets[..]) + self.indices.len() + size_of_val(&self.points[..])
+    }
+
+    /// Makes room for the templates of a packet; if there is none, all others are forgotten.
+    #[inline(always)]
+    pub(crate) fn make_room(&mut self) {
+        let full = self.indices_used + LANES * INDICES + PADDING > INDEX_ROOM
+            || self.points_used + LANES * POINTS + PADDING > POINT_ROOM;
+        if full {
+            self.forget();
+        }
+    }
+
+    #[cold]
+    fn forget(&mut self) {
+        self.sets.fill(Set::EMPTY);
+        (self.indices_used, self.points_used) = (0, 0);
+    }
+
+    /// Where the template of a compact patch that is not culled begins. It is made if there is none.
+    #[inline(always)]
+    pub(crate) fn find(
+        &mut self,
+        settings: &Settings,
+        patch: PacketPatch<'_>,
+        tables: &mut LocationTables,
+        kept: Kept,
+    ) -> Start {
+        let topology = patch.topology();
+        let set = &self.sets[set(topology)];
+        match set.starts.get(set.find(topology)) {
+            Some(&start) => start,
+            None => self.make(settings, patch, tables, kept),
+        }
+    }
+
+    /// The template that begins here, found since there was room made last.
+    #[inline(always)]
+    pub(crate) fn get(&self, Start { point, index }: Start) -> CompactTemplate<'_> {
+        CompactTemplate {
+            indices: self.indices.get(index as usize..).unwrap_or_default(),
+            points: self.points.get(point as usize..).unwrap_or_default(),
+        }
+    }
+
+    /// Makes a template, for which there is room.
+    #[cold]
+    #[inline(never)]
+    #[expect(clippy::cast_possible_truncation, reason = "places in the room; indices below 256")]
+    fn make(
+        &mut self,
+        settings: &Settings,
+        patch: PacketPatch<'_>,
+        tables: &mut LocationTables,
+        kept: Kept,
+    ) -> Start {
+        let (points, indices) = (patch.points() as usize, patch.indices() as usize);
+        let mut wide = [0_u16; INDICES.next_multiple_of(32)];
+        self.write_points(settings, patch, tables, &mut wide);
+        if !patch.integer() {
+            let codes = &mut self.points[self.points_used..self.points_used + points];
+            for coordinate in codes.as_flattened_mut() {
+                *coordinate = kept(patch.domain(), *coordinate);
+            }
+        }
+        if !patch.is_minimum() {
+            connect::emit(settings, patch, 0, &mut Writer::new(&mut wide));
+        }
+        let mut to = self.indices[self.indices_used..].iter_mut();
+        cache_order::runs(settings, patch, |run| {
+            for (wide, narrow) in wide[run].iter().zip(to.by_ref()) {
+                *narrow = *wide as u8;
+            }
+        });
+        let start = Start { point: self.points_used as u32, index: self.indices_used as u32 };
+        let set = &mut self.sets[set(patch.topology())];
+        let way = set.topologies.iter().position(|&topology| topology == 0).unwrap_or(self.way);
+        set.topologies[way] = patch.topology();
+        set.starts[way] = start;
+        self.way = (way + 1) % WAYS;
+        self.indices_used += indices;
+        self.points_used += points;
+        start
+    }
+
+    /// Writes a patch's points or their codes, and a minimum patch's indices.
+    fn write_points(
+        &mut self,
+        settings: &Settings,
+        patch: PacketPatch<'_>,
+        tables: &mut LocationTables,
+        indices: &mut [u16],
+    ) {
+        let (used, count) = (self.points_used, patch.points() as usize);
+        let mut made = [DomainPoint::default(); POINTS + COMPACT_EDGE];
+        if patch.is_minimum() {
+            write_minimum(settings.config, patch.domain(), &mut made, indices);
+        } else if patch.integer() {
+            points::emit(patch, tables, &mut Writer::new(&mut made));
+        }
+        let (to, domain) = (&mut self.points[used..used + count], patch.domain());
+        if patch.integer() {
+            for (to, point) in to.iter_mut().zip(made) {
+                *to = short(point);
+            }
+            return;
+        }
+        if patch.is_minimum() {
+            for (to, point) in to.iter_mut().zip(made) {
+                *to = corner(domain, point);
+            }
+        } else {
+            points::codes(domain, &patch.edges(), to);
+        }
+    }
+}
+
+/// A point of a compact patch of integer factors in half the room. `ONE` becomes the largest number, which
+/// no coordinate is.
+#[expect(clippy::cast_possible_truncation, reason = "16.16 numbers up to ONE")]
+fn short(point: DomainPoint) -> CompactPoint {
+    [point.u, point.v].map(|coordinate| coordinate.to_bits().min(u32::from(u16::MAX)) as u16)
+}
+
+/// The point that [`short`] shortened.
+#[inline(always)]
+pub(crate) fn long<P: OutputPoint>(point: CompactPoint) -> P {
+    let [u, v] = point.map(|coordinate| {
+        let bits = u32::from(coordinate);
+        bits + ((bits + 1) >> 16)
+    });
+    P::from_bits(u, v)
+}
+
+/// The set of a topology: the upper bits of a product with 2^64 over the golden ratio, into which the
+/// outer factors' bits are folded first.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the upper eleven bits")]
+const fn set(topology: u64) -> usize {
+    let folded = topology ^ (topology >> 21);
+    (folded.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SETS.ilog2())) as usize % SETS
+}

@@ -1,0 +1,122 @@
+//! Consecutive patches of a batch, written by one thread.
+
+use crate::data::batch::Batch;
+use crate::data::chunk::{Chunk, Stretch};
+use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
+use crate::data::level::Level;
+use crate::data::output::{Buffers, Numbering, PatchRange};
+use crate::data::target::Target;
+use crate::kernels::emit::{Caches, Offsets, Packets, Room};
+use crate::kernels::repeat::Repeat;
+use crate::levels;
+use crate::stages::packet::Packet;
+use crate::stages::settings::Settings;
+use alloc::boxed::Box;
+
+/// What is the same for all parts of a batch.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Job<'a> {
+    pub(crate) level: Level,
+    pub(crate) settings: &'a Settings,
+    pub(crate) numbering: Numbering,
+    /// The packets of the whole batch, if the count kept them. Such a batch is one chunk and one part.
+    pub(crate) kept: Option<&'a [Packet; Chunk::PACKETS]>,
+}
+
+/// Consecutive patches of a batch and where their output goes.
+#[derive(Debug)]
+pub(crate) struct Part<'a> {
+    pub(crate) batch: Batch<'a>,
+    /// Buffers of exactly the sizes that the count predicts.
+    pub(crate) target: Target<'a>,
+    pub(crate) first: Offsets,
+}
+
+/// What a thread keeps from batch to batch. Two threads' workspaces share no cache lines.
+#[derive(Clone, Debug)]
+#[repr(align(128))]
+pub(crate) struct Workspace {
+    packets: Box<[Packet; Chunk::PACKETS]>,
+    /// The ranges of a chunk, where the caller wants none.
+    ranges: [PatchRange; Chunk::PATCHES],
+    caches: Caches,
+}
+
+impl Workspace {
+    pub(crate) fn new() -> Self {
+        Self {
+            packets: Box::new([Packet::EMPTY; _]),
+            ranges: [PatchRange::default(); _],
+            caches: Caches::new(),
+        }
+    }
+
+    /// Bytes of memory that it takes on the heap.
+    pub(crate) fn bytes(&self) -> usize {
+        size_of::<[Packet; Chunk::PACKETS]>() + self.caches.bytes()
+    }
+}
+
+/// Writes a part.
+pub(crate) fn emit(job: Job<'_>, part: Part<'_>, workspace: &mut Workspace) {
+    let Part { batch, target: Target { points, indices, ranges }, first } = part;
+    match (points, indices) {
+        (AnyPoints::F32(points), AnyIndices::U16(indices)) => {
+            emit_as(job, &batch, Buffers { points, indices, ranges }, first, workspace);
+        }
+        (AnyPoints::F32(points), AnyIndices::U32(indices)) => {
+            emit_as(job, &batch, Buffers { points, indices, ranges }, first, workspace);
+        }
+        (AnyPoints::Fixed(points), AnyIndices::U16(indices)) => {
+            emit_as(job, &batch, Buffers { points, indices, ranges }, first, workspace);
+        }
+        (AnyPoints::Fixed(points), AnyIndices::U32(indices)) => {
+            emit_as(job, &batch, Buffers { points, indices, ranges }, first, workspace);
+        }
+    }
+}
+
+/// Writes a part in one pair of formats, a chunk at a time.
+fn emit_as<P: OutputPoint, I: IndexFormat>(
+    job: Job<'_>,
+    batch: &Batch<'_>,
+    buffers: Buffers<'_, P, I>,
+    mut first: Offsets,
+    workspace: &mut Workspace,
+) {
+    let Job { level, settings, numbering, kept } = job;
+    let Buffers { mut points, mut indices, mut ranges } = buffers;
+    let (mut start, all) = (0, batch.len());
+    while start < all {
+        let (Stretch { patches, times }, packets) = if let Some(kept) = kept {
+            (Stretch { patches: all, times: 1 }, kept)
+        } else {
+            let stretch = Stretch::new(batch, start);
+            let batch = batch.slice(&(start..start + stretch.patches));
+            levels::process(level, settings.config, &batch, &mut workspace.packets);
+            (stretch, &*workspace.packets)
+        };
+        let own = &mut workspace.ranges[..patches];
+        let ranges_here = ranges.as_mut().map_or(own, |all| &mut all[start..start + patches]);
+        let packets = Packets { packets, first, numbering };
+        let room = Room { points: &mut *points, indices: &mut *indices, ranges: ranges_here };
+        let mut end = levels::emit(level, settings, packets, room, &mut workspace.caches);
+        if times > 1 {
+            let range = PatchRange {
+                first_point: first.points,
+                points: end.points - first.points,
+                first_index: first.indices,
+                indices: end.indices - first.indices,
+            };
+            let ranges = ranges.as_mut().map_or(&mut [][..], |all| &mut all[start..start + times]);
+            let room = Room { points: &mut *points, indices: &mut *indices, ranges };
+            end = levels::repeat(level, Repeat { range, times, numbering }, room);
+        }
+        start += patches * times;
+        points = points.split_at_mut((end.points - first.points) as usize).1;
+        indices = indices.split_at_mut((end.indices - first.indices) as usize).1;
+        first = end;
+    }
+    debug_assert!(points.is_empty(), "the points were counted");
+    debug_assert!(indices.is_empty(), "the indices were counted");
+}
