@@ -25,7 +25,7 @@ pub(crate) fn run() -> Result<(), String> {
     ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;
     publish::dry_run()?;
     publish::deny_if_installed()?;
-    test::run(test::Browser::Demanded)
+    test::run_all(test::Browser::Demanded)
 }
 
 /// Libraries also build without their default features.

@@ -61,6 +61,12 @@ pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("`{}` ended with {status}", shown(command))) }
 }
 
+/// As [`output()`], saying first what is run.
+pub(crate) fn said_and_output(command: &mut Command) -> Result<String, String> {
+    println!("\n$ {}", shown(command));
+    output(command)
+}
+
 /// Runs a command and gives what it prints on its standard output.
 pub(crate) fn output(command: &mut Command) -> Result<String, String> {
     let output = command

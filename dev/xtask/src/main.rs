@@ -17,6 +17,7 @@ mod publish;
 mod python;
 mod records;
 mod setup;
+mod suite;
 mod tally;
 mod test;
 
@@ -27,17 +28,21 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask <command>
 
-  test    set up what the tests need, then run every test of the workspace
+  test [PATH...]
+          set up what the tests need, then run those of the model, the CPU, the GPU on Vulkan, surfaces, the
+          kit, the program and C; or only those in these folders and files, such as tess-core/tests/golden.rs
+  test all
+          run every test: Python, the browser, OpenGL, a window and simulators too
   ci      what continuous integration runs: formatting, lints, documentation, features,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
-          `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test`
+          `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
           Icarus Verilog, Python
   python  build the Python package's wheel, install it in a fresh virtual environment, check its
-          types and run its tests; `test` includes it. PYTHON names another interpreter
+          types and run its tests; `test all` includes it. PYTHON names another interpreter
   explorer [--serve | --test]
           build the explorer's page in target/explorer; serve it on this machine and say where; or
-          test it in Chromium. `test` includes it where Node.js and Chromium are to be had
+          test it in Chromium. `test all` includes it where Node.js and Chromium are to be had
   integrations
           build the plugin for Bevy, run its tests and its example, and compare the pictures of its two
           ways to tessellate; `ci` leaves it out, as Bevy takes long to build
@@ -86,7 +91,8 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
     let after_setup =
         |command: &dyn Fn() -> Result<(), String>| setup::run().and_then(|()| command());
     Some(match *words {
-        ["test"] => after_setup(&|| test::run(test::Browser::IfThere)),
+        ["test", "all"] => test::run_all(test::Browser::IfThere),
+        ["test", ref paths @ ..] => test::run(paths),
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
         ["circles", ref names @ ..] => circles::run(names),

@@ -12,13 +12,30 @@ pub(crate) struct Package {
     manifest_path: PathBuf,
     /// The registries that take it; `None` means any.
     publish: Option<Vec<String>>,
-    targets: Vec<Target>,
+    pub(crate) targets: Vec<Target>,
 }
 
 /// A library, program, test, example or bench of a package.
 #[derive(Debug, Deserialize)]
-struct Target {
+pub(crate) struct Target {
     kind: Vec<String>,
+    name: String,
+    pub(crate) src_path: PathBuf,
+    /// Whether `cargo test` runs it.
+    #[serde(default)]
+    pub(crate) test: bool,
+}
+
+impl Target {
+    /// The arguments of cargo that select targets of this kind and name.
+    pub(crate) fn selection(&self) -> Vec<String> {
+        match self.kind.first().map(String::as_str) {
+            Some(kind @ ("bin" | "test" | "example" | "bench")) => {
+                vec![format!("--{kind}"), self.name.clone()]
+            }
+            _ => vec!["--lib".to_owned()],
+        }
+    }
 }
 
 impl Package {
@@ -44,14 +61,22 @@ struct Metadata {
     packages: Vec<Package>,
 }
 
+/// The packages of the workspace.
+///
+/// # Errors
+/// `cargo metadata` fails.
+pub(crate) fn all() -> Result<Vec<Package>, String> {
+    let text = command::output(&mut cargo("metadata --no-deps --format-version 1"))?;
+    let metadata: Metadata = serde_json::from_str(&text).map_err(|error| error.to_string())?;
+    Ok(metadata.packages)
+}
+
 /// The packages that are published.
 ///
 /// # Errors
 /// `cargo metadata` fails, or no package is published.
 pub(crate) fn published() -> Result<Vec<Package>, String> {
-    let text = command::output(&mut cargo("metadata --no-deps --format-version 1"))?;
-    let metadata: Metadata = serde_json::from_str(&text).map_err(|error| error.to_string())?;
     let is_published = |package: &Package| package.publish.as_ref().is_none_or(|to| !to.is_empty());
-    let packages: Vec<_> = metadata.packages.into_iter().filter(is_published).collect();
+    let packages: Vec<_> = all()?.into_iter().filter(is_published).collect();
     if packages.is_empty() { Err("no package is published".into()) } else { Ok(packages) }
 }

@@ -17,9 +17,14 @@ pub(crate) struct Need {
     pub(crate) is_there: fn() -> bool,
 }
 
-/// Provides what the tests of the workspace need.
+/// Provides what all tests need.
 pub(crate) fn run() -> Result<(), String> {
-    provide(needs::TESTS)
+    provide(&[needs::COMPARISONS, needs::BEYOND].concat())
+}
+
+/// Provides what the tests need that `cargo xtask test` runs.
+pub(crate) fn for_comparisons() -> Result<(), String> {
+    provide(needs::COMPARISONS)
 }
 
 /// Installs what is missing where the system allows it.

@@ -1,9 +1,13 @@
 //! Runs test commands and counts what they ran.
 
 use crate::command::shown;
+use std::collections::VecDeque;
 use std::fmt;
-use std::io::{BufRead, BufReader};
+use std::io::{BufRead, BufReader, Read};
 use std::process::{Command, Stdio};
+use std::sync::Mutex;
+use std::sync::mpsc::{self, Receiver};
+use std::time::Instant;
 
 /// Numbers of tests, added up from the lines that test runners print.
 #[derive(Debug, Default, PartialEq, Eq)]
@@ -14,9 +18,9 @@ pub(crate) struct Tally {
 }
 
 impl Tally {
-    /// Adds a line such as `test result: ok. 3 passed; 0 failed; 1 ignored; ...`.
-    fn add_line(&mut self, line: &str) {
-        let Some(result) = line.trim_start().strip_prefix("test result: ") else { return };
+    /// Adds a line such as `test result: ok. 3 passed; 0 failed; 1 ignored; ...`; whether it is one.
+    fn add_line(&mut self, line: &str) -> bool {
+        let Some(result) = line.trim_start().strip_prefix("test result: ") else { return false };
         let counts = result.split_once(". ").map_or("", |(_, counts)| counts);
         for count in counts.split("; ") {
             let Some((number, what)) = count.split_once(' ') else { continue };
@@ -28,6 +32,7 @@ impl Tally {
                 _ => {}
             }
         }
+        true
     }
 }
 
@@ -37,30 +42,153 @@ impl fmt::Display for Tally {
     }
 }
 
+/// A command that runs tests.
+pub(crate) struct Job {
+    pub(crate) name: String,
+    pub(crate) command: Command,
+}
+
+impl Job {
+    /// A command, named as a person would type it.
+    pub(crate) fn new(command: Command) -> Self {
+        Self { name: shown(&command), command }
+    }
+}
+
+/// What commands ran, and which of them failed.
+#[derive(Default)]
+pub(crate) struct Report {
+    all: Tally,
+    broken: Vec<String>,
+}
+
+impl Report {
+    /// Runs the commands one after the other, and passes their output on.
+    ///
+    /// # Errors
+    /// A command that cannot be started. One that fails, or that passes without having run a test, is noted for
+    /// [`Report::finish`]: a filter which matches nothing must not count as success.
+    pub(crate) fn one_by_one(
+        &mut self,
+        commands: impl IntoIterator<Item = Command>,
+    ) -> Result<(), String> {
+        for mut command in commands {
+            let passed_before = self.all.passed;
+            let name = shown(&command);
+            println!("\n$ {name}");
+            if !run_one(&mut command, &mut self.all)? {
+                self.broken.push(name);
+            } else if self.all.passed == passed_before {
+                self.broken.push(format!("{name} (no test ran)"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs the jobs, some of them at a time, and prints the output of each when it ends. A job may have no test, but
+    /// must say so: a program that ends before its tests would otherwise pass.
+    ///
+    /// # Errors
+    /// As for [`Report::one_by_one`], and jobs that have no test together.
+    pub(crate) fn beside_each_other(&mut self, jobs: Vec<Job>) -> Result<(), String> {
+        let passed_before = self.all.passed;
+        let (names, workers) = (jobs.iter().map(|job| job.name.clone()).collect(), at_once());
+        let waiting = Mutex::new(jobs.into_iter().collect::<VecDeque<_>>());
+        let (sender, ended) = mpsc::channel();
+        let take = || waiting.lock().ok().and_then(|mut jobs| jobs.pop_front());
+        std::thread::scope(|scope| {
+            for sender in std::iter::repeat_n(sender, workers) {
+                scope.spawn(move || {
+                    while let Some(job) = take() {
+                        let (name, output) = (job.name.clone(), captured(job.command));
+                        // The receiver outlives all senders.
+                        _ = sender.send((name, output));
+                    }
+                });
+            }
+            self.receive(names, ended)
+        })?;
+        if self.all.passed == passed_before {
+            self.broken.push("no test ran".to_owned());
+        }
+        Ok(())
+    }
+
+    /// Prints and counts what the jobs put out, in the order in which they end.
+    fn receive(&mut self, names: Vec<String>, ended: Receiver<Ended>) -> Result<(), String> {
+        let total = names.len();
+        for (number, (name, output)) in (1..).zip(ended) {
+            let Output { text, succeeded, seconds } = output.map_err(|e| format!("{name}: {e}"))?;
+            println!("\n[{number} of {total}] {name}, {seconds} s\n{}", text.trim_end());
+            let results = text.lines().filter(|line| self.all.add_line(line)).count();
+            if !succeeded {
+                self.broken.push(name);
+            } else if results == 0 {
+                self.broken.push(format!("{name} (no result)"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Prints the tally.
+    ///
+    /// # Errors
+    /// The commands that failed.
+    pub(crate) fn finish(self) -> Result<(), String> {
+        println!("\n{}", self.all);
+        match self.broken.is_empty() {
+            true => Ok(()),
+            false => Err(format!("these failed: {}", self.broken.join("; "))),
+        }
+    }
+}
+
 /// Runs every command, even after one failed, and prints their output and the tally.
 ///
 /// # Errors
-/// A command that fails, or that passes without having run a test: a filter which matches nothing
-/// must not count as success.
+/// A command that fails, or that passes without having run a test.
 pub(crate) fn run(commands: impl IntoIterator<Item = Command>) -> Result<(), String> {
-    let mut all = Tally::default();
-    let mut broken = Vec::new();
-    for mut command in commands {
-        let passed_before = all.passed;
-        let succeeded = run_one(&mut command, &mut all)?;
-        if !succeeded {
-            broken.push(shown(&command));
-        } else if all.passed == passed_before {
-            broken.push(format!("{} (no test ran)", shown(&command)));
-        }
+    let mut report = Report::default();
+    report.one_by_one(commands)?;
+    report.finish()
+}
+
+/// A job's name and what became of it.
+type Ended = (String, Result<Output, String>);
+
+/// What a command printed on both of its outputs.
+struct Output {
+    text: String,
+    succeeded: bool,
+    seconds: u64,
+}
+
+/// How many test programs run at a time. Each has a thread for every processor, but ends with few that are busy, so
+/// that a second one fills the gaps; more of them take memory and gain nothing.
+fn at_once() -> usize {
+    std::thread::available_parallelism().map_or(1, |count| count.get().clamp(1, 4))
+}
+
+/// Runs a command and keeps its output.
+fn captured(mut command: Command) -> Result<Output, String> {
+    let began = Instant::now();
+    let (mut reader, writer) = std::io::pipe().map_err(|error| error.to_string())?;
+    let both = writer.try_clone().map_err(|error| error.to_string())?;
+    let mut child = command.stdout(writer).stderr(both).spawn().map_err(|e| e.to_string())?;
+    // The command holds the pipe's other end, which would never close.
+    drop(command);
+    let mut bytes = Vec::new();
+    reader.read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    let status = child.wait().map_err(|error| error.to_string())?;
+    let mut text = String::from_utf8_lossy(&bytes).into_owned();
+    if !status.success() {
+        text += &format!("\nended with {status}");
     }
-    println!("\n{all}");
-    if broken.is_empty() { Ok(()) } else { Err(format!("these failed: {}", broken.join("; "))) }
+    Ok(Output { text, succeeded: status.success(), seconds: began.elapsed().as_secs() })
 }
 
 /// Runs a command and passes its output on; whether it succeeded.
 fn run_one(command: &mut Command, tally: &mut Tally) -> Result<bool, String> {
-    println!("\n$ {}", shown(command));
     let name = shown(command);
     let cannot = |error| format!("cannot run `{name}`: {error}");
     let mut child = command.stdout(Stdio::piped()).spawn().map_err(cannot)?;
@@ -98,5 +226,34 @@ mod tests {
         let none =
             says("test result: ok. 0 passed; 0 failed; 0 ignored; 0 measured; 9 filtered out");
         assert!(none.is_err_and(|message| message.contains("no test ran")), "none");
+    }
+    /// Runs these lines of shell as jobs; what failed.
+    #[cfg(unix)]
+    fn beside_each_other(scripts: &[&str]) -> Result<(), String> {
+        let jobs = scripts.iter().map(|script| {
+            let mut shell = Command::new("sh");
+            shell.args(["-c", script]);
+            Job { name: format!("job {script}"), command: shell }
+        });
+        let mut report = Report::default();
+        report.beside_each_other(jobs.collect())?;
+        report.finish()
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn jobs_are_counted_and_faults_are_seen() {
+        const ONE: &str = "echo 'test result: ok. 1 passed; 0 failed'";
+        const NONE: &str = "echo 'test result: ok. 0 passed; 0 failed'";
+        assert_eq!(beside_each_other(&[ONE, NONE, ONE, ONE]), Ok(()), "one job has no test");
+        for (faulty, said) in [
+            ("echo 'test result: FAILED. 0 passed; 1 failed'; exit 101", "exit 101"),
+            ("exit 0", "no result"),
+            ("echo 'test result: ok. 1 passed; 0 failed' >&2; kill -9 $$", "kill"),
+        ] {
+            let result = beside_each_other(&[ONE, faulty, ONE]);
+            assert!(result.is_err_and(|message| message.contains(said)), "{faulty}");
+        }
+        assert!(beside_each_other(&[NONE]).is_err_and(|m| m.contains("no test ran")), "no test");
     }
 }

@@ -1,8 +1,8 @@
 //! Runs every test and says how many there were.
 
-use crate::command::{self, cargo};
-use crate::{explorer, levels, python, tally};
-use std::process::Command;
+use crate::suite::{self, Extent};
+use crate::tally::{Job, Report};
+use crate::{command, explorer, python, setup};
 
 /// What is done where no browser can be had.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -13,37 +13,46 @@ pub(crate) enum Browser {
     IfThere,
 }
 
-/// Runs the whole suite, on every CPU level that this machine should have; the last line printed
-/// is the tally.
-pub(crate) fn run(browser: Browser) -> Result<(), String> {
+/// Runs the tests of the workspace that need no more than a Vulkan driver and a C compiler, or those in `paths`, on
+/// every CPU level that this machine should have; the last line printed is the tally.
+///
+/// # Errors
+/// A test fails, something cannot be installed, or a path has no tests.
+pub(crate) fn run(paths: &[&str]) -> Result<(), String> {
+    setup::for_comparisons()?;
+    // Whoever names a test wants it.
+    let extent = if paths.is_empty() { Extent::Comparisons } else { Extent::All };
+    let mut report = Report::default();
+    report.beside_each_other(suite::jobs(extent, paths)?)?;
+    if paths.is_empty() {
+        println!(
+            "\nNOT RUN: OpenGL, a window, simulators, Python, the browser; `cargo xtask test all` runs them"
+        );
+    }
+    report.finish()
+}
+
+/// Runs every test; the last line printed is the tally.
+///
+/// # Errors
+/// As for [`run`].
+pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
+    setup::run()?;
     // Compiled once, so that nothing else of the suite builds the program with other features.
-    command::run(cargo(SUITE).arg("--no-run"))?;
+    let mut jobs = suite::jobs(Extent::All, &[])?;
     let program = command::built_program();
-    let mut commands = vec![workspace(), python::tests(&program)?];
-    match explorer::lacking() {
-        None => commands.push(explorer::tests(&program)?),
+    jobs.insert(0, Job::new(python::tests(&program)?));
+    let explorer = match explorer::lacking() {
+        None => Some(explorer::tests(&program)?),
         Some(lacking) if browser == Browser::Demanded => return Err(lacking),
         Some(lacking) => {
             println!("\nNOT RUN: the tests of the explorer in a browser. {lacking}");
+            None
         }
-    }
-    tally::run(commands)
-}
-
-/// The arguments of `cargo` for the tests of the workspace.
-const SUITE: &str = "test --workspace --all-features --no-fail-fast";
-
-/// The tests of the workspace.
-fn workspace() -> Command {
-    let mut tests = cargo(SUITE);
-    // A test whose tool is missing then fails; elsewhere it is reported as ignored.
-    tests.env("CI", "1");
-    // The C interface's libraries are those of this build.
-    tests.env("TESS_CAPI_BUILD", SUITE);
-    tests.env(levels::VARIABLE, levels::required().join(","));
-    // Without it drivers complain on the standard error, once for each device that is opened.
-    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
-        tests.env("XDG_RUNTIME_DIR", std::env::temp_dir());
-    }
-    tests
+    };
+    let mut report = Report::default();
+    report.beside_each_other(jobs)?;
+    // Alone, as a page waits for a picture only so long.
+    report.one_by_one(explorer)?;
+    report.finish()
 }

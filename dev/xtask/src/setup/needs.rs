@@ -5,17 +5,12 @@ use crate::command;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What the tests of the workspace need.
-pub(super) const TESTS: &[Need] = &[
+/// What `cargo xtask test` needs.
+pub(super) const COMPARISONS: &[Need] = &[
     Need {
         what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
         packages: &["libvulkan1", "mesa-vulkan-drivers"],
         is_there: has_vulkan,
-    },
-    Need {
-        what: "an OpenGL driver through EGL (tests of wgpu's OpenGL backend)",
-        packages: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
-        is_there: has_opengl,
     },
     Need {
         what: "C and C++ compilers and make (tests of the C interface)",
@@ -29,6 +24,15 @@ pub(super) const TESTS: &[Need] = &[
             ["spirv-val", "glslangValidator"].into_iter().all(has_program)
                 && Path::new("/usr/include/vulkan/vulkan.h").exists()
         },
+    },
+];
+
+/// What `cargo xtask test all` needs beyond it, the browser apart.
+pub(super) const BEYOND: &[Need] = &[
+    Need {
+        what: "an OpenGL driver through EGL (tests of wgpu's OpenGL backend)",
+        packages: &["libegl1", "libegl-mesa0", "libgl1-mesa-dri"],
+        is_there: has_opengl,
     },
     Need {
         what: "an X server without a screen, and its libraries (a test of an example's window)",

@@ -1,0 +1,165 @@
+//! The test programs of the workspace, all built with one set of features.
+//!
+//! Cargo gives dependencies the features that the selected packages want together, so `cargo test -p PACKAGE`
+//! compiles most dependencies again. A part of the suite is therefore selected by its targets, of the whole workspace.
+
+use crate::command::{self, cargo, workspace};
+use crate::levels;
+use crate::packages::{self, Target};
+use crate::tally::Job;
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The arguments of `cargo` for the tests of the workspace.
+const ALL: &str = "test --workspace --all-features --no-fail-fast";
+
+/// The programs that take longest, which start first: what starts last then ends soon.
+const LONG: &[&str] = &[
+    "tools/cli/tests/program/main.rs",
+    "tess-wgpu/tests/stage/main.rs",
+    "tools/cli/tests/shaders/main.rs",
+    "tess-gpu/tests/shaders.rs",
+    "tess-verify/tests/golden.rs",
+    "tools/cli/src/lib.rs",
+    "tess-wgpu/tests/faults.rs",
+    "tess-core/tests/no_std.rs",
+    "bindings/c/tests/foreign.rs",
+];
+
+/// The programs that need more than the model, the CPU and Vulkan, with the names of the tests that do; none are all.
+const BEYOND: &[(&str, &[&str])] = &[
+    ("tess-wgpu/tests/gl/main.rs", &[]),
+    ("tess-wgpu/tests/window.rs", &[]),
+    ("bindings/c/tests/foreign.rs", &["verilog_", "uvm_"]),
+];
+
+/// Which tests are run.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Extent {
+    /// The model, the CPU, the GPU on Vulkan, surfaces, the kit, the program and C.
+    Comparisons,
+    /// Also what needs OpenGL, a window or a simulator.
+    All,
+}
+
+/// A test program, as cargo's messages describe it.
+#[derive(Deserialize)]
+struct Program {
+    manifest_path: PathBuf,
+    target: Target,
+    profile: Profile,
+    executable: Option<PathBuf>,
+}
+
+#[derive(Deserialize)]
+struct Profile {
+    test: bool,
+}
+
+/// Builds the tests and gives a job for each program, the longest first, and one for the examples in the
+/// documentation. With `paths`, only programs whose sources begin with one of them, and no documentation.
+///
+/// # Errors
+/// They do not compile, or a path has no tests.
+pub(crate) fn jobs(extent: Extent, paths: &[&str]) -> Result<Vec<Job>, String> {
+    let mut build = cargo(ALL);
+    build.args(["--no-run", "--message-format=json-render-diagnostics"]).args(selection(paths)?);
+    let messages = command::said_and_output(&mut build)?;
+    let programs = messages.lines().filter_map(|line| serde_json::from_str(line).ok());
+    let mut jobs: Vec<Job> = programs.filter_map(|program| job(program, extent, paths)).collect();
+    let place = |job: &Job| LONG.iter().position(|long| *long == job.name).unwrap_or(LONG.len());
+    jobs.sort_by_key(place);
+    if paths.is_empty() {
+        let mut documentation = cargo(ALL);
+        documentation.arg("--doc");
+        prepare(&mut documentation);
+        // It compiles the examples, so it takes long.
+        jobs.insert(1.min(jobs.len()), Job::new(documentation));
+    }
+    Ok(jobs)
+}
+
+/// Arguments of cargo that select the targets below these paths.
+fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
+    let mut arguments = Vec::new();
+    let packages = packages::all()?;
+    for path in paths {
+        let targets = packages.iter().flat_map(|package| &package.targets);
+        let found =
+            targets.filter(|target| target.test && relative(&target.src_path).starts_with(path));
+        let before = arguments.len();
+        arguments.extend(found.flat_map(Target::selection));
+        if arguments.len() == before {
+            return Err(format!(
+                "there are no tests in `{path}`; try `tess-core` or `tess-core/tests/golden.rs`"
+            ));
+        }
+    }
+    Ok(arguments)
+}
+
+/// The command of a program that is to run.
+fn job(program: Program, extent: Extent, paths: &[&str]) -> Option<Job> {
+    let Program { manifest_path, target, profile, executable } = program;
+    let source = relative(&target.src_path);
+    let is_chosen = paths.is_empty() || paths.iter().any(|path| source.starts_with(path));
+    let mut command = Command::new(executable.filter(|_| profile.test && is_chosen)?);
+    if extent == Extent::Comparisons
+        && let Some((_, left_out)) = BEYOND.iter().find(|(file, _)| source == Path::new(file))
+    {
+        if left_out.is_empty() {
+            return None;
+        }
+        command.args(left_out.iter().flat_map(|name| ["--skip", name]));
+    }
+    let folder = manifest_path.parent().unwrap_or(&manifest_path);
+    // As cargo runs tests.
+    command.current_dir(folder).env("CARGO_MANIFEST_DIR", folder);
+    command.env("CARGO", cargo("").get_program());
+    prepare(&mut command);
+    Some(Job { name: source.display().to_string(), command })
+}
+
+fn relative(path: &Path) -> &Path {
+    let root = workspace();
+    path.strip_prefix(root).unwrap_or(path)
+}
+
+/// Tells tests what they may rely on.
+fn prepare(tests: &mut Command) {
+    // A test whose tool is missing then fails; elsewhere it is reported as ignored.
+    tests.env("CI", "1");
+    // The C interface's libraries are those of this build.
+    tests.env("TESS_CAPI_BUILD", ALL);
+    tests.env(levels::VARIABLE, levels::required().join(","));
+    // Without it drivers complain on the standard error, once for each device that is opened.
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        tests.env("XDG_RUNTIME_DIR", std::env::temp_dir());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn listed_programs_exist() {
+        for file in LONG.iter().chain(BEYOND.iter().map(|(file, _)| file)) {
+            assert!(workspace().join(file).is_file(), "{file} is listed here and is no test");
+        }
+        for (file, names) in BEYOND {
+            let text = fs::read_to_string(workspace().join(file)).expect("text");
+            let is_there = |name: &&str| text.contains(&format!("\"{name}"));
+            assert!(names.iter().all(is_there), "{file}: a test of {names:?} has another name");
+        }
+    }
+
+    #[test]
+    fn parts_are_selected_by_their_targets() {
+        let selected = selection(&["tess-core/tests/golden.rs", "tess-surface/src"]).expect("some");
+        assert_eq!(selected, ["--test", "golden", "--lib"], "targets");
+        assert!(selection(&["tess-core/nope"]).is_err(), "no such test");
+    }
+}
