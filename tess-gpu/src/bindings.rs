@@ -11,19 +11,19 @@ pub enum Resource {
     Tables,
     /// One [`crate::layout::Topology`] for each patch.
     Topologies,
-    /// Two words for each factor ([`crate::layout::pack_context`]): in each chunk the first factor
+    /// Two words for each factor ([`crate::layout::pack_context`]): in each portion the first factor
     /// of all patches, then the second of all patches, and so on.
     Contexts,
     /// Where the output of patches, blocks and sections begins: [`crate::Plan::offset_entries`].
     Offsets,
-    /// A [`crate::layout::Status`], then a [`crate::layout::Range`] for each chunk.
+    /// A [`crate::layout::Status`], then a [`crate::layout::Range`] for each portion.
     Status,
     /// The number of the patch that each tile of the output begins with.
     Tiles,
     /// A [`crate::layout::DrawIndexed`], then the sizes of indirect dispatches. Needs the usage
     /// `INDIRECT`.
     Arguments,
-    /// The output of distinct small topologies (`catalogue.wgsl`). All zeros before the first run.
+    /// The output of distinct small topologies (`shared/catalogue.wgsl`). All zeros before the first run.
     Catalogue,
     /// For each group the number of its first patch, ascending and at most the batch's number of
     /// patches. A group ends where the next one begins, the last one at the end of the batch.

@@ -3,17 +3,17 @@
 use bytemuck::{Pod, Zeroable};
 use tess_core::{DomainPoint, FactorContext, Parity, PatchFactors};
 
-/// One chunk of a batch and one window of its output, as [`crate::Plan::jobs`] writes it and `Job` in
-/// `state.wgsl` reads it.
+/// One portion of a batch and one window of its output, as [`crate::Plan::jobs`] writes it and `Job` in
+/// `layout/setup.wgsl` reads it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Job {
-    /// Patches of the chunk; 0 only in a batch of no patches.
+    /// Patches of the portion; 0 only in a batch of no patches.
     pub patches: u32,
-    /// Number of the chunk's first patch within the batch.
+    /// Number of the portion's first patch within the batch.
     pub first_patch: u32,
-    /// Number of the chunk.
-    pub chunk: u32,
+    /// Number of the portion.
+    pub portion: u32,
     /// Distance between the contexts of one factor and those of the next, in entries.
     pub stride: u32,
     /// First entry of the offsets that belongs to a block of patches.
@@ -30,7 +30,7 @@ pub struct Job {
     /// Tiles of the window that is bound.
     pub window_tiles: u32,
     /// Chunks of the batch.
-    pub chunks: u32,
+    pub portions: u32,
     /// Points that the batch has room for.
     pub point_capacity: u32,
     /// Primitives that the batch has room for.
@@ -95,7 +95,7 @@ impl Status {
     }
 }
 
-/// Where the output of a chunk lies within that of the batch. The ranges of all chunks follow the
+/// Where the output of a portion lies within that of the batch. The ranges of all portions follow the
 /// [`Status`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
@@ -127,7 +127,7 @@ pub struct DrawIndexed {
 }
 
 /// What the connectivity of a patch depends on: its state and the points along its edges (spec
-/// section 12.8; the bits are in `topology.wgsl`).
+/// section 12.8; the bits are in `layout/topology.wgsl`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Topology(pub [u32; 2]);

@@ -1,16 +1,20 @@
 #![doc = include_str!("../README.md")]
 
-pub mod bindings;
+mod bindings;
 pub mod layout;
-pub mod plan;
-pub mod setup;
-pub mod shaders;
+mod plan;
+mod room;
+mod setup;
+mod shaders;
 pub mod sizes;
-pub mod tables;
+mod tables;
 
 pub use bindings::{Access, Binding, Resource};
 pub use plan::{Dispatch, Plan, Workgroups, Written};
+pub use room::{Capacity, Limits, Span};
 pub use setup::{Copies, IndexType, Numbering, PointFormat, Setup};
-pub use shaders::{Counting, Probe, Pull, Stage};
-pub use sizes::{Capacity, Limits, Span};
+#[cfg(feature = "taps")]
+pub use shaders::Tap;
+pub use shaders::{Counting, Pull, Stage};
+pub use tables::tables;
 pub use tess_core::Order;

@@ -1,16 +1,16 @@
 //! How one batch is cut up: sizes of buffers and dispatches as pure functions of the number of
 //! patches, the room for output and the limits.
 //!
-//! A batch is cut into *chunks* of patches, because a device binds only so many bytes at once,
+//! A batch is cut into *portions* of patches, because a device binds only so many bytes at once,
 //! and its output into *windows* for the same reason. Within a window output is made in *tiles*.
 
 use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
+use crate::room::{Capacity, Limits, Span};
 use crate::setup::Setup;
 use crate::sizes::{
-    ALIGNMENT, BLOCK, CATALOGUE_PATCHES, CATALOGUE_WORDS, Capacity, DISPATCHES_AT, LEAST_TILE_BITS,
-    Limits, MAX_CHUNK, SECTION, SMALL_ELEMENTS, SMALL_PATCHES, SMALL_TILES, SUMMED, Span,
-    TILE_BITS,
+    ALIGNMENT, BLOCK, CATALOGUE_PATCHES, CATALOGUE_WORDS, DISPATCHES_AT, LEAST_TILE_BITS,
+    MAX_PORTION, SECTION, SHORT_ELEMENTS, SHORT_PATCHES, SHORT_TILES, SUMMED, TILE_BITS,
 };
 use crate::tables;
 
@@ -29,12 +29,12 @@ pub struct Plan {
     patches: u32,
     groups: u32,
     capacity: Capacity,
-    chunk_patches: u32,
+    portion_patches: u32,
     point_window_tiles: u32,
     primitive_window_tiles: u32,
     max_workgroups: u32,
     tile_bits: u32,
-    is_small: bool,
+    is_short: bool,
     written: Written,
 }
 
@@ -57,16 +57,16 @@ impl Plan {
         Self::cut(setup, patches, capacity, limits, true)
     }
 
-    /// The same batch in the stages of a large one, whatever its size: a host then has one path.
+    /// The same batch in the stages of a long one, whatever its size: a host then has one path.
     #[must_use]
-    pub fn in_large_stages(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
+    pub fn in_long_stages(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         Self::cut(setup, patches, capacity, limits, false)
     }
 
-    /// A batch that writes only some of its output, in the stages of a large one. `capacity` bounds what
+    /// A batch that writes only some of its output, in the stages of a long one. `capacity` bounds what
     /// is drawn, and takes 4 bytes for each tile even of what is not written.
     ///
-    /// Its vertex shader binds the buffers of one chunk, so make no more than [`Plan::chunk_patches`]
+    /// Its vertex shader binds the buffers of one portion, so make no more than [`Plan::portion_patches`]
     /// patches of it.
     #[must_use]
     pub fn writing(
@@ -84,28 +84,32 @@ impl Plan {
         patches: u32,
         capacity: Capacity,
         limits: Limits,
-        may_be_small: bool,
+        may_be_short: bool,
     ) -> Self {
         let context_bytes = 8 * u64::from(setup.factors());
         let bound = limits.storage_binding.max(4 << 20);
-        let most = to_u32(bound / context_bytes).min(MAX_CHUNK) / SECTION * SECTION;
+        let most = to_u32(bound / context_bytes).min(MAX_PORTION) / SECTION * SECTION;
         let primitive_bytes = u64::from(setup.primitive_bytes());
-        let is_small = may_be_small
-            && is_small(patches, capacity)
+        let is_short = may_be_short
+            && is_short(patches, capacity)
             && u64::from(capacity.points) * 8 <= bound
             && u64::from(capacity.primitives) * primitive_bytes <= bound;
-        let tile_bits = if is_small { small_tile_bits(capacity) } else { TILE_BITS };
+        let tile_bits = if is_short { narrow_tile_bits(capacity) } else { TILE_BITS };
         Self {
             setup,
             patches,
             groups: 0,
             capacity,
-            chunk_patches: patches.max(1).checked_next_multiple_of(BLOCK).unwrap_or(most).min(most),
+            portion_patches: patches
+                .max(1)
+                .checked_next_multiple_of(BLOCK)
+                .unwrap_or(most)
+                .min(most),
             point_window_tiles: to_u32((bound / 8) >> tile_bits),
             primitive_window_tiles: to_u32((bound / primitive_bytes) >> tile_bits),
             max_workgroups: limits.workgroups.max(1),
             tile_bits,
-            is_small,
+            is_short,
             written: Written::Everything,
         }
     }
@@ -126,13 +130,13 @@ impl Plan {
 
     /// Whether the batch runs two dispatches, because there are few patches and little room for output: one
     /// workgroup does everything in front of the expansions, and these are one dispatch.
-    /// Never of [`Plan::in_large_stages`].
+    /// Never of [`Plan::in_long_stages`].
     #[must_use]
-    pub const fn is_small(&self) -> bool {
-        self.is_small
+    pub const fn is_short(&self) -> bool {
+        self.is_short
     }
 
-    /// Whether there is a catalogue of topologies. It takes a fixed time, which pays for large batches.
+    /// Whether there is a catalogue of topologies. It takes a fixed time, which pays for long batches.
     #[must_use]
     pub const fn has_catalogue(&self) -> bool {
         self.setup.has_triangles()
@@ -152,16 +156,16 @@ impl Plan {
         self.patches
     }
 
-    /// The most patches that a chunk of this batch has.
+    /// The most patches that a portion of this batch has.
     #[must_use]
-    pub const fn chunk_patches(&self) -> u32 {
-        self.chunk_patches
+    pub const fn portion_patches(&self) -> u32 {
+        self.portion_patches
     }
 
-    /// How many chunks there are; 0 for no patches.
+    /// How many portions there are; 0 for no patches.
     #[must_use]
-    pub const fn chunks(&self) -> u32 {
-        self.patches.div_ceil(self.chunk_patches)
+    pub const fn portions(&self) -> u32 {
+        self.patches.div_ceil(self.portion_patches)
     }
 
     /// How many windows the points have.
@@ -187,15 +191,15 @@ impl Plan {
     /// demands.
     #[must_use]
     pub fn buffer_size(&self, resource: Resource) -> u64 {
-        let chunks = self.chunks().max(1);
+        let portions = self.portions().max(1);
         match resource {
             Resource::Job => ALIGNMENT * u64::from(self.job_count()),
             Resource::Factors => self.factor_bytes() * u64::from(self.patches),
             Resource::Tables => 4 * u64::from(tables::WORDS),
-            Resource::Topologies => end(self.topologies(chunks - 1)),
-            Resource::Contexts => end(self.contexts(chunks - 1)),
-            Resource::Offsets => end(self.offsets(chunks - 1)),
-            Resource::Status => size::<Status>() + size::<Range>() * u64::from(chunks),
+            Resource::Topologies => end(self.topologies(portions - 1)),
+            Resource::Contexts => end(self.contexts(portions - 1)),
+            Resource::Offsets => end(self.offsets(portions - 1)),
+            Resource::Status => size::<Status>() + size::<Range>() * u64::from(portions),
             Resource::Tiles => 4 * u64::from(self.tile_entries()),
             Resource::Arguments => self.arguments_at(self.job_count()),
             // Without a catalogue nothing reads it, but it is bound.
@@ -217,38 +221,42 @@ impl Plan {
     /// its block's and its section's. Each is a number of points and one of primitives.
     #[must_use]
     pub fn offset_entries(&self, patch: u32) -> [u64; 3] {
-        let (chunk, in_chunk) = (patch / self.chunk_patches, patch % self.chunk_patches);
-        let first = self.offsets(chunk).offset / 8;
-        [in_chunk, self.blocks_at() + in_chunk / BLOCK, self.sections_at() + in_chunk / SECTION]
-            .map(|entry| first + u64::from(entry))
+        let (portion, in_portion) = (patch / self.portion_patches, patch % self.portion_patches);
+        let first = self.offsets(portion).offset / 8;
+        [
+            in_portion,
+            self.blocks_at() + in_portion / BLOCK,
+            self.sections_at() + in_portion / SECTION,
+        ]
+        .map(|entry| first + u64::from(entry))
     }
 
     /// The entries of the buffer of offsets that say whether the patches of `patch`'s block are
     /// alike: the topology of all of them, or 0.
     #[must_use]
     pub fn alike_entry(&self, patch: u32) -> u64 {
-        let (chunk, in_chunk) = (patch / self.chunk_patches, patch % self.chunk_patches);
-        self.offsets(chunk).offset / 8 + u64::from(self.alike_at() + in_chunk / BLOCK)
+        let (portion, in_portion) = (patch / self.portion_patches, patch % self.portion_patches);
+        self.offsets(portion).offset / 8 + u64::from(self.alike_at() + in_portion / BLOCK)
     }
 
-    /// Patches of chunk `chunk`.
-    fn patches_in(&self, chunk: u32) -> u32 {
-        (self.patches - chunk * self.chunk_patches).min(self.chunk_patches)
+    /// Patches of portion `portion`.
+    fn patches_in(&self, portion: u32) -> u32 {
+        (self.patches - portion * self.portion_patches).min(self.portion_patches)
     }
 
-    /// Where in a chunk's offsets those of the blocks begin, behind one for each patch.
+    /// Where in a portion's offsets those of the blocks begin, behind one for each patch.
     const fn blocks_at(&self) -> u32 {
-        self.chunk_patches
+        self.portion_patches
     }
 
-    /// Where in a chunk's offsets the blocks' common topologies begin.
+    /// Where in a portion's offsets the blocks' common topologies begin.
     const fn alike_at(&self) -> u32 {
-        self.blocks_at() + self.chunk_patches / BLOCK
+        self.blocks_at() + self.portion_patches / BLOCK
     }
 
-    /// Where in a chunk's offsets those of the sections begin.
+    /// Where in a portion's offsets those of the sections begin.
     const fn sections_at(&self) -> u32 {
-        self.alike_at() + self.chunk_patches / BLOCK
+        self.alike_at() + self.portion_patches / BLOCK
     }
 
     /// Where in the table of tiles those of the primitives begin.
@@ -266,27 +274,27 @@ impl Plan {
         4 * u64::from(self.setup.factors())
     }
 
-    /// The bytes of a chunk's raw factors in the caller's buffer.
-    fn factors(&self, chunk: u32) -> Span {
+    /// The bytes of a portion's raw factors in the caller's buffer.
+    fn factors(&self, portion: u32) -> Span {
         let bytes = |patches: u32| self.factor_bytes() * u64::from(patches);
-        let first = chunk * self.chunk_patches;
-        Span { offset: bytes(first), size: bytes(self.patches_in(chunk)) }
+        let first = portion * self.portion_patches;
+        Span { offset: bytes(first), size: bytes(self.patches_in(portion)) }
     }
 
-    /// The bytes of a chunk's topologies.
-    fn topologies(&self, chunk: u32) -> Span {
-        region(chunk, size::<Topology>() * u64::from(self.chunk_patches))
+    /// The bytes of a portion's topologies.
+    fn topologies(&self, portion: u32) -> Span {
+        region(portion, size::<Topology>() * u64::from(self.portion_patches))
     }
 
-    /// The bytes of a chunk's contexts: all of the first factor, then all of the second ...
-    fn contexts(&self, chunk: u32) -> Span {
-        region(chunk, 8 * u64::from(self.setup.factors()) * u64::from(self.chunk_patches))
+    /// The bytes of a portion's contexts: all of the first factor, then all of the second ...
+    fn contexts(&self, portion: u32) -> Span {
+        region(portion, 8 * u64::from(self.setup.factors()) * u64::from(self.portion_patches))
     }
 
-    /// The bytes of a chunk's offsets.
-    fn offsets(&self, chunk: u32) -> Span {
-        let sections = self.chunk_patches.div_ceil(BLOCK).div_ceil(SUMMED);
-        region(chunk, 8 * u64::from(self.sections_at() + sections))
+    /// The bytes of a portion's offsets.
+    fn offsets(&self, portion: u32) -> Span {
+        let sections = self.portion_patches.div_ceil(BLOCK).div_ceil(SUMMED);
+        region(portion, 8 * u64::from(self.sections_at() + sections))
     }
 
     /// The bytes of a window of the points.
@@ -321,24 +329,24 @@ impl Plan {
     }
 }
 
-/// See [`Plan::is_small`]; the output also has to be bound at once.
-fn is_small(patches: u32, capacity: Capacity) -> bool {
+/// See [`Plan::is_short`]; the output also has to be bound at once.
+fn is_short(patches: u32, capacity: Capacity) -> bool {
     let has_output = capacity.points > 0 && capacity.primitives > 0;
-    (1..=SMALL_PATCHES).contains(&patches)
+    (1..=SHORT_PATCHES).contains(&patches)
         && (has_output || capacity == Capacity::default())
-        && capacity.points.saturating_add(capacity.primitives) <= SMALL_ELEMENTS
+        && capacity.points.saturating_add(capacity.primitives) <= SHORT_ELEMENTS
 }
 
-/// The size of a small batch's tiles as a power of two.
-fn small_tile_bits(capacity: Capacity) -> u32 {
+/// The size of a short batch's tiles as a power of two.
+fn narrow_tile_bits(capacity: Capacity) -> u32 {
     let elements = u64::from(capacity.points) + u64::from(capacity.primitives);
-    let tile = elements.div_ceil(u64::from(SMALL_TILES)).next_power_of_two();
+    let tile = elements.div_ceil(u64::from(SHORT_TILES)).next_power_of_two();
     tile.ilog2().clamp(LEAST_TILE_BITS, TILE_BITS)
 }
 
-/// The bytes of a chunk in a buffer that has `size` for each.
-fn region(chunk: u32, size: u64) -> Span {
-    Span { offset: u64::from(chunk) * size.next_multiple_of(ALIGNMENT), size }
+/// The bytes of a portion in a buffer that has `size` for each.
+fn region(portion: u32, size: u64) -> Span {
+    Span { offset: u64::from(portion) * size.next_multiple_of(ALIGNMENT), size }
 }
 
 const fn end(span: Span) -> u64 {

@@ -123,7 +123,7 @@ impl Setup {
         self.indices_per_primitive() == 3
     }
 
-    /// The constants in front of every shader: what `state.wgsl` does not declare itself.
+    /// The constants in front of every shader: what `layout/setup.wgsl` does not declare itself.
     pub(crate) fn prelude(&self) -> String {
         let Config { partitioning, output, split } = self.config;
         let setup = [
@@ -180,7 +180,7 @@ pub(crate) fn constants(all: &[(&str, u32)]) -> String {
     all.iter().map(|(name, value)| format!("const {name} = {value}u;\n")).collect()
 }
 
-/// The number of a value in the list of all values, which `state.wgsl` numbers the same way.
+/// The number of a value in the list of all values, which `layout/setup.wgsl` numbers the same way.
 fn position<T: PartialEq>(all: &[T], value: T) -> u32 {
     (0..).zip(all).find(|&(_, other)| *other == value).map_or(0, |(number, _)| number)
 }

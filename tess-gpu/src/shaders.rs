@@ -10,23 +10,25 @@ use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
 mod bare;
 mod counting;
 mod files;
-mod probe;
 mod pull;
+#[cfg(feature = "taps")]
+mod taps;
 
 pub use counting::Counting;
-pub use probe::Probe;
 pub use pull::Pull;
+#[cfg(feature = "taps")]
+pub use taps::Tap;
 
 /// One of the compute shaders that a batch runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// The next four in one workgroup, for a small batch.
-    Small,
+    /// The work of the next four and of [`Stage::Partition`] in one workgroup, for a short batch.
+    Short,
     /// Raw factors to topologies, contexts, counts and offsets within blocks of 256 patches.
     Factors,
     /// Offsets of blocks within sections of 256 blocks.
     Scan,
-    /// Offsets of sections in the output, and what the batch needs so far. After the last chunk:
+    /// Offsets of sections in the output, and what the batch needs so far. After the last portion:
     /// whether the output fits, draw arguments and dispatch sizes.
     Totals,
     /// The output of each distinct small topology, once.
@@ -39,11 +41,11 @@ pub enum Stage {
     ExpandPoints,
     /// Tiles of indices.
     ExpandPrimitives,
-    /// Both expansions of a small batch.
-    ExpandSmall,
+    /// Both expansions of a short batch.
+    ExpandShort,
 }
 
-/// The bindings that [`Stage::Small`] and [`Stage::Factors`] begin with.
+/// The bindings that [`Stage::Short`] and [`Stage::Factors`] begin with.
 const FRONT: [Binding; 6] = [
     Binding(Resource::Job, Access::Read),
     Binding(Resource::Factors, Access::Read),
@@ -55,13 +57,13 @@ const FRONT: [Binding; 6] = [
 
 const FACTORS: [Binding; 7] = front([Binding(Resource::Catalogue, Access::ReadWrite)]);
 
-const SMALL: [Binding; 9] = front([
+const SHORT: [Binding; 9] = front([
     Binding(Resource::Status, Access::ReadWrite),
     Binding(Resource::Tiles, Access::ReadWrite),
     Binding(Resource::Arguments, Access::ReadWrite),
 ]);
 
-const EXPAND_SMALL: [Binding; 9] = [
+const EXPAND_SHORT: [Binding; 9] = [
     Binding(Resource::Job, Access::Read),
     Binding(Resource::Topologies, Access::Read),
     Binding(Resource::Contexts, Access::Read),
@@ -84,7 +86,7 @@ const fn front<const MORE: usize, const ALL: usize>(more: [Binding; MORE]) -> [B
 impl Stage {
     /// Every stage, in the order in which they run.
     pub const ALL: [Self; 10] = [
-        Self::Small,
+        Self::Short,
         Self::Factors,
         Self::Scan,
         Self::Totals,
@@ -93,14 +95,14 @@ impl Stage {
         Self::Groups,
         Self::ExpandPoints,
         Self::ExpandPrimitives,
-        Self::ExpandSmall,
+        Self::ExpandShort,
     ];
 
     /// The name of its entry point.
     #[must_use]
     pub const fn entry_point(self) -> &'static str {
         match self {
-            Self::Small => "small",
+            Self::Short => "short_batch",
             Self::Factors => "factors",
             Self::Scan => "scan",
             Self::Totals => "totals",
@@ -109,7 +111,7 @@ impl Stage {
             Self::Groups => "groups",
             Self::ExpandPoints => "expand_points",
             Self::ExpandPrimitives => "expand_primitives",
-            Self::ExpandSmall => "expand_small",
+            Self::ExpandShort => "expand_short",
         }
     }
 
@@ -122,7 +124,7 @@ impl Stage {
             Tables, Tiles, Topologies,
         };
         match self {
-            Self::Small => &SMALL,
+            Self::Short => &SHORT,
             Self::Factors => &FACTORS,
             Self::Scan => &[Binding(Job, Read), Binding(Offsets, ReadWrite)],
             Self::Totals => &[
@@ -168,7 +170,7 @@ impl Stage {
                 Binding(Indices, ReadWrite),
                 Binding(Catalogue, Read),
             ],
-            Self::ExpandSmall => &EXPAND_SMALL,
+            Self::ExpandShort => &EXPAND_SHORT,
         }
     }
 
@@ -176,32 +178,35 @@ impl Stage {
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
         let (file, expansion) = match self {
-            Self::Small => ("small", None),
-            Self::Factors => ("factors", None),
-            Self::Scan => ("scan", None),
-            Self::Totals => ("totals", None),
-            Self::List => ("list", None),
-            Self::Partition => ("partition", None),
-            Self::Groups => ("groups", None),
+            Self::Short => ("entry_points/short_batch", None),
+            Self::Factors => ("entry_points/factors", None),
+            Self::Scan => ("entry_points/scan", None),
+            Self::Totals => ("entry_points/totals", None),
+            Self::List => ("entry_points/list", None),
+            Self::Partition => ("entry_points/partition", None),
+            Self::Groups => ("entry_points/groups", None),
             Self::ExpandPoints => {
-                ("expand_points", Some((sizes::POINT_SCRATCH, sizes::POINT_THREADS)))
+                ("entry_points/expand_points", Some((sizes::POINT_SCRATCH, sizes::POINT_THREADS)))
             }
-            Self::ExpandPrimitives => {
-                ("expand_primitives", Some((sizes::PRIMITIVE_SCRATCH, sizes::WORKGROUP)))
+            Self::ExpandPrimitives => (
+                "entry_points/expand_primitives",
+                Some((sizes::PRIMITIVE_SCRATCH, sizes::WORKGROUP)),
+            ),
+            Self::ExpandShort => {
+                ("entry_points/expand_short", Some((sizes::POINT_SCRATCH, sizes::WORKGROUP)))
             }
-            Self::ExpandSmall => ("expand_small", Some((sizes::POINT_SCRATCH, sizes::WORKGROUP))),
         };
         let own = expansion
             .map(|(entries, threads)| constants(&[("SCRATCH", entries), ("THREADS", threads)]));
         let is_list = matches!(self, Self::List);
-        let stored = if is_list { "no_contexts" } else { "stored_contexts" };
+        let stored = if is_list { "variants/no_contexts" } else { "variants/stored_contexts" };
         let [place, contexts] = files::placing(setup, stored);
-        let [catalogue, elements] = files::expanding(matches!(self, Self::ExpandSmall));
+        let [catalogue, elements] = files::expanding(matches!(self, Self::ExpandShort));
         let lists = matches!(self, Self::Factors) && setup.has_triangles();
         let (indices, listing) = (files::indices(setup), files::listing(lists));
         let choices = [place, contexts, indices, listing, catalogue, elements];
-        // A small tile has fewer elements than the patch that would be made for copying.
-        let copies = if matches!(self, Self::ExpandSmall) { Copies::Never } else { setup.copies };
+        // A narrow tile has fewer elements than the patch that would be made for copying.
+        let copies = if matches!(self, Self::ExpandShort) { Copies::Never } else { setup.copies };
         Setup { copies, ..setup }.prelude()
             + &own.unwrap_or_default()
             + &files::joined(&[file], &choices)
@@ -220,7 +225,7 @@ impl Stage {
             ..setup
         };
         match self {
-            Self::Small => plain,
+            Self::Short => plain,
             Self::Factors => Setup { copies: setup.copies, ..plain },
             Self::Scan | Self::Totals | Self::Partition | Self::Groups => any_factors(plain),
             Self::ExpandPoints => {
@@ -233,7 +238,7 @@ impl Stage {
                 let Setup { point_format, order, .. } = setup;
                 placed_as(setup, any_factors(Setup { point_format, order, ..plain }))
             }
-            Self::ExpandSmall => {
+            Self::ExpandShort => {
                 let copies = Copies::WhereAlike;
                 placed_as(setup, any_factors(Setup { copies, ..setup }))
             }

@@ -33,7 +33,7 @@ fn plans(setup: Setup, limits: Limits) -> Vec<Plan> {
     plans
 }
 
-/// WebGPU's limits: chunks and windows end before a dispatch has as many workgroups in a row.
+/// WebGPU's limits: portions and windows end before a dispatch has as many workgroups in a row.
 #[test]
 fn default_limits_need_no_rows() {
     for setup in some_setups() {
@@ -82,13 +82,13 @@ fn bindings_lie_within_buffers_and_limits() {
     }
 }
 
-/// The windows of each output follow one another, once for each chunk, from its first byte to its
-/// last; so do the chunks of the factors.
+/// The windows of each output follow one another, once for each portion, from its first byte to its
+/// last; so do the portions of the factors.
 #[test]
-fn chunks_and_windows_cover_everything_once() {
+fn portions_and_windows_cover_everything_once() {
     for plan in some_setups().flat_map(|setup| plans(setup, LOW)) {
-        let stages = match plan.is_small() {
-            true => [Stage::Small, Stage::ExpandSmall, Stage::ExpandSmall],
+        let stages = match plan.is_short() {
+            true => [Stage::Short, Stage::ExpandShort, Stage::ExpandShort],
             false => [Stage::Factors, Stage::ExpandPoints, Stage::ExpandPrimitives],
         };
         let resources = [Resource::Factors, Resource::Points, Resource::Indices];
@@ -100,13 +100,13 @@ fn chunks_and_windows_cover_everything_once() {
                 assert!(is_first || offset == end, "{resource:?} of {plan:?}");
                 end = offset + size;
             }
-            let is_expected = plan.chunks() == 0 || end == plan.buffer_size(resource);
+            let is_expected = plan.portions() == 0 || end == plan.buffer_size(resource);
             assert!(is_expected, "{end} of {resource:?} of {plan:?}");
         }
     }
 }
 
-/// Each dispatch of a chunk has the job of its chunk and window, and its own dispatch size.
+/// Each dispatch of a portion has the job of its portion and window, and its own dispatch size.
 #[test]
 fn jobs_are_those_of_the_dispatches() {
     let setup = common::all_setups()[0];
@@ -120,7 +120,7 @@ fn jobs_are_those_of_the_dispatches() {
             let bytes = &jobs[usize::try_from(offset).expect("in memory")..][..size_of::<Job>()];
             let job: Job = bytemuck::pod_read_unaligned(bytes);
             assert_eq!(size, bytes.len() as u64, "{dispatch:?}");
-            if matches!(dispatch.stage(), Stage::Small | Stage::Factors) {
+            if matches!(dispatch.stage(), Stage::Short | Stage::Factors) {
                 assert_eq!(job.first_patch, first_patch, "{dispatch:?}");
                 first_patch += job.patches;
             }

@@ -4,7 +4,7 @@ mod common;
 
 use common::{COUNTING, DRAWING, PULLING, all_setups, parse};
 use naga::{AddressSpace, Module, ScalarKind, TypeInner};
-use tess_gpu::{Access, Binding, Counting, Probe, Pull, Resource, Stage, layout};
+use tess_gpu::{Access, Binding, Counting, Pull, Resource, Stage, Tap, layout};
 
 #[test]
 fn every_shader_is_valid_in_every_setup() {
@@ -18,8 +18,8 @@ fn every_shader_is_valid_in_every_setup() {
         for stage in Stage::ALL {
             common::validated(&stage.source(setup));
         }
-        for probe in Probe::ALL {
-            common::validated(&probe.source(setup));
+        for tap in Tap::ALL {
+            common::validated(&tap.source(setup));
         }
         let pull = Pull { group: 0, first_binding: 0 };
         common::validated(&(pull.source(setup) + PULLING));
@@ -125,7 +125,7 @@ fn layouts_are_those_of_the_shaders() {
     let expected = [
         "patches",
         "first_patch",
-        "chunk",
+        "portion",
         "stride",
         "blocks_at",
         "alike_at",
@@ -133,7 +133,7 @@ fn layouts_are_those_of_the_shaders() {
         "primitive_tiles_at",
         "window_first",
         "window_tiles",
-        "chunks",
+        "portions",
         "point_capacity",
         "primitive_capacity",
         "point_windows",
@@ -147,7 +147,7 @@ fn layouts_are_those_of_the_shaders() {
     let fields = layout::Job {
         patches: 0,
         first_patch: 1,
-        chunk: 2,
+        portion: 2,
         stride: 3,
         blocks_at: 4,
         alike_at: 5,
@@ -155,7 +155,7 @@ fn layouts_are_those_of_the_shaders() {
         primitive_tiles_at: 7,
         window_first: 8,
         window_tiles: 9,
-        chunks: 10,
+        portions: 10,
         point_capacity: 11,
         primitive_capacity: 12,
         point_windows: 13,

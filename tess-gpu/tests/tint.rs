@@ -7,7 +7,7 @@ use common::{COUNTING, DRAWING, PULLING, all_setups};
 use std::collections::BTreeSet;
 use std::io::Write;
 use std::process::{Command, Stdio};
-use tess_gpu::{Counting, Probe, Pull, Stage};
+use tess_gpu::{Counting, Pull, Stage, Tap};
 
 /// What Tint says of a shader that it refuses.
 fn refusal(source: &str) -> Option<String> {
@@ -30,7 +30,7 @@ fn browsers_take_every_shader() {
     let mut sources = BTreeSet::new();
     for setup in all_setups() {
         sources.extend(Stage::ALL.map(|stage| stage.source(stage.relevant(setup))));
-        sources.extend(Probe::ALL.map(|probe| probe.source(setup)));
+        sources.extend(Tap::ALL.map(|tap| tap.source(setup)));
         let pull = Pull { group: 0, first_binding: 0 };
         sources.insert(pull.source(setup) + PULLING);
         sources.insert(pull.source_for_drawing(setup) + DRAWING);

@@ -124,7 +124,7 @@ impl Batch {
         }
     }
 
-    /// How the batch is cut into chunks and windows.
+    /// How the batch is cut into portions and windows.
     #[must_use]
     pub const fn plan(&self) -> &Plan {
         &self.plan
@@ -213,8 +213,8 @@ fn check(plan: &Plan, factors: &wgpu::Buffer, outputs: Outputs<'_>) -> Result<()
     if needed > got {
         return Err(Error::FactorsTooShort { needed, got });
     }
-    if matches!(outputs, Outputs::Indices { .. } | Outputs::Arguments(_)) && plan.chunks() > 1 {
-        let (got, most) = (plan.patches(), plan.chunk_patches());
+    if matches!(outputs, Outputs::Indices { .. } | Outputs::Arguments(_)) && plan.portions() > 1 {
+        let (got, most) = (plan.patches(), plan.portion_patches());
         return Err(Error::TooManyToPull { got, most });
     }
     let mut own = vec![(Resource::Factors, factors)];

@@ -3,7 +3,7 @@
 use crate::error::{Error, checked};
 use crate::{Gpu, Tessellator, pipeline};
 use tess_gpu::sizes::WORKGROUP;
-use tess_gpu::{Probe, Setup};
+use tess_gpu::{Setup, Tap};
 
 impl Tessellator {
     /// Runs a probe over `input`, whose length is a multiple of the probe's.
@@ -13,7 +13,7 @@ impl Tessellator {
     pub fn probe(
         &mut self,
         gpu: &Gpu,
-        probe: Probe,
+        probe: Tap,
         setup: Setup,
         input: &[u32],
     ) -> Result<Vec<u32>, Error> {

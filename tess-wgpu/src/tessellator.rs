@@ -6,7 +6,7 @@ use crate::{Batch, Outputs, gpu, pipeline};
 use std::collections::HashMap;
 use std::fmt;
 use tess_core::SplitOrder;
-use tess_gpu::tables::tables;
+use tess_gpu::tables;
 use tess_gpu::{Limits, Setup, Stage};
 
 /// Makes and keeps the pipelines and tables of one device.

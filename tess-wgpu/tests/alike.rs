@@ -5,7 +5,7 @@ mod common;
 use common::device::Machine;
 use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_gpu::sizes::{BLOCK, SMALL_PATCHES};
+use tess_gpu::sizes::{BLOCK, SHORT_PATCHES};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 use tess_verify::random::SplitMix64;
 use tess_wgpu::{Outputs, Tessellator};
@@ -60,7 +60,7 @@ fn like_patches_of_every_size_and_format() {
         let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCcw);
         let setup = Setup::new(domain, config);
         for factor in (1_u8..=19).map(f32::from) {
-            let count = if factor > 4.0 { SMALL_PATCHES as usize + 1 } else { 3000 };
+            let count = if factor > 4.0 { SHORT_PATCHES as usize + 1 } else { 3000 };
             machine.assert_equal(setup, &vec![PatchFactors::from_fn(domain, |_| factor); count]);
         }
         let patches = runs(domain, &[(1.0, 3560), (6.0, 680), (2.0, 1430)]);
@@ -134,7 +134,7 @@ fn planted_faults_are_seen() {
     let integer = setup(Partitioning::Integer);
     let fractional = setup(Partitioning::FractionalOdd);
     let alike = runs(Domain::Quad, &[(2.0, 1350), (1.0, 3600), (10.0, 750), (5.0, 920)]);
-    let similar: Vec<_> = (0..SMALL_PATCHES + 200)
+    let similar: Vec<_> = (0..SHORT_PATCHES + 200)
         .map(|n| PatchFactors::from_fn(Domain::Quad, |_| f32::from_bits(0x4050_0000 + 512 * n)))
         .collect();
     for (setup, patches, right, wrong) in [

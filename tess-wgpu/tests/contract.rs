@@ -151,9 +151,9 @@ fn counting_2_pow_20_patches() {
     assert_eq!(status.primitives(), 8192 << 20, "triangles");
 }
 
-/// More patches than one chunk has with default limits.
+/// More patches than one portion has with default limits.
 #[test]
-fn counting_in_several_chunks() {
+fn counting_in_several_portions() {
     let mut machine = Machine::open();
     let setup = quads(Partitioning::Integer);
     let factors = machine.factors(&uniform(2.0, 1 << 22));
@@ -161,7 +161,7 @@ fn counting_in_several_chunks() {
         .tessellator
         .batch(setup, 1 << 22, &factors, Outputs::CountOnly)
         .expect("the factors are there");
-    assert!(batch.plan().chunks() > 1, "{:?}", batch.plan());
+    assert!(batch.plan().portions() > 1, "{:?}", batch.plan());
     machine.run(&batch);
     let (status, _) = machine.status(&batch);
     assert_eq!(status.points(), 9 << 22, "points");

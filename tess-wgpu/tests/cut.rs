@@ -1,4 +1,4 @@
-//! Batches that are cut up: several chunks, windows and rows of workgroups; and the prefix sums.
+//! Batches that are cut up: several portions, windows and rows of workgroups; and the prefix sums.
 
 mod common;
 
@@ -34,13 +34,13 @@ fn of_these(domain: Domain, count: u32, factors: [f32; 6]) -> Vec<PatchFactors> 
 
 /// Everything is written once and in its place wherever the batch is cut.
 #[test]
-fn chunks_windows_and_rows() {
+fn portions_windows_and_rows() {
     let mut machine = Machine::open();
     machine.limit(LOW);
     let patches = small(Domain::Triangle, 150_000);
     let setup = setup(Domain::Triangle);
     let plan = Plan::new(setup, 150_000, needed(&mut machine, setup, &patches), LOW);
-    assert!(plan.chunks() > 1 && rows(&plan, Stage::Factors) > 1, "{plan:?}");
+    assert!(plan.portions() > 1 && rows(&plan, Stage::Factors) > 1, "{plan:?}");
     assert!(plan.point_windows() > 1 && plan.primitive_windows() > 1, "{plan:?}");
     machine.assert_equal(setup, &patches);
     let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
@@ -55,7 +55,7 @@ fn rows_of_sections() {
     let patches = small(Domain::Triangle, 150_000);
     let setup = setup(Domain::Triangle);
     let plan = Plan::new(setup, 150_000, Capacity::default(), TWO);
-    assert!(plan.chunks() == 1 && rows(&plan, Stage::Scan) == 2, "{plan:?}");
+    assert!(plan.portions() == 1 && rows(&plan, Stage::Scan) == 2, "{plan:?}");
     machine.assert_equal(setup, &patches);
 }
 
@@ -157,7 +157,7 @@ fn rows(plan: &Plan, stage: Stage) -> u32 {
     }
 }
 
-/// Rows of 65535 workgroups where a device binds gigabytes: 16 million patches in one chunk and one
+/// Rows of 65535 workgroups where a device binds gigabytes: 16 million patches in one portion and one
 /// window, compared with tess-simd.
 #[test]
 #[ignore = "6 GiB on a device that binds 3 at once: cargo test --release -p tess-wgpu \

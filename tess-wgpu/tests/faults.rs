@@ -6,7 +6,7 @@ use common::device::Machine;
 use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::Setup;
-use tess_gpu::sizes::SMALL_PATCHES;
+use tess_gpu::sizes::SHORT_PATCHES;
 use tess_verify::random::SplitMix64;
 use tess_wgpu::Tessellator;
 
@@ -31,13 +31,13 @@ fn planted_faults_are_seen() {
     }
 }
 
-/// The search for the patch of a tile, which a small batch does without.
+/// The search for the patch of a tile, which a short batch does without.
 #[test]
 fn a_tile_of_another_patch_is_seen() {
     let mut machine = Machine::open();
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let setup = Setup::new(Domain::Quad, config);
-    let count = SMALL_PATCHES + 1;
+    let count = SHORT_PATCHES + 1;
     let patches = common::patches::random(Domain::Quad, count, &mut SplitMix64::new(5));
     let expected = Expected::new(setup, &patches);
     let (points, indices) = expected.words();

@@ -118,8 +118,8 @@ fn many() -> Vec<PatchFactors> {
     (0..150_000_u32).map(|number| factor(number.to_le_bytes()[0])).collect()
 }
 
-/// Groups that end in a later chunk than they begin in, and those that begin with one.
-fn across_chunks() -> Vec<u32> {
+/// Groups that end in a later portion than they begin in, and those that begin with one.
+fn across_portions() -> Vec<u32> {
     let mut groups = some_groups(150_000, 700);
     groups.extend([65_535, 65_536, 65_537, 131_072]);
     groups.sort_unstable();
@@ -127,12 +127,12 @@ fn across_chunks() -> Vec<u32> {
 }
 
 #[test]
-fn groups_reach_across_chunks() {
+fn groups_reach_across_portions() {
     let mut machine = Machine::open();
     machine.limit(LOW);
     let setup = setup(Domain::Triangle, OutputPrimitive::TriangleCw);
     let patches = many();
-    assert!(are_right(&mut machine, setup, &patches, &across_chunks()), "three chunks");
+    assert!(are_right(&mut machine, setup, &patches, &across_portions()), "three portions");
     assert!(are_right(&mut machine, setup, &patches, &[10, 149_000]), "two groups");
 }
 
@@ -140,10 +140,10 @@ fn groups_reach_across_chunks() {
 fn planted_faults_are_seen() {
     let mut machine = Machine::open();
     let setup = setup(Domain::Triangle, OutputPrimitive::TriangleCw);
-    let (patches, groups) = (many(), across_chunks());
+    let (patches, groups) = (many(), across_portions());
     for (right, wrong) in [
-        ("if begin >= job.first_patch {", "if job.chunk == 0u {"),
-        ("if end >= job.first_patch &&", "if job.chunk == 0u &&"),
+        ("if begin >= job.first_patch {", "if job.portion == 0u {"),
+        ("if end >= job.first_patch &&", "if job.portion == 0u &&"),
         ("if patch_index >= job.patches {", "if patch_index > job.patches {"),
         ("let patch_index = patch_number - job.first_patch;", "let patch_index = patch_number;"),
         ("end = group_begins[group + 1u];", "end = group_begins[group];"),

@@ -32,7 +32,7 @@ fn patches(domain: Domain, count: u32, most: u32) -> Vec<PatchFactors> {
     (0..count).map(&mut patch).collect()
 }
 
-/// Small batches in every partitioning; what has no rings keeps the specification's order.
+/// Short batches in every partitioning; what has no rings keeps the specification's order.
 #[test]
 fn every_configuration() {
     let mut machine = Machine::open();
@@ -63,7 +63,7 @@ fn large_patches_in_every_format() {
 
 /// Tiles that are looked up in the catalogue, and others beside them.
 #[test]
-fn small_patches_of_a_large_batch() {
+fn small_patches_of_a_long_batch() {
     let mut machine = Machine::open();
     for domain in [Domain::Triangle, Domain::Quad] {
         let mut patches = patches(domain, CATALOGUE_PATCHES, 4);
@@ -106,7 +106,7 @@ fn planted_faults_are_seen() {
     };
     assert_eq!(difference("", ""), None, "without a fault");
     for (from, to) in [
-        ("if ORDER == DRAWING {\n        return drawn", "if false {\n        return drawn"),
+        ("if ORDER == VERTEX_CACHE {\n        return drawn", "if false {\n        return drawn"),
         ("let cut = max(min(min(end, COLUMN * column + 1u), half), 2u);", "let cut = 2u;"),
         ("if step < border(sector", "if step <= border(sector"),
         ("is_there = ring < sector.end && first", "is_there = first"),

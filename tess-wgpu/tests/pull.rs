@@ -4,7 +4,7 @@ mod common;
 
 use common::device::Machine;
 use tess_core::Patch;
-use tess_gpu::tables::tables;
+use tess_gpu::tables;
 use tess_gpu::{Pull, Setup};
 use tess_verify::generate::configurations;
 use tess_verify::random::SplitMix64;

@@ -4,8 +4,9 @@ use super::Plan;
 use super::jobs::Part;
 use crate::bindings::{Binding, Resource};
 use crate::layout::Job;
+use crate::room::{Capacity, Span};
 use crate::shaders::Stage;
-use crate::sizes::{ALIGNMENT, BLOCK, Capacity, SECTION, SLOTS, Span, WORKGROUP};
+use crate::sizes::{ALIGNMENT, BLOCK, SECTION, SLOTS, WORKGROUP};
 
 /// One stage over one part of the batch: bind [`Dispatch::bindings`], then dispatch
 /// [`Dispatch::workgroups`].
@@ -13,7 +14,7 @@ use crate::sizes::{ALIGNMENT, BLOCK, Capacity, SECTION, SLOTS, Span, WORKGROUP};
 pub struct Dispatch {
     plan: Plan,
     stage: Stage,
-    chunk: u32,
+    portion: u32,
     part: Part,
 }
 
@@ -30,38 +31,40 @@ pub enum Workgroups {
 impl Plan {
     /// Everything that a batch runs, in order. Each dispatch reads what earlier ones wrote.
     ///
-    /// All chunks are counted before any is expanded, so that nothing is written if not all fits.
+    /// All portions are counted before any is expanded, so that nothing is written if not all fits.
     pub fn dispatches(&self) -> impl Iterator<Item = Dispatch> + use<> {
         let plan = *self;
-        let chunks = 0..self.chunks().max(1);
+        let portions = 0..self.portions().max(1);
         let counting: &[Stage] = match self.patches {
             0 => &[Stage::Totals],
-            _ if self.is_small() => &[Stage::Small],
+            _ if self.is_short() => &[Stage::Short],
             _ => &[Stage::Factors, Stage::Scan, Stage::Totals],
         };
         let list = self.has_catalogue().then_some(Dispatch {
             plan,
             stage: Stage::List,
-            chunk: 0,
+            portion: 0,
             part: Part::Whole,
         });
         let groups: &[Stage] = if self.groups == 0 { &[] } else { &[Stage::Groups] };
-        let whole = move |chunk| move |&stage| Dispatch { plan, stage, chunk, part: Part::Whole };
-        let counting = chunks.clone().flat_map(move |chunk| counting.iter().map(whole(chunk)));
-        let groups = chunks.flat_map(move |chunk| groups.iter().map(whole(chunk)));
-        let expansion = (0..self.chunks()).flat_map(move |chunk| plan.expansion(chunk));
+        let whole =
+            move |portion| move |&stage| Dispatch { plan, stage, portion, part: Part::Whole };
+        let counting =
+            portions.clone().flat_map(move |portion| counting.iter().map(whole(portion)));
+        let groups = portions.flat_map(move |portion| groups.iter().map(whole(portion)));
+        let expansion = (0..self.portions()).flat_map(move |portion| plan.expansion(portion));
         counting.chain(list).chain(groups).chain(expansion)
     }
 
-    /// What writes the output of a chunk; nothing if there is no room for any.
-    fn expansion(self, chunk: u32) -> impl Iterator<Item = Dispatch> + use<> {
+    /// What writes the output of a portion; nothing if there is no room for any.
+    fn expansion(self, portion: u32) -> impl Iterator<Item = Dispatch> + use<> {
         let has_room = self.capacity != Capacity::default();
-        let (points, primitives) = match self.is_small() {
+        let (points, primitives) = match self.is_short() {
             true => (0, 0),
             false => (self.point_windows(), self.primitive_windows()),
         };
-        let dispatch = move |stage, part| Dispatch { plan: self, stage, chunk, part };
-        let first = if self.is_small() { Stage::ExpandSmall } else { Stage::Partition };
+        let dispatch = move |stage, part| Dispatch { plan: self, stage, portion, part };
+        let first = if self.is_short() { Stage::ExpandShort } else { Stage::Partition };
         let first = has_room.then(|| dispatch(first, Part::Whole));
         let points =
             (0..points).map(move |window| dispatch(Stage::ExpandPoints, Part::Points { window }));
@@ -81,7 +84,7 @@ impl Dispatch {
     /// The number of its job in the buffer of jobs.
     #[must_use]
     pub fn job(&self) -> u32 {
-        self.plan.job_number(self.chunk, self.part)
+        self.plan.job_number(self.portion, self.part)
     }
 
     /// Its bindings in group 0, in order from binding 0: which buffer, and which bytes of it.
@@ -93,16 +96,16 @@ impl Dispatch {
     /// Its workgroups.
     #[must_use]
     pub fn workgroups(&self) -> Workgroups {
-        let patches = self.plan.patches_in(self.chunk);
+        let patches = self.plan.patches_in(self.portion);
         match self.stage {
             Stage::Factors => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(BLOCK))),
             Stage::Scan => Workgroups::Direct(self.plan.in_rows(patches.div_ceil(SECTION))),
-            Stage::Small | Stage::Totals => Workgroups::Direct([1; 3]),
+            Stage::Short | Stage::Totals => Workgroups::Direct([1; 3]),
             Stage::List => Workgroups::Direct(self.plan.in_rows(SLOTS)),
             Stage::Groups => {
                 Workgroups::Direct(self.plan.in_rows(self.plan.groups.div_ceil(WORKGROUP)))
             }
-            Stage::ExpandSmall => {
+            Stage::ExpandShort => {
                 let tiles = |elements: u32| elements.div_ceil(self.plan.tile());
                 let Capacity { points, primitives } = self.plan.capacity;
                 Workgroups::Direct(self.plan.in_rows(tiles(points) + tiles(primitives)))
@@ -114,17 +117,17 @@ impl Dispatch {
     }
 
     fn span(&self, resource: Resource) -> Span {
-        let (plan, chunk) = (&self.plan, self.chunk);
+        let (plan, portion) = (&self.plan, self.portion);
         let whole = Span { offset: 0, size: plan.buffer_size(resource) };
         match (resource, self.part) {
             (Resource::Job, _) => {
                 let offset = ALIGNMENT * u64::from(self.job());
                 Span { offset, size: size_of::<Job>() as u64 }
             }
-            (Resource::Factors, _) => plan.factors(chunk),
-            (Resource::Topologies, _) => plan.topologies(chunk),
-            (Resource::Contexts, _) => plan.contexts(chunk),
-            (Resource::Offsets, _) => plan.offsets(chunk),
+            (Resource::Factors, _) => plan.factors(portion),
+            (Resource::Topologies, _) => plan.topologies(portion),
+            (Resource::Contexts, _) => plan.contexts(portion),
+            (Resource::Offsets, _) => plan.offsets(portion),
             (Resource::Points, Part::Points { window }) => plan.point_window(window),
             (Resource::Indices, Part::Primitives { window }) => plan.primitive_window(window),
             _ => whole,

@@ -1,13 +1,13 @@
-//! The jobs of a batch: what the shaders are told about a chunk and a window.
+//! The jobs of a batch: what the shaders are told about a portion and a window.
 
 use super::Plan;
 use crate::layout::Job;
 use crate::sizes::ALIGNMENT;
 
-/// Which part of a chunk's work a job is about.
+/// Which part of a portion's work a job is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// All of it: counting, partitioning, and the expansions of a small batch.
+    /// All of it: counting, partitioning, and the expansions of a short batch.
     Whole,
     /// The points in a window.
     Points {
@@ -34,28 +34,28 @@ impl Plan {
         bytes
     }
 
-    /// How many jobs there are. A batch of no patches has those of an empty chunk.
+    /// How many jobs there are. A batch of no patches has those of an empty portion.
     pub(super) fn job_count(&self) -> u32 {
-        self.chunks().max(1) * self.parts()
+        self.portions().max(1) * self.parts()
     }
 
-    /// The number of a job. Each chunk has one job for the whole of it, one for each window of the
-    /// points and one for each window of the primitives; totals.wgsl numbers dispatch sizes so.
-    pub(super) fn job_number(&self, chunk: u32, part: Part) -> u32 {
-        let in_chunk = match part {
+    /// The number of a job. Each portion has one job for the whole of it, one for each window of the
+    /// points and one for each window of the primitives; shared/finish.wgsl numbers dispatch sizes so.
+    pub(super) fn job_number(&self, portion: u32, part: Part) -> u32 {
+        let in_portion = match part {
             Part::Whole => 0,
             Part::Points { window } => 1 + window,
             Part::Primitives { window } => 1 + self.point_windows() + window,
         };
-        chunk * self.parts() + in_chunk
+        portion * self.parts() + in_portion
     }
 
-    /// Jobs of a chunk.
+    /// Jobs of a portion.
     fn parts(&self) -> u32 {
         1 + self.point_windows() + self.primitive_windows()
     }
 
-    /// The part that has this number within its chunk.
+    /// The part that has this number within its portion.
     fn part(&self, number: u32) -> Part {
         match number.checked_sub(1) {
             None => Part::Whole,
@@ -64,7 +64,7 @@ impl Plan {
         }
     }
 
-    fn job(&self, chunk: u32, part: Part) -> Job {
+    fn job(&self, portion: u32, part: Part) -> Job {
         let (window_first, window_tiles) = match part {
             Part::Whole => (0, u32::MAX),
             Part::Points { window } => (window * self.point_window_tiles, self.point_window_tiles),
@@ -73,17 +73,17 @@ impl Plan {
             }
         };
         Job {
-            patches: self.patches_in(chunk),
-            first_patch: chunk * self.chunk_patches,
-            chunk,
-            stride: self.chunk_patches,
+            patches: self.patches_in(portion),
+            first_patch: portion * self.portion_patches,
+            portion,
+            stride: self.portion_patches,
             blocks_at: self.blocks_at(),
             alike_at: self.alike_at(),
             sections_at: self.sections_at(),
             primitive_tiles_at: self.primitive_tiles_at(),
             window_first,
             window_tiles,
-            chunks: self.chunks(),
+            portions: self.portions(),
             point_capacity: self.capacity.points,
             primitive_capacity: self.capacity.primitives,
             point_windows: self.point_windows(),

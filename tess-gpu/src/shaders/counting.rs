@@ -26,6 +26,6 @@ impl Counting {
         let tables = "var<storage, read> tables: array<u32>;";
         setup.prelude()
             + &format!("@group({group}) @binding({binding}) {tables}\n")
-            + &files::joined(&["counted"], &files::placing(setup, "no_contexts"))
+            + &files::joined(&["offered/counting"], &files::placing(setup, "variants/no_contexts"))
     }
 }

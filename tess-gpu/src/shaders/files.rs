@@ -1,6 +1,6 @@
 //! The files of `shaders/`, joined in the order in which they need each other.
 //!
-//! The first line of a file names the files that it needs: `// needs: state, {place}`. Names in
+//! The first line of a file names the files that it needs by their paths: `// needs: layout/setup, {place}`. Names in
 //! braces stand for one of several files, which the setup chooses. Names behind a semicolon are
 //! bindings that whoever needs the file declares.
 
@@ -35,64 +35,64 @@ macro_rules! downloaded {
 }
 
 const FILES: [(&str, &str); 58] = files![
-    "alike",
-    "block",
-    "catalogue",
-    "connect",
-    "counted",
-    "counts",
-    "d3d_float",
-    "described",
-    "drawing",
-    "element",
-    "expand",
-    "expand_points",
-    "expand_primitives",
-    "expand_small",
-    "factor_context",
-    "factors",
-    "finish",
-    "fixed_point",
-    "groups",
-    "indices_u16",
-    "indices_u32",
-    "large_tiles",
-    "list",
-    "listing",
-    "locate",
-    "make_context",
-    "no_catalogue",
-    "no_contexts",
-    "no_listing",
-    "offsets",
-    "packing",
-    "partition",
-    "place",
-    "place_evenly",
-    "point_format",
-    "point_tile",
-    "points",
-    "prefix_sum",
-    "primitive_tile",
-    "probe",
-    "probe_contexts",
-    "probe_factors",
-    "probe_locations",
-    "process",
-    "pulled_contexts",
-    "read_catalogue",
-    "rings",
-    "scan",
-    "search",
-    "small",
-    "small_tiles",
-    "state",
-    "stitch",
-    "stored_contexts",
-    "tile",
-    "tile_size",
-    "topology",
-    "totals",
+    "entry_points/expand_points",
+    "entry_points/expand_primitives",
+    "entry_points/expand_short",
+    "entry_points/factors",
+    "entry_points/groups",
+    "entry_points/list",
+    "entry_points/partition",
+    "entry_points/scan",
+    "entry_points/short_batch",
+    "entry_points/totals",
+    "layout/packed_context",
+    "layout/packed_triangle",
+    "layout/point_format",
+    "layout/setup",
+    "layout/topology",
+    "offered/counting",
+    "offered/elements",
+    "shared/alike",
+    "shared/block",
+    "shared/catalogue",
+    "shared/described",
+    "shared/expand",
+    "shared/finish",
+    "shared/offsets",
+    "shared/point_tile",
+    "shared/prefix_sum",
+    "shared/primitive_tile",
+    "shared/search",
+    "shared/tile",
+    "shared/tile_size",
+    "stages/cache_order",
+    "stages/connect",
+    "stages/counts",
+    "stages/d3d_float",
+    "stages/factor_context",
+    "stages/factors",
+    "stages/fixed_point",
+    "stages/locate",
+    "stages/place",
+    "stages/points",
+    "stages/rings",
+    "stages/stitch",
+    "taps/contexts",
+    "taps/factors",
+    "taps/locations",
+    "taps/tap",
+    "variants/indices_u16",
+    "variants/indices_u32",
+    "variants/listing",
+    "variants/narrow_tiles",
+    "variants/no_catalogue",
+    "variants/no_contexts",
+    "variants/no_listing",
+    "variants/place_evenly",
+    "variants/pulled_contexts",
+    "variants/read_catalogue",
+    "variants/stored_contexts",
+    "variants/wide_tiles",
 ];
 
 /// A name in braces and the file that stands for it.
@@ -102,32 +102,32 @@ pub(super) type Choice = (&'static str, &'static str);
 /// `stored` says where contexts are.
 pub(super) const fn placing(setup: Setup, stored: &'static str) -> [Choice; 2] {
     if setup.has_integer_factors() {
-        [("place", "place_evenly"), ("contexts", "place_evenly")]
+        [("place", "variants/place_evenly"), ("contexts", "variants/place_evenly")]
     } else {
-        [("place", "place"), ("contexts", stored)]
+        [("place", "stages/place"), ("contexts", stored)]
     }
 }
 
 /// How indices are stored.
 pub(super) const fn indices(setup: Setup) -> Choice {
     let file = match setup.index_type {
-        IndexType::U16 => "indices_u16",
-        IndexType::U32 => "indices_u32",
+        IndexType::U16 => "variants/indices_u16",
+        IndexType::U32 => "variants/indices_u32",
     };
     ("indices", file)
 }
 
 /// Whether topologies are entered into the catalogue.
 pub(super) const fn listing(lists: bool) -> Choice {
-    ("listing", if lists { "listing" } else { "no_listing" })
+    ("listing", if lists { "variants/listing" } else { "variants/no_listing" })
 }
 
-/// What the expansions of a small batch and of a large one have of their own: the catalogue, the size of tiles.
-pub(super) const fn expanding(is_small: bool) -> [Choice; 2] {
-    if is_small {
-        [("catalogue", "no_catalogue"), ("elements", "small_tiles")]
+/// Where the expansions of a short batch and of a long one differ: the catalogue and the size of tiles.
+pub(super) const fn expanding(is_short: bool) -> [Choice; 2] {
+    if is_short {
+        [("catalogue", "variants/no_catalogue"), ("elements", "variants/narrow_tiles")]
     } else {
-        [("catalogue", "read_catalogue"), ("elements", "large_tiles")]
+        [("catalogue", "variants/read_catalogue"), ("elements", "variants/wide_tiles")]
     }
 }
 

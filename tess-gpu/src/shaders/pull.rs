@@ -6,7 +6,7 @@ use crate::setup::Setup;
 /// WGSL to put in front of your own shader. It computes any point or primitive of a patch from its
 /// number, in constant time, so that nothing needs to be written out for drawing.
 ///
-/// Run a batch with room for nothing first, of one chunk: it leaves topologies and contexts. The WGSL
+/// Run a batch with room for nothing first, of one portion: it leaves topologies and contexts. The WGSL
 /// declares `topologies`, `tables` and, unless [`Setup::has_integer_factors`], `contexts` as read-only
 /// storage buffers, and offers these functions:
 /// - `tess_point(patch_index, i) -> vec2<u32>`: u and v of point `i` as 16.16 numbers,
@@ -27,7 +27,8 @@ impl Pull {
     /// The WGSL.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        self.begin(setup) + &files::joined(&["locate"], &files::placing(setup, "pulled_contexts"))
+        self.begin(setup)
+            + &files::joined(&["stages/locate"], &files::placing(setup, "variants/pulled_contexts"))
     }
 
     /// The same for the vertex shader of a batch that does not write everything
@@ -46,7 +47,10 @@ impl Pull {
             + &format!("@group({group}) @binding({binding}) var<uniform> job: Job;\n")
             + &self.declared(4, "offsets", "vec2<u32>")
             + &self.declared(5, "tiles", "u32")
-            + &files::joined(&["locate", "element"], &files::placing(setup, "pulled_contexts"))
+            + &files::joined(
+                &["stages/locate", "offered/elements"],
+                &files::placing(setup, "variants/pulled_contexts"),
+            )
     }
 
     /// The constants, and the buffers that both forms read.

@@ -4,7 +4,7 @@ use crate::common::device::Machine;
 use crate::common::expected::Expected;
 use crate::common::patches::random;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
-use tess_gpu::sizes::SMALL_PATCHES;
+use tess_gpu::sizes::SHORT_PATCHES;
 use tess_gpu::{IndexType, Numbering, Order, PointFormat, Setup};
 use tess_verify::random::SplitMix64;
 use tess_wgpu::Gpu;
@@ -34,7 +34,7 @@ pub(crate) fn small_ones_equal_the_model(gpu: Gpu) {
 /// A batch whose tiles search for their patch.
 pub(crate) fn a_large_one_equals_the_model(gpu: Gpu) {
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCcw);
-    let patches = random(Domain::Quad, SMALL_PATCHES + 40, &mut SplitMix64::new(2));
+    let patches = random(Domain::Quad, SHORT_PATCHES + 40, &mut SplitMix64::new(2));
     Machine::on(gpu).assert_equal(Setup::new(Domain::Quad, config), &patches);
 }
 

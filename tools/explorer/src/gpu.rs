@@ -28,7 +28,7 @@ impl GpuTables {
     /// # Errors
     /// An unknown split order.
     pub fn words(split: &str) -> Result<Vec<u32>, JsError> {
-        Ok(tables::tables(Named::from_name(split).map_err(thrown)?))
+        Ok(tables(Named::from_name(split).map_err(thrown)?))
     }
 }
 

@@ -1,5 +1,6 @@
 use super::*;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
 /// The shaders: a file that nothing needs, with every choice that there is for it.
@@ -17,23 +18,29 @@ fn roots() -> Vec<(&'static str, Vec<Choice>)> {
                         .concat(),
                 ));
             };
-            for stage in ["factors", "scan", "totals", "partition", "groups"] {
-                add(stage, "stored_contexts", true);
+            for root in [
+                "entry_points/factors",
+                "entry_points/scan",
+                "entry_points/totals",
+                "entry_points/partition",
+                "entry_points/groups",
+            ] {
+                add(root, "variants/stored_contexts", true);
             }
-            add("factors", "stored_contexts", false);
-            add("list", "no_contexts", true);
-            for stage in ["expand_points", "expand_primitives"] {
-                add(stage, "stored_contexts", true);
+            add("entry_points/factors", "variants/stored_contexts", false);
+            add("entry_points/list", "variants/no_contexts", true);
+            for root in ["entry_points/expand_points", "entry_points/expand_primitives"] {
+                add(root, "variants/stored_contexts", true);
             }
-            add("small", "stored_contexts", false);
-            add("expand_small", "stored_contexts", false);
-            add("locate", "pulled_contexts", false);
-            add("element", "pulled_contexts", false);
-            add("counted", "no_contexts", false);
+            add("entry_points/short_batch", "variants/stored_contexts", false);
+            add("entry_points/expand_short", "variants/stored_contexts", false);
+            add("stages/locate", "variants/pulled_contexts", false);
+            add("offered/elements", "variants/pulled_contexts", false);
+            add("offered/counting", "variants/no_contexts", false);
         }
     }
-    for probe in ["probe_factors", "probe_contexts", "probe_locations"] {
-        all.push(("probe", vec![("probe", probe)]));
+    for tap in ["taps/factors", "taps/contexts", "taps/locations"] {
+        all.push(("taps/tap", vec![("tap", tap)]));
     }
     all
 }
@@ -143,14 +150,17 @@ fn first_lines_name_what_a_file_uses() {
 
 #[test]
 fn every_file_is_part_of_a_shader() {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
-    let entries = std::fs::read_dir(folder).expect("the folder of shaders");
-    let mut in_folder: Vec<String> = entries
-        .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-        .collect();
-    in_folder.sort();
-    let listed: Vec<String> = FILES.iter().map(|(name, _)| format!("{name}.wgsl")).collect();
-    assert_eq!(in_folder, listed, "the list and the folder");
+    let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
+    let mut in_folders = BTreeSet::new();
+    for folder in entries(&shaders) {
+        let folder_name = folder.file_name().expect("a folder").to_string_lossy().into_owned();
+        for file in entries(&folder) {
+            let name = file.file_name().expect("a file").to_string_lossy().into_owned();
+            in_folders.insert(format!("{folder_name}/{name}"));
+        }
+    }
+    let listed: BTreeSet<String> = FILES.iter().map(|(name, _)| format!("{name}.wgsl")).collect();
+    assert_eq!(in_folders, listed, "the list and the folders");
     let mut used = BTreeSet::new();
     for (root, choices) in roots() {
         let mut files = Vec::new();
@@ -160,4 +170,10 @@ fn every_file_is_part_of_a_shader() {
     let unused: Vec<_> =
         FILES.iter().map(|(name, _)| name).filter(|&name| !used.contains(name)).collect();
     assert!(unused.is_empty(), "{unused:?}");
+}
+
+/// What is in a folder.
+fn entries(folder: &Path) -> Vec<PathBuf> {
+    let all = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{folder:?}: {error}"));
+    all.map(|entry| entry.expect("an entry").path()).collect()
 }

@@ -7,7 +7,7 @@ use tess_core::{
     PatchFactors, Tessellation,
 };
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
-use tess_gpu::{Numbering, Probe, Setup};
+use tess_gpu::{Numbering, Setup, Tap};
 use tess_verify::backend::{Backend, BackendError};
 use tess_verify::workloads::IndexType;
 use tess_wgpu::{Gpu, Output, Tessellator};
@@ -32,16 +32,16 @@ impl GpuBackend {
         Ok(Self { gpu, tessellator, index_type })
     }
 
-    fn probe(
+    fn tap(
         &mut self,
-        probe: Probe,
+        tap: Tap,
         partitioning: Partitioning,
         split: SplitOrder,
         input: &[u32],
     ) -> Result<Vec<u32>, BackendError> {
         let config = Config { split, ..Config::new(partitioning, OutputPrimitive::Point) };
         let setup = Setup::new(Domain::Triangle, config);
-        self.tessellator.probe(&self.gpu, probe, setup, input).map_err(device_error)
+        self.tessellator.probe(&self.gpu, tap, setup, input).map_err(device_error)
     }
 }
 
@@ -81,7 +81,7 @@ impl Backend for GpuBackend {
     ) -> Result<Vec<[FixedFactor; 2]>, BackendError> {
         let patch = |x: &f32| [x.to_bits(), 3f32.to_bits(), 3f32.to_bits(), x.to_bits()];
         let input: Vec<u32> = values.iter().flat_map(patch).collect();
-        let words = self.probe(Probe::Factors, partitioning, SplitOrder::Ruler, &input)?;
+        let words = self.tap(Tap::Factors, partitioning, SplitOrder::Ruler, &input)?;
         Ok(words.as_chunks().0.iter().map(|pair| pair.map(FixedFactor::from_bits)).collect())
     }
 
@@ -93,14 +93,13 @@ impl Backend for GpuBackend {
     ) -> Result<Vec<FactorContext>, BackendError> {
         let pair = |factor: &FixedFactor| [factor.to_bits(), parity.odd()];
         let input: Vec<u32> = factors.iter().flat_map(pair).collect();
-        let words = self.probe(Probe::Contexts, Partitioning::Integer, split, &input)?;
+        let words = self.tap(Tap::Contexts, Partitioning::Integer, split, &input)?;
         Ok(words.as_chunks().0.iter().copied().map(unpack_context).collect())
     }
 
     fn locations(&mut self, contexts: &[FactorContext]) -> Result<Vec<u32>, BackendError> {
         let input: Vec<u32> = contexts.iter().flat_map(pack_context).collect();
-        let words =
-            self.probe(Probe::Locations, Partitioning::Integer, SplitOrder::Ruler, &input)?;
+        let words = self.tap(Tap::Locations, Partitioning::Integer, SplitOrder::Ruler, &input)?;
         let all = words.as_chunks::<65>().0.iter().zip(contexts);
         Ok(all
             .flat_map(|(all, context)| all.iter().copied().take(context.points as usize))

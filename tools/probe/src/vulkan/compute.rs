@@ -6,7 +6,7 @@ use crate::shaders::words;
 use ash::vk;
 use std::collections::HashMap;
 use std::sync::Arc;
-use tess_gpu::tables::tables;
+use tess_gpu::tables;
 use tess_gpu::{Plan, Resource, Setup, Stage, Workgroups};
 
 /// Gives a stage in SPIR-V; an error says why it cannot.

@@ -23,7 +23,7 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
-use tess_gpu::tables::tables;
+use tess_gpu::tables;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 
 /// Write the compute shaders for any API, with a manifest that says how to run them

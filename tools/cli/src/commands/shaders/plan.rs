@@ -1,4 +1,4 @@
-//! What a batch of one chunk and one window runs, as formulas: everything that `tess_gpu::Plan` says.
+//! What a batch of one portion and one window runs, as formulas: everything that `tess_gpu::Plan` says.
 
 use super::formula::{Batch, Bounds, Formula};
 use serde::Serialize;
@@ -83,7 +83,7 @@ pub(super) fn stages(variants: &[Variant]) -> impl Iterator<Item = Stage> {
 /// # Errors
 /// The plan has a size without a formula; the message says which.
 pub(super) fn variants(setup: Setup) -> Result<Vec<Variant>, String> {
-    let most = last(u32::MAX, |patches| with(setup, [patches, 1, 1, u32::MAX]).chunks() == 1);
+    let most = last(u32::MAX, |patches| with(setup, [patches, 1, 1, u32::MAX]).portions() == 1);
     let mut variants = Vec::new();
     let mut begin = 1;
     while begin <= most {
@@ -118,7 +118,7 @@ pub(super) fn resources() -> impl Iterator<Item = Resource> {
 /// workgroups in a row.
 pub(super) fn with(setup: Setup, [patches, points, primitives, workgroups]: Batch) -> Plan {
     let limits = Limits { storage_binding: 1 << 35, workgroups };
-    Plan::in_large_stages(setup, patches, Capacity { points, primitives }, limits)
+    Plan::in_long_stages(setup, patches, Capacity { points, primitives }, limits)
 }
 
 /// The largest of `0..=most` that is `good`; all up to it are, and 0 need not be.

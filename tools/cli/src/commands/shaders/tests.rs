@@ -37,7 +37,7 @@ fn compare(setup: Setup, variants: &[Variant], batch: [u32; 4]) {
     let [patches, points, primitives, workgroups] = batch;
     let limits = Limits { storage_binding: 128 << 20, workgroups };
     let room = Capacity { points, primitives };
-    let plan = Plan::in_large_stages(setup, patches, room, limits);
+    let plan = Plan::in_long_stages(setup, patches, room, limits);
     let mut own = variants.iter().filter(|v| (v.min_patches..=v.max_patches).contains(&patches));
     let variant = own.next().expect("every number of patches has a plan");
     assert!(own.next().is_none(), "{patches} patches have one plan");

@@ -19,7 +19,7 @@ typedef metal::uint2 type_2[1];
 struct Job {
     uint patches;
     uint first_patch;
-    uint chunk;
+    uint portion;
     uint stride;
     uint blocks_at;
     uint alike_at;
@@ -27,7 +27,7 @@ struct Job {
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
-    uint chunks;
+    uint portions;
     uint point_capacity;
     uint primitive_capacity;
     uint point_windows;
@@ -1636,7 +1636,7 @@ void write_point_tile(
     bool local_17 = {};
     bool local_18 = {};
     uint first_1 = {};
-    uint _e6 = job.chunk;
+    uint _e6 = job.portion;
     Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size11 - 32 - 16) / 16)];
     Tile _e12 = tile_of(number_4, range.points_begin, range.points_end, 0u, job, tiles, _buffer_sizes);
     if (!((_e12.end == 0u))) {

@@ -18,7 +18,7 @@ typedef metal::uint2 type_2[1];
 struct Job {
     uint patches;
     uint first_patch;
-    uint chunk;
+    uint portion;
     uint stride;
     uint blocks_at;
     uint alike_at;
@@ -26,7 +26,7 @@ struct Job {
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
-    uint chunks;
+    uint portions;
     uint point_capacity;
     uint primitive_capacity;
     uint point_windows;
@@ -1924,7 +1924,7 @@ void write_primitive_tile(
     bool local_19 = {};
     uint first_3 = {};
     bool local_20 = {};
-    uint _e6 = job.chunk;
+    uint _e6 = job.portion;
     Range range = status.ranges[metal::min(unsigned(_e6), (_buffer_sizes.size11 - 32 - 16) / 16)];
     uint _e13 = job.primitive_tiles_at;
     Tile _e14 = tile_of(number_7, range.primitives_begin, range.primitives_end, _e13, job, tiles, _buffer_sizes);

@@ -12,7 +12,7 @@ struct _mslBufferSizes {
 struct Job {
     uint patches;
     uint first_patch;
-    uint chunk;
+    uint portion;
     uint stride;
     uint blocks_at;
     uint alike_at;
@@ -20,7 +20,7 @@ struct Job {
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
-    uint chunks;
+    uint portions;
     uint point_capacity;
     uint primitive_capacity;
     uint point_windows;

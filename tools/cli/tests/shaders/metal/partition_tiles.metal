@@ -13,7 +13,7 @@ struct _mslBufferSizes {
 struct Job {
     uint patches;
     uint first_patch;
-    uint chunk;
+    uint portion;
     uint stride;
     uint blocks_at;
     uint alike_at;
@@ -21,7 +21,7 @@ struct Job {
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
-    uint chunks;
+    uint portions;
     uint point_capacity;
     uint primitive_capacity;
     uint point_windows;
@@ -298,7 +298,7 @@ kernel void partition_tiles(
 ) {
     uint _e6 = job.max_workgroups;
     uint number_2 = ((workgroup.x + (workgroup.y * _e6)) * WORKGROUP) + thread_;
-    uint _e16 = job.chunk;
+    uint _e16 = job.portion;
     Range _e18 = status.ranges[metal::min(unsigned(_e16), (_buffer_sizes.size3 - 32 - 16) / 16)];
     write_entry(number_2, _e18, job, offsets, tiles, _buffer_sizes);
     return;

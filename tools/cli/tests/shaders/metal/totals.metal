@@ -13,7 +13,7 @@ struct _mslBufferSizes {
 struct Job {
     uint patches;
     uint first_patch;
-    uint chunk;
+    uint portion;
     uint stride;
     uint blocks_at;
     uint alike_at;
@@ -21,7 +21,7 @@ struct Job {
     uint primitive_tiles_at;
     uint window_first;
     uint window_tiles;
-    uint chunks;
+    uint portions;
     uint point_capacity;
     uint primitive_capacity;
     uint point_windows;
@@ -308,7 +308,7 @@ void finish(
         }
         loop_init = false;
         uint _e17 = slot_1;
-        uint _e20 = job.chunks;
+        uint _e20 = job.portions;
         uint _e21 = slots(job);
         if (_e17 < (_e20 * _e21)) {
         } else {
@@ -413,7 +413,7 @@ kernel void totals(
     }
     metal::uint2 _e27 = own;
     Sums _e28 = prefix_sums(thread_, _e27, sums);
-    uint _e39 = job.chunk;
+    uint _e39 = job.portion;
     if (_e39 > 0u) {
         uint _e44 = status.points;
         uint _e47 = status.primitives;
@@ -437,7 +437,7 @@ kernel void totals(
     if (thread_ == 0u) {
         metal::uint2 _e80 = begin;
         metal::uint2 end_3 = _e80 + _e28.all;
-        uint _e87 = job.chunk;
+        uint _e87 = job.portion;
         uint _e90 = begin.x;
         uint _e93 = begin.y;
         status.ranges[metal::min(unsigned(_e87), (_buffer_sizes.size2 - 32 - 16) / 16)] = Range {_e90, end_3.x, _e93, end_3.y};
@@ -451,8 +451,8 @@ kernel void totals(
         status.primitives_high = _e113 + _e116;
     }
     metal::threadgroup_barrier(metal::mem_flags::mem_device);
-    uint _e120 = job.chunk;
-    uint _e125 = job.chunks;
+    uint _e120 = job.portion;
+    uint _e125 = job.portions;
     if ((_e120 + 1u) >= _e125) {
         finish(thread_, job, arguments, status, _buffer_sizes);
         return;

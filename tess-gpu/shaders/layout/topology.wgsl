@@ -1,0 +1,55 @@
+// needs: layout/setup
+// What connectivity and counts depend on (spec section 12.8), in 8 bytes per patch: the points
+// along each edge and along each inside axis, 2..=65 in 7 bits.
+//
+// word 0: outer edges in order from bit 0, state in bits 28..29
+// word 1: inside u from bit 0, inside v from bit 7, from bit 14 the slot in the catalogue (variants/listing.wgsl), 0
+// if there is none. A triangle's one inside factor is both;
+// an isoline's density and detail are edges 0 and 1.
+
+const CULLED = 0u;
+const MINIMUM = 1u;
+const REGULAR = 2u;
+
+fn state_of(topology: vec2<u32>) -> u32 {
+    return topology.x >> 28u;
+}
+
+fn outer_points(topology: vec2<u32>, edge: u32) -> u32 {
+    return (topology.x >> (7u * edge)) & 127u;
+}
+
+fn inside_u(topology: vec2<u32>) -> u32 {
+    return topology.y & 127u;
+}
+
+fn inside_v(topology: vec2<u32>) -> u32 {
+    return (topology.y >> 7u) & 127u;
+}
+
+// The number of the topology's slot in the catalogue, from 1 on; 0 if it has none.
+fn listed_slot(topology: vec2<u32>) -> u32 {
+    return topology.y >> 14u;
+}
+
+// Points of the inside axis that an edge runs along: v for edges 0 and 2, u for 1 and 3.
+fn along_points(topology: vec2<u32>, edge: u32) -> u32 {
+    return (topology.y >> (7u * (1u - (edge & 1u)))) & 127u;
+}
+
+// The sum of `outer_points` over the edges before this one.
+fn outer_before(topology: vec2<u32>, edge: u32) -> u32 {
+    return select(0u, outer_points(topology, 0u), edge > 0u)
+        + select(0u, outer_points(topology, 1u), edge > 1u)
+        + select(0u, outer_points(topology, 2u), edge > 2u);
+}
+
+// The sum of `along_points` over the edges before this one.
+fn along_before(topology: vec2<u32>, edge: u32) -> u32 {
+    return ((edge + 1u) >> 1u) * inside_v(topology) + (edge >> 1u) * inside_u(topology);
+}
+
+// Points on the outer ring.
+fn boundary(topology: vec2<u32>) -> u32 {
+    return outer_before(topology, EDGES - 1u) + outer_points(topology, EDGES - 1u) - EDGES;
+}

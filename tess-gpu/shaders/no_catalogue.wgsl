@@ -1,6 +1,0 @@
-// needs: nothing
-// A small batch has no catalogue.
-
-fn catalogue_word(at: u32) -> u32 {
-    return 0u;
-}

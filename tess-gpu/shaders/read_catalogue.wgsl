@@ -1,6 +1,0 @@
-// needs: nothing; bindings: catalogue
-// The catalogue in the expansions of a large batch.
-
-fn catalogue_word(at: u32) -> u32 {
-    return catalogue[at];
-}

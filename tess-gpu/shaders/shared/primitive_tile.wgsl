@@ -1,0 +1,231 @@
+// needs: shared/alike, {catalogue}, stages/connect, stages/cache_order, {elements}, shared/expand, {indices}, shared/offsets, layout/packed_triangle, stages/rings, layout/setup, stages/stitch, shared/tile, layout/topology; bindings: job, status
+// A tile of primitives: each thread makes pairs of them, from their numbers alone. How a pair is stored is
+// in variants/indices_u32.wgsl and variants/indices_u16.wgsl.
+
+// The patch that elements are taken from.
+struct Source {
+    // Within the round.
+    number: u32,
+    begin: u32,
+    base: u32,
+    is_regular: bool,
+    rings: Rings,
+}
+
+fn load_source(round: Round, number: u32) -> Source {
+    let patch_index = round.first + number;
+    let topology = scratch[number];
+    let base = select(0u, patch_offset(patch_index).x, NUMBERING == PER_BATCH);
+    return Source(
+        number, u32(begins[number]), base, state_of(topology) == REGULAR, rings_of(topology));
+}
+
+fn location_of(source: Source, t: u32) -> RingLocation {
+    if source.is_regular {
+        return triangle_location(source.rings, t);
+    }
+    return RingLocation(1u, 0u, t);
+}
+
+fn stitch_from(source: Source, location: RingLocation) -> Stitch {
+    if !source.is_regular {
+        return minimum_stitch(source.base);
+    }
+    return stitch_at(source.rings, location, source.base);
+}
+
+fn write_triangles(round: Round, thread: u32, out: u32) {
+    var source: Source;
+    source.number = NEVER;
+    for (var element = 2u * thread; element < tile_size(); element += 2u * THREADS) {
+        if element + 1u < round.begin || element >= round.end {
+            continue;
+        }
+        let first = max(element, round.begin);
+        let number = find_patch(round, first);
+        if number != source.number {
+            source = load_source(round, number);
+        }
+        let location = location_of(source, first - source.begin);
+        let stitch = stitch_from(source, location);
+        let pair = stitch_triangles(stitch, location.step);
+        let at = (out + element) >> 1u;
+        let is_whole = first == element && element + 1u < round.end;
+        if is_whole && ORDER == SPECIFICATION && location.step + 1u < stitch.size {
+            write_triangle_pair(at, pair.first, pair.second);
+        } else {
+            write_triangle(at, first != element, pair.first);
+            if is_whole {
+                write_triangle(at, true, first_triangle(round, source, location, element + 1u));
+            }
+        }
+    }
+}
+
+// The triangle of an element that begins a stitch, the one behind a location or the first of a patch; in the
+// vertex-cache order, of any element.
+fn first_triangle(round: Round, before: Source, location: RingLocation, element: u32) -> vec3<u32> {
+    var source = before;
+    var next = RingLocation(1u, 0u, 0u);
+    let number = next_patch(round, before.number, element);
+    if number != before.number {
+        source = load_source(round, number);
+    } else if ORDER == SPECIFICATION {
+        next = next_edge(location);
+    } else {
+        next = drawn_next(source, location, element);
+    }
+    return stitch_triangles(stitch_from(source, next), next.step).first;
+}
+
+// The location of an element, in the vertex-cache order, behind the one at another location of its patch.
+fn drawn_next(source: Source, location: RingLocation, element: u32) -> RingLocation {
+    if source.is_regular {
+        let next = drawn_behind(source.rings, location);
+        if next.ring != NEVER {
+            return next;
+        }
+    }
+    return location_of(source, element - source.begin);
+}
+
+// A triangle of the catalogue for patch `number` of the round.
+fn listed_triangle(number: u32, element: u32) -> vec3<u32> {
+    let own = listed[number];
+    return unpacked_triangle(catalogue_word(own.x + element), own.y);
+}
+
+fn write_listed_triangles(round: Round, thread: u32, out: u32) {
+    for (var element = 2u * thread; element < tile_size(); element += 2u * THREADS) {
+        if element + 1u < round.begin || element >= round.end {
+            continue;
+        }
+        let first = max(element, round.begin);
+        let number = find_patch(round, first);
+        let triangle = listed_triangle(number, first);
+        let at = (out + element) >> 1u;
+        if first == element && element + 1u < round.end {
+            let next = next_patch(round, number, element + 1u);
+            write_triangle_pair(at, triangle, listed_triangle(next, element + 1u));
+        } else {
+            write_triangle(at, first != element, triangle);
+        }
+    }
+}
+
+fn write_sequences(round: Round, thread: u32, out: u32) {
+    for (var pair = 2u * thread; pair < tile_size(); pair += 2u * THREADS) {
+        for (var element = pair; element < pair + 2u; element++) {
+            if element < round.begin || element >= round.end {
+                continue;
+            }
+            let number = find_patch(round, element);
+            let base =
+                select(0u, patch_offset(round.first + number).x, NUMBERING == PER_BATCH);
+            let t = element - u32(begins[number]);
+            let index = sequence_first(scratch[number], t, base);
+            if INDICES == 2u {
+                write_two(out + element, index, index + 1u);
+            } else {
+                write_single(out + element, index);
+            }
+        }
+    }
+}
+
+// Keeps the triangles of one patch, two in an element, each of three vertices of 10 bits.
+fn keep_triangles(repeat: Repeat, thread: u32) {
+    let is_regular = state_of(repeat.topology) == REGULAR;
+    let source = Source(0u, 0u, 0u, is_regular, rings_of(repeat.topology));
+    for (var i = thread; i < repeat.size; i += THREADS) {
+        let location = location_of(source, i);
+        let triangle = stitch_triangles(stitch_from(source, location), location.step).first;
+        let packed = packed_triangle(triangle);
+        if i < SCRATCH {
+            scratch[i].x = packed;
+        } else {
+            scratch[i - SCRATCH].y = packed;
+        }
+    }
+}
+
+// Vertex `corner` of triangle `i` of one of the tile's patches.
+struct Corner {
+    number: u32,
+    i: u32,
+    corner: u32,
+}
+
+// The corner that index `at` of the tile stands for.
+fn corner_at(repeat: Repeat, at: u32) -> Corner {
+    let element = (at * 43691u) >> 17u; // a third
+    let position = element + repeat.before;
+    let number = patch_at(repeat, position);
+    return Corner(number, position - number * repeat.size, at - 3u * element);
+}
+
+fn next_corner(repeat: Repeat, it: Corner) -> Corner {
+    let is_last_corner = it.corner == 2u;
+    let is_last = is_last_corner && it.i + 1u == repeat.size;
+    return Corner(
+        it.number + select(0u, 1u, is_last),
+        select(it.i + select(0u, 1u, is_last_corner), 0u, is_last),
+        select(it.corner + 1u, 0u, is_last_corner));
+}
+
+fn kept_index(repeat: Repeat, it: Corner) -> u32 {
+    let is_low = it.i < SCRATCH;
+    let two = scratch[select(it.i - SCRATCH, it.i, is_low)];
+    let vertex = packed_vertex(select(two.y, two.x, is_low), it.corner);
+    return vertex + select(0u, repeat.base + it.number * repeat.points, NUMBERING == PER_BATCH);
+}
+
+// Two indices at a time, whichever triangles they are of.
+fn copy_triangles(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
+    keep_triangles(repeat, thread);
+    workgroupBarrier();
+    let begin = 3u * (tile.begin - tile.base);
+    let end = 3u * (tile.end - tile.base);
+    for (var at = 2u * thread; at < end; at += 2u * THREADS) {
+        if at + 1u < begin {
+            continue;
+        }
+        let first = max(at, begin);
+        let here = corner_at(repeat, first);
+        let index = kept_index(repeat, here);
+        if first == at && at + 1u < end {
+            let second = kept_index(repeat, next_corner(repeat, here));
+            write_two((3u * out + at) >> 1u, index, second);
+        } else {
+            write_single(3u * out + first, index);
+        }
+    }
+}
+
+// Writes tile `number` of the window. Called by all threads of a workgroup.
+fn write_primitive_tile(number: u32, thread: u32) {
+    let range = status.ranges[job.portion];
+    let tile = tile_of(
+        number, range.primitives_begin, range.primitives_end, job.primitive_tiles_at);
+    if tile.end == 0u || status.overflow != 0u {
+        return;
+    }
+    let out = tile.base - (job.window_first << job.tile_bits);
+    if IS_TRIANGLES {
+        let repeat = repeat_of(tile, PRIMITIVES, 2u * SCRATCH);
+        if repeat.size > 0u {
+            copy_triangles(tile, repeat, thread, out);
+            return;
+        }
+    }
+    for (var first = tile.first_patch; first <= tile.last_patch; first += ROUND) {
+        let round = load_round(tile, first, PRIMITIVES, thread);
+        if IS_TRIANGLES && round.is_listed {
+            write_listed_triangles(round, thread, out);
+        } else if IS_TRIANGLES {
+            write_triangles(round, thread, out);
+        } else {
+            write_sequences(round, thread, out);
+        }
+    }
+}

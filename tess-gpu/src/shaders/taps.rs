@@ -1,0 +1,44 @@
+//! The WGSL of single steps, for comparing them with the golden model's.
+
+use super::files;
+use crate::setup::Setup;
+
+/// A shader that runs one step alone, so that it can be compared with the golden model's.
+///
+/// The entry point is `taps`. Binding 0 is the input, binding 1 the output, binding 2 the
+/// [`crate::tables`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Tap {
+    /// Four words of a triangle patch's factors to its fixed-point u = 0 and inside factors.
+    Factors,
+    /// A 15.16 factor and its parity (1 is odd) to its packed context.
+    Contexts,
+    /// A packed context to 65 words of locations, as many of them written as it has points.
+    Locations,
+}
+
+impl Tap {
+    /// Every tap.
+    pub const ALL: [Self; 3] = [Self::Factors, Self::Contexts, Self::Locations];
+
+    /// Words of input and of output of one value.
+    #[must_use]
+    pub const fn words(self) -> (u32, u32) {
+        match self {
+            Self::Factors => (4, 2),
+            Self::Contexts => (2, 2),
+            Self::Locations => (2, 65),
+        }
+    }
+
+    /// Its WGSL, a whole module.
+    #[must_use]
+    pub fn source(self, setup: Setup) -> String {
+        let file = match self {
+            Self::Factors => "taps/factors",
+            Self::Contexts => "taps/contexts",
+            Self::Locations => "taps/locations",
+        };
+        setup.prelude() + &files::joined(&["taps/tap"], &[("tap", file)])
+    }
+}

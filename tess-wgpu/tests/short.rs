@@ -1,0 +1,117 @@
+//! Short batches, which one workgroup prepares; the largest of them, and the smallest that is not.
+
+mod common;
+
+use common::device::{Machine, POISON, Written};
+use common::expected::Expected;
+use common::patches::random;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::sizes::{SHORT_ELEMENTS, SHORT_PATCHES};
+use tess_gpu::{Capacity, Limits, Plan, Setup, Stage};
+use tess_verify::generate::configurations;
+use tess_verify::random::SplitMix64;
+use tess_wgpu::Outputs;
+use wgpu::BufferUsages as Usage;
+
+fn setup(domain: Domain) -> Setup {
+    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+    Setup::new(domain, config)
+}
+
+#[test]
+fn the_room_and_the_patches_decide() {
+    let setup = setup(Domain::Quad);
+    let is_short = |patches, points, primitives| {
+        let room = Capacity { points, primitives };
+        let plan = Plan::new(setup, patches, room, Limits::WEBGPU);
+        let stages: Vec<_> = plan.dispatches().map(|dispatch| dispatch.stage()).collect();
+        assert_eq!(plan.is_short(), stages.contains(&Stage::Short), "{stages:?}");
+        assert_eq!(plan.is_short(), !stages.contains(&Stage::Partition), "{stages:?}");
+        plan.is_short()
+    };
+    let most = SHORT_ELEMENTS;
+    assert!(is_short(1, 100, 100) && is_short(SHORT_PATCHES, most / 2, most / 2), "short ones");
+    assert!(!is_short(SHORT_PATCHES + 1, 100, 100), "too many patches");
+    assert!(!is_short(1, most / 2, most / 2 + 1), "too much room");
+}
+
+/// Everything that a short batch writes, in every configuration and around the sizes of blocks.
+#[test]
+fn short_batches_in_every_configuration() {
+    let mut machine = Machine::open();
+    let mut numbers = SplitMix64::new(41);
+    let counts = [1, 255, 256, 257, 600];
+    for ((domain, config), count) in configurations().zip(counts.into_iter().cycle()) {
+        let patches = random(domain, count, &mut numbers);
+        machine.assert_equal(Setup::new(domain, config), &patches);
+    }
+    for count in [SHORT_PATCHES - 1, SHORT_PATCHES, SHORT_PATCHES + 1] {
+        machine.assert_equal(setup(Domain::Quad), &low(count));
+    }
+}
+
+/// Patches of few triangles, culled ones among them.
+fn low(count: u32) -> Vec<PatchFactors> {
+    let mut random = SplitMix64::new(42);
+    let mut factor = |_| [0.0, 2.0, 2.5, 3.0, 5.0, 6.0][random.below(6) as usize];
+    (0..count).map(|_| PatchFactors::from_fn(Domain::Quad, &mut factor)).collect()
+}
+
+/// A batch leaves the same when it runs again, short or not: nothing has to be cleared in between.
+fn run_twice(machine: &mut Machine, patches: &[PatchFactors]) -> Result<(), String> {
+    let setup = setup(Domain::Quad);
+    let expected = Expected::new(setup, patches);
+    let (point_words, index_words) = expected.words();
+    let usage = Usage::STORAGE | Usage::COPY_SRC;
+    let factors = machine.factors(patches);
+    let [points, indices] = [point_words, index_words]
+        .map(|words| machine.upload(&vec![POISON; words as usize], usage));
+    let outputs = Outputs::Buffers { points: &points, indices: &indices };
+    let count = u32::try_from(patches.len()).expect("a test's patches");
+    let batch = machine.tessellator.batch(setup, count, &factors, outputs).expect("valid");
+    machine.run(&batch);
+    machine.run(&batch);
+    let (status, draw) = machine.status(&batch);
+    let (points, indices) = (machine.words(&points), machine.words(&indices));
+    expected.compare(&Written { status, draw, points, indices })
+}
+
+#[test]
+fn a_batch_can_run_again() {
+    let mut machine = Machine::open();
+    for count in [300, 3000] {
+        assert_eq!(run_twice(&mut machine, &low(count)), Ok(()), "{count} patches");
+    }
+    machine.plant(setup(Domain::Quad), "if job.portion > 0u {", "{");
+    assert!(run_twice(&mut machine, &low(3000)).is_err(), "totals that are not reset");
+}
+
+#[test]
+fn planted_faults_are_seen() {
+    let mut machine = Machine::open();
+    let (setup, mut patches) = (setup(Domain::Quad), low(600));
+    // So that there are more tiles than threads.
+    patches.extend(vec![PatchFactors::from_fn(Domain::Quad, |_| 20.0); 300]);
+    let expected = Expected::new(setup, &patches);
+    let (points, indices) = expected.words();
+    for (right, wrong) in [
+        ("        sum += in_block.all;", ""),
+        ("offsets[job.blocks_at + block] = sum;", "offsets[job.blocks_at + block] = in_block.all;"),
+        ("offsets[job.sections_at] = vec2<u32>(0u, 0u);", "offsets[job.sections_at].x = 1u;"),
+        ("let range = Range(0u, sum.x, 0u, sum.y);", "let range = Range(0u, sum.x, 0u, sum.x);"),
+        ("var tile = tile_end(begin);", "var tile = tile_end(begin + 1u);"),
+        ("tile < tile_end(end);", "tile < tile_end(begin) + 1u;"),
+        ("tiles[first_entry + tile] = patch_index;", "tiles[tile] = patch_index;"),
+        ("tiles[tile_end(sum.x)] = last;", ""),
+        ("tiles[job.primitive_tiles_at + tile_end(sum.y)] = last;", ""),
+        ("block * BLOCK < job.patches; block++", "block * BLOCK < job.patches - BLOCK; block++"),
+    ] {
+        machine.plant(setup, right, wrong);
+        let written = machine.write(setup, &patches, points, indices);
+        assert!(expected.compare(&written).is_err(), "{wrong} went unnoticed");
+    }
+    machine.plant(setup, "|| status.overflow != 0u {", "{");
+    let written = machine.write(setup, &patches, points - 2, indices);
+    let mut all = written.points.iter().chain(&written.indices);
+    assert!(all.any(|&word| word != POISON), "what does not fit is written");
+}
