@@ -15,16 +15,16 @@ use crate::stitch::{Stitch, Triangle};
 
 /// Sends all primitives of a patch to `sink`.
 pub(crate) fn emit(config: Config, patch: &ProcessedPatch, sink: &mut impl Sink) {
-    let points = counts(config, patch).points;
+    let points = || counts(config, patch).points;
     match (config.output, patch) {
         (OutputPrimitive::Point, _) => {
-            (0..points).for_each(|i| sink.primitive(Primitive::Point([i])));
+            (0..points()).for_each(|i| sink.primitive(Primitive::Point([i])));
         }
         (_, ProcessedPatch::Regular(PatchFactors::Isoline(factors))) => {
             isoline::emit(factors, sink);
         }
         (OutputPrimitive::Line, _) => {
-            (1..points).for_each(|p| sink.primitive(Primitive::Line([p - 1, p])));
+            (1..points()).for_each(|p| sink.primitive(Primitive::Line([p - 1, p])));
         }
         (OutputPrimitive::TriangleCw, _) => {
             emit_triangles(config, patch, |t| sink.primitive(Primitive::Triangle(t)));

@@ -28,6 +28,7 @@ impl FactorContext {
     ///
     /// Total: a factor outside its range counts as the nearest end. Spec sections 4 and 10.
     #[must_use]
+    #[inline(always)] // as `process_factor`, which it is a part of
     pub const fn new(factor: FixedFactor, parity: Parity, split_order: SplitOrder) -> Self {
         let odd = parity.odd();
         let rounded_half = clamp_to_range(factor, parity).to_bits().div_ceil(2);

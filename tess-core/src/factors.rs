@@ -3,7 +3,7 @@
 use crate::d3d_float::{ceil, clamp, is_culled, is_greater};
 use crate::factor_context::FactorContext;
 use crate::fixed_point::FixedFactor;
-use crate::patch_factors::{IsolineFactors, PatchFactors};
+use crate::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
 use crate::state::{Config, Parity, Partitioning};
 
 /// One factor after each step of spec section 3.
@@ -56,47 +56,68 @@ pub fn process(config: Config, raw: PatchFactors) -> ProcessedPatch {
     if is_culled(raw.outer()) {
         return ProcessedPatch::Culled;
     }
-    if let PatchFactors::Isoline(raw) = raw {
-        return process_isoline(config, raw);
+    let (low, _) = config.partitioning.range();
+    let inside_low = inside_low(config.partitioning, raw.iter());
+    match raw {
+        PatchFactors::Isoline(raw) => process_isoline(config, raw),
+        PatchFactors::Triangle(raw) => {
+            let outer = process_each(config, Role::Edge, low, raw.outer());
+            let inside = process_each(config, Role::Inside, inside_low, [raw.inside]);
+            let ([u0, v0, w0], [inside_uvw]) = (outer, inside);
+            let factors = TriangleFactors { u0, v0, w0, inside: inside_uvw };
+            minimum_or_regular(are_one(&outer) && are_one(&inside), factors.into())
+        }
+        PatchFactors::Quad(raw) => {
+            let outer = process_each(config, Role::Edge, low, raw.outer());
+            let inside = process_each(config, Role::Inside, inside_low, raw.inside());
+            let ([u0, v0, u1, v1], [inside_u, inside_v]) = (outer, inside);
+            let factors = QuadFactors { u0, v0, u1, v1, inside_u, inside_v };
+            minimum_or_regular(are_one(&outer) && are_one(&inside), factors.into())
+        }
     }
-    let low = inside_low(config.partitioning, raw.iter());
-    let edges = raw.domain().outer_factors();
-    let mut number = 0;
-    let mut is_minimum = true; // step 8
-    let factors = raw.map(|factor| {
-        number += 1;
-        let processed = if number <= edges {
-            process_edge(config, factor)
-        } else {
-            process_inside(config, factor, low)
-        };
-        is_minimum &= processed.fixed == FixedFactor::ONE;
-        processed
-    });
-    if is_minimum { ProcessedPatch::Minimum(factors) } else { ProcessedPatch::Regular(factors) }
+}
+
+/// Step 8.
+fn minimum_or_regular(all_one: bool, factors: PatchFactors<ProcessedFactor>) -> ProcessedPatch {
+    if all_one { ProcessedPatch::Minimum(factors) } else { ProcessedPatch::Regular(factors) }
+}
+
+fn are_one(factors: &[ProcessedFactor]) -> bool {
+    factors.iter().all(|factor| factor.fixed == FixedFactor::ONE)
 }
 
 /// The density is always processed as integer.
 fn process_isoline(config: Config, raw: IsolineFactors) -> ProcessedPatch {
     let integer = Config { partitioning: Partitioning::Integer, ..config };
     ProcessedPatch::Regular(PatchFactors::Isoline(IsolineFactors {
-        density: process_edge(integer, raw.density),
-        detail: process_edge(config, raw.detail),
+        density: process_factor(integer, Role::Edge, integer.partitioning.range().0, raw.density),
+        detail: process_factor(config, Role::Edge, config.partitioning.range().0, raw.detail),
     }))
 }
 
-/// Steps 2, 3, 6 and 7 for an outer or isoline factor.
-fn process_edge(config: Config, raw: f32) -> ProcessedFactor {
-    process_factor(config, Role::Edge, clamp(raw, config.partitioning.range()))
+/// Factors of one role, at least one. Equal neighbours, which most patches have, are processed once.
+fn process_each<const N: usize>(
+    config: Config,
+    role: Role,
+    low: f32,
+    raw: [f32; N],
+) -> [ProcessedFactor; N] {
+    let mut processed = [process_factor(config, role, low, raw[0]); N];
+    for i in 1..N {
+        processed[i] = if raw[i].to_bits() == raw[i - 1].to_bits() {
+            processed[i - 1]
+        } else {
+            process_factor(config, role, low, raw[i])
+        };
+    }
+    processed
 }
 
-/// Steps 5, 6 and 7 for an inside factor, with the lower bound of step 4.
-fn process_inside(config: Config, raw: f32, low: f32) -> ProcessedFactor {
+/// Steps 2 or 5, with this lower bound, then 3, 6 and 7.
+#[inline(always)] // written in place; a copy of what was just written would wait for it
+fn process_factor(config: Config, role: Role, low: f32, raw: f32) -> ProcessedFactor {
     let (_, high) = config.partitioning.range();
-    process_factor(config, Role::Inside, clamp(raw, (low, high)))
-}
-
-fn process_factor(config: Config, role: Role, clamped: f32) -> ProcessedFactor {
+    let clamped = clamp(raw, (low, high));
     let rounded = if config.partitioning.has_integer_factors() { ceil(clamped) } else { clamped };
     let fixed = FixedFactor::from_f32(rounded);
     let parity = parity(config.partitioning, role, fixed);

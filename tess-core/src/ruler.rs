@@ -8,6 +8,25 @@ const RULER: [u8; 33] = [
     1, 24, 12, 25, 6, 26, 13, 27, 3, 28, 14, 29, 7, 30, 15, 31,
 ];
 
+/// Row `half`: the positions in 1..=32 of ruler order whose rank is below `half`, ascending. Each rank in
+/// 1..=32 has one position, so there are `half - 1`; zeros fill the row up.
+const POSITIONS: [[u8; 32]; 34] = {
+    let mut rows = [[0; 32]; 34];
+    let mut half = 0;
+    while half < 34 {
+        let (mut k, mut found) = (1, 0);
+        while k <= 32 {
+            if RULER[k as usize] < half {
+                rows[half as usize][found] = k;
+                found += 1;
+            }
+            k += 1;
+        }
+        half += 1;
+    }
+    rows
+};
+
 /// The rank at which position `k` (0..=32) of a half edge receives its point; `None` beyond, where
 /// no half edge has a position.
 #[must_use]
@@ -31,9 +50,31 @@ pub const fn has_point(split: SplitOrder, k: u32, half: u32) -> bool {
         }
 }
 
+/// The positions in 1..=32 at which a half edge of `half` points has one, ascending.
+#[must_use]
+pub fn positions(split: SplitOrder, half: u32) -> &'static [u8] {
+    let half = half.min(33) as usize;
+    let row = match split {
+        SplitOrder::Ruler => half,
+        SplitOrder::Center => 33, // all positions
+    };
+    &POSITIONS[row][..half.saturating_sub(1)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn positions_are_where_a_half_edge_has_points() {
+        for split in SplitOrder::ALL {
+            for half in (0..40).chain([u32::MAX]) {
+                let expected = (1..=32).filter(|&k| has_point(split, k.into(), half));
+                let positions = positions(split, half).iter().copied();
+                assert!(positions.eq(expected), "{split:?}, half {half}");
+            }
+        }
+    }
 
     /// Position 0 aside, the table is a breadth-first walk of a balanced binary tree.
     #[test]

@@ -4,7 +4,7 @@
 //! of one of the two rows; it depends on point counts alone, never on what the rows hold.
 
 use crate::row::Row;
-use crate::ruler::has_point;
+use crate::ruler::{has_point, positions};
 use crate::state::SplitOrder;
 
 /// A triangle's indices, clockwise.
@@ -185,7 +185,9 @@ pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: 
     if outer_half > 0 {
         walk.advance_outer(Side::Outer);
     }
-    for k in 1..=32 {
+    // Where the shorter half edge has a point, the longer has one.
+    let walked = positions(split, inner_half.max(outer_half));
+    for k in walked.iter().copied().map(u32::from) {
         if has_point(split, k, inner_half) {
             walk.advance_inner(Side::Inner);
         }
@@ -200,7 +202,7 @@ pub fn transition(split: SplitOrder, outer_points: u32, inside_points: u32, to: 
     if outer_points.is_multiple_of(2) {
         walk.advance_outer(Side::Inner);
     }
-    for k in (1..=32).rev() {
+    for k in walked.iter().rev().copied().map(u32::from) {
         if has_point(split, k, outer_half) {
             walk.advance_outer(Side::Outer);
         }
