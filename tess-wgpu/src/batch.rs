@@ -1,9 +1,9 @@
 //! A batch of patches, which is made once and encoded each frame.
 
-use crate::Tessellator;
 use crate::buffers::Buffers;
 use crate::dispatches::{Dispatch, dispatches};
 use crate::error::Error;
+use crate::{Tessellator, limits};
 use tess_gpu::{
     Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Stage, Workgroups, Written,
 };
@@ -66,6 +66,7 @@ impl Batch {
         outputs: Outputs<'_>,
     ) -> Result<Self, Error> {
         let Patches { count, groups, factors } = patches;
+        limits::check(tessellator.device())?;
         let plan = plan(setup, count, outputs, tessellator.limits())
             .with_groups(check_groups(count, groups)?);
         check(&plan, factors, outputs)?;

@@ -25,6 +25,16 @@ pub enum Error {
     },
     /// The device has too little memory left. Free some, or tessellate fewer patches at a time.
     OutOfMemory,
+    /// A limit of the device is too low for any batch. Open the device with WebGPU's default limits or higher ones;
+    /// WebGL, and OpenGL without compute shaders, cannot tessellate.
+    LimitTooLow {
+        /// The limit, a member of `wgpu::Limits`.
+        limit: &'static str,
+        /// What is needed.
+        needed: u64,
+        /// What the device has.
+        got: u64,
+    },
     /// A buffer would be larger than the device allows. Tessellate fewer patches at a time, or open
     /// the device with higher limits ([`crate::Wanted::Everything`]).
     BufferTooLarge {
@@ -131,6 +141,11 @@ impl fmt::Display for Error {
                 f,
                 "the buffer `{buffer}` needs {needed} bytes, and the device allows {limit}; \
                  tessellate fewer patches at a time"
+            ),
+            Self::LimitTooLow { limit, needed, got } => write!(
+                f,
+                "the device's limit {limit} is {got}, and {needed} is needed; open it with WebGPU's \
+                 default limits or higher ones (WebGL has no compute shaders, so it cannot tessellate)"
             ),
             Self::FactorsTooShort { needed, got } => {
                 write!(f, "the patches have {needed} bytes of factors, their buffer {got}")

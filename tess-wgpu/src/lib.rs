@@ -5,6 +5,7 @@ mod buffers;
 mod dispatches;
 mod error;
 mod gpu;
+mod limits;
 mod open;
 mod pipeline;
 #[cfg(feature = "measure")]

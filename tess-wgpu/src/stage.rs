@@ -1,5 +1,6 @@
 //! The tessellation stage: a hull and a domain function in WGSL, drawn.
 
+mod bound;
 mod builder;
 mod error;
 mod feedback;
@@ -11,6 +12,7 @@ mod output;
 mod passes;
 mod room;
 pub(crate) mod source;
+mod wgsl;
 
 pub use builder::{Factors, Points, StageBuilder};
 pub use error::StageError;
@@ -18,12 +20,14 @@ pub use feedback::Feedback;
 pub use room::{Overflow, Room};
 
 use crate::error::Error;
-use crate::{Tessellator, gpu};
+use crate::{Gpu, Tessellator, gpu};
+use bound::Bound;
 use feedback::Feedbacks;
 use fit::Fit;
 use origin::Origin;
-use output::Output;
+use output::{Output, Stored};
 use room::Form;
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use tess_core::{Config, Domain, PatchFactors};
 use tess_gpu::Capacity;
 use tess_gpu::layout::factor_words;
@@ -52,7 +56,7 @@ pub struct TessellationStage {
     form: Form,
     room: Room,
     groups: Vec<u32>,
-    bind_groups: Vec<wgpu::BindGroup>,
+    bound: Bound,
     /// The raw factors of the frame, as the batch reads them.
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
@@ -63,7 +67,9 @@ pub struct TessellationStage {
     /// None if the caller draws with its own.
     pipeline: Option<wgpu::RenderPipeline>,
     output: Output,
-    feedback: Feedbacks,
+    /// Other groups and their output, from the next frame on.
+    next: Option<(Vec<u32>, Output)>,
+    feedback: Mutex<Feedbacks>,
     frame: u64,
 }
 
@@ -117,28 +123,92 @@ impl TessellationStage {
     /// draws the stage, in the same encoder or in one that is submitted before. Their time depends on
     /// what is drawn and, a little, on the most patches that the stage was made for.
     ///
+    /// An encoder that is dropped instead of submitted leaves the stage as it was.
+    ///
     /// # Errors
     /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
-    /// [`Error::OutOfMemory`] or [`Error::DeviceLost`]; [`Error::Refused`] for bind groups that do not
-    /// go with their layouts.
+    /// [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Nothing is recorded then, and what was prepared last can still
+    /// be drawn.
     pub fn prepare<'a>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         patches: impl Into<PatchCount<'a>>,
     ) -> Result<(), Error> {
-        self.feedback.take(&self.device, self.frame)?;
-        self.grow(encoder)?;
-        self.set_count(encoder, patches.into())?;
-        self.origin.encode(&self.device, encoder, &self.bind_groups)?;
+        locked(&self.feedback).take(&self.device, self.frame)?;
+        self.record(encoder, patches.into())
+    }
+
+    fn record(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        patches: PatchCount<'_>,
+    ) -> Result<(), Error> {
+        let (count, offset) = self.count_words(patches)?;
+        if let Some((groups, output)) = self.next.take() {
+            self.groups = groups;
+            self.output = output;
+        }
+        self.grow()?;
+        encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
+        self.origin.encode(encoder, self.bound.groups());
         if let Some(fit) = &self.fit {
             fit.encode(encoder);
         }
         let batch = &self.output.batch;
         batch.encode(encoder);
         let of = (batch, self.fit.as_ref());
-        self.feedback.record(&self.device, encoder, of, self.frame)?;
+        locked(&self.feedback).record(&self.device, encoder, of, self.frame)?;
         self.frame += 1;
         Ok(())
+    }
+
+    /// Makes the room that a frame needs before it is drawn: runs a frame's compute passes, waits for what they
+    /// found, and grows as [`Room::Automatic`] says. A frame with the same factors is then exact if the room
+    /// allows. Frames of other factors may need more.
+    ///
+    /// It takes one round trip to the device, so call it after [`StageBuilder::build`] or for a picture that is drawn
+    /// once. What the factors are computed from must have been written.
+    ///
+    /// # Errors
+    /// As [`Self::prepare`]; and [`Error::Refused`] in a browser, where only [`Self::make_room_async`] can wait.
+    pub fn make_room<'a>(
+        &mut self,
+        queue: &wgpu::Queue,
+        patches: impl Into<PatchCount<'a>>,
+    ) -> Result<Feedback, Error> {
+        let gpu = self.gpu(queue);
+        gpu.finish(self.run_once(&gpu, patches.into()))
+    }
+
+    /// The same without blocking: see [`Gpu::read_async`].
+    ///
+    /// # Errors
+    /// As [`Self::prepare`].
+    pub async fn make_room_async<'a>(
+        &mut self,
+        queue: &wgpu::Queue,
+        patches: impl Into<PatchCount<'a>>,
+    ) -> Result<Feedback, Error> {
+        let gpu = self.gpu(queue);
+        self.run_once(&gpu, patches.into()).await
+    }
+
+    fn gpu(&self, queue: &wgpu::Queue) -> Gpu {
+        let info = self.device.adapter_info();
+        Gpu { device: self.device.clone(), queue: queue.clone(), info }
+    }
+
+    /// Runs a frame, waits for its numbers and makes room for it.
+    async fn run_once(&mut self, gpu: &Gpu, patches: PatchCount<'_>) -> Result<Feedback, Error> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let frame = self.frame;
+        self.record(&mut encoder, patches)?;
+        gpu.submit(encoder)?;
+        let of = (&self.output.batch, self.fit.as_ref());
+        let found = feedback::wait(gpu, of, frame).await?;
+        locked(&self.feedback).arrived(Some(found));
+        self.grow()?;
+        Ok(found)
     }
 
     /// Draws all patches of the last frame that was prepared. A stage that was made without a pipeline takes the
@@ -164,7 +234,7 @@ impl TessellationStage {
         let mut number = 0;
         if let Some(pipeline) = &self.pipeline {
             pass.set_pipeline(pipeline);
-            for own in &self.bind_groups {
+            for own in self.bound.groups() {
                 pass.set_bind_group(number, own, &[]);
                 number += 1;
             }
@@ -172,12 +242,12 @@ impl TessellationStage {
         self.output.draw(pass, number, group);
     }
 
-    /// The buffers of the last frame that was prepared, for an engine that records the draws itself. They are
-    /// others after a call of [`Self::prepare`] that made more room and after [`Self::set_groups`]. `None`
+    /// The buffers of the last frame that was prepared, for an engine that records the draws itself. A call of
+    /// [`Self::prepare`] replaces them if it makes more room or if [`Self::set_groups`] came before it. `None`
     /// unless points and indices are stored.
     #[must_use]
     pub const fn buffers(&self) -> Option<DrawBuffers<'_>> {
-        match (&self.output.points, &self.output.indices) {
+        match (&self.output.stored.points, &self.output.stored.indices) {
             (Some(points), Some(indices)) => Some(DrawBuffers {
                 points,
                 indices,
@@ -188,29 +258,37 @@ impl TessellationStage {
         }
     }
 
-    /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of [`Self::prepare`] on. Nothing
-    /// is compiled; buffers of the same size are made.
+    /// Replaces the groups that [`StageBuilder::groups`] gave, from the next call of [`Self::prepare`] on. Until then
+    /// the frame that was prepared is drawn with its own groups. Nothing is compiled.
     ///
     /// # Errors
     /// [`Error::MisplacedGroup`]; [`Error::OutOfMemory`]. The groups are then what they were.
     pub fn set_groups(&mut self, first_patches: &[u32]) -> Result<(), Error> {
-        let of_batch = (&self.factors, first_patches);
-        let (room, pulled) = (self.output.room, self.pulled.as_ref());
-        self.output = Output::new(&mut self.tessellator, self.form, room, of_batch, pulled)?;
-        self.groups = first_patches.to_vec();
+        let output = self.output_of(self.output.room, first_patches, self.output.stored.clone())?;
+        self.next = Some((first_patches.to_vec(), output));
         Ok(())
     }
 
-    /// Replaces one of the user's bind groups, by its number; from the next call of `prepare` or `draw`
+    /// A batch of these groups that writes these buffers.
+    fn output_of(
+        &mut self,
+        room: Capacity,
+        groups: &[u32],
+        stored: Stored,
+    ) -> Result<Output, Error> {
+        let of_batch = (&self.factors, groups);
+        let pulled = self.pulled.as_ref();
+        Output::new(&mut self.tessellator, self.form, (room, stored), of_batch, pulled)
+    }
+
+    /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or `draw`
     /// on.
     ///
     /// # Errors
-    /// [`StageError::NoSuchBindGroup`].
+    /// [`StageError::NoSuchBindGroup`]; [`StageError::BadBindGroup`] for a group that does not go with its layout.
+    /// The bind groups are then what they were.
     pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
-        let groups = self.bind_groups.len();
-        let place = self.bind_groups.get_mut(number as usize);
-        *place.ok_or(StageError::NoSuchBindGroup { number, groups })? = group.clone();
-        Ok(())
+        self.bound.set(&self.device, number, group)
     }
 
     /// Records new factors from the host, for the patches from the first one on. Patches that never had
@@ -240,11 +318,22 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// What the latest frame needed that has arrived; a frame or two late, `None` at first. It arrives while the
-    /// device is polled, which `prepare` does without waiting.
+    /// What the latest frame needed whose numbers have arrived; `None` at first. Numbers arrive a frame or two after
+    /// the submission. This asks the device without waiting, as [`Self::prepare`] does.
     #[must_use]
-    pub const fn feedback(&self) -> Option<Feedback> {
-        self.feedback.last()
+    pub fn feedback(&self) -> Option<Feedback> {
+        let mut feedback = locked(&self.feedback);
+        // A lost device has nothing new; `prepare` reports it.
+        let _ = feedback.take(&self.device, self.frame);
+        feedback.last()
+    }
+
+    /// The raw factors of the last frame that was submitted, as [`factor_words`] lays them out, with the usages
+    /// `STORAGE` and `COPY_SRC`. If the frame did not fit, they are the ones that it was scaled down to. Patches beyond
+    /// the frame's number have factors of 0.
+    #[must_use]
+    pub const fn factors(&self) -> &wgpu::Buffer {
+        &self.factors
     }
 
     /// The room that there is.
@@ -257,47 +346,50 @@ impl TessellationStage {
     #[cfg(feature = "measure")]
     #[must_use]
     pub const fn inside(&self) -> (&crate::Batch, [Option<&wgpu::Buffer>; 2]) {
-        let Output { batch, points, indices, .. } = &self.output;
-        (batch, [points.as_ref(), indices.as_ref()])
+        let Output { batch, stored, .. } = &self.output;
+        (batch, [stored.points.as_ref(), stored.indices.as_ref()])
     }
 
     /// A user's WGSL with the stage's types and helpers, and `own` behind it.
     #[cfg(feature = "measure")]
     #[must_use]
     pub fn joined(user: &str, own: &str) -> String {
-        source::of_test(user, own)
+        source::joined(user, own)
     }
 
     /// Makes more room if a frame needed it and the stage may.
-    fn grow(&mut self, encoder: &mut wgpu::CommandEncoder) -> Result<(), Error> {
-        let Some(Feedback { points, primitives, .. }) = self.feedback.last() else { return Ok(()) };
+    fn grow(&mut self) -> Result<(), Error> {
+        let last = locked(&self.feedback).last();
+        let Some(Feedback { points, primitives, .. }) = last else { return Ok(()) };
         let needed = [points, primitives];
         let Some(room) = self.form.grown(self.room, self.output.room, needed) else {
             return Ok(());
         };
-        let own = (&self.factors, &self.groups[..]);
-        let pulled = self.pulled.as_ref();
-        self.output = match Output::new(&mut self.tessellator, self.form, room, own, pulled) {
-            Ok(output) => output,
+        match self.make_output(room) {
+            Ok(()) => Ok(()),
             // What there is still serves; asking again each frame would not help.
             Err(Error::OutOfMemory) => {
                 self.room = Room::Exactly(self.output.room);
-                return Ok(());
+                Ok(())
             }
-            Err(error) => return Err(error),
-        };
-        match &self.fit {
-            Some(fit) => fit.set_room(&self.device, encoder, room),
-            None => Ok(()),
+            Err(error) => Err(error),
         }
     }
 
-    /// Records the number of patches where the passes read it.
-    fn set_count(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        patches: PatchCount<'_>,
-    ) -> Result<(), Error> {
+    /// Replaces the output by one with this room. On an error everything is as it was.
+    fn make_output(&mut self, room: Capacity) -> Result<(), Error> {
+        let words = fit::room_words(&self.device, room)?;
+        let stored = Stored::new(&self.device, self.form, room)?;
+        let groups = self.groups.clone();
+        self.output = self.output_of(room, &groups, stored)?;
+        if let Some(fit) = &mut self.fit {
+            fit.set_room(words);
+        }
+        Ok(())
+    }
+
+    /// The number of patches as a word of a buffer, and its offset there.
+    fn count_words(&self, patches: PatchCount<'_>) -> Result<(wgpu::Buffer, u64), Error> {
         match patches {
             PatchCount::Host(got) => {
                 let most = self.form.patches;
@@ -305,8 +397,7 @@ impl TessellationStage {
                     return Err(StageError::TooManyPatches { got, most }.into());
                 }
                 let bytes = got.to_le_bytes();
-                let staging = gpu::filled(&self.device, "patches", &bytes, Usage::COPY_SRC)?;
-                encoder.copy_buffer_to_buffer(&staging, 0, &self.count, 0, 4);
+                Ok((gpu::filled(&self.device, "patches", &bytes, Usage::COPY_SRC)?, 0))
             }
             PatchCount::Device(buffer, offset) => {
                 let (size, usage) = (buffer.size(), buffer.usage());
@@ -314,9 +405,12 @@ impl TessellationStage {
                 if !is_inside || offset % 4 != 0 || !usage.contains(Usage::COPY_SRC) {
                     return Err(StageError::BadPatchCount { offset, size, usage }.into());
                 }
-                encoder.copy_buffer_to_buffer(buffer, offset, &self.count, 0, 4);
+                Ok((buffer.clone(), offset))
             }
         }
-        Ok(())
     }
+}
+
+fn locked(feedback: &Mutex<Feedbacks>) -> MutexGuard<'_, Feedbacks> {
+    feedback.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -2,7 +2,7 @@
 
 use crate::batch::Patches;
 use crate::error::{Error, checked};
-use crate::{Batch, Outputs, gpu, pipeline};
+use crate::{Batch, Outputs, gpu, limits, pipeline};
 use std::collections::HashMap;
 use std::fmt;
 use tess_core::SplitOrder;
@@ -125,7 +125,14 @@ impl Tessellator {
             return Ok(buffer.clone());
         }
         let words = tables(split);
-        let bytes = bytemuck::cast_slice(&words);
+        let bytes = bytemuck::cast_slice::<u32, u8>(&words);
+        let (needed, limits) = (size_of_val(bytes) as u64, self.device.limits());
+        limits::at_least("max_buffer_size", needed, limits.max_buffer_size)?;
+        limits::at_least(
+            "max_storage_buffer_binding_size",
+            needed,
+            limits.max_storage_buffer_binding_size,
+        )?;
         let buffer = gpu::filled(&self.device, "tables", bytes, wgpu::BufferUsages::STORAGE)?;
         self.tables.insert(split, buffer.clone());
         Ok(buffer)

@@ -206,13 +206,16 @@ impl<'a> StageBuilder<'a> {
     /// Compiles everything and makes every buffer.
     ///
     /// # Errors
-    /// [`StageError::Wgsl`](super::StageError::Wgsl) for the user's WGSL, on OpenGL also
-    /// [`StageError::FlatOfFirstVertex`](super::StageError::FlatOfFirstVertex); [`StageError::LimitTooLow`](super::StageError::LimitTooLow), [`Error::TooManyPatches`],
-    /// [`StageError::TooManyFactors`](super::StageError::TooManyFactors), [`Error::TooManyToPull`], [`Error::BufferTooLarge`] or
-    /// [`Error::OutOfMemory`] if the device does not allow so much; [`Error::FactorsTooShort`] or
-    /// [`Error::NotStorage`] for a buffer of factors; [`Error::MisplacedGroup`];
-    /// [`StageError::NothingStored`](super::StageError::NothingStored) without a pipeline; and
-    /// [`Error::Refused`] for what wgpu has against layouts or the render state.
+    /// - For the user's WGSL: [`StageError::Wgsl`], [`StageError::UnclearFragment`], and on OpenGL
+    ///   [`StageError::FlatOfFirstVertex`].
+    /// - For bind groups: [`StageError::BadBindGroup`], [`StageError::TooManyBindGroups`].
+    /// - If the device does not allow this many patches: [`Error::TooManyPatches`], [`StageError::TooManyFactors`],
+    ///   [`Error::TooManyToPull`], [`Error::BufferTooLarge`], [`Error::OutOfMemory`].
+    /// - If the device allows no stage at all: [`Error::LimitTooLow`].
+    /// - For a buffer of factors: [`Error::FactorsTooShort`], [`Error::NotStorage`].
+    /// - For groups of patches: [`Error::MisplacedGroup`].
+    /// - Without a pipeline, unless points are stored: [`StageError::NothingStored`].
+    /// - For what wgpu has against layouts or the render state: [`Error::Refused`].
     pub fn build(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
         make::now(make::stage(self, device))
     }

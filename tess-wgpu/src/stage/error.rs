@@ -21,23 +21,28 @@ pub enum StageError {
         /// The device's `max_storage_buffer_binding_size`.
         limit: u64,
     },
-    /// A limit of the device is too low. Open the device with WebGPU's default limits; WebGL and
-    /// OpenGL without compute shaders cannot tessellate.
-    LimitTooLow {
-        /// The limit, a member of `wgpu::Limits`.
-        limit: &'static str,
-        /// What is needed.
-        needed: u32,
-        /// What the device has.
+    /// More bind groups than the device has beside the stage's own. Put the bindings into fewer groups.
+    TooManyBindGroups {
+        /// Bind groups of the user's.
         got: u32,
+        /// The most that there can be.
+        most: u32,
     },
     /// The user's WGSL is not valid.
     Wgsl {
-        /// Line of the user's text, from 1 on; `None` if what the text lacks is needed by the stage,
-        /// for example a function `domain` of the right signature.
+        /// Line of the user's text, from 1 on; `None` if the text lacks what the stage needs, for example a
+        /// function `domain`.
         line: Option<u32>,
         /// What the compiler says.
         message: String,
+    },
+    /// The user's WGSL has no fragment shader, or not the one that was asked for, or several and none was chosen with
+    /// [`StageBuilder::fragment`](super::StageBuilder::fragment).
+    UnclearFragment {
+        /// The name that was asked for.
+        asked: Option<String>,
+        /// The functions with the attribute `@fragment`.
+        found: Vec<String>,
     },
     /// A member of `Vertex` is `@interpolate(flat)`, which takes the value of a primitive's first vertex, and OpenGL
     /// takes that of the last. Write `@interpolate(flat, either)` if a primitive's vertices share the value,
@@ -70,10 +75,25 @@ pub enum StageError {
         /// Bind groups that the stage was made with.
         groups: usize,
     },
+    /// A bind group does not go with the layout of its number, or has buffers with dynamic offsets, which the stage
+    /// does not set.
+    BadBindGroup {
+        /// Number of the bind group.
+        number: u32,
+        /// What wgpu says.
+        reason: String,
+    },
     /// The factors of this stage do not come from the host. Make it with `Factors::Host`.
     NotHostFactors,
     /// A stage without a pipeline has to store its points and indices. Leave out `points`.
     NothingStored,
+}
+
+impl StageError {
+    /// What the user's WGSL has to be.
+    pub(super) const NEEDED: &'static str = "it declares `struct Vertex`, `fn domain(number: u32, uv: vec2<f32>) -> Vertex` without derivatives, \
+         unless factors are given also `fn hull(number: u32) -> QuadFactors` (`TriFactors`, \
+         `IsolineFactors`), and no name that begins with `tess_`; its bindings are in the groups that the builder got";
 }
 
 impl fmt::Display for StageError {
@@ -87,20 +107,29 @@ impl fmt::Display for StageError {
                 "the factors take {needed} bytes, and one binding holds {limit}; \
                  make several stages"
             ),
-            Self::LimitTooLow { limit, needed, got } => write!(
+            Self::TooManyBindGroups { got, most } => write!(
                 f,
-                "the device's limit {limit} is {got}, and {needed} is needed; open it with WebGPU's \
-                 default limits (WebGL has no compute shaders, so it cannot tessellate)"
+                "{got} bind groups, and the device has {most} beside what the stage binds; put the bindings \
+                 into fewer groups"
             ),
             Self::Wgsl { line: Some(line), message } => {
                 write!(f, "line {line} of your WGSL: {message}")
             }
-            Self::Wgsl { line: None, message } => write!(
+            Self::Wgsl { line: None, message } => {
+                write!(f, "your WGSL does not go with the stage ({message}); {}", Self::NEEDED)
+            }
+            Self::UnclearFragment { asked: None, found } if found.is_empty() => f.write_str(
+                "your WGSL has no function with the attribute @fragment; write one, or leave out `target`",
+            ),
+            Self::UnclearFragment { asked: None, found } => write!(
                 f,
-                "your WGSL does not go with the stage ({message}); it declares `struct Vertex`, \
-                 `fn domain(number: u32, uv: vec2<f32>) -> Vertex`, unless factors are given also \
-                 `fn hull(number: u32) -> QuadFactors` (`TriFactors`, `IsolineFactors`), and no \
-                 name that begins with `tess_`; its bindings are in the groups that the builder got"
+                "your WGSL has several fragment shaders; choose one of {} with `fragment`",
+                found.join(", ")
+            ),
+            Self::UnclearFragment { asked: Some(asked), found } => write!(
+                f,
+                "your WGSL has no fragment shader `{asked}`; it has: {}",
+                if found.is_empty() { "none".to_owned() } else { found.join(", ") }
             ),
             Self::FlatOfFirstVertex { member } => write!(
                 f,
@@ -120,6 +149,11 @@ impl fmt::Display for StageError {
             ),
             Self::NothingStored => f.write_str(
                 "a stage without a pipeline stores its points and indices; leave out `points`",
+            ),
+            Self::BadBindGroup { number, reason } => write!(
+                f,
+                "bind group {number} does not go with its layout ({reason}); make it with the layout that the \
+                 builder got, without dynamic offsets, which the stage does not set"
             ),
             Self::NoSuchGroup { group, groups } => {
                 write!(f, "the stage has {groups} groups, numbered from 0, and none is {group}")

@@ -1,8 +1,8 @@
 //! What a frame needed, learnt some frames later without waiting.
 
 use super::fit::{Fit, Found};
-use crate::error::Error;
-use crate::{Batch, gpu};
+use crate::error::{Error, checked};
+use crate::{Batch, Gpu, gpu};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, Ordering};
 use tess_gpu::layout::Status;
@@ -26,7 +26,7 @@ pub struct Feedback {
 
 /// Read-backs under way at most. A frame beyond them is not read back.
 const MOST: usize = 4;
-/// After so many frames a read-back whose commands were never submitted is given up.
+/// After this many frames a read-back is given up whose encoder is kept and was never submitted.
 const PATIENCE: u64 = 64;
 
 const WAITING: u8 = 0;
@@ -55,24 +55,33 @@ impl Feedbacks {
         self.last
     }
 
-    /// Takes what has arrived. Frames arrive in order.
+    /// Takes what has arrived.
     pub(crate) fn take(&mut self, device: &wgpu::Device, frame: u64) -> Result<(), Error> {
         let polled = device.poll(wgpu::PollType::Poll);
         polled.map_err(|error| Error::DeviceLost { reason: error.to_string() })?;
-        for UnderWay { frame: of, staging, state } in std::mem::take(&mut self.under_way) {
-            match state.load(Ordering::Acquire) {
+        for mut one in std::mem::take(&mut self.under_way) {
+            // The encoder holds the other half until the answer is there; it goes with an encoder that is dropped.
+            let has_encoder = Arc::get_mut(&mut one.state).is_none();
+            match one.state.load(Ordering::Acquire) {
                 DONE => {
-                    self.last = read(&staging, of).or(self.last);
-                    staging.unmap();
-                    self.idle.push(staging);
+                    self.arrived(read(&one.staging, one.frame));
+                    // A lost device has unmapped it already, which wgpu would end the program for.
+                    if checked(device, || one.staging.unmap()).is_ok() {
+                        self.idle.push(one.staging);
+                    }
                 }
-                WAITING if frame.saturating_sub(of) < PATIENCE => {
-                    self.under_way.push(UnderWay { frame: of, staging, state });
-                }
+                WAITING if !has_encoder => self.idle.push(one.staging),
+                WAITING if frame.saturating_sub(one.frame) < PATIENCE => self.under_way.push(one),
                 _ => {}
             }
         }
         Ok(())
+    }
+
+    /// Keeps the numbers of the latest frame. Frames arrive in the order in which they were submitted.
+    pub(crate) fn arrived(&mut self, new: Option<Feedback>) {
+        let latest = self.last.map_or(0, |last| last.frame);
+        self.last = new.filter(|new| new.frame >= latest).or(self.last);
     }
 
     /// Records the copies of a frame's numbers, which arrive after `encoder` was submitted.
@@ -115,6 +124,25 @@ const BYTES: u64 = STATUS_BYTES + size_of::<Found>() as u64;
 fn read(staging: &wgpu::Buffer, frame: u64) -> Option<Feedback> {
     let view = staging.get_mapped_range(..).ok()?;
     let (status, found) = view.split_at_checked(size_of::<Status>())?;
+    Some(of_frame(frame, status, found))
+}
+
+/// Reads the numbers of a frame that was submitted.
+pub(crate) async fn wait(
+    gpu: &Gpu,
+    (batch, fit): (&Batch, Option<&Fit>),
+    frame: u64,
+) -> Result<Feedback, Error> {
+    let status = gpu.read_async(batch.status(), STATUS_BYTES).await?;
+    let found = match fit {
+        Some(fit) => gpu.read_async(fit.state(), size_of::<Found>() as u64).await?,
+        None => vec![0; size_of::<Found>()],
+    };
+    Ok(of_frame(frame, &status, &found))
+}
+
+/// What the bytes of a [`Status`] and of a [`Found`] say.
+fn of_frame(frame: u64, status: &[u8], found: &[u8]) -> Feedback {
     let status: Status = bytemuck::pod_read_unaligned(status);
     let found: Found = bytemuck::pod_read_unaligned(found);
     // Without the passes that fit, these are zero, and the batch's own numbers are what was needed.
@@ -124,5 +152,5 @@ fn read(staging: &wgpu::Buffer, frame: u64) -> Option<Feedback> {
     };
     let drawn = if status.fits() { status.primitives() } else { 0 };
     let [points, primitives] = needed;
-    Some(Feedback { frame, points, primitives, drawn, scale: found.scale() })
+    Feedback { frame, points, primitives, drawn, scale: found.scale() }
 }

@@ -41,6 +41,8 @@ pub(crate) struct Fit {
     state: wgpu::Buffer,
     arguments: wgpu::Buffer,
     terms: wgpu::Buffer,
+    /// The first words of `terms`, copied there in each frame: the encoder of any one frame may be dropped.
+    room: wgpu::Buffer,
     bound: wgpu::BindGroup,
     decided: wgpu::BindGroup,
     workgroups: [u32; 2],
@@ -88,27 +90,21 @@ impl Fit {
             state,
             arguments,
             terms,
+            room: room_words(device, room)?,
             bound,
             decided,
             workgroups,
         })
     }
 
-    /// Records that the room is another from now on.
-    pub(crate) fn set_room(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        room: Capacity,
-    ) -> Result<(), Error> {
-        let words = [room.points, room.primitives];
-        let words = gpu::filled(device, "room", bytemuck::bytes_of(&words), Usage::COPY_SRC)?;
-        encoder.copy_buffer_to_buffer(&words, 0, &self.terms, 0, 8);
-        Ok(())
+    /// The room is another from the next frame on.
+    pub(crate) fn set_room(&mut self, room: wgpu::Buffer) {
+        self.room = room;
     }
 
     /// Records the passes. They leave factors whose output fits, if there are such.
     pub(crate) fn encode(&self, encoder: &mut wgpu::CommandEncoder) {
+        encoder.copy_buffer_to_buffer(&self.room, 0, &self.terms, 0, ROOM_BYTES);
         encoder.clear_buffer(&self.state, 0, None);
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("fit"),
@@ -132,6 +128,15 @@ impl Fit {
     pub(crate) const fn state(&self) -> &wgpu::Buffer {
         &self.state
     }
+}
+
+/// Bytes of the room in `Terms` of fit.wgsl.
+const ROOM_BYTES: u64 = 8;
+
+/// A room as [`Fit::set_room`] takes it.
+pub(crate) fn room_words(device: &wgpu::Device, room: Capacity) -> Result<wgpu::Buffer, Error> {
+    let words = [room.points, room.primitives];
+    gpu::filled(device, "room", bytemuck::bytes_of(&words), Usage::COPY_SRC)
 }
 
 /// The first words of the struct `Fit` of fit.wgsl: the step, three reserved, and the sums of the factors as

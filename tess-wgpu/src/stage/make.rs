@@ -1,13 +1,14 @@
 //! Making a stage: checks, modules, pipelines.
 
+use super::bound::Bound;
 use super::builder::{Points, Render};
-use super::output::Output;
+use super::output::{Output, Stored};
 use super::room::{Form, Overflow};
 use super::{
-    Factors, Fit, Origin, StageBuilder, StageError, TessellationStage, gl, origin, source,
+    Factors, Fit, Origin, StageBuilder, StageError, TessellationStage, gl, origin, source, wgsl,
 };
 use crate::error::{Error, checked};
-use crate::{Tessellator, gpu};
+use crate::{Tessellator, gpu, limits};
 use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
@@ -36,7 +37,7 @@ pub(super) async fn stage(
     let mut tessellator = Tessellator::new(device);
     let usage = Usage::STORAGE | Usage::COPY_DST;
     let size = factor_bytes(setup, patches);
-    let factors = gpu::empty(device, "factors of the stage", size, usage)?;
+    let factors = gpu::empty(device, "factors of the stage", size, usage | Usage::COPY_SRC)?;
     let count = gpu::empty(device, "number of patches", 4, usage)?;
     let origin = Origin::new(&builder, device, [&factors, &count]).await?;
     let pulled = pulled_layout(device, setup, points)?;
@@ -44,6 +45,7 @@ pub(super) async fn stage(
         true => Some(render_pipeline(&builder, device, pulled.as_ref()).await?),
         false => None,
     };
+    let bound = Bound::new(device, &builder.layouts, &builder.bind_groups)?;
     let buffer_limit = device.limits().max_buffer_size;
     let form = Form { setup, points, patches, buffer_limit };
     let capacity = form.initial(room);
@@ -53,7 +55,7 @@ pub(super) async fn stage(
     let output = Output::new(
         &mut tessellator,
         form,
-        capacity,
+        (capacity, Stored::new(device, form, capacity)?),
         (&factors, &builder.groups),
         pulled.as_ref(),
     )?;
@@ -63,7 +65,7 @@ pub(super) async fn stage(
         form,
         room,
         groups: builder.groups,
-        bind_groups: builder.bind_groups,
+        bound,
         factors,
         count,
         origin,
@@ -71,53 +73,72 @@ pub(super) async fn stage(
         pulled,
         pipeline,
         output,
+        next: None,
         feedback: Default::default(),
         frame: 0,
     })
 }
 
-/// Refuses what the device cannot do.
+/// Refuses what the device or the stage cannot do.
 fn check(builder: &StageBuilder<'_>, device: &wgpu::Device) -> Result<(), Error> {
     if !builder.makes_pipeline && builder.points != Points::Stored {
         return Err(StageError::NothingStored.into());
     }
+    limits::check(device)?;
     let limits = device.limits();
-    let groups = builder.own_group().saturating_add(1);
-    for (limit, needed, got) in [
-        ("max_compute_workgroups_per_dimension", 1, limits.max_compute_workgroups_per_dimension),
-        ("max_storage_buffers_per_shader_stage", 8, limits.max_storage_buffers_per_shader_stage),
-        ("max_bind_groups", groups, limits.max_bind_groups),
-    ] {
-        if got < needed {
-            return Err(StageError::LimitTooLow { limit, needed, got }.into());
-        }
+    let has_own = matches!(builder.factors, Factors::Hull) || builder.points != Points::Stored;
+    let (got, most) =
+        (builder.own_group(), limits.max_bind_groups.saturating_sub(u32::from(has_own)));
+    if got > most {
+        return Err(StageError::TooManyBindGroups { got, most }.into());
     }
     let (needed, limit) =
         (factor_bytes(builder.setup, builder.patches), limits.max_storage_buffer_binding_size);
     if needed > limit {
         return Err(StageError::TooManyFactors { needed, limit }.into());
     }
-    match builder.factors {
-        Factors::Buffer(given) => origin::check(given, needed),
-        _ => Ok(()),
+    if let Factors::Buffer(given) = builder.factors {
+        origin::check(given, needed)?;
     }
+    source::check_names(builder.source, builder.setup, builder.points)?;
+    if builder.makes_pipeline { check_fragment(builder) } else { Ok(()) }
+}
+
+/// Refuses a fragment shader that is not there, or one of several that is not named.
+fn check_fragment(builder: &StageBuilder<'_>) -> Result<(), Error> {
+    let Render { fragment, targets, .. } = &builder.render;
+    if targets.is_empty() {
+        return Ok(());
+    }
+    let declared = wgsl::declarations(builder.source).into_iter();
+    let found: Vec<_> = declared.filter(|one| one.is_fragment).map(|one| one.name).collect();
+    let is_clear = match fragment {
+        Some(name) => found.contains(name),
+        None => found.len() == 1,
+    };
+    if is_clear {
+        return Ok(());
+    }
+    let found = found.into_iter().map(str::to_owned).collect();
+    Err(StageError::UnclearFragment { asked: fragment.map(str::to_owned), found }.into())
 }
 
 pub(super) fn factor_bytes(setup: Setup, patches: u32) -> u64 {
     4 * u64::from(setup.factors()) * u64::from(patches)
 }
 
-/// A module that begins with the user's text; what is wrong with it is said with their line.
+/// A module that begins with the user's text; what is wrong with it is said with their line. `function` is the
+/// user's function that the module calls.
 pub(super) async fn user_module(
     device: &wgpu::Device,
-    label: &str,
+    function: &str,
     user: &str,
     joined: String,
 ) -> Result<wgpu::ShaderModule, Error> {
     let mut made = None;
     let outcome = checked(device, || {
         made = Some(device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
+            label: Some(function),
             source: wgpu::ShaderSource::Wgsl(joined.into()),
         }));
     });
@@ -130,11 +151,35 @@ pub(super) async fn user_module(
     };
     if let Some(error) = info.messages.iter().find(is_error) {
         let line = error.location.map(|location| location.line_number);
-        let line = line.filter(|&line| (1..=source::lines(user)).contains(&line));
-        return Err(StageError::Wgsl { line, message: headline(&error.message) }.into());
+        return Err(wrong_wgsl(user, function, line, headline(&error.message)).into());
     }
     outcome?;
     Ok(module)
+}
+
+/// An error in a line of the joined text. Behind the user's text it is the stage's call that does not go with what
+/// the user declares: something that the message names, or the function that is called.
+fn wrong_wgsl(user: &str, function: &str, line: Option<u32>, message: String) -> StageError {
+    let line = line.filter(|&line| (1..=source::lines(user)).contains(&line));
+    if line.is_some() {
+        return StageError::Wgsl { line, message };
+    }
+    let declared = wgsl::declarations(user);
+    let named = message.split('`').skip(1).step_by(2);
+    let culprit = named
+        .chain([function])
+        .find_map(|name| declared.iter().find(|declaration| declaration.name == name));
+    match culprit {
+        None => StageError::Wgsl { line: None, message },
+        Some(culprit) => StageError::Wgsl {
+            line: Some(culprit.line),
+            message: format!(
+                "`{}` does not go with the stage ({message}); {}",
+                culprit.name,
+                StageError::NEEDED
+            ),
+        },
+    }
 }
 
 /// What is wrong, without the excerpt of the source: the first line of a compiler's report, and naga's
@@ -186,7 +231,7 @@ async fn render_pipeline(
 ) -> Result<wgpu::RenderPipeline, Error> {
     let StageBuilder { source: user, setup, layouts, render, .. } = builder;
     let shader = builder.vertex_shader();
-    let module = user_module(device, "draw", user, shader.clone()).await?;
+    let module = user_module(device, "domain", user, shader.clone()).await?;
     gl::check_flat_members(device, &shader)?;
     let layouts: Vec<_> = layouts.iter().chain(pulled).map(Some).collect();
     let has_points = pulled.is_none();

@@ -2,7 +2,7 @@
 
 use super::passes::{self, Access};
 use super::{Factors, StageBuilder, make, source};
-use crate::error::{Error, checked};
+use crate::error::Error;
 use crate::gpu;
 use tess_gpu::Resource;
 use wgpu::BufferUsages as Usage;
@@ -68,23 +68,16 @@ impl Origin {
     }
 
     /// Records the pass; `user` are the user's bind groups.
-    pub(super) fn encode(
-        &self,
-        device: &wgpu::Device,
-        encoder: &mut wgpu::CommandEncoder,
-        user: &[wgpu::BindGroup],
-    ) -> Result<(), Error> {
-        checked(device, || {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
-                label: Some("factors"),
-                timestamp_writes: None,
-            });
-            pass.set_pipeline(&self.pipeline);
-            for (number, group) in (0..self.own_group).zip(user) {
-                pass.set_bind_group(number, group, &[]);
-            }
-            pass.set_bind_group(self.own_group, &self.own, &[]);
-            pass.dispatch_workgroups(self.workgroups[0], self.workgroups[1], 1);
-        })
+    pub(super) fn encode(&self, encoder: &mut wgpu::CommandEncoder, user: &[wgpu::BindGroup]) {
+        let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+            label: Some("factors"),
+            timestamp_writes: None,
+        });
+        pass.set_pipeline(&self.pipeline);
+        for (number, group) in (0..self.own_group).zip(user) {
+            pass.set_bind_group(number, group, &[]);
+        }
+        pass.set_bind_group(self.own_group, &self.own, &[]);
+        pass.dispatch_workgroups(self.workgroups[0], self.workgroups[1], 1);
     }
 }

@@ -14,11 +14,38 @@ use wgpu::BufferUsages as Usage;
 pub(super) struct Output {
     pub(super) room: Capacity,
     pub(super) batch: Batch,
+    pub(super) stored: Stored,
+    pulled: Option<wgpu::BindGroup>,
+}
+
+/// The buffers that a batch writes and a draw reads, where there are any.
+#[derive(Clone, Debug)]
+pub(super) struct Stored {
     pub(super) points: Option<wgpu::Buffer>,
     pub(super) indices: Option<wgpu::Buffer>,
     /// What stands for the points where [`gl::attributes`] need a buffer that nothing reads.
     unread: Option<wgpu::Buffer>,
-    pulled: Option<wgpu::BindGroup>,
+}
+
+impl Stored {
+    /// Buffers for this room.
+    pub(super) fn new(device: &wgpu::Device, form: Form, room: Capacity) -> Result<Self, Error> {
+        let make = |label, size, usage| {
+            gpu::empty(device, label, size, Usage::STORAGE | Usage::COPY_SRC | usage)
+        };
+        let primitive_bytes = u64::from(form.setup.primitive_bytes());
+        let index_bytes = (u64::from(room.primitives) * primitive_bytes).next_multiple_of(8);
+        let points = (form.points == Points::Stored)
+            .then(|| make("points", 8 * u64::from(room.points), Usage::VERTEX))
+            .transpose()?;
+        let indices = (form.points != Points::PullWithoutIndices)
+            .then(|| make("indices", index_bytes, Usage::INDEX))
+            .transpose()?;
+        let unread = (points.is_none() && gl::is_gl(device))
+            .then(|| gpu::empty(device, "unread", 8, Usage::VERTEX))
+            .transpose()?;
+        Ok(Self { points, indices, unread })
+    }
 }
 
 impl Output {
@@ -27,37 +54,22 @@ impl Output {
     pub(super) fn new(
         tessellator: &mut Tessellator,
         form: Form,
-        room: Capacity,
+        (room, stored): (Capacity, Stored),
         (factors, groups): (&wgpu::Buffer, &[u32]),
         pulled: Option<&wgpu::BindGroupLayout>,
     ) -> Result<Self, Error> {
-        let Form { setup, points, patches, .. } = form;
-        let device = tessellator.device().clone();
-        let make = |label, size, usage| {
-            gpu::empty(&device, label, size, Usage::STORAGE | Usage::COPY_SRC | usage)
-        };
-        let primitive_bytes = u64::from(setup.primitive_bytes());
-        let index_bytes = (u64::from(room.primitives) * primitive_bytes).next_multiple_of(8);
-        let stored = (points == Points::Stored)
-            .then(|| make("points", 8 * u64::from(room.points), Usage::VERTEX))
-            .transpose()?;
-        let indices = (points != Points::PullWithoutIndices)
-            .then(|| make("indices", index_bytes, Usage::INDEX))
-            .transpose()?;
-        let unread = (stored.is_none() && gl::is_gl(&device))
-            .then(|| gpu::empty(&device, "unread", 8, Usage::VERTEX))
-            .transpose()?;
-        let outputs = match (&stored, &indices) {
+        let outputs = match (&stored.points, &stored.indices) {
             (Some(points), Some(indices)) => Outputs::Buffers { points, indices },
             (None, Some(indices)) => Outputs::Indices { points: room.points, indices },
             _ => Outputs::Arguments(room),
         };
+        let Form { setup, patches, .. } = form;
         let batch = tessellator.batch_in_groups(setup, patches, groups, factors, outputs)?;
         let pulled = match pulled {
             Some(layout) => Some(bind(tessellator, form, layout, &batch)?),
             None => None,
         };
-        Ok(Self { room, batch, points: stored, indices, unread, pulled })
+        Ok(Self { room, batch, stored, pulled })
     }
 
     /// Draws with the arguments of the whole batch or of one of its groups. Pipeline and user's bind
@@ -74,13 +86,13 @@ impl Output {
                 (self.batch.group_arguments(), u64::from(group) * size_of::<DrawIndexed>() as u64)
             }
         };
-        if let Some(points) = self.points.as_ref().or(self.unread.as_ref()) {
+        if let Some(points) = self.stored.points.as_ref().or(self.stored.unread.as_ref()) {
             pass.set_vertex_buffer(0, points.slice(..));
         }
         if let Some(pulled) = &self.pulled {
             pass.set_bind_group(own_group, pulled, &[]);
         }
-        match &self.indices {
+        match &self.stored.indices {
             Some(indices) => {
                 pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
                 pass.draw_indexed_indirect(arguments, offset);

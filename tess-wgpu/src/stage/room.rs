@@ -11,13 +11,18 @@ use tess_gpu::{Capacity, Setup};
 pub enum Room {
     /// For all patches with all factors at their greatest: everything always fits.
     WorstCase,
-    /// For as much as fits so many bytes of points and indices together, in the proportion of patches of
-    /// factor 8.
+    /// As much as this number of bytes holds, points and indices together. All patches fit at factor 1 if
+    /// the bytes suffice for that; the rest is divided in the proportion of patches of factor 8.
     Bytes(u64),
-    /// For exactly this.
+    /// Exactly this.
     Exactly(Capacity),
-    /// For patches of factor 4 at first. When a frame needs more, a later one has it: the stage learns what
-    /// was needed without waiting and makes larger buffers, up to so many bytes.
+    /// Enough for all patches at factor 4 at first. When a frame needs more, a later one has it: the stage learns
+    /// what was needed without waiting and makes larger buffers. Room never shrinks, and once the budget
+    /// is used it stays as it is.
+    ///
+    /// The first frames can therefore be coarser than asked for, or empty, as [`Overflow`] says. For a picture that
+    /// is drawn once, call [`TessellationStage::make_room`](super::TessellationStage::make_room) first,
+    /// or take [`Room::WorstCase`].
     Automatic {
         /// The most bytes of points and indices together.
         most_bytes: u64,
@@ -53,43 +58,68 @@ impl Form {
         match room {
             Room::WorstCase => uniform(64.0),
             Room::Exactly(capacity) => capacity,
-            Room::Bytes(bytes) => self.largest(bytes, uniform(8.0)),
-            Room::Automatic { most_bytes } => self.at_most(most_bytes, uniform(4.0)),
+            Room::Bytes(_) if self.element_bytes() == [0, 0] => uniform(64.0),
+            Room::Bytes(bytes) => self.largest(bytes, uniform(1.0), uniform(8.0)),
+            Room::Automatic { most_bytes } => {
+                self.at_most(most_bytes, uniform(1.0), self.possible(uniform(4.0)))
+            }
         }
     }
 
-    /// The room for frames that need so many points and primitives, if it is another.
+    /// The room for frames that need this many points and primitives, if it is another.
     pub(crate) fn grown(self, room: Room, now: Capacity, needed: [u64; 2]) -> Option<Capacity> {
         let Room::Automatic { most_bytes } = room else { return None };
         let [points, primitives] = needed;
-        if points <= u64::from(now.points) && primitives <= u64::from(now.primitives) {
+        let fits = points <= u64::from(now.points) && primitives <= u64::from(now.primitives);
+        if fits || self.uses(most_bytes, now) {
             return None;
         }
         let more = |needed: u64| u32::try_from(needed.saturating_mul(5) / 4).unwrap_or(u32::MAX);
-        let wanted = Capacity { points: more(points), primitives: more(primitives) };
-        let least = Capacity {
-            points: wanted.points.max(now.points),
-            primitives: wanted.primitives.max(now.primitives),
-        };
-        let grown = self.at_most(most_bytes, self.possible(least));
+        let wanted = self.possible(Capacity { points: more(points), primitives: more(primitives) });
+        let grown = self.at_most(most_bytes, now, wanted);
         (grown != now).then_some(grown)
     }
 
-    /// This room, or in the same proportion as much as so many bytes hold.
-    fn at_most(self, bytes: u64, wanted: Capacity) -> Capacity {
-        if self.bytes(wanted) <= u128::from(bytes) { wanted } else { self.largest(bytes, wanted) }
+    /// Whether a room leaves less of a budget than one point and one primitive take.
+    fn uses(self, budget: u64, room: Capacity) -> bool {
+        let [point, primitive] = self.element_bytes().map(u128::from);
+        self.bytes(room) + point + primitive > u128::from(budget) && self.element_bytes() != [0, 0]
     }
 
-    /// The room that so many bytes hold, in the proportion of `shape`.
-    fn largest(self, bytes: u64, shape: Capacity) -> Capacity {
-        let whole = self.bytes(shape);
-        if whole == 0 {
-            return Capacity::worst_case(self.setup, self.patches);
-        }
-        let part = |elements: u32| {
-            u32::try_from(u128::from(elements) * u128::from(bytes) / whole).unwrap_or(u32::MAX)
+    /// The greater of `least` and `wanted` in each dimension, or as much of it as a budget holds.
+    fn at_most(self, budget: u64, least: Capacity, wanted: Capacity) -> Capacity {
+        let whole = Capacity {
+            points: least.points.max(wanted.points),
+            primitives: least.primitives.max(wanted.primitives),
         };
-        self.possible(Capacity { points: part(shape.points), primitives: part(shape.primitives) })
+        if self.bytes(whole) <= u128::from(budget) {
+            return whole;
+        }
+        self.largest(budget, least, whole)
+    }
+
+    /// The room that fills a budget: `least`, and beyond it in the proportion in which `shape` exceeds `least`. A
+    /// budget that does not hold `least` gives a part of `least`.
+    fn largest(self, budget: u64, least: Capacity, shape: Capacity) -> Capacity {
+        let (budget, fixed) = (u128::from(budget), self.bytes(least));
+        let (base, free, shape) = match budget.checked_sub(fixed) {
+            None => (Capacity::default(), budget, least),
+            Some(free) => (least, free, shape),
+        };
+        let beyond = Capacity {
+            points: shape.points.saturating_sub(base.points),
+            primitives: shape.primitives.saturating_sub(base.primitives),
+        };
+        // At least 1, as nobody fills a budget without storing anything.
+        let whole = self.bytes(beyond).max(1);
+        let sum = |base: u32, beyond: u32| {
+            let sum = u128::from(base) + u128::from(beyond) * free / whole;
+            u32::try_from(sum).unwrap_or(u32::MAX)
+        };
+        self.possible(Capacity {
+            points: sum(base.points, beyond.points),
+            primitives: sum(base.primitives, beyond.primitives),
+        })
     }
 
     /// As much of it as can ever be needed and as buffers can have.
@@ -155,10 +185,85 @@ mod tests {
         assert_eq!(form.grown(room, first, [250, 320]), None, "it fits");
         let more = form.grown(room, first, [300, 320]).expect("it does not fit");
         assert_eq!(more, Capacity { points: 375, primitives: 400 }, "a quarter more");
+        let one = form.grown(room, more, [10, 1000]).expect("primitives do not fit");
+        assert_eq!(one, Capacity { points: 375, primitives: 1250 }, "room never shrinks");
         let most = form.grown(room, more, [40_000, 80_000]).expect("nor does this");
         let used = 8 * u64::from(most.points) + 12 * u64::from(most.primitives);
         assert!(used <= 100_000 && used + 20 > 100_000, "{most:?}");
         assert_eq!(form.grown(room, most, [40_000, 80_000]), None, "there is no more");
         assert_eq!(form.grown(Room::Bytes(9), first, [300, 320]), None, "only if asked for");
+    }
+
+    #[test]
+    fn room_that_uses_its_budget_stays() {
+        for points in [Points::Stored, Points::Pull] {
+            let form = form(points);
+            let room = Room::Automatic { most_bytes: 20_000 };
+            let mut now = form.initial(room);
+            let mut changes = 0;
+            for frame in 0..60_u64 {
+                let needed = [3000 + 411 * (frame % 7), 4000 + 773 * (frame % 5)];
+                if let Some(grown) = form.grown(room, now, needed) {
+                    assert!(grown.points >= now.points && grown.primitives >= now.primitives);
+                    now = grown;
+                    changes += 1;
+                }
+            }
+            assert_eq!(changes, 1, "{points:?}: the budget is used at once");
+        }
+    }
+
+    #[test]
+    fn all_patches_fit_at_factor_1_where_the_budget_allows() {
+        for points in [Points::Stored, Points::Pull, Points::PullWithoutIndices] {
+            for domain in Domain::ALL {
+                for partitioning in Partitioning::ALL {
+                    let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+                    let form = Form { setup: Setup::new(domain, config), ..form(points) };
+                    let least = Capacity::uniform(form.setup, 10, 1.0);
+                    let bytes = u64::try_from(form.bytes(least)).expect("few");
+                    for bytes in [bytes, bytes + 1, bytes + 500, 2 * bytes + 100] {
+                        let automatic = Room::Automatic { most_bytes: bytes };
+                        let first = form.initial(automatic);
+                        let grown = form.grown(automatic, first, [90, 90_000]).unwrap_or(first);
+                        for room in [form.initial(Room::Bytes(bytes)), first, grown] {
+                            let fits =
+                                room.points >= least.points && room.primitives >= least.primitives;
+                            assert!(fits, "{room:?} of {bytes} bytes for {least:?}");
+                            assert!(
+                                form.bytes(room) <= u128::from(bytes)
+                                    || points == Points::PullWithoutIndices
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_budget_is_divided_as_patches_of_factor_8_would() {
+        let form = form(Points::Stored);
+        let eight = Capacity::uniform(form.setup, 10, 8.0);
+        let bytes = u64::try_from(form.bytes(eight)).expect("few");
+        assert_eq!(form.initial(Room::Bytes(bytes)), eight, "exactly theirs");
+        // 40 points and 20 triangles take 560 bytes; patches of factor 8 take 770 points and 1260 triangles more.
+        let part = form.initial(Room::Bytes(560 + 7_090));
+        assert_eq!(
+            part,
+            Capacity { points: 40 + 256, primitives: 20 + 420 },
+            "a third of the rest"
+        );
+    }
+
+    #[test]
+    fn buffers_keep_within_the_limit_in_whole_8_bytes() {
+        for limit in 984..1024 {
+            let form = Form { buffer_limit: limit, ..form(Points::Stored) };
+            let room = form.initial(Room::Bytes(1 << 30));
+            let bytes = (12 * u64::from(room.primitives)).next_multiple_of(8);
+            assert!(bytes <= limit && bytes + 16 > limit, "{bytes} of {limit}");
+            assert!(8 * u64::from(room.points) <= limit, "{room:?}");
+        }
     }
 }

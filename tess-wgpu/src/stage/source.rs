@@ -3,6 +3,7 @@
 //! The user's text comes first, so that a line of the joined text is the same line of theirs.
 
 use super::builder::Points;
+use super::{StageError, wgsl};
 use tess_core::Domain;
 use tess_gpu::{Pull, Setup};
 
@@ -16,30 +17,52 @@ const UNINDEXED: &str = include_str!("../../shaders/vertex_unindexed.wgsl");
 /// The module whose entry point `tess_hull` runs the user's hull function. Its own bindings are 0 and 1 of
 /// bind group `group`.
 pub(crate) fn of_hull(user: &str, domain: Domain, group: u32) -> String {
+    joined(user, &own_of_hull(domain, group))
+}
+
+/// What stands behind the types and helpers in the hull's module.
+fn own_of_hull(domain: Domain, group: u32) -> String {
     let write = match domain {
         Domain::Isoline => include_str!("../../shaders/hull_isoline.wgsl"),
         Domain::Triangle => include_str!("../../shaders/hull_triangle.wgsl"),
         Domain::Quad => include_str!("../../shaders/hull_quad.wgsl"),
     };
-    [user, TYPES, HELPERS, &HULL.replace("GROUP", &group.to_string()), write].join("\n")
+    HULL.replace("GROUP", &group.to_string()) + "\n" + write
 }
 
 /// The module whose entry point `tess_vertex` runs the user's domain function. Unless points are
 /// stored, its own bindings are 0 to 5 of bind group `group`.
 pub(crate) fn of_vertices(user: &str, setup: Setup, points: Points, group: u32) -> String {
+    joined(user, &own_of_vertices(setup, points, group))
+}
+
+/// What stands behind the types and helpers in the module of the vertex shader.
+fn own_of_vertices(setup: Setup, points: Points, group: u32) -> String {
     let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
-    let own = match points {
+    match points {
         Points::Stored => STORED.to_owned(),
         Points::Pull => with_own_names(&(pull() + PULLED)),
         Points::PullWithoutIndices => with_own_names(&(pull() + UNINDEXED)),
-    };
-    [user, TYPES, HELPERS, &own].join("\n")
+    }
 }
 
 /// The user's text with the types and helpers that it may use, and `own` behind.
-#[cfg(feature = "measure")]
-pub(crate) fn of_test(user: &str, own: &str) -> String {
+pub(crate) fn joined(user: &str, own: &str) -> String {
     [user, TYPES, HELPERS, own].join("\n")
+}
+
+/// Refuses a user's text that declares a name of WGSL's own which the stage's text uses.
+pub(crate) fn check_names(user: &str, setup: Setup, points: Points) -> Result<(), StageError> {
+    let own = joined("", &own_of_hull(setup.domain, 0)) + &own_of_vertices(setup, points, 0);
+    match wgsl::shadowed(user, &own) {
+        None => Ok(()),
+        Some(wgsl::Declaration { name, line, .. }) => Err(StageError::Wgsl {
+            line: Some(line),
+            message: format!(
+                "`{name}` is a name of WGSL's own, which the stage's functions use; take another name"
+            ),
+        }),
+    }
 }
 
 /// The lines of the user's text.
@@ -53,11 +76,10 @@ pub(crate) fn lines(user: &str) -> u32 {
 fn with_own_names(source: &str) -> String {
     let declared: Vec<&str> = source.lines().filter_map(declared_name).collect();
     let mut renamed = String::with_capacity(source.len() * 5 / 4);
-    let is_in_word = |c: char| c.is_alphanumeric() || c == '_';
     let mut rest = source;
-    while let Some(begin) = rest.find(is_in_word) {
+    while let Some(begin) = rest.find(wgsl::is_in_word) {
         let (between, from_word) = rest.split_at(begin);
-        let end = from_word.find(|c| !is_in_word(c)).unwrap_or(from_word.len());
+        let end = from_word.find(|c| !wgsl::is_in_word(c)).unwrap_or(from_word.len());
         let (word, behind) = from_word.split_at(end);
         renamed.push_str(between);
         if declared.contains(&word) {
@@ -77,7 +99,7 @@ fn declared_name(line: &str) -> Option<&str> {
         .or_else(|| {
             line.starts_with("@group").then(|| line.split_once("> ")).flatten().map(|s| s.1)
         })?;
-    let name = from_name.split(|c: char| !(c.is_alphanumeric() || c == '_')).next()?;
+    let name = from_name.split(|c| !wgsl::is_in_word(c)).next()?;
     (!name.starts_with("tess_")).then_some(name)
 }
 

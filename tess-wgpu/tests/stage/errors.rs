@@ -68,13 +68,11 @@ fn wrong_wgsl_is_reported_with_the_users_line() {
 fn missing_functions_are_named() {
     let scene = quads();
     let right = source(Domain::Quad);
-    for (from, to, says) in [
-        ("fn domain(", "fn surface(", "domain"),
-        ("fn hull(", "fn control(", "hull"),
-        ("fn domain(number: u32, uv: vec2<f32>)", "fn domain(number: u32, uv: vec3<f32>)", ""),
-    ] {
+    for (from, to, says) in
+        [("fn domain(", "fn surface(", "domain"), ("fn hull(", "fn control(", "hull")]
+    {
         let error = refusal(&scene, &right.replace(from, to), Points::Stored);
-        let StageError::Wgsl { message, .. } = &error else { panic!("{error:?}") };
+        let StageError::Wgsl { line: None, message } = &error else { panic!("{error:?}") };
         assert!(message.contains(says), "{message}");
     }
     let error = refusal(&scene, &right.replace("fn domain(", "fn surface("), Points::Stored);
@@ -82,6 +80,105 @@ fn missing_functions_are_named() {
         error.to_string().contains("`fn domain(number: u32, uv: vec2<f32>) -> Vertex`"),
         "{error}"
     );
+}
+
+#[test]
+fn functions_that_do_not_go_with_the_stage_are_reported_with_their_line() {
+    let scene = quads();
+    let right = source(Domain::Quad);
+    for (function, from, to) in [
+        (
+            "domain",
+            "fn domain(number: u32, uv: vec2<f32>)",
+            "fn domain(number: u32, uv: vec3<f32>)",
+        ),
+        ("domain", "fn domain(number: u32, uv", "fn domain(number: f32, uv"),
+        ("domain", "let at = place(number) + uv;", "let at = place(number) + dpdx(uv);"),
+        ("hull", "fn hull(number: u32)", "fn hull(number: vec2<u32>)"),
+        (
+            "hull",
+            "fn hull(number: u32) -> QuadFactors {",
+            "fn hull(number: u32) -> f32 { return 1.0;",
+        ),
+        ("QuadFactors", "const ONE = 1.0;", "const ONE = 1.0; struct QuadFactors { a: f32 }"),
+    ] {
+        for points in [Points::Stored, Points::PullWithoutIndices] {
+            let wrong = right.replace(from, to);
+            assert_ne!(wrong, right, "{from}");
+            let keyword = if function == "QuadFactors" { "struct" } else { "fn" };
+            let expected = line_of(&wrong, &format!("{keyword} {function}"));
+            match refusal(&scene, &wrong, points) {
+                StageError::Wgsl { line: Some(line), message } => {
+                    // The body of `hull` may be what is wrong instead.
+                    assert!((expected..=expected + 2).contains(&line), "{to}: {line}: {message}");
+                }
+                other => panic!("{to}: {other:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn names_of_wgsls_own_are_refused_where_the_stage_uses_them() {
+    let scene = quads();
+    let right = source(Domain::Quad);
+    for declaration in [
+        "fn distance(a: vec3<f32>, b: vec3<f32>) -> f32 { return 1.0; }",
+        "fn min(a: f32, b: f32) -> f32 { return a; }",
+        "fn mix(a: f32, b: f32) -> f32 { return a; }",
+        "fn clamp(a: f32) -> f32 { return a; }",
+        "const dot = 1.0;",
+        "var<private> select: f32;",
+        "alias f32 = u32;",
+        "struct vec4 { a: u32 }",
+    ] {
+        let wrong =
+            right.replace("const ONE = 1.0;", &format!("const ONE = 1.0;\n\n{declaration}"));
+        match refusal(&scene, &wrong, Points::PullWithoutIndices) {
+            StageError::Wgsl { line, message } => {
+                assert_eq!(line, Some(line_of(&wrong, declaration)), "{message}");
+                assert!(message.contains("WGSL's own"), "{message}");
+            }
+            other => panic!("{declaration}: {other:?}"),
+        }
+    }
+    for declaration in ["fn pow(a: f32) -> f32 { return a; }", "fn at() {}", "const thread = 1;"] {
+        let allowed = right.clone() + declaration;
+        let built = TessellationStage::builder(&allowed, scene.domain, scene.config, PATCHES)
+            .bind_group(&scene.layout, &scene.group)
+            .target(wgpu::TextureFormat::Rgba32Uint)
+            .build(&scene.gpu.device);
+        assert_eq!(built.err(), None, "{declaration}: the stage does not use it");
+    }
+}
+
+#[test]
+fn an_unclear_fragment_shader_is_refused() {
+    let scene = quads();
+    let right = source(Domain::Quad);
+    let two =
+        right.clone() + "@fragment fn other() -> @location(0) vec4<u32> { return vec4<u32>(1u); }";
+    let none =
+        right.replace("@fragment", "@must_use").replace("@location(0) vec4<u32> {", "vec4<u32> {");
+    let build = |source: &str, chosen: Option<&str>| {
+        let builder = TessellationStage::builder(source, scene.domain, scene.config, PATCHES)
+            .bind_group(&scene.layout, &scene.group)
+            .target(wgpu::TextureFormat::Rgba32Uint);
+        let builder = match chosen {
+            Some(name) => builder.fragment(name).build(&scene.gpu.device),
+            None => builder.build(&scene.gpu.device),
+        };
+        builder.err()
+    };
+    let unclear = |asked: Option<&str>, found: &[&str]| {
+        let asked = asked.map(str::to_owned);
+        let found = found.iter().map(|&name| name.to_owned()).collect();
+        Some(Error::from(StageError::UnclearFragment { asked, found }))
+    };
+    assert_eq!(build(&two, None), unclear(None, &["identify", "other"]), "which of them?");
+    assert_eq!(build(&two, Some("other")), None, "this one");
+    assert_eq!(build(&two, Some("third")), unclear(Some("third"), &["identify", "other"]), "no");
+    assert_eq!(build(&none, None), unclear(None, &[]), "there is none");
 }
 
 #[test]
@@ -111,15 +208,12 @@ fn what_a_stage_cannot_do_is_refused() {
     assert_eq!(refused, Some(StageError::NoSuchGroup { group: 0, groups: 0 }.into()));
 }
 
-/// A device with the limits of WebGL 2, which has no compute shaders.
-fn webgl() -> Gpu {
+/// A device with these limits.
+fn limited(required_limits: wgpu::Limits) -> Gpu {
     let open = async {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
-        let descriptor = wgpu::DeviceDescriptor {
-            required_limits: wgpu::Limits::downlevel_webgl2_defaults(),
-            ..Default::default()
-        };
+        let descriptor = wgpu::DeviceDescriptor { required_limits, ..Default::default() };
         let (device, queue) = adapter.request_device(&descriptor).await.expect("a device");
         Gpu { device, queue, info: adapter.get_info() }
     };
@@ -128,20 +222,40 @@ fn webgl() -> Gpu {
 
 #[test]
 fn a_device_without_compute_shaders_is_refused() {
-    let gpu = webgl();
+    let gpu = limited(wgpu::Limits::downlevel_webgl2_defaults());
     let scene = quads();
     let source = source(Domain::Quad);
     let built = TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
         .target(wgpu::TextureFormat::Rgba8Unorm)
         .build(&gpu.device);
     let limit = "max_compute_workgroups_per_dimension";
-    let low = StageError::LimitTooLow { limit, needed: 1, got: 0 };
-    assert_eq!(built.err(), Some(low.clone().into()), "the stage");
+    let low = Error::LimitTooLow { limit, needed: 1, got: 0 };
+    assert_eq!(built.err(), Some(low.clone()), "the stage");
     assert!(low.to_string().contains("WebGL has no compute shaders"), "{low}");
     let setup = tess_gpu::Setup::new(scene.domain, scene.config);
     let patches = [PatchFactors::uniform(scene.domain, 3.0)];
     let output = Tessellator::new(&gpu.device).tessellate(&gpu, setup, &patches);
-    assert!(matches!(output, Err(Error::Refused { .. })), "batches: {output:?}");
+    assert_eq!(output.err(), Some(low), "batches");
+}
+
+#[test]
+fn low_limits_are_named() {
+    let setup = tess_gpu::Setup::new(Domain::Quad, quads().config);
+    let patches = [PatchFactors::uniform(Domain::Quad, 3.0)];
+    let small = wgpu::Limits { max_buffer_size: 1 << 20, ..Default::default() };
+    let small = wgpu::Limits { max_storage_buffer_binding_size: 1 << 20, ..small };
+    for (limits, expected) in [
+        (wgpu::Limits::downlevel_defaults(), "max_storage_buffers_per_shader_stage"),
+        (small, "max_buffer_size"),
+    ] {
+        let gpu = limited(limits);
+        let output = Tessellator::new(&gpu.device).tessellate(&gpu, setup, &patches);
+        let Err(error @ Error::LimitTooLow { limit, needed, got }) = output else {
+            panic!("{expected}: {output:?}")
+        };
+        assert_eq!(limit, expected, "{error}");
+        assert!(needed > got && error.to_string().contains("open it with"), "{error}");
+    }
 }
 
 #[test]
@@ -155,8 +269,14 @@ fn what_cannot_be_made_is_refused() {
     let built = scene.builder().bind_group(&scene.layout, &scene.group);
     let built = built.bind_group(&scene.layout, &scene.group);
     let built = built.bind_group(&scene.layout, &scene.group).build(device);
-    let low = StageError::LimitTooLow { limit: "max_bind_groups", needed: 5, got: 4 };
-    assert_eq!(built.err(), Some(low.into()), "four of the user's and one of the stage's");
+    let many = StageError::TooManyBindGroups { got: 4, most: 3 };
+    assert!(many.to_string().contains("fewer groups"), "{many}");
+    assert_eq!(built.err(), Some(many.into()), "four of the user's and one of the stage's");
+    let mut built = scene.builder().factors(Factors::Buffer(&scene.factors));
+    for _ in 0..3 {
+        built = built.bind_group(&scene.layout, &scene.group);
+    }
+    assert_eq!(built.build(device).err(), None, "four, and the stage binds none");
     let source = source(Domain::Quad);
     let many = TessellationStage::builder(&source, scene.domain, scene.config, 6_000_000);
     let built = many.bind_group(&scene.layout, &scene.group).build(device);

@@ -10,6 +10,7 @@ mod camera;
 mod cracks;
 mod drawing;
 mod errors;
+mod frames;
 mod model;
 mod porting;
 mod room;

@@ -172,6 +172,15 @@ impl Scene {
     ) -> Result<Vec<Pixel>, Error> {
         let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
         stage.prepare(&mut encoder, patches)?;
+        self.draw_only(encoder, |pass| draw(stage, pass))
+    }
+
+    /// Draws what was prepared, in this way, and returns the pixels.
+    pub(crate) fn draw_only(
+        &self,
+        mut encoder: wgpu::CommandEncoder,
+        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) -> Result<Vec<Pixel>, Error> {
         let view = self.target.create_view(&Default::default());
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -182,7 +191,7 @@ impl Scene {
             })],
             ..Default::default()
         });
-        draw(stage, &mut pass);
+        draw(&mut pass);
         drop(pass);
         let bytes_per_row = 16 * SIZE[0];
         let size = u64::from(bytes_per_row * SIZE[1]);

@@ -1,0 +1,176 @@
+//! What a WGSL text declares at module scope, by name and line; found without a compiler, as a browser's says little
+//! and says it late.
+
+/// Something that a text declares at module scope.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Declaration<'a> {
+    pub(super) name: &'a str,
+    /// From 1 on.
+    pub(super) line: u32,
+    /// Whether it is a function with the attribute `@fragment`.
+    pub(super) is_fragment: bool,
+}
+
+/// The words and signs of a text without comments, each with its line.
+#[derive(Debug)]
+pub(super) struct Tokens<'a> {
+    rest: &'a str,
+    line: u32,
+}
+
+pub(super) const fn tokens(text: &str) -> Tokens<'_> {
+    Tokens { rest: text, line: 1 }
+}
+
+impl<'a> Iterator for Tokens<'a> {
+    type Item = (u32, &'a str);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let first = self.rest.chars().next()?;
+            let length = match first {
+                '/' if self.rest.starts_with("//") => until(self.rest, |c| c == '\n'),
+                '/' if self.rest.starts_with("/*") => block_comment(self.rest),
+                c if is_in_word(c) => until(self.rest, |c| !is_in_word(c)),
+                c => c.len_utf8(),
+            };
+            let (token, rest) = self.rest.split_at(length);
+            let line = self.line;
+            self.rest = rest;
+            self.line += u32::try_from(token.matches('\n').count()).unwrap_or(0);
+            let is_comment = token.starts_with("//") || token.starts_with("/*");
+            if !is_comment && !first.is_whitespace() {
+                return Some((line, token));
+            }
+        }
+    }
+}
+
+pub(super) fn is_in_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+/// Bytes in front of the first such character.
+fn until(text: &str, is_end: impl Fn(char) -> bool) -> usize {
+    text.find(is_end).unwrap_or(text.len())
+}
+
+/// Bytes of the comment that a text begins with; comments nest.
+fn block_comment(text: &str) -> usize {
+    let (mut at, mut depth) = (2, 1);
+    while depth > 0 {
+        let (open, close) = (text[at..].find("/*"), text[at..].find("*/"));
+        match (open, close) {
+            (Some(open), Some(close)) if open < close => (at, depth) = (at + open + 2, depth + 1),
+            (_, Some(close)) => (at, depth) = (at + close + 2, depth - 1),
+            (_, None) => return text.len(),
+        }
+    }
+    at
+}
+
+/// What a text declares.
+pub(super) fn declarations(text: &str) -> Vec<Declaration<'_>> {
+    let mut all = Vec::new();
+    let (mut depth, mut is_fragment, mut previous) = (0_u32, false, "");
+    let mut tokens = tokens(text);
+    while let Some((_, token)) = tokens.next() {
+        match token {
+            "{" => depth += 1,
+            "}" => depth = depth.saturating_sub(1),
+            "fragment" if previous == "@" => is_fragment = true,
+            "fn" | "const" | "override" | "alias" | "struct" | "var" if depth == 0 => {
+                let mut name = tokens.next();
+                if name.is_some_and(|(_, word)| word == "<") {
+                    tokens.find(|&(_, word)| word == ">");
+                    name = tokens.next();
+                }
+                all.extend(name.map(|(line, name)| Declaration { name, line, is_fragment }));
+                is_fragment = false;
+            }
+            _ => {}
+        }
+        previous = token;
+    }
+    all
+}
+
+/// WGSL's own types that the stage's text names; it has no aliases of them.
+const TYPES: [&str; 13] = [
+    "array",
+    "atomic",
+    "bool",
+    "f32",
+    "i32",
+    "mat4x4",
+    "ptr",
+    "texture_2d",
+    "u32",
+    "vec2",
+    "vec3",
+    "vec4",
+    "bitcast",
+];
+
+/// The user's first declaration of a name that is WGSL's own and that the stage's text uses: the text would then use
+/// the user's.
+pub(super) fn shadowed<'a>(user: &'a str, own: &str) -> Option<Declaration<'a>> {
+    let declared: Vec<&str> = declarations(own).into_iter().map(|one| one.name).collect();
+    let words: Vec<&str> = tokens(own).map(|(_, token)| token).collect();
+    let is_used = |name: &str| {
+        TYPES.contains(&name) && words.contains(&name)
+            || words.windows(3).any(|w| w[0] != "@" && w[1] == name && w[2] == "(")
+    };
+    declarations(user).into_iter().find(|one| {
+        let is_the_users = ["hull", "domain", "Vertex"].contains(&one.name);
+        !is_the_users && !declared.contains(&one.name) && is_used(one.name)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn declarations_are_found_with_their_lines() {
+        let text = "// fn no() {}\n/* fn no() {} /* nested */ fn no() {} */ const a = 1u;\n\
+                    @group(0) @binding(0) var<storage, read_write> b: array<u32>;\nvar<private> c: f32;\n\
+                    struct D { e: f32 }\nalias F = vec4<f32>; override g: f32;\n\
+                    @must_use fn h(i: u32) -> f32 {\n    const j = 1; var k = 2; return f32(i);\n}\n\
+                    @fragment\nfn l() -> @location(0) vec4f { return vec4f(); }\n\
+                    @compute @workgroup_size(1) fn m() {}\nconst_assert true;";
+        let found: Vec<_> = declarations(text).iter().map(|one| (one.name, one.line)).collect();
+        let expected = [
+            ("a", 2),
+            ("b", 3),
+            ("c", 4),
+            ("D", 5),
+            ("F", 6),
+            ("g", 6),
+            ("h", 7),
+            ("l", 11),
+            ("m", 12),
+        ];
+        assert_eq!(found, expected, "and no others");
+        let fragments: Vec<_> =
+            declarations(text).into_iter().filter(|one| one.is_fragment).collect();
+        assert_eq!(fragments.len(), 1, "{fragments:?}");
+        assert_eq!(declarations("/* fn a() {} "), [], "a comment without an end");
+    }
+
+    #[test]
+    fn names_that_the_stage_uses_are_shadowed() {
+        let own = "fn tess_f(at: u32) -> f32 { let place = at; return max(f32(at), helper(1.0)); }\n\
+                   fn helper(x: f32) -> f32 { return x; }\n@group(0) @binding(0) var<uniform> y: f32;";
+        for (user, expected) in [
+            ("fn max(a: f32) {}", Some("max")),
+            ("const max = 1;", Some("max")),
+            ("alias f32 = u32;", Some("f32")),
+            ("fn min(a: f32) {}", None),
+            ("fn place(a: f32) {} fn at() {} fn group() {} fn helper() {}", None),
+            ("fn hull() { let max = 1; }", None),
+        ] {
+            assert_eq!(shadowed(user, own).map(|one| one.name), expected, "{user}");
+        }
+    }
+}

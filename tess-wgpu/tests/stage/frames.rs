@@ -1,0 +1,236 @@
+//! Frames that are dropped, kept or interrupted leave the stage as it should be.
+
+use crate::drawing::{scene, some_factors};
+use crate::model::{compare, drawn};
+use crate::scene::{PATCHES, Scene};
+use tess_core::{Domain, Partitioning, PatchFactors};
+use tess_gpu::layout::factor_words;
+use tess_wgpu::stage::{Overflow, PatchCount, Points, Room, StageError};
+use tess_wgpu::{Error, TessellationStage};
+use wgpu::BufferUsages as Usage;
+
+/// A scene whose first frame does not fit, and its stage.
+fn growing() -> (Scene, TessellationStage) {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let room = Room::Automatic { most_bytes: 1 << 20 };
+    let stage = scene.build(scene.builder().room(room));
+    (scene, stage)
+}
+
+/// Prepares a frame in an encoder of its own.
+fn prepared(scene: &Scene, stage: &mut TessellationStage) -> wgpu::CommandEncoder {
+    let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+    stage.prepare(&mut encoder, PATCHES).expect("it is prepared");
+    encoder
+}
+
+fn assert_exact(scene: &Scene, stage: &mut TessellationStage, what: &str) {
+    let observed = scene.frame(stage, PATCHES.into()).expect("it draws");
+    assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "{what}");
+}
+
+#[test]
+fn room_that_a_dropped_frame_made_serves_the_next_one() {
+    let (scene, mut stage) = growing();
+    let before = stage.capacity();
+    scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    drop(prepared(&scene, &mut stage));
+    assert_ne!(stage.capacity(), before, "the dropped frame made room");
+    assert_exact(&scene, &mut stage, "after a dropped frame");
+}
+
+#[test]
+fn a_refused_frame_changes_nothing() {
+    let (scene, mut stage) = growing();
+    scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+    let too_many = StageError::TooManyPatches { got: PATCHES + 1, most: PATCHES };
+    let refused = stage.prepare(&mut encoder, PATCHES + 1);
+    assert_eq!(refused, Err(too_many.into()), "more than it was made for");
+    drop(encoder);
+    assert_exact(&scene, &mut stage, "after a refused frame");
+    let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| stage.draw(pass));
+    assert_ne!(drawn(&observed.expect("it draws")), 0, "and on");
+    let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+    assert!(stage.prepare(&mut encoder, PATCHES + 1).is_err(), "refused again");
+    let observed = scene.draw_only(encoder, |pass| stage.draw(pass)).expect("it draws");
+    let expected = scene.pixels(&scene.patches);
+    assert_eq!(compare(&observed, &expected), Ok(()), "the frame before is still there");
+}
+
+#[test]
+fn dropped_frames_do_not_stop_feedback() {
+    let (scene, mut stage) = growing();
+    for _ in 0..10 {
+        drop(prepared(&scene, &mut stage));
+    }
+    assert_eq!(stage.feedback(), None, "none was submitted");
+    scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    assert_eq!(stage.feedback().map(|feedback| feedback.frame), Some(10), "this one was");
+    assert_exact(&scene, &mut stage, "and there is room");
+}
+
+#[test]
+fn kept_frames_stop_feedback_for_a_while_only() {
+    let (scene, mut stage) = growing();
+    let kept: Vec<_> = (0..4).map(|_| prepared(&scene, &mut stage)).collect();
+    let mut frames = 4;
+    while stage.feedback().is_none() {
+        scene.gpu.run(prepared(&scene, &mut stage)).expect("the device finishes");
+        frames += 1;
+        assert!(frames < 80, "nothing was heard of {frames} frames");
+    }
+    assert!(frames > 60, "kept frames were given up after {frames} already");
+    drop(kept);
+}
+
+#[test]
+fn a_late_frame_is_heard_of() {
+    let (scene, mut stage) = growing();
+    let late = prepared(&scene, &mut stage);
+    for _ in 0..30 {
+        drop(prepared(&scene, &mut stage));
+    }
+    scene.gpu.run(late).expect("the device finishes");
+    assert_eq!(stage.feedback().map(|feedback| feedback.frame), Some(0), "submitted after 30");
+}
+
+#[test]
+fn feedback_follows_the_frames() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let mut stage = scene.build(scene.builder());
+    assert_eq!(stage.feedback(), None, "before the first frame");
+    for (frame, count) in (0..).zip([8, 3, 5, 1, 7, 2]) {
+        scene.frame(&mut stage, PatchCount::Host(count)).expect("it draws");
+        let feedback = stage.feedback().expect("the device was waited for");
+        let patches = &scene.patches[..count as usize];
+        let counts = patches.iter().map(|&factors| {
+            u64::from(tess_core::Patch::new(scene.config, factors).counts().primitives)
+        });
+        let expected = (frame, counts.sum::<u64>());
+        assert_eq!((feedback.frame, feedback.primitives), expected, "{count} patches");
+    }
+}
+
+#[test]
+fn groups_that_are_set_behind_prepare_wait_for_the_next_frame() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    for points in [Points::Stored, Points::PullWithoutIndices] {
+        let mut stage = scene.build(scene.builder().groups(&[0, 3]).points(points));
+        let encoder = prepared(&scene, &mut stage);
+        stage.set_groups(&[5]).expect("they ascend");
+        let observed = scene.draw_only(encoder, |pass| {
+            stage.draw_group(pass, 1).expect("the frame's own groups");
+        });
+        let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
+        patches[3..].clone_from_slice(&scene.patches[3..]);
+        let expected = scene.pixels(&patches);
+        assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "3 to 7");
+        let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
+            assert!(stage.draw_group(pass, 1).is_err(), "there is one group now");
+            stage.draw_group(pass, 0).expect("the new one");
+        });
+        patches[3..5].fill(PatchFactors::uniform(Domain::Quad, 0.0));
+        let expected = scene.pixels(&patches);
+        assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "5 to 7");
+    }
+}
+
+#[test]
+fn a_lost_device_is_an_error() {
+    for waits in [false, true] {
+        for overflow in [Overflow::Coarser, Overflow::DrawNothing] {
+            let scene = scene(Domain::Quad, Partitioning::Integer);
+            let mut stage = scene.build(scene.builder().overflow(overflow));
+            let encoder = prepared(&scene, &mut stage);
+            scene.gpu.queue.submit([encoder.finish()]);
+            if waits {
+                let waited = scene.gpu.device.poll(wgpu::PollType::wait_indefinitely());
+                assert!(waited.is_ok(), "{waited:?}");
+            }
+            scene.gpu.device.destroy();
+            let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+            for _ in 0..3 {
+                let refused = stage.prepare(&mut encoder, PATCHES);
+                assert!(matches!(refused, Err(Error::DeviceLost { .. })), "{refused:?}");
+            }
+            let _ = stage.feedback();
+            let refused = stage.make_room(&scene.gpu.queue, PATCHES);
+            assert!(matches!(refused, Err(Error::DeviceLost { .. })), "{refused:?}");
+            let _ = (stage.set_groups(&[0]), stage.set_bind_group(0, &scene.group));
+        }
+    }
+}
+
+#[test]
+fn bind_groups_go_with_their_layouts() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let device = &scene.gpu.device;
+    let uniform = scene.gpu.buffer("uniform", 256, Usage::UNIFORM).expect("there is room");
+    let bind = |has_dynamic_offset, ty, buffer: &wgpu::Buffer| {
+        let entries = &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX,
+            ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
+            count: None,
+        }];
+        let layout = device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries });
+        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: None,
+            layout: &layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+        });
+        (layout, group)
+    };
+    let (_, other) = bind(false, wgpu::BufferBindingType::Uniform, &uniform);
+    let read = wgpu::BufferBindingType::Storage { read_only: true };
+    let (dynamic, of_dynamic) = bind(true, read, &scene.factors);
+    let is_bad = |result: Result<(), Error>, number| {
+        let error = result.expect_err("it does not go with the layout");
+        let bad = matches!(&error, Error::Stage(StageError::BadBindGroup { number: n, .. }) if *n == number);
+        assert!(bad && error.to_string().contains("dynamic offsets"), "{error}");
+    };
+    let build = |layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup| {
+        let source = crate::scene::source(Domain::Quad);
+        TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
+            .bind_group(layout, group)
+            .target(crate::scene::FORMAT)
+            .build(device)
+            .map(drop)
+    };
+    is_bad(build(&scene.layout, &other), 0);
+    is_bad(build(&dynamic, &of_dynamic), 0);
+    let mut stage = scene.build(scene.builder());
+    is_bad(stage.set_bind_group(0, &other), 0);
+    is_bad(stage.set_bind_group(0, &of_dynamic), 0);
+    assert_exact(&scene, &mut stage, "with the group that it had");
+}
+
+#[test]
+fn a_first_frame_is_exact_where_room_was_made() {
+    for overflow in [Overflow::Coarser, Overflow::DrawNothing] {
+        for points in [Points::Stored, Points::Pull] {
+            let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+            let room = Room::Automatic { most_bytes: 1 << 20 };
+            let builder = scene.builder().room(room).overflow(overflow).points(points);
+            let mut stage = scene.build(builder);
+            let before = stage.capacity();
+            let found = stage.make_room(&scene.gpu.queue, PATCHES).expect("the device answers");
+            assert!(found.primitives > u64::from(before.primitives), "it did not fit: {found:?}");
+            assert_exact(&scene, &mut stage, "the first frame that is drawn");
+        }
+    }
+}
+
+#[test]
+fn factors_of_the_hull_can_be_read() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let mut stage = scene.build(scene.builder());
+    scene.frame(&mut stage, PatchCount::Host(5)).expect("it draws");
+    let bytes =
+        scene.gpu.read(stage.factors(), 4 * 6 * u64::from(PATCHES)).expect("they are there");
+    let mut expected = some_factors(Domain::Quad);
+    expected[5..].fill(PatchFactors::uniform(Domain::Quad, 0.0));
+    assert_eq!(bytemuck::pod_collect_to_vec::<u8, u32>(&bytes), factor_words(&expected));
+}
