@@ -118,19 +118,7 @@ impl fmt::Display for StageError {
             Self::Wgsl { line: None, message } => {
                 write!(f, "your WGSL does not go with the stage ({message}); {}", Self::NEEDED)
             }
-            Self::UnclearFragment { asked: None, found } if found.is_empty() => f.write_str(
-                "your WGSL has no function with the attribute @fragment; write one, or leave out `target`",
-            ),
-            Self::UnclearFragment { asked: None, found } => write!(
-                f,
-                "your WGSL has several fragment shaders; choose one of {} with `fragment`",
-                found.join(", ")
-            ),
-            Self::UnclearFragment { asked: Some(asked), found } => write!(
-                f,
-                "your WGSL has no fragment shader `{asked}`; it has: {}",
-                if found.is_empty() { "none".to_owned() } else { found.join(", ") }
-            ),
+            Self::UnclearFragment { asked, found } => unclear(f, asked.as_deref(), found),
             Self::FlatOfFirstVertex { member } => write!(
                 f,
                 "`{member}` of your `struct Vertex` is flat with the value of a primitive's first vertex, \
@@ -162,6 +150,26 @@ impl fmt::Display for StageError {
                 f,
                 "the stage was made with {groups} bind groups, numbered from 0, and none is {number}"
             ),
+        }
+    }
+}
+
+/// Says which fragment shaders there are.
+fn unclear(f: &mut fmt::Formatter<'_>, asked: Option<&str>, found: &[String]) -> fmt::Result {
+    let names = found.join(", ");
+    match (asked, found.is_empty()) {
+        (None, true) => f.write_str(
+            "your WGSL has no function with the attribute @fragment; write one, or leave out `target`",
+        ),
+        (None, false) => write!(
+            f,
+            "your WGSL has several fragment shaders; choose one of {names} with `fragment`"
+        ),
+        (Some(asked), true) => {
+            write!(f, "your WGSL has no fragment shader `{asked}`, nor any other")
+        }
+        (Some(asked), false) => {
+            write!(f, "your WGSL has no fragment shader `{asked}`; it has {names}")
         }
     }
 }
