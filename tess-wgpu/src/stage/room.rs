@@ -251,7 +251,7 @@ mod tests {
         let part = form.initial(Room::Bytes(560 + 7_090));
         assert_eq!(
             part,
-            Capacity { points: 40 + 256, primitives: 20 + 420 },
+            Capacity { points: 40 + 256, primitives: 20 + 419 },
             "a third of the rest"
         );
     }
