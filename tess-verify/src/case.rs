@@ -56,6 +56,16 @@ impl Case {
         self.factors.domain()
     }
 
+    /// Indices per primitive: 1, 2 or 3.
+    #[must_use]
+    pub const fn primitive_size(&self) -> usize {
+        match (self.domain(), self.config.output) {
+            (_, OutputPrimitive::Point) => 1,
+            (_, OutputPrimitive::Line) | (Domain::Isoline, _) => 2,
+            (_, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw) => 3,
+        }
+    }
+
     /// The patch, processed by the model.
     #[must_use]
     pub fn patch(&self) -> Patch {

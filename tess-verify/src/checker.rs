@@ -37,7 +37,8 @@ pub enum Tested {
 pub struct Checked<'a> {
     /// The records.
     pub records: &'a [Record],
-    /// For each, whether it differs. One that contradicts another is not seen until the end.
+    /// For each, whether it is wrong for the case that it states. A record that is right for its case but
+    /// answers another one than was asked, or contradicts another record, counts in the report alone.
     pub different: &'a [bool],
 }
 
@@ -83,8 +84,8 @@ pub fn check_asked<R: BufRead + Send>(
         return Err(CheckError::NoListings(header.kind));
     }
     let how = How { header, tested };
-    let astray = Findings::default();
-    let source = Mutex::new(Source { file, asked, astray, taken: 0, stopped: None });
+    let unanswered = Findings::default();
+    let source = Mutex::new(Source { file, asked, unanswered, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, backend.as_mut(), checked);
         if result.is_err() {
@@ -150,8 +151,8 @@ struct How {
 struct Source<'a, R> {
     file: VectorFile<R>,
     asked: Option<Asked<'a>>,
-    /// The records that answer another case than the one that was asked.
-    astray: Findings,
+    /// The cases that no record answers.
+    unanswered: Findings,
     taken: u64,
     /// Set when no more records are to be taken before the end, with the reason.
     stopped: Option<Result<(), VectorError>>,
@@ -162,6 +163,8 @@ struct Source<'a, R> {
 struct Unit {
     /// Numbers of the records, from 1.
     numbers: Vec<u64>,
+    /// For each record that answers another case than was asked, what is wrong about that.
+    astray: Vec<Option<Mismatch>>,
     records: Vec<Record>,
 }
 
@@ -175,11 +178,11 @@ impl<R: BufRead> Source<'_, R> {
                 .transpose()
                 .and_then(|record| record.map(|record| self.expect(record, how.tested)).transpose())
             {
-                Ok(Some(Some(record))) => {
+                Ok(Some((record, astray))) => {
                     unit.numbers.push(self.taken);
+                    unit.astray.push(astray);
                     unit.records.push(record);
                 }
-                Ok(Some(None)) => {}
                 Ok(None) => break,
                 Err(error) => self.stopped = Some(Err(error)),
             }
@@ -187,8 +190,12 @@ impl<R: BufRead> Source<'_, R> {
         (!unit.records.is_empty()).then_some(unit)
     }
 
-    /// The record, if it answers what was asked.
-    fn expect(&mut self, record: Record, tested: Tested) -> Result<Option<Record>, VectorError> {
+    /// The record, and how the case that it answers differs from the one that was asked.
+    fn expect(
+        &mut self,
+        record: Record,
+        tested: Tested,
+    ) -> Result<(Record, Option<Mismatch>), VectorError> {
         self.taken += 1;
         if let (Record::Coordinates(_), Tested::Listings(strength)) = (&record, tested)
             && strength.elements == Elements::Points
@@ -198,36 +205,29 @@ impl<R: BufRead> Source<'_, R> {
                            primitives, or points in any order";
             return Err(self.file.error_at(record.line(), "coordinates", message));
         }
-        let Some(asked) = &mut self.asked else { return Ok(Some(record)) };
+        let Some(asked) = &mut self.asked else { return Ok((record, None)) };
         let (expected, observed) = (asked.next().transpose()?, record.case());
-        if expected.is_some() && expected == observed {
-            return Ok(Some(record));
-        }
-        let show = |case: Option<Case>| case.map_or("none".to_owned(), |case| case.to_string());
-        self.astray.add(
-            self.taken,
-            Some(record.line()),
-            astray(show(observed), show(expected)),
-            || None,
-        );
-        Ok(None)
+        let is_astray = expected.is_none() || expected != observed;
+        let astray = is_astray.then(|| other_answer(observed, expected));
+        Ok((record, astray))
     }
 
-    /// The records that are not what was asked, and the cases that no record answers.
+    /// The cases that no record answers.
     fn finish(mut self) -> Result<Findings, VectorError> {
-        let Some(asked) = self.asked else { return Ok(self.astray) };
+        let Some(asked) = self.asked else { return Ok(self.unanswered) };
         for case in asked {
             self.taken += 1;
-            let found = astray("none".to_owned(), case?.to_string());
-            self.astray.add(self.taken, None, found, || None);
+            let found = Found::new(Some(other_answer(None, Some(case?))), None);
+            self.unanswered.add(self.taken, None, found, || None);
         }
-        Ok(self.astray)
+        Ok(self.unanswered)
     }
 }
 
-fn astray(observed: String, expected: String) -> Found {
-    let mismatch = Mismatch { element: Element::Case, observed, expected, stage: Stage::Answer };
-    Found::new(Some(mismatch), None)
+fn other_answer(observed: Option<Case>, expected: Option<Case>) -> Mismatch {
+    let show = |case: Option<Case>| case.map_or("none".to_owned(), |case| case.to_string());
+    let (observed, expected) = (show(observed), show(expected));
+    Mismatch { element: Element::Case, observed, expected, stage: Stage::Answer }
 }
 
 /// Single patches are handed over in batches; a row of the other kinds is a batch of its own.
@@ -252,12 +252,16 @@ fn run<R: BufRead>(
     let mut findings = Findings::default();
     loop {
         let unit = lock(source).next_unit(how);
-        let Some(Unit { numbers, records }) = unit else { return Ok(findings) };
+        let Some(Unit { numbers, astray, records }) = unit else { return Ok(findings) };
         let found = check_unit(how, backend, &records)?;
         let different: Vec<bool> = found.iter().map(Found::is_different).collect();
-        for ((number, record), found) in numbers.into_iter().zip(&records).zip(found) {
-            let file = || report::file_of(&how.header, record);
-            findings.add(number, Some(record.line()), found, file);
+        let answers = numbers.into_iter().zip(&records).zip(astray.into_iter().zip(found));
+        for ((number, record), (astray, found)) in answers {
+            let (line, is_astray) = (Some(record.line()), astray.is_some());
+            let found = astray.map_or(found, |mismatch| Found::new(Some(mismatch), None));
+            // A record that answers another case is not shown again by itself: the case is what is wrong.
+            let file = || if is_astray { None } else { report::file_of(&how.header, record) };
+            findings.add(number, line, found, file);
         }
         checked(Checked { records: &records, different: &different });
     }

@@ -6,7 +6,6 @@ pub use mismatch::{Element, Mismatch, Stage};
 
 use crate::case::Case;
 use crate::strength::vertices;
-use crate::vectors::primitive_size;
 use std::collections::BTreeSet;
 use tess_core::{DomainPoint, FactorContext, FixedFactor, Tessellation};
 
@@ -17,7 +16,7 @@ pub fn tessellations(
     observed: &Tessellation,
     expected: &Tessellation,
 ) -> Option<Mismatch> {
-    let size = primitive_size(case);
+    let size = case.primitive_size();
     count("points", &observed.points, &expected.points)
         .or_else(|| count("indices", &observed.indices, &expected.indices))
         .or_else(|| points(&observed.points, &expected.points))
@@ -36,7 +35,7 @@ pub(crate) fn sequences(
     observed: &Tessellation,
     expected: &Tessellation,
 ) -> Option<Mismatch> {
-    let size = primitive_size(case);
+    let size = case.primitive_size();
     let places = |output: &Tessellation| -> Vec<Option<[u32; 2]>> {
         let bits = |point: DomainPoint| [point.u.to_bits(), point.v.to_bits()];
         vertices(output).map(|point| point.map(bits)).collect()

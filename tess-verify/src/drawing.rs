@@ -9,7 +9,7 @@ mod overlay;
 mod rings;
 
 use crate::picture::{Colour, Picture, Position, Shape};
-use crate::vectors::{Listing, primitive_size};
+use crate::vectors::Listing;
 use colours::{GRID, INK, PAPER, POINT};
 use layout::Layout;
 pub use overlay::{Differences, differing, overlay};
@@ -69,7 +69,7 @@ pub fn draw(patch: &Listing, options: &DrawOptions) -> Drawing {
     let mut drawing = Drawing::new(patch, options, &layout);
     drawing.primitives(patch, options, &points);
     // Primitives that are points have their numbers where the points have theirs.
-    let are_points = options.colours == Colours::Order && primitive_size(&patch.case) == 1;
+    let are_points = options.colours == Colours::Order && patch.case.primitive_size() == 1;
     if are_points {
         drawing.ordered_points(patch, options, &points);
     } else if options.colours == Colours::Order {

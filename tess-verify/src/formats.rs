@@ -1,6 +1,6 @@
 //! One patch in the text forms that `tess patch` writes.
 
-use crate::vectors::{Header, Kind, Listing, PatchRow, Sizes, primitive_size};
+use crate::vectors::{Header, Kind, Listing, PatchRow, Sizes};
 use std::fmt::Write;
 
 /// A vector file of the kind `listings` with this one record; `backend` made it.
@@ -27,7 +27,7 @@ pub fn obj(patch: &Listing) -> String {
         // Writing to a String does not fail. 16.16 numbers are exact in 16 decimals.
         _ = writeln!(text, "v {u} {v} 0");
     }
-    let element = ["p", "l", "f"][primitive_size(&patch.case) - 1];
+    let element = ["p", "l", "f"][patch.case.primitive_size() - 1];
     for primitive in patch.primitives() {
         let indices: Vec<_> = primitive.iter().map(|index| (index + 1).to_string()).collect();
         _ = writeln!(text, "{element} {}", indices.join(" "));

@@ -4,7 +4,6 @@
 
 use crate::case::Case;
 use crate::names::Named;
-use crate::vectors::primitive_size;
 use std::io::{self, Write};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 
@@ -62,7 +61,7 @@ pub fn write_images(
 fn write_case(files: &mut [&mut dyn Write; 5], words: &mut Words, case: &Case) -> io::Result<()> {
     let [case_file, factor_file, point_file, primitive_file, _] = files;
     let output = case.patch().tessellate();
-    let size = primitive_size(case);
+    let size = case.primitive_size();
     let [points, primitives] = [output.points.len(), output.indices.len() / size];
     let [first_point, first_primitive] = [number(words.points)?, number(words.primitives)?];
     let configuration = configuration(case);

@@ -12,7 +12,7 @@ use tess_core::{DomainPoint, Tessellation};
 
 pub use conversions::flushed;
 pub(crate) use conversions::{Alternatives, Ambiguous, Conversions};
-pub(crate) use unordered::{Difference, first_difference};
+pub(crate) use unordered::{Difference, first_difference, first_stray};
 
 /// Whether points and primitives must come in the model's order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,7 +22,8 @@ pub enum Order {
     #[default]
     Exact,
     /// The model's order of primitives and of their vertices, each vertex by its coordinates: however
-    /// points are numbered. Points alone are compared in the model's order.
+    /// points are numbered. The places of points are compared as in [`Order::Any`], so an output that
+    /// this order accepts is accepted in any order too. Points alone are compared in the model's order.
     Sequence,
     /// Any order, and any leading vertex of a triangle; its orientation counts.
     Any,
@@ -98,6 +99,7 @@ impl Strength {
             (Order::Sequence, Elements::Primitives) => {
                 observed.indices.len() == expected.indices.len()
                     && vertices(observed).eq(vertices(expected))
+                    && first_stray(observed, expected).is_none()
             }
             (Order::Exact | Order::Sequence, Elements::Points) => {
                 observed.points == expected.points

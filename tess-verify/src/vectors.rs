@@ -13,13 +13,14 @@ mod listing;
 mod record;
 mod row;
 mod rows;
+mod words;
 mod write;
 
 pub use cases::Cases;
 pub use coordinates::{Coordinates, Vertex};
 pub use error::VectorError;
 pub use header::{Header, Kind};
-pub use listing::{Listing, primitive_size};
+pub use listing::Listing;
 pub use record::Record;
 pub use rows::{ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Recorded, Sizes};
 pub use write::{write_listings, write_patches};
@@ -111,10 +112,10 @@ impl<R: BufRead> VectorFile<R> {
         }
         self.records += 1;
         match self.header.kind.columns() {
-            None => listing::read(&mut self.lines).map(Some),
+            None => record::read_listing(&mut self.lines).map(Some),
             Some(columns) => {
                 let row = Row::new(self.lines.last(), columns)?;
-                record::read(self.header.kind, &row).map(Some)
+                record::read_row(self.header.kind, &row).map(Some)
             }
         }
     }

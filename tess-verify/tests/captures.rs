@@ -10,7 +10,7 @@ use tess_verify::checker::{CheckError, Report, Tested, check, check_asked};
 use tess_verify::core_backend::CoreBackend;
 use tess_verify::generate::{Level, Selection};
 use tess_verify::strength::{Elements, Order, Strength, vertices};
-use tess_verify::vectors::{Cases, Listing, VectorFile};
+use tess_verify::vectors::{Cases, Listing, Record, VectorFile};
 use tess_verify::ways::Way;
 
 const ANY: Strength = strength(Order::Any);
@@ -113,6 +113,49 @@ fn another_order_and_a_moved_vertex_are_seen() {
     assert_eq!(verdict(&lost, ANY).mismatches, 1, "a lost primitive");
 }
 
+/// A list with three vertices a triangle, of the largest patch: 24576 points.
+#[test]
+fn listings_without_an_index_buffer() {
+    let line = QUAD.replace("40400000", "42800000");
+    let case: Case = line.parse().expect("a case");
+    let points: Vec<DomainPoint> = vertices(&case.patch().tessellate()).flatten().collect();
+    assert_eq!(points.len(), 24576, "the largest patch");
+    let output = Tessellation { indices: (0..).take(points.len()).collect(), points };
+    let listing = Listing { line: 0, case, output };
+    assert_eq!(verdict(&listing.to_string(), ANY).mismatches, 0, "the same triangles");
+}
+
+/// A wrong third coordinate cannot be left out.
+#[test]
+fn third_coordinates_stand_everywhere_or_nowhere() {
+    for rows in ["0 1 0\n0 0\n1 0 0\n", "0 1\n0 0\n1 0 0\n"] {
+        let error = error(&format!("{HEADER}{TRI}\ncoordinates float\n{rows}end\n# end\n"));
+        assert!(error.contains("all vertices have a third coordinate, or none has"), "{error}");
+    }
+}
+
+/// Points get the model's numbers: the model's sequence is its listing, and what differs stands out.
+#[test]
+fn coordinates_with_the_models_numbers() {
+    let listing = |text: &str| {
+        let text = format!("{HEADER}{text}# end\n");
+        let record = VectorFile::new("capture", text.as_bytes()).expect("a header").next();
+        let Some(Ok(Record::Coordinates(vertices))) = record else { panic!("{record:?}") };
+        vertices.numbered()
+    };
+    // Just above 2, points coincide.
+    let coinciding = "case isoline fractional_even line ruler 3f800000 40000080";
+    for line in [TRI, QUAD, coinciding] {
+        let case: Case = line.parse().expect("a case");
+        assert_eq!(listing(&record(line, "hex", hex)).output, case.patch().tessellate(), "{line}");
+    }
+    let moved = listing(&record(TRI, "hex", hex).replacen("\n10000 00000", "\n10000 00001", 1));
+    let model = moved.case.patch().tessellate();
+    assert_eq!(moved.output.points.len(), model.points.len() + 1, "a place more");
+    let differing = moved.output.indices.iter().zip(&model.indices).filter(|(a, b)| a != b).count();
+    assert_eq!(differing, 1, "one vertex is another point");
+}
+
 #[test]
 fn third_coordinates_are_compared() {
     let with_third = |third: fn(u32, u32) -> u32, line| {
@@ -151,6 +194,8 @@ fn numbers_that_mean_something_else_are_refused() {
         ("coordinates float", "0.1 1\n", "`0.1 1` is not u, v and perhaps w: multiples of 2^-16"),
         ("coordinates float", "0 1.5\n", "multiples of 2^-16 from 0 to 1"),
         ("coordinates float", "0 nan\n", "multiples of 2^-16 from 0 to 1"),
+        ("coordinates float", "1e-50 1\n", "`1e-50 1` is not u, v and perhaps w: multiples"),
+        ("coordinates float", "0 0.999999999\n", "`0 0.999999999` is not u, v and perhaps w"),
         ("coordinates decimal", "0.5 1\n", "`0.5 1` is not u, v and perhaps w: whole numbers"),
         ("coordinates decimal", "0 1\n1 0\n0 0\n", "no coordinate is above 1"),
         ("coordinates", "", "unknown notation ``, expected one of: hex, decimal, float"),
@@ -195,6 +240,21 @@ fn a_file_without_a_count_marks_its_end() {
     assert!(error.contains("case: a case is"), "the mark comes too early: {error}");
 }
 
+/// For each record, whether it is wrong for the case that it states.
+fn answered_wrongly(asked: &str, records: &str) -> Vec<bool> {
+    let file = format!("{HEADER}{records}# end\n");
+    let file = VectorFile::new("capture", file.as_bytes()).expect("a header");
+    let mut cases = Cases::new("asked", asked.as_bytes()).expect("cases");
+    let mut one: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
+    let seen = std::sync::Mutex::new(Vec::new());
+    let tested = Tested::Listings(ANY);
+    let checked = |checked: tess_verify::checker::Checked<'_>| {
+        seen.lock().expect("no panic").extend_from_slice(checked.different);
+    };
+    check_asked(file, Some(&mut cases), &mut one, tested, &checked).expect("a verdict");
+    seen.into_inner().expect("no panic")
+}
+
 fn asked(asked: &str, records: &str) -> Result<Report, CheckError> {
     let text = format!("{HEADER}{records}# end\n");
     let file = VectorFile::new("capture", text.as_bytes())?;
@@ -213,6 +273,9 @@ fn what_was_asked_must_be_answered() {
     assert_eq!(mismatches(&tri), 1, "one is missing");
     assert_eq!(mismatches(&format!("{tri}{quad}{quad}")), 1, "one too many");
     assert_eq!(mismatches(&format!("{quad}{tri}")), 2, "exchanged");
+    let wrong = tri.replacen("\n10000 00000", "\n10000 00001", 1);
+    let different = answered_wrongly(&cases, &format!("{tri}{wrong}{wrong}"));
+    assert_eq!(different, [false, true, true], "what answers another case is compared, too");
     let report = asked(&cases, &format!("{tri}{tri}")).expect("a verdict");
     let shown = report.differences[0].to_string();
     assert!(shown.starts_with("record 2 (line "), "{shown}");

@@ -296,6 +296,88 @@ fn a_value_has_one_conversion_through_the_file() {
     }
 }
 
+/// The first record that shows a value's number decides, whichever number that is.
+#[test]
+fn the_first_record_decides_which_conversion() {
+    let [low, high] = [right(TIE), right(&TIE.replace("40400020", "40400040"))];
+    let expected = [("0x030000", "0x030001"), ("0x030001", "0x030000")];
+    let orders = [[low.clone(), high.clone()], [high, low]];
+    for ([first, second], (known, other)) in orders.into_iter().zip(expected) {
+        let outputs = [(case(TIE), first.clone()), (case(TIE), first), (case(TIE), second)];
+        let report = observe_all("device", &outputs, WITHIN_06_ULP, 1);
+        let message =
+            format!("observed {other}, expected {known}, as in record 1 (stage: factors)");
+        assert!(shown(&report).ends_with(&message), "{report:?}");
+        assert_eq!(report.differences[0].number, 3, "the third differs");
+    }
+}
+
+/// A record whose output is the same with either number says nothing of the value.
+#[test]
+fn a_value_that_does_not_show_is_not_decided() {
+    // The two split orders move other points, so that their locations round at other values.
+    let shows = "case isoline fractional_even point ruler 3f800000 VALUE";
+    let at = |line: &str, fixed: u32| {
+        let bits = tess_verify::generate::from_fixed(fixed).to_bits();
+        line.replace("VALUE", &format!("{bits:08x}"))
+    };
+    let hides = shows.replace("ruler", "center");
+    let value = (0xA_0001..0xB_0000)
+        .find(|&low| {
+            let same = right(&at(&hides, low)) == right(&at(&hides, low + 1));
+            same && right(&at(shows, low)) != right(&at(shows, low + 1))
+        })
+        .expect("a value that shows here and not there");
+    let tie = |line: &str| {
+        let [low, high] =
+            [value, value + 1].map(|fixed| tess_verify::generate::from_fixed(fixed).to_bits());
+        let bits = u32::midpoint(low, high);
+        case(&line.replace("VALUE", &format!("{bits:08x}")))
+    };
+    let outputs = [
+        (tie(&hides), right(&at(&hides, value))),
+        (tie(shows), right(&at(shows, value + 1))),
+        (tie(shows), right(&at(shows, value))),
+    ];
+    let report = observe_all("device", &outputs, WITHIN_06_ULP, 1);
+    assert!(shown(&report).contains(", as in record 2 "), "{report:?}");
+    for choice in [value, value + 1] {
+        let outputs =
+            [(tie(&hides), right(&at(&hides, value))), (tie(shows), right(&at(shows, choice)))];
+        assert_eq!(observe_all("device", &outputs, WITHIN_06_ULP, 1).mismatches, 0, "either");
+    }
+}
+
+/// One factor off by a unit in the last place or by one, in each position and each way, and a patch that
+/// is culled, point to the factors; the other split order points to the context.
+#[test]
+fn the_stage_of_a_wrong_factor() {
+    let quad =
+        "case quad fractional_odd line ruler 40600000 40200000 40a00000 40500000 40900000 40d00000";
+    for line in [TRIANGLE, quad] {
+        let right_case = case(line);
+        let patch = right_case.patch();
+        let processed = patch.processed().factors().expect("not culled");
+        let fixed: Vec<u32> = processed.iter().map(|factor| factor.fixed.to_bits()).collect();
+        for (position, &fixed) in fixed.iter().enumerate() {
+            for other in [fixed - 1, fixed + 1, fixed - 0x1_0000, fixed + 0x1_0000] {
+                let mut words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
+                let bits = tess_verify::generate::from_fixed(other).to_bits();
+                words[5 + position] = format!("{bits:08x}");
+                let output = right(&words.join(" "));
+                let is_seen = output != patch.tessellate();
+                assert!(is_seen || fixed.abs_diff(other) == 1, "{words:?}");
+                if is_seen {
+                    assert_eq!(stage(line, output), Stage::Factors, "{words:?}");
+                }
+            }
+        }
+        assert_eq!(stage(line, Tessellation::default()), Stage::Factors, "culled");
+        let center = right(&line.replace("ruler", "center"));
+        assert_eq!(stage(line, center), Stage::Context, "the other split order");
+    }
+}
+
 /// Nor can two edges of one patch.
 #[test]
 fn a_value_has_one_conversion_in_a_patch() {

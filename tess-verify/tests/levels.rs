@@ -38,6 +38,106 @@ fn random_patches_reach_what_there_is() {
     assert!((20..120).contains(&mean), "{mean} points in the mean");
 }
 
+/// Level 2 has each boundary in each position of each partitioning with both split orders.
+#[test]
+fn level_2_has_both_split_orders_everywhere() {
+    use std::collections::HashSet;
+    use tess_core::{Domain, Partitioning, SplitOrder};
+    use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
+
+    let mut seen = HashSet::new();
+    for case in (Selection { random: Some(0), ..Selection::level(Level::Two, 1) }).cases() {
+        for (position, factor) in case.factors.iter().enumerate() {
+            let (config, domain) = (case.config, case.domain());
+            seen.insert((domain, config.partitioning, config.split, position, factor.to_bits()));
+        }
+    }
+    for value in [boundary_factors(), exceptional_factors(), special_factors()].concat() {
+        for domain in Domain::ALL {
+            for position in 0..domain.factors() {
+                for (partitioning, split) in Partitioning::ALL
+                    .into_iter()
+                    .flat_map(|p| SplitOrder::ALL.map(|split| (p, split)))
+                {
+                    let bin = (domain, partitioning, split, position, value.to_bits());
+                    assert!(seen.contains(&bin), "{bin:?}");
+                }
+            }
+        }
+    }
+}
+
+/// A patch, bins that it hits, and bins that it does not. 3f800080 is 1 + 2^-16, 3f800040 is 1 + 2^-17; 40400020
+/// lies halfway between 3 and 3 + 2^-16, and 40400060 halfway between the next two.
+const TABLE: [(&str, &[&str], &[&str]); 11] = [
+    ("tri fractional_odd 3f800000 3f800000 3f800000 3f800000", &["picture_frame/all_one"], &[]),
+    ("tri fractional_odd 40000000 3f800000 3f800000 3f800000", &["picture_frame/raised"], &[]),
+    (
+        "tri fractional_odd 40000000 3f800000 3f800000 3f800080",
+        &["picture_frame/already_above"],
+        &[],
+    ),
+    ("tri fractional_odd 40000000 3f800000 3f800000 3f80007f", &["picture_frame/raised"], &[]),
+    ("tri fractional_odd 3f800000 3f800000 3f800000 3f800040", &["picture_frame/all_one"], &[]),
+    (
+        "quad integer 40000000 40000000 40000000 40000000 40800000 40800000",
+        &["centre/quad/point"],
+        &[
+            "centre/quad/row_along_u/even",
+            "centre/quad/row_along_v/even",
+            "centre/quad/strip_of_one",
+        ],
+    ),
+    (
+        "quad integer 40000000 40000000 40000000 40000000 40a00000 40a00000",
+        &["centre/quad/strip_along_v/odd", "centre/quad/strip_of_one"],
+        &["centre/quad/point"],
+    ),
+    (
+        "quad integer 40000000 40000000 40000000 40000000 40c00000 40800000",
+        &["centre/quad/row_along_u/even"],
+        &["centre/quad/row_along_v/even", "centre/quad/point"],
+    ),
+    (
+        "quad integer 40000000 40000000 40000000 40000000 40800000 40c00000",
+        &["centre/quad/row_along_v/even"],
+        &["centre/quad/row_along_u/even", "centre/quad/point"],
+    ),
+    (
+        "isoline fractional_odd 3f800000 40400020",
+        &["conversion/outer/tie_down"],
+        &["conversion/outer/tie_up"],
+    ),
+    (
+        "isoline fractional_odd 3f800000 40400060",
+        &["conversion/outer/tie_up"],
+        &["conversion/outer/tie_down"],
+    ),
+];
+
+/// What the observer says of cases whose bins can be told from the specification.
+#[test]
+fn cases_hit_the_bins_that_they_are_of() {
+    for (text, hit, not) in TABLE {
+        let words: Vec<&str> = text.splitn(3, ' ').collect();
+        let line = format!("case {} {} triangle_cw ruler {}", words[0], words[1], words[2]);
+        let mut coverage = Coverage::new();
+        coverage.record(&line.parse().expect("a case"));
+        for bin in hit {
+            assert!(coverage.hits(bin).is_some_and(|hits| hits > 0), "{line} hits {bin}");
+        }
+        for bin in not {
+            assert_eq!(coverage.hits(bin), Some(0), "{line} does not hit {bin}");
+        }
+        let frames =
+            coverage.bins().filter(|(bin, hits)| bin.starts_with("picture_frame/") && *hits > 0);
+        let expected = hit.iter().filter(|bin| bin.starts_with("picture_frame/")).count();
+        if words[0] == "tri" {
+            assert_eq!(frames.count(), expected, "{line}: one kind of picture frame");
+        }
+    }
+}
+
 #[test]
 fn coverage_notices_what_is_missing() {
     let mut coverage = Coverage::new();

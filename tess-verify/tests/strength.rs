@@ -95,6 +95,60 @@ fn both_neighbours_of_a_tie_are_legal_where_asked() {
     assert!(!lenient.accepts(&tie, &output(&beyond)), "sixteen units away");
 }
 
+/// Whatever the model's sequence accepts, any order accepts: points that the model lacks, points of a
+/// culled patch, and points that no primitive uses are wrong in both.
+#[test]
+fn a_sequence_is_never_weaker_than_any_order() {
+    let sequence = Strength { order: Order::Sequence, ..Strength::default() };
+    let [quad, culled] = [case(QUAD), case(&QUAD.replace("40600000", "00000000"))];
+    let changes: [fn(&mut Tessellation); 6] = [
+        |_| {},
+        |output| output.points.push(DomainPoint::from_bits(1, 2)),
+        |output| output.points.push(DomainPoint::from_bits(0, 0)),
+        |output| output.points.push(DomainPoint::from_bits(u32::MAX, 0)),
+        |output| _ = output.points.pop(),
+        |output| output.points.reverse(),
+    ];
+    for case in [quad, culled] {
+        for (number, change) in changes.iter().enumerate() {
+            let mut observed = output(&case);
+            change(&mut observed);
+            let accepted =
+                [sequence, any_order()].map(|strength| strength.accepts(&case, &observed));
+            assert!(!accepted[0] || accepted[1], "change {number}: {case}");
+            let is_planted = number > 0 && observed != output(&case);
+            assert_eq!(accepted[0], !is_planted, "change {number}: {case}");
+        }
+    }
+}
+
+/// Where points are the primitives, one that is drawn twice is wrong in any order.
+#[test]
+fn a_point_is_drawn_once() {
+    let case = case(&QUAD.replace("triangle_cw", "point"));
+    let mut twice = output(&case);
+    twice.indices.push(5);
+    assert!(!any_order().accepts(&case, &twice), "point 5 twice");
+    let mut again = output(&case);
+    again.indices[6] = 5;
+    assert!(!any_order().accepts(&case, &again), "point 5 in place of point 6");
+}
+
+/// In each outer position and in no inner one.
+#[test]
+fn denormals_are_flushed_in_every_outer_position() {
+    let flush = Strength { denormals: Denormals::Flush, ..Strength::default() };
+    for domain in tess_core::Domain::ALL {
+        for position in 0..domain.factors() {
+            let factor = |at| if at == position { f32::from_bits(1) } else { 3.0 };
+            let config = case(QUAD).config;
+            let case = Case { config, factors: tess_core::PatchFactors::from_fn(domain, factor) };
+            let is_flushed = flush.accepts(&case, &Tessellation::default());
+            assert_eq!(is_flushed, position < domain.outer_factors(), "{domain:?} {position}");
+        }
+    }
+}
+
 #[test]
 fn denormals_may_be_flushed_where_asked() {
     let case = case(&QUAD.replace("40600000", "00000001"));

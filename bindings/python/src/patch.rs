@@ -12,7 +12,7 @@ use tess_verify::case::Case;
 use tess_verify::drawing::{Colours, DrawOptions, draw, has_rings};
 use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
 use tess_verify::names::Named;
-use tess_verify::vectors::{Listing, primitive_size};
+use tess_verify::vectors::Listing;
 
 /// One patch: a configuration and raw factors, and what the model makes of them.
 ///
@@ -191,7 +191,7 @@ impl Patch {
     #[getter]
     fn indices<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u32>> {
         let indices = py.detach(|| self.tessellate()).indices;
-        let size = primitive_size(&self.case);
+        let size = self.case.primitive_size();
         let primitives = indices.len() / size;
         shaped(PyArray1::from_vec(py, indices), [primitives, size])
     }

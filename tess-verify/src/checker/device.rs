@@ -5,8 +5,10 @@ use super::report::Turns;
 use crate::case::Case;
 use crate::compare::{self, Element, Mismatch, Stage};
 use crate::generate::from_fixed;
-use crate::strength::{Alternatives, Difference, Elements, Order, Strength, first_difference};
-use crate::vectors::{Coordinates, primitive_size};
+use crate::strength::{
+    Alternatives, Difference, Elements, Order, Strength, first_difference, first_stray,
+};
+use crate::vectors::Coordinates;
 use crate::ways::Way;
 use tess_core::{Config, PatchFactors, SplitOrder, Tessellation};
 
@@ -32,7 +34,7 @@ pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -
     let (case, output) = (&coordinates.case, coordinates.output());
     match (check(case, &output, Strength { order, ..strength }), coordinates.wrong_third()) {
         (Found::Equal | Found::Converted(..), Some((vertex, observed, expected))) => {
-            let size = primitive_size(case);
+            let size = case.primitive_size();
             let element = Element::Third { primitive: vertex / size, position: vertex % size };
             let mismatch = Mismatch::hex(element, 5, observed, expected, Stage::Location);
             Found::Different(mismatch, Some(*case))
@@ -52,7 +54,8 @@ fn first_mismatch(case: &Case, observed: &Tessellation, strength: Strength) -> O
     let expected = case.patch().tessellate();
     let found = match (strength.order, strength.elements) {
         (Order::Exact, Elements::Primitives) => compare::tessellations(&case, observed, &expected),
-        (Order::Sequence, Elements::Primitives) => compare::sequences(&case, observed, &expected),
+        (Order::Sequence, Elements::Primitives) => compare::sequences(&case, observed, &expected)
+            .or_else(|| first_stray(observed, &expected).map(unordered)),
         (Order::Exact | Order::Sequence, Elements::Points) => {
             compare::points_alone(observed, &expected)
         }

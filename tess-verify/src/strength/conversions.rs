@@ -81,14 +81,15 @@ fn is_fractional(case: &Case, position: usize) -> bool {
     !density && !case.config.partitioning.has_integer_factors()
 }
 
-/// The legal numbers of a factor that lies within 0.4 to 0.6 of the way between two.
+/// The legal numbers of a factor that lies within 0.4 to 0.6 of the way between two: the nearest is at most
+/// half a unit away, and the other one at most 0.6 if the nearest is at least 0.4.
 #[expect(clippy::float_arithmetic, reason = "exact: a binary32 scaled by 2^16 in binary64")]
 fn ambiguous(factor: &ProcessedFactor) -> Option<Ambiguous> {
     let scaled = f64::from(f32::from_bits(factor.rounded)) * 65536.0;
     let nearest = factor.fixed.to_bits();
     let error = scaled - f64::from(nearest);
     let other = if error > 0.0 { nearest + 1 } else { nearest - 1 };
-    let both_legal = (0.4..=0.6).contains(&error.abs());
+    let both_legal = error.abs() >= 0.4;
     both_legal.then_some(Ambiguous { value: factor.rounded, numbers: [nearest, other] })
 }
 
@@ -133,6 +134,16 @@ mod tests {
     fn values(line: &str) -> usize {
         let case: Case = line.parse().expect("a case");
         Alternatives::new(&case, Conversion::Within06Ulp).values.len()
+    }
+
+    /// From 1 to 2 a binary32 has steps of 2^-23, which are 1/128 of 2^-16: 51 of them are 0.398 units
+    /// and 52 are 0.406; from above, 77 are 0.602 and 76 are 0.594.
+    #[test]
+    fn values_are_ambiguous_from_four_tenths_on() {
+        let line = "case tri fractional_odd point ruler 40200000 40a00000 3fa00000 40900000";
+        let with =
+            |steps: u32| values(&line.replace("3fa00000", &format!("{:08x}", 0x3FA0_0000 + steps)));
+        assert_eq!([51, 52, 76, 77].map(with), [0, 1, 1, 0], "0.4 to 0.6");
     }
 
     /// 3 + 2^-17 lies halfway between two numbers, 3 + 0.3125 * 2^-16 near one.

@@ -2,7 +2,6 @@
 
 use super::Elements;
 use crate::case::Case;
-use crate::vectors::primitive_size;
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::iter::Peekable;
@@ -41,10 +40,17 @@ pub(crate) fn first_difference(
     points(elements, observed, &known, &ranks).or_else(|| match elements {
         Elements::Points => None,
         Elements::Primitives => {
-            let size = primitive_size(case);
+            let size = case.primitive_size();
             primitives(size, &known, [(observed, &ranks[0]), (expected, &ranks[1])])
         }
     })
+}
+
+/// The first point that is not listed as often as it must be where primitives count.
+pub(crate) fn first_stray(observed: &Tessellation, expected: &Tessellation) -> Option<Difference> {
+    let known = Places::of(expected);
+    let ranks = [known.ranks(observed), known.ranks(expected)];
+    points(Elements::Primitives, observed, &known, &ranks)
 }
 
 /// The distinct places of the model's points, ascending: bits of u above bits of v.

@@ -2,10 +2,11 @@
 
 use super::error::VectorError;
 use super::lines::{Line, Lines};
-use super::listing::{end, primitive_size, too_many};
+use super::listing::Listing;
 use super::row::decimal;
+use super::words::{self, too_many};
 use crate::case::Case;
-use crate::coordinate::fixed;
+use crate::coordinate::{fixed, from_decimal};
 use crate::names::Named;
 use crate::quote::quoted;
 use std::fmt;
@@ -48,6 +49,23 @@ impl Coordinates {
         }
     }
 
+    /// The output with the model's numbers: each vertex is the model's point at that place, the one that
+    /// the model has in this position if several coincide; places that the model lacks are points after
+    /// the model's. An output that is the model's sequence is the model's, index for index.
+    #[must_use]
+    pub fn numbered(&self) -> Listing {
+        let model = self.case.patch().tessellate();
+        let mut points = model.points;
+        let mut indices = Vec::with_capacity(self.vertices.len());
+        for (k, vertex) in self.vertices.iter().enumerate() {
+            let place = DomainPoint::from_bits(vertex.u, vertex.v);
+            let same = model.indices.get(k).filter(|&&i| points.get(i as usize) == Some(&place));
+            let index = same.copied().unwrap_or_else(|| number_of(&mut points, place));
+            indices.push(index);
+        }
+        Listing { line: self.line, case: self.case, output: Tessellation { points, indices } }
+    }
+
     /// The first vertex whose third coordinate is wrong, and what is right there: 1 - u - v on
     /// triangles, 0 elsewhere.
     pub(crate) fn wrong_third(&self) -> Option<(usize, u32, u32)> {
@@ -60,6 +78,15 @@ impl Coordinates {
             Some((number, w, right))
         })
     }
+}
+
+/// The number of the first point at a place, which is added if there is none.
+fn number_of(points: &mut Vec<DomainPoint>, place: DomainPoint) -> u32 {
+    let number = points.iter().position(|point| *point == place).unwrap_or(points.len());
+    if number == points.len() {
+        points.push(place);
+    }
+    u32::try_from(number).unwrap_or(u32::MAX)
 }
 
 impl fmt::Display for Coordinates {
@@ -94,12 +121,12 @@ impl Named for Notation {
 impl Notation {
     fn parse(self, word: &str) -> Option<u32> {
         match self {
-            Self::Hex => super::listing::parse_coordinate(word),
+            Self::Hex => words::coordinate(word),
             Self::Decimal => decimal(word),
-            Self::Float => fixed(match word.strip_prefix("0x") {
-                Some(digits) => u32::try_from(crate::case::parse_hex(digits, 8)?).ok()?,
-                None => word.parse::<f32>().ok()?.to_bits(),
-            }),
+            Self::Float => match word.strip_prefix("0x") {
+                Some(digits) => fixed(u32::try_from(crate::case::parse_hex(digits, 8)?).ok()?),
+                None => from_decimal(word),
+            },
         }
     }
 
@@ -137,11 +164,17 @@ pub(super) fn read<R: BufRead>(
         if vertices.len() == MAX_INDICES {
             return Err(line.error(WORD, too_many(MAX_INDICES + 1, MAX_INDICES)));
         }
-        vertices.push(vertex(line, notation)?);
+        let vertex = vertex(line, notation)?;
+        if vertices.first().is_some_and(|first: &Vertex| first.w.is_some() != vertex.w.is_some()) {
+            let message = "all vertices have a third coordinate, or none has: this one and those before \
+                           it differ";
+            return Err(line.error(WORD, message));
+        }
+        vertices.push(vertex);
     }
     let line = lines.last();
-    end(line)?;
-    let (got, size) = (vertices.len(), primitive_size(&case));
+    words::end(line)?;
+    let (got, size) = (vertices.len(), case.primitive_size());
     if count.is_some_and(|count| count != got) {
         let message = format!("{} vertices are announced, these are {got}", count.unwrap_or(0));
         return Err(line.error(WORD, message));

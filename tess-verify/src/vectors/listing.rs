@@ -1,15 +1,14 @@
 //! Listings: a patch's whole output as text.
 
-use super::coordinates;
 use super::error::VectorError;
 use super::lines::{Line, Lines};
-use super::record::Record;
 use super::row::decimal;
-use crate::case::{Case, CaseError};
+use super::words::{self, too_many};
+use crate::case::Case;
 use crate::quote::quoted;
 use std::fmt;
 use std::io::BufRead;
-use tess_core::{Domain, DomainPoint, MAX_INDICES, MAX_POINTS, OutputPrimitive, Tessellation};
+use tess_core::{DomainPoint, MAX_INDICES, Tessellation};
 
 /// A case and an output for it.
 ///
@@ -27,17 +26,7 @@ pub struct Listing {
 impl Listing {
     /// The index list, primitive by primitive.
     pub fn primitives(&self) -> impl Iterator<Item = &[u32]> {
-        self.output.indices.chunks(primitive_size(&self.case))
-    }
-}
-
-/// How many indices a primitive of a case has: 1, 2 or 3.
-#[must_use]
-pub fn primitive_size(case: &Case) -> usize {
-    match (case.domain(), case.config.output) {
-        (_, OutputPrimitive::Point) => 1,
-        (_, OutputPrimitive::Line) | (Domain::Isoline, _) => 2,
-        (_, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw) => 3,
+        self.output.indices.chunks(self.case.primitive_size())
     }
 }
 
@@ -57,33 +46,25 @@ impl fmt::Display for Listing {
     }
 }
 
-/// Reads a listing, of which the first line was read already.
-pub(super) fn read<R: BufRead>(lines: &mut Lines<R>) -> Result<Record, VectorError> {
-    let first = lines.last();
-    let parsed: Result<Case, CaseError> = first.text.parse();
-    let case = parsed.map_err(|error| first.error(error.field, error.message))?;
-    let line = first.place.line;
-    let size = primitive_size(&case);
-    let second = lines.expect("points")?;
-    if coordinates::is_announced(&second) {
-        return coordinates::read(lines, case, line).map(Record::Coordinates);
-    }
-    let output = Tessellation { points: points(lines)?, indices: indices(lines, size)? };
-    end(lines.expect("end")?)?;
-    Ok(Record::Listing(Listing { line, case, output }))
-}
-
-/// The last line of a listing.
-pub(super) fn end(line: Line<'_>) -> Result<(), VectorError> {
-    if line.text == "end" {
-        return Ok(());
-    }
-    Err(line.error("end", format!("a listing ends with `end`, not {}", quoted(line.text))))
+/// Reads the points and primitives of a listing: of its lines, the one that announces the points was
+/// read already.
+pub(super) fn read<R: BufRead>(
+    lines: &mut Lines<R>,
+    case: Case,
+    start: u64,
+) -> Result<Listing, VectorError> {
+    let points = points(lines)?;
+    let output = Tessellation { points, indices: indices(lines, case.primitive_size())? };
+    words::end(lines.expect("end")?)?;
+    Ok(Listing { line: start, case, output })
 }
 
 /// The points, of which the line that announces them was read already.
+///
+/// A device without an index buffer lists a point for each vertex of each primitive, so the limit is
+/// that of vertices, not the model's 4225 points.
 fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorError> {
-    let count = announced(lines.last(), "points", MAX_POINTS)?;
+    let count = announced(lines.last(), "points", MAX_INDICES)?;
     let mut points = Vec::with_capacity(count);
     for _ in 0..count {
         let line = lines.expect("points")?;
@@ -131,19 +112,9 @@ fn announced(line: Line<'_>, what: &'static str, most: usize) -> Result<usize, V
     few.ok_or_else(|| line.error(what, too_many(count, most)))
 }
 
-pub(super) fn too_many(count: impl fmt::Display, most: usize) -> String {
-    format!("{count} is too many: a patch has at most {most}")
-}
-
 fn parse_point(text: &str) -> Option<DomainPoint> {
     let (u, v) = text.split_once(' ')?;
-    Some(DomainPoint::from_bits(parse_coordinate(u)?, parse_coordinate(v)?))
-}
-
-/// 5 to 8 hex digits. Fewer would let the float 1 pass for 2^-16.
-pub(super) fn parse_coordinate(text: &str) -> Option<u32> {
-    let append = |number, byte: &u8| Some(number << 4 | char::from(*byte).to_digit(16)?);
-    (5..=8).contains(&text.len()).then(|| text.as_bytes().iter().try_fold(0, append)).flatten()
+    Some(DomainPoint::from_bits(words::coordinate(u)?, words::coordinate(v)?))
 }
 
 /// Decimal digits alone: no sign.

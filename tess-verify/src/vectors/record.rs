@@ -1,13 +1,15 @@
 //! The records of each kind of vector file.
 
-use super::coordinates::Coordinates;
+use super::coordinates::{self, Coordinates};
 use super::error::VectorError;
 use super::header::Kind;
-use super::listing::Listing;
+use super::lines::Lines;
+use super::listing::{self, Listing};
 use super::row::Row;
 use super::rows::{ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Recorded, Sizes};
-use crate::case::Case;
+use crate::case::{Case, CaseError};
 use std::fmt;
+use std::io::BufRead;
 use std::ops::RangeInclusive;
 use tess_core::prepare::{Prepared, QuadAxes, Request};
 use tess_core::{Config, Domain, OutputPrimitive, Parity, Partitioning, PatchFactors, SplitOrder};
@@ -88,8 +90,20 @@ impl fmt::Display for Record {
     }
 }
 
+/// Reads a listing of either form, of which the first line was read already.
+pub(super) fn read_listing<R: BufRead>(lines: &mut Lines<R>) -> Result<Record, VectorError> {
+    let first = lines.last();
+    let parsed: Result<Case, CaseError> = first.text.parse();
+    let case = parsed.map_err(|error| first.error(error.field, error.message))?;
+    let start = first.place.line;
+    if coordinates::is_announced(&lines.expect("points")?) {
+        return coordinates::read(lines, case, start).map(Record::Coordinates);
+    }
+    listing::read(lines, case, start).map(Record::Listing)
+}
+
 /// Reads one row of a CSV kind.
-pub(super) fn read(kind: Kind, row: &Row<'_>) -> Result<Record, VectorError> {
+pub(super) fn read_row(kind: Kind, row: &Row<'_>) -> Result<Record, VectorError> {
     fn recorded<T>(row: &Row<'_>, parsed: T) -> Recorded<T> {
         Recorded { line: row.line(), text: row.text(), row: parsed }
     }

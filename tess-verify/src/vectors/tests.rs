@@ -139,7 +139,7 @@ fn wrong_listings() {
         ("case tri", "case quad", "f:2: factors: quad patches have 6 factors"),
         ("points 3", "points", "f:3: points: expected `points COUNT`, not `points`"),
         ("points 3", "points three", "f:3: points: expected `points COUNT`"),
-        ("points 3", "points 4226", "f:3: points: 4226 is too many: a patch has at most 4225"),
+        ("points 3", "points 24577", "f:3: points: 24577 is too many: a patch has at most 24576"),
         ("points 3", "points 99999999999", "f:3: points: 99999999999 is too many"),
         (
             "indices 3",

@@ -7,7 +7,7 @@ use crate::patch::PatchView;
 use std::fmt::Write;
 use tess_core::{DomainPoint, MAX_INDICES, MAX_POINTS, Tessellation};
 use tess_verify::drawing::differing;
-use tess_verify::vectors::{Listing, primitive_size};
+use tess_verify::vectors::Listing;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// More differences make a link that is too long for some programs.
@@ -54,7 +54,7 @@ impl PatchView {
         let Listing { case, output, .. } = &self.listing;
         let mut output = output.clone();
         for word in words.split('-') {
-            apply(&mut output, primitive_size(case), word)?;
+            apply(&mut output, case.primitive_size(), word)?;
         }
         Some(Self::of(*case, output))
     }

@@ -7,7 +7,7 @@ use tess_verify::drawing::{Colours, DrawOptions, Drawing, draw, fills, has_rings
 use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
 use tess_verify::formats;
 use tess_verify::picture::Colour;
-use tess_verify::vectors::{Listing, primitive_size};
+use tess_verify::vectors::Listing;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -81,7 +81,7 @@ impl PatchView {
     /// Indices of a primitive: 1, 2 or 3.
     #[must_use]
     pub fn primitive_size(&self) -> usize {
-        primitive_size(&self.listing.case)
+        self.listing.case.primitive_size()
     }
 
     /// Every stage as `tess explain` prints it.

@@ -12,7 +12,6 @@ use std::ptr::null;
 use std::sync::Arc;
 use tess_core::{Config, Domain, PatchFactors, SplitOrder};
 use tess_verify::case::Case;
-use tess_verify::vectors::primitive_size;
 
 /// What is captured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -170,7 +169,7 @@ impl Prober {
         let factors: Vec<u32> = patches.iter().flat_map(|patch| words_of(config, *patch)).collect();
         let factor = PatchFactors::uniform(domain, 1.0);
         let size = match self.method {
-            Method::Primitives => primitive_size(&Case { config, factors: factor }),
+            Method::Primitives => Case { config, factors: factor }.primitive_size(),
             Method::Points => 1,
         };
         let mut room = 4 * expected.iter().sum::<usize>() + 4096;

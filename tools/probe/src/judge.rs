@@ -12,7 +12,6 @@ use tess_verify::checker::check_device;
 use tess_verify::coordinate::fixed;
 use tess_verify::names::Named;
 use tess_verify::strength::{Elements, Strength};
-use tess_verify::vectors::primitive_size;
 use tess_verify::ways::Way;
 
 /// Compares what a device gave, patch by patch, and says in the end what explains the differences.
@@ -62,7 +61,7 @@ impl Judge {
         let row = self.row(case);
         row.0.add(verdict, third);
         if let Some(observed) = &observed {
-            row.1.add(observed, primitive_size(case));
+            row.1.add(observed, case.primitive_size());
         }
         let is_equal = |observed: &Tessellation| {
             self.strength.equal(case, observed, &expected) || self.strength.accepts(case, observed)

@@ -6,7 +6,6 @@ use tess_core::{Domain, DomainPoint, Tessellation};
 use tess_verify::case::Case;
 use tess_verify::coordinate::fixed;
 use tess_verify::strength::{Elements, Order, Strength, vertices};
-use tess_verify::vectors::primitive_size;
 
 /// The nearest to the model that a captured patch is; the first is the nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,7 +60,7 @@ fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Verdi
     if sequence.equal(case, observed, expected) {
         return Verdict::Sequence;
     }
-    let size = primitive_size(case);
+    let size = case.primitive_size();
     let [observed, expected] =
         [observed, expected].map(|output| vertices(output).collect::<Vec<_>>());
     let is_rotated = |(a, b): (&[_], &[_])| {

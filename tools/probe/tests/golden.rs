@@ -9,7 +9,6 @@ use tess_verify::case::Case;
 use tess_verify::generate::{Level, Selection, Shard};
 use tess_verify::names::Named;
 use tess_verify::strength::flushed;
-use tess_verify::vectors::primitive_size;
 
 /// Domain, partitioning and output.
 type Names = (String, String, String);
@@ -41,7 +40,7 @@ fn model(flush: bool, fault: impl Fn(&Case, &mut Vec<u32>)) -> BTreeMap<Names, (
         fault(&case, &mut whole.indices);
         let (patches, digests) = all.entry((domain, partitioning, output)).or_default();
         *patches += 1;
-        digests.add(&whole, primitive_size(&case));
+        digests.add(&whole, case.primitive_size());
     }
     all
 }

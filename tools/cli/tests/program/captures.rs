@@ -85,6 +85,25 @@ fn failing_records_are_kept_and_can_be_asked_again() {
     assert_eq!(tess_with_input("check - --failures -", &right).code, Some(2), "no file");
 }
 
+/// A record that answers another case and is wrong is kept; one that is right for its case is not.
+#[test]
+fn failing_records_that_answer_other_cases() {
+    let folder = directory("astray");
+    let [asked, failing] = ["asked.txt", "failing.txt"].map(|name| folder.join(name));
+    write(&asked, format!("{QUAD}\n{TRI}\n{TRI}\n")).expect("written");
+    let right = tess_with_input("patch --cases -", &format!("{TRI}\n{QUAD}\n")).stdout;
+    let wrong = right.replacen("\n10000 10000\n", "\n10000 0ffff\n", 1);
+    assert_ne!(right, wrong, "a fault is planted in the quad");
+    let (asked, failing) = (asked.display(), failing.display());
+    let run = tess_with_input(&format!("check - --cases {asked} --failures {failing}"), &wrong);
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.ends_with("3 cases, 3 mismatches\n"), "{}", run.stdout);
+    let note = "2 differences are not in ";
+    assert!(run.stderr.contains(note), "{}", run.stderr);
+    let kept = read_to_string(failing.to_string()).expect("a file");
+    assert!(kept.contains(QUAD) && !kept.contains(TRI), "{kept}");
+}
+
 #[test]
 fn a_device_that_turns_the_other_way_reads_one_line() {
     let cases = format!("{TRI}\n{QUAD}\n");

@@ -68,6 +68,24 @@ fn two_backends_are_compared() {
     assert!(run.stderr.contains("0 points and 0 primitives"), "{}", run.stderr);
 }
 
+/// A capture of coordinates is drawn with the model's numbers: its right vertices do not differ.
+#[test]
+fn overlays_of_coordinates() {
+    let directory = directory("overlays_of_coordinates");
+    let file = directory.join("capture.txt");
+    let capture = "# tess-vectors 1 kind=listings source=capture\n\
+        case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000\n\
+        coordinates float\n0 1 0\n0 0 1\n1 0 0\nend\n# end\n";
+    let draw = format!("draw tri --outer 1,1,1 --inner 1 --overlay {}", file.display());
+    fs::write(&file, capture).expect("a capture");
+    let run = tess(&draw);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    fs::write(&file, capture.replace("0 0 1", "0 0.5 0.5")).expect("a faulty capture");
+    let run = tess(&draw);
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    assert!(run.stderr.contains("1 points and 1 primitives differ"), "{}", run.stderr);
+}
+
 /// What cannot be drawn is marked in red and named.
 #[test]
 fn overlays_mark_what_cannot_be_drawn() {

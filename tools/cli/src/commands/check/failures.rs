@@ -61,7 +61,10 @@ impl Failures {
         let others = report.mismatches.saturating_sub(records);
         if others > 0 {
             let path = path.display();
-            note(&format!("{others} differences are not in {path}: their records are right alone"));
+            note(&format!(
+                "{others} differences are not in {path}: cases without a record, and records that are \
+                 right for the case that they state but answer another or contradict one before them"
+            ));
         }
         let ended = written.and_then(|()| writeln!(file, "# end"));
         let ended = ended.and_then(|()| file.into_inner().map_err(io::IntoInnerError::into_error));

@@ -35,7 +35,8 @@ pub(crate) struct Args {
     /// Draw this backend's result, with what differs from it in red; exit code 1 if anything does
     #[arg(long, value_name = "NAME", conflicts_with = "overlay")]
     against: Option<BackendName>,
-    /// Draw the model, with what differs in this listing of the same patch in red
+    /// Draw the model, with what differs in this listing of the same patch in red; a listing by
+    /// coordinates is drawn with the model's numbers of points
     #[arg(long, value_name = "FILE")]
     overlay: Option<PathBuf>,
     #[command(flatten)]
@@ -168,6 +169,9 @@ fn find_listing(path: &Path, patch: &OnePatch) -> Result<OnePatch, Failure> {
     for record in VectorFile::new(name, BufReader::new(file)).map_err(bad)? {
         match record.map_err(bad)? {
             Record::Listing(listing) if listing.case == *patch.case() => found = Some(listing),
+            Record::Coordinates(vertices) if vertices.case == *patch.case() => {
+                found = Some(vertices.numbered());
+            }
             _ => {}
         }
     }
