@@ -12,6 +12,7 @@ use tess_core::{
     SplitOrder, Tessellation, TriangleFactors,
 };
 use tess_simd::{Level, Numbering, Output, Tessellator};
+use tess_verify::random::SplitMix64;
 
 const SAME: fn(DomainPoint) -> DomainPoint = |point| point;
 
@@ -71,6 +72,31 @@ fn large_batches() {
                     let patches = Patches::random(seed, domain, 803);
                     compare_all(&mut tessellator, domain, &patches);
                 }
+            }
+        }
+    }
+}
+
+/// More topologies of compact patches than there is room for, and then the first ones again: the room is
+/// emptied several times, and what was forgotten is made again. With points as primitives the room for
+/// points ends first, with triangles the room for indices.
+#[test]
+fn more_compact_templates_than_there_is_room_for() {
+    let mut random = SplitMix64::new(41);
+    let mut factor = || f32::from(u8::try_from(1 + random.below(14)).unwrap_or(1));
+    let mut all: Vec<_> =
+        (0..6000).map(|_| PatchFactors::from_fn(Domain::Quad, |_| factor())).collect();
+    all.extend_from_within(..3000);
+    let patches = Patches::new(all);
+    for level in levels() {
+        for output in [OutputPrimitive::Point, OutputPrimitive::TriangleCw] {
+            for partitioning in [Partitioning::Integer, Partitioning::FractionalEven] {
+                let config = Config::new(partitioning, output);
+                let expected = patches.expected(config);
+                let batch = (&patches, patches.structures(Domain::Quad));
+                let mut tessellator = tessellator(config, level);
+                let numbering = Numbering::PerPatch;
+                compare::<DomainPoint, u32>(&mut tessellator, batch, &expected, numbering, SAME);
             }
         }
     }

@@ -6,8 +6,10 @@
 mod patches;
 
 use patches::{Patches, compare, configs};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, PatchFactors};
-use tess_simd::{Numbering, Tessellator};
+use tess_simd::{Numbering, Order, Tessellator};
 
 const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
 
@@ -58,6 +60,61 @@ fn within_a_larger_pool() {
             assert_same(&mut tessellator, Domain::Triangle, &patches);
         }
     });
+}
+
+/// Workspaces of threads that have written a batch hold templates in the order of that batch. All of them
+/// are forgotten when the order changes, whichever thread they belong to.
+#[test]
+fn every_workspace_takes_the_new_order() {
+    const THREADS: usize = 3;
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(THREADS).build().expect("a pool");
+    let patches = Patches::new(vec![PatchFactors::uniform(Domain::Quad, 9.0)]);
+    let mut tessellator = Tessellator::new(config).threads(THREADS);
+    for order in [Order::Specification, Order::VertexCache] {
+        let expected = patches.expected_in(order, config);
+        let shared = Mutex::new(tessellator.order(order));
+        // One patch is one slice, which the calling thread writes with the workspace of its number.
+        pool.broadcast(|_| {
+            let mut tessellator = shared.lock().expect("no test has failed");
+            let batch = (&patches, patches.structures(Domain::Quad));
+            let (numbering, same) = (Numbering::PerPatch, |point| point);
+            compare::<DomainPoint, u32>(&mut tessellator, batch, &expected, numbering, same);
+        });
+        tessellator = shared.into_inner().expect("no test has failed");
+    }
+}
+
+/// A thread that is alone writes all slices: those before its own ones too.
+#[test]
+fn each_thread_alone_writes_every_slice() {
+    const THREADS: usize = 3;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(THREADS).build().expect("a pool");
+    let patches = Patches::random(11, Domain::Quad, 200);
+    for alone in 0..THREADS {
+        let done = AtomicBool::new(false);
+        pool.broadcast(|context| {
+            if context.index() == alone {
+                let _end = SetAtEnd(&done);
+                let mut tessellator = Tessellator::new(CONFIG).threads(THREADS);
+                assert_same(&mut tessellator, Domain::Quad, &patches);
+            } else {
+                // Busy, so that it takes no work from the one that is alone.
+                while !done.load(Ordering::Acquire) {
+                    std::thread::yield_now();
+                }
+            }
+        });
+    }
+}
+
+/// Sets a flag when it goes, even in a panic.
+struct SetAtEnd<'a>(&'a AtomicBool);
+
+impl Drop for SetAtEnd<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Release);
+    }
 }
 
 /// However many threads are asked for, there are at most 256.
