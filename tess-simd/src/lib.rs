@@ -10,6 +10,8 @@ mod kernels;
 mod levels;
 mod stages;
 mod threads;
+#[cfg(all(test, feature = "std"))]
+mod tour;
 
 pub use data::batch::Batch;
 pub use data::error::{Buffer, Error};

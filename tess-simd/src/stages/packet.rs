@@ -1,4 +1,62 @@
-//! A packet of patches after the front end: factors, contexts and counts.
+//! A packet: sixteen patches side by side after factor processing, as in ray packets.
+//!
+//! The front end turns raw factors into what every later stage asks of a patch: point counts, spacings, output
+//! sizes, topology. It does so for sixteen patches at a time, one patch in each vector lane. `kernels/front_end`
+//! fills packets, `kernels/emit` takes them apart again, patch by patch.
+//!
+//! # Data
+//!
+//! A *column* has one number for each factor of each lane, factor by factor, so that one factor of all patches
+//! is one vector. *Lanes* have one number for each patch.
+//!
+//! ```text
+//! Column (fixed, points, and of Spacings: split, step, lag)     Lanes (minimum, compact, counts, topologies)
+//!            lane 0   1      15                                            lane 0   1      15
+//! factor 0  [     0][ 1] .. [15]   quads: u = 0                           [     0][ 1] .. [15]
+//! factor 1  [    16][17] .. [31]          v = 0
+//! factor 2  [    32][33] .. [47]          u = 1
+//! factor 3  [    48][49] .. [63]          v = 1
+//! factor 4  [    64][65] .. [79]          inside u
+//! factor 5  [    80][81] .. [95]          inside v
+//! ```
+//!
+//! The topology is one 64-bit number. Connectivity depends on nothing else; with integer factors neither do
+//! points.
+//!
+//! ```text
+//! bit    43   42..36    35..29    28..22    21..15    14..8     7..1        0
+//!       +---+---------+---------+---------+---------+---------+---------+---------+
+//!       | 1 | points of factor 0    2         3         4         5     | minimum |
+//!       |   |         |    1    |         |         |         |         |  patch  |
+//!       +---+---------+---------+---------+---------+---------+---------+---------+
+//! ```
+//!
+//! # One patch
+//!
+//! The quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md`, `fractional_even`, in lane 0:
+//!
+//! ```text
+//! factor       0        1        2        3        4        5
+//! fixed    0x30000  0x48000  0x50000  0x60000  0x40000  0x70000
+//! points       5        7        7        7        5        9       43 points, 186 indices, compact
+//! topology 0x850_E1C3_8512 = 1 0000101 0000111 0000111 0000111 0000101 0001001 0
+//! ```
+//!
+//! # What must hold
+//!
+//! - Factors that a domain lacks have no points, so topologies of two domains differ.
+//! - A lane without a patch is culled: its raw factors are 0. Its counts are 0; everything else in it is
+//!   unspecified, so callers skip lanes without points.
+//! - [`PacketPatch::key`] tells two factors apart by their lowest bit too: location tables are reused by it.
+//! - Compact patches have at most [`COMPACT_EDGE`] points along each edge; codes and templates have room for no
+//!   more.
+//!
+//! # The simpler form
+//!
+//! Eight patches a packet were slower: half of the vector loads waited for two narrower stores. The vector
+//! types of the crate `wide` take two to three times as long, because they choose their instructions when they
+//! are compiled (`docs/performance.md`). So lanes are plain arrays, and the compiler makes vectors of each
+//! level's width.
 
 use crate::data::lanes::{Column, EdgePoints, LANES, Lanes, MAX_FACTORS, is_odd};
 use crate::stages::counts::{PacketCounts, counts};
@@ -235,4 +293,59 @@ fn compact(domain: Domain, points: &Column) -> Lanes {
         }
     }
     compact
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+    use crate::tour;
+    use tess_core::QuadFactors;
+
+    /// The numbers at the head of this file.
+    #[test]
+    fn the_worked_patch() {
+        let packet = tour::packet();
+        let patch = packet.patch(0);
+        let fixed = [0, 1, 2, 3, 4, 5].map(|factor| packet.fixed[factor * LANES]);
+        assert_eq!(fixed, [0x30000, 0x48000, 0x50000, 0x60000, 0x40000, 0x70000], "15.16");
+        assert_eq!(patch.edges(), [5, 7, 7, 7, 5, 9], "points of the factors");
+        assert_eq!((patch.points(), patch.indices()), (43, 186), "sizes");
+        assert_eq!(patch.topology(), 0x850_E1C3_8512, "{:#b}", patch.topology());
+        let parts = [1, 5, 7, 7, 7, 5, 9].into_iter().fold(0, |all, part| (all << 7) | part) << 1;
+        assert_eq!(patch.topology(), parts, "a leading 1, the point counts, no minimum patch");
+        assert!(patch.is_compact() && !patch.is_minimum(), "compact");
+        assert_eq!(packet.patch(1).points(), 0, "a lane without a patch is culled");
+    }
+
+    /// A compact patch has at most 16 points along each edge, a triangle at most 13 inside.
+    #[test]
+    fn the_largest_compact_patches() {
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+        let is_compact = |domain, outer: f32, inside: f32| {
+            let mut raw = [0.0; LANES * MAX_FACTORS];
+            let outer_factors = if domain == Domain::Quad { 4 } else { 3 };
+            for (factor, lanes) in raw.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+                lanes[0] = if factor < outer_factors { outer } else { inside };
+            }
+            let mut packet = Packet::EMPTY;
+            packet.process(config, domain, &raw);
+            packet.patch(0).is_compact()
+        };
+        assert!(is_compact(Domain::Quad, 15.0, 15.0), "16 by 16 points");
+        assert!(!is_compact(Domain::Quad, 16.0, 2.0) && !is_compact(Domain::Quad, 2.0, 16.0), "17");
+        assert!(is_compact(Domain::Triangle, 15.0, 12.0), "13 points inside");
+        assert!(!is_compact(Domain::Triangle, 2.0, 13.0), "14 points inside");
+        assert!(!is_compact(Domain::Isoline, 2.0, 2.0), "isolines are not");
+    }
+
+    /// Topologies of two domains differ, even where all factors that both have are alike.
+    #[test]
+    fn topologies_of_domains_differ() {
+        let [triangle, quad] = [Domain::Triangle, Domain::Quad].map(|domain| {
+            let mut packet = Packet::EMPTY;
+            packet.process(tour::CONFIG, domain, &[4.0; LANES * MAX_FACTORS]);
+            packet.patch(0).topology()
+        });
+        assert_ne!(triangle, quad, "{:?}", QuadFactors::uniform(4.0));
+    }
 }

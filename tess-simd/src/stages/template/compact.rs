@@ -1,6 +1,53 @@
-//! Templates of compact patches, of which many topologies are kept.
+//! Templates of compact patches: thousands of topologies, with indices of one byte.
 //!
-//! Indices are bytes. With integer factors the topology decides the points too, otherwise their codes.
+//! A compact patch's indices follow from its topology, and so do its points (integer factors) or their codes
+//! (fractional ones). `kernels/emit` looks the topology up and copies; a topology that is new is made once, by the
+//! stages that larger patches go through.
+//!
+//! # Data
+//!
+//! ```text
+//! sets (2048)  topology * 2^64 / golden ratio, upper 11 bits
+//!  +--------------------------------+--------------------------------------+
+//!  | topologies: 4 x u64, 0 = empty | starts: 4 x (point: u32, index: u32) |
+//!  +--------------------------------+--------------|-------------|---------+
+//!                                                  v             |
+//! points (64 Ki of [u16; 2])  [ ... | patch's coordinates, or what CompactPoints keeps of codes | ... ]
+//!                                                                v
+//! indices (224 Ki of u8)      [ ... | indices from the patch's first point, in the order to write | ... ]
+//! ```
+//!
+//! Both rooms are filled from front to back. [`CompactTemplates::make_room`], before each packet, forgets
+//! everything if the largest sixteen patches might not fit. Coordinates of integer factors are 16.16 numbers with
+//! `ONE` as 0xFFFF ([`short`], [`long`]).
+//!
+//! # One patch
+//!
+//! The quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md`, clockwise triangles:
+//!
+//! ```text
+//! topology 0x850_E1C3_8512    set 444, slot 0
+//! 43 codes                    [0000, 8000] [0000, 8020] [0000, 8040] ...
+//! 186 indices                 0 1 22  22 1 23  23 1 24 ...
+//! ```
+//!
+//! # What must hold
+//!
+//! - `make_room` is called before a packet's first [`CompactTemplates::find`], and a [`Start`] is used before the
+//!   next `make_room`. Otherwise a template is cut off, or read after others have overwritten it.
+//! - [`PADDING`] elements behind the last template can be read: whole blocks are copied.
+//! - `forget` empties the sets and both rooms together. With the sets kept, old topologies would find new
+//!   templates.
+//! - Whatever changes templates without changing the topology (order of triangles, [`Kept`]) belongs to one
+//!   tessellator for good, or `Workspaces::forget` is called.
+//! - An index is below 256: a compact patch has at most 16 by 16 points.
+//!
+//! # The simpler form
+//!
+//! The templates of larger patches (`template.rs`) have 1024 slots, a 16-bit index and one way. `mosaic` has 4096
+//! topologies, which then replace each other. A triangle's inside is compact up to 13 points only, so that its
+//! codes have room for all rings. With AVX2, templates whose points are still copied in runs were slower than
+//! none: `character` took 1.4 times as long (`docs/performance.md`).
 
 use super::{PADDING, write_minimum};
 use crate::data::format::OutputPoint;
@@ -239,4 +286,41 @@ pub(crate) fn long<P: OutputPoint>(point: CompactPoint) -> P {
 const fn set(topology: u64) -> usize {
     let folded = topology ^ (topology >> 21);
     (folded.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SETS.ilog2())) as usize % SETS
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+    use crate::stages::settings::Settings;
+    use crate::tour;
+    use alloc::boxed::Box;
+
+    /// The numbers at the head of this file.
+    #[test]
+    fn the_worked_patch() {
+        let packet = tour::packet();
+        let patch = packet.patch(0);
+        let settings = Settings::new(tour::CONFIG);
+        let mut tables = Box::new(LocationTables::EMPTY);
+        let mut templates = CompactTemplates::new();
+        let start = templates.find(&settings, patch, &mut tables, |_, code| code);
+        assert_eq!(set(patch.topology()), 444, "its set");
+        assert_eq!(templates.sets[444].find(patch.topology()), 0, "its slot");
+        let template = templates.get(start);
+        assert_eq!(template.points[..43], tour::all_codes()[..], "codes");
+        assert_eq!(template.indices[..9], [0, 1, 22, 22, 1, 23, 23, 1, 24], "indices");
+        let used = (templates.points_used, templates.indices_used);
+        assert_eq!(used, (43, 186), "room that is used");
+        templates.forget();
+        assert_eq!(templates.sets[444].find(patch.topology()), 32, "forgotten");
+    }
+
+    /// Coordinates of integer factors keep their bits in half the room. 0xFFFF is none of them.
+    #[test]
+    fn shortened_points() {
+        for bits in [0, 0x0444, 0x8000, 0xFBBC, 0x1_0000] {
+            let point = DomainPoint::from_bits(bits, 0x1_0000 - bits);
+            assert_eq!(long::<DomainPoint>(short(point)), point, "{bits:#x}");
+        }
+    }
 }
