@@ -2,7 +2,7 @@
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{fuzz, levels, publish, test};
+use crate::{features, fuzz, levels, publish, test};
 
 /// Formatting, lints, documentation, features, the fuzz targets, other
 /// compilers and processors, packages, then every test.
@@ -17,9 +17,7 @@ pub(crate) fn run() -> Result<(), String> {
     command::run(
         cargo("doc --workspace --no-deps --all-features").env("RUSTDOCFLAGS", "-D warnings"),
     )?;
-    for features in FEATURE_SETS {
-        command::run(&mut cargo(features))?;
-    }
+    features::check(&[])?;
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
     fuzz::run_in_ci()?;
     ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;
@@ -27,9 +25,3 @@ pub(crate) fn run() -> Result<(), String> {
     publish::deny_if_installed()?;
     test::run_all(test::Browser::Demanded)
 }
-
-/// Libraries also build without their default features.
-const FEATURE_SETS: &[&str] = &[
-    "check --package tess-core --no-default-features",
-    "check --package tess-simd --no-default-features",
-];

@@ -61,18 +61,19 @@ pub(crate) fn run(command: &mut Command) -> Result<(), String> {
     if status.success() { Ok(()) } else { Err(format!("`{}` ended with {status}", shown(command))) }
 }
 
-/// As [`output()`], saying first what is run.
-pub(crate) fn said_and_output(command: &mut Command) -> Result<String, String> {
-    println!("\n$ {}", shown(command));
-    output(command)
-}
-
 /// Runs a command and gives what it prints on its standard output.
 pub(crate) fn output(command: &mut Command) -> Result<String, String> {
-    let output = command
-        .stderr(Stdio::inherit())
-        .output()
-        .map_err(|error| format!("cannot run `{}`: {error}", shown(command)))?;
+    said(command.stderr(Stdio::inherit()))
+}
+
+/// As [`output()`], without a word of what it says on its standard error.
+pub(crate) fn quiet_output(command: &mut Command) -> Result<String, String> {
+    said(command.stderr(Stdio::null()))
+}
+
+fn said(command: &mut Command) -> Result<String, String> {
+    let output =
+        command.output().map_err(|error| format!("cannot run `{}`: {error}", shown(command)))?;
     if !output.status.success() {
         return Err(format!("`{}` ended with {}", shown(command), output.status));
     }

@@ -7,6 +7,7 @@ mod command;
 mod coverage;
 mod covergroups;
 mod explorer;
+mod features;
 mod fuzz;
 mod integrations;
 mod levels;
@@ -50,14 +51,19 @@ usage: cargo xtask <command>
           write the covergroups of tess_uvm anew from the coverage bins
   circles [FOLDER...]
           show the modules that import each other in a circle, in all crates or those in these folders
+  features [PACKAGE...]
+          check that every published package, or these, compiles with none of its features, each, and all
   ports [brief] [NAME...]
-          check other compilers, processors and hosts: msrv, i686, aarch64, s390x, wasm,
+          check other compilers, processors and systems: msrv, i686, aarch64, s390x, windows, macos, wasm,
           miri; installs emulators and compilers. `brief` runs the tests that take seconds
   fuzz [SECONDS]
           build every fuzz target and run each, for 10 seconds by default
   mutants PACKAGE [OPTION...]
           plant faults in tess-core or tess-simd; fails if one survives the tests and
           docs/mutants.md does not list it (needs cargo-mutants; takes an hour)
+  mutants planted [WORD...]
+          plant the faults of dev/xtask/faults, or those with one of these words, in a copy of the tree; fails
+          if the test beside one does not see it (each compiles a crate again: hours for all)
   coverage
           line coverage of the tests (needs cargo-llvm-cov)
   publish pack and build every published package as a registry would get it; send nothing
@@ -96,10 +102,12 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
         ["circles", ref names @ ..] => circles::run(names),
+        ["features", ref names @ ..] => features::check(names),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
         ["ports", ref names @ ..] => ports::run(names, Extent::Whole),
         ["fuzz"] => after_setup(&|| fuzz::run(fuzz::BRIEFLY)),
         ["fuzz", seconds] => after_setup(&|| fuzz::run(seconds)),
+        ["mutants", "planted", ref words @ ..] => mutants::planted(words),
         ["mutants", package, ref rest @ ..] => mutants::run(package, rest),
         ["coverage"] => coverage::run(),
         ["publish"] => publish::dry_run(),

@@ -1,5 +1,8 @@
 //! Planted faults: `cargo mutants` changes one thing at a time and demands that a test fails.
 
+mod fault;
+mod planted;
+
 use crate::command::{cargo, shown, workspace};
 use std::fs;
 use std::path::Path;
@@ -40,6 +43,11 @@ const SUBJECTS: &[Subject] = &[
 
 /// Where the survivors that change nothing are listed, each with its reason.
 const EQUIVALENT: &str = "docs/mutants.md";
+
+/// Plants the faults of `dev/xtask/faults`; see [`planted::run`].
+pub(crate) fn planted(words: &[&str]) -> Result<(), String> {
+    planted::run(words)
+}
 
 /// Plants every fault in `package`; `rest` are options for `cargo mutants`, such as a file or a
 /// shard. With `--iterate` among them, faults that an earlier run caught are left out.

@@ -1,6 +1,7 @@
-//! Other compilers, processors and hosts, on which the same bits are expected.
+//! Other compilers, processors and systems, on which the same bits are expected.
 
 mod cross;
+mod macos;
 mod miri;
 mod msrv;
 mod wasm;
@@ -25,6 +26,8 @@ const PORTS: &[Port] = &[
     Port { name: "i686", check: |extent| cross::check(&cross::I686, extent) },
     Port { name: "aarch64", check: |extent| cross::check(&cross::AARCH64, extent) },
     Port { name: "s390x", check: |extent| cross::check(&cross::S390X, extent) },
+    Port { name: "windows", check: |extent| cross::check(&cross::WINDOWS, extent) },
+    Port { name: "macos", check: |_| macos::check() },
     Port { name: "wasm", check: wasm::check },
     Port { name: "miri", check: miri::check },
 ];

@@ -14,6 +14,9 @@ use std::process::Command;
 /// The arguments of `cargo` for the tests of the workspace.
 const ALL: &str = "test --workspace --all-features --no-fail-fast";
 
+/// Has cargo list what it built on its standard output.
+const MESSAGES: &str = "--message-format=json-render-diagnostics";
+
 /// The programs that take longest, which start first: what starts last then ends soon.
 const LONG: &[&str] = &[
     "tools/cli/tests/program/main.rs",
@@ -43,6 +46,12 @@ pub(crate) enum Extent {
     All,
 }
 
+/// Sources and where their builds go: the workspace's, or a copy.
+pub(crate) struct Tree {
+    pub(crate) root: PathBuf,
+    pub(crate) target: PathBuf,
+}
+
 /// A test program, as cargo's messages describe it.
 #[derive(Deserialize)]
 struct Program {
@@ -64,10 +73,10 @@ struct Profile {
 /// They do not compile, or a path has no tests.
 pub(crate) fn jobs(extent: Extent, paths: &[&str]) -> Result<Vec<Job>, String> {
     let mut build = cargo(ALL);
-    build.args(["--no-run", "--message-format=json-render-diagnostics"]).args(selection(paths)?);
-    let messages = command::said_and_output(&mut build)?;
-    let programs = messages.lines().filter_map(|line| serde_json::from_str(line).ok());
-    let mut jobs: Vec<Job> = programs.filter_map(|program| job(program, extent, paths)).collect();
+    println!("\n$ {}", command::shown(build.arg("--no-run")));
+    let root = workspace();
+    let messages = command::output(build.arg(MESSAGES).args(selection(paths)?))?;
+    let mut jobs = jobs_of(&messages, &root, extent, paths);
     let place = |job: &Job| LONG.iter().position(|long| *long == job.name).unwrap_or(LONG.len());
     jobs.sort_by_key(place);
     if paths.is_empty() {
@@ -80,14 +89,32 @@ pub(crate) fn jobs(extent: Extent, paths: &[&str]) -> Result<Vec<Job>, String> {
     Ok(jobs)
 }
 
+/// Builds the test programs of `path` in another tree and gives their jobs.
+///
+/// # Errors
+/// They do not compile, or there are none.
+pub(crate) fn programs(tree: &Tree, path: &str) -> Result<Vec<Job>, String> {
+    let mut build = cargo(ALL);
+    build.current_dir(&tree.root).env("CARGO_TARGET_DIR", &tree.target);
+    build.arg("--no-run").args(selection(&[path])?);
+    let messages = command::quiet_output(build.arg(MESSAGES))?;
+    Ok(jobs_of(&messages, &tree.root, Extent::All, &[path]))
+}
+
+/// The jobs of a build, from what cargo said of it in the tree at `root`.
+fn jobs_of(messages: &str, root: &Path, extent: Extent, paths: &[&str]) -> Vec<Job> {
+    let programs = messages.lines().filter_map(|line| serde_json::from_str(line).ok());
+    programs.filter_map(|program| job(program, root, extent, paths)).collect()
+}
+
 /// Arguments of cargo that select the targets below these paths.
 fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
     let mut arguments = Vec::new();
     let packages = packages::all()?;
     for path in paths {
         let targets = packages.iter().flat_map(|package| &package.targets);
-        let found =
-            targets.filter(|target| target.test && relative(&target.src_path).starts_with(path));
+        let prefix = workspace().join(path);
+        let found = targets.filter(|target| target.test && target.src_path.starts_with(&prefix));
         let before = arguments.len();
         arguments.extend(found.flat_map(Target::selection));
         if arguments.len() == before {
@@ -100,9 +127,9 @@ fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
 }
 
 /// The command of a program that is to run.
-fn job(program: Program, extent: Extent, paths: &[&str]) -> Option<Job> {
+fn job(program: Program, root: &Path, extent: Extent, paths: &[&str]) -> Option<Job> {
     let Program { manifest_path, target, profile, executable } = program;
-    let source = relative(&target.src_path);
+    let source = target.src_path.strip_prefix(root).unwrap_or(&target.src_path);
     let is_chosen = paths.is_empty() || paths.iter().any(|path| source.starts_with(path));
     let mut command = Command::new(executable.filter(|_| profile.test && is_chosen)?);
     if extent == Extent::Comparisons
@@ -119,11 +146,6 @@ fn job(program: Program, extent: Extent, paths: &[&str]) -> Option<Job> {
     command.env("CARGO", cargo("").get_program());
     prepare(&mut command);
     Some(Job { name: source.display().to_string(), command })
-}
-
-fn relative(path: &Path) -> &Path {
-    let root = workspace();
-    path.strip_prefix(root).unwrap_or(path)
 }
 
 /// Tells tests what they may rely on.

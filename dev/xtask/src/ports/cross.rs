@@ -1,4 +1,4 @@
-//! Tests of the model and of the CPU backend on other processors, in emulators.
+//! Tests of the model and of the CPU backend on other processors and on Windows, in emulators.
 
 use super::Extent;
 use crate::command::cargo;
@@ -7,19 +7,22 @@ use crate::tally;
 use std::path::Path;
 use std::process::Command;
 
-/// A processor that an x86-64 machine with Debian's cross compilers can run programs for.
-pub(super) struct Processor {
+/// A processor or system that an x86-64 machine with Debian's cross compilers can run programs for.
+pub(super) struct Host {
     target: &'static str,
     linker: &'static str,
     runner: &'static str,
+    /// Arguments of `cargo` for every test that can run there.
+    whole: &'static [&'static str],
     need: Need,
 }
 
 /// 32 bits: `usize` is as wide as an index.
-pub(super) const I686: Processor = Processor {
+pub(super) const I686: Host = Host {
     target: "i686-unknown-linux-gnu",
     linker: "i686-linux-gnu-gcc",
     runner: "/usr/i686-linux-gnu/lib/ld-linux.so.2 --library-path /usr/i686-linux-gnu/lib",
+    whole: WHOLE,
     need: Need {
         what: "a C compiler and C library for i686",
         packages: &["gcc-i686-linux-gnu", "libc6-dev-i386-cross"],
@@ -31,10 +34,11 @@ pub(super) const I686: Processor = Processor {
 };
 
 /// Another instruction set with the byte order of x86.
-pub(super) const AARCH64: Processor = Processor {
+pub(super) const AARCH64: Host = Host {
     target: "aarch64-unknown-linux-gnu",
     linker: "aarch64-linux-gnu-gcc",
     runner: "qemu-aarch64-static -L /usr/aarch64-linux-gnu",
+    whole: WHOLE,
     need: Need {
         what: "a C compiler, C library and emulator for aarch64",
         packages: &["gcc-aarch64-linux-gnu", "libc6-dev-arm64-cross", "qemu-user-static"],
@@ -43,14 +47,32 @@ pub(super) const AARCH64: Processor = Processor {
 };
 
 /// The most significant byte first.
-pub(super) const S390X: Processor = Processor {
+pub(super) const S390X: Host = Host {
     target: "s390x-unknown-linux-gnu",
     linker: "s390x-linux-gnu-gcc",
     runner: "qemu-s390x-static -L /usr/s390x-linux-gnu",
+    whole: WHOLE,
     need: Need {
         what: "a C compiler, C library and emulator for s390x",
         packages: &["gcc-s390x-linux-gnu", "libc6-dev-s390x-cross", "qemu-user-static"],
         is_there: || has_program("s390x-linux-gnu-gcc") && has_program("qemu-s390x-static"),
+    },
+};
+
+/// 64 bits, with another calling convention, C library, line ends and paths; as Wine has them.
+pub(super) const WINDOWS: Host = Host {
+    target: "x86_64-pc-windows-gnu",
+    linker: "x86_64-w64-mingw32-gcc",
+    runner: "wine",
+    whole: &[
+        "test --package tess-core",
+        "test --package tess-simd --all-features -- --skip too_large_a_pool",
+        "test --package tess-program --no-default-features",
+    ],
+    need: Need {
+        what: "a C compiler for Windows (mingw-w64), and Wine",
+        packages: &["gcc-mingw-w64-x86-64-win32", "wine64", "wine"],
+        is_there: || has_program("x86_64-w64-mingw32-gcc") && has_program("wine"),
     },
 };
 
@@ -67,26 +89,28 @@ const WHOLE: &[&str] = &[
     "test --package tess-simd --all-features -- --skip too_large_a_pool",
 ];
 
-/// Runs the tests on this processor.
-pub(super) fn check(processor: &Processor, extent: Extent) -> Result<(), String> {
-    setup::provide(&[processor.need])?;
-    setup::target(processor.target)?;
+/// Runs the tests on this host.
+pub(super) fn check(host: &Host, extent: Extent) -> Result<(), String> {
+    setup::provide(&[host.need])?;
+    setup::target(host.target)?;
     let variable = |what: &str| {
-        format!("CARGO_TARGET_{}_{what}", processor.target.to_uppercase().replace('-', "_"))
+        format!("CARGO_TARGET_{}_{what}", host.target.to_uppercase().replace('-', "_"))
     };
-    tally::run(commands(extent).iter().map(|arguments| {
+    tally::run(commands(host, extent).iter().map(|arguments| {
         let mut command: Command = cargo(arguments);
-        command.env("CARGO_BUILD_TARGET", processor.target);
-        command.env(variable("LINKER"), processor.linker);
-        command.env(variable("RUNNER"), processor.runner);
+        // Wine otherwise says on the standard error what it lacks.
+        command.env("WINEDEBUG", "-all");
+        command.env("CARGO_BUILD_TARGET", host.target);
+        command.env(variable("LINKER"), host.linker);
+        command.env(variable("RUNNER"), host.runner);
         command
     }))
 }
 
-/// Arguments of `cargo` for the tests that run on other processors.
-const fn commands(extent: Extent) -> &'static [&'static str] {
+/// Arguments of `cargo` for the tests that run there.
+const fn commands(host: &Host, extent: Extent) -> &'static [&'static str] {
     match extent {
         Extent::Brief => BRIEF,
-        Extent::Whole => WHOLE,
+        Extent::Whole => host.whole,
     }
 }

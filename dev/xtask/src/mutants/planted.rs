@@ -1,0 +1,180 @@
+//! Faults planted by hand: `cargo xtask mutants planted`.
+//!
+//! A fault changes a copy of the tree, in which one program of tests is built again and run; the sources themselves
+//! are not touched. Switches in the code, one build for all faults, would be quicker, but the published crates would
+//! have them, and the tests would run on another build than the one that is published.
+
+use super::fault::{self, Fault};
+use crate::command::{self, in_file, workspace};
+use crate::suite::{self, Tree};
+use crate::tally::Job;
+use std::collections::BTreeSet;
+use std::fmt;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Where the lists are.
+const LISTS: &str = "dev/xtask/faults";
+
+/// Seconds after which tests that do not end have seen a fault.
+const PATIENCE: &str = "600";
+
+/// What became of a fault.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fate {
+    Seen,
+    Survived,
+    /// The compiler saw it, so no test was asked.
+    Refused,
+}
+
+impl fmt::Display for Fate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Seen => "seen",
+            Self::Survived => "SURVIVED",
+            Self::Refused => "DOES NOT COMPILE",
+        })
+    }
+}
+
+/// Plants the faults whose folder, tests or name have one of `words`, or all of them.
+///
+/// # Errors
+/// A fault that no test saw and that is not listed as equivalent, or the reverse; one that does not apply or compile;
+/// tests that fail without a fault.
+pub(super) fn run(words: &[&str]) -> Result<(), String> {
+    let files = files()?;
+    let faults = chosen(words)?;
+    let places: Vec<String> =
+        faults.iter().filter_map(|fault| fault.plant(&workspace(), &files).err()).collect();
+    if !places.is_empty() {
+        return Err(places.join("\n"));
+    }
+    let tree = copy(&files)?;
+    let mut sound = BTreeSet::new();
+    let mut wrong = Vec::new();
+    for (number, fault) in (1..).zip(&faults) {
+        let tests = (fault.tests.clone(), fault.filters.clone());
+        if sound.insert(tests) && fate(&tree, fault)? != Fate::Survived {
+            return Err(format!("{}: fails without a fault", fault.tests));
+        }
+        let planted = fault.plant(&tree.root, &files)?;
+        let file = tree.root.join(&planted.file);
+        let original = fs::read(&file).map_err(|error| in_file(&file, &error))?;
+        fs::write(&file, planted.text).map_err(|error| in_file(&file, &error))?;
+        let fate = fate(&tree, fault);
+        fs::write(&file, original).map_err(|error| in_file(&file, &error))?;
+        let fate = fate?;
+        let line = format!("{}: {}: {fate}", planted.file.display(), fault.name);
+        println!("[{number} of {}] {line}", faults.len());
+        let expected = if fault.equivalent.is_some() { Fate::Survived } else { Fate::Seen };
+        if fate != expected {
+            wrong.push(line);
+        }
+    }
+    let equivalent = faults.iter().filter(|fault| fault.equivalent.is_some()).count();
+    println!("\n{} faults, {equivalent} of them equivalent", faults.len());
+    match wrong.is_empty() {
+        true => Ok(()),
+        false => Err(format!("not as listed:\n{}", wrong.join("\n"))),
+    }
+}
+
+/// The faults that one of these words selects.
+fn chosen(words: &[&str]) -> Result<Vec<Fault>, String> {
+    let mut faults = fault::read(&workspace().join(LISTS))?;
+    faults.retain(|fault| {
+        let shown = format!("{} {} {}", fault.folder.display(), fault.tests, fault.name);
+        words.is_empty() || words.iter().any(|word| shown.contains(word))
+    });
+    if faults.is_empty() { Err(format!("no fault has one of {words:?}")) } else { Ok(faults) }
+}
+
+/// Whether the tests of a fault see what is in the tree.
+fn fate(tree: &Tree, fault: &Fault) -> Result<Fate, String> {
+    let Ok(jobs) = suite::programs(tree, &fault.tests) else { return Ok(Fate::Refused) };
+    let mut fate = Fate::Survived;
+    for Job { command, .. } in jobs {
+        // A fault can make a loop endless.
+        let mut limited = Command::new("timeout");
+        limited.arg(PATIENCE).arg(command.get_program()).args(&fault.filters);
+        if let Some(folder) = command.get_current_dir() {
+            limited.current_dir(folder);
+        }
+        limited.envs(command.get_envs().filter_map(|(key, value)| Some((key, value?))));
+        let output = limited.output().map_err(|error| format!("cannot run `timeout`: {error}"))?;
+        let text = String::from_utf8_lossy(&output.stdout);
+        if output.status.success() && text.contains("running 0 tests") {
+            return Err(format!("{}: no test has the name {:?}", fault.tests, fault.filters));
+        }
+        if !output.status.success() {
+            fate = Fate::Seen;
+        }
+    }
+    Ok(fate)
+}
+
+/// All files that git knows or could add.
+fn files() -> Result<Vec<PathBuf>, String> {
+    let mut git = Command::new("git");
+    git.args(["ls-files", "--cached", "--others", "--exclude-standard"]).current_dir(workspace());
+    let list = command::output(&mut git)?;
+    let files = list.lines().map(PathBuf::from);
+    Ok(files.filter(|file| workspace().join(file).is_file()).collect())
+}
+
+/// Brings the copy of the tree up to date. What has not changed is left, so that it is not compiled again.
+fn copy(files: &[PathBuf]) -> Result<Tree, String> {
+    let folder = command::target().join("planted");
+    let tree = Tree { root: folder.join("tree"), target: folder.join("target") };
+    let known = list(&tree.root);
+    for file in known.iter().filter(|file| !files.contains(file)) {
+        fs::remove_file(tree.root.join(file)).map_err(|error| in_file(file, &error))?;
+    }
+    for file in files {
+        let (from, to) = (workspace().join(file), tree.root.join(file));
+        let new = fs::read(&from).map_err(|error| in_file(&from, &error))?;
+        if fs::read(&to).is_ok_and(|old| old == new) {
+            continue;
+        }
+        let parent = to.parent().unwrap_or(&to);
+        fs::create_dir_all(parent).map_err(|error| in_file(parent, &error))?;
+        fs::write(&to, new).map_err(|error| in_file(&to, &error))?;
+    }
+    Ok(tree)
+}
+
+/// The files below a folder, their paths from there on; none if it does not exist.
+fn list(root: &Path) -> Vec<PathBuf> {
+    let (mut folders, mut found) = (vec![root.to_path_buf()], Vec::new());
+    while let Some(folder) = folders.pop() {
+        for path in fs::read_dir(folder).into_iter().flatten().flatten().map(|e| e.path()) {
+            if path.is_dir() {
+                folders.push(path);
+            } else if let Ok(file) = path.strip_prefix(root) {
+                found.push(file.to_path_buf());
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_fault_has_one_place_and_a_test() {
+        let files = files().expect("files");
+        let mut wrong = Vec::new();
+        for fault in chosen(&[]).expect("faults") {
+            wrong.extend(fault.plant(&workspace(), &files).err());
+            if !workspace().join(&fault.tests).exists() {
+                wrong.push(format!("{}: there is no {}", fault.name, fault.tests));
+            }
+        }
+        assert!(wrong.is_empty(), "bring dev/xtask/faults up to date:\n{}", wrong.join("\n"));
+    }
+}

@@ -1,0 +1,25 @@
+//! macOS: what is not linked can be checked anywhere.
+
+use crate::command::{self, cargo};
+use crate::setup;
+
+const TARGET: &str = "aarch64-apple-darwin";
+
+/// What compiles no C code, for which Apple's compiler would be needed.
+const PACKAGES: &[&str] = &[
+    "tess-core",
+    "tess-simd",
+    "tess-gpu",
+    "tess-surface",
+    "tess-verify",
+    "tess-wgpu",
+    "tess-capi",
+];
+
+/// Checks the libraries for Apple's processors. Nothing runs: that takes a Mac.
+pub(super) fn check() -> Result<(), String> {
+    setup::target(TARGET)?;
+    let packages = PACKAGES.iter().flat_map(|package| ["--package", package]);
+    command::run(cargo("check --lib --all-features --target").arg(TARGET).args(packages))?;
+    command::run(cargo("check --package tess-program --no-default-features --target").arg(TARGET))
+}
