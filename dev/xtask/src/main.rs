@@ -74,7 +74,7 @@ usage: cargo xtask <command>
   record NAME [--machine TEXT] [--rows FILE] -- BENCH-ARGUMENT...
           run `tess bench` and keep its rows in benches/records/NAME.json
   performance
-          write the tables of docs/performance.md from the records";
+          write the tables of docs/performance.md and docs/experiments.md and the charts from the records";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();

@@ -5,6 +5,7 @@ mod macos;
 mod miri;
 mod msrv;
 mod wasm;
+mod windows;
 
 /// How much of a port's work is done.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -26,7 +27,7 @@ const PORTS: &[Port] = &[
     Port { name: "i686", check: |extent| cross::check(&cross::I686, extent) },
     Port { name: "aarch64", check: |extent| cross::check(&cross::AARCH64, extent) },
     Port { name: "s390x", check: |extent| cross::check(&cross::S390X, extent) },
-    Port { name: "windows", check: |extent| cross::check(&cross::WINDOWS, extent) },
+    Port { name: "windows", check: windows::check },
     Port { name: "macos", check: |_| macos::check() },
     Port { name: "wasm", check: wasm::check },
     Port { name: "miri", check: miri::check },

@@ -1,5 +1,6 @@
 //! Measurements as data: `benches/records/NAME.json`, described in the README beside them.
 
+mod chart;
 pub(crate) mod performance;
 mod rates;
 mod table;

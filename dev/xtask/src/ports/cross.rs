@@ -1,4 +1,4 @@
-//! Tests of the model and of the CPU backend on other processors and on Windows, in emulators.
+//! Tests of the model and of the CPU backend on other processors in emulators.
 
 use super::Extent;
 use crate::command::cargo;
@@ -9,12 +9,12 @@ use std::process::Command;
 
 /// A processor or system that an x86-64 machine with Debian's cross compilers can run programs for.
 pub(super) struct Host {
-    target: &'static str,
-    linker: &'static str,
-    runner: &'static str,
+    pub(super) target: &'static str,
+    pub(super) linker: &'static str,
+    pub(super) runner: &'static str,
     /// Arguments of `cargo` for every test that can run there.
-    whole: &'static [&'static str],
-    need: Need,
+    pub(super) whole: &'static [&'static str],
+    pub(super) need: Need,
 }
 
 /// 32 bits: `usize` is as wide as an index.
@@ -59,23 +59,6 @@ pub(super) const S390X: Host = Host {
     },
 };
 
-/// 64 bits, with another calling convention, C library, line ends and paths; as Wine has them.
-pub(super) const WINDOWS: Host = Host {
-    target: "x86_64-pc-windows-gnu",
-    linker: "x86_64-w64-mingw32-gcc",
-    runner: "wine",
-    whole: &[
-        "test --package tess-core",
-        "test --package tess-simd --all-features -- --skip too_large_a_pool",
-        "test --package tess-program --no-default-features",
-    ],
-    need: Need {
-        what: "a C compiler for Windows (mingw-w64), and Wine",
-        packages: &["gcc-mingw-w64-x86-64-win32", "wine64", "wine"],
-        is_there: || has_program("x86_64-w64-mingw32-gcc") && has_program("wine"),
-    },
-};
-
 /// Tests that compare with `golden/` and take seconds in an emulator.
 pub(super) const BRIEF: &[&str] = &[
     "test --package tess-core --lib --test golden",
@@ -92,14 +75,18 @@ const WHOLE: &[&str] = &[
 /// Runs the tests on this host.
 pub(super) fn check(host: &Host, extent: Extent) -> Result<(), String> {
     setup::provide(&[host.need])?;
+    run(host, extent, &[])
+}
+
+/// Runs the tests with what else is set for them.
+pub(super) fn run(host: &Host, extent: Extent, set: &[(&str, String)]) -> Result<(), String> {
     setup::target(host.target)?;
     let variable = |what: &str| {
         format!("CARGO_TARGET_{}_{what}", host.target.to_uppercase().replace('-', "_"))
     };
     tally::run(commands(host, extent).iter().map(|arguments| {
         let mut command: Command = cargo(arguments);
-        // Wine otherwise says on the standard error what it lacks.
-        command.env("WINEDEBUG", "-all");
+        command.envs(set.iter().map(|(key, value)| (key, value)));
         command.env("CARGO_BUILD_TARGET", host.target);
         command.env(variable("LINKER"), host.linker);
         command.env(variable("RUNNER"), host.runner);

@@ -1,42 +1,55 @@
-//! The tables of `docs/performance.md`, made from the records.
+//! The tables of `docs/performance.md` and `docs/experiments.md`, and the charts, made from the records.
 
-use super::{names, read, table, targets};
-use crate::command::workspace;
+use super::{chart, names, read, table, targets};
+use crate::command::{in_file, workspace};
 use std::fs;
 use std::path::PathBuf;
 
 const START: &str = "<!-- table: ";
 const END: &str = "<!-- end -->";
 
-/// Writes each table anew between its markers, `<!-- table: NAME -->` and `<!-- end -->`.
+/// The documents that have tables: results, and what was tried.
+const DOCUMENTS: [&str; 2] = ["docs/performance.md", "docs/experiments.md"];
+
+/// Brings the tables between their markers, `<!-- table: NAME -->` and `<!-- end -->`, and the charts up to date.
 ///
 /// # Errors
 /// A marker without a record, a record without a marker, or a marker without its end.
 pub(crate) fn run() -> Result<(), String> {
-    let text = fs::read_to_string(path()).map_err(|error| error.to_string())?;
-    let remade = remade(&text)?;
-    if remade == text {
-        println!("docs/performance.md is up to date");
-        return Ok(());
+    let mut changed = 0;
+    for (path, text) in made()? {
+        if fs::read_to_string(&path).is_ok_and(|old| old == text) {
+            continue;
+        }
+        fs::write(&path, text).map_err(|error| in_file(&path, &error))?;
+        println!("{} is new", path.display());
+        changed += 1;
     }
-    fs::write(path(), remade).map_err(|error| error.to_string())?;
-    println!("docs/performance.md has new tables");
+    if changed == 0 {
+        println!("tables and charts are up to date");
+    }
     Ok(())
 }
 
-fn path() -> PathBuf {
-    workspace().join("docs/performance.md")
-}
-
-/// The document with every table as the records make it.
-fn remade(text: &str) -> Result<String, String> {
+/// Every document and chart as the records make it.
+fn made() -> Result<Vec<(PathBuf, String)>, String> {
     let targets = targets::read()?;
     let table = |name: &str| read(name).map(|record| table::block(&record, &targets));
-    let (remade, used) = with_tables(text, table)?;
-    match names()?.into_iter().find(|name| !used.contains(name)) {
-        Some(name) => Err(format!("docs/performance.md has no `{START}{name} -->`")),
-        None => Ok(remade),
+    let (mut files, mut used) = (Vec::new(), Vec::new());
+    for document in DOCUMENTS {
+        let path = workspace().join(document);
+        let text = fs::read_to_string(&path).map_err(|error| in_file(&path, &error))?;
+        let (text, names) = with_tables(&text, table).map_err(|error| in_file(&path, &error))?;
+        used.extend(names);
+        files.push((path, text));
     }
+    if let Some(name) = names()?.into_iter().find(|name| !used.contains(name)) {
+        return Err(format!("no document has `{START}{name} -->`; {}", DOCUMENTS.join(", ")));
+    }
+    for (name, svg) in chart::all()? {
+        files.push((workspace().join(format!("docs/images/{name}.svg")), svg));
+    }
+    Ok(files)
 }
 
 /// `text` with the tables that `table` makes, and the names of these.
@@ -61,12 +74,22 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_document_has_the_tables_of_the_records() {
-        let text = fs::read_to_string(path()).expect("the document");
-        let remade = remade(&text).expect("tables");
-        let differing = text.lines().zip(remade.lines()).find(|(here, there)| here != there);
-        assert_eq!(differing, None, "cargo xtask performance writes the tables");
-        assert_eq!(text, remade, "cargo xtask performance writes the tables");
+    fn documents_and_charts_are_those_of_the_records() {
+        for (path, made) in made().expect("documents and charts") {
+            let text = fs::read_to_string(&path).expect("a file");
+            let differing = text.lines().zip(made.lines()).find(|(here, there)| here != there);
+            let shown = path.display();
+            assert_eq!(differing, None, "{shown}: cargo xtask performance");
+            assert_eq!(text, made, "{shown}: cargo xtask performance");
+        }
+    }
+
+    #[test]
+    fn every_chart_is_shown() {
+        let text = fs::read_to_string(workspace().join(DOCUMENTS[0])).expect("the document");
+        for (name, _) in chart::all().expect("charts") {
+            assert!(text.contains(&format!("](images/{name}.svg)")), "{name}");
+        }
     }
 
     #[test]
