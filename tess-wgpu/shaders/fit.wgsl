@@ -1,8 +1,9 @@
-// Scales all factors down until the output fits. The scales are a ladder: step 0 is 1, each step is a little
-// smaller, and the last one makes every factor 1. More factor never gives less output, so the first step
-// that fits is found by counting every 16th step, and then the 15 between two of those.
+// Scales all factors down until the output fits. src/stage/fit.rs shows the buffers, works one frame through and says
+// what must hold.
 //
-// All factors have one scale, so that two patches which agree on an edge still do.
+// The scales are a ladder: step 0 is 1, each step is a little smaller, and the last one makes every factor 1. A smaller
+// scale never gives more output. So two rounds find the first step that fits: count every 16th step, then the 16
+// steps up to the first of those that fits.
 
 const COARSE = 16u; // steps between two that are counted first
 const SLOTS_OF_FIT = 2u * COARSE + 1u;

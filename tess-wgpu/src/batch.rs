@@ -3,43 +3,12 @@
 use crate::buffers::Buffers;
 use crate::dispatches::{Dispatch, dispatches};
 use crate::error::Error;
-use crate::{Tessellator, limits};
+use crate::limits;
+use crate::outputs::{Outputs, Patches};
+use crate::pipelines::Pipelines;
 use tess_gpu::{
     Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Stage, Workgroups, Written,
 };
-
-/// Where a batch writes its output.
-#[derive(Clone, Copy, Debug)]
-pub enum Outputs<'a> {
-    /// Nowhere: the batch is only counted.
-    CountOnly,
-    /// Into these buffers, from their first byte on. If anything does not fit, nothing is written.
-    Buffers {
-        /// The domain points, 8 bytes each.
-        points: &'a wgpu::Buffer,
-        /// The indices, 2 or 4 bytes each; whole 8 bytes of the buffer are used.
-        indices: &'a wgpu::Buffer,
-    },
-    /// Indices alone, for a vertex shader that computes its point ([`tess_gpu::Pull`]).
-    Indices {
-        /// The most points that the batch may have.
-        points: u32,
-        /// The indices, as in [`Outputs::Buffers`].
-        indices: &'a wgpu::Buffer,
-    },
-    /// Draw arguments alone, for a vertex shader that computes its index too. Their first four words
-    /// are those of `draw_indirect`.
-    Arguments(Capacity),
-}
-
-/// What a batch reads.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Patches<'a> {
-    pub(crate) count: u32,
-    /// The first patch of each group.
-    pub(crate) groups: &'a [u32],
-    pub(crate) factors: &'a wgpu::Buffer,
-}
 
 /// Patches of one [`Setup`] with the caller's buffers, and every buffer and bind group in between.
 ///
@@ -60,18 +29,18 @@ pub struct Batch {
 
 impl Batch {
     pub(crate) fn new(
-        tessellator: &mut Tessellator,
+        pipelines: &mut Pipelines,
         setup: Setup,
         patches: Patches<'_>,
         outputs: Outputs<'_>,
     ) -> Result<Self, Error> {
         let Patches { count, groups, factors } = patches;
-        limits::check(tessellator.device())?;
-        let plan = plan(setup, count, outputs, tessellator.limits())
+        limits::check(pipelines.device())?;
+        let plan = plan(setup, count, outputs, pipelines.limits())
             .with_groups(check_groups(count, groups)?);
         check(&plan, factors, outputs)?;
-        let buffers = Buffers::new(tessellator, &plan, setup, patches, outputs)?;
-        let dispatches = dispatches(tessellator, setup, &plan, &buffers)?;
+        let buffers = Buffers::new(pipelines, &plan, setup, patches, outputs)?;
+        let dispatches = dispatches(pipelines, setup, &plan, &buffers)?;
         let Buffers { status, arguments, draws, topologies, contexts, .. } = buffers;
         let Buffers { offsets, jobs, tiles, .. } = buffers;
         Ok(Self {

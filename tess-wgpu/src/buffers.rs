@@ -1,8 +1,9 @@
 //! The buffers of a batch: the caller's and those in between.
 
-use crate::batch::Patches;
 use crate::error::Error;
-use crate::{Outputs, Tessellator, gpu};
+use crate::gpu;
+use crate::outputs::{Outputs, Patches};
+use crate::pipelines::Pipelines;
 use tess_gpu::{Plan, Resource, Setup, Span};
 
 /// Everything that the stages bind.
@@ -25,7 +26,7 @@ pub(crate) struct Buffers {
 
 impl Buffers {
     pub(crate) fn new(
-        tessellator: &mut Tessellator,
+        pipelines: &mut Pipelines,
         plan: &Plan,
         setup: Setup,
         patches: Patches<'_>,
@@ -33,8 +34,8 @@ impl Buffers {
     ) -> Result<Self, Error> {
         use wgpu::BufferUsages as Usage;
         let Patches { groups, factors, .. } = patches;
-        let tables = tessellator.tables(setup.config.split)?;
-        let device = tessellator.device();
+        let tables = pipelines.tables(setup.config.split)?;
+        let device = pipelines.device();
         let make = |resource, more| {
             let usage = Usage::STORAGE | Usage::COPY_SRC | more;
             gpu::empty(device, &format!("{resource:?}"), plan.buffer_size(resource), usage)

@@ -1,8 +1,8 @@
 //! The dispatches of a plan with their pipelines and bind groups.
 
-use crate::Tessellator;
 use crate::buffers::Buffers;
 use crate::error::{Error, checked};
+use crate::pipelines::Pipelines;
 use tess_gpu::{Plan, Setup, Stage, Workgroups};
 
 /// One stage over one part of the batch.
@@ -16,7 +16,7 @@ pub(crate) struct Dispatch {
 
 /// All dispatches of a plan, in order.
 pub(crate) fn dispatches(
-    tessellator: &mut Tessellator,
+    pipelines: &mut Pipelines,
     setup: Setup,
     plan: &Plan,
     buffers: &Buffers,
@@ -24,7 +24,7 @@ pub(crate) fn dispatches(
     let mut dispatches = Vec::new();
     for dispatch in plan.dispatches() {
         let stage = dispatch.stage();
-        let pipeline = tessellator.pipeline(stage, setup)?;
+        let pipeline = pipelines.pipeline(stage, setup)?;
         let entries: Vec<_> = (0..)
             .zip(dispatch.bindings())
             .map(|(binding, (resource, span))| wgpu::BindGroupEntry {
@@ -37,7 +37,7 @@ pub(crate) fn dispatches(
             layout: &pipeline.get_bind_group_layout(0),
             entries: &entries,
         };
-        let device = tessellator.device();
+        let device = pipelines.device();
         let group = checked(device, || device.create_bind_group(&descriptor))?;
         let workgroups = dispatch.workgroups();
         dispatches.push(Dispatch { stage, pipeline, group, workgroups });

@@ -1,6 +1,9 @@
 //! What can go wrong.
 
-use crate::stage::StageError;
+mod stage;
+
+pub use stage::StageError;
+
 use std::fmt;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};

@@ -1,7 +1,7 @@
 //! A device, and moving bytes to and from it.
 
 use crate::error::{Error, checked};
-use crate::open;
+use crate::open::{self, Wanted};
 use std::fmt;
 use std::future::Future;
 use std::pin::{Pin, pin};
@@ -18,15 +18,6 @@ pub struct Gpu {
     pub queue: wgpu::Queue,
     /// What wgpu knows about the adapter.
     pub info: wgpu::AdapterInfo,
-}
-
-/// The limits to open a device with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Wanted {
-    /// WebGPU's default limits.
-    Defaults,
-    /// The highest limits of the adapter.
-    Everything,
 }
 
 impl Gpu {
@@ -47,7 +38,8 @@ impl Gpu {
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
     pub async fn open_with(wanted: Wanted, optional: wgpu::Features) -> Result<Self, Error> {
-        open::first(wanted, optional).await
+        let (device, queue, info) = open::first(wanted, optional).await?;
+        Ok(Self { device, queue, info })
     }
 
     /// The name and driver of the adapter, for messages.

@@ -7,7 +7,9 @@ mod error;
 mod gpu;
 mod limits;
 mod open;
+mod outputs;
 mod pipeline;
+mod pipelines;
 #[cfg(feature = "measure")]
 mod probe;
 pub mod stage;
@@ -16,9 +18,13 @@ mod stopwatch;
 mod tessellator;
 mod whole;
 
-pub use batch::{Batch, Outputs};
+pub use {tess_core, tess_gpu, wgpu};
+
+pub use batch::Batch;
 pub use error::Error;
-pub use gpu::{Gpu, Wanted};
+pub use gpu::Gpu;
+pub use open::Wanted;
+pub use outputs::Outputs;
 pub use stage::TessellationStage;
 #[cfg(feature = "measure")]
 pub use stopwatch::Stopwatch;

@@ -1,11 +1,23 @@
 //! The choice of an adapter.
 
-use crate::{Error, Gpu, Wanted};
+use crate::error::Error;
 use wgpu::Backends;
+
+/// The limits to open a device with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// WebGPU's default limits.
+    Defaults,
+    /// The highest limits of the adapter.
+    Everything,
+}
+
+/// A device with its queue, and its adapter.
+type Opened = (wgpu::Device, wgpu::Queue, wgpu::AdapterInfo);
 
 /// Opens the first adapter that gives a device: those of OpenGL come last, since wgpu would prefer an old GPU
 /// with too little of OpenGL to a Vulkan driver in software.
-pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Gpu, Error> {
+pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Opened, Error> {
     let asked = Backends::from_env();
     let backends = asked.unwrap_or_else(wgpu::Instance::enabled_backend_features);
     let mut reasons = Vec::new();
@@ -14,7 +26,7 @@ pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Gp
             continue;
         }
         match of(some, wanted, optional).await {
-            Ok(gpu) => return Ok(gpu),
+            Ok(opened) => return Ok(opened),
             Err(reason) => reasons.push(reason),
         }
     }
@@ -30,7 +42,7 @@ pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Gp
 }
 
 /// Opens the first adapter of these backends, or says why not.
-async fn of(backends: Backends, wanted: Wanted, optional: wgpu::Features) -> Result<Gpu, String> {
+async fn of(backends: Backends, wanted: Wanted, optional: wgpu::Features) -> Result<Opened, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
     // The shaders write no dispatch sizes beyond the limits; checking costs dispatches more.
@@ -60,7 +72,7 @@ async fn of(backends: Backends, wanted: Wanted, optional: wgpu::Features) -> Res
     };
     let device = adapter.request_device(&descriptor).await;
     let (device, queue) = device.map_err(|error| format!("{}: {error}", name(&info)))?;
-    Ok(Gpu { device, queue, info })
+    Ok((device, queue, info))
 }
 
 /// The name and driver of an adapter.

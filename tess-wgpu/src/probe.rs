@@ -28,12 +28,12 @@ impl Tessellator {
         let buffers = [
             gpu.upload("input", bytemuck::cast_slice(input), Usage::STORAGE)?,
             output.clone(),
-            self.tables(setup.config.split)?,
+            self.pipelines.tables(setup.config.split)?,
         ];
         let source = probe.source(setup);
         let (pipeline, group) =
             checked(&gpu.device, || pipeline::of_probe(&gpu.device, &source, &buffers))?;
-        let most = self.limits().workgroups;
+        let most = self.pipelines.limits().workgroups;
         // A buffer of more input would be too large.
         let workgroups = u32::try_from(count.div_ceil(u64::from(WORKGROUP))).unwrap_or(u32::MAX);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -2,11 +2,12 @@
 
 mod bound;
 mod builder;
-mod error;
+mod choices;
 mod feedback;
 mod fit;
 mod gl;
 mod make;
+mod modules;
 mod origin;
 mod output;
 mod passes;
@@ -14,10 +15,10 @@ mod room;
 pub(crate) mod source;
 mod wgsl;
 
-pub use builder::{Factors, Points, StageBuilder};
-pub use error::StageError;
+pub use builder::StageBuilder;
+pub use choices::{Factors, Overflow, Points, Room};
+pub use crate::error::StageError;
 pub use feedback::Feedback;
-pub use room::{Overflow, Room};
 
 use crate::error::Error;
 use crate::{Gpu, Tessellator, gpu};

@@ -1,39 +1,12 @@
 //! What a stage is made of.
 
-use super::room::{Overflow, Room};
-use super::{TessellationStage, make, source};
-use crate::error::Error;
+use super::choices::{Factors, Overflow, Points, Room};
+use super::room::Form;
+use super::source;
 use tess_core::{Config, Domain};
 use tess_gpu::{Order, Setup};
 
-/// Where the factors come from.
-#[derive(Clone, Copy, Debug, Default)]
-pub enum Factors<'a> {
-    /// From the user's function `hull`.
-    #[default]
-    Hull,
-    /// From the host: [`TessellationStage::set_factors`]. Until then all patches are culled.
-    Host,
-    /// From this buffer, as [`tess_gpu::layout::factor_words`] writes them. It is read anew in each
-    /// frame, and has the usage `STORAGE`.
-    Buffer(&'a wgpu::Buffer),
-}
-
-/// Where the vertex shader has its points from. The output is the same.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum Points {
-    /// From a vertex buffer, 8 bytes each, with an index buffer.
-    #[default]
-    Stored,
-    /// Computed from the index of the vertex; there is an index buffer. The vertex stage binds five
-    /// storage buffers and one uniform buffer more.
-    Pull,
-    /// Computed for each corner of each primitive; there are no buffers of points and indices. The
-    /// vertex stage binds what it does with [`Points::Pull`].
-    PullWithoutIndices,
-}
-
-/// Makes a [`TessellationStage`]. Every method but [`StageBuilder::build`] has a default to fall back
+/// Makes a [`TessellationStage`](super::TessellationStage). Every method but [`StageBuilder::build`] has a default to fall back
 /// on.
 #[derive(Clone, Debug)]
 #[must_use = "the stage is made by `build`"]
@@ -183,7 +156,7 @@ impl<'a> StageBuilder<'a> {
 
     /// Leaves the render pipeline to an engine that makes its own, from [`Self::vertex_shader`] and its own
     /// fragment shader. The bind groups are then those of `hull` alone, the render state is not used, and
-    /// the engine draws with [`TessellationStage::buffers`].
+    /// the engine draws with [`TessellationStage::buffers`](super::TessellationStage::buffers).
     pub const fn without_pipeline(mut self) -> Self {
         self.makes_pipeline = false;
         self
@@ -198,33 +171,14 @@ impl<'a> StageBuilder<'a> {
         source::of_vertices(self.source, self.setup, self.points, self.own_group())
     }
 
+    /// What the bytes of the stage's buffers depend on.
+    pub(super) fn form(&self, device: &wgpu::Device) -> Form {
+        let Self { setup, points, patches, .. } = *self;
+        Form { setup, points, patches, buffer_limit: device.limits().max_buffer_size }
+    }
+
     /// The number of the stage's own bind group: the one behind the user's.
     pub(super) fn own_group(&self) -> u32 {
         u32::try_from(self.layouts.len()).unwrap_or(u32::MAX)
-    }
-
-    /// Compiles everything and makes every buffer.
-    ///
-    /// # Errors
-    /// - For the user's WGSL: [`StageError::Wgsl`], [`StageError::UnclearFragment`], and on OpenGL
-    ///   [`StageError::FlatOfFirstVertex`].
-    /// - For bind groups: [`StageError::BadBindGroup`], [`StageError::TooManyBindGroups`].
-    /// - If the device does not allow this many patches: [`Error::TooManyPatches`], [`StageError::TooManyFactors`],
-    ///   [`Error::TooManyToPull`], [`Error::BufferTooLarge`], [`Error::OutOfMemory`].
-    /// - If the device allows no stage at all: [`Error::LimitTooLow`].
-    /// - For a buffer of factors: [`Error::FactorsTooShort`], [`Error::NotStorage`].
-    /// - For groups of patches: [`Error::MisplacedGroup`].
-    /// - Without a pipeline, unless points are stored: [`StageError::NothingStored`].
-    /// - For what wgpu has against layouts or the render state: [`Error::Refused`].
-    pub fn build(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
-        make::now(make::stage(self, device))
-    }
-
-    /// The same where waiting is not possible: in a browser, the compiler answers later.
-    ///
-    /// # Errors
-    /// As [`StageBuilder::build`].
-    pub async fn build_async(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
-        make::stage(self, device).await
     }
 }

@@ -1,4 +1,56 @@
 //! Scaling all factors down, on the device, until their output fits.
+//!
+//! The factors of a frame may give more points or primitives than there is room for. These passes find the greatest
+//! scale of a fixed ladder at which everything fits, and multiply every factor by it; the host waits for nothing.
+//! `TessellationStage::prepare` records them between the pass that writes the factors and the batch that
+//! tessellates.
+//!
+//! # The data
+//!
+//! ```text
+//! terms: the host writes, the passes read            fit: the passes write, feedback reads words 0 to 7
+//! word 0       points that there is room for         word 0         the step that the factors were scaled by
+//!      1       primitives                                 1 .. 3    reserved
+//!      2, 3    workgroups of a pass, along x and y        4 .. 135  33 sums: points low, high; primitives low, high
+//!      4 ..    the ladder: scale of step 0 to 256
+//!                                                    sum   0        the factors as they are (step 0)
+//! arguments: `decide` writes, dispatches read              1 .. 16  steps 16, 32, ... 256
+//! word 0 .. 2  workgroups; none if step 0 fits            17 .. 32  the 16 steps up to the first of those that fits
+//! ```
+//!
+//! # The passes
+//!
+//! 1. `count_whole` counts every patch at step 0.
+//! 2. `decide` leaves the arguments of the next three at 0 workgroups if that fits. Most frames end here.
+//! 3. `count_coarse` counts every patch at each 16th step.
+//! 4. `count_fine` counts every patch at the 16 steps up to the first coarse step that fits.
+//! 5. `scale_factors` scales every factor by the first fine step that fits, and writes the step.
+//!
+//! # One frame
+//!
+//! One quad patch with all factors 8 (integer partitioning) gives 81 points and 128 triangles; there is room for 50
+//! and 72. Step 0 does not fit. Step 16 scales by 0.771 and gives 64 points, step 32 by 0.595 and 36 points, so the
+//! second coarse sum is the first that fits. Of steps 17 to 32, step 17 gives factors of 6.07, which round to 7; step
+//! 18 gives 5.97: 49 points and 72 triangles, which fit. The test `the_frame_of_the_head_comment` computes this.
+//!
+//! # What must hold
+//!
+//! - A scale that is smaller never gives more output; else the first step that fits would not be the greatest scale.
+//! - All factors have one scale. Two patches whose bits agree along an edge then still agree, and no crack opens.
+//! - Factors of at most 1, and NaN, stay as they are, and no factor falls below 1. A culled patch stays culled and
+//!   a drawn one stays drawn.
+//! - Factors above 64 count as 64 before they are scaled, as the tessellator clamps them; else infinity would never
+//!   become smaller.
+//! - A workgroup's sum stays below 2^32 (64 patches of at most 8192 primitives), so only the sum of all needs two
+//!   words.
+//! - The room is copied into `terms` in each frame. An encoder that is dropped would take a single copy with it.
+//! - If not even step 256 fits, where every factor is 1, it is taken, and the batch draws nothing.
+//!
+//! # Simpler forms
+//!
+//! Counting all 257 steps in one pass takes 257 counts for each patch; the two levels take 33. Bisection takes 9
+//! counts, but 9 pairs of dependent dispatches instead of 5 dispatches, in every frame that might not fit. Reading the
+//! counts back would make the host wait, or leave the frame to the next one's scale.
 
 use super::passes::{self, Access};
 use crate::error::Error;
@@ -163,8 +215,29 @@ impl Found {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_arithmetic, reason = "factors are scaled")]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_frame_of_the_head_comment() {
+        use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+        let setup = Setup::new(Domain::Quad, config);
+        let ladder = ladder();
+        for (step, scale, points, primitives) in [
+            (0, 1.0, 81, 128),
+            (16, 0.771, 64, 98),
+            (32, 0.595, 36, 50),
+            (17, 0.759, 64, 98),
+            (18, 0.747, 49, 72),
+        ] {
+            let found = ladder[step];
+            assert!((found - scale).abs() < 0.0006, "step {step}: {found}");
+            let counts = Capacity::uniform(setup, 1, 8.0 * found);
+            assert_eq!(counts, Capacity { points, primitives }, "step {step}");
+        }
+    }
 
     #[test]
     fn the_ladder_descends_from_1_to_1_64th() {

@@ -1,12 +1,11 @@
 //! Making a stage: checks, modules, pipelines.
 
 use super::bound::Bound;
-use super::builder::{Points, Render};
+use super::builder::{Render, StageBuilder};
+use super::choices::{Factors, Overflow, Points};
 use super::output::{Output, Stored};
-use super::room::{Form, Overflow};
-use super::{
-    Factors, Fit, Origin, StageBuilder, StageError, TessellationStage, gl, origin, source, wgsl,
-};
+use super::room::Form;
+use super::{Fit, Origin, StageError, TessellationStage, gl, modules, origin, source, wgsl};
 use crate::error::{Error, checked};
 use crate::{Tessellator, gpu, limits};
 use std::future::Future;
@@ -15,8 +14,35 @@ use std::task::{Context, Poll, Waker};
 use tess_gpu::{Order, Setup};
 use wgpu::BufferUsages as Usage;
 
+impl StageBuilder<'_> {
+    /// Compiles everything and makes every buffer.
+    ///
+    /// # Errors
+    /// - For the user's WGSL: [`StageError::Wgsl`], [`StageError::UnclearFragment`], and on OpenGL
+    ///   [`StageError::FlatOfFirstVertex`].
+    /// - For bind groups: [`StageError::BadBindGroup`], [`StageError::TooManyBindGroups`].
+    /// - If the device does not allow this many patches: [`Error::TooManyPatches`], [`StageError::TooManyFactors`],
+    ///   [`Error::TooManyToPull`], [`Error::BufferTooLarge`], [`Error::OutOfMemory`].
+    /// - If the device allows no stage at all: [`Error::LimitTooLow`].
+    /// - For a buffer of factors: [`Error::FactorsTooShort`], [`Error::NotStorage`].
+    /// - For groups of patches: [`Error::MisplacedGroup`].
+    /// - Without a pipeline, unless points are stored: [`StageError::NothingStored`].
+    /// - For what wgpu has against layouts or the render state: [`Error::Refused`].
+    pub fn build(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
+        now(stage(self, device))
+    }
+
+    /// The same where waiting is not possible: in a browser, the compiler answers later.
+    ///
+    /// # Errors
+    /// As [`StageBuilder::build`].
+    pub async fn build_async(self, device: &wgpu::Device) -> Result<TessellationStage, Error> {
+        stage(self, device).await
+    }
+}
+
 /// What `work` gives where nothing has to be waited for.
-pub(super) fn now<T>(work: impl Future<Output = Result<T, Error>>) -> Result<T, Error> {
+fn now<T>(work: impl Future<Output = Result<T, Error>>) -> Result<T, Error> {
     match pin!(work).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(done) => done,
         Poll::Pending => Err(Error::Refused {
@@ -25,7 +51,7 @@ pub(super) fn now<T>(work: impl Future<Output = Result<T, Error>>) -> Result<T, 
     }
 }
 
-pub(super) async fn stage(
+async fn stage(
     mut builder: StageBuilder<'_>,
     device: &wgpu::Device,
 ) -> Result<TessellationStage, Error> {
@@ -34,20 +60,19 @@ pub(super) async fn stage(
         builder.setup.order = Order::Specification;
     }
     let StageBuilder { setup, patches, points, room, overflow, .. } = builder;
+    let form = builder.form(device);
     let mut tessellator = Tessellator::new(device);
     let usage = Usage::STORAGE | Usage::COPY_DST;
-    let size = factor_bytes(setup, patches);
+    let size = form.factor_bytes();
     let factors = gpu::empty(device, "factors of the stage", size, usage | Usage::COPY_SRC)?;
     let count = gpu::empty(device, "number of patches", 4, usage)?;
-    let origin = Origin::new(&builder, device, [&factors, &count]).await?;
+    let origin = Origin::new(&builder, form, device, [&factors, &count]).await?;
     let pulled = pulled_layout(device, setup, points)?;
     let pipeline = match builder.makes_pipeline {
         true => Some(render_pipeline(&builder, device, pulled.as_ref()).await?),
         false => None,
     };
     let bound = Bound::new(device, &builder.layouts, &builder.bind_groups)?;
-    let buffer_limit = device.limits().max_buffer_size;
-    let form = Form { setup, points, patches, buffer_limit };
     let capacity = form.initial(room);
     let fit = (overflow == Overflow::Coarser)
         .then(|| Fit::new(device, setup, patches, &factors, capacity))
@@ -93,7 +118,7 @@ fn check(builder: &StageBuilder<'_>, device: &wgpu::Device) -> Result<(), Error>
         return Err(StageError::TooManyBindGroups { got, most }.into());
     }
     let (needed, limit) =
-        (factor_bytes(builder.setup, builder.patches), limits.max_storage_buffer_binding_size);
+        (builder.form(device).factor_bytes(), limits.max_storage_buffer_binding_size);
     if needed > limit {
         return Err(StageError::TooManyFactors { needed, limit }.into());
     }
@@ -121,75 +146,6 @@ fn check_fragment(builder: &StageBuilder<'_>) -> Result<(), Error> {
     }
     let found = found.into_iter().map(str::to_owned).collect();
     Err(StageError::UnclearFragment { asked: fragment.map(str::to_owned), found }.into())
-}
-
-pub(super) fn factor_bytes(setup: Setup, patches: u32) -> u64 {
-    4 * u64::from(setup.factors()) * u64::from(patches)
-}
-
-/// A module that begins with the user's text; what is wrong with it is said with their line. `function` is the
-/// user's function that the module calls.
-pub(super) async fn user_module(
-    device: &wgpu::Device,
-    function: &str,
-    user: &str,
-    joined: String,
-) -> Result<wgpu::ShaderModule, Error> {
-    let mut made = None;
-    let outcome = checked(device, || {
-        made = Some(device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(function),
-            source: wgpu::ShaderSource::Wgsl(joined.into()),
-        }));
-    });
-    let Some(module) = made else {
-        return Err(Error::Refused { reason: "no shader module was made".to_owned() });
-    };
-    let info = module.get_compilation_info().await;
-    let is_error = |message: &&wgpu::CompilationMessage| {
-        message.message_type == wgpu::CompilationMessageType::Error
-    };
-    if let Some(error) = info.messages.iter().find(is_error) {
-        let line = error.location.map(|location| location.line_number);
-        return Err(wrong_wgsl(user, function, line, headline(&error.message)).into());
-    }
-    outcome?;
-    Ok(module)
-}
-
-/// An error in a line of the joined text. Behind the user's text it is the stage's call that does not go with what
-/// the user declares: something that the message names, or the function that is called.
-fn wrong_wgsl(user: &str, function: &str, line: Option<u32>, message: String) -> StageError {
-    let line = line.filter(|&line| (1..=source::lines(user)).contains(&line));
-    if line.is_some() {
-        return StageError::Wgsl { line, message };
-    }
-    let declared = wgsl::declarations(user);
-    let named = message.split('`').skip(1).step_by(2);
-    let culprit = named
-        .chain([function])
-        .find_map(|name| declared.iter().find(|declaration| declaration.name == name));
-    match culprit {
-        None => StageError::Wgsl { line: None, message },
-        Some(culprit) => StageError::Wgsl {
-            line: Some(culprit.line),
-            message: format!(
-                "`{}` does not go with the stage ({message}); {}",
-                culprit.name,
-                StageError::NEEDED
-            ),
-        },
-    }
-}
-
-/// What is wrong, without the excerpt of the source: the first line of a compiler's report, and naga's
-/// reasons, which begin with `= `.
-fn headline(report: &str) -> String {
-    let from = report.find("error: ").map_or(report, |at| &report[at + "error: ".len()..]);
-    let mut lines = from.trim().lines().map(str::trim);
-    let first = lines.next().unwrap_or_default();
-    let reasons = lines.filter_map(|line| line.strip_prefix("= "));
-    [first].into_iter().chain(reasons).collect::<Vec<_>>().join(": ")
 }
 
 /// What a vertex shader binds that computes its points, as `Pull::source_for_drawing` numbers it.
@@ -231,7 +187,7 @@ async fn render_pipeline(
 ) -> Result<wgpu::RenderPipeline, Error> {
     let StageBuilder { source: user, setup, layouts, render, .. } = builder;
     let shader = builder.vertex_shader();
-    let module = user_module(device, "domain", user, shader.clone()).await?;
+    let module = modules::user_module(device, "domain", user, shader.clone()).await?;
     gl::check_flat_members(device, &shader)?;
     let layouts: Vec<_> = layouts.iter().chain(pulled).map(Some).collect();
     let has_points = pulled.is_none();

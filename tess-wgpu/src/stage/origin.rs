@@ -1,7 +1,10 @@
 //! Where the factors of a frame come from: the pass that writes them.
 
 use super::passes::{self, Access};
-use super::{Factors, StageBuilder, make, source};
+use super::builder::StageBuilder;
+use super::choices::Factors;
+use super::room::Form;
+use super::{modules, source};
 use crate::error::Error;
 use crate::gpu;
 use tess_gpu::Resource;
@@ -34,6 +37,7 @@ impl Origin {
     /// `factors` and `count` are the stage's: the pass reads the number of patches and writes the factors.
     pub(super) async fn new(
         builder: &StageBuilder<'_>,
+        form: Form,
         device: &wgpu::Device,
         [factors, count]: [&wgpu::Buffer; 2],
     ) -> Result<Self, Error> {
@@ -44,14 +48,14 @@ impl Origin {
             Factors::Hull => {
                 let own_group = builder.own_group();
                 let joined = source::of_hull(user, setup.domain, own_group);
-                let module = make::user_module(device, "hull", user, joined).await?;
+                let module = modules::user_module(device, "hull", user, joined).await?;
                 let (layout, own) = passes::bind(device, "hull", &own)?;
                 let layouts: Vec<_> = layouts.iter().chain([&layout]).collect();
                 let pipeline = passes::pipeline(device, &module, "tess_hull", &layouts)?;
                 return Ok(Self { pipeline, own, own_group, workgroups, host: None });
             }
             Factors::Host => {
-                let size = make::factor_bytes(*setup, *patches);
+                let size = form.factor_bytes();
                 let usage = Usage::STORAGE | Usage::COPY_DST;
                 gpu::empty(device, "factors from the host", size, usage)?
             }

@@ -1,6 +1,6 @@
 //! What depends on the room: the batch, and the buffers that it writes.
 
-use super::builder::Points;
+use super::choices::Points;
 use super::gl;
 use super::room::Form;
 use crate::error::{Error, checked};
@@ -110,7 +110,7 @@ fn bind(
     layout: &wgpu::BindGroupLayout,
     batch: &Batch,
 ) -> Result<wgpu::BindGroup, Error> {
-    let tables = tessellator.tables(form.setup.config.split)?;
+    let tables = tessellator.pipelines.tables(form.setup.config.split)?;
     let job = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
         buffer: batch.jobs(),
         offset: 0,
@@ -132,7 +132,7 @@ fn bind(
         })
         .collect();
     entries.push(wgpu::BindGroupEntry { binding: 3, resource: job });
-    let device = tessellator.device();
+    let device = tessellator.pipelines.device();
     checked(device, || {
         device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("pulled"),

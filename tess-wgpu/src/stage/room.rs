@@ -1,44 +1,44 @@
 //! How much room a stage has for its output.
+//!
+//! A stage's buffers of points and indices are made before anybody knows how much its frames give. This file decides
+//! their sizes: once when the stage is made ([`Form::initial`]), and for [`Room::Automatic`] again when a frame
+//! needed more ([`Form::grown`]), which the stage learns from its feedback.
+//!
+//! # The data
+//!
+//! ```text
+//! budget in bytes (Room::Bytes, Room::Automatic)
+//! |<------------- least ------------->|<--------- beyond --------->| rest, less than one of each
+//! | points x 8 B | primitives x 12 B  | points x 8 B | primitives  |
+//!
+//! initial:  least = all patches at factor 1     beyond = up to factor 4 (Automatic), in the proportion of 8 (Bytes)
+//! grown:    least = the room that there is      beyond = up to 5/4 of what the frame needed
+//! ```
+//!
+//! A point takes 8 bytes, or none where the vertex shader computes it. A primitive takes 4 bytes for each of its
+//! corners, or none without an index buffer.
+//!
+//! # One stage
+//!
+//! Ten quads, `Automatic` with a budget of 100 000 bytes. At factor 4 they give 250 points and 320 triangles, which
+//! take 5840 bytes: that is the first room. A frame needs 300 points, so the next room is 375 points and, for 5/4 of
+//! 320, 400 triangles. Then a frame needs 40 000 points and 80 000 triangles, 1.3 MB: what is left of the budget is
+//! divided as 5/4 of these are, and from then on the room stays. The test
+//! `automatic_room_grows_to_what_was_needed_and_no_further` computes this.
+//!
+//! # What must hold
+//!
+//! - Room never shrinks in either dimension: what fitted once fits for ever.
+//! - Room grows by a quarter at least in the dimension that was short, or to the end of the budget. So buffers are made
+//!   a logarithmic number of times; a room that followed every frame's proportion was replaced in 59 of 60 frames.
+//! - Once the budget is used, nothing grows.
+//! - If the budget holds all patches at factor 1, the room does. [`Overflow::Coarser`](super::Overflow::Coarser) scales
+//!   factors down to 1, so every frame is drawn then.
+//! - No buffer exceeds the device's limit. An index buffer is a multiple of 8 bytes long, so the limit is rounded
+//!   down to one.
 
-use super::builder::Points;
+use super::choices::{Points, Room};
 use tess_gpu::{Capacity, Setup};
-
-/// How much room a stage has for points and indices.
-///
-/// A stage that stores neither ([`Points::PullWithoutIndices`]) takes 4 bytes for each 2048 of
-/// either, so that [`Room::WorstCase`] costs it little.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Room {
-    /// For all patches with all factors at their greatest: everything always fits.
-    WorstCase,
-    /// As much as this number of bytes holds, points and indices together. All patches fit at factor 1 if
-    /// the bytes suffice for that; the rest is divided in the proportion of patches of factor 8.
-    Bytes(u64),
-    /// Exactly this.
-    Exactly(Capacity),
-    /// Enough for all patches at factor 4 at first. When a frame needs more, a later one has it: the stage learns
-    /// what was needed without waiting and makes larger buffers. Room never shrinks, and once the budget
-    /// is used it stays as it is.
-    ///
-    /// The first frames can therefore be coarser than asked for, or empty, as [`Overflow`] says. For a picture that
-    /// is drawn once, call [`TessellationStage::make_room`](super::TessellationStage::make_room) first,
-    /// or take [`Room::WorstCase`].
-    Automatic {
-        /// The most bytes of points and indices together.
-        most_bytes: u64,
-    },
-}
-
-/// What becomes of a frame whose output does not fit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Overflow {
-    /// All factors are scaled down by one number, on the device, until everything fits. Edges stay closed. If even
-    /// factors of 1 give too much, nothing is drawn.
-    #[default]
-    Coarser,
-    /// Nothing is drawn.
-    DrawNothing,
-}
 
 /// What the bytes of an output depend on.
 #[derive(Clone, Copy, Debug)]
@@ -135,6 +135,11 @@ impl Form {
             points: room.points.min(worst.points).min(of(point_bytes)),
             primitives: room.primitives.min(worst.primitives).min(of(primitive_bytes)),
         }
+    }
+
+    /// Bytes of the raw factors of all patches.
+    pub(crate) fn factor_bytes(self) -> u64 {
+        4 * u64::from(self.setup.factors()) * u64::from(self.patches)
     }
 
     /// Bytes that are stored of a point and of a primitive.

@@ -2,7 +2,7 @@
 //!
 //! The user's text comes first, so that a line of the joined text is the same line of theirs.
 
-use super::builder::Points;
+use super::choices::Points;
 use super::{StageError, wgsl};
 use tess_core::Domain;
 use tess_gpu::{Pull, Setup};

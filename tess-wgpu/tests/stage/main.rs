@@ -15,3 +15,4 @@ mod model;
 mod porting;
 mod room;
 mod scene;
+mod winding;

@@ -37,7 +37,7 @@ pub enum StageError {
         message: String,
     },
     /// The user's WGSL has no fragment shader, or not the one that was asked for, or several and none was chosen with
-    /// [`StageBuilder::fragment`](super::StageBuilder::fragment).
+    /// [`StageBuilder::fragment`](crate::stage::StageBuilder::fragment).
     UnclearFragment {
         /// The name that was asked for.
         asked: Option<String>,
@@ -91,7 +91,7 @@ pub enum StageError {
 
 impl StageError {
     /// What the user's WGSL has to be.
-    pub(super) const NEEDED: &'static str = "it declares `struct Vertex`, `fn domain(number: u32, uv: vec2<f32>) -> Vertex` without derivatives, \
+    pub(crate) const NEEDED: &'static str = "it declares `struct Vertex`, `fn domain(number: u32, uv: vec2<f32>) -> Vertex` without derivatives, \
          unless factors are given also `fn hull(number: u32) -> QuadFactors` (`TriFactors`, \
          `IsolineFactors`), and no name that begins with `tess_`; its bindings are in the groups that the builder got";
 }

@@ -1,0 +1,36 @@
+//! What a batch reads and where it writes.
+
+use tess_gpu::Capacity;
+
+/// Where a batch writes its output.
+#[derive(Clone, Copy, Debug)]
+pub enum Outputs<'a> {
+    /// Nowhere: the batch is only counted.
+    CountOnly,
+    /// Into these buffers, from their first byte on. If anything does not fit, nothing is written.
+    Buffers {
+        /// The domain points, 8 bytes each.
+        points: &'a wgpu::Buffer,
+        /// The indices, 2 or 4 bytes each; whole 8 bytes of the buffer are used.
+        indices: &'a wgpu::Buffer,
+    },
+    /// Indices alone, for a vertex shader that computes its point ([`tess_gpu::Pull`]).
+    Indices {
+        /// The most points that the batch may have.
+        points: u32,
+        /// The indices, as in [`Outputs::Buffers`].
+        indices: &'a wgpu::Buffer,
+    },
+    /// Draw arguments alone, for a vertex shader that computes its index too. Their first four words
+    /// are those of `draw_indirect`.
+    Arguments(Capacity),
+}
+
+/// What a batch reads.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patches<'a> {
+    pub(crate) count: u32,
+    /// The first patch of each group.
+    pub(crate) groups: &'a [u32],
+    pub(crate) factors: &'a wgpu::Buffer,
+}

@@ -1,0 +1,67 @@
+//! What a stage can be asked for.
+
+use tess_gpu::Capacity;
+
+/// Where the factors come from.
+#[derive(Clone, Copy, Debug, Default)]
+pub enum Factors<'a> {
+    /// From the user's function `hull`.
+    #[default]
+    Hull,
+    /// From the host: [`TessellationStage::set_factors`]. Until then all patches are culled.
+    Host,
+    /// From this buffer, as [`tess_gpu::layout::factor_words`] writes them. It is read anew in each
+    /// frame, and has the usage `STORAGE`.
+    Buffer(&'a wgpu::Buffer),
+}
+
+/// Where the vertex shader has its points from. The output is the same.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Points {
+    /// From a vertex buffer, 8 bytes each, with an index buffer.
+    #[default]
+    Stored,
+    /// Computed from the index of the vertex; there is an index buffer. The vertex stage binds five
+    /// storage buffers and one uniform buffer more.
+    Pull,
+    /// Computed for each corner of each primitive; there are no buffers of points and indices. The
+    /// vertex stage binds what it does with [`Points::Pull`].
+    PullWithoutIndices,
+}
+
+/// How much room a stage has for points and indices.
+///
+/// A stage that stores neither ([`Points::PullWithoutIndices`]) takes 4 bytes for each 2048 of
+/// either, so that [`Room::WorstCase`] costs it little.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Room {
+    /// For all patches with all factors at their greatest: everything always fits.
+    WorstCase,
+    /// As much as this number of bytes holds, points and indices together. All patches fit at factor 1 if
+    /// the bytes suffice for that; the rest is divided in the proportion of patches of factor 8.
+    Bytes(u64),
+    /// Exactly this.
+    Exactly(Capacity),
+    /// Enough for all patches at factor 4 at first. When a frame needs more, a later one has it: the stage learns
+    /// what was needed without waiting and makes larger buffers. Room never shrinks, and once the budget
+    /// is used it stays as it is.
+    ///
+    /// The first frames can therefore be coarser than asked for, or empty, as [`Overflow`] says. For a picture that
+    /// is drawn once, call [`TessellationStage::make_room`](super::TessellationStage::make_room) first,
+    /// or take [`Room::WorstCase`].
+    Automatic {
+        /// The most bytes of points and indices together.
+        most_bytes: u64,
+    },
+}
+
+/// What becomes of a frame whose output does not fit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Overflow {
+    /// All factors are scaled down by one number, on the device, until everything fits. Edges stay closed. If even
+    /// factors of 1 give too much, nothing is drawn.
+    #[default]
+    Coarser,
+    /// Nothing is drawn.
+    DrawNothing,
+}
