@@ -10,11 +10,11 @@ mod open;
 mod outputs;
 mod pipeline;
 mod pipelines;
-#[cfg(feature = "measure")]
-mod probe;
 pub mod stage;
 #[cfg(feature = "measure")]
 mod stopwatch;
+#[cfg(feature = "measure")]
+mod taps;
 mod tessellator;
 mod whole;
 

@@ -42,7 +42,11 @@ pub(crate) async fn first(wanted: Wanted, optional: wgpu::Features) -> Result<Op
 }
 
 /// Opens the first adapter of these backends, or says why not.
-async fn of(backends: Backends, wanted: Wanted, optional: wgpu::Features) -> Result<Opened, String> {
+async fn of(
+    backends: Backends,
+    wanted: Wanted,
+    optional: wgpu::Features,
+) -> Result<Opened, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
     // The shaders write no dispatch sizes beyond the limits; checking costs dispatches more.

@@ -9,14 +9,14 @@ pub(crate) fn of_stage(device: &wgpu::Device, stage: Stage, source: &str) -> wgp
     compute_pipeline(device, label, source, &entries)
 }
 
-/// The pipeline of a probe's source, and its buffers bound.
+/// The pipeline of a tap's source, and its buffers bound.
 #[cfg(feature = "measure")]
-pub(crate) fn of_probe(
+pub(crate) fn of_tap(
     device: &wgpu::Device,
     source: &str,
     buffers: &[wgpu::Buffer; 3],
 ) -> (wgpu::ComputePipeline, wgpu::BindGroup) {
-    let label = Some("probes");
+    let label = Some("taps");
     let accesses = [Access::Read, Access::ReadWrite, Access::Read];
     let bindings = accesses.map(|access| Binding(Resource::Tables, access));
     let entries: Vec<_> = (0..).zip(&bindings).map(layout_entry).collect();

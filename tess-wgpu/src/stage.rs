@@ -15,9 +15,9 @@ mod room;
 pub(crate) mod source;
 mod wgsl;
 
+pub use crate::error::StageError;
 pub use builder::StageBuilder;
 pub use choices::{Factors, Overflow, Points, Room};
-pub use crate::error::StageError;
 pub use feedback::Feedback;
 
 use crate::error::Error;

@@ -1,9 +1,9 @@
 //! What makes batches for one device.
 
+use crate::Batch;
 use crate::error::Error;
 use crate::outputs::{Outputs, Patches};
 use crate::pipelines::Pipelines;
-use crate::Batch;
 #[cfg(feature = "measure")]
 use tess_gpu::Stage;
 use tess_gpu::{Limits, Setup};

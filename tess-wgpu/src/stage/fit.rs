@@ -215,7 +215,6 @@ impl Found {
 }
 
 #[cfg(test)]
-#[expect(clippy::float_arithmetic, reason = "factors are scaled")]
 mod tests {
     use super::*;
 

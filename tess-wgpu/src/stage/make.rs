@@ -4,7 +4,6 @@ use super::bound::Bound;
 use super::builder::{Render, StageBuilder};
 use super::choices::{Factors, Overflow, Points};
 use super::output::{Output, Stored};
-use super::room::Form;
 use super::{Fit, Origin, StageError, TessellationStage, gl, modules, origin, source, wgsl};
 use crate::error::{Error, checked};
 use crate::{Tessellator, gpu, limits};

@@ -1,8 +1,8 @@
 //! Where the factors of a frame come from: the pass that writes them.
 
-use super::passes::{self, Access};
 use super::builder::StageBuilder;
 use super::choices::Factors;
+use super::passes::{self, Access};
 use super::room::Form;
 use super::{modules, source};
 use crate::error::Error;

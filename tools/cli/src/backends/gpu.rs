@@ -41,7 +41,7 @@ impl GpuBackend {
     ) -> Result<Vec<u32>, BackendError> {
         let config = Config { split, ..Config::new(partitioning, OutputPrimitive::Point) };
         let setup = Setup::new(Domain::Triangle, config);
-        self.tessellator.probe(&self.gpu, tap, setup, input).map_err(device_error)
+        self.tessellator.tap(&self.gpu, tap, setup, input).map_err(device_error)
     }
 }
 

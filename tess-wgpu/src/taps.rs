@@ -1,4 +1,4 @@
-//! Single steps of the shaders, for comparing them with the golden model's.
+//! Stage taps: the value of one stage of the shaders, read for comparison with the golden model's.
 
 use crate::error::{Error, checked};
 use crate::{Gpu, Tessellator, pipeline};
@@ -6,33 +6,33 @@ use tess_gpu::sizes::WORKGROUP;
 use tess_gpu::{Setup, Tap};
 
 impl Tessellator {
-    /// Runs a probe over `input`, whose length is a multiple of the probe's.
+    /// Runs a tap over `input`, whose length is a multiple of the tap's, and returns its words.
     ///
     /// # Errors
     /// [`Error::DeviceLost`], or an error of size if there is more input than the device can take.
-    pub fn probe(
+    pub fn tap(
         &mut self,
         gpu: &Gpu,
-        probe: Tap,
+        tap: Tap,
         setup: Setup,
         input: &[u32],
     ) -> Result<Vec<u32>, Error> {
         use wgpu::BufferUsages as Usage;
-        let (words_in, words_out) = probe.words();
+        let (words_in, words_out) = tap.words();
         let count = input.len() as u64 / u64::from(words_in);
         if count == 0 {
             return Ok(Vec::new());
         }
         let size = 4 * count * u64::from(words_out);
-        let output = gpu.buffer("probes", size, Usage::STORAGE | Usage::COPY_SRC)?;
+        let output = gpu.buffer("taps", size, Usage::STORAGE | Usage::COPY_SRC)?;
         let buffers = [
             gpu.upload("input", bytemuck::cast_slice(input), Usage::STORAGE)?,
             output.clone(),
             self.pipelines.tables(setup.config.split)?,
         ];
-        let source = probe.source(setup);
+        let source = tap.source(setup);
         let (pipeline, group) =
-            checked(&gpu.device, || pipeline::of_probe(&gpu.device, &source, &buffers))?;
+            checked(&gpu.device, || pipeline::of_tap(&gpu.device, &source, &buffers))?;
         let most = self.pipelines.limits().workgroups;
         // A buffer of more input would be too large.
         let workgroups = u32::try_from(count.div_ceil(u64::from(WORKGROUP))).unwrap_or(u32::MAX);
