@@ -12,7 +12,7 @@ use tess_gpu::{
 
 /// Patches of one [`Setup`] with the caller's buffers, and every buffer and bind group in between.
 ///
-/// The number of patches is fixed. Their factors are read anew each time the batch runs.
+/// The number of patches is fixed. Each run reads their factors from the buffer.
 #[derive(Debug)]
 pub struct Batch {
     plan: Plan,
@@ -62,7 +62,7 @@ impl Batch {
         self.record(encoder, |_, _| {});
     }
 
-    /// The same, with `after` called behind each dispatch; for timing stages one by one.
+    /// The same, with a call of `after` behind each dispatch, to time stages one by one.
     #[cfg(feature = "measure")]
     pub fn encode_each(
         &self,
@@ -94,7 +94,7 @@ impl Batch {
         }
     }
 
-    /// How the batch is cut into portions and windows.
+    /// How the batch is divided into portions and windows.
     #[must_use]
     pub const fn plan(&self) -> &Plan {
         &self.plan
@@ -145,14 +145,14 @@ impl Batch {
         &self.jobs
     }
 
-    /// The patch that each tile of the output begins with, after the batch has run.
+    /// The number of the first patch of each tile of the output, after the batch has run.
     #[must_use]
     pub const fn tiles(&self) -> &wgpu::Buffer {
         &self.tiles
     }
 }
 
-/// How a batch with these outputs is cut up.
+/// How a batch with these outputs is divided.
 fn plan(setup: Setup, patches: u32, outputs: Outputs<'_>, limits: Limits) -> Plan {
     let room = capacity(setup, outputs);
     match outputs {
@@ -206,7 +206,7 @@ fn check(plan: &Plan, factors: &wgpu::Buffer, outputs: Outputs<'_>) -> Result<()
     Ok(())
 }
 
-/// The most patches of a batch: packed points have 30 bits for the number of theirs.
+/// The most patches of a batch: a packed point has 30 bits for its patch's number.
 const MAX_PATCHES: u32 = 1 << 30;
 
 /// The room that the outputs have.

@@ -15,13 +15,13 @@ use tess_gpu::Resource;
 #[non_exhaustive]
 pub enum Error {
     /// No adapter gives a device. Install a Vulkan driver; Debian's `mesa-vulkan-drivers` has one
-    /// in software. OpenGL from 4.3 or ES 3.1 on will do too, with the feature `gles`. In a browser: it has no
+    /// in software. OpenGL from 4.3 or ES 3.1 on works too, with the feature `gles`. In a browser: it has no
     /// WebGPU, or the page is neither from https nor from localhost.
     NoDevice {
         /// What wgpu says of each adapter or backend that was tried, and whether `WGPU_BACKEND` restricts them.
         reason: String,
     },
-    /// The device was lost. Open another one and make every object anew.
+    /// The device was lost. Open another one and make every object again.
     DeviceLost {
         /// What wgpu says.
         reason: String,
@@ -111,7 +111,7 @@ pub enum Error {
         /// The most that the device's `max_storage_buffer_binding_size` allows.
         most: u32,
     },
-    /// A tessellation stage cannot be made or used so.
+    /// A tessellation stage cannot be made or used like this.
     Stage(StageError),
     /// wgpu refused an object or a command, for example to read beyond the end of a buffer.
     Refused {
@@ -210,7 +210,7 @@ const fn name(buffer: Resource) -> &'static str {
     }
 }
 
-/// Does `work` and returns what wgpu has against it, which would end the program otherwise.
+/// Does `work` and returns wgpu's error, which would end the program otherwise.
 ///
 /// Natively wgpu answers at once. A browser answers later; there its console has the complaint.
 pub(crate) fn checked<T>(device: &wgpu::Device, work: impl FnOnce() -> T) -> Result<T, Error> {

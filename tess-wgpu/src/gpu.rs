@@ -8,8 +8,8 @@ use std::pin::{Pin, pin};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
 
-/// A device with its queue and the adapter that it was made from. The fields are public: put your own
-/// device in, or use that of [`Gpu::open`].
+/// A device with its queue and the adapter that it was made from. The fields are public: fill them with your own
+/// device, or call [`Gpu::open`].
 #[derive(Clone, Debug)]
 pub struct Gpu {
     /// The device.
@@ -33,7 +33,7 @@ impl Gpu {
         Self::open_with(Wanted::Defaults, wgpu::Features::empty()).await
     }
 
-    /// Opens the first adapter with these limits, and with those of the optional features that it has.
+    /// Opens the first adapter with these limits, and with the optional features that it has.
     ///
     /// # Errors
     /// [`Error::NoDevice`] if there is none, or it gives no device.
@@ -117,7 +117,7 @@ impl Gpu {
         Ok(view.to_vec())
     }
 
-    /// Does the work of a future that waits for this device alone.
+    /// Polls a future that waits only for this device, until it is done.
     pub(crate) fn finish<T>(
         &self,
         work: impl Future<Output = Result<T, Error>>,

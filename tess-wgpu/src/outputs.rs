@@ -14,15 +14,15 @@ pub enum Outputs<'a> {
         /// The indices, 2 or 4 bytes each; whole 8 bytes of the buffer are used.
         indices: &'a wgpu::Buffer,
     },
-    /// Indices alone, for a vertex shader that computes its point ([`tess_gpu::Pull`]).
+    /// Only indices, for a vertex shader that computes its point ([`tess_gpu::Pull`]).
     Indices {
         /// The most points that the batch may have.
         points: u32,
         /// The indices, as in [`Outputs::Buffers`].
         indices: &'a wgpu::Buffer,
     },
-    /// Draw arguments alone, for a vertex shader that computes its index too. Their first four words
-    /// are those of `draw_indirect`.
+    /// Only draw arguments, for a vertex shader that computes its index too. Their first four words
+    /// serve `draw_indirect`.
     Arguments(Capacity),
 }
 

@@ -5,6 +5,7 @@ mod builder;
 mod choices;
 mod feedback;
 mod fit;
+mod frames;
 mod gl;
 mod make;
 mod modules;
@@ -17,16 +18,16 @@ mod wgsl;
 
 pub use crate::error::StageError;
 pub use builder::StageBuilder;
-pub use choices::{Factors, Overflow, Points, Room};
+pub use choices::{Factors, Overflow, PatchCount, Points, Room};
 pub use feedback::Feedback;
 
 use crate::error::Error;
-use crate::{Gpu, Tessellator, gpu};
+use crate::{Tessellator, gpu};
 use bound::Bound;
 use feedback::Feedbacks;
 use fit::Fit;
 use origin::Origin;
-use output::{Output, Stored};
+use output::Output;
 use room::Form;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use tess_core::{Config, Domain, PatchFactors};
@@ -36,20 +37,25 @@ use wgpu::BufferUsages as Usage;
 
 /// A tessellation stage for a render pass.
 ///
-/// The user's WGSL declares `struct Vertex` with `@builtin(position)` and whatever is interpolated, and
-/// two functions, whose parameters may have any names:
+/// The user's WGSL declares `struct Vertex`, with `@builtin(position)` and the members that are interpolated, and
+/// two functions. Their parameters may have any names:
 ///
 /// ```wgsl
 /// fn hull(number: u32) -> QuadFactors              // or TriFactors, IsolineFactors, as the domain is
 /// fn domain(number: u32, uv: vec2<f32>) -> Vertex  // one vertex of patch `number`
 /// ```
 ///
-/// `QuadFactors(edges: vec4<f32>, inside: vec2<f32>)` has the edges u = 0, v = 0, u = 1, v = 1, then u
-/// and v; `TriFactors(edges: vec3<f32>, inside: f32)` the edges u = 0, v = 0, w = 0;
-/// `IsolineFactors(density: f32, detail: f32)` lines and segments. A patch with an edge factor of 0 is
-/// culled. On a triangle the third coordinate is `1.0 - uv.x - uv.y`, exactly.
+/// | result | members |
+/// | --- | --- |
+/// | `QuadFactors(edges: vec4<f32>, inside: vec2<f32>)` | edges u = 0, v = 0, u = 1, v = 1; inside along u, along v |
+/// | `TriFactors(edges: vec3<f32>, inside: f32)` | edges u = 0, v = 0, w = 0; inside |
+/// | `IsolineFactors(density: f32, detail: f32)` | number of lines; segments of each line |
 ///
-/// Names that begin with `tess_` are the stage's own.
+/// An edge factor that is 0, negative or NaN culls the patch. On a triangle the third coordinate is exactly
+/// `1.0 - uv.x - uv.y`.
+///
+/// Names that begin with `tess_` are the stage's. A name of WGSL's own that the stage's functions use, such as
+/// `distance`, cannot be declared.
 #[derive(Debug)]
 pub struct TessellationStage {
     device: wgpu::Device,
@@ -74,8 +80,8 @@ pub struct TessellationStage {
     frame: u64,
 }
 
-/// What a frame left on the device for an engine that records its own draws: indexed, triangle lists unless the
-/// configuration says otherwise, indices of 32 bits.
+/// The buffers of a frame, for an engine that records its own draws. Draws are indexed, with indices of 32 bits.
+/// Primitives are triangles unless the configuration's output says otherwise.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawBuffers<'a> {
     /// The vertex buffer, as [`StageBuilder::vertex_shader`] reads it.
@@ -93,22 +99,6 @@ impl DrawBuffers<'_> {
     pub const GROUP_BYTES: u64 = size_of::<tess_gpu::layout::DrawIndexed>() as u64;
 }
 
-/// How many patches a frame has: a `u32`, or a `u32` in a buffer of the device.
-#[derive(Clone, Copy, Debug)]
-pub enum PatchCount<'a> {
-    /// So many.
-    Host(u32),
-    /// The number at this offset, a multiple of 4, of a buffer with the usage `COPY_SRC`. If it exceeds
-    /// what the stage was made for, the patches beyond are left out.
-    Device(&'a wgpu::Buffer, u64),
-}
-
-impl From<u32> for PatchCount<'_> {
-    fn from(count: u32) -> Self {
-        Self::Host(count)
-    }
-}
-
 impl TessellationStage {
     /// Begins a stage of up to `patches` patches of one domain, with the user's WGSL.
     pub const fn builder(
@@ -120,106 +110,13 @@ impl TessellationStage {
         StageBuilder::new(source, domain, config, patches)
     }
 
-    /// Records the compute passes of a frame: factors, tessellation. They come before the render pass that
-    /// draws the stage, in the same encoder or in one that is submitted before. Their time depends on
-    /// what is drawn and, a little, on the most patches that the stage was made for.
-    ///
-    /// An encoder that is dropped instead of submitted leaves the stage as it was.
-    ///
-    /// # Errors
-    /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
-    /// [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Nothing is recorded then, and what was prepared last can still
-    /// be drawn.
-    pub fn prepare<'a>(
-        &mut self,
-        encoder: &mut wgpu::CommandEncoder,
-        patches: impl Into<PatchCount<'a>>,
-    ) -> Result<(), Error> {
-        locked(&self.feedback).take(&self.device, self.frame)?;
-        self.record(encoder, patches.into())
-    }
-
-    fn record(
-        &mut self,
-        encoder: &mut wgpu::CommandEncoder,
-        patches: PatchCount<'_>,
-    ) -> Result<(), Error> {
-        let (count, offset) = self.count_words(patches)?;
-        if let Some((groups, output)) = self.next.take() {
-            self.groups = groups;
-            self.output = output;
-        }
-        self.grow()?;
-        encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
-        self.origin.encode(encoder, self.bound.groups());
-        if let Some(fit) = &self.fit {
-            fit.encode(encoder);
-        }
-        let batch = &self.output.batch;
-        batch.encode(encoder);
-        let of = (batch, self.fit.as_ref());
-        locked(&self.feedback).record(&self.device, encoder, of, self.frame)?;
-        self.frame += 1;
-        Ok(())
-    }
-
-    /// Makes the room that a frame needs before it is drawn: runs a frame's compute passes, waits for what they
-    /// found, and grows as [`Room::Automatic`] says. A frame with the same factors is then exact if the room
-    /// allows. Frames of other factors may need more.
-    ///
-    /// It takes one round trip to the device, so call it after [`StageBuilder::build`] or for a picture that is drawn
-    /// once. What the factors are computed from must have been written.
-    ///
-    /// # Errors
-    /// As [`Self::prepare`]; and [`Error::Refused`] in a browser, where only [`Self::make_room_async`] can wait.
-    pub fn make_room<'a>(
-        &mut self,
-        queue: &wgpu::Queue,
-        patches: impl Into<PatchCount<'a>>,
-    ) -> Result<Feedback, Error> {
-        let gpu = self.gpu(queue);
-        gpu.finish(self.run_once(&gpu, patches.into()))
-    }
-
-    /// The same without blocking: see [`Gpu::read_async`].
-    ///
-    /// # Errors
-    /// As [`Self::prepare`].
-    pub async fn make_room_async<'a>(
-        &mut self,
-        queue: &wgpu::Queue,
-        patches: impl Into<PatchCount<'a>>,
-    ) -> Result<Feedback, Error> {
-        let gpu = self.gpu(queue);
-        self.run_once(&gpu, patches.into()).await
-    }
-
-    fn gpu(&self, queue: &wgpu::Queue) -> Gpu {
-        let info = self.device.adapter_info();
-        Gpu { device: self.device.clone(), queue: queue.clone(), info }
-    }
-
-    /// Runs a frame, waits for its numbers and makes room for it.
-    async fn run_once(&mut self, gpu: &Gpu, patches: PatchCount<'_>) -> Result<Feedback, Error> {
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        let frame = self.frame;
-        self.record(&mut encoder, patches)?;
-        gpu.submit(encoder)?;
-        let of = (&self.output.batch, self.fit.as_ref());
-        let found = feedback::wait(gpu, of, frame).await?;
-        locked(&self.feedback).arrived(Some(found));
-        self.grow()?;
-        Ok(found)
-    }
-
-    /// Draws all patches of the last frame that was prepared. A stage that was made without a pipeline takes the
-    /// pass's pipeline and bind groups, which must be set.
+    /// Draws all patches of the last frame that was prepared. A stage without a pipeline draws with the pass's pipeline
+    /// and bind groups, which must be set.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_as(pass, None);
     }
 
-    /// Draws one group of patches. [`Self::set_bind_group`] in front of it gives the group a material of
-    /// its own.
+    /// Draws one group of patches. Call [`Self::set_bind_group`] before it to give the group its own material.
     ///
     /// # Errors
     /// [`StageError::NoSuchGroup`].
@@ -270,18 +167,6 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// A batch of these groups that writes these buffers.
-    fn output_of(
-        &mut self,
-        room: Capacity,
-        groups: &[u32],
-        stored: Stored,
-    ) -> Result<Output, Error> {
-        let of_batch = (&self.factors, groups);
-        let pulled = self.pulled.as_ref();
-        Output::new(&mut self.tessellator, self.form, (room, stored), of_batch, pulled)
-    }
-
     /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or `draw`
     /// on.
     ///
@@ -292,7 +177,7 @@ impl TessellationStage {
         self.bound.set(&self.device, number, group)
     }
 
-    /// Records new factors from the host, for the patches from the first one on. Patches that never had
+    /// Records new factors from the host for the first `patches.len()` patches. Patches that never had
     /// factors are culled.
     ///
     /// # Errors
@@ -337,7 +222,7 @@ impl TessellationStage {
         &self.factors
     }
 
-    /// The room that there is.
+    /// The room for points and primitives that the stage has now.
     #[must_use]
     pub const fn capacity(&self) -> Capacity {
         self.output.room
@@ -356,59 +241,6 @@ impl TessellationStage {
     #[must_use]
     pub fn joined(user: &str, own: &str) -> String {
         source::joined(user, own)
-    }
-
-    /// Makes more room if a frame needed it and the stage may.
-    fn grow(&mut self) -> Result<(), Error> {
-        let last = locked(&self.feedback).last();
-        let Some(Feedback { points, primitives, .. }) = last else { return Ok(()) };
-        let needed = [points, primitives];
-        let Some(room) = self.form.grown(self.room, self.output.room, needed) else {
-            return Ok(());
-        };
-        match self.make_output(room) {
-            Ok(()) => Ok(()),
-            // What there is still serves; asking again each frame would not help.
-            Err(Error::OutOfMemory) => {
-                self.room = Room::Exactly(self.output.room);
-                Ok(())
-            }
-            Err(error) => Err(error),
-        }
-    }
-
-    /// Replaces the output by one with this room. On an error everything is as it was.
-    fn make_output(&mut self, room: Capacity) -> Result<(), Error> {
-        let words = fit::room_words(&self.device, room)?;
-        let stored = Stored::new(&self.device, self.form, room)?;
-        let groups = self.groups.clone();
-        self.output = self.output_of(room, &groups, stored)?;
-        if let Some(fit) = &mut self.fit {
-            fit.set_room(words);
-        }
-        Ok(())
-    }
-
-    /// The number of patches as a word of a buffer, and its offset there.
-    fn count_words(&self, patches: PatchCount<'_>) -> Result<(wgpu::Buffer, u64), Error> {
-        match patches {
-            PatchCount::Host(got) => {
-                let most = self.form.patches;
-                if got > most {
-                    return Err(StageError::TooManyPatches { got, most }.into());
-                }
-                let bytes = got.to_le_bytes();
-                Ok((gpu::filled(&self.device, "patches", &bytes, Usage::COPY_SRC)?, 0))
-            }
-            PatchCount::Device(buffer, offset) => {
-                let (size, usage) = (buffer.size(), buffer.usage());
-                let is_inside = offset.checked_add(4).is_some_and(|end| end <= size);
-                if !is_inside || offset % 4 != 0 || !usage.contains(Usage::COPY_SRC) {
-                    return Err(StageError::BadPatchCount { offset, size, usage }.into());
-                }
-                Ok((buffer.clone(), offset))
-            }
-        }
     }
 }
 

@@ -13,8 +13,7 @@ pub enum StageError {
         /// The most that the stage was made for.
         most: u32,
     },
-    /// The factors of so many patches exceed one binding.
-    /// Make several stages.
+    /// The factors exceed one binding. Make several stages.
     TooManyFactors {
         /// Bytes of the factors.
         needed: u64,
@@ -45,8 +44,8 @@ pub enum StageError {
         found: Vec<String>,
     },
     /// A member of `Vertex` is `@interpolate(flat)`, which takes the value of a primitive's first vertex, and OpenGL
-    /// takes that of the last. Write `@interpolate(flat, either)` if a primitive's vertices share the value,
-    /// as they do that of their patch; otherwise draw with Vulkan, Metal or Direct3D.
+    /// takes the last vertex's. Write `@interpolate(flat, either)` if a primitive's vertices share the value,
+    /// for example a value of their patch; otherwise draw with Vulkan, Metal or Direct3D.
     FlatOfFirstVertex {
         /// Name of the member.
         member: String,
@@ -122,8 +121,8 @@ impl fmt::Display for StageError {
             Self::FlatOfFirstVertex { member } => write!(
                 f,
                 "`{member}` of your `struct Vertex` is flat with the value of a primitive's first vertex, \
-                 and OpenGL takes that of the last; write `@interpolate(flat, either)` if a \
-                 primitive's vertices share the value, as they do that of their patch; otherwise \
+                 and OpenGL takes the last vertex's; write `@interpolate(flat, either)` if a \
+                 primitive's vertices share the value, for example a value of their patch; otherwise \
                  draw with Vulkan, Metal or Direct3D"
             ),
             Self::BadPatchCount { offset, size, usage } => write!(

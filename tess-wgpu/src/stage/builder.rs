@@ -6,8 +6,8 @@ use super::source;
 use tess_core::{Config, Domain};
 use tess_gpu::{Order, Setup};
 
-/// Makes a [`TessellationStage`](super::TessellationStage). Every method but [`StageBuilder::build`] has a default to fall back
-/// on.
+/// Makes a [`TessellationStage`](super::TessellationStage). Every choice has a default; only
+/// [`StageBuilder::build`] must be called.
 #[derive(Clone, Debug)]
 #[must_use = "the stage is made by `build`"]
 pub struct StageBuilder<'a> {
@@ -75,22 +75,22 @@ impl<'a> StageBuilder<'a> {
         }
     }
 
-    /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so on, up
-    /// to the device's limit less one, which is 3. The layout has the stages that use it:
-    /// `COMPUTE` for `hull`, `VERTEX` for `domain`.
+    /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so on. The device's limit
+    /// is 4 by default, and the stage takes one of them. The layout is visible to the stages that use
+    /// it: `COMPUTE` for `hull`, `VERTEX` for `domain`. It has no dynamic offsets.
     pub fn bind_group(mut self, layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup) -> Self {
         self.layouts.push(layout.clone());
         self.bind_groups.push(group.clone());
         self
     }
 
-    /// Where the factors come from; from `hull` if this is not called.
+    /// Where the factors come from; [`Factors::Hull`] if this is not called.
     pub const fn factors(mut self, factors: Factors<'a>) -> Self {
         self.factors = factors;
         self
     }
 
-    /// Where points come from; from a buffer if this is not called.
+    /// Where points come from; [`Points::Stored`] if this is not called.
     pub const fn points(mut self, points: Points) -> Self {
         self.points = points;
         self
@@ -109,14 +109,14 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// What becomes of a frame that does not fit; [`Overflow::Coarser`] if this is not called.
+    /// What happens to a frame that does not fit; [`Overflow::Coarser`] if this is not called.
     pub const fn overflow(mut self, overflow: Overflow) -> Self {
         self.overflow = overflow;
         self
     }
 
-    /// Groups of patches that are drawn one by one, by the number of each one's first patch
-    /// ([`crate::Tessellator::batch_in_groups`]).
+    /// Groups of patches that are drawn one by one. Each is given by the number of its first patch; the numbers
+    /// ascend ([`crate::Tessellator::batch_in_groups`]).
     pub fn groups(mut self, first_patches: &[u32]) -> Self {
         self.groups = first_patches.to_vec();
         self
@@ -147,15 +147,14 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Culling, front face and polygon mode. The topology is that of the configuration's output,
-    /// whatever this says.
+    /// Culling, front face and polygon mode. The topology is ignored: the configuration's output decides it.
     pub const fn primitive(mut self, primitive: wgpu::PrimitiveState) -> Self {
         self.render.primitive = primitive;
         self
     }
 
     /// Leaves the render pipeline to an engine that makes its own, from [`Self::vertex_shader`] and its own
-    /// fragment shader. The bind groups are then those of `hull` alone, the render state is not used, and
+    /// fragment shader. Only `hull` uses the bind groups then, the render state is not used, and
     /// the engine draws with [`TessellationStage::buffers`](super::TessellationStage::buffers).
     pub const fn without_pipeline(mut self) -> Self {
         self.makes_pipeline = false;

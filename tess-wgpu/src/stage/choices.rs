@@ -8,34 +8,34 @@ pub enum Factors<'a> {
     /// From the user's function `hull`.
     #[default]
     Hull,
-    /// From the host: [`TessellationStage::set_factors`]. Until then all patches are culled.
+    /// From the host: [`TessellationStage::set_factors`](super::TessellationStage::set_factors). Until then all patches are culled.
     Host,
-    /// From this buffer, as [`tess_gpu::layout::factor_words`] writes them. It is read anew in each
-    /// frame, and has the usage `STORAGE`.
+    /// From this buffer, as [`tess_gpu::layout::factor_words`] lays them out. It has the usage `STORAGE` and is read
+    /// in each frame.
     Buffer(&'a wgpu::Buffer),
 }
 
-/// Where the vertex shader has its points from. The output is the same.
+/// Where the vertex shader takes its points from. The output is the same.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Points {
     /// From a vertex buffer, 8 bytes each, with an index buffer.
     #[default]
     Stored,
     /// Computed from the index of the vertex; there is an index buffer. The vertex stage binds five
-    /// storage buffers and one uniform buffer more.
+    /// storage buffers and one uniform buffer besides yours.
     Pull,
     /// Computed for each corner of each primitive; there are no buffers of points and indices. The
-    /// vertex stage binds what it does with [`Points::Pull`].
+    /// vertex stage binds the same as with [`Points::Pull`].
     PullWithoutIndices,
 }
 
 /// How much room a stage has for points and indices.
 ///
-/// A stage that stores neither ([`Points::PullWithoutIndices`]) takes 4 bytes for each 2048 of
-/// either, so that [`Room::WorstCase`] costs it little.
+/// [`Room::WorstCase`] costs a stage little if it stores neither ([`Points::PullWithoutIndices`]): 4 bytes for each
+/// 2048 points and for each 2048 primitives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Room {
-    /// For all patches with all factors at their greatest: everything always fits.
+    /// Enough for all patches at factor 64: everything always fits.
     WorstCase,
     /// As much as this number of bytes holds, points and indices together. All patches fit at factor 1 if
     /// the bytes suffice for that; the rest is divided in the proportion of patches of factor 8.
@@ -55,7 +55,7 @@ pub enum Room {
     },
 }
 
-/// What becomes of a frame whose output does not fit.
+/// What happens to a frame whose output does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Overflow {
     /// All factors are scaled down by one number, on the device, until everything fits. Edges stay closed. If even
@@ -64,4 +64,20 @@ pub enum Overflow {
     Coarser,
     /// Nothing is drawn.
     DrawNothing,
+}
+
+/// How many patches a frame has: a `u32`, or a `u32` in a buffer of the device.
+#[derive(Clone, Copy, Debug)]
+pub enum PatchCount<'a> {
+    /// This number.
+    Host(u32),
+    /// The number at this offset, a multiple of 4, of a buffer with the usage `COPY_SRC`. A number
+    /// beyond what the stage was made for counts as that.
+    Device(&'a wgpu::Buffer, u64),
+}
+
+impl From<u32> for PatchCount<'_> {
+    fn from(count: u32) -> Self {
+        Self::Host(count)
+    }
 }

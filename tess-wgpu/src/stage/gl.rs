@@ -20,7 +20,7 @@ pub(super) fn attributes(device: &wgpu::Device) -> Vec<wgpu::VertexAttribute> {
 }
 
 /// Refuses a vertex shader whose struct `Vertex` has a member that takes the value of a primitive's first vertex,
-/// since OpenGL takes that of the last.
+/// since OpenGL takes the last vertex's.
 pub(super) fn check_flat_members(device: &wgpu::Device, shader: &str) -> Result<(), Error> {
     if !is_gl(device) {
         return Ok(());

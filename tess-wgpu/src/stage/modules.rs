@@ -3,8 +3,8 @@
 use super::{StageError, source, wgsl};
 use crate::error::{Error, checked};
 
-/// A module that begins with the user's text; what is wrong with it is said with their line. `function` is the
-/// user's function that the module calls.
+/// A module that begins with the user's text. Errors name the user's line. `function` is the user's function that the
+/// module calls.
 pub(super) async fn user_module(
     device: &wgpu::Device,
     function: &str,
@@ -33,8 +33,8 @@ pub(super) async fn user_module(
     Ok(module)
 }
 
-/// An error in a line of the joined text. Behind the user's text it is the stage's call that does not go with what
-/// the user declares: something that the message names, or the function that is called.
+/// An error in a line of the joined text. In a line behind the user's text, the stage's call does not go with what the
+/// user declares: something that the message names, or else `function`.
 fn wrong_wgsl(user: &str, function: &str, line: Option<u32>, message: String) -> StageError {
     let line = line.filter(|&line| (1..=source::lines(user)).contains(&line));
     if line.is_some() {

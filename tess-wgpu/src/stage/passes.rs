@@ -5,7 +5,7 @@ use crate::error::{Error, checked};
 /// The threads of a workgroup of the stage's own passes.
 const WORKGROUP: u32 = 64;
 
-/// The workgroups for so many threads, in rows that the device allows.
+/// The workgroups for a number of threads, in rows that the device allows.
 pub(crate) fn workgroups(device: &wgpu::Device, threads: u32) -> [u32; 2] {
     let most = device.limits().max_compute_workgroups_per_dimension;
     let workgroups = threads.div_ceil(WORKGROUP);

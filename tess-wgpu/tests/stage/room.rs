@@ -181,3 +181,23 @@ fn automatic_room_grows_until_everything_fits() {
         }
     }
 }
+
+/// As the README says.
+#[test]
+fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
+    for (domain, expected) in [(Domain::Quad, 88), (Domain::Triangle, 64), (Domain::Isoline, 40)] {
+        let scene = Scene::new(domain, scene(Domain::Quad, Partitioning::FractionalOdd).config, some_factors(domain));
+        let patches = 1 << 14;
+        let source = crate::scene::source(domain);
+        let stage = TessellationStage::builder(&source, domain, scene.config, patches)
+            .bind_group(&scene.layout, &scene.group)
+            .target(crate::scene::FORMAT)
+            .room(Room::Bytes(1000))
+            .build(&scene.gpu.device)
+            .unwrap_or_else(|error| panic!("{error}"));
+        let (batch, _) = stage.inside();
+        let buffers = [stage.factors(), batch.topologies(), batch.contexts(), batch.offsets()];
+        let bytes: u64 = buffers.map(wgpu::Buffer::size).iter().sum();
+        assert_eq!(bytes / u64::from(patches), expected, "{domain:?}: {bytes} bytes");
+    }
+}

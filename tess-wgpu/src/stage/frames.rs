@@ -1,0 +1,168 @@
+//! Recording frames, and growing between them.
+
+use super::feedback::{self, Feedback};
+use super::output::{Output, Stored};
+use super::{PatchCount, Room, StageError, TessellationStage, fit, locked};
+use crate::error::Error;
+use crate::{Gpu, gpu};
+use tess_gpu::Capacity;
+use wgpu::BufferUsages as Usage;
+
+impl TessellationStage {
+    /// Records the compute passes of a frame: factors, tessellation. Call it before the render pass that draws the
+    /// stage, with the same encoder or with one that is submitted earlier. The passes' time depends on what
+    /// is drawn and, a little, on the most patches that the stage was made for.
+    ///
+    /// An encoder that is dropped instead of submitted leaves the stage as it was.
+    ///
+    /// # Errors
+    /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
+    /// [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Nothing is recorded then, and what was prepared last can still
+    /// be drawn.
+    pub fn prepare<'a>(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        patches: impl Into<PatchCount<'a>>,
+    ) -> Result<(), Error> {
+        locked(&self.feedback).take(&self.device, self.frame)?;
+        self.record(encoder, patches.into())
+    }
+
+    fn record(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        patches: PatchCount<'_>,
+    ) -> Result<(), Error> {
+        let (count, offset) = self.count_words(patches)?;
+        if let Some((groups, output)) = self.next.take() {
+            self.groups = groups;
+            self.output = output;
+        }
+        self.grow()?;
+        encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
+        self.origin.encode(encoder, self.bound.groups());
+        if let Some(fit) = &self.fit {
+            fit.encode(encoder);
+        }
+        let batch = &self.output.batch;
+        batch.encode(encoder);
+        let of = (batch, self.fit.as_ref());
+        locked(&self.feedback).record(&self.device, encoder, of, self.frame)?;
+        self.frame += 1;
+        Ok(())
+    }
+
+    /// Makes the room that a frame needs before it is drawn: runs a frame's compute passes, waits for what they
+    /// found, and grows as [`Room::Automatic`] says. A frame with the same factors is then exact if the room
+    /// allows. Frames of other factors may need more.
+    ///
+    /// It takes one round trip to the device, so call it after [`StageBuilder::build`] or for a picture that is drawn
+    /// once. What the factors are computed from must have been written.
+    ///
+    /// # Errors
+    /// As [`Self::prepare`]; and [`Error::Refused`] in a browser, where only [`Self::make_room_async`] can wait.
+    pub fn make_room<'a>(
+        &mut self,
+        queue: &wgpu::Queue,
+        patches: impl Into<PatchCount<'a>>,
+    ) -> Result<Feedback, Error> {
+        let gpu = self.gpu(queue);
+        gpu.finish(self.run_once(&gpu, patches.into()))
+    }
+
+    /// The same without blocking: see [`Gpu::read_async`].
+    ///
+    /// # Errors
+    /// As [`Self::prepare`].
+    pub async fn make_room_async<'a>(
+        &mut self,
+        queue: &wgpu::Queue,
+        patches: impl Into<PatchCount<'a>>,
+    ) -> Result<Feedback, Error> {
+        let gpu = self.gpu(queue);
+        self.run_once(&gpu, patches.into()).await
+    }
+
+    fn gpu(&self, queue: &wgpu::Queue) -> Gpu {
+        let info = self.device.adapter_info();
+        Gpu { device: self.device.clone(), queue: queue.clone(), info }
+    }
+
+    /// Runs a frame, waits for its numbers and makes room for it.
+    async fn run_once(&mut self, gpu: &Gpu, patches: PatchCount<'_>) -> Result<Feedback, Error> {
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        let frame = self.frame;
+        self.record(&mut encoder, patches)?;
+        gpu.submit(encoder)?;
+        let of = (&self.output.batch, self.fit.as_ref());
+        let found = feedback::wait(gpu, of, frame).await?;
+        locked(&self.feedback).arrived(Some(found));
+        self.grow()?;
+        Ok(found)
+    }
+
+    /// A batch of these groups that writes these buffers.
+    pub(super) fn output_of(
+        &mut self,
+        room: Capacity,
+        groups: &[u32],
+        stored: Stored,
+    ) -> Result<Output, Error> {
+        let of_batch = (&self.factors, groups);
+        let pulled = self.pulled.as_ref();
+        Output::new(&mut self.tessellator, self.form, (room, stored), of_batch, pulled)
+    }
+
+    /// Makes more room if a frame needed it and the stage may.
+    fn grow(&mut self) -> Result<(), Error> {
+        let last = locked(&self.feedback).last();
+        let Some(Feedback { points, primitives, .. }) = last else { return Ok(()) };
+        let needed = [points, primitives];
+        let Some(room) = self.form.grown(self.room, self.output.room, needed) else {
+            return Ok(());
+        };
+        match self.make_output(room) {
+            Ok(()) => Ok(()),
+            // What there is still serves; asking again each frame would not help.
+            Err(Error::OutOfMemory) => {
+                self.room = Room::Exactly(self.output.room);
+                Ok(())
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Replaces the output by one with this room. On an error everything is as it was.
+    fn make_output(&mut self, room: Capacity) -> Result<(), Error> {
+        let words = fit::room_words(&self.device, room)?;
+        let stored = Stored::new(&self.device, self.form, room)?;
+        let groups = self.groups.clone();
+        self.output = self.output_of(room, &groups, stored)?;
+        if let Some(fit) = &mut self.fit {
+            fit.set_room(words);
+        }
+        Ok(())
+    }
+
+    /// The number of patches as a word of a buffer, and its offset there.
+    fn count_words(&self, patches: PatchCount<'_>) -> Result<(wgpu::Buffer, u64), Error> {
+        match patches {
+            PatchCount::Host(got) => {
+                let most = self.form.patches;
+                if got > most {
+                    return Err(StageError::TooManyPatches { got, most }.into());
+                }
+                let bytes = got.to_le_bytes();
+                Ok((gpu::filled(&self.device, "patches", &bytes, Usage::COPY_SRC)?, 0))
+            }
+            PatchCount::Device(buffer, offset) => {
+                let (size, usage) = (buffer.size(), buffer.usage());
+                let is_inside = offset.checked_add(4).is_some_and(|end| end <= size);
+                if !is_inside || offset % 4 != 0 || !usage.contains(Usage::COPY_SRC) {
+                    return Err(StageError::BadPatchCount { offset, size, usage }.into());
+                }
+                Ok((buffer.clone(), offset))
+            }
+        }
+    }
+}
