@@ -192,6 +192,12 @@ mod tests {
         assert_eq!(more, Capacity { points: 375, primitives: 400 }, "a quarter more");
         let one = form.grown(room, more, [10, 1000]).expect("primitives do not fit");
         assert_eq!(one, Capacity { points: 375, primitives: 1250 }, "room never shrinks");
+        let other = form.grown(room, one, [3000, 10]).expect("points do not fit");
+        assert_eq!(
+            other,
+            Capacity { points: 3750, primitives: 1250 },
+            "nor in the other dimension"
+        );
         let most = form.grown(room, more, [40_000, 80_000]).expect("nor does this");
         let used = 8 * u64::from(most.points) + 12 * u64::from(most.primitives);
         assert!(used <= 100_000 && used + 20 > 100_000, "{most:?}");

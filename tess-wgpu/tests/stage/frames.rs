@@ -47,15 +47,9 @@ fn a_refused_frame_changes_nothing() {
     let too_many = StageError::TooManyPatches { got: PATCHES + 1, most: PATCHES };
     let refused = stage.prepare(&mut encoder, PATCHES + 1);
     assert_eq!(refused, Err(too_many.into()), "more than it was made for");
-    drop(encoder);
-    assert_exact(&scene, &mut stage, "after a refused frame");
-    let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| stage.draw(pass));
-    assert_ne!(drawn(&observed.expect("it draws")), 0, "and on");
-    let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
-    assert!(stage.prepare(&mut encoder, PATCHES + 1).is_err(), "refused again");
     let observed = scene.draw_only(encoder, |pass| stage.draw(pass)).expect("it draws");
-    let expected = scene.pixels(&scene.patches);
-    assert_eq!(compare(&observed, &expected), Ok(()), "the frame before is still there");
+    assert_ne!(drawn(&observed), 0, "the frame before is still there");
+    assert_exact(&scene, &mut stage, "after a refused frame");
 }
 
 #[test]
@@ -218,6 +212,7 @@ fn a_first_frame_is_exact_where_room_was_made() {
             let before = stage.capacity();
             let found = stage.make_room(&scene.gpu.queue, PATCHES).expect("the device answers");
             assert!(found.primitives > u64::from(before.primitives), "it did not fit: {found:?}");
+            assert_ne!(stage.capacity(), before, "there is more room at once");
             assert_exact(&scene, &mut stage, "the first frame that is drawn");
         }
     }

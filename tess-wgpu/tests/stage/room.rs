@@ -186,7 +186,11 @@ fn automatic_room_grows_until_everything_fits() {
 #[test]
 fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
     for (domain, expected) in [(Domain::Quad, 88), (Domain::Triangle, 64), (Domain::Isoline, 40)] {
-        let scene = Scene::new(domain, scene(Domain::Quad, Partitioning::FractionalOdd).config, some_factors(domain));
+        let scene = Scene::new(
+            domain,
+            scene(Domain::Quad, Partitioning::FractionalOdd).config,
+            some_factors(domain),
+        );
         let patches = 1 << 14;
         let source = crate::scene::source(domain);
         let stage = TessellationStage::builder(&source, domain, scene.config, patches)
