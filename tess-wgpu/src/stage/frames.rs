@@ -56,7 +56,7 @@ impl TessellationStage {
     /// found, and grows as [`Room::Automatic`] says. A frame with the same factors is then exact if the room
     /// allows. Frames of other factors may need more.
     ///
-    /// It takes one round trip to the device, so call it after [`StageBuilder::build`] or for a picture that is drawn
+    /// It takes one round trip to the device, so call it after [`StageBuilder::build`](super::StageBuilder::build) or for a picture that is drawn
     /// once. What the factors are computed from must have been written.
     ///
     /// # Errors

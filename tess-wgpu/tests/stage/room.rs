@@ -205,3 +205,32 @@ fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
         assert_eq!(bytes / u64::from(patches), expected, "{domain:?}: {bytes} bytes");
     }
 }
+
+/// 2^19 quads of factor 64 give 2^32 triangles, of which the low word alone would fit anywhere.
+#[test]
+fn sums_beyond_32_bits_are_seen() {
+    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let source = "struct Vertex { @builtin(position) position: vec4f }\n\
+                  fn hull(number: u32) -> QuadFactors { return tess_quad_factors(vec4f(64.0)); }\n\
+                  fn domain(number: u32, uv: vec2f) -> Vertex { return Vertex(vec4f(uv, 0.0, 1.0)); }";
+    let patches = 1 << 19;
+    let depth = wgpu::DepthStencilState {
+        format: wgpu::TextureFormat::Depth32Float,
+        depth_write_enabled: Some(true),
+        depth_compare: Some(wgpu::CompareFunction::Less),
+        stencil: wgpu::StencilState::default(),
+        bias: wgpu::DepthBiasState::default(),
+    };
+    let room = Capacity { points: u32::MAX, primitives: 5_000_000 };
+    let mut stage = TessellationStage::builder(source, scene.domain, scene.config, patches)
+        .depth(depth)
+        .points(Points::PullWithoutIndices)
+        .room(Room::Exactly(room))
+        .build(&scene.gpu.device)
+        .unwrap_or_else(|error| panic!("{error}"));
+    let found = stage.make_room(&scene.gpu.queue, patches).expect("the device answers");
+    assert_eq!([found.points, found.primitives], [4225 << 19, 1 << 32], "{found:?}");
+    // Factor 2 gives 8 triangles for each patch, factor 3 would give 18.
+    assert_eq!(found.drawn, 8 << 19, "{found:?}");
+    assert!((2.0..3.0).contains(&(64.0 * found.scale).ceil()), "{found:?}");
+}
