@@ -1,35 +1,87 @@
-// Factor rules, each a function of the edge in canonical direction. The formulas of factors.rs
-// and bend.rs. Needs bezier.wgsl.
+// Factor rules. A rule gets what both patches of an edge share, and gives the same bits in whichever order the
+// edge's ends are given; so both patches get the same factor, and no crack opens. The formulas of factors.rs.
+// Needs pn_edge.wgsl.
 
-// Factors are 1..64; NaN counts as 1.
-fn factor_in_range(factor: f32) -> f32 {
+// A factor within 1 to 64; 1 for NaN.
+fn tess_in_range(factor: f32) -> f32 {
     if factor > 1.0 {
         return min(factor, 64.0);
     }
     return 1.0;
 }
 
-// Inversely proportional to the distance from the eye.
-fn factor_by_distance(edge: array<vec4f, 4>, eye: vec3f, scale: f32) -> f32 {
-    return factor_in_range(scale / distance(eye, bezier_edge(edge, 0.5)));
+// dividend / divisor within 1 to 64, for a divisor of 0 too. It is 1 unless both are numbers and dividend > divisor
+// >= 0. The division runs only where its result is in range, as WGSL leaves others to the device.
+fn tess_quotient(dividend: f32, divisor: f32) -> f32 {
+    if !(dividend > divisor && divisor >= 0.0) {
+        return 1.0;
+    }
+    if dividend * 0.015625 >= divisor { // 1/64
+        return 64.0;
+    }
+    return tess_in_range(dividend / divisor);
 }
 
-// The length of the control polygon, the same from both sides.
-fn factor_length_bound(edge: array<vec4f, 4>) -> f32 {
-    let a = bezier_project(edge[0]);
-    let b = bezier_project(edge[1]);
-    let c = bezier_project(edge[2]);
-    let d = bezier_project(edge[3]);
-    return (distance(a, b) + distance(c, d)) + distance(b, c);
+// The square root of dividend / divisor within 1 to 64, as tess_quotient.
+fn tess_root_quotient(dividend: f32, divisor: f32) -> f32 {
+    if !(dividend > divisor && divisor >= 0.0) {
+        return 1.0;
+    }
+    if dividend * 0.000244140625 >= divisor { // 1/4096
+        return 64.0;
+    }
+    return tess_in_range(sqrt(dividend / divisor));
 }
 
-// Segments of about this many pixels; pixels_per_unit is a length of 1 seen at distance 1.
-fn factor_by_screen_space(edge: array<vec4f, 4>, eye: vec3f, pixels_per_unit: f32, segment: f32) -> f32 {
-    let pixels = factor_length_bound(edge) * pixels_per_unit;
-    return factor_in_range(pixels / (distance(eye, bezier_edge(edge, 0.5)) * segment));
+// --- Edges ---
+
+// Segments of `segment` pixels, whichever way the edge from a to b points. `pixels_per_unit` is the number of pixels
+// that a length of 1 covers at distance 1: height / (2 * tan(field of view / 2)).
+fn tess_edge_by_screen_size(
+    a: vec3<f32>, b: vec3<f32>, eye: vec3<f32>, pixels_per_unit: f32, segment: f32,
+) -> f32 {
+    return tess_quotient(distance(a, b) * pixels_per_unit, distance(eye, (a + b) * 0.5) * segment);
 }
 
-// Deviation of at most `tolerance`; bend as bend.rs bounds it, the larger one of both sides.
-fn factor_by_flatness(bend: f32, tolerance: f32) -> f32 {
-    return factor_in_range(sqrt(bend / (4.0 * tolerance)));
+// `scale` divided by the distance from the eye to the edge's middle.
+fn tess_edge_by_distance(a: vec3<f32>, b: vec3<f32>, eye: vec3<f32>, scale: f32) -> f32 {
+    return tess_quotient(scale, distance(eye, (a + b) * 0.5));
+}
+
+// Segments that stay within `tolerance` of the cubic that a point-normal triangle or quad has between two corners
+// with these unit normals.
+fn tess_edge_by_curvature(
+    a: vec3<f32>, normal_a: vec3<f32>, b: vec3<f32>, normal_b: vec3<f32>, tolerance: f32,
+) -> f32 {
+    let near_a = tess_pn_edge_point(a, normal_a, b);
+    let near_b = tess_pn_edge_point(b, normal_b, a);
+    // The cubic's second derivative is 6 times these at its ends, and linear between. A chord over 1/n of a curve
+    // with second derivative M is within M / (8 n^2) of it.
+    let bend = max(length((a + near_b) - 2.0 * near_a), length((near_a + b) - 2.0 * near_b));
+    return tess_root_quotient(0.75 * bend, tolerance);
+}
+
+// Segments that stay within `tolerance` of a surface whose bend along the edge is at most `bend`, the larger one of
+// both patches (bend.rs has the bounds): a power of two.
+fn tess_edge_by_flatness(bend: f32, tolerance: f32) -> f32 {
+    let needed = tess_root_quotient(bend, 4.0 * tolerance);
+    var factor = 1.0;
+    while factor < needed {
+        factor *= 2.0;
+    }
+    return factor;
+}
+
+// --- Insides ---
+// Each is a mean, as the Direct3D 11 samples and HLSL's ProcessQuadTessFactorsAvg have it.
+
+// The inside factors along u and v of a quad with these factors on its edges u = 0, v = 0, u = 1, v = 1: the mean of
+// the two edges that run the same way.
+fn tess_inside_quad(edges: vec4<f32>) -> vec2<f32> {
+    return 0.5 * vec2<f32>(edges.y + edges.w, edges.x + edges.z);
+}
+
+// The inside factor of a triangle: the mean of its edges, exact where they are equal.
+fn tess_inside_triangle(edges: vec3<f32>) -> f32 {
+    return edges.x + ((edges.y - edges.x) + (edges.z - edges.x)) / 3.0;
 }

@@ -1,4 +1,4 @@
-// Point-normal triangles (Vlachos et al. 2001) and quads. The formulas of pn.rs.
+// Point-normal triangles (Vlachos et al. 2001) and quads. The formulas of pn.rs. Needs pn_edge.wgsl.
 
 struct PnCorner {
     position: vec3f,
@@ -7,8 +7,7 @@ struct PnCorner {
 
 // The inner control point next to `near` on the edge to `far`.
 fn pn_edge_point(near: PnCorner, far: PnCorner) -> vec3f {
-    let out_of_plane = dot(far.position - near.position, near.normal);
-    return (near.position * 2.0 + far.position - near.normal * out_of_plane) / 3.0;
+    return tess_pn_edge_point(near.position, near.normal, far.position);
 }
 
 // The middle coefficient of the quadratic normal along an edge.

@@ -1,4 +1,4 @@
-// A point-normal triangle at a domain point. Needs bezier.wgsl and pn.wgsl. Position and normal of a point
+// A point-normal triangle at a domain point. Needs bezier.wgsl, pn.wgsl and pn_edge.wgsl. Position and normal of a point
 // on an edge are computed from the edge's two ends, in the same direction for both triangles.
 
 struct PnPoint {

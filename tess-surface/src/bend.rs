@@ -33,12 +33,6 @@ const QUAD_EXTENT: f32 = 1.0;
 /// but for the rounding of their points.
 const TRIANGLE_EXTENT: f32 = 1.334;
 
-/// The number of segments, not rounded, that keeps a bend within a tolerance.
-#[must_use]
-pub fn segments(bend: f32, tolerance: f32) -> f32 {
-    libm::sqrtf(bend / (4.0 * tolerance))
-}
-
 impl Bend {
     /// The bounds of a plane.
     pub const ZERO: Self = Self { u: 0.0, v: 0.0 };

@@ -42,7 +42,7 @@ impl Curve {
         plain_zero(point)
     }
 
-    /// The length of the control polygon, which is at least that of the curve.
+    /// The length of the control polygon. The curve is at most as long.
     #[must_use]
     pub fn length_bound(&self) -> f32 {
         match *self {

@@ -1,15 +1,14 @@
 //! Displacement along the normal by a height image.
 //!
 //! Neighbours may disagree about the normal and, on a seam of the image, about the texture
-//! coordinates. So on a shared edge the direction is the mean of both sides' normals and the
-//! texture coordinates are those of one of them; on a corner there is one direction and one
-//! pair of coordinates for all patches that meet there (as in I. Castaño, *Tessellation of
+//! coordinates. So a shared edge has the mean of both sides' normals as its direction, and the
+//! texture coordinates of one side; a corner has one direction and one pair of coordinates for
+//! all patches that meet there (as in I. Castaño, *Tessellation of
 //! Displaced Subdivision Surfaces in DX11*, Gamefest 2008). Shading follows J. F. Blinn,
 //! *Simulation of Wrinkled Surfaces*, SIGGRAPH 1978.
 
 use crate::boundary::running;
 use crate::curve::{Direction, Edge};
-use crate::dispatch;
 use crate::formulas::Formulas;
 use crate::frame::Tangents;
 use crate::height::Displacement;
@@ -22,7 +21,6 @@ use crate::topology::{HalfEdge, weld};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::{Vec2, Vec3};
-use tess_simd::{Level, LevelUnavailable};
 
 /// A direction and texture coordinates that several patches share.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,37 +136,6 @@ struct Side {
 }
 
 impl DisplacedPatch<'_> {
-    /// The displaced vertex at the domain point (u, v), in 0..=1 as a tessellator outputs it.
-    #[must_use]
-    pub fn sample(&self, point: [f32; 2]) -> Sample {
-        let mut sample = [Sample::default()];
-        self.samples(&[point], &mut sample);
-        sample[0]
-    }
-
-    /// The displaced vertices at these domain points: the bits of [`DisplacedPatch::sample`] at each,
-    /// for a fraction of the time. Vertices or points that the other slice has no partner for are left
-    /// alone.
-    pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
-        dispatch::displaced_samples(Level::detect(), self, points, samples);
-    }
-
-    /// [`DisplacedPatch::samples`] with the instructions of a CPU level, which gives the same bits as
-    /// every other.
-    ///
-    /// # Errors
-    /// [`LevelUnavailable`] if this machine cannot run the level.
-    pub fn samples_at_level(
-        &self,
-        level: Level,
-        points: &[[f32; 2]],
-        samples: &mut [Sample],
-    ) -> Result<(), LevelUnavailable> {
-        level.require()?;
-        dispatch::displaced_samples(level, self, points, samples);
-        Ok(())
-    }
-
     /// The direction and the texture coordinates of the displacement at eight points.
     #[inline(always)]
     fn anchors(&self, beyond: &Sides<Option<Formulas<'_>>>, vertices: &Vertices) -> Anchors8 {
@@ -192,8 +159,7 @@ impl DisplacedPatch<'_> {
         anchors
     }
 
-    /// The anchors of those points that are on an edge, in place of their own normals and texture
-    /// coordinates.
+    /// Replaces the normals and texture coordinates of points on an edge by the edge's anchors.
     #[inline(always)]
     fn edge_anchors(
         &self,
@@ -205,7 +171,7 @@ impl DisplacedPatch<'_> {
         let side = &self.sides.as_slice()[edge];
         let direction = self.patch.edges().as_slice()[edge].direction;
         if direction == Direction::Symmetric {
-            // Collapsed, or without a canonical direction: the whole edge has those of one corner.
+            // Collapsed, or without a canonical direction: the whole edge has the anchor of one corner.
             let corner = self.sides.as_slice()[edge_corners(&self.sides)[edge][0]].corner;
             let on_edge = (0..LANES).filter(|&lane| vertices.is_on(edge, lane));
             on_edge.for_each(|lane| anchors.set(lane, corner));

@@ -80,6 +80,38 @@ pub struct WrongDomain {
     pub expected: Domain,
 }
 
+/// Why there is no such height image, or no such displacement by it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum HeightError {
+    /// The number of texels is not width times height, or it is 0.
+    WrongLength {
+        /// How many texels there are.
+        texels: usize,
+        /// The width of the image.
+        width: usize,
+        /// The height of the image.
+        height: usize,
+    },
+    /// A texel is NaN or infinite.
+    NotFinite {
+        /// Its number, from 0.
+        index: usize,
+    },
+    /// A texel is beyond [`MAX_COORDINATE`].
+    TooLarge {
+        /// Its number, from 0.
+        index: usize,
+    },
+    /// The image's largest height times the scale is NaN or beyond [`MAX_COORDINATE`].
+    TooHigh {
+        /// The largest magnitude in the image.
+        height: f32,
+        /// The scale.
+        scale: f32,
+    },
+}
+
 impl MeshError {
     pub(crate) const fn face(face: usize, fault: Fault) -> Self {
         Self::Face { face, fault }
@@ -125,10 +157,36 @@ impl fmt::Display for MeshError {
 impl fmt::Display for WrongDomain {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { found, expected } = self;
-        write!(f, "the values are those of a {found:?} patch, but the surface is a {expected:?}")
+        write!(f, "the values belong to a {found:?} patch, but the surface is a {expected:?}")
     }
 }
 
+impl fmt::Display for HeightError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::WrongLength { texels, width, height } => write!(
+                f,
+                "there are {texels} texels for an image of {width} x {height}; give one for each \
+                 place, and at least one"
+            ),
+            Self::NotFinite { index } => {
+                write!(f, "texel {index} is NaN or infinite; replace it by a number")
+            }
+            Self::TooLarge { index } => write!(
+                f,
+                "texel {index} is too large to be evaluated: heights must lie within \
+                 {MAX_COORDINATE:e} of 0"
+            ),
+            Self::TooHigh { height, scale } => write!(
+                f,
+                "heights up to {height:e} times the scale {scale:e} are too large to be evaluated: \
+                 products must lie within {MAX_COORDINATE:e} of 0"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for HeightError {}
 impl core::error::Error for WrongDomain {}
 impl core::error::Error for Fault {}
 impl core::error::Error for MeshError {}

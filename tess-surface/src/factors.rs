@@ -1,14 +1,28 @@
 //! Tessellation factors by rule, each a function of the edge.
 //!
-//! A rule gets an edge in canonical direction, and what both sides agree on. So neighbours get the
-//! same factor, to the bit, and no crack opens.
+//! A rule gets what both patches of an edge share, and gives the same bits whichever patch asks. So neighbours have the
+//! same factor, and no crack opens. Inside factors open no crack whatever they are.
+//!
+//! [`shaders::FACTORS`](crate::shaders::FACTORS) has the functions for straight edges, and
+//! [`shaders::BEZIER_FACTORS`](crate::shaders::BEZIER_FACTORS) the rules of [`FactorRule`] for cubic ones.
+//!
+//! # Insides
+//!
+//! Rules that look at edges only give an inside factor the *mean* of the edges: on a quad of the two that run the same
+//! way, on a triangle of all three. The Direct3D 11 samples do so, and HLSL's `ProcessQuadTessFactorsAvg`. Opposite
+//! edges differ because one is nearer to the eye, and the middle of the patch is between them, so its segments get about
+//! the length that the rule asks for. The larger of the edges would make them too short, up to half.
+//!
+//! [`FactorRule::Flatness`] takes the *larger* instead: its bound holds for powers of two, and a mean is none.
 
+use crate::bend::Bend;
 use crate::curve::Curve;
+use crate::math::sqrt;
 use crate::model::Model;
 use crate::patch::Patch;
+use crate::pn::{PnCorner, edge_bend};
 use crate::sides::Sides;
 use crate::topology::HalfEdge;
-use crate::{bend, bend::Bend};
 use glam::Vec3;
 use tess_core::{Partitioning, PatchFactors, QuadFactors, TriangleFactors};
 
@@ -31,7 +45,7 @@ pub enum FactorRule {
     /// Segments of about `segment` pixels. The edge is seen as the sphere around its middle whose
     /// diameter is its length; a sphere looks the same from all sides, so edges that point away from
     /// the eye keep their segments (I. Cantlay, *DirectX 11 Terrain Tessellation*, NVIDIA 2011).
-    ScreenSpace {
+    ScreenSize {
         /// The position of the eye.
         eye: Vec3,
         /// The pixels that a length of 1 covers at distance 1, across the view: for a picture of
@@ -40,8 +54,8 @@ pub enum FactorRule {
         /// The wanted length of a segment, in pixels.
         segment: f32,
     },
-    /// As many segments as keep every point of a triangle within `tolerance` of the surface's point
-    /// with the same domain coordinates, unless a factor would exceed 64. [`crate::bend`] has the
+    /// The number of segments that keeps every point of a triangle within `tolerance` of the surface's
+    /// point with the same domain coordinates, unless a factor would exceed 64. [`crate::bend`] has the
     /// formula. The factors are powers of two; with others, the triangles between different factors
     /// would deviate more. Under `fractional_odd`, which has no powers of two, the tolerance is
     /// approximate.
@@ -54,8 +68,84 @@ pub enum FactorRule {
 /// The range of factors of all partitionings together.
 const RANGE: (f32, f32) = (1.0, 64.0);
 
-fn in_range(factor: f32) -> f32 {
+/// A factor within 1..=64; 1 for NaN.
+#[must_use]
+pub const fn in_range(factor: f32) -> f32 {
     if factor > RANGE.0 { factor.min(RANGE.1) } else { RANGE.0 }
+}
+
+/// `dividend / divisor` within 1..=64, also for a divisor of 0. The result is 1 unless both are numbers and
+/// `dividend > divisor >= 0`.
+#[must_use]
+pub fn quotient(dividend: f32, divisor: f32) -> f32 {
+    within(dividend, divisor, RANGE.1, |quotient| quotient)
+}
+
+/// The square root of `dividend / divisor` within 1..=64, with the exceptions of [`quotient`].
+#[must_use]
+pub fn root_quotient(dividend: f32, divisor: f32) -> f32 {
+    within(dividend, divisor, RANGE.1 * RANGE.1, sqrt)
+}
+
+/// A function of a quotient, which is computed only between 1 and `most`, a power of two: WGSL leaves the result of a
+/// division that overflows to the device.
+fn within(dividend: f32, divisor: f32, most: f32, function: impl Fn(f32) -> f32) -> f32 {
+    if dividend > divisor && divisor >= 0.0 {
+        let is_most = dividend * (1.0 / most) >= divisor;
+        if is_most { RANGE.1 } else { in_range(function(dividend / divisor)) }
+    } else {
+        RANGE.0
+    }
+}
+
+/// A factor for segments of `segment` pixels on the straight edge between these ends, as
+/// [`FactorRule::ScreenSize`].
+#[must_use]
+pub fn edge_by_screen_size(ends: [Vec3; 2], eye: Vec3, pixels_per_unit: f32, segment: f32) -> f32 {
+    let pixels = ends[0].distance(ends[1]) * pixels_per_unit;
+    quotient(pixels, eye.distance(middle(ends)) * segment)
+}
+
+/// `scale` divided by the distance from the eye to the middle of the straight edge between these ends, as
+/// [`FactorRule::Distance`].
+#[must_use]
+pub fn edge_by_distance(ends: [Vec3; 2], eye: Vec3, scale: f32) -> f32 {
+    quotient(scale, eye.distance(middle(ends)))
+}
+
+/// A factor that keeps equal segments within `tolerance`, in units of the positions, of the point-normal edge between
+/// two corners.
+///
+/// The edge's second derivative is at most M = 6 [`edge_bend`], and a chord over 1/n of the edge is within M / (8 n^2)
+/// of it.
+#[must_use]
+pub fn edge_by_curvature(ends: [PnCorner; 2], tolerance: f32) -> f32 {
+    root_quotient(0.75 * edge_bend(ends), tolerance)
+}
+
+/// A factor that keeps triangles within `tolerance` of a surface whose [`Bend`] along the edge is at most `bend`, as
+/// [`FactorRule::Flatness`]: a power of two.
+#[must_use]
+pub fn edge_by_flatness(bend: f32, tolerance: f32) -> f32 {
+    next_power_of_two(root_quotient(bend, 4.0 * tolerance))
+}
+
+/// The inside factors along u and v of a quad with these factors on its edges u = 0, v = 0, u = 1, v = 1: the mean of the
+/// two edges that run the same way.
+#[must_use]
+pub fn inside_quad([u0, v0, u1, v1]: [f32; 4]) -> [f32; 2] {
+    [0.5 * (v0 + v1), 0.5 * (u0 + u1)]
+}
+
+/// The inside factor of a triangle: the mean of its edges, exact where they are equal.
+#[must_use]
+pub fn inside_triangle([u0, v0, w0]: [f32; 3]) -> f32 {
+    u0 + ((v0 - u0) + (w0 - u0)) / 3.0
+}
+
+/// The same bits whichever end comes first.
+fn middle([a, b]: [Vec3; 2]) -> Vec3 {
+    (a + b) * 0.5
 }
 
 impl FactorRule {
@@ -63,22 +153,22 @@ impl FactorRule {
     /// and the larger [`Bend::along`] it of both patches.
     #[must_use]
     pub fn edge(&self, curve: &Curve, bend: f32) -> f32 {
-        in_range(match *self {
-            Self::Uniform(factor) => factor,
-            Self::Distance { eye, scale } => scale / eye.distance(curve.position(0.5)),
-            Self::ScreenSpace { eye, pixels_per_unit, segment } => {
+        match *self {
+            Self::Uniform(factor) => in_range(factor),
+            Self::Distance { eye, scale } => quotient(scale, eye.distance(curve.position(0.5))),
+            Self::ScreenSize { eye, pixels_per_unit, segment } => {
                 let pixels = curve.length_bound() * pixels_per_unit;
-                pixels / (eye.distance(curve.position(0.5)) * segment)
+                quotient(pixels, eye.distance(curve.position(0.5)) * segment)
             }
-            Self::Flatness { tolerance } => flat_segments(bend, tolerance),
-        })
+            Self::Flatness { tolerance } => edge_by_flatness(bend, tolerance),
+        }
     }
 
     /// The factors of patch `number` of a model, prepared for `partitioning` as a hull shader does:
-    /// under `pow2` they are rounded up to powers of two.
+    /// under `pow2` they are rounded up to powers of two, inside factors after their mean was taken.
     ///
-    /// An inside factor of a quad is the larger factor of the two edges along its axis, that of a
-    /// triangle the largest of all three; more where [`FactorRule::Flatness`] needs it inside.
+    /// Inside factors are the means of the edges' ([`inside_quad`], [`inside_triangle`]). Under
+    /// [`FactorRule::Flatness`] they are the largest of what the edges have and the inside needs.
     ///
     /// # Panics
     /// If there is no such patch.
@@ -122,28 +212,27 @@ impl FactorRule {
             Partitioning::Pow2 => next_power_of_two(factor),
             _ => factor,
         };
-        // The rule applied to the inside alone; 1 for rules that look at edges only.
-        let inside = |bend: f32| match *self {
-            Self::Flatness { tolerance } => flat_segments(bend, tolerance),
-            _ => RANGE.0,
-        };
-        match outer.map(up) {
-            Sides::Triangle([u0, v0, w0]) => {
-                let inside = up(inside(bend.u.max(bend.v))).max(u0).max(v0).max(w0);
-                TriangleFactors::from([u0, v0, w0, inside]).into()
+        // The larger of these edges and what a bend needs, if the rule is about bends; or else their mean.
+        let inside = |bend: f32, edges: &[f32], mean: f32| match *self {
+            Self::Flatness { tolerance } => {
+                edges.iter().copied().fold(edge_by_flatness(bend, tolerance), f32::max)
             }
-            Sides::Quad([u0, v0, u1, v1]) => {
-                let inside_u = up(inside(bend.u)).max(v0).max(v1);
-                let inside_v = up(inside(bend.v)).max(u0).max(u1);
-                QuadFactors::from([u0, v0, u1, v1, inside_u, inside_v]).into()
+            _ => mean,
+        };
+        match outer {
+            Sides::Triangle(edges) => {
+                let inside = inside(bend.u.max(bend.v), &edges, inside_triangle(edges));
+                let [u0, v0, w0] = edges;
+                TriangleFactors::from([u0, v0, w0, inside].map(up)).into()
+            }
+            Sides::Quad(edges) => {
+                let ([u0, v0, u1, v1], [mean_u, mean_v]) = (edges, inside_quad(edges));
+                let inside_u = inside(bend.u, &[v0, v1], mean_u);
+                let inside_v = inside(bend.v, &[u0, u1], mean_v);
+                QuadFactors::from([u0, v0, u1, v1, inside_u, inside_v].map(up)).into()
             }
         }
     }
-}
-
-/// The factor that keeps a bend within the tolerance.
-fn flat_segments(bend: f32, tolerance: f32) -> f32 {
-    next_power_of_two(in_range(bend::segments(bend, tolerance)))
 }
 
 /// The least power of two that is not less than `factor`, for factors 1..=64.

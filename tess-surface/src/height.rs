@@ -1,40 +1,101 @@
 //! Height images, and heights in the units of a model.
 
-use crate::error::MAX_COORDINATE;
+use crate::error::{HeightError, MAX_COORDINATE};
 use crate::lanes::{LANES, Lanes, Lanes2};
 use crate::math::{floor, is_in_range};
 use alloc::vec::Vec;
 use glam::Vec2;
 
-/// A grey image of heights, repeated over the plane of texture coordinates.
+/// A grey image of heights over the plane of texture coordinates, whose unit square it fills.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightMap {
     width: usize,
     height: usize,
     texels: Vec<f32>,
+    address: Address,
+}
+
+/// What lies beyond the image, with the names that samplers have for it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Address {
+    /// The image again.
+    #[default]
+    Repeat,
+    /// The outermost texels, for ever.
+    Clamp,
 }
 
 impl HeightMap {
-    /// The image with these texels, row by row from the top. `None` unless there are
-    /// `width * height` of them, at least one, none NaN or beyond [`MAX_COORDINATE`].
-    #[must_use]
-    pub fn new(width: usize, height: usize, texels: Vec<f32>) -> Option<Self> {
-        let fits = !texels.is_empty() && width.checked_mul(height) == Some(texels.len());
-        (fits && is_in_range(&texels)).then_some(Self { width, height, texels })
+    /// The image with these texels, row by row from the top. It repeats.
+    ///
+    /// # Errors
+    /// [`HeightError::WrongLength`] unless there are `width * height` texels and at least one,
+    /// [`HeightError::NotFinite`], [`HeightError::TooLarge`].
+    pub fn new(width: usize, height: usize, texels: Vec<f32>) -> Result<Self, HeightError> {
+        if texels.is_empty() || width.checked_mul(height) != Some(texels.len()) {
+            return Err(HeightError::WrongLength { texels: texels.len(), width, height });
+        }
+        if let Some(index) = texels.iter().position(|texel| !texel.is_finite()) {
+            return Err(HeightError::NotFinite { index });
+        }
+        if let Some(index) = texels.iter().position(|&texel| !is_in_range(&[texel])) {
+            return Err(HeightError::TooLarge { index });
+        }
+        Ok(Self { width, height, texels, address: Address::Repeat })
     }
 
-    /// The height and its derivatives by the texture coordinates, bilinear between texel centres.
+    /// The same image with something else beyond it.
+    #[must_use]
+    pub fn with_address(self, address: Address) -> Self {
+        Self { address, ..self }
+    }
+
+    /// The texels, row by row from the top.
+    #[must_use]
+    pub fn texels(&self) -> &[f32] {
+        &self.texels
+    }
+
+    /// The height and its derivatives by the texture coordinates, bilinear between texel centres. (0, 0) is the
+    /// lower left corner of the image.
     #[must_use]
     pub fn sample(&self, texcoord: Vec2) -> (f32, Vec2) {
-        let (column, fx) = cell(texcoord.x, self.width);
-        let (row, fy) = cell(1.0 - texcoord.y, self.height);
-        let [width, height] = self.size();
-        bilinear(self.corners(column, row), [fx, fy], [width, height])
+        self.at(Vec2::new(texcoord.x, 1.0 - texcoord.y))
+    }
+
+    /// The height at a place that is counted from the top: (0, 0) is the upper left corner of the image, (1, 1) the lower
+    /// right one.
+    #[must_use]
+    pub fn height_at(&self, place: Vec2) -> f32 {
+        self.at(place).0
+    }
+
+    /// [`HeightMap::sample`] at a place that is counted from the top.
+    fn at(&self, place: Vec2) -> (f32, Vec2) {
+        let (corners, part) = match self.address {
+            Address::Repeat => {
+                let (column, fx) = cell(place.x, self.width);
+                let (row, fy) = cell(place.y, self.height);
+                (self.corners(column, row), [fx, fy])
+            }
+            Address::Clamp => {
+                let (columns, fx) = clamped_cell(place.x, self.width);
+                let (rows, fy) = clamped_cell(place.y, self.height);
+                let at = |row: usize, column: usize| {
+                    self.texels[rows[row] * self.width + columns[column]]
+                };
+                ([at(0, 0), at(0, 1), at(1, 0), at(1, 1)], [fx, fy])
+            }
+        };
+        bilinear(corners, part, self.size())
     }
 
     /// [`HeightMap::sample`] at the lanes' texture coordinates.
     #[inline(always)]
     pub(crate) fn samples(&self, texcoords: &Lanes2) -> (Lanes, Lanes2) {
+        if self.address == Address::Clamp {
+            return self.samples_one_by_one(texcoords);
+        }
         let (mut columns, mut fx) = ([0; LANES], [0.0; LANES]);
         let (mut rows, mut fy) = ([0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
@@ -54,6 +115,16 @@ impl HeightMap {
             let corners = [a[lane], b[lane], c[lane], d[lane]];
             let (height, slope) = bilinear(corners, [fx[lane], fy[lane]], size);
             heights[lane] = height;
+            slopes.set(lane, slope);
+        }
+        (heights, slopes)
+    }
+
+    fn samples_one_by_one(&self, texcoords: &Lanes2) -> (Lanes, Lanes2) {
+        let (mut heights, mut slopes) = ([0.0; LANES], Lanes2::ZERO);
+        for (lane, height) in heights.iter_mut().enumerate() {
+            let slope;
+            (*height, slope) = self.sample(texcoords.get(lane));
             slopes.set(lane, slope);
         }
         (heights, slopes)
@@ -108,6 +179,21 @@ fn cell(coordinate: f32, size: usize) -> (u32, f32) {
     (texel as u32, scaled - before)
 }
 
+/// The texels whose centres lie before and behind a coordinate, both within the image, and the fraction from the first to
+/// the second. Beyond the image both are the outermost texel.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "casts of floats saturate, and images are far smaller than 2^24"
+)]
+fn clamped_cell(coordinate: f32, size: usize) -> ([usize; 2], f32) {
+    let scaled = coordinate * texels(size) - 0.5;
+    let before = floor(scaled);
+    // Casts turn NaN and what is below 0 to 0.
+    let texel = |number: f32| (number as usize).min(size - 1);
+    ([texel(before), texel(before + 1.0)], scaled - before)
+}
+
 /// Heights in the units of a model, to displace its surface along the normal.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Displacement {
@@ -116,11 +202,17 @@ pub struct Displacement {
 }
 
 impl Displacement {
-    /// The heights of an image, times `scale` units of the model. `None` if one of the products is
-    /// NaN or beyond [`MAX_COORDINATE`].
-    #[must_use]
-    pub fn new(map: HeightMap, scale: f32) -> Option<Self> {
-        let highest = map.texels.iter().fold(0.0f32, |highest, t| highest.max(t.abs()));
-        ((highest * scale).abs() <= MAX_COORDINATE).then_some(Self { map, scale })
+    /// The heights of an image, times `scale` units of the model.
+    ///
+    /// # Errors
+    /// [`HeightError::TooHigh`] if one of the products is NaN or beyond [`MAX_COORDINATE`].
+    pub fn new(map: HeightMap, scale: f32) -> Result<Self, HeightError> {
+        let height = map.texels.iter().fold(0.0f32, |highest, t| highest.max(t.abs()));
+        let is_evaluable = (height * scale).abs() <= MAX_COORDINATE;
+        if is_evaluable {
+            Ok(Self { map, scale })
+        } else {
+            Err(HeightError::TooHigh { height, scale })
+        }
     }
 }

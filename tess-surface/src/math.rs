@@ -33,7 +33,7 @@ pub(crate) fn is_in_range(coordinates: &[f32]) -> bool {
 /// The square root, correctly rounded.
 #[inline(always)]
 pub(crate) fn sqrt(x: f32) -> f32 {
-    // The standard library's is an instruction of its own, also in vectors.
+    // The standard library's is one instruction, also in vectors.
     #[cfg(feature = "std")]
     return x.sqrt();
     #[cfg(not(feature = "std"))]
@@ -131,8 +131,8 @@ pub(crate) fn de_casteljau<V: Vector>([a, b, c, d]: [V; 4], t: f32) -> (V, V) {
     (lerp(abc, bcd, t), derivative)
 }
 
-/// A homogeneous point, (w x, w y, w z) and w, in four numbers of their own: [`Vec4`] is a vector of the
-/// processor, which loops over lanes cannot make vectors of.
+/// A homogeneous point, (w x, w y, w z) and w, as four separate numbers: [`Vec4`] fills a register of the processor,
+/// so loops over lanes could not be vectorized.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Homogeneous {
     pub(crate) xyz: Vec3,

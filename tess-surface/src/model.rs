@@ -22,8 +22,8 @@ pub enum Style {
     PointNormal,
 }
 
-/// Patches with adjacency. They are numbered from 0, in the order of the faces or Bezier patches that
-/// the model was made of; methods that take a number panic beyond the last, as slices do.
+/// Patches with adjacency, numbered from 0 in the order of the faces or Bezier patches that the model was made of.
+/// Methods that take a number panic beyond the last patch, as slices do.
 #[derive(Clone, Debug)]
 pub struct Model {
     source: Source,
@@ -117,9 +117,10 @@ impl Model {
         self.topology.twin(half)
     }
 
-    /// How many edges have more than two patches, as where two cubes stand edge to edge. As many run
-    /// one way along such an edge as the other; each is the neighbour of one that runs the other way.
-    /// So the surfaces that touch there have no cracks, but one may be divided otherwise than the other.
+    /// The number of edges with more than two patches, as where two cubes stand edge to edge.
+    ///
+    /// An equal number of patches runs each way along such an edge, and each is the neighbour of one that runs the other
+    /// way. So the surfaces that touch there have no cracks, but they may be divided differently.
     #[must_use]
     pub const fn crowded_edges(&self) -> usize {
         self.topology.crowded()

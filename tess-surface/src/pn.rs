@@ -10,6 +10,7 @@
 
 use crate::bezier::BezierPatch;
 use crate::frame::{Frame, Tangents};
+use crate::math::length;
 use glam::Vec3;
 
 /// A corner of a mesh face.
@@ -30,6 +31,16 @@ pub fn edge_points(a: PnCorner, b: PnCorner) -> [Vec3; 2] {
         (from.position * 2.0 + to.position - from.normal * out_of_plane) / 3.0
     };
     [inner(a, b), inner(b, a)]
+}
+
+/// A sixth of the largest second derivative of the edge between two corners, in units of their positions. The same
+/// whichever comes first.
+#[must_use]
+pub fn edge_bend([a, b]: [PnCorner; 2]) -> f32 {
+    let [near_a, near_b] = edge_points(a, b);
+    let at_a = (a.position + near_b) - near_a * 2.0;
+    let at_b = (near_a + b.position) - near_b * 2.0;
+    length(at_a).max(length(at_b))
 }
 
 /// The middle coefficient of the quadratic normal along the edge from `a` to `b`: the mean of

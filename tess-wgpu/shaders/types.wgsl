@@ -8,10 +8,20 @@ struct QuadFactors {
     inside: vec2<f32>,
 }
 
+// The factors of a quad by those of its edges; each inside factor is the mean of the edges that run its way.
+fn tess_quad_factors(edges: vec4<f32>) -> QuadFactors {
+    return QuadFactors(edges, tess_inside_quad(edges));
+}
+
 struct TriFactors {
     // Along u = 0, v = 0, w = 0.
     edges: vec3<f32>,
     inside: f32,
+}
+
+// The factors of a triangle by those of its edges; the inside factor is their mean.
+fn tess_tri_factors(edges: vec3<f32>) -> TriFactors {
+    return TriFactors(edges, tess_inside_triangle(edges));
 }
 
 struct IsolineFactors {

@@ -2,7 +2,10 @@
 
 use crate::models::cube;
 use glam::{Vec2, Vec3};
-use tess_surface::{DisplacedModel, Displacement, HeightMap, MAX_COORDINATE, Model, Sample, Style};
+use tess_surface::{
+    Address, DisplacedModel, Displacement, HeightError, HeightMap, MAX_COORDINATE, Model, Sample,
+    Style,
+};
 
 /// The displacement by one row of texels.
 fn displacement(width: usize, texels: Vec<f32>, scale: f32) -> Displacement {
@@ -44,17 +47,50 @@ fn heights_are_interpolated_and_repeat() {
     }
     let (_, slope) = map.sample(Vec2::new(0.5, 0.5));
     assert_eq!(slope, Vec2::new(2.0, -4.0), "1 per half a width, -2 per half a height");
-    assert!(HeightMap::new(2, 2, vec![0.0; 3]).is_none(), "a texel is missing");
-    assert!(HeightMap::new(1, 1, vec![f32::NAN]).is_none(), "no number");
-    assert!(HeightMap::new(1, 1, vec![3e38]).is_none(), "differences would overflow");
+}
+
+#[test]
+fn heights_beyond_a_clamped_image_are_its_outermost() {
+    let map = HeightMap::new(2, 2, vec![0.0, 1.0, 2.0, 3.0]).unwrap().with_address(Address::Clamp);
+    for (at, expected, slope) in [
+        ((0.25, 0.25), 0.0, [2.0, -4.0]), // the centre of the upper left texel
+        ((0.5, 0.5), 1.5, [2.0, -4.0]),
+        ((0.0, 0.5), 1.0, [0.0, -4.0]),
+        ((1.0, 0.5), 2.0, [0.0, -4.0]),
+        ((0.75, 7.5), 3.0, [0.0, 0.0]),
+        ((-3.0, 0.125), 0.0, [0.0, 0.0]),
+    ] {
+        let place = Vec2::from(at);
+        assert_eq!(map.height_at(place), expected, "height at {at:?}");
+        let (height, found) = map.sample(Vec2::new(place.x, 1.0 - place.y));
+        assert_eq!((height, found.to_array()), (expected, slope), "sample at {at:?}");
+    }
+}
+
+#[test]
+fn images_that_cannot_be_evaluated_are_refused() {
+    for (width, height, texels, expected, words) in [
+        (2, 2, vec![0.0; 3], HeightError::WrongLength { texels: 3, width: 2, height: 2 }, "2 x 2"),
+        (0, 2, vec![], HeightError::WrongLength { texels: 0, width: 0, height: 2 }, "at least one"),
+        (2, 1, vec![0.0, f32::NAN], HeightError::NotFinite { index: 1 }, "texel 1 is NaN"),
+        (1, 1, vec![-f32::INFINITY], HeightError::NotFinite { index: 0 }, "infinite"),
+        // Differences would overflow.
+        (2, 1, vec![1.0, 3e38], HeightError::TooLarge { index: 1 }, "within 1e16"),
+    ] {
+        let error = HeightMap::new(width, height, texels).unwrap_err();
+        assert_eq!(error, expected, "{width} x {height}");
+        assert!(error.to_string().contains(words), "{error}");
+    }
 }
 
 #[test]
 fn heights_in_units_of_the_model_stay_in_range() {
     let map = HeightMap::new(2, 1, vec![0.0, -2.0]).unwrap();
-    assert!(Displacement::new(map.clone(), MAX_COORDINATE / 2.0).is_some(), "just in range");
+    assert!(Displacement::new(map.clone(), MAX_COORDINATE / 2.0).is_ok(), "just in range");
     for scale in [MAX_COORDINATE, -3e38, f32::NAN, f32::INFINITY] {
-        assert!(Displacement::new(map.clone(), scale).is_none(), "{scale}");
+        let error = Displacement::new(map.clone(), scale).unwrap_err();
+        assert!(matches!(error, HeightError::TooHigh { height: 2.0, .. }), "{scale}: {error:?}");
+        assert!(error.to_string().contains("heights up to 2e0 times the scale"), "{error}");
     }
 }
 

@@ -120,7 +120,7 @@ fn texture_coordinates_of_another_domain() {
     let patch = Patch::new(Surface::Bilinear([Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y]));
     let wrong = patch.with_texcoords(Sides::Triangle([Vec2::ZERO; 3])).expect_err("a quad");
     assert_eq!(wrong, WrongDomain { found: Domain::Triangle, expected: Domain::Quad });
-    let words = "the values are those of a Triangle patch, but the surface is a Quad";
+    let words = "the values belong to a Triangle patch, but the surface is a Quad";
     assert_eq!(wrong.to_string(), words, "what and why");
     let own = patch.with_texcoords(Sides::Quad([Vec2::NEG_ONE; 4])).expect("a quad's");
     assert_eq!(own.sample([0.5, 0.5]).texcoord, Vec2::NEG_ONE, "they are used");

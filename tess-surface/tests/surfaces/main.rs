@@ -8,6 +8,7 @@
 
 mod cracks;
 mod displacement;
+mod edges;
 mod errors;
 mod factors;
 mod flatness;

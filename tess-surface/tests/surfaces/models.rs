@@ -189,7 +189,7 @@ pub(crate) fn rules() -> Vec<(&'static str, FactorRule)> {
         ("uniform 5.3", FactorRule::Uniform(5.3)),
         ("uniform 8", FactorRule::Uniform(8.0)),
         ("distance", FactorRule::Distance { eye, scale: 35.0 }),
-        ("screen", FactorRule::ScreenSpace { eye, pixels_per_unit: 700.0, segment: 25.0 }),
+        ("screen", FactorRule::ScreenSize { eye, pixels_per_unit: 700.0, segment: 25.0 }),
         ("flatness", FactorRule::Flatness { tolerance: 0.02 }),
     ]
 }

@@ -33,7 +33,7 @@ fn rules_in_units(times: f32) -> [FactorRule; 3] {
     let eye = Vec3::new(3.0, -4.0, 2.5) * times;
     [
         FactorRule::Distance { eye, scale: 35.0 * times },
-        FactorRule::ScreenSpace { eye, pixels_per_unit: 700.0, segment: 25.0 },
+        FactorRule::ScreenSize { eye, pixels_per_unit: 700.0, segment: 25.0 },
         FactorRule::Flatness { tolerance: 0.02 * times },
     ]
 }

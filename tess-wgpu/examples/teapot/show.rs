@@ -11,7 +11,7 @@ use wgpu::BufferUsages as Usage;
 /// The user's WGSL: the formulas of tess-surface, and what calls them.
 fn wgsl() -> String {
     let stage = include_str!("stage.wgsl");
-    [shaders::BEZIER, shaders::FACTORS, &teapot::source()[shaders::BEZIER.len()..], stage]
+    [shaders::BEZIER, shaders::BEZIER_FACTORS, &teapot::source()[shaders::BEZIER.len()..], stage]
         .join("\n")
 }
 

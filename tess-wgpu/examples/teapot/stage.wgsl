@@ -1,4 +1,4 @@
-// The teapot's hull and domain functions. Needs bezier.wgsl, factors.wgsl and draw.wgsl.
+// The teapot's hull and domain functions. Needs bezier.wgsl, bezier_factors.wgsl and draw.wgsl.
 
 // The factor of the edge between two corners of a net, over its control points; the same from both sides.
 fn edge_factor(net: array<vec4f, 16>, first: u32, step: u32) -> f32 {
@@ -7,7 +7,7 @@ fn edge_factor(net: array<vec4f, 16>, first: u32, step: u32) -> f32 {
     for (var k = 0u; k < 4u; k++) {
         edge[k] = all[first + k * step];
     }
-    return factor_by_distance(edge, EYE, 140.0);
+    return bezier_edge_by_distance(edge, EYE, 140.0);
 }
 
 fn hull(number: u32) -> QuadFactors {

@@ -26,7 +26,7 @@ use statistics::{Stage, Statistics};
 use std::io::Write;
 use std::path::PathBuf;
 use tess_core::Partitioning;
-use tess_surface::{DisplacedModel, Displacement, FactorRule, MAX_COORDINATE, Model, Style};
+use tess_surface::{DisplacedModel, Displacement, FactorRule, HeightError, Model, Style};
 use tess_verify::names::Named;
 use view::{View, ViewArgs};
 
@@ -138,7 +138,7 @@ impl RuleArgs {
         match self {
             Self { distance: Some(scale), .. } => FactorRule::Distance { eye, scale },
             Self { pixels: Some(segment), .. } => {
-                FactorRule::ScreenSpace { eye, pixels_per_unit, segment }
+                FactorRule::ScreenSize { eye, pixels_per_unit, segment }
             }
             Self { tolerance: Some(tolerance), .. } => FactorRule::Flatness { tolerance },
             Self { factor, .. } => FactorRule::Uniform(factor.unwrap_or(64.0)),
@@ -156,8 +156,8 @@ fn positive(text: &str) -> Result<f32, String> {
     number.ok_or_else(|| "a finite number greater than zero is needed".to_owned())
 }
 
-fn too_high() -> Failure {
-    Failure::bad_input(format!("--height is too large: displacements end at {MAX_COORDINATE:e}"))
+fn too_high(error: HeightError) -> Failure {
+    Failure::bad_input(format!("--height is too large: {error}"))
 }
 
 /// Runs the command.
@@ -175,7 +175,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         let map = args.displace.as_deref();
         let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
         let input = input::load(args.input.as_deref(), style)?;
-        let displacement = map.map(|map| Displacement::new(map, args.height).ok_or_else(too_high));
+        let displacement = map.map(|map| Displacement::new(map, args.height).map_err(too_high));
         Ok::<_, Failure>((input, displacement.transpose()?))
     })?;
     notes.iter().for_each(|line| note(&format!("note: {line}")));

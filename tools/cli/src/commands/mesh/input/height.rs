@@ -29,7 +29,7 @@ pub(crate) fn load(path: &Path, most: u64) -> Result<HeightMap, Failure> {
     let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
     let in_file = |what| Failure::bad_input(format!("cannot read {}: {what}", path.display()));
     let Heights { width, height, texels } = decode(BufReader::new(file), most).map_err(in_file)?;
-    HeightMap::new(width, height, texels).ok_or_else(|| in_file("no pixels".to_owned()))
+    HeightMap::new(width, height, texels).map_err(|error| in_file(error.to_string()))
 }
 
 /// Decodes a PNG. Grey images keep up to 16 bits; of colours the Rec. 709 luma is taken.

@@ -1,0 +1,66 @@
+//! Edges that are the same curve from both ends.
+
+use glam::{Vec3, Vec4};
+use tess_surface::{BezierPatch, Curve, Direction, Edge, Model, Patch, Sample, Surface};
+
+/// Control points that read the same backwards, polynomial and rational; no coordinate is a short binary number.
+fn palindromes() -> [[Vec4; 4]; 2] {
+    let [a, b] = [Vec4::new(0.1, 0.7, -0.3, 1.0), Vec4::new(1.3, 0.2, 0.9, 1.0)];
+    [[a, b, b, a], [a * 0.7, b * 1.1, b * 1.1, a * 0.7]]
+}
+
+fn bits(position: Vec3) -> [u32; 3] {
+    position.to_array().map(f32::to_bits)
+}
+
+/// Places along an edge, and each with the one that is as far from the other end.
+fn places() -> Vec<[f32; 2]> {
+    (0..=1000u16).map(|i| f32::from(i) * 65.0 / 65536.0).map(|t| [t, 1.0 - t]).collect()
+}
+
+/// Such a curve has no canonical direction, so neighbours may walk it either way. It is folded in its middle.
+#[test]
+fn palindromic_curves_are_folded() {
+    for points in palindromes() {
+        let curve = Curve::Cubic(points);
+        let edge = Edge::new(curve);
+        assert_eq!(edge.direction, Direction::Symmetric, "{points:?}");
+        let mut differ = 0;
+        for [t, other] in places() {
+            let [ours, theirs] = [t, other].map(|t| bits(edge.position(t)));
+            assert_eq!(ours, theirs, "{points:?} at {t}");
+            differ += usize::from(bits(curve.position(t)) != bits(curve.position(other)));
+        }
+        assert!(differ > 100, "unfolded, {differ} places differ");
+    }
+}
+
+/// The same of the patches on both sides, one point at a time and in lanes.
+#[test]
+fn patches_agree_on_palindromic_edges() {
+    for edge in palindromes() {
+        let column = |at: f32| edge.map(|p| p + Vec4::new(at, 0.3 * at * p.x, 0.2 * at, 0.0) * p.w);
+        // The edge u = 0 of both, which run along it in opposite directions: rows along v.
+        let net = |across: f32| {
+            let columns = [0.0, 1.0, 2.0, 3.0].map(|i| column(i * across));
+            BezierPatch { points: std::array::from_fn(|j| columns.map(|column| column[j])) }
+        };
+        let mut other = net(-0.5);
+        other.points.reverse();
+        let patches = [net(0.4), other];
+        let model = Model::bezier(patches.to_vec()).expect("a model");
+        assert!(model.twin(tess_surface::HalfEdge { patch: 0, edge: 0 }).is_some(), "one edge");
+        let [one, other] = patches.map(|patch| Patch::new(Surface::Bezier(patch)));
+        for [t, back] in places() {
+            let [ours, theirs] = [one.position([0.0, t]), other.position([0.0, back])];
+            assert_eq!(bits(ours), bits(theirs), "{edge:?} at {t}");
+        }
+        let samples = |patch: &Patch, of: usize| {
+            let points: Vec<_> = places().iter().map(|t| [0.0, t[of]]).collect();
+            let mut samples = vec![Sample::default(); points.len()];
+            patch.samples(&points, &mut samples);
+            samples.iter().map(|sample| bits(sample.position)).collect::<Vec<_>>()
+        };
+        assert_eq!(samples(&one, 0), samples(&other, 1), "{edge:?} in lanes");
+    }
+}

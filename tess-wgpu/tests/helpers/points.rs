@@ -1,0 +1,207 @@
+//! Tables of points on lines, quads and triangles, and of heights.
+
+use crate::device::{SIZE, heights};
+use crate::factors::{number, point};
+use crate::{Case, Expected, Table, ULP, args, one, vec};
+use glam::{Vec2, Vec3};
+use tess_surface::pn::edge_points;
+use tess_surface::sides::edge_corners;
+use tess_surface::{Address, Curve, Edge, HeightMap, Patch, PnCorner, Sides, Surface};
+use tess_verify::random::SplitMix64;
+
+/// Errors of a position, in ulps of the largest coordinate: a fused operation rounds once where the CPU rounds twice.
+const OF_A_POINT: f32 = 8.0;
+/// The largest coordinate of a corner.
+const SIZE_OF_A_PATCH: f64 = 1.0;
+
+pub(crate) fn tables() -> Vec<Table> {
+    vec![
+        Table {
+            name: "tess_pn_edge_point",
+            call: "vec4(tess_pn_edge_point(a[0].xyz, a[1].xyz, a[2].xyz), 0)",
+            cases: control_points(),
+        },
+        Table { name: "tess_along", call: "tess_along(a[0], a[1], a[2].x)", cases: lines() },
+        Table {
+            name: "tess_on_quad",
+            call: "tess_on_quad(array(a[0], a[1], a[2], a[3]), a[4].xy)",
+            cases: patches(&Sides::Quad([(); 4])),
+        },
+        Table {
+            name: "tess_on_triangle",
+            call: "tess_on_triangle(array(a[0], a[1], a[2]), a[4].xy)",
+            cases: patches(&Sides::Triangle([(); 3])),
+        },
+        Table { name: "edges of tess_on_quad", call: EDGES_OF_QUADS, cases: edges(4) },
+        Table { name: "edges of tess_on_triangle", call: EDGES_OF_TRIANGLES, cases: edges(3) },
+        Table {
+            name: "tess_sample",
+            call: "vec4(tess_sample(map, a[0].xy), 0, 0, 0)",
+            cases: samples(),
+        },
+    ]
+}
+
+/// Places along an edge as tessellators give them: multiples of 2^-16.
+fn places(random: &mut SplitMix64) -> [f32; 6] {
+    let part = |parts: u32| parts as f32 / 65536.0;
+    let any = part(1 + random.below(65_535));
+    [0.0, part(1), any, 0.5, part(65_535), 1.0]
+}
+
+fn near(position: Vec3) -> Expected {
+    Expected::Near(vec(position, 0.0), OF_A_POINT * ULP)
+}
+
+fn lines() -> Vec<Case> {
+    let (mut all, mut random) = (Vec::new(), SplitMix64::new(21));
+    for number_of in 0..100 {
+        let [a, mut b] = [(); 2].map(|()| point(&mut random, SIZE_OF_A_PATCH));
+        // Some ends differ in their later components alone, or not at all.
+        match number_of % 4 {
+            1 => b.x = a.x,
+            2 => (b.x, b.y) = (a.x, a.y),
+            3 if number_of % 8 == 7 => b = a,
+            _ => {}
+        }
+        let edge = Edge::new(Curve::Line([a, b]));
+        for t in places(&mut random) {
+            let exact =
+                [(0.0_f32, a), (1.0, b)].into_iter().find(|&(end, _)| t.to_bits() == end.to_bits());
+            let by_cpu =
+                exact.map_or(near(edge.position(t)), |(_, end)| Expected::Bits(vec(end, 0.0)));
+            let (a, b) = (vec(a, 0.0), vec(b, 0.0));
+            all.push(Case { args: args(&[a, b, one(t)]), expected: by_cpu });
+            all.push(Case { args: args(&[b, a, one(1.0 - t)]), expected: Expected::AsBefore });
+        }
+    }
+    // The fourth component decides about the direction too, and is interpolated.
+    for _ in 0..20 {
+        let [a, b] = [(); 2].map(|()| [0.3, 0.7, 0.1, number(&mut random, -1.0, 1.0)]);
+        for t in places(&mut random) {
+            let fourth = a[3] + (b[3] - a[3]) * t;
+            let expected = Expected::Near([0.3, 0.7, 0.1, fourth], OF_A_POINT * ULP);
+            all.push(Case { args: args(&[a, b, one(t)]), expected });
+            all.push(Case { args: args(&[b, a, one(1.0 - t)]), expected: Expected::AsBefore });
+        }
+    }
+    all
+}
+
+/// Inner control points of edges. The sums have terms of up to 6, and the quotient by 3 an error of 2.5 ulps.
+fn control_points() -> Vec<Case> {
+    let mut random = SplitMix64::new(25);
+    let case = |_| {
+        let [a, b] = [(); 2].map(|()| PnCorner {
+            position: point(&mut random, SIZE_OF_A_PATCH),
+            normal: (Vec3::Z + point(&mut random, 0.7)).normalize(),
+        });
+        let [near_a, _] = edge_points(a, b);
+        let given = [vec(a.position, 0.0), vec(a.normal, 0.0), vec(b.position, 0.0)];
+        Case { args: args(&given), expected: Expected::Near(vec(near_a, 0.0), 16.0 * ULP) }
+    };
+    (0..100).map(case).collect()
+}
+
+/// The domain point on an edge at its running coordinate.
+fn on_edge(sides: &Sides<()>, edge: usize, t: f32) -> [f32; 2] {
+    match (sides, edge) {
+        (_, 0) => [0.0, t],
+        (_, 1) => [t, 0.0],
+        (Sides::Triangle(_), _) => [t, 1.0 - t],
+        (Sides::Quad(_), 2) => [1.0, t],
+        (Sides::Quad(_), _) => [t, 1.0],
+    }
+}
+
+/// A patch with these corners, of which a triangle has three.
+fn patch(sides: &Sides<()>, [a, b, c, d]: [Vec3; 4]) -> Patch {
+    Patch::new(match sides {
+        Sides::Triangle(_) => Surface::FlatTriangle([a, b, c]),
+        Sides::Quad(_) => Surface::Bilinear([a, b, c, d]),
+    })
+}
+
+/// Points of the whole domain against the CPU's. Corners are exact.
+fn patches(sides: &Sides<()>) -> Vec<Case> {
+    let (mut all, mut random) = (Vec::new(), SplitMix64::new(22));
+    for _ in 0..30 {
+        let corners = [(); 4].map(|()| point(&mut random, SIZE_OF_A_PATCH));
+        let patch = patch(sides, corners);
+        let mut push = |uv: [f32; 2], expected| {
+            let [a, b, c, d] = corners.map(|corner| vec(corner, 0.0));
+            let fourth = if sides.as_slice().len() == 4 { d } else { [0.0; 4] };
+            all.push(Case { args: [a, b, c, fourth, [uv[0], uv[1], 0.0, 0.0]], expected });
+        };
+        for (edge, [from, to]) in edge_corners(sides).iter().enumerate() {
+            push(on_edge(sides, edge, 0.0), Expected::Bits(vec(corners[*from], 0.0)));
+            push(on_edge(sides, edge, 1.0), Expected::Bits(vec(corners[*to], 0.0)));
+            for t in places(&mut random) {
+                let uv = on_edge(sides, edge, t);
+                push(uv, near(patch.position(uv)));
+            }
+        }
+        for _ in 0..10 {
+            let [u, v] = [(); 2].map(|()| (1 + random.below(32_766)) as f32 / 65536.0);
+            push([u, v], near(patch.position([u, v])));
+        }
+    }
+    all
+}
+
+/// A point of a quad where `a[4].w` is 1, or else a point between `a[0]` and `a[1]`.
+const EDGES_OF_QUADS: &str = "select(tess_along(a[0], a[1], a[4].z), \
+    tess_on_quad(array(a[0], a[1], a[2], a[3]), a[4].xy), a[4].w == 1.0)";
+/// The same for triangles.
+const EDGES_OF_TRIANGLES: &str = "select(tess_along(a[0], a[1], a[4].z), \
+    tess_on_triangle(array(a[0], a[1], a[2]), a[4].xy), a[4].w == 1.0)";
+
+/// Points on edges have the bits that the edge's two ends give, whichever comes first: so all patches of the edge agree.
+fn edges(corners: usize) -> Vec<Case> {
+    let sides = if corners == 4 { Sides::Quad([(); 4]) } else { Sides::Triangle([(); 3]) };
+    let (mut all, mut random) = (Vec::new(), SplitMix64::new(23));
+    for _ in 0..30 {
+        let corners = [(); 4].map(|()| point(&mut random, SIZE_OF_A_PATCH));
+        let [a, b, c, d] = corners.map(|corner| vec(corner, 0.25));
+        let by_cpu = patch(&sides, corners);
+        for (edge, &[from, to]) in edge_corners(&sides).iter().enumerate() {
+            let [from, to] = [from, to].map(|corner| vec(corners[corner], 0.25));
+            for t in places(&mut random) {
+                let uv = on_edge(&sides, edge, t);
+                let expected = Expected::Near(vec(by_cpu.position(uv), 0.25), OF_A_POINT * ULP);
+                all.push(Case { args: [a, b, c, d, [uv[0], uv[1], 0.0, 1.0]], expected });
+                for [one, other, t] in [[from, to, [t; 4]], [to, from, [1.0 - t; 4]]] {
+                    let place = [0.0, 0.0, t[0], 0.0];
+                    let args = [one, other, [0.0; 4], [0.0; 4], place];
+                    all.push(Case { args, expected: Expected::AsBefore });
+                }
+            }
+        }
+    }
+    all
+}
+
+/// Heights at places in 1/256 of a texel, where mixtures of texels of 8 bits are exact, and beyond the image.
+fn samples() -> Vec<Case> {
+    let [width, height] = SIZE.map(usize::from);
+    let map = HeightMap::new(width, height, heights()).expect("as many texels");
+    let map = map.with_address(Address::Clamp);
+    let size = Vec2::from_array(SIZE.map(f32::from));
+    let mut random = SplitMix64::new(24);
+    let mut parts =
+        vec![[0, 0], [128, 128], [8 * 256 - 128, 4 * 256 - 128], [2048, 1024], [-700, 300]];
+    parts.extend([[512, -129], [2300, 1100], [5000, 513], [640, 640], [127, 129]]);
+    let any = |random: &mut SplitMix64, most: u32| i32::try_from(random.below(most)).unwrap_or(0);
+    parts.extend((0..200).map(|_| [any(&mut random, 2600) - 300, any(&mut random, 1500) - 200]));
+    let mut all = Vec::new();
+    for [x, y] in parts {
+        let place = Vec2::new(x as f32, y as f32) / 256.0 / size;
+        let expected = Expected::Bits(one(map.height_at(place)));
+        // A place a third of 1/256 texel away is rounded to this one.
+        for off in [0.0, 0.3, -0.3] {
+            let beside = place + off / 256.0 / size;
+            all.push(Case { args: args(&[[beside.x, beside.y, 0.0, 0.0]]), expected });
+        }
+    }
+    all
+}
