@@ -1,4 +1,4 @@
-// Bicubic Bezier patches. The words are those of bezier.rs: 16 control points a patch, three numbers each, rows along
+// Bicubic Bezier patches. bezier.rs writes the words: 16 control points a patch, three numbers each, rows along
 // v. Needs tess_surface's BEZIER.
 
 fn control(at: TessPlace, k: u32) -> vec3<f32> {

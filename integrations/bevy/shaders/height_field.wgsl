@@ -1,6 +1,5 @@
-// A rectangle of patches over x and z, raised by heights. The words are those of height_map.rs.
-
-const HEADER = 20u;
+// A rectangle of patches over x and z, raised by heights. height_field.rs writes the words, and puts in
+// how many stand in front of the heights (in `texel`).
 
 struct Ground {
     texels: vec2<i32>,
@@ -21,8 +20,7 @@ fn texel(at: TessPlace, texels: vec2<i32>, x: i32, z: i32) -> f32 {
     return tess_float(at, HEADER + u32(z * texels.x + x));
 }
 
-// The height at a place, 0 to 1 in each direction, mixed from the four nearest texels; the same place gives the
-// same bits.
+// The height at a place, 0 to 1 in each direction: HeightMap::height_at of tess-surface, clamped.
 fn height(at: TessPlace, texels: vec2<i32>, place: vec2<f32>) -> f32 {
     let scaled = place * vec2<f32>(texels) - 0.5;
     let below = floor(scaled);
@@ -30,9 +28,9 @@ fn height(at: TessPlace, texels: vec2<i32>, place: vec2<f32>) -> f32 {
     let last = texels - 1;
     let a = clamp(vec2<i32>(below), vec2<i32>(0), last);
     let b = clamp(vec2<i32>(below) + 1, vec2<i32>(0), last);
-    let near = mix(texel(at, texels, a.x, a.y), texel(at, texels, b.x, a.y), part.x);
-    let far = mix(texel(at, texels, a.x, b.y), texel(at, texels, b.x, b.y), part.x);
-    return mix(near, far, part.y);
+    return tess_bilinear(vec4<f32>(
+        texel(at, texels, a.x, a.y), texel(at, texels, b.x, a.y),
+        texel(at, texels, a.x, b.y), texel(at, texels, b.x, b.y)), part);
 }
 
 // Whole numbers and 1/65536ths add up exactly, so both patches of an edge find the same place.
@@ -90,7 +88,7 @@ fn slope(at: TessPlace, map: Ground, place: vec2<f32>) -> vec3<f32> {
     return normalize(vec3<f32>(-rise.x, 1.0, -rise.y));
 }
 
-// Low, high and steep ground have colours of their own.
+// Low, high and steep ground differ in colour.
 fn tint(at: TessPlace, map: Ground, high: f32, upward: f32) -> vec4<f32> {
     let part = (high - map.lowest) / max(map.highest - map.lowest, 1e-20);
     let flat_color = mix(tess_vec3(at, 9u), tess_vec3(at, 12u), smoothstep(0.55, 0.85, part));

@@ -1,4 +1,4 @@
-// Point-normal triangles. The words are those of point_normal.rs: the number of corners, the corners with six
+// Point-normal triangles. point_normal.rs writes the words: the number of corners, the corners with six
 // numbers each, the triangles. Needs tess_surface's BEZIER, POINT_NORMAL and PN_TRIANGLE.
 
 fn pn_corner(at: TessPlace, k: u32) -> PnCorner {

@@ -37,8 +37,8 @@ fn tess_to_world(at: TessPlace, local: vec3<f32>) -> vec3<f32> {
     return (tess_instances[at.instance].world_from_local * vec4<f32>(local, 1.0)).xyz;
 }
 
-// The factor of an edge between two places in world space, by the entity's rule. It is 0 in an entity that the
-// camera does not see.
+// The factor of an edge between two places in world space, by the entity's level of detail. It is 0 in an entity
+// that the camera does not see.
 fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
     let rule = tess_instances[at.instance].rule;
     let pixels = tess_view.pixels_per_unit;
@@ -48,7 +48,7 @@ fn tess_edge(at: TessPlace, a: vec3<f32>, b: vec3<f32>) -> f32 {
         }
         case 2u: {
             if tess_view.is_orthographic != 0u {
-                return tess_in_range(distance(a, b) * pixels / rule.y);
+                return tess_quotient(distance(a, b) * pixels, rule.y);
             }
             return tess_edge_by_screen_size(a, b, tess_view.eye, pixels, rule.y);
         }

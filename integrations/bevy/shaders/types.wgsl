@@ -1,5 +1,5 @@
 // What the plugin binds and what a domain function returns. The bind group's number is put in for TESS_GROUP.
-// The structs TessView and TessInstance are those of render/layout.rs.
+// render/layout.rs has the structs TessView and TessInstance too.
 
 struct TessView {
     clip_from_world: mat4x4<f32>,

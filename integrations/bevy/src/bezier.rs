@@ -7,6 +7,7 @@ use bevy::math::Vec3;
 use std::borrow::Cow;
 use std::fmt;
 use tess_core::{Domain, PatchFactors, QuadFactors};
+use tess_surface::factors::inside_quad;
 use tess_surface::glam;
 use tess_surface::{BezierPatch, Patch, Surface, shaders};
 
@@ -116,9 +117,10 @@ impl CpuShape for BezierPatches {
     }
 }
 
-/// Factors from those of the edges u = 0, v = 0, u = 1, v = 1, as `tess_quad_factors` of the WGSL has them.
-pub(crate) fn quad_factors([u0, v0, u1, v1]: [f32; 4]) -> QuadFactors {
-    QuadFactors { u0, v0, u1, v1, inside_u: 0.5 * (v0 + v1), inside_v: 0.5 * (u0 + u1) }
+/// The factors of a quad by its edges u = 0, v = 0, u = 1, v = 1, as `tess_quad_factors` of the WGSL.
+pub(crate) fn quad_factors(edges: [f32; 4]) -> QuadFactors {
+    let ([u0, v0, u1, v1], [inside_u, inside_v]) = (edges, inside_quad(edges));
+    QuadFactors { u0, v0, u1, v1, inside_u, inside_v }
 }
 
 #[cfg(test)]

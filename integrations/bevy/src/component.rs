@@ -1,7 +1,7 @@
 //! The component, and what the user sets for all of them.
 
+use crate::detail::LevelOfDetail;
 use crate::look::Look;
-use crate::rule::FactorRule;
 use crate::shape::Shape;
 use bevy::camera::visibility::{self, NoAutoAabb, Visibility, VisibilityClass};
 use bevy::ecs::prelude::*;
@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use tess_core::{Config, Partitioning};
 
-/// A surface that is tessellated anew in each frame, by what each camera sees of it.
+/// A surface that is tessellated in each frame, by what each camera sees of it.
 #[derive(Clone, Component, Debug)]
 #[require(Transform, Visibility, VisibilityClass, SyncToRenderWorld, NoAutoAabb)]
 #[component(on_add = visibility::add_visibility_class::<Tessellated>)]
@@ -19,7 +19,7 @@ pub struct Tessellated {
     /// Its patches. Share them between entities that look alike in shape: they are then kept once.
     pub shape: Arc<dyn Shape>,
     /// How many segments its edges get.
-    pub factors: FactorRule,
+    pub detail: LevelOfDetail,
     /// How factors become segments. Fractional ones do not pop as the camera moves.
     pub partitioning: Partitioning,
     /// How it looks.
@@ -36,16 +36,16 @@ impl Tessellated {
     pub fn shared(shape: Arc<dyn Shape>) -> Self {
         Self {
             shape,
-            factors: FactorRule::default(),
+            detail: LevelOfDetail::default(),
             partitioning: Partitioning::FractionalEven,
             look: Look::default(),
         }
     }
 
-    /// The same surface with this rule.
+    /// The same surface with this many segments.
     #[must_use]
-    pub const fn with_factors(mut self, factors: FactorRule) -> Self {
-        self.factors = factors;
+    pub const fn with_detail(mut self, detail: LevelOfDetail) -> Self {
+        self.detail = detail;
         self
     }
 

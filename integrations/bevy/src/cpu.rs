@@ -78,7 +78,7 @@ pub(crate) fn mesh(of: Tessellation, topology: PrimitiveTopology) -> Mesh {
         .with_inserted_indices(Indices::U32(indices))
 }
 
-/// What an entity's mesh was made from; made anew when it changes.
+/// What an entity's mesh was made from. When it changes, the mesh is replaced.
 #[derive(Clone, Component, Debug)]
 pub(crate) struct Fallback {
     eye: Eye,
@@ -119,7 +119,7 @@ pub(crate) fn tessellate(
     let Some(view) = view_of(&cameras) else { return };
     let mut triangles = 0;
     for (entity, surface, transform, mut fallback) in &mut surfaces {
-        let rule = surface.factors;
+        let rule = surface.detail;
         let eye = Eye { view, world_from_local: transform.affine(), rule };
         if is_out_of_sight(&surface, &eye) {
             continue;

@@ -1,23 +1,25 @@
 //! How many segments an edge gets.
 
-/// How many segments an edge gets, 1 to 64. Every rule gives both patches of an edge the same.
+/// How many segments an edge gets, 1 to 64, by the camera. Both patches of an edge get the same number.
+///
+/// [`tess_surface::factors`] has the rules, in WGSL and in Rust.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum FactorRule {
+pub enum LevelOfDetail {
     /// The same factor everywhere.
     Uniform(f32),
-    /// Segments of about so many pixels of the camera's picture.
+    /// Segments of about this many pixels of the camera's picture.
     Pixels(f32),
-    /// A factor inversely proportional to the distance from the camera; this one at distance 1.
+    /// This number divided by the distance from the camera to the edge's middle.
     Distance(f32),
 }
 
-impl Default for FactorRule {
+impl Default for LevelOfDetail {
     fn default() -> Self {
         Self::Pixels(8.0)
     }
 }
 
-impl FactorRule {
+impl LevelOfDetail {
     /// The kind and the amount, as `tess_edge` of surface.wgsl reads them.
     pub(crate) const fn words(self) -> [f32; 4] {
         let (kind, amount) = match self {

@@ -1,8 +1,9 @@
-//! Where a surface is seen from: the Rust form of the functions that hull functions call.
+//! The view of a surface, and its factors and culling on the CPU: `tess_edge` and `tess_is_outside` of the WGSL in Rust.
 
-use crate::rule::FactorRule;
-use bevy::math::{Affine3A, Mat4, Vec3, Vec4};
+use crate::detail::LevelOfDetail;
+use bevy::math::{Affine3A, Mat4, Vec3};
 use bevy::transform::components::GlobalTransform;
+use tess_surface::{culling, factors, glam};
 
 /// What a camera sees the world by.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,7 +16,7 @@ pub(crate) struct View {
 }
 
 impl View {
-    /// The view of a camera whose picture is so many pixels high.
+    /// The view of a camera whose picture is `height` pixels high.
     pub(crate) fn new(
         world_from_view: &GlobalTransform,
         clip_from_view: Mat4,
@@ -36,7 +37,7 @@ impl View {
 pub struct Eye {
     pub(crate) view: View,
     pub(crate) world_from_local: Affine3A,
-    pub(crate) rule: FactorRule,
+    pub(crate) rule: LevelOfDetail,
 }
 
 impl Eye {
@@ -46,34 +47,36 @@ impl Eye {
         self.world_from_local.transform_point3(local)
     }
 
-    /// The factor of an edge between two places in world space, by the entity's rule: 1 to 64, and 1 for what is
-    /// no number. The same in both directions.
+    /// The factor of an edge between two places in world space, by the entity's level of detail: 1 to 64, and 1
+    /// for NaN. The same in both directions.
     #[must_use]
     pub fn edge(&self, a: Vec3, b: Vec3) -> f32 {
         let View { eye, pixels_per_unit, is_orthographic, .. } = self.view;
-        let away = eye.distance((a + b) * 0.5).max(1e-6);
-        let factor = match self.rule {
-            FactorRule::Uniform(factor) => factor,
-            FactorRule::Pixels(pixels) if is_orthographic => {
-                a.distance(b) * pixels_per_unit / pixels
+        let (ends, eye) = ([a, b].map(of_surface), of_surface(eye));
+        match self.rule {
+            LevelOfDetail::Uniform(factor) => factors::in_range(factor),
+            LevelOfDetail::Pixels(pixels) if is_orthographic => {
+                factors::quotient(a.distance(b) * pixels_per_unit, pixels)
             }
-            FactorRule::Pixels(pixels) => a.distance(b) * pixels_per_unit / (away * pixels),
-            FactorRule::Distance(scale) => scale / away,
-        };
-        if factor > 1.0 { factor.min(64.0) } else { 1.0 }
+            LevelOfDetail::Pixels(pixels) => {
+                factors::edge_by_screen_size(ends, eye, pixels_per_unit, pixels)
+            }
+            LevelOfDetail::Distance(scale) => factors::edge_by_distance(ends, eye, scale),
+        }
     }
 
     /// Whether a ball in world space is outside the camera's picture.
     #[must_use]
     pub fn is_outside(&self, center: Vec3, radius: f32) -> bool {
-        let rows = self.view.clip_from_world.transpose();
-        let [x, y, z, w] = [rows.x_axis, rows.y_axis, rows.z_axis, rows.w_axis];
-        let is_behind = |plane: Vec4| {
-            let normal = plane.truncate();
-            normal.dot(center) + plane.w < -radius * normal.length()
-        };
-        [w + x, w - x, w + y, w - y, z, w - z].into_iter().any(is_behind)
+        let columns = self.view.clip_from_world.to_cols_array();
+        let clip_from_world = glam::Mat4::from_cols_array(&columns);
+        culling::is_outside(&clip_from_world, of_surface(center), radius)
     }
+}
+
+/// The vector in the version of glam that tess-surface has.
+fn of_surface(v: Vec3) -> glam::Vec3 {
+    glam::Vec3::from_array(v.to_array())
 }
 
 #[cfg(test)]
@@ -83,7 +86,7 @@ mod tests {
     use bevy::math::Quat;
 
     /// Looks along -z from (0, 0, 10), 90 degrees high, 400 pixels.
-    fn eye(rule: FactorRule) -> Eye {
+    fn eye(rule: LevelOfDetail) -> Eye {
         let camera = GlobalTransform::from(Affine3A::from_rotation_translation(
             Quat::IDENTITY,
             Vec3::new(0.0, 0.0, 10.0),
@@ -97,7 +100,7 @@ mod tests {
 
     #[test]
     fn edges_have_segments_of_so_many_pixels() {
-        let eye = eye(FactorRule::Pixels(5.0));
+        let eye = eye(LevelOfDetail::Pixels(5.0));
         // A length of 1 at distance 10 has 20 pixels.
         let (a, b) = (Vec3::new(-1.0, 0.0, 0.0), Vec3::new(1.0, 0.0, 0.0));
         assert!((eye.edge(a, b) - 8.0).abs() < 1e-4, "{}", eye.edge(a, b));
@@ -108,7 +111,7 @@ mod tests {
 
     #[test]
     fn balls_beside_the_picture_are_outside() {
-        let eye = eye(FactorRule::default());
+        let eye = eye(LevelOfDetail::default());
         assert!(!eye.is_outside(Vec3::ZERO, 1.0), "in front");
         assert!(eye.is_outside(Vec3::new(0.0, 0.0, 20.0), 1.0), "behind");
         assert!(eye.is_outside(Vec3::new(30.0, 0.0, 0.0), 1.0), "to the right");

@@ -4,16 +4,17 @@ use crate::bezier::quad_factors;
 use crate::eye::Eye;
 use crate::shape::{CpuShape, Shape, ShapeVertex};
 use bevy::camera::primitives::Aabb;
-use bevy::math::{FloatExt, UVec2, Vec2, Vec3};
+use bevy::math::{UVec2, Vec2, Vec3};
 use std::borrow::Cow;
 use std::fmt;
 use tess_core::{Domain, OutputPrimitive, PatchFactors, QuadFactors};
+use tess_surface::{Address, HeightError, HeightMap, glam};
 
-/// A rectangle over x and z, around the origin, raised along y by an image of heights.
+/// A rectangle over x and z, centred on the origin and raised along y by a height map.
 #[derive(Clone, Debug, PartialEq)]
-pub struct HeightMap {
+pub struct HeightField {
     texels: UVec2,
-    heights: Vec<f32>,
+    heights: HeightMap,
     /// The lowest and the highest height.
     range: [f32; 2],
     patches: UVec2,
@@ -38,101 +39,81 @@ impl Default for GroundColors {
     }
 }
 
-/// Why there is no such height map.
+/// Why there is no such height field.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum HeightMapError {
-    /// The number of heights is not that of the image's texels, or it is 0.
-    WrongLength {
-        /// Heights that there are.
-        got: usize,
-        /// Texels along x and z.
-        texels: UVec2,
-    },
-    /// A height is NaN or infinite.
-    NotFinite {
-        /// Its number.
-        index: usize,
-    },
-    /// There are no patches along a side, or more than [`HeightMap::MOST_PATCHES`].
+pub enum HeightFieldError {
+    /// The heights are no image.
+    Image(HeightError),
+    /// There are no patches along a side, or more than [`HeightField::MOST_PATCHES`].
     WrongPatches {
         /// Patches along x and z.
         got: UVec2,
     },
 }
 
-impl fmt::Display for HeightMapError {
+impl fmt::Display for HeightFieldError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::WrongLength { got, texels } => write!(
-                f,
-                "there are {got} heights for an image of {} x {} texels; there must be one for each, \
-                 and at least one",
-                texels.x, texels.y
-            ),
-            Self::NotFinite { index } => {
-                write!(f, "height {index} is not finite; replace NaN and infinities")
-            }
+            Self::Image(error) => write!(f, "the heights are no image: {error}"),
             Self::WrongPatches { got } => write!(
                 f,
                 "{} x {} patches; each side has 1 to {}; use several entities for more",
                 got.x,
                 got.y,
-                HeightMap::MOST_PATCHES
+                HeightField::MOST_PATCHES
             ),
         }
     }
 }
 
-impl std::error::Error for HeightMapError {}
+impl std::error::Error for HeightFieldError {}
 
-/// Words in front of the heights, as `height_map.wgsl` reads them.
+/// Words in front of the heights, put into `height_field.wgsl`.
 const HEADER: usize = 20;
 
-impl HeightMap {
+impl HeightField {
     /// The most patches along a side: up to here places in patches are exact.
     pub const MOST_PATCHES: u32 = 256;
 
-    /// A map of `texels` heights, row by row along x, the first row at the least z. It is 1 x 1 x 1 large, one
+    /// A field of `texels` heights, row by row along x, the first row at the least z. It is 1 unit wide along x and z, 1
     /// unit high where a height is 1, and has 16 x 16 patches.
     ///
     /// # Errors
-    /// [`HeightMapError::WrongLength`], [`HeightMapError::NotFinite`].
-    pub fn new(texels: UVec2, heights: Vec<f32>) -> Result<Self, HeightMapError> {
-        let expected = u64::from(texels.x) * u64::from(texels.y);
-        if heights.is_empty() || expected != heights.len() as u64 {
-            return Err(HeightMapError::WrongLength { got: heights.len(), texels });
-        }
-        if let Some(index) = heights.iter().position(|height| !height.is_finite()) {
-            return Err(HeightMapError::NotFinite { index });
-        }
+    /// [`HeightFieldError::Image`].
+    pub fn new(texels: UVec2, heights: Vec<f32>) -> Result<Self, HeightFieldError> {
+        let [width, height] = texels.to_array().map(|size| size as usize);
+        let heights = HeightMap::new(width, height, heights).map_err(HeightFieldError::Image)?;
+        let heights = heights.with_address(Address::Clamp);
         let (patches, colors) = (UVec2::splat(16), GroundColors::default());
-        let range =
-            heights.iter().fold([f32::MAX, f32::MIN], |[low, high], &h| [low.min(h), high.max(h)]);
+        let range = heights
+            .texels()
+            .iter()
+            .fold([f32::MAX, f32::MIN], |[low, high], &h| [low.min(h), high.max(h)]);
         Ok(Self { texels, heights, range, patches, size: Vec3::ONE, colors })
     }
 
-    /// The same map with this extent along x and z; heights are multiplied by the extent along y.
+    /// The same field with this extent along x and z; heights are multiplied by the extent along y.
     #[must_use]
     pub const fn with_size(mut self, size: Vec3) -> Self {
         self.size = size;
         self
     }
 
-    /// The same map with these colours.
+    /// The same field with these colours.
     #[must_use]
     pub const fn with_colors(mut self, colors: GroundColors) -> Self {
         self.colors = colors;
         self
     }
 
-    /// The same map in so many patches along x and z.
+    /// The same field with this number of patches along x and z.
     ///
     /// # Errors
-    /// [`HeightMapError::WrongPatches`].
-    pub fn with_patches(mut self, patches: UVec2) -> Result<Self, HeightMapError> {
+    /// [`HeightFieldError::WrongPatches`].
+    pub fn with_patches(mut self, patches: UVec2) -> Result<Self, HeightFieldError> {
         if patches.min_element() == 0 || patches.max_element() > Self::MOST_PATCHES {
-            return Err(HeightMapError::WrongPatches { got: patches });
+            return Err(HeightFieldError::WrongPatches { got: patches });
         }
         self.patches = patches;
         Ok(self)
@@ -144,19 +125,10 @@ impl HeightMap {
         self.raised(place, self.height(place))
     }
 
-    // What follows is height_map.wgsl in Rust, function by function.
+    // What follows is height_field.wgsl in Rust, function by function.
 
     fn height(&self, place: Vec2) -> f32 {
-        let scaled = place * self.texels.as_vec2() - 0.5;
-        let below = scaled.floor();
-        let part = scaled - below;
-        let last = self.texels.as_ivec2() - 1;
-        let a = below.as_ivec2().clamp(bevy::math::IVec2::ZERO, last).as_uvec2();
-        let b = (below.as_ivec2() + 1).clamp(bevy::math::IVec2::ZERO, last).as_uvec2();
-        let texel = |x: u32, z: u32| self.heights[(z * self.texels.x + x) as usize];
-        let near = texel(a.x, a.y).lerp(texel(b.x, a.y), part.x);
-        let far = texel(a.x, b.y).lerp(texel(b.x, b.y), part.x);
-        near.lerp(far, part.y)
+        self.heights.height_at(glam::Vec2::from_array(place.to_array()))
     }
 
     fn place_of(&self, patch: u32, uv: Vec2) -> Vec2 {
@@ -211,7 +183,7 @@ fn smoothstep(low: f32, high: f32, at: f32) -> f32 {
     t * t * (3.0 - 2.0 * t)
 }
 
-impl Shape for HeightMap {
+impl Shape for HeightField {
     fn domain(&self) -> Domain {
         Domain::Quad
     }
@@ -232,7 +204,8 @@ impl Shape for HeightMap {
     }
 
     fn surface(&self) -> Cow<'static, str> {
-        Cow::Borrowed(include_str!("../shaders/height_map.wgsl"))
+        let text = include_str!("../shaders/height_field.wgsl");
+        Cow::Owned(text.replace("HEADER", &format!("{HEADER}u")))
     }
 
     fn words(&self) -> Vec<u32> {
@@ -244,7 +217,7 @@ impl Shape for HeightMap {
         let colors = [low.y, low.z, high.x, high.y, high.z, steep.x, steep.y, steep.z];
         words.extend(colors.map(f32::to_bits));
         words.resize(HEADER, 0);
-        words.extend(self.heights.iter().map(|height| height.to_bits()));
+        words.extend(self.heights.texels().iter().map(|height| height.to_bits()));
         words
     }
 
@@ -253,7 +226,7 @@ impl Shape for HeightMap {
     }
 }
 
-impl CpuShape for HeightMap {
+impl CpuShape for HeightField {
     fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors {
         if self.is_outside(patch, eye) {
             return PatchFactors::Quad(QuadFactors::uniform(0.0));
@@ -284,15 +257,15 @@ impl CpuShape for HeightMap {
 mod tests {
     use super::*;
 
-    fn map() -> HeightMap {
+    fn map() -> HeightField {
         let heights = (0..35_u16).map(|i| f32::from(i * 37 % 35) / 35.0).collect();
-        let map = HeightMap::new(UVec2::new(7, 5), heights).expect("35 texels");
+        let map = HeightField::new(UVec2::new(7, 5), heights).expect("35 texels");
         let map = map.with_size(Vec3::new(10.0, 2.0, 6.0));
         map.with_patches(UVec2::new(3, 2)).expect("six patches")
     }
 
     /// The vertices of a patch where one coordinate is fixed.
-    fn edge(map: &HeightMap, patch: u32, of: impl Fn(f32) -> [f32; 2]) -> Vec<ShapeVertex> {
+    fn edge(map: &HeightField, patch: u32, of: impl Fn(f32) -> [f32; 2]) -> Vec<ShapeVertex> {
         let points: Vec<_> = (0..=64_u8).map(|i| of(f32::from(i) / 64.0)).collect();
         let mut vertices = Vec::new();
         map.vertices(patch, &points, &mut vertices);
@@ -322,19 +295,19 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_named() {
-        let of = |x, y, heights: &[f32]| HeightMap::new(UVec2::new(x, y), heights.to_vec());
-        let texels = UVec2::new(2, 2);
-        let wrong = Err(HeightMapError::WrongLength { got: 3, texels });
+        let of = |x, y, heights: &[f32]| HeightField::new(UVec2::new(x, y), heights.to_vec());
+        let missing = HeightError::WrongLength { texels: 3, width: 2, height: 2 };
+        let wrong = Err(HeightFieldError::Image(missing));
         assert_eq!(of(2, 2, &[0.0; 3]), wrong, "a height is missing");
         assert!(of(0, 2, &[]).is_err(), "there is nothing");
-        let nan = Err(HeightMapError::NotFinite { index: 1 });
+        let nan = Err(HeightFieldError::Image(HeightError::NotFinite { index: 1 }));
         assert_eq!(of(2, 1, &[0.0, f32::NAN]), nan, "the second one");
         for (x, z) in [(0, 1), (1, 257)] {
             let got = UVec2::new(x, z);
             let refused = map().with_patches(got);
-            assert_eq!(refused, Err(HeightMapError::WrongPatches { got }), "{x} x {z}");
+            assert_eq!(refused, Err(HeightFieldError::WrongPatches { got }), "{x} x {z}");
         }
-        let text = HeightMapError::WrongPatches { got: UVec2::new(1, 257) }.to_string();
+        let text = HeightFieldError::WrongPatches { got: UVec2::new(1, 257) }.to_string();
         assert!(text.contains("1 to 256"), "{text}");
     }
 }

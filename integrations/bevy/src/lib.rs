@@ -3,24 +3,25 @@
 mod bezier;
 mod component;
 mod cpu;
+mod detail;
 mod eye;
-mod height_map;
+mod height_field;
 mod look;
 mod point_normal;
 mod render;
-mod rule;
 mod setup;
 mod shape;
 
 pub use bezier::{BezierError, BezierPatches, Net};
 pub use component::{Backend, TessSettings, TessStats, Tessellated};
+pub use detail::LevelOfDetail;
 pub use eye::Eye;
-pub use height_map::{GroundColors, HeightMap, HeightMapError};
+pub use height_field::{GroundColors, HeightField, HeightFieldError};
 pub use look::Look;
 pub use point_normal::{PointNormalError, PointNormalMesh};
-pub use rule::FactorRule;
 pub use shape::{CpuShape, DEFAULT_FRAGMENT, Shape, ShapeVertex};
 pub use tess_core;
+pub use tess_surface;
 
 use bevy::app::{App, Plugin, PostUpdate};
 use bevy::asset::AssetEventSystems;

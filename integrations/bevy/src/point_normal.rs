@@ -7,6 +7,7 @@ use bevy::math::Vec3;
 use std::borrow::Cow;
 use std::fmt;
 use tess_core::{Domain, PatchFactors, TriangleFactors};
+use tess_surface::factors::inside_triangle;
 use tess_surface::glam;
 use tess_surface::pn::edge_points;
 use tess_surface::{Patch, PnCorner, PnTriangle, Surface, shaders};
@@ -121,8 +122,9 @@ impl PointNormalMesh {
             let at = self.corner(patch, k).position.to_array();
             eye.to_world(Vec3::from(at))
         });
-        let [u0, v0, w0] = [eye.edge(b, c), eye.edge(a, c), eye.edge(a, b)];
-        TriangleFactors { u0, v0, w0, inside: (u0 + v0 + w0) / 3.0 }
+        let edges = [eye.edge(b, c), eye.edge(a, c), eye.edge(a, b)];
+        let [u0, v0, w0] = edges;
+        TriangleFactors { u0, v0, w0, inside: inside_triangle(edges) }
     }
 
     /// Positions and normals at domain points of a triangle, as `pn_point` of the WGSL.

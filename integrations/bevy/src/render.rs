@@ -4,6 +4,7 @@ mod content;
 mod draw;
 mod extract;
 mod layout;
+mod pipelines;
 mod queue;
 mod stages;
 #[cfg(test)]
@@ -23,7 +24,7 @@ pub(crate) fn build(app: &mut App) {
     render_app
         .insert_resource(stats)
         .init_resource::<extract::Extracted>()
-        .init_gpu_resource::<queue::Pipelines>()
+        .init_gpu_resource::<pipelines::Pipelines>()
         .init_gpu_resource::<stages::Stages>()
         .add_render_command::<Opaque3d, draw::DrawTessellated>()
         .add_systems(ExtractSchedule, extract::extract)

@@ -78,7 +78,7 @@ pub(crate) struct Setup {
     pub(crate) fragment: Handle<Shader>,
 }
 
-/// All setups that there were, and that of each entity.
+/// Every setup so far, and the setup of each entity.
 #[derive(Debug, Resource)]
 pub(crate) struct Setups {
     /// The modules of [`IMPORTS`].

@@ -4,7 +4,7 @@ use bevy::color::palettes::css::{BLACK, WHITE};
 use bevy::diagnostic::{DiagnosticsStore, FrameTimeDiagnosticsPlugin};
 use bevy::math::{Isometry3d, ops};
 use bevy::prelude::*;
-use bevy_tess::{Backend, FactorRule, TessSettings, TessStats, Tessellated};
+use bevy_tess::{Backend, LevelOfDetail, TessSettings, TessStats, Tessellated};
 
 pub(crate) fn set_up(mut gizmos: ResMut<GizmoConfigStore>) {
     let (config, _) = gizmos.config_mut::<DefaultGizmoConfigGroup>();
@@ -36,7 +36,7 @@ pub(crate) fn press(
     ] {
         if keys.just_pressed(key) {
             for mut surface in &mut surfaces {
-                if let FactorRule::Pixels(pixels) = &mut surface.factors {
+                if let LevelOfDetail::Pixels(pixels) = &mut surface.detail {
                     *pixels = (*pixels * by).clamp(0.25, 1000.0);
                 }
             }
@@ -93,7 +93,7 @@ mod tests {
         app.init_resource::<ButtonInput<KeyCode>>().insert_resource(TessSettings::default());
         app.add_message::<AppExit>().add_systems(Update, press);
         let patch = BezierPatches::new(vec![[[[0.0; 3]; 4]; 4]]).expect("one patch");
-        app.world_mut().spawn(Tessellated::new(patch).with_factors(FactorRule::Pixels(PIXELS)));
+        app.world_mut().spawn(Tessellated::new(patch).with_detail(LevelOfDetail::Pixels(PIXELS)));
         app
     }
 
@@ -110,7 +110,7 @@ mod tests {
     fn pixels(app: &mut App) -> f32 {
         let mut surfaces = app.world_mut().query::<&Tessellated>();
         let surface = surfaces.single(app.world()).expect("one surface");
-        let FactorRule::Pixels(pixels) = surface.factors else { panic!("by pixels") };
+        let LevelOfDetail::Pixels(pixels) = surface.detail else { panic!("by pixels") };
         pixels
     }
 

@@ -8,7 +8,8 @@ use bevy::math::ops;
 use bevy::pbr::{DistanceFog, FogFalloff};
 use bevy::prelude::*;
 use bevy_tess::{
-    BezierPatches, FactorRule, GroundColors, HeightMap, Look, PointNormalMesh, Shape, Tessellated,
+    BezierPatches, GroundColors, HeightField, LevelOfDetail, Look, PointNormalMesh, Shape,
+    Tessellated,
 };
 use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -27,13 +28,13 @@ pub(crate) fn set_up(
     mut meshes: ResMut<Assets<Mesh>>,
     mut materials: ResMut<Assets<StandardMaterial>>,
 ) -> Result {
-    let factors = FactorRule::Pixels(args.pixels);
+    let factors = LevelOfDetail::Pixels(args.pixels);
     let ground = ground()?;
     for number in 0..CHARACTERS {
         let at = ground.surface_at(place(number));
-        commands.spawn((character(number)?.with_factors(factors), standing(number, at)));
+        commands.spawn((character(number)?.with_detail(factors), standing(number, at)));
     }
-    commands.spawn((teapot()?.with_factors(factors), at_the_flight(&ground)));
+    commands.spawn((teapot()?.with_detail(factors), at_the_flight(&ground)));
     let stone = meshes.add(Cuboid::new(0.8, 5.0, 0.8));
     let grey = materials.add(Color::srgb(0.5, 0.5, 0.55));
     for number in 0..STONES {
@@ -42,7 +43,7 @@ pub(crate) fn set_up(
         commands.spawn((mesh, material, Transform::from_translation(at)));
     }
     let look = Look { perceptual_roughness: 0.9, reflectance: 0.2, ..default() };
-    commands.spawn(Tessellated::new(ground).with_look(look).with_factors(factors));
+    commands.spawn(Tessellated::new(ground).with_look(look).with_detail(factors));
     let sun = DirectionalLight { illuminance: 9000.0, shadow_maps_enabled: true, ..default() };
     commands.spawn((sun, Transform::from_xyz(0.6, 0.6, 0.5).looking_at(Vec3::ZERO, Vec3::Y)));
     let sky = Color::srgb(0.66, 0.76, 0.88);
@@ -64,13 +65,13 @@ pub(crate) fn set_up(
     Ok(())
 }
 
-fn ground() -> Result<HeightMap> {
+fn ground() -> Result<HeightField> {
     let colors = GroundColors {
         low: Vec3::new(0.10, 0.22, 0.06),
         high: Vec3::new(0.80, 0.82, 0.85),
         steep: Vec3::new(0.22, 0.17, 0.12),
     };
-    let map = HeightMap::new(UVec2::splat(TEXELS), hills::heights(TEXELS))?;
+    let map = HeightField::new(UVec2::splat(TEXELS), hills::heights(TEXELS))?;
     Ok(map.with_size(SIZE).with_colors(colors).with_patches(UVec2::splat(64))?)
 }
 
@@ -96,7 +97,7 @@ fn teapot() -> Result<Tessellated> {
 }
 
 /// Where the camera flies by.
-fn at_the_flight(ground: &HeightMap) -> Transform {
+fn at_the_flight(ground: &HeightField) -> Transform {
     let at = ground.surface_at(Vec2::new(0.54, 0.22));
     let upright = Quat::from_rotation_x(-FRAC_PI_2);
     Transform::from_translation(at).with_rotation(upright).with_scale(Vec3::splat(0.8))

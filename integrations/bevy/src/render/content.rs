@@ -128,13 +128,13 @@ impl Content {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::height_map::HeightMap;
+    use crate::height_field::HeightField;
     use bevy::math::UVec2;
 
     #[test]
     fn a_shared_shape_is_packed_once() {
         let map = |height| -> Arc<dyn Shape> {
-            let map = HeightMap::new(UVec2::ONE, vec![height]).expect("one texel");
+            let map = HeightField::new(UVec2::ONE, vec![height]).expect("one texel");
             Arc::new(map.with_patches(UVec2::new(2, 1)).expect("two patches"))
         };
         let (a, b) = (map(1.0), map(2.0));

@@ -1,6 +1,6 @@
 //! The draw of one entity.
 
-use super::queue::Pipelines;
+use super::pipelines::Pipelines;
 use super::stages::Stages;
 use crate::setup::DRAW_GROUP;
 use bevy::ecs::query::ROQueryItem;

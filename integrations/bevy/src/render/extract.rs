@@ -1,9 +1,9 @@
 //! What the render world knows of the surfaces of a frame.
 
 use crate::component::{TessSettings, Tessellated};
+use crate::detail::LevelOfDetail;
 use crate::is_on_cpu;
 use crate::look::Look;
-use crate::rule::FactorRule;
 use crate::setup::{Setup, Setups};
 use crate::shape::Shape;
 use bevy::asset::AssetServer;
@@ -21,7 +21,7 @@ pub(crate) struct Item {
     pub(crate) entity: MainEntity,
     pub(crate) setup: Arc<Setup>,
     pub(crate) shape: Arc<dyn Shape>,
-    pub(crate) rule: FactorRule,
+    pub(crate) rule: LevelOfDetail,
     pub(crate) look: Look,
     pub(crate) world_from_local: Affine3A,
 }
@@ -53,7 +53,7 @@ pub(crate) fn extract(
             entity: entity.into(),
             setup: Arc::clone(setups.of(entity)?),
             shape: Arc::clone(&tessellated.shape),
-            rule: tessellated.factors,
+            rule: tessellated.detail,
             look: tessellated.look,
             world_from_local: transform.affine(),
         })

@@ -1,8 +1,8 @@
 //! What the shaders bind: types.wgsl and surface.wgsl in Rust.
 
 use super::extract::Item;
+use crate::detail::LevelOfDetail;
 use crate::eye::View;
-use crate::rule::FactorRule;
 use bevy::color::ColorToComponents;
 use bevy::math::{Mat3, Mat4};
 use bevy::render::render_resource::{
@@ -61,7 +61,7 @@ impl GpuInstance {
             base_color: look.base_color.to_linear().to_f32_array(),
             emissive: [red, green, blue, 0.0],
             material: [look.perceptual_roughness, look.metallic, look.reflectance, unlit],
-            rule: if is_visible { item.rule.words() } else { FactorRule::HIDDEN },
+            rule: if is_visible { item.rule.words() } else { LevelOfDetail::HIDDEN },
             first_patch,
             first_word,
             reserved: [0; 2],

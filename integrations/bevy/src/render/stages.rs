@@ -113,7 +113,7 @@ pub(crate) fn prepare(
 }
 
 impl Prepared {
-    /// Takes other entities than those of the frame before.
+    /// Takes other entities than the frame before.
     fn refresh(&mut self, items: &[&Item], device: &RenderDevice, cache: &PipelineCache) {
         let is_same = |(own, item): (&(MainEntity, Arc<dyn Shape>), &&Item)| {
             own.0 == item.entity && Arc::ptr_eq(&own.1, &item.shape)
@@ -158,7 +158,7 @@ impl Prepared {
     }
 }
 
-/// A stage for up to so many patches; Bevy makes its render pipeline.
+/// A stage for up to `patches` patches; Bevy makes its render pipeline.
 fn stage(
     key: &Key,
     patches: u32,

@@ -1,10 +1,10 @@
-//! Whole frames without a window: the domain points are those of the CPU, shaders of one's own are drawn, and what is
+//! Whole frames without a window: the domain points equal the CPU's, user shaders are drawn, and what is
 //! wrong with them does not end the program.
 
 use super::stages::Stages;
 use crate::cpu::Tessellators;
 use crate::shape::{CpuShape, Shape, ShapeVertex};
-use crate::{Eye, FactorRule, HeightMap, TessPlugin, Tessellated};
+use crate::{Eye, HeightField, LevelOfDetail, TessPlugin, Tessellated};
 use bevy::app::PluginsState;
 use bevy::asset::RenderAssetUsages;
 use bevy::camera::RenderTarget;
@@ -207,7 +207,7 @@ fn points_of(app: &App, stage: &TessellationStage, count: usize) -> Vec<(u32, [f
 
 /// A shape whose Rust form keeps the domain points.
 #[derive(Debug)]
-struct Seen(HeightMap);
+struct Seen(HeightField);
 
 impl CpuShape for Seen {
     fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors {
@@ -221,7 +221,7 @@ impl CpuShape for Seen {
 }
 
 /// Patch, u and v of the points that the CPU makes of a uniform factor.
-fn expected(map: &HeightMap, config: Config, factor: f32) -> Vec<(u32, [f32; 2])> {
+fn expected(map: &HeightField, config: Config, factor: f32) -> Vec<(u32, [f32; 2])> {
     let factors = vec![PatchFactors::uniform(Domain::Quad, factor); map.patches() as usize];
     let made = Tessellators::default().run(config, &factors, &Seen(map.clone())).expect("it fits");
     made.vertices.iter().map(|vertex| (vertex.position[0] as u32, vertex.uv)).collect()
@@ -229,7 +229,7 @@ fn expected(map: &HeightMap, config: Config, factor: f32) -> Vec<(u32, [f32; 2])
 
 #[test]
 fn both_ways_have_the_same_domain_points() {
-    let map = HeightMap::new(UVec2::splat(2), vec![0.0; 4]).expect("four texels");
+    let map = HeightField::new(UVec2::splat(2), vec![0.0; 4]).expect("four texels");
     let map = map.with_patches(UVec2::new(3, 2)).expect("six patches");
     let mut app = app();
     let surface = Tessellated::new(map.clone());
@@ -237,9 +237,9 @@ fn both_ways_have_the_same_domain_points() {
     // The rectangle is level, so the camera sees its edge; no patch is culled.
     let entity = app.world_mut().spawn(surface).id();
     for factor in [2.7, 5.3, 17.01] {
-        let rule = FactorRule::Uniform(factor);
+        let rule = LevelOfDetail::Uniform(factor);
         let mut entity = app.world_mut().entity_mut(entity);
-        entity.get_mut::<Tessellated>().expect("it is there").factors = rule;
+        entity.get_mut::<Tessellated>().expect("it is there").detail = rule;
         run(&mut app);
         let stages = app.sub_app(RenderApp).world().resource::<Stages>();
         let stage = stages.first().expect("there is one");
