@@ -8,8 +8,8 @@ mod eye;
 mod height_field;
 mod look;
 mod point_normal;
+mod program;
 mod render;
-mod setup;
 mod shape;
 
 pub use bezier::{BezierError, BezierPatches, Net};
@@ -43,11 +43,11 @@ impl Plugin for TessPlugin {
             PostUpdate,
             (
                 set_bounds.before(VisibilitySystems::CalculateBounds),
-                setup::register.before(VisibilitySystems::CalculateBounds),
+                program::register.before(VisibilitySystems::CalculateBounds),
                 cpu::tessellate.after(TransformSystems::Propagate).before(AssetEventSystems),
             ),
         );
-        app.init_resource::<setup::Setups>().init_resource::<cpu::Tessellators>();
+        app.init_resource::<program::Programs>().init_resource::<cpu::Tessellators>();
         render::build(app);
     }
 }

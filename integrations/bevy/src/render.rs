@@ -1,4 +1,4 @@
-//! The render world: extraction, one stage for each camera and setup, draws.
+//! The render world: extraction, one stage for each camera and program, draws.
 
 mod content;
 mod draw;

@@ -1,4 +1,4 @@
-//! The entities of a setup, on the device.
+//! The entities of a program, on the device.
 
 use super::extract::Item;
 use super::layout::{self, GpuInstance, GpuView};
@@ -12,7 +12,7 @@ use bevy::render::renderer::{RenderDevice, RenderQueue};
 use bevy::render::sync_world::MainEntity;
 use std::sync::Arc;
 
-/// The entities of a setup, in the order of their groups, and what their shaders read.
+/// The entities of a program, in the order of their groups, and what their shaders read.
 #[derive(Debug)]
 pub(crate) struct Content {
     pub(crate) groups: HashMap<MainEntity, u32>,

@@ -2,7 +2,7 @@
 
 use super::pipelines::Pipelines;
 use super::stages::Stages;
-use crate::setup::DRAW_GROUP;
+use crate::program::DRAW_GROUP;
 use bevy::ecs::query::ROQueryItem;
 use bevy::ecs::system::SystemParamItem;
 use bevy::ecs::system::lifetimeless::{Read, SRes};
@@ -30,12 +30,12 @@ impl<P: PhaseItem> RenderCommand<P> for DrawTessellated {
         pass: &mut TrackedRenderPass<'w>,
     ) -> RenderCommandResult {
         let view = view.retained_view_entity;
-        let Some((setup, prepared, group)) = stages.into_inner().find(view, item.main_entity())
+        let Some((program, prepared, group)) = stages.into_inner().find(view, item.main_entity())
         else {
             return RenderCommandResult::Skip;
         };
         let pipeline =
-            pipelines.of(setup, view).and_then(|id| cache.into_inner().get_render_pipeline(id));
+            pipelines.of(program, view).and_then(|id| cache.into_inner().get_render_pipeline(id));
         let (Some(pipeline), Some(drawn)) = (pipeline, prepared.drawn()) else {
             return RenderCommandResult::Skip;
         };

@@ -4,7 +4,7 @@ use crate::component::{TessSettings, Tessellated};
 use crate::detail::LevelOfDetail;
 use crate::is_on_cpu;
 use crate::look::Look;
-use crate::setup::{Setup, Setups};
+use crate::program::{Program, Programs};
 use crate::shape::Shape;
 use bevy::asset::AssetServer;
 use bevy::ecs::prelude::*;
@@ -19,7 +19,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct Item {
     pub(crate) entity: MainEntity,
-    pub(crate) setup: Arc<Setup>,
+    pub(crate) program: Arc<Program>,
     pub(crate) shape: Arc<dyn Shape>,
     pub(crate) rule: LevelOfDetail,
     pub(crate) look: Look,
@@ -38,20 +38,20 @@ pub(crate) fn extract(
     mut extracted: ResMut<Extracted>,
     device: Res<RenderDevice>,
     settings: Extract<Res<TessSettings>>,
-    setups: Extract<Res<Setups>>,
+    programs: Extract<Res<Programs>>,
     assets: Extract<Res<AssetServer>>,
     surfaces: Extract<Query<(Entity, &Tessellated, &GlobalTransform)>>,
 ) {
     extracted.items.clear();
     extracted.wireframe = settings.wireframe;
     extracted.is_on_gpu = !is_on_cpu(&settings, Some(&device));
-    if !extracted.is_on_gpu || !setups.are_ready(&assets) {
+    if !extracted.is_on_gpu || !programs.are_ready(&assets) {
         return;
     }
     let item = |(entity, tessellated, transform): (Entity, &Tessellated, &GlobalTransform)| {
         Some(Item {
             entity: entity.into(),
-            setup: Arc::clone(setups.of(entity)?),
+            program: Arc::clone(programs.of(entity)?),
             shape: Arc::clone(&tessellated.shape),
             rule: tessellated.detail,
             look: tessellated.look,

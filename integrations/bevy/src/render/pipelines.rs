@@ -1,7 +1,7 @@
-//! The pipelines of setups, for what cameras need of them.
+//! The pipelines of programs, for what cameras need of them.
 
 use super::layout;
-use crate::setup::{DRAW_GROUP, Setup};
+use crate::program::{DRAW_GROUP, Program};
 use bevy::ecs::prelude::*;
 use bevy::mesh::{MeshVertexBufferLayoutRef, MeshVertexBufferLayouts, VertexBufferLayout};
 use bevy::pbr::{MeshPipeline, MeshPipelineKey};
@@ -13,24 +13,24 @@ use bevy::render::render_resource::{
 };
 use bevy::render::view::RetainedViewEntity;
 
-/// The pipelines of setups, for what cameras need of them.
+/// The pipelines of programs, for what cameras need of them.
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Pipelines {
-    /// By the setup's number, what the camera needs, and whether as a wireframe.
+    /// By the program's number, what the camera needs, and whether as a wireframe.
     all: HashMap<(usize, MeshPipelineKey, bool), CachedRenderPipelineId>,
     /// The keys of this frame's cameras.
     views: HashMap<RetainedViewEntity, (MeshPipelineKey, bool)>,
 }
 
 impl Pipelines {
-    /// The pipeline of a setup for a camera.
+    /// The pipeline of a program for a camera.
     pub(crate) fn of(
         &self,
-        setup: usize,
+        program: usize,
         view: RetainedViewEntity,
     ) -> Option<CachedRenderPipelineId> {
         let &(mesh_key, wireframe) = self.views.get(&view)?;
-        self.all.get(&(setup, mesh_key, wireframe)).copied()
+        self.all.get(&(program, mesh_key, wireframe)).copied()
     }
 
     /// Forgets the cameras of the frame before.
@@ -38,18 +38,18 @@ impl Pipelines {
         self.views.clear();
     }
 
-    /// Asks for the pipelines that a camera needs for these setups, and notes the camera's key.
+    /// Asks for the pipelines that a camera needs for these programs, and notes the camera's key.
     pub(crate) fn request<'a>(
         &mut self,
         view: RetainedViewEntity,
         (key, wireframe): (MeshPipelineKey, bool),
-        setups: impl Iterator<Item = &'a Setup>,
+        programs: impl Iterator<Item = &'a Program>,
         (mesh_pipeline, cache): (&MeshPipeline, &PipelineCache),
     ) {
         self.views.insert(view, (key, wireframe));
-        for setup in setups {
-            self.all.entry((setup.number, key, wireframe)).or_insert_with(|| {
-                cache.queue_render_pipeline(descriptor(mesh_pipeline, setup, key, wireframe))
+        for program in programs {
+            self.all.entry((program.number, key, wireframe)).or_insert_with(|| {
+                cache.queue_render_pipeline(descriptor(mesh_pipeline, program, key, wireframe))
             });
         }
     }
@@ -61,10 +61,10 @@ fn layout_of_a_mesh() -> MeshVertexBufferLayoutRef {
         .get_mesh_vertex_buffer_layout(&mut MeshVertexBufferLayouts::default())
 }
 
-/// Bevy's pipeline for meshes, with the setup's shaders and bind group in place of those for meshes.
+/// Bevy's pipeline for meshes, with the program's shaders and bind group in place of those for meshes.
 fn descriptor(
     mesh_pipeline: &MeshPipeline,
-    setup: &Setup,
+    program: &Program,
     key: MeshPipelineKey,
     wireframe: bool,
 ) -> RenderPipelineDescriptor {
@@ -79,7 +79,7 @@ fn descriptor(
     descriptor.label = Some("bevy_tess".into());
     descriptor.layout[DRAW_GROUP] = layout::bind_group_layout();
     descriptor.layout.truncate(DRAW_GROUP + 1);
-    descriptor.vertex.shader = setup.vertex.clone();
+    descriptor.vertex.shader = program.vertex.clone();
     descriptor.vertex.entry_point = Some("tess_vertex".into());
     descriptor.vertex.shader_defs.clear();
     descriptor.vertex.buffers = vec![VertexBufferLayout {
@@ -92,7 +92,7 @@ fn descriptor(
         }],
     }];
     if let Some(fragment) = &mut descriptor.fragment {
-        fragment.shader = setup.fragment.clone();
+        fragment.shader = program.fragment.clone();
         fragment.entry_point = None;
     }
     if wireframe {

@@ -49,8 +49,8 @@ pub(crate) fn queue(
         for entity in queued.drain() {
             phase.remove(entity);
         }
-        let setups = extracted.items.iter().map(|item| &*item.setup);
-        pipelines.request(of, (key, wireframe), setups, (&*mesh_pipeline, &*cache));
+        let programs = extracted.items.iter().map(|item| &*item.program);
+        pipelines.request(of, (key, wireframe), programs, (&*mesh_pipeline, &*cache));
         let Some(visible) = visible.get::<Tessellated>() else { continue };
         for &(render_entity, entity) in &visible.entities_cpu_culling {
             if !known.contains(&entity) {

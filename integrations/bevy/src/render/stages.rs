@@ -1,11 +1,11 @@
-//! One tessellation stage for each camera and setup: all its entities are prepared in one call.
+//! One tessellation stage for each camera and program: all its entities are prepared in one call.
 
 use super::content::Content;
 use super::extract::{Extracted, Item};
 use super::layout;
 use crate::component::{TessStats, Tessellated};
 use crate::eye::View;
-use crate::setup::Key;
+use crate::program::Key;
 use crate::shape::Shape;
 use bevy::ecs::prelude::*;
 use bevy::log::error;
@@ -20,26 +20,26 @@ use tess_wgpu::TessellationStage;
 /// The stages of all cameras.
 #[derive(Debug, Default, Resource)]
 pub(crate) struct Stages {
-    /// By the setup's number.
+    /// By the program's number.
     of_views: HashMap<RetainedViewEntity, HashMap<usize, Prepared>>,
 }
 
 impl Stages {
-    /// The stage of some camera and setup.
+    /// The stage of some camera and program.
     #[cfg(test)]
     pub(crate) fn first(&self) -> Option<&TessellationStage> {
         let prepared = self.of_views.values().flat_map(HashMap::values).next()?;
         prepared.stage.as_ref().map(|(stage, _)| stage)
     }
 
-    /// The number of an entity's setup, its stage, and the entity's group in it.
+    /// The number of an entity's program, its stage, and the entity's group in it.
     pub(crate) fn find(
         &self,
         view: RetainedViewEntity,
         entity: MainEntity,
     ) -> Option<(usize, &Prepared, u32)> {
-        self.of_views.get(&view)?.iter().find_map(|(&setup, prepared)| {
-            Some((setup, prepared, *prepared.content.as_ref()?.groups.get(&entity)?))
+        self.of_views.get(&view)?.iter().find_map(|(&program, prepared)| {
+            Some((program, prepared, *prepared.content.as_ref()?.groups.get(&entity)?))
         })
     }
 }
@@ -52,7 +52,7 @@ pub(crate) struct Prepared {
     content: Option<Content>,
     stage: Option<(TessellationStage, u32)>,
     drawn: Option<Drawn>,
-    /// What went wrong is logged once; the setup is then not drawn until its entities change.
+    /// What went wrong is logged once; the program is then not drawn until its entities change.
     has_failed: bool,
     is_used: bool,
 }
@@ -91,19 +91,19 @@ pub(crate) fn prepare(
     let visible = visible.get::<Tessellated>();
     let visible: HashSet<MainEntity> =
         visible.iter().flat_map(|class| &class.entities_cpu_culling).map(|pair| pair.1).collect();
-    let mut setups: HashMap<usize, Vec<&Item>> = HashMap::default();
+    let mut programs: HashMap<usize, Vec<&Item>> = HashMap::default();
     for item in &extracted.items {
-        setups.entry(item.setup.number).or_default().push(item);
+        programs.entry(item.program.number).or_default().push(item);
     }
     let of_view = stages.of_views.entry(camera.retained_view_entity).or_default();
-    for (number, items) in setups {
+    for (number, items) in programs {
         let prepared = of_view.entry(number).or_default();
         prepared.is_used = true;
         prepared.refresh(&items, &device, &cache);
         let Some(content) = &prepared.content else { continue };
         content.update(&items, view, &visible, &queue);
         if let Err(problem) =
-            prepared.tessellate(&items[0].setup.key, &device, &cache, &mut context)
+            prepared.tessellate(&items[0].program.key, &device, &cache, &mut context)
         {
             error!("surfaces cannot be tessellated: {problem}");
             prepared.has_failed = true;
@@ -175,7 +175,7 @@ fn stage(
         .build(device.wgpu_device())
 }
 
-/// Drops the stages of cameras and setups that are gone, and counts what was drawn.
+/// Drops the stages of cameras and programs that are gone, and counts what was drawn.
 pub(crate) fn forget(mut stages: ResMut<Stages>, extracted: Res<Extracted>, stats: Res<TessStats>) {
     let mut triangles = 0;
     for of_view in stages.of_views.values_mut() {

@@ -1,4 +1,4 @@
-//! Setups: what entities must have in common to be tessellated in one call, and their shaders.
+//! Programs: what entities must have in common to be tessellated in one call, and their shaders.
 
 use crate::component::Tessellated;
 use bevy::asset::{AssetServer, Assets, Handle};
@@ -68,26 +68,26 @@ impl Key {
     }
 }
 
-/// A setup and its shaders.
+/// The shaders of all entities with one key.
 #[derive(Debug)]
-pub(crate) struct Setup {
-    /// Its number among all setups.
+pub(crate) struct Program {
+    /// Its number among all programs.
     pub(crate) number: usize,
     pub(crate) key: Key,
     pub(crate) vertex: Handle<Shader>,
     pub(crate) fragment: Handle<Shader>,
 }
 
-/// Every setup so far, and the setup of each entity.
+/// Every program so far, and the program of each entity.
 #[derive(Debug, Resource)]
-pub(crate) struct Setups {
+pub(crate) struct Programs {
     /// The modules of [`IMPORTS`].
     library: [Handle<Shader>; 3],
-    all: HashMap<Key, Arc<Setup>>,
-    of_entities: HashMap<Entity, Arc<Setup>>,
+    all: HashMap<Key, Arc<Program>>,
+    of_entities: HashMap<Entity, Arc<Program>>,
 }
 
-impl FromWorld for Setups {
+impl FromWorld for Programs {
     fn from_world(world: &mut World) -> Self {
         let assets = world.resource::<AssetServer>();
         let library = ["pbr_types", "pbr_functions", "mesh_types"]
@@ -96,36 +96,36 @@ impl FromWorld for Setups {
     }
 }
 
-impl Setups {
+impl Programs {
     /// Whether the shaders' imports are there.
     pub(crate) fn are_ready(&self, assets: &AssetServer) -> bool {
         self.library.iter().all(|shader| assets.is_loaded(shader))
     }
 
-    pub(crate) fn of(&self, entity: Entity) -> Option<&Arc<Setup>> {
+    pub(crate) fn of(&self, entity: Entity) -> Option<&Arc<Program>> {
         self.of_entities.get(&entity)
     }
 }
 
-/// Finds the setup of entities that are new or changed, and makes its shaders if it is new too.
+/// Finds the program of entities that are new or changed, and makes its shaders if it is new too.
 pub(crate) fn register(
-    mut setups: ResMut<Setups>,
+    mut programs: ResMut<Programs>,
     mut shaders: ResMut<Assets<Shader>>,
     changed: Query<(Entity, &Tessellated), Changed<Tessellated>>,
     mut removed: RemovedComponents<Tessellated>,
 ) {
     for entity in removed.read() {
-        setups.of_entities.remove(&entity);
+        programs.of_entities.remove(&entity);
     }
     for (entity, tessellated) in &changed {
         let key = Key::new(tessellated);
-        let number = setups.all.len();
-        let setup = setups.all.entry(key).or_insert_with_key(|key| {
+        let number = programs.all.len();
+        let program = programs.all.entry(key).or_insert_with_key(|key| {
             let vertex = shaders.add(key.vertex_shader(number));
             let fragment = shaders.add(key.fragment_shader(number));
-            Arc::new(Setup { number, key: key.clone(), vertex, fragment })
+            Arc::new(Program { number, key: key.clone(), vertex, fragment })
         });
-        let setup = Arc::clone(setup);
-        setups.of_entities.insert(entity, setup);
+        let program = Arc::clone(program);
+        programs.of_entities.insert(entity, program);
     }
 }
