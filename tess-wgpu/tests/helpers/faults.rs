@@ -109,8 +109,12 @@ pub(crate) const ALL: &[Fault] = &[
     fault("tess_faces_away", "sine * length(seen) + radius", "sine * length(seen) - radius"),
     fault("tess_faces_away", "sine * length(seen) + radius", "sine * length(seen)"),
     fault("tess_faces_away", "let seen = center - eye;", "let seen = center;"),
-    // Without the branch, lavapipe is exact all the same: it computes a + (b - a) * t as an interpolation.
-    fault("tess_along", "if t >= 1.0 {\n        return b;", "if t >= 1.0 {\n        return mix(a, b, 0.9999999);"),
+    // Without the branch lavapipe's result is exact all the same, so the fault moves the end instead.
+    fault(
+        "tess_along",
+        "if t >= 1.0 {\n        return b;",
+        "if t >= 1.0 {\n        return mix(a, b, 0.9999999);",
+    ),
     fault(
         "tess_along",
         "if t <= 0.0 {\n        return a;\n    }\n",

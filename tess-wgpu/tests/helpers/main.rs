@@ -6,6 +6,7 @@
 
 #![expect(clippy::float_arithmetic, reason = "the helpers compute in floats")]
 
+mod bevy;
 mod culling;
 mod device;
 mod factors;
