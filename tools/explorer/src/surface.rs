@@ -131,7 +131,9 @@ impl SurfaceView {
     #[must_use]
     pub fn wgsl(&self) -> String {
         let normal = match self.model.patch(0).surface() {
-            Surface::PnQuad(_) => [shaders::PN_EDGE, shaders::POINT_NORMAL, POINT_NORMAL].join("\n"),
+            Surface::PnQuad(_) => {
+                [shaders::PN_EDGE, shaders::POINT_NORMAL, POINT_NORMAL].join("\n")
+            }
             _ => BEZIER_NORMAL.to_owned(),
         };
         let net = NET.replace("COUNT", &self.model.len().to_string());
