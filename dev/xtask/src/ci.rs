@@ -2,15 +2,16 @@
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{features, fuzz, levels, publish, test};
+use crate::{circles, features, fuzz, levels, publish, test};
 
-/// Formatting, lints, documentation, features, the fuzz targets, other
+/// Formatting, circles of imports, lints, documentation, features, the fuzz targets, other
 /// compilers and processors, packages, then every test.
 pub(crate) fn run() -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
         return Err("continuous integration on x86-64 needs a processor with AVX2".into());
     }
     command::run(&mut cargo("fmt --all --check"))?;
+    circles::check()?;
     command::run(
         cargo("clippy --workspace --all-targets --all-features").args(["--", "-D", "warnings"]),
     )?;

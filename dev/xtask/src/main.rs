@@ -34,7 +34,7 @@ usage: cargo xtask <command>
           kit, the program and C; or only those in these folders and files, such as tess-core/tests/golden.rs
   test all
           run every test: Python, the browser, OpenGL, a window and simulators too
-  ci      what continuous integration runs: formatting, lints, documentation, features,
+  ci      what continuous integration runs: formatting, `circles`, lints, documentation, `features`,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
