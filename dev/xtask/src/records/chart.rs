@@ -28,7 +28,7 @@ const COLOURS: [&str; 3] = ["#4477aa", "#ee8866", "#44aa77"];
 const LEFT: f64 = 180.0;
 const LONGEST: f64 = 500.0;
 const WIDTH: f64 = 760.0;
-const BAR: f64 = 11.0;
+const BAR: f64 = 13.0;
 const GAP: f64 = 9.0;
 const HEAD: f64 = 62.0;
 
@@ -149,7 +149,7 @@ impl Chart {
                     svg,
                     "<rect x=\"{LEFT}\" y=\"{y}\" width=\"{length:.1}\" height=\"{height}\" fill=\"{colour}\"/>"
                 );
-                line(&mut svg, LEFT + length + 5.0, y + 9.0, "start", &digits(value));
+                line(&mut svg, LEFT + length + 5.0, y + 10.5, "start", &digits(value));
             }
         }
         Ok(svg + "</svg>\n")
