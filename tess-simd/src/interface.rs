@@ -3,5 +3,6 @@
 pub(crate) mod counted;
 pub(crate) mod groups;
 pub(crate) mod owned;
+#[cfg(feature = "taps")]
 pub(crate) mod taps;
 pub(crate) mod tessellator;

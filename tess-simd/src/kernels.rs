@@ -6,4 +6,5 @@
 pub(crate) mod emit;
 pub(crate) mod front_end;
 pub(crate) mod repeat;
+#[cfg(feature = "taps")]
 pub(crate) mod taps;

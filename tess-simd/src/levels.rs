@@ -19,10 +19,7 @@ use crate::stages::points::Lookup;
 #[cfg(target_arch = "x86_64")]
 use crate::stages::points::{Code, permute, permute::Permutes};
 use crate::stages::settings::Settings;
-use alloc::vec::Vec;
-#[cfg(target_arch = "x86_64")]
-use multiversion::target::match_target;
-use tess_core::{Config, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
+use tess_core::Config;
 
 at_each_level! {
     /// [`kernels::front_end::count`] at a level.
@@ -92,26 +89,38 @@ at_each_level! {
     ) -> Offsets = kernels::repeat::repeat;
 }
 
-at_each_level! {
-    /// [`kernels::taps::fixed_factors`] at a level.
-    fn fixed_factors(
-        partitioning: Partitioning,
-        values: &[f32],
-        factors: &mut [[FixedFactor; 2]],
-    ) = kernels::taps::fixed_factors;
-}
+/// The stage taps.
+#[cfg(feature = "taps")]
+pub(crate) use taps::{contexts, fixed_factors, locations};
 
-at_each_level! {
-    /// [`kernels::taps::contexts`] at a level.
-    fn contexts(
-        split: SplitOrder,
-        parity: Parity,
-        factors: &[FixedFactor],
-        contexts: &mut [FactorContext],
-    ) = kernels::taps::contexts;
-}
+#[cfg(feature = "taps")]
+mod taps {
+    use crate::at_each_level;
+    use crate::kernels;
+    use alloc::vec::Vec;
+    use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 
-at_each_level! {
-    /// [`kernels::taps::locations`] at a level.
-    fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) = kernels::taps::locations;
+    at_each_level! {
+        /// [`kernels::taps::fixed_factors`] at a level.
+        fn fixed_factors(
+            partitioning: Partitioning,
+            values: &[f32],
+            factors: &mut [[FixedFactor; 2]],
+        ) = kernels::taps::fixed_factors;
+    }
+
+    at_each_level! {
+        /// [`kernels::taps::contexts`] at a level.
+        fn contexts(
+            split: SplitOrder,
+            parity: Parity,
+            factors: &[FixedFactor],
+            contexts: &mut [FactorContext],
+        ) = kernels::taps::contexts;
+    }
+
+    at_each_level! {
+        /// [`kernels::taps::locations`] at a level.
+        fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) = kernels::taps::locations;
+    }
 }

@@ -21,6 +21,7 @@ pub use data::output::{BatchCounts, Buffers, ExactOutput, Numbering, Output, Pat
 pub use interface::counted::Counted;
 pub use interface::groups::{BadGroup, group_ranges};
 pub use interface::owned::OwnedBatch;
+#[cfg(feature = "taps")]
 pub use interface::taps::{contexts, fixed_factors, locations};
 pub use interface::tessellator::Tessellator;
 pub use tess_core;

@@ -6,15 +6,11 @@ mod patches;
 
 use allocation_counter::measure;
 use patches::{Patches, compare, configs};
-use tess_core::fixed_point::ONE;
 use tess_core::{
-    Config, Domain, DomainPoint, FixedFactor, IsolineFactors, OutputPrimitive, Parity,
-    Partitioning, PatchFactors, QuadFactors, SplitOrder,
+    Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors,
+    QuadFactors, SplitOrder,
 };
 use tess_simd::{Batch, Buffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
-use tess_simd::{contexts, fixed_factors, locations};
-use tess_verify::backend::Backend;
-use tess_verify::core_backend::CoreBackend;
 
 /// One test, the fastest parts first, so that it ends at the first difference.
 #[test]
@@ -24,8 +20,8 @@ fn every_stage() {
     picture_frames();
     levels_that_are_missing();
     batches_know_their_size();
-    factors();
-    factor_contexts_and_locations();
+    #[cfg(feature = "taps")]
+    taps::every_tap();
     random_patches_in_every_configuration();
     factors_that_differ_in_one_bit();
     topologies_that_differ_in_one_factor();
@@ -143,13 +139,10 @@ fn levels_that_are_missing() {
         let available = Level::ALL.map(Level::is_available);
         assert_eq!(available, [true, false, false], "the baseline alone");
     }
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::Point);
     for level in Level::ALL {
-        let answers = [
-            fixed_factors(level, Partitioning::Integer, &[2.0]).is_ok(),
-            contexts(level, SplitOrder::Ruler, Parity::Even, &[FixedFactor::ONE]).is_ok(),
-            locations(level, &[]).is_ok(),
-        ];
-        assert_eq!(answers, [level.is_available(); 3], "{level}");
+        let is_made = Tessellator::with_level(config, level).is_ok();
+        assert_eq!(is_made, level.is_available(), "{level}");
     }
 }
 
@@ -172,22 +165,6 @@ fn batches_know_their_size() {
     assert_eq!(uneven.len(), 8, "the shortest column's length");
 }
 
-fn factors() {
-    let near = |integer: u8| {
-        let centre = f32::from(integer).to_bits();
-        (centre.saturating_sub(200)..centre + 200).map(f32::from_bits)
-    };
-    let spread = (0..=u32::MAX).step_by(65_521).map(f32::from_bits);
-    let values: Vec<f32> = (0..=66).flat_map(near).chain(spread).collect();
-    for partitioning in Partitioning::ALL {
-        let observed = fixed_factors(Level::Baseline, partitioning, &values).expect("available");
-        let expected = CoreBackend.fixed_factors(partitioning, &values).expect("the core");
-        let different = observed.iter().zip(&expected).position(|(a, b)| a != b);
-        assert_eq!(different.map(|at| values[at].to_bits()), None, "{partitioning:?}");
-        assert_eq!(observed.len(), expected.len(), "every value");
-    }
-}
-
 /// Patches whose factors lie at the least one that needs a picture frame, and below and above it.
 fn picture_frames() {
     let near_one = [0x3F80_0000, 0x3F80_003F, 0x3F80_0040, 0x3F80_0041].map(f32::from_bits);
@@ -200,20 +177,64 @@ fn picture_frames() {
     }
 }
 
-fn factor_contexts_and_locations() {
-    let pairs = |split| [Parity::Even, Parity::Odd].map(|parity| (split, parity));
-    for (split, parity) in SplitOrder::ALL.into_iter().flat_map(pairs) {
-        let out_of_range = [0, 1, ONE - 1, 64 * ONE + 1, 65 * ONE, FixedFactor::MAX.to_bits()];
-        let factors: Vec<FixedFactor> = (ONE..=64 * ONE)
-            .filter(|bits| bits % 997 == 0 || (bits + 3) & 0xFFFF < 6)
-            .chain(out_of_range)
-            .map(FixedFactor::from_bits)
-            .collect();
-        let observed = contexts(Level::Baseline, split, parity, &factors).expect("available");
-        let expected = CoreBackend.contexts(split, parity, &factors).expect("the core");
-        assert_eq!(observed, expected, "contexts {split:?} {parity:?}");
-        let observed = locations(Level::Baseline, &expected).expect("available");
-        let expected = CoreBackend.locations(&expected).expect("the core");
-        assert!(observed == expected, "locations {split:?} {parity:?}");
+/// Single stages beside the core's.
+#[cfg(feature = "taps")]
+mod taps {
+    use tess_core::fixed_point::ONE;
+    use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder};
+    use tess_simd::{Level, contexts, fixed_factors, locations};
+    use tess_verify::backend::Backend;
+    use tess_verify::core_backend::CoreBackend;
+
+    pub(super) fn every_tap() {
+        levels_that_are_missing();
+        factors();
+        factor_contexts_and_locations();
+    }
+
+    fn levels_that_are_missing() {
+        for level in Level::ALL {
+            let answers = [
+                fixed_factors(level, Partitioning::Integer, &[2.0]).is_ok(),
+                contexts(level, SplitOrder::Ruler, Parity::Even, &[FixedFactor::ONE]).is_ok(),
+                locations(level, &[]).is_ok(),
+            ];
+            assert_eq!(answers, [level.is_available(); 3], "{level}");
+        }
+    }
+
+    fn factors() {
+        let near = |integer: u8| {
+            let centre = f32::from(integer).to_bits();
+            (centre.saturating_sub(200)..centre + 200).map(f32::from_bits)
+        };
+        let spread = (0..=u32::MAX).step_by(65_521).map(f32::from_bits);
+        let values: Vec<f32> = (0..=66).flat_map(near).chain(spread).collect();
+        for partitioning in Partitioning::ALL {
+            let observed =
+                fixed_factors(Level::Baseline, partitioning, &values).expect("available");
+            let expected = CoreBackend.fixed_factors(partitioning, &values).expect("the core");
+            let different = observed.iter().zip(&expected).position(|(a, b)| a != b);
+            assert_eq!(different.map(|at| values[at].to_bits()), None, "{partitioning:?}");
+            assert_eq!(observed.len(), expected.len(), "every value");
+        }
+    }
+
+    fn factor_contexts_and_locations() {
+        let pairs = |split| [Parity::Even, Parity::Odd].map(|parity| (split, parity));
+        for (split, parity) in SplitOrder::ALL.into_iter().flat_map(pairs) {
+            let out_of_range = [0, 1, ONE - 1, 64 * ONE + 1, 65 * ONE, FixedFactor::MAX.to_bits()];
+            let factors: Vec<FixedFactor> = (ONE..=64 * ONE)
+                .filter(|bits| bits % 997 == 0 || (bits + 3) & 0xFFFF < 6)
+                .chain(out_of_range)
+                .map(FixedFactor::from_bits)
+                .collect();
+            let observed = contexts(Level::Baseline, split, parity, &factors).expect("available");
+            let expected = CoreBackend.contexts(split, parity, &factors).expect("the core");
+            assert_eq!(observed, expected, "contexts {split:?} {parity:?}");
+            let observed = locations(Level::Baseline, &expected).expect("available");
+            let expected = CoreBackend.locations(&expected).expect("the core");
+            assert!(observed == expected, "locations {split:?} {parity:?}");
+        }
     }
 }

@@ -32,10 +32,19 @@ const SUBJECTS: &[Subject] = &[
         package: "tess-simd",
         passes: &[
             // Without `std` the kernels are compiled for one CPU level alone.
-            Pass { tests: "-C=--no-default-features -C=--test=baseline", files: &[] },
+            Pass {
+                tests: "-C=--no-default-features -C=--features=taps -C=--test=baseline",
+                files: &[],
+            },
             Pass {
                 tests: "-C=--features=rayon -C=--lib -C=--test=buffers -C=--test=threads",
-                files: &["level", "part", "share", "tessellator", "threads/pool"],
+                files: &[
+                    "data/level",
+                    "interface/tessellator",
+                    "threads/part",
+                    "threads/pool",
+                    "threads/slices",
+                ],
             },
         ],
     },

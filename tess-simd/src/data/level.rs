@@ -143,13 +143,7 @@ macro_rules! at_each_level {
         $kernel $args
     };
     (@avx512 $args:tt $kernel:path, $special:path) => {
-        match_target! {
-            "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl" => {
-                $special $args
-            }
-            // The instance for processors without the level's instructions, which never runs.
-            _ => $kernel $args
-        }
+        $special $args
     };
     (
         $(#[$doc:meta])*
@@ -163,7 +157,12 @@ macro_rules! at_each_level {
             #[cfg(target_arch = "x86_64")]
             #[multiversion::multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
             fn avx2 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
-                $kernel($($arg),*)
+                multiversion::target::match_target! {
+                    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt" => $kernel($($arg),*),
+                    // For processors without the level's instructions. It never runs, so it need not be
+                    // an instance of the kernel.
+                    _ => self::$name($crate::Level::Baseline, $($arg),*),
+                }
             }
 
             #[cfg(target_arch = "x86_64")]
@@ -171,7 +170,11 @@ macro_rules! at_each_level {
                 "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
             ))]
             fn avx512 $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
-                $crate::at_each_level!(@avx512 ($($arg),*) $kernel $(, $special)?)
+                multiversion::target::match_target! {
+                    "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
+                        => $crate::at_each_level!(@avx512 ($($arg),*) $kernel $(, $special)?),
+                    _ => self::$name($crate::Level::Baseline, $($arg),*),
+                }
             }
 
             match level {

@@ -20,6 +20,10 @@ pub(crate) const MAX_THREADS: usize = 256;
 /// The longest that a thread waits for the others. Then it may sleep.
 const TOGETHER: Duration = Duration::from_micros(100);
 
+/// Output for each thread that is woken, at least. A thread writes this much in about 8 microseconds and takes 4
+/// to wake, so that two threads are never slower than one.
+const BYTES_PER_THREAD: u64 = 256 << 10;
+
 /// Patches that are counted in a few microseconds.
 const SOON_COUNTED: usize = 1024;
 
@@ -67,9 +71,16 @@ impl Workspaces {
             return self.lend(|workspace| part::emit(job, share.part, workspace));
         }
         let counts = share.counts;
+        let threads = worth_waking(PartCounts::sum(counts).bytes(), self.threads());
+        if threads == 1 {
+            let write = |workspace: &mut Workspace| {
+                share.into_parts().for_each(|part| part::emit(job, part, workspace));
+            };
+            return self.lend(write);
+        }
         let slices: Vec<_> = share.into_parts().map(|part| Mutex::new(Some(part))).collect();
         let written = AtomicUsize::new(0);
-        on_threads(self.threads(), &|| {
+        on_threads(threads, &|| {
             self.lend(|workspace| {
                 for slice in self.own_first(counts, &slices) {
                     let part = slice.lock().unwrap_or_else(PoisonError::into_inner).take();
@@ -122,6 +133,12 @@ impl Workspaces {
     }
 }
 
+/// How many of `threads` threads write an output of this size: at least one.
+fn worth_waking(bytes: u64, threads: usize) -> usize {
+    let most = usize::try_from(bytes / BYTES_PER_THREAD).unwrap_or(usize::MAX);
+    most.clamp(1, threads)
+}
+
 /// Does the same work on this many threads, if so many are idle.
 fn on_threads(threads: usize, work: &(impl Fn() + Sync)) {
     if threads > 1 {
@@ -158,5 +175,20 @@ impl Clone for Workspaces {
     fn clone(&self) -> Self {
         let copy = || self.lend(|workspace| Mutex::new(workspace.clone()));
         Self((0..self.threads()).map(|_| copy()).collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A second thread from 512 KiB on, all of them from 256 KiB for each on.
+    #[test]
+    fn threads_follow_the_size() {
+        let threads = |kib: u64, most| worth_waking(kib << 10, most);
+        assert_eq!([threads(0, 2), threads(511, 2), threads(512, 2)], [1, 1, 2], "two threads");
+        assert_eq!([threads(1024, 16), threads(4095, 16)], [4, 15], "some of sixteen");
+        assert_eq!([threads(4096, 16), threads(65_536, 16)], [16, 16], "all of sixteen");
+        assert_eq!(worth_waking(u64::MAX, 1), 1, "no more than there are");
     }
 }
