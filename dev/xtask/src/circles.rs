@@ -16,9 +16,7 @@ use std::process::Command;
 
 /// The circles that there still are: a crate's folder, and modules with one parent. None may join them.
 const REMAINING: &[(&str, &[&str])] = &[
-    ("integrations/bevy", &["draw", "queue"]),
     ("tess-simd", &["counted", "tessellator"]),
-    ("tess-surface", &["dispatch", "displaced", "samples"]),
     ("tools/cli", &["output", "pipeline"]),
     ("tools/cli", &["languages", "manifest"]),
     ("tools/probe", &["info", "vulkan"]),
