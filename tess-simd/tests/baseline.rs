@@ -123,7 +123,7 @@ fn messages() {
     assert_eq!(LevelUnavailable(Level::Avx512).to_string(), message, "a level");
 }
 
-/// What a tessellator says it takes is what it allocates, and little of its own.
+/// `Tessellator::memory` is the memory that a tessellator allocates, and a little more for itself.
 fn memory() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let mut made = None;

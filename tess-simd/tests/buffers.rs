@@ -168,7 +168,7 @@ fn owned_batches_have_one_domain() {
 }
 
 /// A count can be written any number of times, in any formats, with or without ranges, and after
-/// an error: the same output as that of a call for all.
+/// an error. The output is the same as from one call.
 #[test]
 fn a_count_is_written_again_and_again() {
     for patches in [0, 1, 63, 64, 65, 200_u8] {

@@ -33,7 +33,7 @@ fn any_number_of_threads() {
     }
 }
 
-/// So many patches that several threads count them.
+/// A batch with enough patches that several threads count it.
 #[test]
 fn counted_on_several_threads() {
     let isolines = Patches::random(5, Domain::Isoline, 3001);
@@ -153,7 +153,7 @@ fn in_a_pool_of_any_size() {
     let _ = writeln!(std::io::stderr(), "global pool: {threads} threads");
 }
 
-/// Each thread has a workspace of its own, in a copy too.
+/// Each thread has one workspace, in a copy too.
 #[test]
 fn workspaces_are_counted() {
     let of = |threads| Tessellator::new(CONFIG).threads(threads).memory();

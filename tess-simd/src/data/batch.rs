@@ -5,9 +5,8 @@ use alloc::vec::Vec;
 use core::ops::Range;
 use tess_core::{Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
 
-/// The raw factors of patches of one domain, in one of three layouts: a structure for each patch,
-/// as a hull shader writes them; the core's [`PatchFactors`]; or a slice for each factor
-/// (columns). `From` makes it from any of them.
+/// The raw factors of patches of one domain, in one of three layouts: one structure a patch, as a hull shader
+/// writes them; the core's [`PatchFactors`]; or one slice a factor (columns). `From` converts each of them.
 ///
 /// Every bit pattern of every factor is valid. The patches must have one domain, and the columns
 /// one length: [`Tessellator::count`](crate::Tessellator::count) returns an error otherwise.
@@ -79,8 +78,8 @@ from_columns!(QuadFactors<&'a [f32]>);
 from_columns!(PatchFactors<&'a [f32]>);
 
 impl Batch<'_> {
-    /// The domain of its patches: that of the first if it is made of [`PatchFactors`], a quad if
-    /// there is none.
+    /// The domain of its patches. For [`PatchFactors`] it is the first patch's domain, and quad if there is no
+    /// patch.
     #[must_use]
     pub fn domain(&self) -> Domain {
         match self {
@@ -137,7 +136,8 @@ impl Batch<'_> {
         (range.start <= range.end && range.end <= self.len()).then(|| self.slice(&range))
     }
 
-    /// How many patches, from this one on, have the same factors, bit for bit; 0 if there is none.
+    /// Length of the run of patches with the same factors, bit for bit, that begins with patch `first`. 0 if there is
+    /// no such patch.
     pub(crate) fn run(&self, first: usize) -> usize {
         let quads = |a: &QuadFactors, b: &QuadFactors| differ(*a, *b);
         match *self {

@@ -6,8 +6,8 @@ use tess_core::{Domain, PatchFactors};
 
 /// The factors of up to [`Chunk::PATCHES`] patches, factor by factor.
 ///
-/// Packets are read from here and not from the batch, because a wide load that follows the narrow
-/// stores of its elements too closely waits for them.
+/// Packets are read from here and not from the batch: a wide load stalls if narrow stores of its elements are
+/// recent.
 #[derive(Clone, Debug)]
 pub(crate) struct Chunk([[f32; Self::PATCHES]; MAX_FACTORS]);
 
@@ -21,7 +21,7 @@ pub(crate) struct Stretch {
 }
 
 impl Stretch {
-    /// So many equal patches are faster to repeat than to process.
+    /// From this many equal patches on, repeating is faster than processing.
     const WORTH_REPEATING: usize = 8;
 
     /// The patches of a batch from `start` on, of which there are some.
@@ -41,7 +41,7 @@ impl Chunk {
     pub(crate) const PATCHES: usize = Self::PACKETS * LANES;
     pub(crate) const EMPTY: Self = Self([[0.0; Self::PATCHES]; MAX_FACTORS]);
 
-    /// Loads the patches of a batch, as many as there is room for. Factors are zero where the last
+    /// Loads the first patches of a batch, at most a chunk. Factors are zero where the last
     /// packet has no patch, or one of another domain.
     #[inline(always)]
     pub(crate) fn load(&mut self, batch: &Batch<'_>) {

@@ -2,11 +2,10 @@
 
 use tess_core::DomainPoint;
 
-/// A point format: `[f32; 2]`, or [`DomainPoint`] for pairs of 16.16 numbers. Both are exact.
+/// A type that points are written as: `[f32; 2]`, or [`DomainPoint`] with two 16.16 numbers. Both are exact.
 ///
-/// `tess-gpu` calls the first `OutputPoint::F32`; C calls them `TESS_POINT_F32` and
-/// `TESS_POINT_FIXED`. The packed format that the shaders have is not here: it holds a patch's
-/// number in each point.
+/// `tess-gpu` calls the first `PointFormat::F32`. C calls them `TESS_POINT_F32` and `TESS_POINT_FIXED`. The shaders'
+/// packed format, which has the patch's number in each point, does not exist here.
 pub trait OutputPoint: sealed::Point + Copy + Default + Send + Sync + 'static {
     /// The point with these 16.16 coordinates, each in `0..=ONE`. Exact; beyond that range
     /// unspecified.

@@ -115,8 +115,7 @@ const fn has_avx512() -> bool {
     false
 }
 
-/// Defines functions that may call the intrinsics of AVX-512, and that no other functions than those of its
-/// level may call.
+/// Defines functions that may call the intrinsics of AVX-512. Only functions of that level may call them.
 #[cfg(target_arch = "x86_64")]
 macro_rules! with_avx512 {
     ($($function:item)*) => {

@@ -10,10 +10,9 @@ use tess_core::DomainPoint;
 /// `TESS_NUMBERING_PER_PATCH` and `TESS_NUMBERING_PER_BATCH`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Numbering {
-    /// Each patch's indices count from its own first point and are those of the core. 16 bits are
-    /// always enough.
+    /// Indices count from each patch's first point, as in the core. 16 bits are always enough.
     PerPatch,
-    /// All indices count through the points of the batch: one vertex buffer for all patches.
+    /// Indices count from the batch's first point, so that all patches share one vertex buffer.
     PerBatch {
         /// Number of the first point of the batch.
         base_vertex: u32,
@@ -56,8 +55,7 @@ pub struct BatchCounts {
     pub indices: usize,
 }
 
-/// The caller's buffers that a batch is written to. They may be larger than needed: what lies behind
-/// the output stays as it is.
+/// The caller's buffers. They may be larger than needed; elements behind the output keep their values.
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Buffers<'a, P = [f32; 2], I = u32> {
@@ -83,8 +81,7 @@ impl<'a, P: OutputPoint, I: IndexFormat> Buffers<'a, P, I> {
     }
 }
 
-/// Buffers that grow as needed and keep their memory: once they are as large as the largest batch,
-/// nothing is allocated any more.
+/// Buffers that grow as needed and keep their memory. After the largest batch nothing is allocated.
 #[derive(Clone, Debug)]
 pub struct Output<P = [f32; 2], I = u32> {
     points: Vec<P>,

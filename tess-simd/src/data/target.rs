@@ -23,7 +23,7 @@ impl<'a, P: OutputPoint, I: IndexFormat> From<Buffers<'a, P, I>> for Target<'a> 
 
 #[cfg(feature = "rayon")]
 impl Target<'_> {
-    /// The buffers of the first patches, whose output has these sizes, and those of the others.
+    /// Splits the buffers behind the output of the first patches, which has these sizes.
     pub(crate) fn split_at(self, sizes: crate::data::output::BatchCounts) -> (Self, Self) {
         let (points, more_points) = match self.points {
             AnyPoints::F32(all) => both(all.split_at_mut(sizes.points), AnyPoints::F32),

@@ -74,8 +74,8 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         self.map::<_, N>(length, source, element);
     }
 
-    /// The next `length` elements, block for block made from those of `source`, of which `LEAST`
-    /// elements are made in any case, where there is room.
+    /// Writes the next `length` elements, each block made from a block of `source`. Makes at least `LEAST`
+    /// elements if there is room, so that most patches need no branch on their length.
     #[cfg(target_arch = "x86_64")]
     #[inline(always)]
     pub(crate) fn blocks<S: Copy, const N: usize, const LEAST: usize>(

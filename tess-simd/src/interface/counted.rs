@@ -13,9 +13,10 @@ use crate::stages::counts::PartCounts;
 use crate::threads::part::{Job, Part};
 use crate::threads::slices::{CountShare, Share, Slicing};
 
-/// A batch whose output was counted, ready to be written any number of times. Made by
-/// [`Tessellator::count`](crate::Tessellator::count), which it borrows, so that it cannot be
-/// written after the tessellator counted another batch.
+/// A counted batch. It can be written any number of times.
+///
+/// [`Tessellator::count`](crate::Tessellator::count) makes it. It borrows the tessellator, so the tessellator
+/// cannot count another batch before it is written.
 ///
 /// ```compile_fail,E0499
 /// # use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
@@ -62,20 +63,20 @@ impl<'a> Counted<'a> {
         Ok(Self { tessellator, batch, total, slicing, kept })
     }
 
-    /// The number of patches, culled ones included: elements of the range buffer.
+    /// Number of patches, culled ones included. The range buffer needs one element for each.
     #[must_use]
     pub fn patches(&self) -> usize {
         self.batch.len()
     }
 
-    /// The number of points: elements of the point buffer, below 2^32.
+    /// Number of points, below 2^32: the elements that the point buffer needs.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
     pub const fn points(&self) -> usize {
         self.total.points as usize
     }
 
-    /// The number of indices: elements of the index buffer, below 2^32.
+    /// Number of indices, below 2^32: the elements that the index buffer needs.
     #[must_use]
     #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
     pub const fn indices(&self) -> usize {

@@ -3,12 +3,12 @@
 use crate::data::output::PatchRange;
 use core::fmt;
 
-/// Where the output of each group of patches lies.
+/// The range of the output that each group of patches has.
 ///
-/// `ranges` is what a batch says of its patches; `starts` has the numbers of the patches at which groups
-/// begin. A group ends where the next one begins, the last one with the batch. As the patches of a
-/// batch lie one after another, so does a group's output: a renderer tessellates all meshes
-/// of a frame in one call and draws each on its own.
+/// `ranges` are the ranges of a batch's patches. `starts` has the number of the first patch of each group. A group
+/// ends where the next one begins, and the last one ends with the batch. A group's output is contiguous, because
+/// the output of patches follows their order. So a renderer tessellates all meshes of a frame in one call and
+/// draws each mesh separately.
 ///
 /// ```
 /// use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};

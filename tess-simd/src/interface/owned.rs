@@ -9,8 +9,8 @@ use tess_core::{Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFacto
 /// Patches of one domain, owned and in the layout that is fastest to read: a structure of that
 /// domain for each patch.
 ///
-/// A batch of [`PatchFactors`] needs no copy, but takes up to a fifth longer where patches are
-/// small; where the same patches are tessellated again and again, copy them once.
+/// A batch of [`PatchFactors`] needs no copy, but small patches take up to a fifth longer. Copy patches once if you
+/// tessellate them again and again.
 ///
 /// ```
 /// use tess_simd::OwnedBatch;
@@ -80,7 +80,7 @@ impl OwnedBatch {
 impl TryFrom<&[PatchFactors]> for OwnedBatch {
     type Error = Error;
 
-    /// Copies patches of one domain: that of the first, quads if there is none.
+    /// Copies patches of one domain. Without patches the domain is quad.
     fn try_from(patches: &[PatchFactors]) -> Result<Self, Error> {
         let mut all = Self::new(Batch::from(patches).domain());
         patches.iter().try_for_each(|&patch| all.push(patch))?;

@@ -1,6 +1,6 @@
-//! The stages of the front end on their own, for comparison with other implementations.
+//! Stage taps: the values of single stages of the front end, for comparison with other implementations.
 //!
-//! Each goes through the same code as whole patches do, at a CPU level.
+//! Each runs the code that whole patches go through, at a CPU level.
 
 use crate::data::level::{Level, LevelUnavailable};
 use crate::levels;
@@ -23,8 +23,8 @@ pub fn fixed_factors(
     Ok(factors)
 }
 
-/// Contexts (spec section 4) of fixed-point factors: 1..=63 if odd, 1 and 2..=64 if even; one outside
-/// counts as the nearest.
+/// Contexts (spec section 4) of fixed-point factors. Valid factors are 1..=63 if odd, 1 and 2..=64 if even. Any other
+/// factor counts as the nearest valid one.
 ///
 /// # Errors
 /// [`LevelUnavailable`] if this machine cannot run the level.

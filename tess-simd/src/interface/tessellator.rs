@@ -20,9 +20,9 @@ use tess_core::Order;
 
 /// Tessellates batches of patches in one configuration.
 ///
-/// Making one makes its tables, which takes about a millisecond; it holds about 1.1 to 2.2 MB
-/// ([`Tessellator::memory`]). Make it once and keep it. After its first batch it allocates nothing
-/// but what an [`Output`] grows by and, on several threads, a short list for each batch.
+/// [`Tessellator::new`] makes tables, which takes about a millisecond and 1.1 to 2.2 MB
+/// ([`Tessellator::memory`]). Make one for each configuration and keep it. After the first batch only an
+/// [`Output`] that grows allocates memory, and on several threads a short list for each batch.
 #[derive(Clone, Debug)]
 pub struct Tessellator {
     pub(super) level: Level,
@@ -61,12 +61,13 @@ impl Tessellator {
         }
     }
 
-    /// Spreads batches over this many threads: at least one and at most
+    /// Spreads batches over up to `threads` threads, at least 1 and at most
     /// [`Tessellator::MAX_THREADS`]. The output stays the same.
     ///
-    /// They are threads of the rayon pool that the caller runs in, else of rayon's global pool,
-    /// which is started with at most as many threads even if `RAYON_NUM_THREADS` asks for more. Each
-    /// takes 1.1 MB.
+    /// A batch uses one thread for each 256 KiB of its output, so a second thread joins from 512 KiB on. The
+    /// threads belong to the rayon pool that the caller runs in, otherwise to rayon's global pool. The global
+    /// pool is started with at most [`Tessellator::MAX_THREADS`] threads, even if `RAYON_NUM_THREADS` asks for
+    /// more. Each thread takes 1.1 MB.
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
@@ -80,9 +81,9 @@ impl Tessellator {
 
     /// Writes triangles in this order; [`Order::Specification`] unless told otherwise.
     ///
-    /// [`Order::VertexCache`] has the same points and the same triangles, so that a vertex cache finds more of
-    /// its vertices: for renderers. Patches above some 300 points take two to four times as long with it,
-    /// unless their point counts are those of the large patch before.
+    /// [`Order::VertexCache`] writes the same points and the same triangles in an order that suits vertex caches.
+    /// It is for renderers. Patches of more than about 300 points take two to four times as long with it, unless
+    /// they have the same point counts as the large patch before them.
     #[must_use]
     pub fn order(mut self, order: Order) -> Self {
         self.settings.order = order;
@@ -109,7 +110,7 @@ impl Tessellator {
         self.settings.stitches.bytes() + self.workspaces.bytes() + size_of_val(&*self.kept)
     }
 
-    /// Counts a batch: the sizes of the buffers that it needs, and then a `write` into them.
+    /// Counts a batch. The result says which buffer sizes the batch needs and writes into such buffers.
     ///
     /// # Errors
     /// [`Error::UnevenColumns`], [`Error::MixedDomains`], [`Error::BatchTooLarge`].
@@ -117,8 +118,8 @@ impl Tessellator {
         Counted::new(self, batch.into())
     }
 
-    /// Tessellates a batch into the caller's buffers: [`Tessellator::count`] and [`Counted::write`]
-    /// in one.
+    /// Tessellates a batch into the caller's buffers. Does [`Tessellator::count`] and [`Counted::write`] in one
+    /// call.
     ///
     /// # Errors
     /// Any [`Error`]; then nothing is written.

@@ -158,8 +158,8 @@ pub(crate) fn emit<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
     first
 }
 
-/// Writes a packet of compact patches, stage by stage: where a stage's branches are predicted wrongly, the
-/// patches of the others are not begun anew.
+/// Writes a packet of compact patches, stage by stage, so that a wrongly predicted branch in one stage discards no
+/// work of another.
 #[inline(always)]
 fn emit_compact<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
     settings: &Settings,

@@ -7,8 +7,8 @@ use crate::stages::counts::{PacketCounts, PartCounts};
 use crate::stages::packet::{Packet, packet_counts};
 use tess_core::Config;
 
-/// Takes the patches of a batch, at most those of a chunk, through the front end. Patches past its end
-/// count as culled; packets that have none but those stay as they are.
+/// Takes up to a chunk of patches through the front end. Lanes past the end count as culled; packets past the end
+/// stay as they are.
 #[inline(always)]
 pub(crate) fn process(config: Config, batch: &Batch<'_>, packets: &mut [Packet; Chunk::PACKETS]) {
     let mut chunk = Chunk::EMPTY;
@@ -39,8 +39,7 @@ pub(crate) fn count(config: Config, batch: &Batch<'_>) -> PartCounts {
     sums.total()
 }
 
-/// Takes the patches of a batch, at most those of a chunk, through the front end and predicts their
-/// output sizes.
+/// [`process`], then the output sizes of these patches together.
 #[inline(always)]
 pub(crate) fn count_and_keep(
     config: Config,

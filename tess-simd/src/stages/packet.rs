@@ -103,7 +103,7 @@ impl Packet {
 
     /// Processes the raw factors of a packet; zeros count as culled.
     ///
-    /// It is written where it stays: as a result, it would be copied.
+    /// Written in place; returning it would copy the packet.
     #[inline(always)]
     pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
         use Domain::{Isoline, Quad, Triangle};
@@ -237,7 +237,7 @@ impl PacketPatch<'_> {
         self.packet.points[factor * LANES + self.lane]
     }
 
-    /// A number that tells the contexts of one split order apart; not 0.
+    /// A number, not 0, that differs for different contexts of one split order.
     #[inline(always)]
     pub(crate) const fn key(self, factor: usize) -> u32 {
         let i = factor * LANES + self.lane;

@@ -1,9 +1,9 @@
 //! Templates of patches.
 //!
-//! A patch's indices, counted from its own first point, depend on its point counts alone, and with
-//! integer factors so do its points. Compact patches of a topology that was seen before, and large
-//! ones of the topology of the patch before, are copied.
-//! The templates are made by the same emission that larger patches go through.
+//! A patch's indices, counted from its first point, depend on its point counts alone. With integer factors so do its
+//! points. So a topology's output is kept and copied for later patches: always up to 289 points, and for larger
+//! patches if the large patch before had the same topology. The stages that write large patches make the
+//! templates. Compact patches have templates in another form (`compact`).
 
 mod compact;
 
@@ -18,7 +18,7 @@ use alloc::boxed::Box;
 use alloc::vec::Vec;
 use tess_core::{Config, Domain, DomainPoint, Patch, PatchFactors};
 
-/// The most points of a patch whose template is kept at once: those of a quad of factor 16.
+/// The most points of a patch whose template is kept from the first one on: a quad of factor 16 has this many.
 const ALWAYS_KEPT: usize = 17 * 17;
 
 /// Templates kept at a time. Two topologies that share a slot replace each other.

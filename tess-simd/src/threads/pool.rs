@@ -1,8 +1,9 @@
 //! The threads of the current rayon pool.
 //!
-//! Each has slices of its own, always the same ones, so that its part of a buffer that is written again and
-//! again stays in its core's caches. A thread that has written them helps the others, and when nothing is left
-//! it waits for them: threads that leave a batch together are still awake when the next one comes.
+//! Each thread begins with the same slices every time, so that its part of a reused buffer stays in its core's
+//! caches. A thread that is done helps the others. When nothing is left it waits for them: threads that leave a
+//! batch together are still awake when the next one comes. Small batches use fewer threads, because waking takes
+//! longer than they do.
 
 use crate::data::level::Level;
 use crate::stages::counts::PartCounts;
@@ -139,7 +140,7 @@ fn worth_waking(bytes: u64, threads: usize) -> usize {
     most.clamp(1, threads)
 }
 
-/// Does the same work on this many threads, if so many are idle.
+/// Runs `work` on up to `threads` idle threads.
 fn on_threads(threads: usize, work: &(impl Fn() + Sync)) {
     if threads > 1 {
         rayon::join(|| on_threads(threads / 2, work), || on_threads(threads - threads / 2, work));

@@ -11,7 +11,7 @@ use crate::stages::counts::PartCounts;
 use crate::threads::part::Part;
 use tess_core::Config;
 
-/// Slices for each thread: so many that threads which are done can help the others.
+/// Slices for each thread. With several, threads that are done can help the others.
 const SLICES_PER_THREAD: usize = 4;
 
 /// How a batch is cut.
@@ -79,7 +79,7 @@ pub(crate) struct Share<'a> {
 
 #[cfg(feature = "rayon")]
 impl<'a> Share<'a> {
-    /// Its slices, each a part of its own.
+    /// Its slices, one part each.
     #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
     pub(crate) fn into_parts(self) -> impl Iterator<Item = Part<'a>> {
         use crate::data::output::BatchCounts;

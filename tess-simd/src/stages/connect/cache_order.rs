@@ -58,5 +58,5 @@ pub(crate) fn emit<I: Copy + Default>(
     });
 }
 
-/// Indices written at a time: those of a column's row.
+/// Indices written at a time: a column's row has this many.
 const RUN: usize = 24;

@@ -100,7 +100,7 @@ pub(super) enum Term {
 pub(super) const TERMS: [Term; 5] =
     [Term::Perpendicular, Term::Back, Term::Last, Term::Third, Term::LastThird];
 
-/// A term of its own, without a ring: `ONE_THIRD`.
+/// The term `ONE_THIRD`, which has no ring.
 #[expect(clippy::cast_possible_truncation, reason = "30")]
 pub(super) const CENTRE: u16 = (TERMS.len() * RINGS) as u16;
 

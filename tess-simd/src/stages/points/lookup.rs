@@ -80,8 +80,8 @@ const _: () = assert!(HELD < ROWS && RINGS < HALF_EDGE && 2 * QUAD_FACTORS <= RO
 #[derive(Clone, Debug)]
 pub(crate) struct Lookup {
     rows: [Row; ROWS],
-    /// The positions of half an edge. The compiler does not know them, or it would treat each of them
-    /// in a way of its own instead of all in one vector.
+    /// The positions of half an edge, unknown to the compiler: it would unroll known ones instead of making
+    /// vectors.
     positions: Row,
 }
 
