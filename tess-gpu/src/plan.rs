@@ -1,8 +1,43 @@
 //! How one batch is cut up: sizes of buffers and dispatches as pure functions of the number of
-//! patches, the room for output and the limits.
+//! patches, the room for output and the limits. A host asks a [`Plan`] and computes nothing itself.
 //!
-//! A batch is cut into *portions* of patches, because a device binds only so many bytes at once,
-//! and its output into *windows* for the same reason. Within a window output is made in *tiles*.
+//! ```text
+//! patches   |<-- portion 0 -->|<-- portion 1 -->|<-- portion 2 ->|    at most 2^24 patches each: what one
+//!             section section   section section                      binding takes of the largest buffer per patch
+//!              block block ...                                       65536 and 256 patches, for the prefix sums
+//!
+//! output    |<---- window 0 ---->|<---- window 1 ---->|<- 2 ->|       what one binding takes of points or of indices
+//!             tile tile tile ...                                     2048 elements, one workgroup
+//! ```
+//!
+//! Portions and windows do not end together, so each portion is expanded in every window; a dispatch whose portion has
+//! nothing in its window runs no workgroup. A job (`plan/jobs.rs`) tells a dispatch its portion and window:
+//!
+//! ```text
+//! jobs of portion 0: whole | points in window 0, 1 ... | primitives in window 0, 1 ... | jobs of portion 1: ...
+//! ```
+//!
+//! The buffer of offsets has a region for each portion. An entry is two words, points and primitives; a patch's output
+//! begins at the sum of its own entry, its block's and its section's:
+//!
+//! ```text
+//! entry   0 ..             blocks_at ..    alike_at ..                 sections_at ..
+//!         each patch,      each block,     topology of a block,        each section,
+//!         in its block     in its section  0 if its patches differ     in the batch
+//! writer  factors          factors, scan   factors                     scan, totals
+//! reader  expansions       expansions      shared/alike.wgsl           expansions
+//! ```
+//!
+//! What must hold:
+//! - A binding begins at a multiple of [`ALIGNMENT`], lies within its buffer and keeps to the limits. The tiles, the
+//!   arguments and the catalogue are bound whole: `room.rs` says which limits suffice for them.
+//! - A portion is a whole number of sections, or the whole batch.
+//! - Every portion is counted before any is expanded. Otherwise output that does not fit would be written in part.
+//! - `shared/finish.wgsl` numbers the sizes of indirect dispatches as `job_number` does.
+//!
+//! A short batch has one portion, one window and narrow tiles, so two dispatches do everything
+//! (`entry_points/short_batch.wgsl`). The simpler form, one binding per buffer, would stop at 2.8 million quads with
+//! WebGPU's default limits, as the example of [`Plan`] shows.
 
 use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
@@ -23,6 +58,25 @@ pub use dispatches::{Dispatch, Workgroups};
 ///
 /// [`Plan::buffer_size`] and [`Plan::jobs`] say which buffers a host makes for it, and
 /// [`Plan::dispatches`] what it runs.
+///
+/// Ten million quads with fractional factors have 48 bytes of contexts each, of which WebGPU's default limits bind
+/// 128 MiB at once. That is 2796202 patches, or 42 whole sections of 65536:
+///
+/// ```
+/// use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+/// use tess_gpu::{Capacity, Limits, Plan, Setup};
+///
+/// let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+/// let room = Capacity { points: 40_000_000, primitives: 40_000_000 };
+/// let plan = Plan::new(Setup::new(Domain::Quad, config), 10_000_000, room, Limits::WEBGPU);
+/// assert_eq!(plan.portion_patches(), 42 * 65536);
+/// assert_eq!(plan.portions(), 4);
+/// // A point has 8 bytes, a triangle three indices of 4; windows are whole tiles of 2048.
+/// assert_eq!(plan.point_windows(), 3, "of 8192 tiles");
+/// assert_eq!(plan.primitive_windows(), 4, "of 5461 tiles");
+/// // For each portion: three dispatches to count, one to partition, then its windows; and `list`, once.
+/// assert_eq!(plan.dispatches().count(), 4 * (3 + 1 + 3 + 4) + 1);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Plan {
     setup: Setup,

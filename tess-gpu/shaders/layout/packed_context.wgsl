@@ -1,8 +1,19 @@
 // needs: nothing
-// The six numbers that all of point placement uses (spec section 4), in 8 bytes.
+// The six numbers that all of point placement uses (spec section 4), in 8 bytes. `factors` writes them for patches with
+// fractional factors, `expand_points` reads them, and `layout::pack_context` is the same in Rust.
 //
-// word 0: inv_floor in bits 0..16, half_points 17..22, split 23..28, odd 29, top bit of inv_ceil 30
-// word 1: low 16 bits of inv_ceil, fraction above them
+//             31         30                29    28..23   22..17        16..0
+//     word 0  (unused)   top of inv_ceil   odd   split    half_points   inv_floor
+//     word 1  31..16: fraction                            15..0: the rest of inv_ceil
+//
+// The six factors of the quad patch (3, 4.5, 5, 6; 4, 7), all even:
+//
+//   3   half_points 2 split 1 inv_floor 32768 inv_ceil 16384 fraction 32768: 0x00848000 0x80004000
+//   4.5 half_points 3 split 1 inv_floor 16384 inv_ceil 10923 fraction 16384: 0x00864000 0x40002aab
+//   5   half_points 3 split 1 inv_floor 16384 inv_ceil 10923 fraction 32768: 0x00864000 0x80002aab
+//   6   half_points 3 split 4 inv_floor 10923 inv_ceil 10923 fraction     0: 0x02062aab 0x00002aab
+//   4   half_points 2 split 3 inv_floor 16384 inv_ceil 16384 fraction     0: 0x01844000 0x00004000
+//   7   half_points 4 split 3 inv_floor 10923 inv_ceil  8192 fraction 32768: 0x01882aab 0x80002000
 
 fn inv_floor_of(context: vec2<u32>) -> u32 {
     return context.x & 0x1ffffu;

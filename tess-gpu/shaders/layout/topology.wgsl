@@ -1,11 +1,17 @@
 // needs: layout/setup
 // What connectivity and counts depend on (spec section 12.8), in 8 bytes per patch: the points
-// along each edge and along each inside axis, 2..=65 in 7 bits.
+// along each edge and along each inside axis, 2..=65 in 7 bits. `factors` writes it, the expansions read it.
 //
-// word 0: outer edges in order from bit 0, state in bits 28..29
-// word 1: inside u from bit 0, inside v from bit 7, from bit 14 the slot in the catalogue (variants/listing.wgsl), 0
-// if there is none. A triangle's one inside factor is both;
-// an isoline's density and detail are edges 0 and 1.
+//             31..30     29..28   27..21   20..14   13..7      6..0
+//     word 0  (unused)   state    edge 3   edge 2   edge 1     edge 0
+//     word 1  31..14: slot in the catalogue,        inside v   inside u
+//             0 if there is none (variants/listing.wgsl)
+//
+// A triangle's one inside factor is both; an isoline's density and detail are edges 0 and 1. The quad patch
+// (3, 4.5, 5, 6; 4, 7) with even fractional factors:
+//
+//   outer points [5, 7, 7, 7], inside points [5, 9], state 2
+//   words 0x20e1c385 0x00000485
 
 const CULLED = 0u;
 const MINIMUM = 1u;

@@ -1,8 +1,29 @@
 // needs: {contexts}, stages/points, stages/rings, layout/topology
-// A point in one word, before the factors of its patch are known; and placed by them.
+// A point of a fractional patch in one word, before the factors of its patch are known.
 //
-// bits 0..2 the factor that places it, 3..5 that of its run's constant, 6..12 its position, 13..17 its ring,
-// 18..19 its form, 20 and 21 the constant's `is_far` and `is_centre`.
+// The catalogue keeps a topology once, but with fractional factors two patches of one topology have different
+// points. So `list` stores how a point is placed, and `expand_points` places it with the contexts of the patch at
+// hand.
+//
+//     31..22     21          20       19..18   17..13   12..6      5..3                 2..0
+//     (unused)   is_centre   is_far   form     ring     position   factor of the        factor that
+//                of the constant                                   run's constant       places the point
+//
+// A run is a row of points along which one coordinate is constant (stages/points.wgsl). Factors have the
+// specification's order: the outer edges, then inside u and inside v. Form says how the two values become (u, v).
+//
+// Point 31 of the quad patch (3, 4.5, 5, 6; 4, 7) lies on ring 1, edge 2, step 1. Inside v, factor 5, places it at
+// position 2; its constant is inside u, factor 4, at ring 1 and measured from the far side:
+//
+//   point 31: 0x001020a5
+//
+// What must hold:
+// - Position fits 7 bits (0..=64), ring 5 bits (0..=31), a factor 3 bits (0..=5).
+// - A description depends on the topology alone. Nothing here reads a context; `context_of` of
+//   variants/no_contexts.wgsl stands in for it when `list` is compiled.
+//
+// The simpler form stores points themselves. It serves integer factors alone, where equal topologies have equal
+// points (`POINT_WORDS` in layout/setup.wgsl is 2 there).
 
 // Point i of a patch that is not culled.
 fn described_point(topology: vec2<u32>, i: u32) -> u32 {

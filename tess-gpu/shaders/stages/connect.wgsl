@@ -1,6 +1,38 @@
 // needs: stages/cache_order, stages/rings, layout/setup, stages/stitch, layout/topology
-// Which stitch a triangle belongs to, and that stitch's rows (spec sections 7.1 and 8); what lines
-// and points are made of. Everything in closed form.
+// The triangles of a patch (spec sections 7.1 and 8): any triangle from its number, in closed form.
+//
+// Tiles, the catalogue and `Pull` ask for triangle t. Every triangle belongs to a stitch between two rows of
+// vertices, so the answer is a location, then the stitch's rows (this file), then one step of it
+// (stages/stitch.wgsl). Lines and points join the points in order and need no stitch.
+//
+//     t -> RingLocation(ring, edge, step)      triangle_location: the specification's order or the vertex-cache order
+//       -> Stitch                              stitch_at, by ring:
+//            ring 1                 transition_stitch   an outer edge and ring 1
+//            2 .. stitch_ring_end   ring_stitch         rings `ring` - 1 and `ring`
+//            stitch_ring_end        centre_stitch       what is left: a triangle or a strip of quads
+//
+//     outer row   index `outer` + k, until `outer_turn`: from there `outer_mirror` - index
+//     inner row   the same with `inner`
+//
+// A row turns where it closes its ring, or where the inner ring is a single row of points that the stitch walks
+// along and back. `turns` is false for three of four edges, which skip the four selects.
+//
+// The quad patch (3, 4.5, 5, 6; 4, 7) has 62 triangles: 38 in the transitions, 24 between ring 1 and the row in the
+// centre.
+//
+//   triangle 40: ring 2, edge 0, step 2, vertices [23, 24, 39]
+//
+// Vertices 22 to 37 are ring 1, 38 to 42 the row.
+//
+// What must hold:
+// - A transition between `outer` and `inner` points is stitch TRANSITION_STRIDE * (outer - 2) + inner of the
+//   tables, a ring stitch RING_STITCH + inner; src/tables.rs makes all of them from the core's steps.
+// - `first_of_ring` counts the points of all rings before, as stages/points.wgsl places them.
+// - The last edge of a ring is the one that closes it, in both rows.
+//
+// The simpler form walks the stitches from the patch's first triangle, one thread a patch. It is 1.7 to 12.5 times
+// slower on an H200 (docs/performance.md, table one-thread-h200). A stitch's steps come from a table instead of the
+// specification's cases: transitions, ring stitches and strips then differ in their numbers alone.
 
 // Where triangle t of a regular patch is, in the order of the setup.
 fn triangle_location(rings: Rings, t: u32) -> RingLocation {

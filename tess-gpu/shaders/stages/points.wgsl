@@ -1,8 +1,38 @@
 // needs: stages/fixed_point, {place}, {contexts}, stages/rings, layout/setup, layout/topology
-// The domain points of a patch as runs (spec section 6): along a run one coordinate is placed
-// point by point while the other is constant. Which run a point belongs to follows from closed
-// forms; runs come in output order: lines of an isoline patch; outer edges, then the edges of each
-// interior ring, then the centre.
+// The domain points of a patch (spec section 6): any point from its number, in closed form.
+//
+// Tiles, the catalogue and `Pull` ask for point i of a patch. Points come in runs, along which one coordinate is
+// constant and the other is placed point by point, so the work that a run shares is done once for it.
+//
+//     RingLocation         which ring, which edge of it, which step on the edge       point_location
+//       -> RunShape        which factor places it, from which position, up or down    shape_of: topology alone
+//       -> PointRun        the constant's value and the context                       run_of: reads contexts
+//       -> (u, v)          one `place` for each point                                 point_of_run
+//
+// Runs follow each other in output order: lines of an isoline patch; or the outer edges, the edges of each interior
+// ring, and the centre, which is a point or a row of points if the smaller inside axis has an odd number of points.
+//
+//     edge     quad                          triangle
+//     0        u = 0, v descends             u = 0, v descends
+//     1        v = 0, u ascends              v = 0, u ascends
+//     2        u = 1, v ascends              w = 0, u and v together
+//     3        v = 1, u descends
+//
+// The quad patch (3, 4.5, 5, 6; 4, 7) has 43 points: 22 on the outer ring, 16 on ring 1, a row of 5 in the centre.
+//
+//   point 31: ring 1, edge 2, step 1
+//   fixed 0x10000 - 0x4000 = 0xc000, q 0x4aab
+//
+// Edge 2 of ring 1 lies one position from u = 1, which inside u places at 0x4000; inside v places step 1 at
+// position 2.
+//
+// What must hold:
+// - `last_before` gets products that ascend up to `end`; beyond it they descend, and the search would miss.
+// - shape_of reads no context, so that shared/described.wgsl can keep its answer for any patch of the topology.
+// - `place_before_middle` serves constants, because a ring is never beyond the middle.
+//
+// The simpler form walks the patch from its first point, which gives each patch one thread. It is 1.7 to 12.5 times
+// slower on an H200 (docs/performance.md, table one-thread-h200).
 
 // How a run's two numbers become a point: `fixed` is its constant, `q` the placed location.
 const FORM_FIXED_Q = 0u;
