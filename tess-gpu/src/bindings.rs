@@ -11,14 +11,14 @@ pub enum Resource {
     Tables,
     /// One [`crate::layout::Topology`] for each patch.
     Topologies,
-    /// Two words for each factor ([`crate::layout::pack_context`]): in each portion the first factor
-    /// of all patches, then the second of all patches, and so on.
+    /// Two words for each factor ([`crate::layout::pack_context`]). Each portion has the contexts of the first factor
+    /// of all its patches, then of the second factor, and so on.
     Contexts,
     /// Where the output of patches, blocks and sections begins: [`crate::Plan::offset_entries`].
     Offsets,
     /// A [`crate::layout::Status`], then a [`crate::layout::Range`] for each portion.
     Status,
-    /// The number of the patch that each tile of the output begins with.
+    /// For each tile of the output the number of the patch that it begins with.
     Tiles,
     /// A [`crate::layout::DrawIndexed`], then the sizes of indirect dispatches. Needs the usage
     /// `INDIRECT`.

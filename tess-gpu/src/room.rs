@@ -10,7 +10,7 @@ pub struct Limits {
     /// for the tiles, the arguments and the catalogue of the largest batches.
     pub storage_binding: u64,
     /// Workgroups along one dimension of a dispatch: at least 2048. Larger dispatches are laid out
-    /// in rows of so many. A smaller limit, down to 1, is kept along x but not along y.
+    /// in rows of this length. A smaller limit, down to 1, is kept along x but not along y.
     pub workgroups: u32,
 }
 
@@ -29,15 +29,15 @@ pub struct Capacity {
 }
 
 impl Capacity {
-    /// What so many patches need at most, whatever their factors: up to 4225 points and 8192 primitives
+    /// The most that `patches` patches can need, whatever their factors: up to 4225 points and 8192 primitives
     /// each, and 2^32 - 1 together.
     #[must_use]
     pub fn worst_case(setup: Setup, patches: u32) -> Self {
         Self::uniform(setup, patches, 64.0)
     }
 
-    /// What so many patches need if all of their factors are `factor`. More factors than one never
-    /// need more than the largest of them.
+    /// What `patches` patches need if all of their factors are `factor`. Patches with several factors need no
+    /// more than patches whose factors all equal the largest one.
     #[must_use]
     pub fn uniform(setup: Setup, patches: u32, factor: f32) -> Self {
         let counts = Patch::new(setup.config, PatchFactors::uniform(setup.domain, factor)).counts();

@@ -10,8 +10,8 @@ pub(crate) const POINT_THREADS: u32 = 128;
 pub const TILE: u32 = 1 << TILE_BITS;
 /// As a power of two.
 pub(crate) const TILE_BITS: u32 = 11;
-/// A short batch has smaller tiles, so that many workgroups share its output, down to 2^7 elements: two for each
-/// thread.
+/// The size of the narrowest tile, as a power of two: 2 elements for each thread. A short batch has narrow tiles, so
+/// that many workgroups share its output.
 pub(crate) const LEAST_TILE_BITS: u32 = 7;
 /// Patches of a tile that are expanded together.
 pub(crate) const ROUND: u32 = 128;
@@ -26,17 +26,17 @@ pub(crate) const SECTION_BLOCKS: u32 = SUMMED;
 pub const SECTION: u32 = SECTION_BLOCKS * BLOCK;
 /// The most patches of a portion.
 pub(crate) const MAX_PORTION: u32 = SUMMED * SECTION;
-/// A batch of so many patches at most is short: one workgroup does everything in front of the expansions.
+/// The most patches of a short batch, for which one workgroup does everything in front of the expansion.
 pub const SHORT_PATCHES: u32 = 1024;
-/// A short batch has room for so many points and primitives at most, together.
+/// The most points and primitives together for which a short batch has room.
 pub const SHORT_ELEMENTS: u32 = 1 << 19;
-/// A short batch is cut into so many tiles at most, one for each workgroup that runs at once on a large device.
+/// The most tiles of a short batch: one for each workgroup that runs at once on a large device.
 pub(crate) const SHORT_TILES: u32 = 2048;
-/// A batch of so many patches has a catalogue of topologies.
+/// The fewest patches of a batch with a catalogue of topologies.
 pub const CATALOGUE_PATCHES: u32 = 16 << 10;
 /// Slots of the catalogue of topologies, as a power of two.
 pub(crate) const SLOT_BITS: u32 = 13;
-/// Slots of the catalogue: it can hold so many topologies, or somewhat fewer.
+/// Slots of the catalogue, one for each topology. It holds somewhat fewer, as a search ends after 16 slots.
 pub(crate) const SLOTS: u32 = 1 << SLOT_BITS;
 /// Points for which the catalogue has room.
 pub(crate) const CATALOGUE_POINTS: u32 = 1 << 17;
@@ -56,10 +56,10 @@ pub(crate) const POINTS_AT: u32 = PLACES_AT + 2 * SLOTS;
 pub(crate) const TRIANGLES_AT: u32 = POINTS_AT + 2 * CATALOGUE_POINTS;
 /// Words of the catalogue.
 pub(crate) const CATALOGUE_WORDS: u32 = TRIANGLES_AT + CATALOGUE_TRIANGLES;
-/// Entries of 8 bytes in the workgroup memory of the stage `expand_points`: a tile's patches are
-/// copies of one if it has at most so many points. That is a quad of factor 16, and some more.
+/// Entries of 8 bytes in the workgroup memory of the stage `expand_points`, which is the most points of a patch that
+/// is copied. A quad of factor 16 has 289.
 pub(crate) const POINT_SCRATCH: u32 = 320;
-/// The same of the stage `expand_primitives`; each entry has room for two triangles.
+/// The same for the stage `expand_primitives`, where an entry has room for two triangles.
 pub(crate) const PRIMITIVE_SCRATCH: u32 = ROUND;
 /// The word of the arguments buffer where the dispatch sizes begin, behind the draw arguments.
 pub(crate) const DISPATCHES_AT: u32 = 8;
