@@ -1,6 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 mod bindings;
+#[cfg(feature = "taps")]
+mod faults;
 pub mod layout;
 mod plan;
 mod room;
@@ -10,6 +12,8 @@ pub mod sizes;
 mod tables;
 
 pub use bindings::{Access, Binding, Resource};
+#[cfg(feature = "taps")]
+pub use faults::Fault;
 pub use plan::{Dispatch, Plan, Workgroups, Written};
 pub use room::{Capacity, Limits, Span};
 pub use setup::{Copies, IndexType, Numbering, PointFormat, Setup};

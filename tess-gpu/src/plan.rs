@@ -111,7 +111,7 @@ impl Plan {
         Self::cut(setup, patches, capacity, limits, true)
     }
 
-    /// The same batch in the stages of a long one, whatever its size: a host then has one path.
+    /// The same batch in the stages of a long one, whatever its size, so that a host needs one path.
     #[must_use]
     pub fn in_long_stages(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
         Self::cut(setup, patches, capacity, limits, false)
@@ -168,7 +168,7 @@ impl Plan {
         }
     }
 
-    /// The same batch in so many groups of patches, each with draw arguments of its own
+    /// The same batch with its patches in `groups` groups, each of which gets its own draw arguments
     /// ([`Resource::Groups`], [`Resource::Draws`]).
     #[must_use]
     pub const fn with_groups(mut self, groups: u32) -> Self {
@@ -176,21 +176,22 @@ impl Plan {
         self
     }
 
-    /// How many groups the patches are in; 0 if nobody asked for groups.
+    /// How many groups the patches are in; 0 without [`Plan::with_groups`].
     #[must_use]
     pub const fn groups(&self) -> u32 {
         self.groups
     }
 
-    /// Whether the batch runs two dispatches, because there are few patches and little room for output: one
-    /// workgroup does everything in front of the expansions, and these are one dispatch.
-    /// Never of [`Plan::in_long_stages`].
+    /// Whether the batch is short: it has at most 1024 patches and little room for output, and runs two dispatches. One
+    /// workgroup does everything in front of the expansion, which is one dispatch. False for
+    /// [`Plan::in_long_stages`] and [`Plan::writing`].
     #[must_use]
     pub const fn is_short(&self) -> bool {
         self.is_short
     }
 
-    /// Whether there is a catalogue of topologies. It takes a fixed time, which pays for long batches.
+    /// Whether the batch has a catalogue of topologies: 16384 patches or more whose output is triangles. The catalogue
+    /// takes a fixed time, which pays for such batches.
     #[must_use]
     pub const fn has_catalogue(&self) -> bool {
         self.setup.has_triangles()
@@ -240,8 +241,8 @@ impl Plan {
         self.capacity.primitives.div_ceil(self.tile()).div_ceil(self.primitive_window_tiles)
     }
 
-    /// The bytes that the buffer of a resource must have for this batch; of the caller's own
-    /// (factors, points, indices) the bytes that are used. A host rounds 0 up to what its interface
+    /// The bytes that the buffer of a resource must have for this batch. For the caller's own buffers
+    /// (factors, points, indices) it is the bytes that are used. A host rounds 0 up to what its interface
     /// demands.
     #[must_use]
     pub fn buffer_size(&self, resource: Resource) -> u64 {
@@ -376,7 +377,7 @@ impl Plan {
         4 * u64::from(DISPATCHES_AT) + 12 * u64::from(job)
     }
 
-    /// So many workgroups, in rows.
+    /// Workgroups along x, y and z, in rows no longer than the limit.
     fn in_rows(&self, workgroups: u32) -> [u32; 3] {
         let rows = workgroups.div_ceil(self.max_workgroups);
         [workgroups.min(self.max_workgroups), rows, 1]

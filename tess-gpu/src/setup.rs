@@ -1,4 +1,4 @@
-//! What the patches of a batch have in common.
+//! The setup: everything that the patches of a batch have in common.
 
 use crate::{sizes, tables};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
@@ -47,13 +47,13 @@ impl IndexType {
     }
 }
 
-/// What becomes of patches that have the topology of all their neighbours.
+/// Whether neighbouring patches of one topology are expanded once and copied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Copies {
-    /// One is expanded and copied.
+    /// One patch is expanded and copied.
     #[default]
     WhereAlike,
-    /// Each is expanded on its own: for measuring what unlike neighbours cost.
+    /// Each patch is expanded alone: for measuring what unlike neighbours cost.
     Never,
 }
 
@@ -66,11 +66,11 @@ pub struct Setup {
     pub config: Config,
     /// Format of the points.
     pub point_format: PointFormat,
-    /// What indices count from.
+    /// Which point has index 0.
     pub numbering: Numbering,
     /// Width of the indices.
     pub index_type: IndexType,
-    /// Whether patches are copied; the output is the same.
+    /// Whether neighbours of one topology are copied. The output is the same either way.
     pub copies: Copies,
     /// Order of the triangles of a patch.
     pub order: Order,
@@ -131,13 +131,13 @@ impl Setup {
             ("PARTITIONING", position(&Partitioning::ALL, partitioning)),
             ("OUTPUT", position(&OutputPrimitive::ALL, output)),
             ("SPLIT", position(&SplitOrder::ALL, split)),
-            ("POINT_FORMAT", u32::from(self.point_format == PointFormat::F32)),
-            ("NUMBERING", u32::from(self.numbering == Numbering::PerPatch)),
+            ("POINT_FORMAT", self.point_format as u32),
+            ("NUMBERING", self.numbering as u32),
             ("FACTORS", self.factors()),
             ("COPIES", u32::from(self.copies == Copies::WhereAlike)),
-            ("ORDER", u32::from(self.order == Order::VertexCache)),
+            ("ORDER", self.order as u32),
         ];
-        constants(&setup) + &constants(&SHARED)
+        constants(&setup) + &constants(&SHARED) + &constants(&values())
     }
 }
 
@@ -175,12 +175,42 @@ const SHARED: [(&str, u32); 30] = [
     ("PLAIN_STRIP", tables::PLAIN_STRIP),
 ];
 
+/// The values that the setup's constants can have, by name.
+fn values() -> [(&'static str, u32); 19] {
+    use OutputPrimitive::{Line, Point, TriangleCcw, TriangleCw};
+    let domain = |value| position(&Domain::ALL, value);
+    let partitioning = |value| position(&Partitioning::ALL, value);
+    let output = |value| position(&OutputPrimitive::ALL, value);
+    let split = |value| position(&SplitOrder::ALL, value);
+    [
+        ("ISOLINE", domain(Domain::Isoline)),
+        ("TRIANGLE", domain(Domain::Triangle)),
+        ("QUAD", domain(Domain::Quad)),
+        ("INTEGER", partitioning(Partitioning::Integer)),
+        ("POW2", partitioning(Partitioning::Pow2)),
+        ("FRACTIONAL_ODD", partitioning(Partitioning::FractionalOdd)),
+        ("FRACTIONAL_EVEN", partitioning(Partitioning::FractionalEven)),
+        ("OUTPUT_POINT", output(Point)),
+        ("OUTPUT_LINE", output(Line)),
+        ("OUTPUT_TRIANGLE_CW", output(TriangleCw)),
+        ("OUTPUT_TRIANGLE_CCW", output(TriangleCcw)),
+        ("RULER", split(SplitOrder::Ruler)),
+        ("CENTER", split(SplitOrder::Center)),
+        ("PACKED", PointFormat::Packed as u32),
+        ("F32", PointFormat::F32 as u32),
+        ("SPECIFICATION", Order::Specification as u32),
+        ("VERTEX_CACHE", Order::VertexCache as u32),
+        ("PER_BATCH", Numbering::PerBatch as u32),
+        ("PER_PATCH", Numbering::PerPatch as u32),
+    ]
+}
+
 /// Declarations of constants.
 pub(crate) fn constants(all: &[(&str, u32)]) -> String {
     all.iter().map(|(name, value)| format!("const {name} = {value}u;\n")).collect()
 }
 
-/// The number of a value in the list of all values, which `layout/setup.wgsl` numbers the same way.
+/// The number of a value in the list of all values.
 fn position<T: PartialEq>(all: &[T], value: T) -> u32 {
     (0..).zip(all).find(|&(_, other)| *other == value).map_or(0, |(number, _)| number)
 }

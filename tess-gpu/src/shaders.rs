@@ -15,6 +15,8 @@ mod pull;
 mod taps;
 
 pub use counting::Counting;
+#[cfg(all(test, feature = "taps"))]
+pub(crate) use files::texts;
 pub use pull::Pull;
 #[cfg(feature = "taps")]
 pub use taps::Tap;
@@ -24,24 +26,24 @@ pub use taps::Tap;
 pub enum Stage {
     /// The work of the next four and of [`Stage::Partition`] in one workgroup, for a short batch.
     Short,
-    /// Raw factors to topologies, contexts, counts and offsets within blocks of 256 patches.
+    /// Turns raw factors into topologies, contexts, counts and offsets within blocks of 256 patches.
     Factors,
-    /// Offsets of blocks within sections of 256 blocks.
+    /// Sums the offsets of blocks within sections of 256 blocks.
     Scan,
-    /// Offsets of sections in the output, and what the batch needs so far. After the last portion:
-    /// whether the output fits, draw arguments and dispatch sizes.
+    /// Sums the offsets of sections in the output, and what the batch needs so far. After the last portion it decides
+    /// whether the output fits and writes draw arguments and dispatch sizes.
     Totals,
-    /// The output of each distinct small topology, once.
+    /// Expands each distinct small topology once, into the catalogue.
     List,
-    /// The patch that each tile of the output begins with.
+    /// Finds the patch that each tile of the output begins with.
     Partition,
-    /// The draw arguments of each group of patches.
+    /// Writes the draw arguments of each group of patches.
     Groups,
-    /// Tiles of points.
+    /// Writes the points, a tile for each workgroup.
     ExpandPoints,
-    /// Tiles of indices.
+    /// Writes the indices, a tile for each workgroup.
     ExpandPrimitives,
-    /// Both expansions of a short batch.
+    /// Writes both outputs of a short batch, a narrow tile for each workgroup.
     ExpandShort,
 }
 

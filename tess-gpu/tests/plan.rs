@@ -2,6 +2,7 @@
 
 mod common;
 
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::layout::Job;
 use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{Capacity, Dispatch, Limits, Plan, Resource, Setup, Span, Stage, Workgroups};
@@ -160,5 +161,35 @@ fn rows_keep_to_the_limit() {
             assert!(x <= workgroups && z == 1, "{dispatch:?}: {x}");
             assert!(x * y >= needed && x * (y - 1) < needed, "{dispatch:?}: {x} by {y}");
         }
+    }
+}
+
+/// A tile holds points or primitives, so each output has its own last tile.
+#[test]
+fn a_short_batch_has_tiles_for_each_output() {
+    let setup = common::all_setups()[0];
+    for (points, primitives, expected) in [(16, 18, 2), (128, 128, 2), (129, 128, 3), (1, 257, 4)] {
+        let plan = Plan::new(setup, 1, Capacity { points, primitives }, Limits::WEBGPU);
+        assert_eq!((plan.is_short(), plan.tile()), (true, 128), "{plan:?}");
+        let last = plan.dispatches().last().expect("two");
+        assert_eq!(last.stage(), Stage::ExpandShort, "{last:?}");
+        assert_eq!(
+            last.workgroups(),
+            Workgroups::Direct([expected, 1, 1]),
+            "{points}, {primitives}"
+        );
+    }
+}
+
+/// A short batch binds its whole output at once: 4 MiB of triangles end at 349525.
+#[test]
+fn the_output_of_a_short_batch_is_bound_at_once() {
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let setup = Setup::new(Domain::Quad, config);
+    for (primitives, expected) in [(349_525, true), (349_526, false)] {
+        let plan = Plan::new(setup, 1, Capacity { points: 100, primitives }, LOW);
+        assert_eq!(plan.is_short(), expected, "{primitives} triangles, {LOW:?}");
+        let plan = Plan::new(setup, 1, Capacity { points: 100, primitives }, Limits::WEBGPU);
+        assert!(plan.is_short(), "{primitives} triangles with WebGPU's limits");
     }
 }

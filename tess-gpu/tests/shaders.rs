@@ -4,7 +4,7 @@ mod common;
 
 use common::{COUNTING, DRAWING, PULLING, all_setups, parse};
 use naga::{AddressSpace, Module, ScalarKind, TypeInner};
-use tess_gpu::{Access, Binding, Counting, Pull, Resource, Stage, Tap, layout};
+use tess_gpu::{Access, Binding, Counting, Fault, Pull, Resource, Stage, Tap, layout};
 
 #[test]
 fn every_shader_is_valid_in_every_setup() {
@@ -25,6 +25,18 @@ fn every_shader_is_valid_in_every_setup() {
         common::validated(&(pull.source(setup) + PULLING));
         common::validated(&(pull.source_for_drawing(setup) + DRAWING));
         common::validated(&(Counting { group: 0, binding: 0 }.source(setup) + COUNTING));
+    }
+}
+
+/// A planted fault changes a shader, and is no error in it: the comparison has to notice it, not the compiler.
+#[test]
+fn every_fault_can_be_planted() {
+    let setups = all_setups();
+    for fault in Fault::all() {
+        let with_fault = setups.iter().step_by(7).find_map(|&setup| {
+            Stage::ALL.iter().find_map(|stage| fault.planted(&stage.source(setup)))
+        });
+        common::validated(&with_fault.unwrap_or_else(|| panic!("{fault:?} is in no shader")));
     }
 }
 

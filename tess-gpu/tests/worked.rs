@@ -3,7 +3,7 @@
 
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, PointOrigin, Primitive,
-    PrimitiveOrigin, ProcessedFactor, QuadFactors, place,
+    PrimitiveOrigin, ProcessedFactor, QuadFactors, fixed_point, place,
 };
 use tess_gpu::layout::{Topology, pack_context};
 use tess_gpu::{Capacity, Limits, Plan, Setup};
@@ -174,5 +174,38 @@ fn divisions_by_an_inverse_are_exact() {
             let product = position.checked_mul(inverse_of(size));
             assert_eq!(product.map(|it| it >> 21), Some(position / size), "{position} / {size}");
         }
+    }
+}
+
+/// Constants that stand in the shaders as numbers are those of the model.
+#[test]
+fn constants_are_those_of_the_model() {
+    let bits = |value: f32| value.to_bits();
+    let own = [
+        ("stages/d3d_float", "INFINITY", bits(f32::INFINITY)),
+        ("stages/factors", "BITS_1", bits(1.0)),
+        ("stages/factors", "BITS_2", bits(2.0)),
+        ("stages/factors", "BITS_63", bits(63.0)),
+        ("stages/factors", "BITS_64", bits(64.0)),
+        ("stages/factors", "BITS_1_PLUS_2_POW_MINUS_17", bits(1.0) + (1 << (23 - 17))),
+        ("stages/factors", "BITS_1_PLUS_2_POW_MINUS_16", bits(1.0) + (1 << (23 - 16))),
+        ("stages/fixed_point", "ONE", fixed_point::ONE),
+        ("stages/fixed_point", "HALF", fixed_point::HALF),
+        ("stages/fixed_point", "ONE_THIRD", fixed_point::ONE_THIRD),
+        ("stages/fixed_point", "TWO_THIRDS", fixed_point::TWO_THIRDS),
+    ];
+    for (file, name, value) in own {
+        let path = format!("{}/shaders/{file}.wgsl", env!("CARGO_MANIFEST_DIR"));
+        let text = std::fs::read_to_string(&path).expect(&path);
+        let line = format!("const {name} = ");
+        let found = text.lines().find_map(|it| Some(it.strip_prefix(&line)?.split_once("u;")?.0));
+        let found =
+            found.and_then(|hex| u32::from_str_radix(hex.trim_start_matches("0x"), 16).ok());
+        assert_eq!(found, Some(value), "{name} of {file}.wgsl");
+    }
+    for partitioning in Partitioning::ALL {
+        let (low, high) = partitioning.range();
+        let bounds = [1.0, 2.0, 63.0, 64.0].map(bits);
+        assert!(bounds.contains(&bits(low)) && bounds.contains(&bits(high)), "{partitioning:?}");
     }
 }

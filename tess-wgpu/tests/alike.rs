@@ -3,12 +3,11 @@
 mod common;
 
 use common::device::Machine;
-use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::{BLOCK, SHORT_PATCHES};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 use tess_verify::random::SplitMix64;
-use tess_wgpu::{Outputs, Tessellator};
+use tess_wgpu::Outputs;
 
 /// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole
 /// blocks; the copies of these begin at various elements of a patch.
@@ -137,31 +136,36 @@ fn planted_faults_are_seen() {
     let similar: Vec<_> = (0..SHORT_PATCHES + 200)
         .map(|n| PatchFactors::from_fn(Domain::Quad, |_| f32::from_bits(0x4050_0000 + 512 * n)))
         .collect();
-    for (setup, patches, right, wrong) in [
-        (integer, &alike, "atomicStore(&differs, 1u);", ""),
-        (integer, &alike, "any(offsets[block] != topology)", "false"),
-        (integer, &alike, "(0x1fffffu + size[kind]) / size[kind]", "0x1fffffu / size[kind]"),
-        (integer, &alike, "tile.base - begin[kind],", "0u,"),
-        (integer, &alike, "repeat.base + it.number * repeat.points", "it.number * repeat.points"),
-        (integer, &alike, "(triangle.z << 20u)", "(triangle.z << 21u)"),
-        (integer, &alike, "(at * 43691u) >> 17u", "(at * 43690u) >> 17u"),
-        (integer, &alike, "it.i + 1u == repeat.size", "it.i == repeat.size"),
-        (integer, &alike, "job.first_patch + tile.first_patch + number", "number"),
-        (integer, &alike, "i - SCRATCH].y = packed", "i - SCRATCH].x = packed"),
-        (
-            fractional,
-            &similar,
-            "return IS_INTEGER || state_of(topology) == MINIMUM;",
-            "return true;",
-        ),
-    ] {
-        let expected = Expected::new(setup, patches);
-        let (points, indices) = expected.words();
-        machine.tessellator = Tessellator::new(&machine.gpu.device);
-        let written = machine.write(setup, patches, points, indices);
-        assert_eq!(expected.compare(&written), Ok(()), "without a fault");
-        machine.plant(setup, right, wrong);
-        let written = machine.write(setup, patches, points, indices);
-        assert!(expected.compare(&written).is_err(), "{right} to {wrong} went unnoticed");
-    }
+    machine.assert_noticed(
+        integer,
+        &alike,
+        &[
+            "process_block",
+            "common_topology",
+            "repeat_of",
+            "repeat_of_2",
+            "kept_index",
+            "packed_triangle",
+            "corner_at",
+            "next_corner",
+            "copy_points",
+            "keep_triangles",
+        ],
+    );
+    machine.assert_noticed(integer, &different_inside(), &["process_block_2"]);
+    machine.assert_noticed(fractional, &similar, &["has_same_points"]);
+}
+
+/// A batch whose patches differ in an inside factor alone.
+fn different_inside() -> Vec<PatchFactors> {
+    let inside = |number: u32| if number.is_multiple_of(3) { 5.0 } else { 3.0 };
+    let patch =
+        |number| PatchFactors::from_fn(Domain::Quad, |k| if k == 5 { inside(number) } else { 3.0 });
+    (0..SHORT_PATCHES + 200).map(patch).collect()
+}
+
+#[test]
+fn patches_that_differ_inside_alone() {
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    Machine::open().assert_equal(Setup::new(Domain::Quad, config), &different_inside());
 }

@@ -3,12 +3,10 @@
 mod common;
 
 use common::device::Machine;
-use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::CATALOGUE_PATCHES;
 use tess_gpu::{Copies, IndexType, Numbering, PointFormat, Setup};
 use tess_verify::random::SplitMix64;
-use tess_wgpu::Tessellator;
 
 /// As many patches as a batch with a catalogue has.
 const COUNT: u32 = CATALOGUE_PATCHES;
@@ -106,44 +104,58 @@ fn planted_faults_are_seen() {
     let centred = setup(Domain::Triangle, Partitioning::FractionalEven);
     let quads = unlike(Domain::Quad, COUNT, &SMALL);
     let triangles = unlike(Domain::Triangle, COUNT, &[1.0, 1.0, 1.0, 2.5, 5.0, 9.5]);
-    let large = unlike(Domain::Quad, COUNT, &[2.0, 5.0, 8.0]);
-    let unlisted =
-        unlike(Domain::Quad, COUNT, &[2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 34.0]);
-    let too_many = too_many();
-    for (setup, patches, right, wrong) in [
-        (integer, &quads, "vec2<u32>(found - words * begin,", "vec2<u32>(found - begin,"),
-        (integer, &quads, "packed & 1023u, (packed >> 10u)", "packed & 1023u, (packed >> 11u)"),
-        (integer, &quads, "listed_triangle(next, element", "listed_triangle(number, element"),
-        (
-            integer,
-            &quads,
-            "listed_point(round, next, element",
-            "listed_point(round, number, element",
-        ),
-        (integer, &unlisted, "if found == 0u && state_of(topology) != CULLED", "if false"),
-        (integer, &quads, "(inside_v(topology) - 2u) << 25u", "(inside_v(topology) - 2u) << 24u"),
-        (integer, &quads, "if found == key {", "if found != 0u {"),
-        (integer, &quads, "catalogue_word(at + 1u)), patch_number", "0u), patch_number"),
-        (
-            integer,
-            &too_many,
-            "if points + counts.x > CATALOGUE_POINTS || triangles + counts.y > CATALOGUE_TRIANGLES",
-            "if false",
-        ),
-        (odd, &triangles, "(i << 6u) | (FORM_CORNER << 18u)", "(FORM_CORNER << 18u)"),
-        (centred, &triangles, "select(0u, 1u << 21u, constant.is_centre)", "0u"),
-        (even, &quads, "select(0u, 1u << 20u, constant.is_far)", "0u"),
-        (even, &large, "(described >> 13u) & 31u", "(described >> 13u) & 1u"),
-        (even, &quads, "(constant.factor << 3u)", "(4u << 3u)"),
-        (even, &quads, "(described >> 6u) & 127u", "(described >> 6u) & 3u"),
-    ] {
-        let expected = Expected::new(setup, patches);
-        let (points, indices) = expected.words();
-        machine.tessellator = Tessellator::new(&machine.gpu.device);
-        let written = machine.write(setup, patches, points, indices);
-        assert_eq!(expected.compare(&written), Ok(()), "without a fault");
-        machine.plant(setup, right, wrong);
-        let written = machine.write(setup, patches, points, indices);
-        assert!(expected.compare(&written).is_err(), "{right} to {wrong} went unnoticed");
-    }
+    machine.assert_noticed(
+        integer,
+        &quads,
+        &[
+            "load_patch",
+            "unpacked_triangle",
+            "write_listed_triangles",
+            "write_listed_points",
+            "key_of",
+            "slot_of",
+            "listed_point",
+        ],
+    );
+    machine.assert_noticed(integer, &with_some(34.0), &["load_patch_2"]);
+    machine.assert_noticed(integer, &one_long_edge(), &["has_key"]);
+    machine.assert_noticed(integer, &too_many(), &["take_room"]);
+    machine.assert_noticed(odd, &triangles, &["described_point"]);
+    machine.assert_noticed(centred, &triangles, &["described_point_2"]);
+    machine.assert_noticed(
+        even,
+        &quads,
+        &["described_point_3", "described_point_4", "placed_point"],
+    );
+    machine.assert_noticed(
+        even,
+        &unlike(Domain::Quad, COUNT, &[2.0, 5.0, 8.0]),
+        &["placed_point_2"],
+    );
+}
+
+/// Patches of factor 2, of whose factors one in ten is this.
+fn with_some(factor: f32) -> Vec<PatchFactors> {
+    unlike(Domain::Quad, COUNT, &[2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, 2.0, factor])
+}
+
+/// Patches with one edge of 33 or 34 points, and 2 to 4 points along everything else: few triangles, and one point
+/// more than a key has room for.
+fn one_long_edge() -> Vec<PatchFactors> {
+    let long = unlike(Domain::Isoline, COUNT, &[1.0, 32.0, 33.0]);
+    let rest = unlike(Domain::Quad, COUNT, &[1.0, 2.0, 3.0]);
+    let joined = |(long, rest): (&PatchFactors, &PatchFactors)| {
+        let (mut first, mut others) = (long.iter(), rest.iter());
+        PatchFactors::from_fn(Domain::Quad, |k| {
+            let other = others.next().expect("six factors");
+            if k == 0 { first.next().expect("two factors") } else { other }
+        })
+    };
+    long.iter().zip(&rest).map(joined).collect()
+}
+
+#[test]
+fn edges_of_as_many_points_as_a_key_holds() {
+    let mut machine = Machine::open();
+    machine.assert_equal(setup(Domain::Quad, Partitioning::Integer), &one_long_edge());
 }

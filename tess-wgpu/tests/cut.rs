@@ -67,28 +67,13 @@ fn wrong_windows_and_rows_are_seen() {
     let expected = Expected::new(setup, &patches);
     let (points, indices) = expected.words();
     let mut machine = Machine::open();
-    for (limits, right, wrong) in [
-        (LOW, "tile.base - (job.window_first << job.tile_bits);", "tile.base;"),
-        (
-            LOW,
-            "let number = workgroup.x + workgroup.y * job.max_workgroups;",
-            "let number = workgroup.x;",
-        ),
-        (
-            LOW,
-            "let block = workgroup.x + workgroup.y * job.max_workgroups;",
-            "let block = workgroup.x;",
-        ),
-        (
-            TWO,
-            "let section = workgroup.x + workgroup.y * job.max_workgroups;",
-            "let section = workgroup.x;",
-        ),
-    ] {
-        machine.plant(setup, right, wrong);
+    for (limits, fault) in
+        [(LOW, "write_primitive_tile_2"), (LOW, "number"), (LOW, "factors"), (TWO, "scan")]
+    {
+        machine.plant(setup, fault);
         machine.tessellator = machine.tessellator.limited(limits);
         let written = machine.write(setup, &patches, points, indices);
-        assert!(expected.compare(&written).is_err(), "{wrong} went unnoticed");
+        assert!(expected.compare(&written).is_err(), "{fault} went unnoticed");
     }
 }
 
@@ -104,8 +89,7 @@ fn written_dispatch_sizes_keep_to_the_limit() {
         assert!(sizes.iter().any(|&[_, rows, _]| rows > 1), "there are rows");
         assert!(keep_to(limits, &sizes), "{sizes:?}");
     }
-    let rows = "(workgroups + job.max_workgroups - 1u) / job.max_workgroups";
-    machine.plant(setup, rows, "(workgroups + 65534u) / 65535u");
+    machine.plant(setup, "write_dispatch");
     machine.tessellator = machine.tessellator.limited(LOW);
     assert!(!keep_to(LOW, &dispatch_sizes(&mut machine, setup, &patches)), "longer rows");
 }

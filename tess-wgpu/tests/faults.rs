@@ -3,12 +3,10 @@
 mod common;
 
 use common::device::Machine;
-use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_gpu::Setup;
 use tess_gpu::sizes::SHORT_PATCHES;
+use tess_gpu::{Fault, Setup};
 use tess_verify::random::SplitMix64;
-use tess_wgpu::Tessellator;
 
 #[test]
 fn planted_faults_are_seen() {
@@ -18,16 +16,7 @@ fn planted_faults_are_seen() {
         let setup = Setup::new(*domain, config);
         let mut patches = common::patches::random(*domain, 200, &mut SplitMix64::new(5));
         patches.push(PatchFactors::from_fn(*domain, |_| 1.0));
-        machine.tessellator = Tessellator::new(&machine.gpu.device);
-        let expected = Expected::new(setup, &patches);
-        let (points, indices) = expected.words();
-        let written = machine.write(setup, &patches, points, indices);
-        assert_eq!(expected.compare(&written), Ok(()), "without a fault");
-        for &(right, wrong) in *faults {
-            machine.plant(setup, right, wrong);
-            let written = machine.write(setup, &patches, points, indices);
-            assert!(expected.compare(&written).is_err(), "{setup:?}: {wrong} went unnoticed");
-        }
+        machine.assert_noticed(setup, &patches, faults);
     }
 }
 
@@ -39,81 +28,53 @@ fn a_tile_of_another_patch_is_seen() {
     let setup = Setup::new(Domain::Quad, config);
     let count = SHORT_PATCHES + 1;
     let patches = common::patches::random(Domain::Quad, count, &mut SplitMix64::new(5));
-    let expected = Expected::new(setup, &patches);
-    let (points, indices) = expected.words();
-    let written = machine.write(setup, &patches, points, indices);
-    assert_eq!(expected.compare(&written), Ok(()), "without a fault");
-    machine.plant(setup, "return patch_of(clamp(element, begin, end - 1u), kind);", "return 0u;");
-    let written = machine.write(setup, &patches, points, indices);
-    assert!(expected.compare(&written).is_err(), "the fault went unnoticed");
+    machine.assert_noticed(setup, &patches, &["entry_of"]);
 }
 
-/// Text of a shader and what to put there.
-type Fault = (&'static str, &'static str);
+/// No fault of the list is left out: each is named by a test of this folder.
+#[test]
+fn every_fault_of_the_list_is_planted() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
+    let files = std::fs::read_dir(folder).expect(folder).map(|entry| entry.expect(folder).path());
+    let texts: Vec<String> = files.filter_map(|path| std::fs::read_to_string(path).ok()).collect();
+    let is_planted = |name: &str| texts.iter().any(|text| text.contains(&format!("\"{name}\"")));
+    let forgotten: Vec<_> =
+        Fault::all().map(Fault::name).filter(|name| !is_planted(name)).collect();
+    assert!(forgotten.is_empty(), "no test plants {forgotten:?}");
+}
 
-const FAULTS: &[(Domain, Partitioning, &[Fault])] = &[
+/// Faults of `tess-gpu/src/faults.txt` by name.
+const FAULTS: &[(Domain, Partitioning, &[&str])] = &[
     (
         Domain::Quad,
         Partitioning::FractionalOdd,
         &[
-            ("const HALF = 0x8000u;", "const HALF = 0x8001u;"),
-            (
-                "(fine - coarse) * fraction_of(context)",
-                "(fine - coarse) * (fraction_of(context) | 1u)",
-            ),
-            ("position > split_of(context)", "position >= split_of(context)"),
-            ("u <= rings.v && (rings.v & 1u) == 0u", "u <= rings.v && (rings.v & 1u) == 1u"),
-            ("2u * first + 2u * quads + 1u", "2u * first + 2u * quads + 2u"),
-            ("(steps & 0x100u) != 0u", "(steps & 0x200u) != 0u"),
-            (
-                "inner_points - 2u * TRANSITION_STRIDE,",
-                "inner_points - 2u * TRANSITION_STRIDE + 1u,",
-            ),
-            ("next * (form - scale * next) <= goal", "next * (form - scale * next) < goal"),
-            ("begins[next] <= i32(element)", "begins[next] < i32(element)"),
-            ("sums[SIXTEENS + (thread >> 4u)]", "sums[SIXTEENS + (thread >> 5u)]"),
+            "HALF",
+            "place_before_middle",
+            "place_before_middle_2",
+            "centre_stitch",
+            "centre_stitch_2",
+            "stitch_triangles",
+            "transition_stitch",
+            "nearer_ring",
+            "nearer_patch",
+            "prefix_sums",
         ],
     ),
     (
         Domain::Triangle,
         Partitioning::FractionalEven,
-        &[
-            ("const TWO_THIRDS = 0xaaaau;", "const TWO_THIRDS = 0xaaabu;"),
-            ("begins[found + 1u] <= i32(element)", "begins[found + 1u] < i32(element)"),
-            ("q -= (fixed + 1u) >> 1u;", "q -= fixed >> 1u;"),
-            ("descends = edge != 1u;", "descends = edge != 2u;"),
-            ("p == half_points", "p == half_points + 1u"),
-        ],
+        &["TWO_THIRDS", "next_patch", "point_of_run", "shape_of", "place"],
     ),
     (
         Domain::Triangle,
         Partitioning::Integer,
-        &[
-            ("const ONE_THIRD = 0x5555u;", "const ONE_THIRD = 0x5556u;"),
-            (
-                "return straight(1u, FAN_STITCH, first, first + 2u);",
-                "return straight(1u, FAN_STITCH, first, first + 1u);",
-            ),
-            ("is_last = location.edge + 1u == EDGES", "is_last = location.edge == EDGES"),
-            ("factor == ONE && odd == 0u", "factor == ONE && odd == 1u"),
-        ],
+        &["ONE_THIRD", "centre_stitch_3", "next_edge", "edge_points"],
     ),
     (
         Domain::Quad,
         Partitioning::Pow2,
-        &[
-            ("edge == EDGES - 1u || walks_back", "edge == EDGES - 1u"),
-            ("points >> 1u, walks_back", "points, walks_back"),
-            ("select(x, ONE - x, position > mirror)", "x"),
-            ("select(location, HALF, position == mirror)", "location"),
-            ("k == end);", "k > end);"),
-            ("select(0u, 1u, rings.u > rings.v)", "select(0u, 1u, rings.u < rings.v)"),
-            ("number == 1u || number == 2u", "number == 1u || number == 3u"),
-        ],
+        &["rows", "rows_2", "place_2", "place_3", "point_location", "centre_stitch_4", "corner"],
     ),
-    (
-        Domain::Isoline,
-        Partitioning::FractionalOdd,
-        &[("t / (outer_points(topology, 1u) - 1u)", "t / outer_points(topology, 1u)")],
-    ),
+    (Domain::Isoline, Partitioning::FractionalOdd, &["sequence_first"]),
 ];

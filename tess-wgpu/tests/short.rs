@@ -82,7 +82,7 @@ fn a_batch_can_run_again() {
     for count in [300, 3000] {
         assert_eq!(run_twice(&mut machine, &low(count)), Ok(()), "{count} patches");
     }
-    machine.plant(setup(Domain::Quad), "if job.portion > 0u {", "{");
+    machine.plant(setup(Domain::Quad), "totals");
     assert!(run_twice(&mut machine, &low(3000)).is_err(), "totals that are not reset");
 }
 
@@ -92,25 +92,24 @@ fn planted_faults_are_seen() {
     let (setup, mut patches) = (setup(Domain::Quad), low(600));
     // So that there are more tiles than threads.
     patches.extend(vec![PatchFactors::from_fn(Domain::Quad, |_| 20.0); 300]);
-    let expected = Expected::new(setup, &patches);
-    let (points, indices) = expected.words();
-    for (right, wrong) in [
-        ("        sum += in_block.all;", ""),
-        ("offsets[job.blocks_at + block] = sum;", "offsets[job.blocks_at + block] = in_block.all;"),
-        ("offsets[job.sections_at] = vec2<u32>(0u, 0u);", "offsets[job.sections_at].x = 1u;"),
-        ("let range = Range(0u, sum.x, 0u, sum.y);", "let range = Range(0u, sum.x, 0u, sum.x);"),
-        ("var tile = tile_end(begin);", "var tile = tile_end(begin + 1u);"),
-        ("tile < tile_end(end);", "tile < tile_end(begin) + 1u;"),
-        ("tiles[first_entry + tile] = patch_index;", "tiles[tile] = patch_index;"),
-        ("tiles[tile_end(sum.x)] = last;", ""),
-        ("tiles[job.primitive_tiles_at + tile_end(sum.y)] = last;", ""),
-        ("block * BLOCK < job.patches; block++", "block * BLOCK < job.patches - BLOCK; block++"),
-    ] {
-        machine.plant(setup, right, wrong);
-        let written = machine.write(setup, &patches, points, indices);
-        assert!(expected.compare(&written).is_err(), "{wrong} went unnoticed");
-    }
-    machine.plant(setup, "|| status.overflow != 0u {", "{");
+    machine.assert_noticed(
+        setup,
+        &patches,
+        &[
+            "short_batch",
+            "short_batch_2",
+            "short_batch_3",
+            "short_batch_4",
+            "write_tiles",
+            "write_tiles_2",
+            "write_tiles_3",
+            "short_batch_5",
+            "short_batch_6",
+            "short_batch_7",
+        ],
+    );
+    let (points, indices) = Expected::new(setup, &patches).words();
+    machine.plant(setup, "write_primitive_tile");
     let written = machine.write(setup, &patches, points - 2, indices);
     let mut all = written.points.iter().chain(&written.indices);
     assert!(all.any(|&word| word != POISON), "what does not fit is written");

@@ -1,4 +1,4 @@
-// needs: stages/fixed_point, layout/setup
+// needs: stages/fixed_point
 // How a domain point is stored, in 8 bytes.
 
 // Packed: u in bits 0..16, v in 17..33, the patch in 34..63 of a little-endian 64-bit number.

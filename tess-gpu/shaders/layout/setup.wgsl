@@ -1,33 +1,8 @@
 // needs: nothing
-// What every stage agrees on. `Setup::prelude` in src/setup.rs writes the constants in front of this
-// file: DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS, COPIES, ORDER; the sizes of
-// src/sizes.rs; the places in the tables of src/tables.rs; and SCRATCH and THREADS for the stages that expand.
-
-const ISOLINE = 0u;
-const TRIANGLE = 1u;
-const QUAD = 2u;
-
-const INTEGER = 0u;
-const POW2 = 1u;
-const FRACTIONAL_ODD = 2u;
-const FRACTIONAL_EVEN = 3u;
-
-const OUTPUT_POINT = 0u;
-const OUTPUT_LINE = 1u;
-const OUTPUT_TRIANGLE_CW = 2u;
-const OUTPUT_TRIANGLE_CCW = 3u;
-
-const RULER = 0u;
-const CENTER = 1u;
-
-const PACKED = 0u;
-const F32 = 1u;
-
-const SPECIFICATION = 0u;
-const VERTEX_CACHE = 1u;
-
-const PER_BATCH = 0u;
-const PER_PATCH = 1u;
+// What every entry point agrees on. `Setup::prelude` in src/setup.rs writes constants in front of this file, so that
+// no number stands in both languages: the setup (DOMAIN, PARTITIONING, OUTPUT, SPLIT, POINT_FORMAT, NUMBERING, FACTORS,
+// COPIES, ORDER) and the values that these can have (ISOLINE, TRIANGLE, QUAD and so on); the sizes of src/sizes.rs; the
+// places in the tables of src/tables.rs; and SCRATCH and THREADS for the entry points that expand.
 
 // The two numbers of an entry of the offsets, and the kinds of elements.
 const POINTS = 0u;

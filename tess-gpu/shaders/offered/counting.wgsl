@@ -1,4 +1,4 @@
-// needs: stages/counts, stages/factors, layout/setup
+// needs: stages/counts, stages/factors
 // Points and primitives of a patch from the bits of its raw factors.
 
 // The factors in the specification's order, four of them and the next two; a domain with fewer ignores

@@ -1,4 +1,4 @@
-// needs: layout/setup; bindings: tables
+// needs: nothing; bindings: tables
 // The triangles between two rows of vertices (spec sections 7.2 to 7.4). Every triangle of a patch
 // is one: transitions, ring stitches and the strips in the centre differ in their rows and in
 // their steps, which a table has (src/tables.rs).
@@ -62,7 +62,7 @@ fn stitch_triangles(stitch: Stitch, number: u32) -> Pair {
         b = inner_vertex(stitch, b);
     }
     return Pair(
-        oriented(a, b, c, (steps & 0x100u) != 0u),
+        oriented(a, b, c, (steps & 0x100u) != 0u), // mark: stitch_triangles
         oriented(
             select(c, a, first_inner), select(b, c, first_inner), d, (steps & 0x1000000u) != 0u));
 }

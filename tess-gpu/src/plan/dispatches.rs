@@ -21,10 +21,9 @@ pub struct Dispatch {
 /// How many workgroups a dispatch has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Workgroups {
-    /// So many along x, y and z.
+    /// These numbers along x, y and z.
     Direct([u32; 3]),
-    /// As many as three words at this byte offset of [`Resource::Arguments`] say. An earlier
-    /// dispatch writes them.
+    /// Three words at this byte offset of [`Resource::Arguments`], which an earlier dispatch writes.
     Indirect(u64),
 }
 

@@ -1,9 +1,9 @@
-//! The WGSL of single steps, for comparing them with the golden model's.
+//! Stage taps: the WGSL of single stages, whose values tests compare with the golden model's.
 
 use super::files;
 use crate::setup::Setup;
 
-/// A shader that runs one step alone, so that it can be compared with the golden model's.
+/// A shader that runs one stage alone, so that its values can be compared with the golden model's.
 ///
 /// The entry point is `taps`. Binding 0 is the input, binding 1 the output, binding 2 the
 /// [`crate::tables`].

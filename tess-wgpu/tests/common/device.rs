@@ -3,7 +3,7 @@
 use super::expected::Expected;
 use tess_core::PatchFactors;
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
-use tess_gpu::{Limits, Setup, Stage};
+use tess_gpu::{Fault, Limits, Setup, Stage};
 use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 
@@ -40,12 +40,34 @@ impl Machine {
         Self { gpu, tessellator }
     }
 
-    /// Replaces a text of the shaders, which at least one must have.
-    pub(crate) fn plant(&mut self, setup: Setup, right: &'static str, wrong: &'static str) {
+    /// Plants a fault in the shaders, of which at least one must have its mark.
+    pub(crate) fn plant(&mut self, setup: Setup, name: &str) {
+        let fault = Fault::named(name).unwrap_or_else(|| panic!("no fault is called {name}"));
         let sources = Stage::ALL.map(|stage| stage.source(setup));
-        assert!(sources.iter().any(|source| source.contains(right)), "{right} is in no shader");
-        let edit = move |_, source: String| source.replace(right, wrong);
+        let takes_it = |source: &String| fault.planted(source).is_some();
+        assert!(sources.iter().any(takes_it), "{name} is the mark of no line");
+        let edit = move |_, source: String| fault.planted(&source).unwrap_or(source);
         self.tessellator = Tessellator::with_edit(&self.gpu.device, edit);
+    }
+
+    /// Plants each fault alone, and asserts that the output without it is the model's and with it is not.
+    pub(crate) fn assert_noticed(
+        &mut self,
+        setup: Setup,
+        patches: &[PatchFactors],
+        faults: &[&str],
+    ) {
+        let expected = Expected::new(setup, patches);
+        let (points, indices) = expected.words();
+        self.tessellator = Tessellator::new(&self.gpu.device);
+        let written = self.write(setup, patches, points, indices);
+        assert_eq!(expected.compare(&written), Ok(()), "{setup:?} without a fault");
+        for fault in faults {
+            self.plant(setup, fault);
+            let written = self.write(setup, patches, points, indices);
+            let difference = expected.compare(&written);
+            assert!(difference.is_err(), "{setup:?}: {fault} went unnoticed");
+        }
     }
 
     /// Makes the pipelines anew, without faults and with these limits.
