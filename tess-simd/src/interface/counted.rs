@@ -4,14 +4,16 @@ use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::error::{Buffer, Error};
 use crate::data::format::{IndexFormat, OutputPoint};
+use crate::data::level::Level;
 use crate::data::output::{BatchCounts, Buffers, Numbering, Output};
 use crate::data::target::Target;
-use crate::interface::tessellator::Tessellator;
 use crate::kernels::emit::Offsets;
-use crate::levels;
 use crate::stages::counts::PartCounts;
+use crate::stages::packet::Packet;
+use crate::stages::settings::Settings;
+use crate::threads::Workspaces;
 use crate::threads::part::{Job, Part};
-use crate::threads::slices::{CountShare, Share, Slicing};
+use crate::threads::slices::{Share, Slicing};
 
 /// A counted batch. It can be written any number of times.
 ///
@@ -33,36 +35,19 @@ use crate::threads::slices::{CountShare, Share, Slicing};
 #[derive(Debug)]
 #[must_use = "a count alone writes nothing"]
 pub struct Counted<'a> {
-    tessellator: &'a mut Tessellator,
-    batch: Batch<'a>,
-    total: PartCounts,
-    slicing: Slicing,
-    /// Whether the tessellator kept the batch's packets.
-    kept: bool,
+    pub(super) level: Level,
+    pub(super) settings: &'a Settings,
+    pub(super) workspaces: &'a mut Workspaces,
+    pub(super) batch: Batch<'a>,
+    pub(super) slicing: Slicing,
+    /// The counts of each slice.
+    pub(super) slices: &'a [PartCounts],
+    pub(super) total: PartCounts,
+    /// The packets of the whole batch, if they were kept.
+    pub(super) kept: Option<&'a [Packet; Chunk::PACKETS]>,
 }
 
 impl<'a> Counted<'a> {
-    /// Counts a batch. One of at most a chunk goes through the front end here, for the write too.
-    pub(crate) fn new(tessellator: &'a mut Tessellator, batch: Batch<'a>) -> Result<Self, Error> {
-        batch.check()?;
-        let Tessellator { level, settings, workspaces, slices, kept: packets } = tessellator;
-        let slicing = Slicing::new(batch.len(), workspaces.threads());
-        slices.clear();
-        let kept = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
-        if kept {
-            slices.push(levels::count_and_keep(*level, settings.config, &batch, packets));
-        } else {
-            slices.resize(slicing.slices, PartCounts::default());
-            let share = CountShare { batch, slice: slicing.patches, counts: slices };
-            workspaces.count(*level, settings.config, share);
-        }
-        let total = PartCounts::sum(slices);
-        if total.points.max(total.indices) > u64::from(u32::MAX) {
-            return Err(Error::BatchTooLarge { points: total.points, indices: total.indices });
-        }
-        Ok(Self { tessellator, batch, total, slicing, kept })
-    }
-
     /// Number of patches, culled ones included. The range buffer needs one element for each.
     #[must_use]
     pub fn patches(&self) -> usize {
@@ -142,11 +127,10 @@ impl<'a> Counted<'a> {
 
     /// Writes the batch into buffers of exactly its sizes.
     fn emit(&mut self, numbering: Numbering, target: Target<'_>) {
-        let Tessellator { level, settings, workspaces, slices, kept } = &mut *self.tessellator;
-        let kept = self.kept.then_some(&**kept);
-        let part = Part { batch: self.batch, target, first: Offsets::default() };
-        let job = Job { level: *level, settings, numbering, kept };
-        workspaces.emit(job, Share { part, slice: self.slicing.patches, counts: slices });
+        let Self { level, settings, batch, slicing, slices, kept, .. } = *self;
+        let part = Part { batch, target, first: Offsets::default() };
+        let share = Share { part, slice: slicing.patches, counts: slices };
+        self.workspaces.emit(Job { level, settings, numbering, kept }, share);
     }
 
     /// Whether the largest index fits.

@@ -7,12 +7,14 @@ use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::level::{Level, LevelUnavailable};
 use crate::data::output::{BatchCounts, Buffers, Numbering, Output};
 use crate::interface::counted::Counted;
+use crate::levels;
 use crate::stages::counts::PartCounts;
 use crate::stages::packet::Packet;
 use crate::stages::settings::Settings;
 #[cfg(feature = "rayon")]
 use crate::threads::MAX_THREADS;
 use crate::threads::Workspaces;
+use crate::threads::slices::{CountShare, Slicing};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
 use tess_core::Config;
@@ -25,13 +27,13 @@ use tess_core::Order;
 /// [`Output`] that grows allocates memory, and on several threads a short list for each batch.
 #[derive(Clone, Debug)]
 pub struct Tessellator {
-    pub(super) level: Level,
-    pub(super) settings: Settings,
-    pub(super) workspaces: Workspaces,
+    level: Level,
+    settings: Settings,
+    workspaces: Workspaces,
     /// The counts of each slice of the batch that was counted last.
-    pub(super) slices: Vec<PartCounts>,
+    slices: Vec<PartCounts>,
     /// The packets of the batch that was counted last, if it had at most one chunk.
-    pub(super) kept: Box<[Packet; Chunk::PACKETS]>,
+    kept: Box<[Packet; Chunk::PACKETS]>,
 }
 
 impl Tessellator {
@@ -115,7 +117,29 @@ impl Tessellator {
     /// # Errors
     /// [`Error::UnevenColumns`], [`Error::MixedDomains`], [`Error::BatchTooLarge`].
     pub fn count<'a>(&'a mut self, batch: impl Into<Batch<'a>>) -> Result<Counted<'a>, Error> {
-        Counted::new(self, batch.into())
+        self.counted(batch.into())
+    }
+
+    /// Counts a batch. One of at most a chunk goes through the front end here, for the write too.
+    fn counted<'a>(&'a mut self, batch: Batch<'a>) -> Result<Counted<'a>, Error> {
+        batch.check()?;
+        let Self { level, ref settings, ref mut workspaces, ref mut slices, ref mut kept } = *self;
+        let slicing = Slicing::new(batch.len(), workspaces.threads());
+        slices.clear();
+        let keep = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
+        if keep {
+            slices.push(levels::count_and_keep(level, settings.config, &batch, kept));
+        } else {
+            slices.resize(slicing.slices, PartCounts::default());
+            let share = CountShare { batch, slice: slicing.patches, counts: slices };
+            workspaces.count(level, settings.config, share);
+        }
+        let total = PartCounts::sum(slices);
+        if total.points.max(total.indices) > u64::from(u32::MAX) {
+            return Err(Error::BatchTooLarge { points: total.points, indices: total.indices });
+        }
+        let kept = keep.then_some(&**kept);
+        Ok(Counted { level, settings, workspaces, batch, slicing, slices, total, kept })
     }
 
     /// Tessellates a batch into the caller's buffers. Does [`Tessellator::count`] and [`Counted::write`] in one
