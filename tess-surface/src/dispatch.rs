@@ -3,6 +3,8 @@
 use crate::displaced::{self, DisplacedPatch};
 use crate::patch::{Patch, Sample};
 use crate::samples;
+#[cfg(target_arch = "x86_64")]
+use multiversion::target::match_target;
 use tess_simd::{Level, LevelUnavailable};
 
 /// Work that is compiled for the level of the function that it is inlined into.
@@ -17,7 +19,12 @@ fn at_level(level: Level, kernel: impl Kernel) {
     #[cfg(target_arch = "x86_64")]
     #[multiversion::multiversion(targets("x86_64+avx2+bmi1+bmi2+lzcnt+popcnt"))]
     fn avx2<K: Kernel>(kernel: K) {
-        kernel.run();
+        match_target! {
+            "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt" => kernel.run(),
+            // For processors without the level's instructions. It never runs, so it need not be an instance
+            // of the kernel.
+            _ => at_level(Level::Baseline, kernel),
+        }
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -25,7 +32,11 @@ fn at_level(level: Level, kernel: impl Kernel) {
         "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
     ))]
     fn avx512<K: Kernel>(kernel: K) {
-        kernel.run();
+        match_target! {
+            "x86_64+avx2+bmi1+bmi2+lzcnt+popcnt+avx512f+avx512bw+avx512cd+avx512dq+avx512vl"
+                => kernel.run(),
+            _ => at_level(Level::Baseline, kernel),
+        }
     }
 
     match level {

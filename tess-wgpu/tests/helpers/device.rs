@@ -24,6 +24,15 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 }
 ";
 
+/// The shader of a call, with an edit of what the stage joins.
+fn source(edit: impl Fn(&str) -> String, call: &str) -> String {
+    let mut joined = vec![TYPES, shaders::HELPERS];
+    if call.contains("bezier") {
+        joined.extend([shaders::BEZIER, shaders::BEZIER_FACTORS]);
+    }
+    edit(&joined.join("\n")) + &CALLS.replace("CALL", call)
+}
+
 /// Texels of the height image along x and y.
 pub(crate) const SIZE: [u16; 2] = [8, 4];
 
@@ -73,37 +82,9 @@ impl Device {
 
     /// The results of a table's calls, with an edit of what the stage joins.
     pub(crate) fn run(&self, edit: impl Fn(&str) -> String, table: &Table) -> Vec<[f32; 4]> {
-        let curved = if table.call.contains("bezier") {
-            [shaders::BEZIER, shaders::BEZIER_FACTORS].join(
-                "
-",
-            )
-        } else {
-            String::new()
-        };
-        let joined = [TYPES, shaders::HELPERS, &curved].join(
-            "
-",
-        );
-        let source = edit(&joined) + &CALLS.replace("CALL", table.call);
         let device = &self.gpu.device;
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(table.name),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        });
         let layout = self.layout();
-        let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(table.name),
-            layout: Some(&device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: None,
-                bind_group_layouts: &[Some(&layout)],
-                immediate_size: 0,
-            })),
-            module: &module,
-            entry_point: Some("main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        });
+        let pipeline = self.pipeline(&source(edit, table.call), &layout);
         let args: Vec<Args> = table.cases.iter().map(|case| case.args).collect();
         let cases = self.gpu.upload("cases", bytemuck::cast_slice(&args), Usage::STORAGE);
         let cases = cases.expect("there is room");
@@ -131,6 +112,26 @@ impl Device {
         self.gpu.run(encoder).expect("the device finishes");
         let bytes = self.gpu.read(&results, results.size()).expect("the device answers");
         bytemuck::pod_collect_to_vec(&bytes)
+    }
+
+    fn pipeline(&self, source: &str, layout: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
+        let device = &self.gpu.device;
+        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("helpers"),
+            source: wgpu::ShaderSource::Wgsl(source.into()),
+        });
+        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some("helpers"),
+            layout: Some(&device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: None,
+                bind_group_layouts: &[Some(layout)],
+                immediate_size: 0,
+            })),
+            module: &module,
+            entry_point: Some("main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            cache: None,
+        })
     }
 
     fn layout(&self) -> wgpu::BindGroupLayout {

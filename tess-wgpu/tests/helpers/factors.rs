@@ -7,16 +7,19 @@ use tess_verify::random::SplitMix64;
 
 /// Errors of a quotient, in ulps: 2.5 of the division by WGSL's rule.
 const OF_A_QUOTIENT: f32 = 3.0;
+/// Of a quotient's root: half of the quotient's, and 2 of `inverseSqrt` and 2.5 of a division, which WGSL's root may be.
+const OF_A_ROOT: f32 = 7.0;
 /// Of a rule: a dot product, two roots, a division and some products, each within 5 ulps.
 const OF_A_RULE: f32 = 32.0;
 
 pub(crate) fn tables() -> Vec<Table> {
-    let two = |name, call, function: fn(f32, f32) -> f32| {
-        let cases = ratios().into_iter().map(|[a, b]| {
-            let number = function(a, b);
-            case([[a, b, 0.0, 0.0]], near(number, OF_A_QUOTIENT))
-        });
-        Table { name, call, cases: cases.collect() }
+    [ranges_and_quotients(), of_edges(), of_insides(), of_cubics()].into_iter().flatten().collect()
+}
+
+fn ranges_and_quotients() -> Vec<Table> {
+    let two = |name, call, function: fn(f32, f32) -> f32, ulps| {
+        let of = |[a, b]: [f32; 2]| case([[a, b, 0.0, 0.0]], near(function(a, b), ulps));
+        Table { name, call, cases: ratios().into_iter().map(of).collect() }
     };
     vec![
         Table {
@@ -24,12 +27,23 @@ pub(crate) fn tables() -> Vec<Table> {
             call: "vec4(tess_in_range(a[0].x), 0, 0, 0)",
             cases: ranges(),
         },
-        two("tess_quotient", "vec4(tess_quotient(a[0].x, a[0].y), 0, 0, 0)", factors::quotient),
+        two(
+            "tess_quotient",
+            "vec4(tess_quotient(a[0].x, a[0].y), 0, 0, 0)",
+            factors::quotient,
+            OF_A_QUOTIENT,
+        ),
         two(
             "tess_root_quotient",
             "vec4(tess_root_quotient(a[0].x, a[0].y), 0, 0, 0)",
             factors::root_quotient,
+            OF_A_ROOT,
         ),
+    ]
+}
+
+fn of_edges() -> Vec<Table> {
+    vec![
         Table {
             name: "tess_edge_by_screen_size",
             call: "vec4(tess_edge_by_screen_size(a[0].xyz, a[1].xyz, a[2].xyz, a[3].x, a[3].y), 0, 0, 0)",
@@ -50,6 +64,11 @@ pub(crate) fn tables() -> Vec<Table> {
             call: "vec4(tess_edge_by_flatness(a[0].x, a[0].y), 0, 0, 0)",
             cases: by_flatness(),
         },
+    ]
+}
+
+fn of_insides() -> Vec<Table> {
+    vec![
         Table {
             name: "edges of tess_quad_factors",
             call: "tess_quad_factors(a[0]).edges",
@@ -68,6 +87,11 @@ pub(crate) fn tables() -> Vec<Table> {
             call: "vec4(tess_tri_factors(a[0].xyz).edges, tess_tri_factors(a[0].xyz).inside)",
             cases: triangles(),
         },
+    ]
+}
+
+fn of_cubics() -> Vec<Table> {
+    vec![
         Table {
             name: "bezier_edge_by_distance",
             call: "vec4(bezier_edge_by_distance(array<vec4f, 4>(a[0], a[1], a[2], a[3]), a[4].xyz, 20.0), 0, 0, 0)",
