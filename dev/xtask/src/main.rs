@@ -59,7 +59,7 @@ usage: cargo xtask <command>
   fuzz [SECONDS]
           build every fuzz target and run each, for 10 seconds by default
   mutants PACKAGE [OPTION...]
-          plant faults in tess-core or tess-simd; fails if one survives the tests and
+          plant faults in tess-core, tess-simd, tess-surface or tess-verify; fails if one survives the tests and
           docs/mutants.md does not list it (needs cargo-mutants; takes an hour)
   mutants planted [WORD...]
           plant the faults of dev/xtask/faults, or those with one of these words, in a copy of the tree; fails

@@ -48,6 +48,20 @@ const SUBJECTS: &[Subject] = &[
             },
         ],
     },
+    Subject {
+        package: "tess-surface",
+        passes: &[Pass { tests: "-C=--all-features -C=--lib -C=--test=surfaces", files: &[] }],
+    },
+    Subject {
+        package: "tess-verify",
+        passes: &[
+            Pass {
+                tests: "-C=--all-features -C=--lib -C=--test=strength -C=--test=device -C=--test=captures",
+                files: &[],
+            },
+            Pass { tests: "-C=--all-features -C=--test=levels -C=--test=verify", files: &[] },
+        ],
+    },
 ];
 
 /// Where the survivors that change nothing are listed, each with its reason.
@@ -142,6 +156,23 @@ fn name_of(line: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn passes_name_files_and_tests_that_exist() {
+        for Subject { package, passes } in SUBJECTS {
+            let has = |path: &str| workspace().join(package).join(path).exists();
+            for pass in *passes {
+                let files = pass.files.iter().map(|file| format!("src/{file}.rs"));
+                let tests = pass
+                    .tests
+                    .split_whitespace()
+                    .filter_map(|word| Some(format!("tests/{}", word.strip_prefix("-C=--test=")?)));
+                for path in files.chain(tests) {
+                    assert!(has(&path) || has(&format!("{path}.rs")), "{package} has no {path}");
+                }
+            }
+        }
+    }
 
     #[test]
     fn each_listed_fault_excuses_one_survivor() {
