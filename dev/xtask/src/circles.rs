@@ -16,7 +16,6 @@ use std::process::Command;
 
 /// The circles that there still are: a crate's folder, and modules with one parent. None may join them.
 const REMAINING: &[(&str, &[&str])] = &[
-    ("tess-simd", &["counted", "tessellator"]),
     ("tools/cli", &["output", "pipeline"]),
     ("tools/cli", &["languages", "manifest"]),
     ("tools/probe", &["info", "vulkan"]),
