@@ -68,7 +68,7 @@ pub fn check<R: BufRead + Send>(
 /// record that answers another case is a difference, and so is a case without a record.
 ///
 /// # Errors
-/// As for [`check`], and those of `asked`.
+/// The errors of [`check`] and of reading `asked`.
 pub fn check_asked<R: BufRead + Send>(
     file: VectorFile<R>,
     asked: Option<Asked<'_>>,
@@ -230,7 +230,7 @@ fn other_answer(observed: Option<Case>, expected: Option<Case>) -> Mismatch {
     Mismatch { element: Element::Case, observed, expected, stage: Stage::Answer }
 }
 
-/// Single patches are handed over in batches; a row of the other kinds is a batch of its own.
+/// Single patches are handed over in batches; a row of the other kinds is a whole batch.
 const fn unit_size(kind: Kind) -> usize {
     match kind {
         Kind::Listings | Kind::Patches | Kind::Preparation => 256,

@@ -69,7 +69,7 @@ impl Coverage {
     }
 
     /// Counts the bins that one factor's context hits, for the bench of a stage that sees no patch:
-    /// those of the groups `context` and `exceptional`.
+    /// the bins of the groups `context` and `exceptional`.
     ///
     /// # Panics
     /// In debug builds, if the context is none that a factor has.
@@ -88,7 +88,7 @@ impl Coverage {
         found
     }
 
-    /// Adds the hits of other vectors, such as those of another shard.
+    /// Adds the hits of other vectors, such as another shard's.
     pub fn merge(&mut self, other: &Self) {
         other.bins().for_each(|(bin, hits)| _ = self.add(bin, hits));
     }

@@ -3,12 +3,14 @@
 //! - Level 1 has every boundary once. It hits every coverage bin and is small enough to simulate.
 //! - Level 2 has every boundary in every position, and every pair of counts.
 //! - Level 3 is random.
+//! - `Rules` has families of patches that the rules of the standards compare ([`crate::rules`]).
 //!
 //! Each level ends with random cases.
 
 mod boundaries;
 mod levels;
 mod patches;
+mod related;
 
 pub use boundaries::{boundary_factors, exceptional_factors, special_factors};
 #[cfg(feature = "arbitrary")]
@@ -19,16 +21,18 @@ use crate::case::Case;
 use crate::random::{Draw, SplitMix64};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
-/// How much is generated.
+/// How much is generated: `--level` of `tess gen`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Level {
+pub enum GenLevel {
     /// Every boundary once.
     One,
     /// Every boundary in every position, every pair of counts.
     Two,
     /// Random.
     Three,
+    /// Families of related patches: `tess gen --rules`.
+    Rules,
 }
 
 /// One of `of` disjoint parts that together are everything.
@@ -70,7 +74,7 @@ impl Shard {
 #[derive(Clone, Copy, Debug)]
 pub struct Selection {
     /// How much.
-    pub level: Level,
+    pub level: GenLevel,
     /// Seed of everything random.
     pub seed: u64,
     /// Number of random cases; `None` for the level's own number.
@@ -88,7 +92,7 @@ pub struct Selection {
 impl Selection {
     /// A level with its own number of random cases, of every domain and partitioning.
     #[must_use]
-    pub const fn level(level: Level, seed: u64) -> Self {
+    pub const fn level(level: GenLevel, seed: u64) -> Self {
         Self {
             level,
             seed,
@@ -103,11 +107,17 @@ impl Selection {
     /// The cases, in order.
     pub fn cases(self) -> impl Iterator<Item = Case> {
         let systematic = match self.level {
-            Level::One => levels::one(),
-            Level::Two => levels::two(),
-            Level::Three => Vec::new(),
+            GenLevel::One => levels::one(),
+            GenLevel::Two => levels::two(),
+            GenLevel::Three => Vec::new(),
+            GenLevel::Rules => related::systematic(),
         };
-        systematic.into_iter().filter(move |case| self.selects(case)).chain(self.random_cases())
+        let systematic = systematic.into_iter().filter(move |case| self.selects(case));
+        let random: Box<dyn Iterator<Item = Case>> = match self.level {
+            GenLevel::Rules => Box::new(self.random_families()),
+            _ => Box::new(self.random_cases()),
+        };
+        systematic.chain(random)
     }
 
     /// How many random cases there are: as many as asked for, or the level's own number.
@@ -115,10 +125,24 @@ impl Selection {
     pub const fn random_count(self) -> u64 {
         match (self.random, self.level) {
             (Some(count), _) => count,
-            (None, Level::One) => 500,
-            (None, Level::Two) => 20_000,
-            (None, Level::Three) => 1_000_000,
+            (None, GenLevel::One) => 500,
+            (None, GenLevel::Two) => 20_000,
+            (None, GenLevel::Three) => 1_000_000,
+            (None, GenLevel::Rules) => 0,
         }
+    }
+
+    /// Random families, of the selected cases as many as are asked for.
+    fn random_families(self) -> impl Iterator<Item = Case> {
+        let random = SplitMix64::new(self.seed);
+        let count = usize::try_from(self.random_count()).unwrap_or(usize::MAX);
+        let domains = self.domain.map_or(Domain::ALL.to_vec(), |domain| vec![domain]);
+        let partitionings =
+            self.partitioning.map_or(Partitioning::ALL.to_vec(), |partitioning| vec![partitioning]);
+        let splits = self.split.map_or(SplitOrder::ALL.to_vec(), |split| vec![split]);
+        let families = related::random(random, domains, partitionings, splits);
+        // Every family has each output, so the filter leaves some of each.
+        families.filter(move |case| self.selects(case)).take(count)
     }
 
     fn random_cases(self) -> impl Iterator<Item = Case> {

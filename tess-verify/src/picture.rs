@@ -59,7 +59,7 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// A number, centred at a position; `height` is that of its digits, in pixels.
+    /// A number, centred at a position; its digits are `height` pixels high.
     pub fn number(&mut self, number: u32, centre: Position, height: f64, stroke: Colour) {
         let strokes = digits::strokes(number, centre, height);
         let width = digits::stroke_width(height);

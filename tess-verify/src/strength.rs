@@ -1,8 +1,54 @@
 //! How closely another implementation is compared with the model (spec section 13).
 //!
-//! The model is exact; the public specification leaves some freedom to hardware. A comparison of a
-//! device's output therefore has a strength: which order, which elements, which conversions from
-//! floating point and which treatment of denormals count as equal.
+//! The model is exact, and the public specification leaves some freedom to hardware. [`Strength`] says which
+//! of that freedom counts as equal. `checker::device` compares each answer of a device in a strength, and
+//! [`crate::ways::Way`] tries stronger and weaker ones to explain a difference.
+//!
+//! ```text
+//!  case ──► Alternatives ──► cases with each legal conversion ──► model ──► expected outputs
+//!           (conversions.rs)  choice 0 is the model's own                        │
+//!  observed output ───────────────────────────────► Strength::equal ◄────────────┘
+//!                                                    (order, elements; unordered.rs)
+//!                 ──► Conversions: which of the choices explain the output
+//!                 ──► checker::consistency: one choice for each value through the whole file
+//! ```
+//!
+//! # A worked patch
+//!
+//! `QUAD` has one outer factor of 3 + 2^-17. Times 65536 that is 196608.5, halfway between `0x30000` and
+//! `0x30001`. The model takes the even one; a device within 0.6 units may take either.
+//!
+//! ```
+//! use tess_verify::{Case, Conversion, Order, Strength};
+//!
+//! let quad = |u0| format!("case quad fractional_odd triangle_cw ruler {u0} 40200000 40a00000 40500000 40900000 40d00000");
+//! let case: Case = quad("40400020").parse()?; // 3 + 2^-17
+//! let above: Case = quad("40400040").parse()?; // 3 + 2^-16, which is 0x30001
+//!
+//! // A device that rounds up, and lists its triangles in another order.
+//! let mut device = above.patch().tessellate();
+//! device.indices.rotate_left(3);
+//!
+//! let conversion = Conversion::Within06Ulp;
+//! let both = Strength { order: Order::Any, conversion, ..Strength::default() };
+//! assert!(both.accepts(&case, &device));
+//! assert!(!Strength { order: Order::Any, ..Strength::default() }.accepts(&case, &device));
+//! assert!(!Strength { conversion, ..Strength::default() }.accepts(&case, &device));
+//! # Ok::<(), tess_verify::CaseError>(())
+//! ```
+//!
+//! # What callers rely on
+//!
+//! - The default strength accepts the model's output alone, bit for bit and in order.
+//! - What `Exact` accepts, `Sequence` accepts; what `Sequence` accepts, `Any` accepts.
+//! - Every strength accepts the model.
+//! - A point counts even if no primitive uses it, so an output with stray points is never equal.
+//!
+//! # Why not a tolerance
+//!
+//! Comparing coordinates with a tolerance of one unit is simpler. It would accept a device that converts one
+//! value in two ways, and such a device has cracks between neighbouring patches. So each legal conversion is
+//! tessellated exactly (at most 64 per patch) and compared bit for bit.
 
 mod conversions;
 mod unordered;

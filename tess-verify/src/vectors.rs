@@ -59,7 +59,7 @@ impl<R: BufRead> VectorFile<R> {
     /// Reads the header, and the column names of a CSV kind. `name` is what errors call the file.
     ///
     /// # Errors
-    /// An empty file, or a header or column names that are not those of this format.
+    /// An empty file, or a header or column names of another format.
     pub fn new(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
         let mut lines = Lines::new(name.as_ref(), reader);
         let header = match lines.next()? {

@@ -8,7 +8,7 @@ use tess_verify::backend::Backend;
 use tess_verify::case::Case;
 use tess_verify::checker::{CheckError, Report, Tested, check, check_asked};
 use tess_verify::core_backend::CoreBackend;
-use tess_verify::generate::{Level, Selection};
+use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::strength::{Elements, Order, Strength, vertices};
 use tess_verify::vectors::{Cases, Listing, Record, VectorFile};
 use tess_verify::ways::Way;
@@ -290,7 +290,7 @@ fn what_was_asked_must_be_answered() {
 
 /// Outputs of many cases, each changed by `change`.
 fn turned(strength: Strength, change: impl Fn(&Case) -> Tessellation) -> Report {
-    let cases: Vec<Case> = Selection { random: Some(300), ..Selection::level(Level::Three, 1) }
+    let cases: Vec<Case> = Selection { random: Some(300), ..Selection::level(GenLevel::Three, 1) }
         .cases()
         .filter(|case| case.config.output == OutputPrimitive::TriangleCw)
         .collect();

@@ -2,17 +2,17 @@
 
 use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
-use tess_verify::generate::{Level, Selection, Shard, configurations, random_patch};
+use tess_verify::generate::{GenLevel, Selection, Shard, configurations, random_patch};
 use tess_verify::random::SplitMix64;
 
-fn level(level: Level) -> Vec<Case> {
+fn level(level: GenLevel) -> Vec<Case> {
     Selection::level(level, 1).cases().collect()
 }
 
 #[test]
 fn level_1_hits_every_bin() {
     let mut coverage = Coverage::new();
-    level(Level::One).iter().for_each(|case| coverage.record(case));
+    level(GenLevel::One).iter().for_each(|case| coverage.record(case));
     let missed: Vec<_> = coverage.missed().collect();
     assert!(missed.is_empty(), "{} bins missed: {missed:#?}", missed.len());
 }
@@ -46,7 +46,7 @@ fn level_2_has_both_split_orders_everywhere() {
     use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
 
     let mut seen = HashSet::new();
-    for case in (Selection { random: Some(0), ..Selection::level(Level::Two, 1) }).cases() {
+    for case in (Selection { random: Some(0), ..Selection::level(GenLevel::Two, 1) }).cases() {
         for (position, factor) in case.factors.iter().enumerate() {
             let (config, domain) = (case.config, case.domain());
             seen.insert((domain, config.partitioning, config.split, position, factor.to_bits()));
@@ -142,16 +142,16 @@ fn cases_hit_the_bins_that_they_are_of() {
 fn coverage_notices_what_is_missing() {
     let mut coverage = Coverage::new();
     assert!(coverage.groups().iter().all(|group| group.hit == 0), "nothing is hit at first");
-    level(Level::One).iter().take(100).for_each(|case| coverage.record(case));
+    level(GenLevel::One).iter().take(100).for_each(|case| coverage.record(case));
     let missed = coverage.missed().filter(|bin| bin.starts_with("transition/")).count();
     assert!(missed > 3000, "100 cases cannot hit every transition, {missed} missed");
 }
 
 #[test]
 fn same_arguments_give_the_same_cases() {
-    assert_eq!(level(Level::One), level(Level::One), "level 1");
+    assert_eq!(level(GenLevel::One), level(GenLevel::One), "level 1");
     let seeded = |seed| {
-        let selection = Selection { random: Some(100), ..Selection::level(Level::Three, seed) };
+        let selection = Selection { random: Some(100), ..Selection::level(GenLevel::Three, seed) };
         selection.cases().collect::<Vec<_>>()
     };
     assert_eq!(seeded(7), seeded(7), "same seed");
@@ -179,7 +179,7 @@ fn shards_are_disjoint_and_complete() {
 
 #[test]
 fn level_1_stays_small_enough_to_simulate() {
-    let cases = level(Level::One);
+    let cases = level(GenLevel::One);
     let elements: u64 = cases
         .iter()
         .map(|case| case.patch().counts())

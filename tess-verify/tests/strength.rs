@@ -158,3 +158,16 @@ fn denormals_may_be_flushed_where_asked() {
     assert!(flush.accepts(&case, &culled), "flushed");
     assert!(flush.accepts(&case, &output(&case)), "kept");
 }
+
+/// From 1 to 2 a binary32 has 128 steps to a unit of 2^-16: 52 of them are 0.406 units, 51 are 0.398.
+#[test]
+fn both_neighbours_are_legal_from_four_tenths_on() {
+    let with = |bits: u32| case(&QUAD.replace("40600000", &format!("{bits:08x}")));
+    let fixed = |fixed: u32| tess_verify::generate::from_fixed(fixed).to_bits();
+    let shows = |low: &u32| output(&with(fixed(*low))) != output(&with(fixed(low + 1)));
+    let low = (0x1_4000..0x1_5000).find(shows).expect("a unit that shows");
+    let lenient = Strength { conversion: Conversion::Within06Ulp, ..Strength::default() };
+    let above = output(&with(fixed(low + 1)));
+    let accepts = |steps: u32| lenient.accepts(&with(fixed(low) + steps), &above);
+    assert_eq!([51, 52].map(accepts), [false, true], "0.4 of a unit");
+}

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 use tess_verify::backend::Backend;
 use tess_verify::case::Case;
-use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::second::SecondFormulation;
 use tess_verify::verify::{Plan, Random, Row, Subject, Unit, Units, verify};
 
@@ -104,7 +104,7 @@ fn levels_are_compared_once() {
     };
     let [one, two] = [Subject::Level1, Subject::Level2].map(texts);
     assert!(one.is_disjoint(&two), "nothing is compared twice");
-    let whole = Selection::level(Level::Two, 1).cases().map(|case| case.to_string());
+    let whole = Selection::level(GenLevel::Two, 1).cases().map(|case| case.to_string());
     assert_eq!(&one | &two, whole.collect(), "level 2");
 }
 

@@ -18,7 +18,7 @@ use tess_verify::backend::Backend;
 use tess_verify::case::Case;
 use tess_verify::checker::{self, Tested};
 use tess_verify::core_backend::CoreBackend;
-use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::names::Named;
 use tess_verify::vectors::{Header, Kind, Listing, write_listings, write_patches};
 
@@ -64,9 +64,9 @@ pub(crate) fn generate(
     shard: Option<(u64, u64)>,
 ) -> PyResult<Cases> {
     let level = match level {
-        1 => Level::One,
-        2 => Level::Two,
-        3 => Level::Three,
+        1 => GenLevel::One,
+        2 => GenLevel::Two,
+        3 => GenLevel::Three,
         other => return Err(argument(format!("the levels are 1, 2 and 3, not {other}"))),
     };
     let (part, of) = shard.unwrap_or((1, 1));

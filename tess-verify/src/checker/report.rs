@@ -74,7 +74,7 @@ pub struct Difference {
     pub mismatch: Mismatch,
     /// The patch that shows it, if one does.
     pub case: Option<Case>,
-    /// The record as a vector file of its own; `None` for a listing, which may be long.
+    /// The record alone as a vector file; `None` for a listing, which may be long.
     pub file: Option<String>,
 }
 
@@ -93,7 +93,7 @@ impl Difference {
     }
 }
 
-/// A record as a vector file of its own; `None` for a listing, which may be long.
+/// A record alone as a vector file; `None` for a listing, which may be long.
 pub(super) fn file_of(header: &Header, record: &Record) -> Option<String> {
     let (row, columns) = (record.text()?, header.kind.columns()?);
     let header = Header { count: Some(1), ..header.clone() };

@@ -132,11 +132,11 @@ impl std::error::Error for UcisError {}
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::generate::{Level, Selection};
+    use crate::generate::{GenLevel, Selection};
 
     fn some(seed: u64) -> Coverage {
         let mut coverage = Coverage::new();
-        let selection = Selection { random: Some(200), ..Selection::level(Level::Three, seed) };
+        let selection = Selection { random: Some(200), ..Selection::level(GenLevel::Three, seed) };
         selection.cases().for_each(|case| coverage.record(&case));
         coverage
     }

@@ -16,7 +16,7 @@ pub(super) const INK: Colour = Colour(0x26, 0x32, 0x38);
 pub(super) const PAPER: Colour = Colour(0xff, 0xff, 0xff);
 /// The outline of the domain.
 pub(super) const GRID: Colour = Colour(0xb0, 0xbe, 0xc5);
-/// Triangles without a meaning of their own.
+/// Triangles whose colour means nothing.
 pub(super) const PLAIN: Colour = Colour(0xdc, 0xe9, 0xf5);
 /// Points.
 pub(super) const POINT: Colour = Colour(0x15, 0x5f, 0xa0);

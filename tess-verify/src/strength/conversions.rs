@@ -1,7 +1,27 @@
 //! The factors that a conforming device may have processed in place of the given ones.
 //!
-//! Each value has one fixed-point number, whichever edges of whichever patches have it: neighbours
-//! could not meet otherwise. So what is chosen is a number for each *value*.
+//! A factor whose multiple of 2^-16 lies 0.4 to 0.6 of the way between two integers has two legal fixed-point
+//! numbers. Edges of the same value must get the same number, or neighbouring patches would not meet. So a
+//! choice is made for each *value*, not for each factor.
+//!
+//! ```text
+//! factors    u0 = a   v0 = b   u1 = a   v1 = 3   inside_u = b   inside_v = 5      a and b are ambiguous
+//! values     [a, b]                                              in the order of the factors
+//! value_of   0        1        0        -        1              -
+//!
+//! choice     bit 1 bit 0      bit i: value i takes its second number (the one farther away)
+//!      0       0     0        the model's own conversion
+//!      1       0     1        a is converted the other way, on both of its edges
+//!      2       1     0        b is
+//!      3       1     1        both are
+//!
+//! accepted   bit n: choice n explains the output; 0b1010 = "a is the second number, b shows in nothing"
+//! ```
+//!
+//! - Six factors have at most six values, so `accepted` has at most 64 bits.
+//! - Choice 0 is the model's. A patch without ambiguous values has no other.
+//! - A value that does not show in an output is accepted either way; `checker::consistency` therefore takes a
+//!   number for known only if every accepted choice agrees on it.
 
 use super::{Conversion, Denormals, Strength};
 use crate::case::Case;

@@ -39,7 +39,7 @@ pub struct Vertex {
 }
 
 impl Coordinates {
-    /// The output: each vertex a point of its own, in the order of the primitives.
+    /// The output with one point per vertex, in the order of the primitives.
     #[must_use]
     pub fn output(&self) -> Tessellation {
         let points = self.vertices.iter().map(|vertex| DomainPoint::from_bits(vertex.u, vertex.v));

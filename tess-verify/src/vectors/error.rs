@@ -27,12 +27,12 @@ impl std::error::Error for VectorError {}
 
 /// Where the reader is.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
+pub(crate) struct LinePlace {
     pub(crate) file: Arc<str>,
     pub(crate) line: u64,
 }
 
-impl Place {
+impl LinePlace {
     pub(crate) fn error(&self, field: &'static str, message: impl Into<String>) -> VectorError {
         VectorError { file: self.file.to_string(), line: self.line, field, message: message.into() }
     }

@@ -1,6 +1,6 @@
 //! The lines of a vector file, each bounded, so that no input makes the reader grow.
 
-use super::error::{Place, VectorError};
+use super::error::{LinePlace, VectorError};
 use std::io::{BufRead, Read};
 
 /// The most bytes that a line may have. The longest that this kit writes has about 300.
@@ -12,14 +12,14 @@ pub(super) struct Lines<R> {
     reader: R,
     /// The line that was read last, without its end.
     text: String,
-    place: Place,
+    place: LinePlace,
 }
 
 /// One line without its end, and where it stands.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Line<'a> {
     pub(super) text: &'a str,
-    pub(super) place: &'a Place,
+    pub(super) place: &'a LinePlace,
 }
 
 impl Line<'_> {
@@ -31,7 +31,7 @@ impl Line<'_> {
 
 impl<R: BufRead> Lines<R> {
     pub(super) fn new(file: &str, reader: R) -> Self {
-        Self { reader, text: String::new(), place: Place { file: file.into(), line: 0 } }
+        Self { reader, text: String::new(), place: LinePlace { file: file.into(), line: 0 } }
     }
 
     /// An error in the line that was read last, or behind the last line.

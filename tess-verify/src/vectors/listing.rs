@@ -61,8 +61,8 @@ pub(super) fn read<R: BufRead>(
 
 /// The points, of which the line that announces them was read already.
 ///
-/// A device without an index buffer lists a point for each vertex of each primitive, so the limit is
-/// that of vertices, not the model's 4225 points.
+/// A device without an index buffer lists a point for each vertex of each primitive, so there may be as many
+/// points as indices, not only the model's 4225.
 fn points<R: BufRead>(lines: &mut Lines<R>) -> Result<Vec<DomainPoint>, VectorError> {
     let count = announced(lines.last(), "points", MAX_INDICES)?;
     let mut points = Vec::with_capacity(count);

@@ -2,7 +2,7 @@
 
 use crate::names::Named;
 
-/// Something that can be compared.
+/// A set of cases or values to compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Subject {
@@ -53,7 +53,7 @@ impl Named for Subject {
 
 /// Random patches of every configuration: every domain, partitioning, output and split order.
 ///
-/// Each unit is drawn from a seed of its own, so that more patches begin with the same ones.
+/// Each unit has its own seed, so a larger number of patches begins with the same patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Random {
     /// How many patches of each configuration.

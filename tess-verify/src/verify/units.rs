@@ -3,12 +3,12 @@
 use super::subject::{Random, Subject};
 use super::topologies::{interiors, transitions};
 use crate::case::Case;
-use crate::generate::{Level, Selection, configurations, random_patch};
+use crate::generate::{GenLevel, Selection, configurations, random_patch};
 use crate::random::SplitMix64;
 use std::collections::HashSet;
 use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder};
 
-/// Random patches of one configuration, from a seed of their own.
+/// Random patches of one configuration, drawn from the unit's seed.
 #[derive(Clone, Copy, Debug)]
 pub struct RandomUnit {
     domain: Domain,
@@ -82,7 +82,9 @@ impl Units {
     #[must_use]
     pub fn of(subject: Subject) -> Self {
         Self(match subject {
-            Subject::Level1 => Source::Patches(Selection::level(Level::One, 1).cases().collect()),
+            Subject::Level1 => {
+                Source::Patches(Selection::level(GenLevel::One, 1).cases().collect())
+            }
             Subject::Level2 => Source::Patches(beyond_level_one().collect()),
             Subject::Factors => Source::Values,
             Subject::Locations => Source::Buckets(buckets().collect()),
@@ -107,7 +109,7 @@ impl Units {
         }
     }
 
-    /// Unit `number`; `None` if there are not so many.
+    /// Unit `number`; `None` from [`Units::count`] on.
     #[must_use]
     pub fn get(&self, number: u64) -> Option<Unit> {
         let index = usize::try_from(number).ok()?;
@@ -158,8 +160,8 @@ impl Random {
 
 /// The cases of level 2, most of which level 1 does not have, without those that it has.
 fn beyond_level_one() -> impl Iterator<Item = Case> {
-    let known: HashSet<Case> = Selection::level(Level::One, 1).cases().collect();
-    Selection::level(Level::Two, 1).cases().filter(move |case| !known.contains(case))
+    let known: HashSet<Case> = Selection::level(GenLevel::One, 1).cases().collect();
+    Selection::level(GenLevel::Two, 1).cases().filter(move |case| !known.contains(case))
 }
 
 fn buckets() -> impl Iterator<Item = (SplitOrder, Parity, u32)> {

@@ -5,7 +5,7 @@ use crate::output::note;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::case::{Case, factor};
-use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::names::Named;
 
 /// The arguments that describe one patch.
@@ -107,9 +107,9 @@ impl SelectionArgs {
     pub(crate) const fn selection(&self) -> Selection {
         Selection {
             level: match self.level {
-                1 => Level::One,
-                2 => Level::Two,
-                _ => Level::Three,
+                1 => GenLevel::One,
+                2 => GenLevel::Two,
+                _ => GenLevel::Three,
             },
             seed: self.seed,
             random: self.count,

@@ -15,7 +15,8 @@ pub fn cases(selection: Selection, shard: Shard) -> Vec<Case> {
     (0..).zip(asked).filter(|(number, _)| shard.has(*number)).map(|(_, case)| case).collect()
 }
 
-fn asked(case: &Case) -> Case {
+/// A case with what Vulkan does not have replaced by what it has.
+pub(crate) fn asked(case: &Case) -> Case {
     let output = match (case.domain(), case.config.output) {
         (_, OutputPrimitive::Point) => OutputPrimitive::Point,
         (Domain::Isoline, _) => OutputPrimitive::Line,

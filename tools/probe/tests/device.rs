@@ -7,13 +7,13 @@ use std::process::Command;
 use tess_core::{Domain, Partitioning};
 use tess_probe::{Prober, Report, cases, list, probe};
 use tess_verify::case::Case;
-use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::strength::{Denormals, Order, Strength};
 
 const SHADERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
 
 fn some(count: u64) -> Vec<Case> {
-    let selection = Selection { random: Some(count), ..Selection::level(Level::Three, 5) };
+    let selection = Selection { random: Some(count), ..Selection::level(GenLevel::Three, 5) };
     cases(selection, Shard::WHOLE)
 }
 
@@ -52,7 +52,7 @@ fn the_device_is_exact() {
 /// Every shard is another part, and together they are everything.
 #[test]
 fn shards_are_parts() {
-    let selection = Selection { random: Some(100), ..Selection::level(Level::Three, 5) };
+    let selection = Selection { random: Some(100), ..Selection::level(GenLevel::Three, 5) };
     let part = |part| cases(selection, Shard { part, of: 3 });
     let all: usize = (0..3).map(|i| part(i).len()).sum();
     assert_eq!(all, cases(selection, Shard::WHOLE).len());
@@ -80,7 +80,7 @@ fn a_wrong_shader_is_found_and_explained() {
         domain: Some(Domain::Quad),
         partitioning: Some(Partitioning::FractionalEven),
         random: Some(40),
-        ..Selection::level(Level::Three, 5)
+        ..Selection::level(GenLevel::Three, 5)
     };
     let report = report(&mut prober, &cases(selection, Shard::WHOLE), in_any_order());
     assert!(report.different > 20, "{report}");

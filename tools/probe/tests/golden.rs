@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use tess_core::Partitioning;
 use tess_probe::{Digests, cases};
 use tess_verify::case::Case;
-use tess_verify::generate::{Level, Selection, Shard};
+use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::names::Named;
 use tess_verify::strength::flushed;
 
@@ -29,7 +29,7 @@ fn recorded() -> Vec<(PathBuf, Value)> {
 /// The digests and numbers of patches that the model has for level 1, with one freedom and `fault`.
 fn model(flush: bool, fault: impl Fn(&Case, &mut Vec<u32>)) -> BTreeMap<Names, (u64, Digests)> {
     let mut all = BTreeMap::<Names, (u64, Digests)>::new();
-    for case in cases(Selection::level(Level::One, 1), Shard::WHOLE) {
+    for case in cases(Selection::level(GenLevel::One, 1), Shard::WHOLE) {
         let names =
             [case.domain().name(), case.config.partitioning.name(), case.config.output.name()];
         let [domain, partitioning, output] = names.map(str::to_owned);

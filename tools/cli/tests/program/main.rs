@@ -19,4 +19,5 @@ mod options;
 mod patch;
 #[cfg(all(feature = "probe", feature = "shaders"))]
 mod probe;
+mod rules;
 mod support;

@@ -1,11 +1,13 @@
 //! `tess check`: runs the cases of a vector file and compares.
 
 mod failures;
+pub(crate) mod rules;
 mod strength;
 
 #[cfg(feature = "probe")]
 pub(crate) use strength::{ConversionName, DenormalsName};
 
+use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
 use crate::coverage_file::CoverageFile;
 use crate::failure::{Exit, Failure};
@@ -23,6 +25,7 @@ use tess_verify::checker::{self, CheckError, Difference, Report, Tested};
 use tess_verify::compare::Element;
 use tess_verify::explanation::{PointReport, PrimitiveReport};
 use tess_verify::names::Named;
+use tess_verify::rules::Specification;
 use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
@@ -45,7 +48,11 @@ or lines that begin with `case`.
 If one mistake explains every difference (triangles turn the other way, u and v are exchanged, u or v
 runs backwards), a line says so, and only the first difference is shown.
 
-Exit code 0: all equal; 1: differences; 2: malformed, truncated or empty file; 3: no such backend.
+With --rules, listings are judged by what a standard demands of output, without the model: each rule with
+its section, how many patches it judged and broke, and the smallest patches that break it. `tess gen --rules`
+makes patches that exercise every rule (docs/rules.md).
+
+Exit code 0: all equal, or no rule broken; 1: differences; 2: malformed, truncated or empty file; 3: no such backend.
 
 Examples:
   tess check golden/cases.txt
@@ -53,7 +60,8 @@ Examples:
   tess check golden/cases.txt --backend gpu --index-type u16
   tess patch tri --outer 3,4,5 --inner 4 | tess check -
   ./my-device | tess check - --order any --conversion 0.6ulp
-  tess check device.txt --cases asked.txt --failures failing.txt")]
+  tess check device.txt --cases asked.txt --failures failing.txt
+  tess check device.txt --rules vulkan")]
 pub(crate) struct Args {
     /// Vector file; - is stdin
     #[arg(value_name = "FILE")]
@@ -65,6 +73,13 @@ pub(crate) struct Args {
     options: BackendOptions,
     #[command(flatten)]
     strength: StrengthArgs,
+    /// Judge listings by the rules of this standard: vulkan, opengl or d3d11
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
+    #[arg(conflicts_with_all = [
+        "backend", "order", "primitives", "points", "conversion", "denormals", "cases", "failures",
+        "coverage",
+    ])]
+    rules: Option<Specification>,
     /// What was asked: records that answer other cases, too few or too many are differences
     #[arg(long, value_name = "FILE")]
     cases: Option<PathBuf>,
@@ -85,6 +100,10 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let name =
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
     let file = VectorFile::new(&name, open(&args.file)?).map_err(|e| failure(e.into()))?;
+    if let Some(specification) = args.rules {
+        stop_when_reader_leaves();
+        return rules::run(file, specification);
+    }
     let tested = args.strength.tested(file.header().kind, args.backend)?;
     let coverage = args.coverage(file.header().kind)?;
     let mut asked = args.asked(file.header().kind)?;

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use tess_core::SplitOrder;
 use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
-use tess_verify::generate::Selection;
+use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::names::Named;
 use tess_verify::readmemh;
 use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
@@ -22,17 +22,24 @@ use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
 #[command(after_help = "\
 Level 1 has every boundary once and hits every coverage bin; level 2 has every boundary in every
 position; level 3 is random. All end with --count random cases (500, 20000 and 1000000 unless said).
+--rules has patches that belong together, for `tess check --rules`: pairs that differ in one level, exchanged
+levels, levels just above integers, inner levels up to 1, NaN; a shard of them tears some apart.
 
 Examples:
   tess gen --level 1 | tess check - --backend simd
   tess gen --level 1 --domain tri --format listing -o level1.txt
   tess gen --level 1 --partitioning integer --output triangle_cw --split ruler --format listing
   tess gen --level 3 --seed 7 --count 1000 --format readmemh -o vectors/
+  tess gen --rules --split ruler --format listing | ./my-device | tess check - --rules vulkan
   tess gen --level 1 --coverage
   tess gen --level 2 --shard 1/8 --coverage coverage.xml")]
 pub(crate) struct Args {
     #[command(flatten)]
     selection: SelectionArgs,
+    /// Instead of a level, families of patches that the rules of the standards compare; --count more at
+    /// random
+    #[arg(long, conflicts_with = "level")]
+    rules: bool,
     /// One split order only
     #[arg(long, value_name = "NAME", value_parser = name_of::<SplitOrder>())]
     split: Option<SplitOrder>,
@@ -93,7 +100,9 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 
 impl Args {
     fn selection(&self) -> Selection {
-        Selection { split: self.split, ..self.selection.selection() }
+        let selection = self.selection.selection();
+        let level = if self.rules { GenLevel::Rules } else { selection.level };
+        Selection { split: self.split, level, ..selection }
     }
 
     fn cases(&self) -> impl Iterator<Item = Case> {
@@ -136,6 +145,15 @@ impl Args {
     /// The first line of what is written, with the arguments that the cases depend on as notes.
     fn header(&self, count: u64) -> Header {
         let mut notes = self.selection.notes();
+        if self.rules {
+            let random = self.selection().random_count().to_string();
+            for (key, value) in [("level", "rules".to_owned()), ("random", random)] {
+                notes
+                    .iter_mut()
+                    .filter(|(known, _)| known == key)
+                    .for_each(|note| note.1 = value.clone());
+            }
+        }
         notes.extend(self.split.map(|split| ("split".to_owned(), split.name().to_owned())));
         let source = "tess-core".to_owned();
         Header { kind: Kind::Patches, count: Some(count), source, notes }

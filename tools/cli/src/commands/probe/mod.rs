@@ -3,8 +3,8 @@
 #[cfg(feature = "shaders")]
 mod bench;
 
-use super::check::{ConversionName, DenormalsName};
-use crate::args::SelectionArgs;
+use super::check::{ConversionName, DenormalsName, rules};
+use crate::args::{SelectionArgs, name_of};
 use crate::backends::quiet;
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
@@ -15,6 +15,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 use tess_probe::{First, Prober, Report, cases, list, probe};
 use tess_verify::drawing::{self, DrawOptions};
+use tess_verify::generate::{GenLevel, Selection};
+use tess_verify::rules::Specification;
 use tess_verify::strength::{Order, Strength};
 use tess_verify::vectors::Listing;
 
@@ -36,6 +38,7 @@ Examples:
   tess probe --device 1 --level 2 --denormals flush
   tess probe --level 3 --seed 7 --count 100000 --shard 1/8
   tess probe --json -o device.json --picture first.png
+  tess probe --rules vulkan
   tess probe --bench                    is compute faster than the hardware?")]
 pub(crate) struct Args {
     /// List the devices and end
@@ -58,6 +61,10 @@ pub(crate) struct Args {
     /// Capture domain points alone, as is done on devices without transform feedback
     #[arg(long)]
     points: bool,
+    /// Instead, judge the device by the rules of this standard: vulkan, opengl or d3d11 (docs/rules.md)
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
+    #[arg(conflicts_with_all = ["level", "shard", "points", "picture", "json"])]
+    rules: Option<Specification>,
     /// Write the report as JSON (docs/probe.md explains it)
     #[arg(long)]
     json: bool,
@@ -66,7 +73,7 @@ pub(crate) struct Args {
     picture: Option<PathBuf>,
     /// Time the fixed-function stage beside the compute shaders, and drawing what each gives
     #[cfg(feature = "shaders")]
-    #[arg(long, conflicts_with_all = ["points", "picture"])]
+    #[arg(long, conflicts_with_all = ["points", "picture", "rules"])]
     bench: bool,
     /// With --bench: workloads of `tess bench` [default: uniform, terrain and character]
     #[cfg(feature = "shaders")]
@@ -102,6 +109,9 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     if args.bench {
         let Args { device, workload, checks, json, output, .. } = args;
         return bench::run(*device, workload, *checks, *json, output).map(|()| Exit::Done);
+    }
+    if let Some(specification) = args.rules {
+        return args.judge(specification);
     }
     let cases = cases(args.selection.selection(), args.selection.shard);
     if cases.is_empty() {
@@ -140,6 +150,18 @@ impl Args {
         let text = if self.json { json(&devices) } else { text };
         self.output.write(text.as_bytes())?;
         Ok(Exit::Done)
+    }
+
+    /// Judges the device by the rules of a standard.
+    fn judge(&self, specification: Specification) -> Result<Exit, Failure> {
+        let mut prober = Prober::open(self.device).map_err(unavailable)?;
+        let selection = Selection { level: GenLevel::Rules, ..self.selection.selection() };
+        let bar = progress(selection.cases().count() as u64, "patches");
+        let report =
+            tess_probe::rules(&mut prober, selection, specification, |patches| bar.inc(patches));
+        bar.finish_and_clear();
+        note(&prober.info().to_string());
+        rules::show(&report.map_err(unavailable)?)
     }
 
     fn strength(&self) -> Strength {

@@ -1,5 +1,6 @@
 //! `tess verify`: every backend against the model.
 
+use super::check::rules;
 use crate::args::{name_of, shard};
 use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
@@ -7,9 +8,11 @@ use crate::output::{Frame, Rows, note, progress, stop_when_reader_leaves};
 use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
+use tess_core::SplitOrder;
 use tess_verify::backend::Backend;
-use tess_verify::generate::Shard;
+use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::names::Named;
+use tess_verify::rules::{Specification, check_rules};
 use tess_verify::second::SecondFormulation;
 use tess_verify::verify::{Plan, Random, Row, Subject, verify};
 
@@ -27,13 +30,17 @@ printed when it is done.
 96) instead, all kinds of factors in every position and most of the patches small. The same seed
 gives the same patches; a larger N begins with those of a smaller one.
 
-Exit code 0: all equal; 1: differences; 3: a backend is not available here.
+--rules NAME judges each backend by what a standard demands of output, without the model, over the
+patches of `tess gen --rules` (docs/rules.md). core is the model itself then.
+
+Exit code 0: all equal, or no rule broken; 1: differences; 3: a backend is not available here.
 
 Examples:
   tess verify
   tess verify --backend simd --exhaustive
   tess verify --exhaustive --shard 3/64
-  tess verify --backend gpu --random 100000")]
+  tess verify --backend gpu --random 100000
+  tess verify --backend simd --rules d3d11")]
 pub(crate) struct Args {
     /// Backend to compare; core is the model's second formulation [default: simd and gpu]
     #[arg(long, value_name = "NAME")]
@@ -50,6 +57,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     #[arg(conflicts_with_all = ["exhaustive", "subject"])]
     random: Option<u64>,
+    /// Instead, judge by the rules of this standard: vulkan, opengl or d3d11
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
+    #[arg(conflicts_with_all = ["exhaustive", "subject", "random", "shard"])]
+    rules: Option<Specification>,
     /// Seed of the random patches
     #[arg(long, value_name = "N", default_value_t = 1, requires = "random")]
     seed: u64,
@@ -64,6 +75,9 @@ pub(crate) struct Args {
 /// A backend that is not available.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     args.options.fit(args.backends())?;
+    if let Some(specification) = args.rules {
+        return args.judge(specification);
+    }
     let mut workers = args.workers()?;
     let Plan { subjects, shard } = args.plan();
     let unwritten = |error| Failure::write(Path::new("-"), error);
@@ -101,6 +115,28 @@ impl Args {
         };
         let subjects = if self.subject.is_empty() { plan.subjects } else { self.subject.clone() };
         Plan { subjects, shard: self.shard }
+    }
+
+    /// Judges each backend by the rules of a standard.
+    fn judge(&self, specification: Specification) -> Result<Exit, Failure> {
+        let split = Some(SplitOrder::Ruler);
+        let selection = Selection { split, ..Selection::level(GenLevel::Rules, 1) };
+        let cases: Vec<_> = selection.cases().collect();
+        stop_when_reader_leaves();
+        let mut exit = Exit::Done;
+        for &name in self.backends() {
+            let mut backend = self.options.select(name)?;
+            let bar = progress(cases.len() as u64, "patches");
+            let cases = cases.iter().copied();
+            let report =
+                check_rules(backend.as_mut(), cases, specification, |n| bar.set_position(n));
+            bar.finish_and_clear();
+            note(&format!("{}: {}", backend.name(), backend.device()));
+            if rules::show(&report?)? == Exit::Different {
+                exit = Exit::Different;
+            }
+        }
+        Ok(exit)
     }
 
     fn backends(&self) -> &[BackendName] {

@@ -1,0 +1,127 @@
+//! Patches that belong together: what the rules of the standards compare.
+
+use super::{from_fixed, pick};
+use crate::case::Case;
+use crate::random::SplitMix64;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+
+/// What a level becomes in a relative of a patch: neither above 0 nor a number, or not above 1.
+const NOT_ABOVE_ZERO: [f32; 4] = [0.0, -1.0, f32::NAN, f32::NEG_INFINITY];
+const NOT_ABOVE_ONE: [f32; 5] = [1.0, 0.5, 0.0, -3.0, f32::NAN];
+
+/// Levels of the systematic families: integers, what lies just above them, and fractions of both
+/// parities.
+fn levels() -> Vec<f32> {
+    let just_above = |n: u32| {
+        let exact = from_fixed(n << 16);
+        [
+            exact,
+            f32::from_bits(exact.to_bits() + 1),
+            from_fixed((n << 16) + 1),
+            from_fixed((n << 16) + 8),
+            from_fixed((n << 16) + 9),
+        ]
+    };
+    let mut levels: Vec<f32> =
+        [1, 2, 3, 4, 5, 8, 13, 30].into_iter().flat_map(just_above).collect();
+    levels.extend((1..=8).map(|eighth| from_fixed((5 << 16) + (eighth << 14))));
+    levels.extend([0.25, 30.001_083, 53.0, 62.5, 63.0, 63.5, 64.0, 100.0]);
+    levels
+}
+
+/// A family for each level of each domain and spacing.
+pub(super) fn systematic() -> Vec<Case> {
+    let levels = levels();
+    let mut cases = Vec::new();
+    for domain in Domain::ALL {
+        for partitioning in
+            [Partitioning::Integer, Partitioning::FractionalOdd, Partitioning::FractionalEven]
+        {
+            for (turn, &level) in levels.iter().enumerate() {
+                let split = if turn % 5 == 4 { SplitOrder::Center } else { SplitOrder::Ruler };
+                let config = Config { partitioning, output: OutputPrimitive::TriangleCw, split };
+                let plain = [3.0, 2.5, 4.0, 1.0, 3.5, 5.0];
+                let at = |position| {
+                    if position == turn % domain.factors() {
+                        level
+                    } else {
+                        plain[(position + turn) % plain.len()]
+                    }
+                };
+                family(
+                    Case { config, factors: PatchFactors::from_fn(domain, at) },
+                    turn,
+                    &mut cases,
+                );
+                let uniform = PatchFactors::uniform(domain, level);
+                family(Case { config, factors: uniform }, turn, &mut cases);
+            }
+        }
+    }
+    cases
+}
+
+/// Random families without end, of these domains, partitionings and split orders.
+pub(super) fn random(
+    mut random: SplitMix64,
+    domains: Vec<Domain>,
+    partitionings: Vec<Partitioning>,
+    splits: Vec<SplitOrder>,
+) -> impl Iterator<Item = Case> {
+    let mut cases = Vec::new();
+    std::iter::from_fn(move || {
+        if cases.is_empty() {
+            let config = Config {
+                partitioning: pick(&mut random, &partitionings),
+                output: OutputPrimitive::TriangleCw,
+                split: pick(&mut random, &splits),
+            };
+            let domain = pick(&mut random, &domains);
+            let factors = PatchFactors::from_fn(domain, |_| random_level(&mut random));
+            family(Case { config, factors }, random.next_u32() as usize, &mut cases);
+            cases.reverse();
+        }
+        cases.pop()
+    })
+}
+
+/// A level that is mostly small: near an integer, or anywhere.
+fn random_level(random: &mut SplitMix64) -> f32 {
+    let top = if random.below(16) == 0 { 64 } else { 9 };
+    match random.below(4) {
+        0 => from_fixed((random.below(top) + 1) << 16),
+        1 => from_fixed(((random.below(top) + 1) << 16) + random.below(16)),
+        _ => from_fixed((1 << 16) + random.below(top << 16)),
+    }
+}
+
+/// A patch with its relatives: the same again, the other winding, its points; one outer level changed, the
+/// outer levels exchanged, the inner levels changed or not above 1, and an outer level that discards.
+fn family(base: Case, turn: usize, cases: &mut Vec<Case>) {
+    let with_output = |output| Case { config: Config { output, ..base.config }, ..base };
+    let with = |position: usize, level: f32| {
+        let mut at = 0;
+        let factors = base.factors.map(|factor| {
+            at += 1;
+            if at == position + 1 { level } else { factor }
+        });
+        Case { factors, ..base }
+    };
+    let (outer, all) = (base.domain().outer_factors(), base.domain().factors());
+    let raised = |position: usize| {
+        let bits = base.factors.iter().nth(position).unwrap_or_default();
+        if bits < 8.0 { 9.0 } else { 2.0 }
+    };
+    cases.extend([base, base, with_output(OutputPrimitive::TriangleCcw)]);
+    cases.extend([OutputPrimitive::Point, OutputPrimitive::Line].map(with_output));
+    cases.extend((0..all).map(|position| with(position, raised(position))));
+    let levels: Vec<f32> = base.factors.iter().collect();
+    cases.extend((1..outer).map(|by| {
+        let level = |p: usize| levels[if p < outer { (p + by) % outer } else { p }];
+        Case { factors: PatchFactors::from_fn(base.domain(), level), ..base }
+    }));
+    let discards = NOT_ABOVE_ZERO[turn % NOT_ABOVE_ZERO.len()];
+    cases.extend((0..outer).map(|position| with(position, discards)));
+    let low = NOT_ABOVE_ONE[turn % NOT_ABOVE_ONE.len()];
+    cases.extend((outer..all).map(|position| with(position, low)));
+}

@@ -1,0 +1,159 @@
+//! What each standard demands of a tessellator's output, checked without a driver.
+//!
+//! A device may differ from the model and be right. A rule is what one standard says of the output alone,
+//! such as "an outer edge's vertices depend on its own level and spacing". Some rules judge one patch, others
+//! compare patches that have a level in common; `tess gen --rules` makes patches that exercise all of them.
+//!
+//! ```text
+//!  (case, output) ──► Answer: vertices by place ──► rules of one patch   (answer.rs, mesh.rs, edge.rs)
+//!                                              └──► rules of several      (memory.rs)
+//!                                                        │
+//!                          Tally for each rule ◄─────────┘  ──► held | broken | not exercised
+//! ```
+//!
+//! Vertices are told apart by their coordinates, as a shader sees them, never by their numbers.
+//!
+//! ```
+//! use tess_verify::rules::{Checker, Rule, Specification, Verdict};
+//! use tess_verify::{Case, Order};
+//!
+//! let mut checker = Checker::new(Specification::Vulkan);
+//! // 3.00000024 is above 3, so Vulkan asks for 5 segments. The model rounds to 16 fraction bits first.
+//! let case: Case = "case isoline fractional_odd line ruler 3f800000 40400001".parse()?;
+//! checker.add(&case, &case.patch().tessellate());
+//!
+//! let rows = checker.report().rows;
+//! let segments = rows.iter().find(|row| row.rule == Rule::Segments).expect("a rule of Vulkan");
+//! assert_eq!(segments.verdict(), Verdict::Broken);
+//! let example = segments.smallest.as_ref().expect("broken");
+//! assert_eq!(example.cases, [case]);
+//! assert_eq!(example.what, "line 0 has 3 segments, its level 3.0000002 asks for 5");
+//! # Ok::<(), tess_verify::CaseError>(())
+//! ```
+//!
+//! - A patch whose indices name no points is judged by [`Rule::Range`] alone.
+//! - Lengths that a standard calls equal may differ by [`TOLERANCE`], as coordinates are rounded; everything
+//!   else is compared bit for bit.
+//! - Where a standard allows two results, a patch that shows either does not count as judged.
+
+mod answer;
+mod edge;
+mod levels;
+mod memory;
+mod mesh;
+mod report;
+mod standard;
+
+pub use edge::TOLERANCE;
+pub use report::{Example, Row, RulesReport, Verdict};
+pub use standard::{Rule, Specification};
+
+use crate::backend::{Backend, BackendError};
+use crate::case::Case;
+use crate::checker::tessellate;
+use answer::Answer;
+use memory::Memory;
+use report::Tally;
+use tess_core::Tessellation;
+
+/// Judges outputs by the rules of one standard.
+#[derive(Debug)]
+pub struct Checker {
+    specification: Specification,
+    patches: u64,
+    tallies: Vec<Tally>,
+    memory: Memory,
+}
+
+/// Patches that a backend is asked for at once.
+const BATCH: usize = 256;
+
+/// Judges a backend's outputs for cases. `done` is called with the number of patches after each batch.
+///
+/// # Errors
+/// The backend could not run, or did not answer with a patch for each case.
+pub fn check_rules(
+    backend: &mut dyn Backend,
+    cases: impl IntoIterator<Item = Case>,
+    specification: Specification,
+    mut done: impl FnMut(u64),
+) -> Result<RulesReport, BackendError> {
+    let mut checker = Checker::new(specification);
+    let mut cases = cases.into_iter();
+    loop {
+        let batch: Vec<Case> = cases.by_ref().take(BATCH).collect();
+        if batch.is_empty() {
+            return Ok(checker.report());
+        }
+        let outputs = tessellate(backend, &batch)?;
+        batch.iter().zip(&outputs).for_each(|(case, output)| checker.add(case, output));
+        done(checker.patches);
+    }
+}
+
+/// What a rule makes of a patch, or of a patch and one before it: the earlier case, and what is wrong.
+type Judgement = (Option<Case>, Result<(), String>);
+
+impl Checker {
+    /// Rules that have judged nothing yet.
+    #[must_use]
+    pub fn new(specification: Specification) -> Self {
+        let tallies = specification.rules().iter().map(|&rule| Tally::new(rule)).collect();
+        Self { specification, patches: 0, tallies, memory: Memory::default() }
+    }
+
+    /// Judges an output, alone and beside those before it.
+    ///
+    /// The output of a capture by coordinates may have a point for each vertex.
+    pub fn add(&mut self, case: &Case, output: &Tessellation) {
+        self.patches += 1;
+        let answer = match Answer::new(case, output) {
+            Ok(answer) => answer,
+            Err(what) => {
+                return self.note(Rule::Range, case, output.points.len(), (None, Err(what)));
+            }
+        };
+        let size = answer.size();
+        for &rule in self.specification.rules() {
+            for judgement in self.judge(rule, &answer) {
+                self.note(rule, case, size, judgement);
+            }
+        }
+    }
+
+    /// What was found so far.
+    #[must_use]
+    pub fn report(&self) -> RulesReport {
+        RulesReport {
+            specification: self.specification,
+            patches: self.patches,
+            rows: self.tallies.iter().map(Tally::row).collect(),
+        }
+    }
+
+    fn judge(&mut self, rule: Rule, answer: &Answer<'_>) -> Vec<Judgement> {
+        let alone = |result: Option<Result<(), String>>| {
+            result.into_iter().map(|result| (None, result)).collect()
+        };
+        let specification = self.specification;
+        match rule {
+            Rule::Range => alone(answer.range()),
+            Rule::Discard => alone(answer.discard()),
+            Rule::Segments => alone(edge::segments(answer, specification)),
+            Rule::Spacing => alone(edge::spacing(answer, specification)),
+            Rule::Symmetric => alone(edge::symmetric(answer, specification)),
+            Rule::Cover => alone(mesh::cover(answer)),
+            Rule::Orientation => alone(mesh::orientation(answer)),
+            Rule::Isolines => alone(mesh::isolines(answer, specification)),
+            Rule::Counts => alone(mesh::counts(answer)),
+            Rule::PointsOnce => alone(mesh::points_once(answer, specification)),
+            _ => self.memory.judge(rule, answer, specification),
+        }
+    }
+
+    fn note(&mut self, rule: Rule, case: &Case, size: usize, (other, result): Judgement) {
+        if let Some(tally) = self.tallies.iter_mut().find(|tally| tally.is_of(rule)) {
+            tally.add(case, other, size, result);
+        }
+    }
+}

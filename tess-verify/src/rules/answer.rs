@@ -1,0 +1,125 @@
+//! An output by places, and the rules that need no more.
+
+use crate::case::Case;
+use tess_core::fixed_point::ONE;
+use tess_core::{Domain, OutputPrimitive, Tessellation};
+
+/// 16.16 numbers of u and v.
+pub(super) type Place = [u32; 2];
+
+/// A patch's primitives by the places of their vertices.
+#[derive(Debug)]
+pub(super) struct Answer<'a> {
+    pub(super) case: &'a Case,
+    pub(super) output: &'a Tessellation,
+    /// The vertices of the primitives, in order.
+    pub(super) vertices: Vec<Place>,
+    /// The distinct places of vertices, ascending.
+    pub(super) places: Vec<Place>,
+}
+
+impl<'a> Answer<'a> {
+    /// Looks up the vertices of the primitives.
+    ///
+    /// # Errors
+    /// An index without a point, or a primitive that is not whole, in words.
+    pub(super) fn new(case: &'a Case, output: &'a Tessellation) -> Result<Self, String> {
+        let vertex = |&index: &u32| {
+            let point = output.points.get(index as usize);
+            let place = point.map(|point| [point.u.to_bits(), point.v.to_bits()]);
+            place.ok_or_else(|| format!("index {index} of {} points", output.points.len()))
+        };
+        let vertices: Vec<Place> = output.indices.iter().map(vertex).collect::<Result<_, _>>()?;
+        if !vertices.len().is_multiple_of(case.primitive_size()) {
+            return Err(format!("{} vertices are no whole primitives", vertices.len()));
+        }
+        let mut places = vertices.clone();
+        places.sort_unstable();
+        places.dedup();
+        Ok(Self { case, output, vertices, places })
+    }
+
+    /// How large an example this is.
+    pub(super) const fn size(&self) -> usize {
+        self.vertices.len()
+    }
+
+    /// Whether the primitives are triangles.
+    pub(super) const fn has_triangles(&self) -> bool {
+        self.case.primitive_size() == 3
+    }
+
+    /// Whether the primitives are points.
+    pub(super) const fn has_points(&self) -> bool {
+        matches!(self.case.config.output, OutputPrimitive::Point)
+    }
+
+    /// The triangles; none for other primitives.
+    pub(super) fn triangles(&self) -> impl Iterator<Item = [Place; 3]> {
+        let (triangles, _) = self.vertices.as_chunks::<3>();
+        triangles.iter().copied().filter(|_| self.has_triangles())
+    }
+
+    /// Every vertex lies in the domain.
+    pub(super) fn range(&self) -> Option<Result<(), String>> {
+        let is_triangle = self.case.domain() == Domain::Triangle;
+        let lies_outside = |&&[u, v]: &&Place| {
+            let sum = u64::from(u) + u64::from(v);
+            u > ONE || v > ONE || (is_triangle && sum > u64::from(ONE))
+        };
+        let stray = self.places.iter().find(lies_outside);
+        (!self.places.is_empty()).then(|| match stray {
+            Some(place) => Err(format!("vertex {} lies outside the domain", show(*place))),
+            None => Ok(()),
+        })
+    }
+
+    /// No primitive if an outer level is not above 0, and some if all are. A denormal may be either.
+    pub(super) fn discard(&self) -> Option<Result<(), String>> {
+        let mut outer = self.case.factors.outer();
+        let discards = outer.clone().any(|level| level.is_nan() || level <= 0.0);
+        if !discards && outer.any(f32::is_subnormal) {
+            return None;
+        }
+        Some(match (discards, self.vertices.is_empty()) {
+            (true, false) => Err("primitives of a patch that is to be discarded".to_owned()),
+            (false, true) => Err("no primitive, though all outer levels are above 0".to_owned()),
+            _ => Ok(()),
+        })
+    }
+
+    /// How far along outer edge `edge` each vertex on it lies, ascending, in the direction in which a
+    /// clockwise walk goes round; for isolines, edge 0 is u = 0.
+    pub(super) fn along(&self, edge: usize) -> Vec<u32> {
+        let domain = self.case.domain();
+        let mut along: Vec<u32> =
+            self.places.iter().filter_map(|&place| position(domain, edge, place)).collect();
+        along.sort_unstable();
+        along
+    }
+
+    /// Whether a place lies on some outer edge.
+    pub(super) fn is_on_outline(&self, place: Place) -> bool {
+        let domain = self.case.domain();
+        (0..domain.outer_factors()).any(|edge| position(domain, edge, place).is_some())
+    }
+}
+
+/// How far along an outer edge a place lies, if it does.
+pub(super) fn position(domain: Domain, edge: usize, [u, v]: Place) -> Option<u32> {
+    match (domain, edge) {
+        (_, 0) => (u == 0).then(|| ONE.checked_sub(v)).flatten(),
+        (Domain::Isoline, _) => None,
+        (_, 1) => (v == 0 && u <= ONE).then_some(u),
+        (Domain::Triangle, _) => {
+            (u.checked_add(v) == Some(ONE)).then(|| ONE.checked_sub(u)).flatten()
+        }
+        (_, 2) => (u == ONE && v <= ONE).then_some(v),
+        _ => (v == ONE).then(|| ONE.checked_sub(u)).flatten(),
+    }
+}
+
+/// A place in hex, as listings have it.
+pub(super) fn show([u, v]: Place) -> String {
+    format!("({u:05x}, {v:05x})")
+}

@@ -1,0 +1,140 @@
+//! Rules about the primitives of one patch.
+
+use super::answer::{Answer, Place, position, show};
+use super::edge::TOLERANCE;
+use super::levels::may_touch_outline;
+use super::standard::Specification;
+use std::collections::{BTreeMap, BTreeSet};
+use tess_core::fixed_point::ONE;
+use tess_core::{Domain, OutputPrimitive};
+
+/// Twice the signed area, positive for clockwise triangles with v downwards.
+fn doubled_area([a, b, c]: [Place; 3]) -> i128 {
+    let [(au, av), (bu, bv), (cu, cv)] = [a, b, c].map(|[u, v]| (i128::from(u), i128::from(v)));
+    (bu - au) * (cv - av) - (cu - au) * (bv - av)
+}
+
+/// 1 if the patch's triangles are clockwise, else -1.
+const fn turn(answer: &Answer<'_>) -> i32 {
+    if matches!(answer.case.config.output, OutputPrimitive::TriangleCw) { 1 } else { -1 }
+}
+
+/// No triangle turns the other way. One without area turns neither way.
+pub(super) fn orientation(answer: &Answer<'_>) -> Option<Result<(), String>> {
+    let clockwise = i128::from(turn(answer));
+    let mut triangles = answer.triangles().peekable();
+    triangles.peek()?;
+    let wrong = triangles.enumerate().find(|(_, t)| doubled_area(*t) * clockwise < 0);
+    Some(wrong.map_or(Ok(()), |(number, [a, b, c])| {
+        let places = format!("{} {} {}", show(a), show(b), show(c));
+        Err(format!("triangle {number} turns the other way: {places}"))
+    }))
+}
+
+/// The triangles cover the domain once, as far as their edges tell: what is left of their directed edges,
+/// after those that go both ways are taken out, is one walk round the outline.
+pub(super) fn cover(answer: &Answer<'_>) -> Option<Result<(), String>> {
+    let mut net: BTreeMap<[Place; 2], i32> = BTreeMap::new();
+    for [a, b, c] in answer.triangles() {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
+            let (edge, way) = if from <= to { ([from, to], 1) } else { ([to, from], -1) };
+            *net.entry(edge).or_default() += way;
+        }
+    }
+    if net.is_empty() {
+        return None;
+    }
+    net.retain(|[from, to], count| *count != 0 && from != to);
+    let domain = answer.case.domain();
+    let mut outline = vec![BTreeMap::<u32, i32>::new(); domain.outer_factors()];
+    for (&[from, to], &count) in &net {
+        let on =
+            |edge: &usize| Some((position(domain, *edge, from)?, position(domain, *edge, to)?));
+        let Some((edge, (start, end))) =
+            (0..domain.outer_factors()).find_map(|edge| Some((edge, on(&edge)?)))
+        else {
+            let places = format!("{} {}", show(from), show(to));
+            return Some(Err(format!("the edge {places} within the domain is not shared by two")));
+        };
+        *outline[edge].entry(start).or_default() += count;
+        *outline[edge].entry(end).or_default() -= count;
+    }
+    let whole = BTreeMap::from([(0, turn(answer)), (ONE, -turn(answer))]);
+    let walk = |flow: &BTreeMap<u32, i32>| -> BTreeMap<u32, i32> {
+        flow.iter().filter(|(_, step)| **step != 0).map(|(x, step)| (*x, *step)).collect()
+    };
+    let wrong = outline.iter().position(|flow| walk(flow) != whole);
+    Some(wrong.map_or(Ok(()), |edge| {
+        Err(format!("outer edge {} is not walked once", domain.factor_names()[edge]))
+    }))
+}
+
+/// Segments of isolines keep their v and lead from u = 0 to u = 1, none is at v = 1, and the lines are equally
+/// spaced. Each line is walked once; in Direct3D a rounded location may go backwards on the way.
+pub(super) fn isolines(
+    answer: &Answer<'_>,
+    specification: Specification,
+) -> Option<Result<(), String>> {
+    if answer.case.domain() != Domain::Isoline || answer.has_points() {
+        return None;
+    }
+    let mut lines: BTreeMap<u32, Vec<[u32; 2]>> = BTreeMap::new();
+    let (segments, _) = answer.vertices.as_chunks::<2>();
+    for &[from, to] in segments {
+        if from[1] != to[1] {
+            return Some(Err(format!("the segment {} {} changes v", show(from), show(to))));
+        }
+        lines.entry(from[1]).or_default().push([from[0].min(to[0]), from[0].max(to[0])]);
+    }
+    let n = u64::try_from(lines.len()).unwrap_or(u64::MAX);
+    for (k, (v, mut segments)) in (0..).zip(lines) {
+        segments.sort_unstable();
+        let is_chain = segments.windows(2).all(|pair| pair[0][1] == pair[1][0]);
+        let may_go_back = specification == Specification::D3d11;
+        if !(is_chain || may_go_back) || odd_ends(&segments) != [0, ONE] {
+            return Some(Err(format!("the line at v = {v:05x} is not walked once from 0 to 1")));
+        }
+        let off = (u64::from(v) * n).abs_diff(k * u64::from(ONE));
+        if v == ONE || off > u64::from(TOLERANCE) * n {
+            return Some(Err(format!("line {k} of {n} lies at v = {v:05x}")));
+        }
+    }
+    (n > 0).then_some(Ok(()))
+}
+
+/// The places at which an odd number of segments ends: both ends of a walk.
+fn odd_ends(segments: &[[u32; 2]]) -> Vec<u32> {
+    let mut ends: BTreeSet<u32> = BTreeSet::new();
+    for end in segments.as_flattened() {
+        if !ends.remove(end) {
+            ends.insert(*end);
+        }
+    }
+    ends.into_iter().collect()
+}
+
+/// Each place is a point once.
+pub(super) fn points_once(
+    answer: &Answer<'_>,
+    specification: Specification,
+) -> Option<Result<(), String>> {
+    let may_touch = may_touch_outline(answer.case, specification);
+    if !answer.has_points() || answer.vertices.is_empty() || may_touch {
+        return None;
+    }
+    let mut vertices = answer.vertices.clone();
+    vertices.sort_unstable();
+    let twice = vertices.windows(2).find(|pair| pair[0] == pair[1]);
+    Some(twice.map_or(Ok(()), |pair| Err(format!("{} is a point twice", show(pair[0])))))
+}
+
+/// As many primitives as the levels ask for.
+pub(super) fn counts(answer: &Answer<'_>) -> Option<Result<(), String>> {
+    let size = answer.case.primitive_size();
+    let asked = answer.case.patch().counts().indices as usize / size;
+    let found = answer.output.indices.len() / size;
+    (asked > 0).then(|| match found {
+        _ if found == asked => Ok(()),
+        _ => Err(format!("{found} primitives, its levels ask for {asked}")),
+    })
+}

@@ -1,0 +1,144 @@
+//! What the rules found.
+
+use super::standard::{Rule, Specification};
+use crate::case::Case;
+use crate::names::Named;
+use std::fmt;
+
+/// What became of a rule.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Verdict {
+    /// Every patch or pair that it judged is as it demands.
+    Held,
+    /// Some are not.
+    Broken,
+    /// No patch or pair could show a fault.
+    NotExercised,
+}
+
+impl Named for Verdict {
+    const WHAT: &'static str = "verdict";
+    const NAMES: &'static [(&'static str, Self)] =
+        &[("held", Self::Held), ("broken", Self::Broken), ("not exercised", Self::NotExercised)];
+}
+
+/// The smallest example of a broken rule.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Example {
+    /// The patches that show it, one or two; each prints as a line that can be run again.
+    pub cases: Vec<Case>,
+    /// What is wrong.
+    pub what: String,
+}
+
+/// A rule with what it judged.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Row {
+    /// The rule.
+    pub rule: Rule,
+    /// How many patches, or patches beside an earlier one, it judged.
+    pub judged: u64,
+    /// How many of them break it.
+    pub broken: u64,
+    /// The broken example with the fewest vertices, the first of equals.
+    pub smallest: Option<Example>,
+}
+
+impl Row {
+    /// What became of the rule.
+    #[must_use]
+    pub const fn verdict(&self) -> Verdict {
+        match (self.judged, self.broken) {
+            (0, _) => Verdict::NotExercised,
+            (_, 0) => Verdict::Held,
+            _ => Verdict::Broken,
+        }
+    }
+}
+
+/// The verdicts of all rules of one standard.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct RulesReport {
+    /// The standard.
+    pub specification: Specification,
+    /// Patches that were judged.
+    pub patches: u64,
+    /// Its rules, in the order of [`Specification::rules`].
+    pub rows: Vec<Row>,
+}
+
+impl RulesReport {
+    /// How many rules have a verdict.
+    #[must_use]
+    pub fn count(&self, verdict: Verdict) -> usize {
+        self.rows.iter().filter(|row| row.verdict() == verdict).count()
+    }
+}
+
+/// A table of the rules, the smallest example below each broken one, and a summary line.
+impl fmt::Display for RulesReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for row in &self.rows {
+            let (rule, verdict) = (row.rule.name(), row.verdict().name());
+            let source = self.specification.source(row.rule);
+            let Row { judged, broken, .. } = row;
+            writeln!(f, "{rule:<12} {verdict:<13} {broken:>7} of {judged:>8}  {source}")?;
+            if let Some(example) = &row.smallest {
+                writeln!(f, "  {}", example.what)?;
+                example.cases.iter().try_for_each(|case| writeln!(f, "  {case}"))?;
+            }
+        }
+        let [held, broken, not] =
+            [Verdict::Held, Verdict::Broken, Verdict::NotExercised].map(|v| self.count(v));
+        let (patches, name) = (self.patches, self.specification.name());
+        writeln!(
+            f,
+            "{patches} patches, {name}: {held} rules held, {broken} broken, {not} not exercised"
+        )
+    }
+}
+
+/// What one rule judged so far.
+#[derive(Debug)]
+pub(super) struct Tally {
+    row: Row,
+    /// Vertices of the smallest example.
+    size: usize,
+}
+
+impl Tally {
+    pub(super) const fn new(rule: Rule) -> Self {
+        let row = Row { rule, judged: 0, broken: 0, smallest: None };
+        Self { row, size: usize::MAX }
+    }
+
+    pub(super) fn is_of(&self, rule: Rule) -> bool {
+        self.row.rule == rule
+    }
+
+    pub(super) fn row(&self) -> Row {
+        self.row.clone()
+    }
+
+    /// Counts a judgement on a case of `size` vertices, beside an earlier case if there is one.
+    pub(super) fn add(
+        &mut self,
+        case: &Case,
+        other: Option<Case>,
+        size: usize,
+        result: Result<(), String>,
+    ) {
+        self.row.judged += 1;
+        let Err(what) = result else { return };
+        self.row.broken += 1;
+        if size < self.size {
+            self.size = size;
+            let cases = other.into_iter().chain([*case]).collect();
+            self.row.smallest = Some(Example { cases, what });
+        }
+    }
+}

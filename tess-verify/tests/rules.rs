@@ -1,0 +1,299 @@
+//! The rules of the standards: what the model holds and breaks, and the fault that each rule alone finds.
+
+use tess_core::fixed_point::ONE;
+use tess_core::{DomainPoint, Tessellation};
+use tess_verify::rules::{Checker, Row, Rule, RulesReport, Specification, Verdict};
+use tess_verify::{Case, GenLevel, Named, Selection};
+
+fn case(line: &str) -> Case {
+    line.parse().unwrap_or_else(|error| panic!("{line}: {error}"))
+}
+
+fn judge(
+    specification: Specification,
+    answers: impl IntoIterator<Item = (Case, Tessellation)>,
+) -> RulesReport {
+    let mut checker = Checker::new(specification);
+    for (case, output) in answers {
+        checker.add(&case, &output);
+    }
+    checker.report()
+}
+
+fn model(case: Case) -> (Case, Tessellation) {
+    (case, case.patch().tessellate())
+}
+
+/// The names of the rules with a verdict.
+fn rules(report: &RulesReport, verdict: Verdict) -> Vec<&'static str> {
+    let rows = report.rows.iter().filter(|row| row.verdict() == verdict);
+    rows.map(|row| row.rule.name()).collect()
+}
+
+fn row(report: &RulesReport, rule: Rule) -> &Row {
+    report.rows.iter().find(|row| row.rule == rule).expect("a rule of the standard")
+}
+
+/// The systematic families with the standard split order.
+fn population() -> impl Iterator<Item = Case> {
+    let split = Some(tess_core::SplitOrder::Ruler);
+    Selection { split, ..Selection::level(GenLevel::Rules, 1) }.cases()
+}
+
+/// The population exercises every rule. The model holds all of Direct3D's, and of Vulkan's all but those that
+/// docs/rules.md names.
+#[test]
+fn the_model_and_the_standards() {
+    let answers: Vec<_> = population().map(model).collect();
+    let reports = [Specification::D3d11, Specification::Vulkan]
+        .map(|specification| judge(specification, answers.iter().cloned()));
+    for report in &reports {
+        assert_eq!(rules(report, Verdict::NotExercised), [""; 0], "{report}");
+    }
+    assert_eq!(rules(&reports[0], Verdict::Broken), [""; 0], "{}", reports[0]);
+    let broken = [
+        "edge-level",
+        "symmetric",
+        "every-edge",
+        "transition",
+        "segments",
+        "orientation",
+        "isolines",
+        "points-once",
+    ];
+    assert_eq!(rules(&reports[1], Verdict::Broken), broken, "{}", reports[1]);
+}
+
+/// A patch's output after a fault.
+type Fault = fn(&mut Tessellation);
+
+/// Judges what a device gives for patches, of which the last has a fault: the rule is the only one to find it,
+/// names the patches, and holds without it.
+fn found_by_alone(specification: Specification, rule: Rule, lines: &[&str], fault: Fault) {
+    let mut answers: Vec<_> = lines.iter().map(|line| model(case(line))).collect();
+    let report = judge(specification, answers.iter().cloned());
+    assert_eq!(rules(&report, Verdict::Broken), [""; 0], "{}: {report}", rule.name());
+    assert_ne!(row(&report, rule).judged, 0, "{} judges it", rule.name());
+    let (faulty, output) = answers.last_mut().expect("a patch");
+    let right = output.clone();
+    fault(output);
+    assert_ne!(*output, right, "a fault is planted");
+    let faulty = *faulty;
+    let report = judge(specification, answers);
+    assert_eq!(rules(&report, Verdict::Broken), [rule.name()], "{report}");
+    let example = row(&report, rule).smallest.clone().expect("broken");
+    assert_eq!(example.cases.last(), Some(&faulty), "{report}");
+    let shown = format!("\n  {}\n  {}", example.what, example.cases[0]);
+    assert!(report.to_string().contains(&shown), "the example is shown: {report}");
+}
+
+/// Moves every point at a place.
+fn move_point(output: &mut Tessellation, from: [u32; 2], to: [u32; 2]) {
+    let [from, to] = [from, to].map(|[u, v]| DomainPoint::from_bits(u, v));
+    output.points.iter_mut().filter(|point| **point == from).for_each(|point| *point = to);
+}
+
+/// Moves the points at a quarter and at three quarters of edge u0 or v0 towards the middle.
+fn squeeze(output: &mut Tessellation, axis: usize, by: u32) {
+    let at = |x| if axis == 0 { [x, 0] } else { [0, x] };
+    move_point(output, at(0x4000), at(0x4000 + by));
+    move_point(output, at(0xC000), at(0xC000 - by));
+}
+
+/// Exchanges the diagonal of the first convex pair of triangles that is wanted by the numbers of its
+/// vertices with u = 0 and of those on the outline.
+fn flip(output: &mut Tessellation, wanted: [usize; 2]) {
+    let triangles = output.indices.as_chunks::<3>().0.to_vec();
+    for (i, one) in triangles.iter().enumerate() {
+        for (j, two) in triangles.iter().enumerate().skip(i + 1) {
+            for turn in 0..3 {
+                let [a, b, c] = [0, 1, 2].map(|k| one[(k + turn) % 3]);
+                let shared = two.iter().filter(|d| [b, c].contains(d)).count() == 2;
+                let Some(&d) = two.iter().find(|d| ![b, c].contains(d)).filter(|_| shared) else {
+                    continue;
+                };
+                let quad = [a, b, d, c].map(|k| output.points[k as usize]);
+                let left = quad.iter().filter(|point| point.u.to_bits() == 0).count();
+                let outline = quad.iter().filter(|point| is_on_outline(**point)).count();
+                if is_convex(quad) && [left, outline] == wanted {
+                    output.indices[3 * i..3 * i + 3].copy_from_slice(&[a, b, d]);
+                    output.indices[3 * j..3 * j + 3].copy_from_slice(&[a, d, c]);
+                    return;
+                }
+            }
+        }
+    }
+}
+
+fn is_on_outline(point: DomainPoint) -> bool {
+    let [u, v] = [point.u.to_bits(), point.v.to_bits()];
+    u == 0 || v == 0 || u == ONE || v == ONE
+}
+
+fn is_convex(quad: [DomainPoint; 4]) -> bool {
+    let bits = |k: usize| {
+        let point = quad[k % 4];
+        [i64::from(point.u.to_bits()), i64::from(point.v.to_bits())]
+    };
+    (0..4).all(|k| {
+        let [[au, av], [bu, bv], [cu, cv]] = [k, k + 1, k + 2].map(bits);
+        (bu - au) * (cv - av) - (cu - au) * (bv - av) > 0
+    })
+}
+
+const VULKAN: Specification = Specification::Vulkan;
+/// Outer levels 4, 5, 3 and inner level 5; outer levels 4, 6, 7 and inner level 6; 4, 4, 3; 5.
+const TRI: &str = "case tri integer triangle_cw ruler 40800000 40a00000 40400000 40a00000";
+const OTHER_TRI: &str = "case tri integer triangle_cw ruler 40800000 40c00000 40e00000 40c00000";
+const EQUAL_TRI: &str = "case tri integer triangle_cw ruler 40800000 40800000 40400000 40a00000";
+/// Outer levels 4, 5, 3, 2 or 4, 6, 7, 1 and inner levels 5, 6.
+const QUAD: &str =
+    "case quad integer triangle_cw ruler 40800000 40a00000 40400000 40000000 40a00000 40c00000";
+const OTHER_QUAD: &str =
+    "case quad integer triangle_cw ruler 40800000 40c00000 40e00000 3f800000 40a00000 40c00000";
+const POINTS: &str = "case tri integer point ruler 40800000 40a00000 40400000 40a00000";
+/// 3 lines of 4 segments, and none.
+const LINES: &str = "case isoline integer line ruler 40400000 40800000";
+
+/// Invariance rules 1 to 7.
+#[test]
+fn faults_of_invariance() {
+    found_by_alone(VULKAN, Rule::Same, &[TRI, TRI], |output| output.indices.rotate_left(3));
+    found_by_alone(VULKAN, Rule::EdgeLevel, &[TRI, OTHER_TRI], |output| squeeze(output, 1, 4));
+    found_by_alone(VULKAN, Rule::Symmetric, &[TRI], |output| {
+        move_point(output, [0, 0x4000], [0, 0x4004]);
+    });
+    found_by_alone(VULKAN, Rule::EveryEdge, &[EQUAL_TRI], |output| squeeze(output, 0, 4));
+    let ones = "case quad integer triangle_ccw ruler".to_owned() + &" 3f800000".repeat(6);
+    let clockwise = ones.replace("ccw", "cw");
+    found_by_alone(VULKAN, Rule::Winding, &[&clockwise, &ones], |output| {
+        output.indices = vec![0, 2, 1, 0, 3, 2];
+    });
+    found_by_alone(VULKAN, Rule::Interior, &[QUAD, OTHER_QUAD], |output| flip(output, [0, 0]));
+    found_by_alone(VULKAN, Rule::Transition, &[QUAD, OTHER_QUAD], |output| flip(output, [2, 2]));
+}
+
+/// Rules about one patch's vertices and edges.
+#[test]
+fn faults_of_vertices() {
+    found_by_alone(VULKAN, Rule::Range, &[POINTS], |output| {
+        output.points[15] = DomainPoint::from_bits(0xFFFF, 0xFFFF);
+    });
+    found_by_alone(VULKAN, Rule::Range, &[TRI], |output| output.indices[5] = 99);
+    let none = LINES.replace("40400000", "80000000");
+    found_by_alone(VULKAN, Rule::Discard, &[&none], |output| {
+        *output = case(&LINES.replace("40400000", "3f800000")).patch().tessellate();
+    });
+    found_by_alone(VULKAN, Rule::Discard, &[TRI], |output| *output = Tessellation::default());
+    found_by_alone(VULKAN, Rule::Segments, &[LINES], |output| {
+        *output = case(&LINES.replace("40800000", "40a00000")).patch().tessellate();
+    });
+    found_by_alone(VULKAN, Rule::Segments, &[LINES], |output| {
+        *output = case(&LINES.replace("40400000", "40800000")).patch().tessellate();
+    });
+    found_by_alone(VULKAN, Rule::Spacing, &[TRI], |output| squeeze(output, 1, 40));
+    let [low, high] = ["40600000", "40900000"]
+        .map(|level| format!("case isoline fractional_odd line ruler 3f800000 {level}"));
+    found_by_alone(VULKAN, Rule::Monotone, &[&low, &high], |output| {
+        // As much as 3.0625 has, whose shorter segments are nearly gone.
+        let line = "case isoline fractional_odd line ruler 3f800000 40440000";
+        *output = case(line).patch().tessellate();
+    });
+    found_by_alone(VULKAN, Rule::PointsOnce, &[POINTS], |output| output.indices.push(3));
+    found_by_alone(VULKAN, Rule::PointsSame, &[TRI, POINTS], |output| {
+        output.points[15] = DomainPoint::from_bits(0x5555, 0x5554);
+    });
+}
+
+/// Rules about one patch's primitives.
+#[test]
+fn faults_of_primitives() {
+    let last = |output: &mut Tessellation| output.indices.truncate(output.indices.len() - 3);
+    found_by_alone(VULKAN, Rule::Cover, &[QUAD], last);
+    found_by_alone(VULKAN, Rule::Cover, &[QUAD], |output| output.indices.extend([20, 21, 22]));
+    found_by_alone(VULKAN, Rule::Orientation, &[QUAD], |output| {
+        let inside = output.points.iter().position(|point| !is_on_outline(*point));
+        output.points[inside.expect("a point inside")] = DomainPoint::from_bits(0x8000, 0xF000);
+    });
+    found_by_alone(VULKAN, Rule::Isolines, &[LINES], |output| output.indices.extend([0, 1]));
+    found_by_alone(VULKAN, Rule::Isolines, &[LINES], |output| output.indices[1] = 2);
+    found_by_alone(Specification::D3d11, Rule::Counts, &[POINTS], |output| {
+        _ = output.indices.pop()
+    });
+}
+
+/// What is known of the model, each by the rule that shows it (specification, sections 11 and 12).
+#[test]
+fn findings_about_the_model() {
+    let broken = |lines: &[&str]| {
+        let report = judge(VULKAN, lines.iter().map(|line| model(case(line))));
+        rules(&report, Verdict::Broken)
+    };
+    // The conversion to 16 fraction bits comes before the ceiling: 3.00000024 has 3 segments, not 5.
+    let above_3 = "case isoline fractional_odd line ruler 3f800000 40400001";
+    assert_eq!(broken(&[above_3]), ["segments"], "just above 3");
+    // Ring corner (0, 1): an inner level of 1 + 3/65536 puts vertices of the inside on the outline.
+    let [inner, plain] = ["3f800180", "40400000"].map(|inner| {
+        format!("case tri fractional_odd triangle_cw ruler 40a00000 40a00000 40a00000 {inner}")
+    });
+    assert_eq!(broken(&[&plain]), [""; 0], "an inner level of 3");
+    let outline = broken(&[&plain, &inner]);
+    assert!(outline.contains(&"edge-level"), "{outline:?}");
+    // Level 1 + 2/65536: the new points of the edge lie on its corners. From 1 + 3/65536 on they do not.
+    let corner = "case quad fractional_odd triangle_cw ruler 3f800100 40a00000 40a00000 40a00000 40a00000 40a00000";
+    assert_eq!(broken(&[corner]), ["segments"], "just above 1");
+    let beyond = corner.replace("3f800100", "3f800180");
+    assert_eq!(broken(&[&beyond]), [""; 0], "far enough above 1");
+    // Locations that go backwards.
+    let backwards = format!("case quad fractional_even triangle_cw ruler{}", " 41f00238".repeat(6));
+    assert!(broken(&[&backwards]).contains(&"orientation"), "30.0010834");
+    // Equal spacing: 12.26 units at n = 53 are within the tolerance.
+    let equal = "case isoline integer line ruler 3f800000 42540000";
+    assert_eq!(broken(&[equal]), [""; 0], "53");
+}
+
+/// Just above 1: how far the inside reaches the outline, and an edge's points its corners (specification,
+/// section 11).
+#[test]
+fn where_rounding_ends() {
+    let odd = |domain: &str, levels: &str| {
+        let line = format!("case {domain} fractional_odd triangle_cw ruler {levels}");
+        case(&line).patch().tessellate().points
+    };
+    let above_1 =
+        |k: u32| format!("{:08x}", tess_verify::generate::from_fixed(0x1_0000 + k).to_bits());
+    let is_on_tri = |point: &DomainPoint| {
+        let [u, v] = [point.u.to_bits(), point.v.to_bits()];
+        u == 0 || v == 0 || u + v == ONE
+    };
+    let fives = |n: usize| " 40a00000".repeat(n);
+    for k in 1..=12 {
+        let level = above_1(k);
+        let tri = odd("tri", &format!("{} {level}", fives(3)));
+        assert_eq!(tri[15..].iter().any(is_on_tri), k <= 8, "tri, 1 + {k}/65536");
+        let quad = odd("quad", &format!("{} {level} 40a00000", fives(4)));
+        let touches = quad[20..].iter().any(|point| is_on_outline(*point));
+        assert_eq!(touches, k <= 2, "quad, 1 + {k}/65536");
+        let edge = odd("quad", &format!("{level}{}", fives(5)));
+        let on_corners = edge[..3].windows(2).any(|pair| pair[0] == pair[1]);
+        assert_eq!(on_corners, k <= 2, "outer, 1 + {k}/65536");
+    }
+    let corner = &odd("tri", &format!("{} 3f800180", fives(3)))[15..];
+    assert!(corner.contains(&DomainPoint::from_bits(0, 1)), "{corner:?}");
+}
+
+/// The largest distance of a point from k/n under equal spacing: 12.26 units, at n = 53.
+#[test]
+fn equal_spacing_is_rounded() {
+    let hundredths = |n: u16| {
+        let detail = f32::from(n).to_bits();
+        let line = format!("case isoline integer point ruler 3f800000 {detail:08x}");
+        let points = case(&line).patch().tessellate().points;
+        let off = |(k, point): (u64, &DomainPoint)| {
+            (u64::from(point.u.to_bits()) * u64::from(n)).abs_diff(k * u64::from(ONE))
+        };
+        (0..).zip(&points).map(off).max().unwrap_or_default() * 100 / u64::from(n)
+    };
+    let largest = (1..=64).max_by_key(|n| hundredths(*n)).expect("levels");
+    assert_eq!((largest, hundredths(largest)), (53, 1226), "n, and hundredths of a unit");
+}
