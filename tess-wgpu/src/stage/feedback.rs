@@ -84,21 +84,26 @@ impl Feedbacks {
         self.last = new.filter(|new| new.frame >= latest).or(self.last);
     }
 
-    /// Records the copies of a frame's numbers, which arrive after `encoder` was submitted.
+    /// Makes the buffer that [`Self::record`] needs, unless there is one.
+    pub(crate) fn reserve(&mut self, device: &wgpu::Device) -> Result<(), Error> {
+        if self.under_way.len() < MOST && self.idle.is_empty() {
+            let usage = Usage::MAP_READ | Usage::COPY_DST;
+            self.idle.push(gpu::empty(device, "feedback", BYTES, usage)?);
+        }
+        Ok(())
+    }
+
+    /// Records the copies of a frame's numbers, which arrive after `encoder` was submitted, if a buffer was reserved.
     pub(crate) fn record(
         &mut self,
-        device: &wgpu::Device,
         encoder: &mut wgpu::CommandEncoder,
         (batch, fit): (&Batch, Option<&Fit>),
         frame: u64,
-    ) -> Result<(), Error> {
+    ) {
         if self.under_way.len() >= MOST {
-            return Ok(());
+            return;
         }
-        let staging = match self.idle.pop() {
-            Some(staging) => staging,
-            None => gpu::empty(device, "feedback", BYTES, Usage::MAP_READ | Usage::COPY_DST)?,
-        };
+        let Some(staging) = self.idle.pop() else { return };
         encoder.copy_buffer_to_buffer(batch.status(), 0, &staging, 0, STATUS_BYTES);
         match fit {
             Some(fit) => {
@@ -113,7 +118,6 @@ impl Feedbacks {
             done.store(if result.is_ok() { DONE } else { FAILED }, Ordering::Release);
         });
         self.under_way.push(UnderWay { frame, staging, state });
-        Ok(())
     }
 }
 

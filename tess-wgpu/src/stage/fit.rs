@@ -238,6 +238,51 @@ mod tests {
         }
     }
 
+    /// What fit.wgsl and this file both say.
+    #[test]
+    fn constants_and_layouts_are_those_of_the_shader() {
+        use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+        use wgpu::naga::{Expression, Literal, TypeInner, front::wgsl};
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+        let source = source(Setup::new(Domain::Quad, config));
+        let module = wgsl::parse_str(&source).expect("it is valid");
+        let constant = |name: &str| {
+            let mut all = module.constants.iter();
+            let found = all.find(|(_, constant)| constant.name.as_deref() == Some(name));
+            match module.global_expressions[found.expect("it is declared").1.init] {
+                Expression::Literal(Literal::U32(value)) => u64::from(value),
+                ref other => panic!("{name} is {other:?}"),
+            }
+        };
+        let members = |name: &str| {
+            let mut all = module.types.iter();
+            let found = all.find(|(_, ty)| ty.name.as_deref() == Some(name));
+            match &found.expect("it is declared").1.inner {
+                TypeInner::Struct { members, span } => {
+                    let offsets = members.iter().map(|member| {
+                        (member.name.clone().unwrap_or_default(), u64::from(member.offset))
+                    });
+                    (offsets.collect::<Vec<_>>(), u64::from(*span))
+                }
+                other => panic!("{name} is {other:?}"),
+            }
+        };
+        assert_eq!(constant("LAST_STEP"), u64::from(STEPS), "the ladder's last step");
+        let (fit, bytes) = members("Fit");
+        assert_eq!(bytes, STATE_BYTES, "the buffer `fit`");
+        let at = |name: &str| fit.iter().find(|(own, _)| own == name).map(|&(_, offset)| offset);
+        let found = [std::mem::offset_of!(Found, step), std::mem::offset_of!(Found, points)];
+        assert_eq!([at("step"), at("sums")], found.map(|offset| Some(offset as u64)), "`Found`");
+        let (terms, _) = members("Terms");
+        let names: Vec<_> = terms.iter().map(|(name, offset)| (name.as_str(), *offset)).collect();
+        let expected = [("points", 0), ("primitives", 4), ("workgroups", 8), ("ladder", 16)];
+        assert_eq!(names, expected, "`terms` as `Fit::new` fills it; the room is its first {ROOM_BYTES} bytes");
+        for entry in &module.entry_points {
+            let threads = if entry.name == "decide" { 1 } else { passes::WORKGROUP };
+            assert_eq!(entry.workgroup_size, [threads, 1, 1], "{}", entry.name);
+        }
+    }
+
     #[test]
     fn the_ladder_descends_from_1_to_1_64th() {
         let ladder = ladder();

@@ -13,7 +13,7 @@ impl TessellationStage {
     /// stage, with the same encoder or with one that is submitted earlier. The passes' time depends on what
     /// is drawn and, a little, on the most patches that the stage was made for.
     ///
-    /// An encoder that is dropped instead of submitted leaves the stage as it was.
+    /// The encoder may be dropped instead of submitted; later frames do not depend on it.
     ///
     /// # Errors
     /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
@@ -34,6 +34,7 @@ impl TessellationStage {
         patches: PatchCount<'_>,
     ) -> Result<(), Error> {
         let (count, offset) = self.count_words(patches)?;
+        locked(&self.feedback).reserve(&self.device)?;
         if let Some((groups, output)) = self.next.take() {
             self.groups = groups;
             self.output = output;
@@ -47,7 +48,7 @@ impl TessellationStage {
         let batch = &self.output.batch;
         batch.encode(encoder);
         let of = (batch, self.fit.as_ref());
-        locked(&self.feedback).record(&self.device, encoder, of, self.frame)?;
+        locked(&self.feedback).record(encoder, of, self.frame);
         self.frame += 1;
         Ok(())
     }
@@ -56,8 +57,8 @@ impl TessellationStage {
     /// found, and grows as [`Room::Automatic`] says. A frame with the same factors is then exact if the room
     /// allows. Frames of other factors may need more.
     ///
-    /// It takes one round trip to the device, so call it after [`StageBuilder::build`](super::StageBuilder::build) or for a picture that is drawn
-    /// once. What the factors are computed from must have been written.
+    /// It takes one round trip to the device. Call it once after the stage is built, or for a picture that is drawn once,
+    /// when everything that the hull function reads has been written.
     ///
     /// # Errors
     /// As [`Self::prepare`]; and [`Error::Refused`] in a browser, where only [`Self::make_room_async`] can wait.

@@ -3,7 +3,7 @@
 use crate::error::{Error, checked};
 
 /// The threads of a workgroup of the stage's own passes.
-const WORKGROUP: u32 = 64;
+pub(crate) const WORKGROUP: u32 = 64;
 
 /// The workgroups for a number of threads, in rows that the device allows.
 pub(crate) fn workgroups(device: &wgpu::Device, threads: u32) -> [u32; 2] {
