@@ -276,7 +276,10 @@ mod tests {
         let (terms, _) = members("Terms");
         let names: Vec<_> = terms.iter().map(|(name, offset)| (name.as_str(), *offset)).collect();
         let expected = [("points", 0), ("primitives", 4), ("workgroups", 8), ("ladder", 16)];
-        assert_eq!(names, expected, "`terms` as `Fit::new` fills it; the room is its first {ROOM_BYTES} bytes");
+        assert_eq!(
+            names, expected,
+            "`terms` as `Fit::new` fills it; the room is its first {ROOM_BYTES} bytes"
+        );
         for entry in &module.entry_points {
             let threads = if entry.name == "decide" { 1 } else { passes::WORKGROUP };
             assert_eq!(entry.workgroup_size, [threads, 1, 1], "{}", entry.name);
