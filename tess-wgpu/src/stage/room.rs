@@ -258,6 +258,9 @@ mod tests {
         let eight = Capacity::uniform(form.setup, 10, 8.0);
         let bytes = u64::try_from(form.bytes(eight)).expect("few");
         assert_eq!(form.initial(Room::Bytes(bytes)), eight, "exactly theirs");
+        let pulled = Form { points: Points::Pull, ..form };
+        let triangles = 12 * u64::from(eight.primitives);
+        assert_eq!(pulled.initial(Room::Bytes(triangles)), eight, "points take nothing");
         // 40 points and 20 triangles take 560 bytes; patches of factor 8 take 770 points and 1260 triangles more.
         let part = form.initial(Room::Bytes(560 + 7_090));
         assert_eq!(

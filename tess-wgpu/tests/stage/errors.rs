@@ -209,7 +209,7 @@ fn what_a_stage_cannot_do_is_refused() {
 }
 
 /// A device with these limits.
-fn limited(required_limits: wgpu::Limits) -> Gpu {
+pub(crate) fn limited(required_limits: wgpu::Limits) -> Gpu {
     let open = async {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
         let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");

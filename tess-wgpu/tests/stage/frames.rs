@@ -90,6 +90,16 @@ fn a_late_frame_is_heard_of() {
 }
 
 #[test]
+fn an_older_frame_does_not_replace_a_newer_one() {
+    let (scene, mut stage) = growing();
+    let late = prepared(&scene, &mut stage);
+    scene.gpu.run(prepared(&scene, &mut stage)).expect("the device finishes");
+    assert_eq!(stage.feedback().map(|feedback| feedback.frame), Some(1), "the second");
+    scene.gpu.run(late).expect("the device finishes");
+    assert_eq!(stage.feedback().map(|feedback| feedback.frame), Some(1), "and still");
+}
+
+#[test]
 fn feedback_follows_the_frames() {
     let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
     let mut stage = scene.build(scene.builder());

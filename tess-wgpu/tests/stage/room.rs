@@ -3,7 +3,7 @@
 use crate::drawing::{scene, some_factors};
 use crate::model::{compare, drawn};
 use crate::scene::{PATCHES, Scene};
-use tess_core::{Domain, Partitioning, Patch, PatchFactors};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::Capacity;
 use tess_wgpu::TessellationStage;
 use tess_wgpu::stage::{Feedback, Overflow, Points, Room};
@@ -206,10 +206,13 @@ fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
     }
 }
 
-/// 2^19 quads of factor 64 give 2^32 triangles, of which the low word alone would fit anywhere.
+/// 2^19 quads of factor 64 give 2^32 triangles, of which the low word alone would fit anywhere. The device takes 2048
+/// workgroups in a row, so every pass has several rows.
 #[test]
 fn sums_beyond_32_bits_are_seen() {
-    let scene = scene(Domain::Quad, Partitioning::Integer);
+    let limits = wgpu::Limits { max_compute_workgroups_per_dimension: 2048, ..Default::default() };
+    let gpu = crate::errors::limited(limits);
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let source = "struct Vertex { @builtin(position) position: vec4f }\n\
                   fn hull(number: u32) -> QuadFactors { return tess_quad_factors(vec4f(64.0)); }\n\
                   fn domain(number: u32, uv: vec2f) -> Vertex { return Vertex(vec4f(uv, 0.0, 1.0)); }";
@@ -222,13 +225,13 @@ fn sums_beyond_32_bits_are_seen() {
         bias: wgpu::DepthBiasState::default(),
     };
     let room = Capacity { points: u32::MAX, primitives: 5_000_000 };
-    let mut stage = TessellationStage::builder(source, scene.domain, scene.config, patches)
+    let mut stage = TessellationStage::builder(source, Domain::Quad, config, patches)
         .depth(depth)
         .points(Points::PullWithoutIndices)
         .room(Room::Exactly(room))
-        .build(&scene.gpu.device)
+        .build(&gpu.device)
         .unwrap_or_else(|error| panic!("{error}"));
-    let found = stage.make_room(&scene.gpu.queue, patches).expect("the device answers");
+    let found = stage.make_room(&gpu.queue, patches).expect("the device answers");
     assert_eq!([found.points, found.primitives], [4225 << 19, 1 << 32], "{found:?}");
     // Factor 2 gives 8 triangles for each patch, factor 3 would give 18.
     assert_eq!(found.drawn, 8 << 19, "{found:?}");
