@@ -22,6 +22,8 @@ module tess_factor_context #(
     logic [6:0]  floor_points;
     logic [6:0]  ceil_points;
     logic [6:0]  edge_points;
+    logic [22:0] edge_half;
+    logic [6:0]  odd_top, even_top; // the points of the floor without their highest bit
 
     // The integer part of a 7.16 number, after rounding up.
     function automatic logic [6:0] ceil_int(input logic [22:0] x);
@@ -44,16 +46,19 @@ module tess_factor_context #(
         ceil_points  = ceil_int(half);
         fraction     = half[15:0];
         half_points  = ceil_points[5:0];
-        edge_points  = ceil_int(odd ? rounded_half + HALF : rounded_half);
+        edge_half    = odd ? rounded_half + HALF : rounded_half;
+        edge_points  = ceil_int(edge_half);
         points       = odd ? edge_points << 1 : (edge_points << 1) + 7'd1;
     end
 
+    assign odd_top  = drop_msb(floor_points - 7'd1);
+    assign even_top = drop_msb(floor_points);
     always_comb begin
         if (floor_points == ceil_points)      split = 6'(ceil_points + 7'd1); // no point reaches it
         else if (center)                      split = 6'(ceil_points - (odd ? 7'd2 : 7'd1));
         else if (odd && floor_points == 7'd1) split = 6'd0;
-        else if (odd)                         split = 6'((drop_msb(floor_points - 7'd1) << 1) + 7'd1);
-        else                                  split = 6'((drop_msb(floor_points) << 1) + 7'd1);
+        else if (odd)                         split = 6'((odd_top << 1) + 7'd1);
+        else                                  split = 6'((even_top << 1) + 7'd1);
     end
 
     tess_reciprocal floor_reciprocal (

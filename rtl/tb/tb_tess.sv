@@ -1,0 +1,391 @@
+// Checks tess_top against the golden model over DPI-C: every element, in order, and the front end's values.
+//
+//   +stimuli=FILE   patches, one a line: domain partitioning output split factors (names and hex digits of `tess gen`,
+//                   blanks instead of commas; more words on the line are not looked at)
+//   +random=N       that many random patches behind them, most of them small (default 0)
+//   +seed=N         seed of everything random (default 1)
+//   +gaps           random gaps between patches, random back-pressure on each stream
+//   +resets=N       N resets, each in the middle of a patch, before anything is checked
+//   +fault=N        plants fault N of the design, which must then be found
+//   +cycles         says for each configuration how many clocks its patches took (without +gaps)
+// Exit: PASS, or $fatal. Each difference prints the patch as a line that `tess explain` and +stimuli take.
+module tb_tess;
+    import tess_dpi::*;
+
+    localparam int unsigned MAX_SHOWN = 20;
+
+    // Packed: Verilator 5.006 takes no structure of structures.
+    typedef struct packed {
+        bit [1:0]       domain;
+        bit [1:0]       partitioning;
+        bit [1:0]       out;
+        bit             split;
+        bit [5:0][31:0] x;          // factors
+        bit [31:0]      points;     // what the model counts
+        bit [31:0]      primitives;
+    } stimulus_t;
+
+    function automatic config_t config_of(input stimulus_t s);
+        config_t cfg;
+        cfg.domain       = domain_e'(s.domain);
+        cfg.partitioning = partitioning_e'(s.partitioning);
+        cfg.out          = output_e'(s.out);
+        cfg.split_order  = split_order_e'(s.split);
+        return cfg;
+    endfunction
+
+    logic         clk = 1'b0;
+    logic         rst = 1'b1;
+    logic         patch_valid = 1'b0;
+    logic         patch_ready;
+    logic [1:0]   patch_domain, patch_partitioning, patch_out;
+    logic         patch_center;
+    logic [191:0] patch_factors;
+    logic         counts_valid, point_valid, primitive_valid;
+    logic         counts_ready = 1'b1, point_ready = 1'b1, primitive_ready = 1'b1;
+    logic [12:0]  counts_points;
+    logic [13:0]  counts_primitives;
+    logic [16:0]  point_u, point_v;
+    logic         point_last, primitive_last;
+    logic [1:0]   primitive_size;
+    logic [12:0]  primitive_i0, primitive_i1, primitive_i2;
+
+    tess_top dut (.*);
+
+    always #5 clk = ~clk;
+
+    // ---- what is expected ----------------------------------------------------------------------
+
+    // Patches that the design has accepted, for each place that checks them.
+    stimulus_t of_factors[$], of_counts[$], of_points[$], of_primitives[$];
+    int unsigned next_point = 0, next_primitive = 0;
+    longint unsigned points_checked = 0, primitives_checked = 0, patches_checked = 0, cycles = 0;
+    int unsigned mismatches = 0;
+
+    string DOMAINS[3] = '{"isoline", "tri", "quad"};
+    string PARTITIONINGS[4] = '{"integer", "pow2", "fractional_odd", "fractional_even"};
+    string OUTPUTS[4] = '{"point", "line", "triangle_cw", "triangle_ccw"};
+    string SPLITS[2] = '{"ruler", "center"};
+
+    function automatic int unsigned factor_count(input stimulus_t s);
+        return (s.domain == 2'(ISOLINE)) ? 2 : (s.domain == 2'(TRIANGLE)) ? 4 : 6;
+    endfunction
+
+    function automatic string line_of(input stimulus_t s);
+        string text = $sformatf("%s %s %s %s", DOMAINS[s.domain],
+            PARTITIONINGS[s.partitioning], OUTPUTS[s.out], SPLITS[s.split]);
+        for (int unsigned i = 0; i < factor_count(s); i++) text = {text, $sformatf(" %08x", s.x[i])};
+        return text;
+    endfunction
+
+    // What differs in this clock. Printed at one place, as Verilator copies a function to each of its calls.
+    typedef struct packed {
+        bit [31:0] stage;
+        bit [31:0] signal;
+        bit [31:0] element;
+        bit [31:0] observed;
+        bit [31:0] expected;
+        stimulus_t s;
+    } difference_t;
+    difference_t differences[$];
+
+    localparam int unsigned AT_FACTORS = 0, AT_CONTEXT = 1, AT_COUNTS = 2, AT_POINTS = 3, AT_CONNECT = 4;
+    string STAGES[5] = '{"factors", "factor_context", "counts", "points", "connect"};
+    string SIGNALS[18] = '{"culled", "fixed", "odd", "fraction", "half_points", "points", "split", "inv_floor", "inv_ceil",
+        "primitives", "u", "v", "last", "size", "i0", "i1", "i2", "valid"};
+
+    function automatic void compare(
+            input stimulus_t s, input int unsigned stage, input int unsigned signal, input int unsigned element,
+            input int unsigned observed, input int unsigned expected);
+        if (observed != expected) differences.push_back({stage, signal, element, observed, expected, s});
+    endfunction
+
+    function automatic void show();
+        while (differences.size() != 0) begin
+            difference_t d = differences.pop_front();
+            mismatches++;
+            if (mismatches <= MAX_SHOWN) begin
+                $display("MISMATCH stage=%s signal=%s element=%0d observed=0x%05x expected=0x%05x",
+                    STAGES[d.stage], SIGNALS[d.signal], d.element, d.observed, d.expected);
+                $display("    case %s", line_of(d.s));
+            end
+        end
+    endfunction
+
+    // ---- checking ------------------------------------------------------------------------------
+
+    // The front end: each factor as it is converted, then its context. Culled patches have none.
+    function automatic void check_factor();
+        stimulus_t s = of_factors[0];
+        int unsigned k = 32'(dut.stage_factors.context_k);
+        if (!dut.stage_factors.context_culled) begin
+            processed_t p = model_process(config_of(s), s.x, k);
+            context_t c = model_context(p.fixed, p.parity, split_order_e'(s.split));
+            if (p.outcome == CULLED) compare(s, AT_FACTORS, 0, k, 0, 1);
+            compare(s, AT_FACTORS, 1, k, 32'(dut.stage_factors.fixed), p.fixed);
+            compare(s, AT_FACTORS, 2, k, 32'(dut.stage_factors.odd), int'(p.parity));
+            compare(s, AT_CONTEXT, 3, k, 32'(dut.stage_factors.made.fraction), c.fraction);
+            compare(s, AT_CONTEXT, 4, k, 32'(dut.stage_factors.made.half_points), c.half_points);
+            compare(s, AT_CONTEXT, 5, k, 32'(dut.stage_factors.made.points), c.points);
+            compare(s, AT_CONTEXT, 6, k, 32'(dut.stage_factors.made.split), c.split);
+            compare(s, AT_CONTEXT, 7, k, 32'(dut.stage_factors.made.inv_floor), c.inv_floor);
+            compare(s, AT_CONTEXT, 8, k, 32'(dut.stage_factors.made.inv_ceil), c.inv_ceil);
+        end
+        if (dut.stage_factors.context_last) void'(of_factors.pop_front());
+    endfunction
+
+    function automatic void check_counts();
+        stimulus_t s;
+        if (of_counts.size() == 0) $fatal(1, "counts came that no patch has");
+        s = of_counts.pop_front();
+        compare(s, AT_COUNTS, 5, 0, 32'(counts_points), s.points);
+        compare(s, AT_COUNTS, 9, 0, 32'(counts_primitives), s.primitives);
+        patches_checked++;
+        idle = 0;
+    endfunction
+
+    // Patches without elements have nothing to come.
+    function automatic void check_point();
+        stimulus_t s;
+        point_t p;
+        while (of_points.size() != 0 && of_points[0].points == 0) void'(of_points.pop_front());
+        if (of_points.size() == 0) $fatal(1, "a point came that no patch has");
+        s = of_points[0];
+        p = model_point(config_of(s), s.x, next_point);
+        compare(s, AT_POINTS, 10, next_point, 32'(point_u), p.u);
+        compare(s, AT_POINTS, 11, next_point, 32'(point_v), p.v);
+        next_point++;
+        compare(s, AT_POINTS, 12, next_point - 1, 32'(point_last), 32'(next_point == s.points));
+        points_checked++;
+        idle = 0;
+        if (next_point == s.points) begin
+            next_point = 0;
+            void'(of_points.pop_front());
+        end
+    endfunction
+
+    function automatic void check_primitive();
+        stimulus_t s;
+        primitive_t p;
+        while (of_primitives.size() != 0 && of_primitives[0].primitives == 0) void'(of_primitives.pop_front());
+        if (of_primitives.size() == 0) $fatal(1, "a primitive came that no patch has");
+        s = of_primitives[0];
+        p = model_primitive(config_of(s), s.x, next_primitive);
+        compare(s, AT_CONNECT, 13, next_primitive, 32'(primitive_size), p.size);
+        compare(s, AT_CONNECT, 14, next_primitive, 32'(primitive_i0), p.i0);
+        compare(s, AT_CONNECT, 15, next_primitive, 32'(primitive_i1), p.i1);
+        compare(s, AT_CONNECT, 16, next_primitive, 32'(primitive_i2), p.i2);
+        next_primitive++;
+        compare(s, AT_CONNECT, 12, next_primitive - 1, 32'(primitive_last),
+            32'(next_primitive == s.primitives));
+        primitives_checked++;
+        idle = 0;
+        if (next_primitive == s.primitives) begin
+            next_primitive = 0;
+            void'(of_primitives.pop_front());
+        end
+    endfunction
+
+    // ---- random --------------------------------------------------------------------------------
+
+    int unsigned seed = 1;
+    int unsigned state;
+    bit          gaps;
+
+    // xorshift, 32 bits: the same sequence in every simulator.
+    function automatic int unsigned random();
+        state ^= state << 13;
+        state ^= state >> 17;
+        state ^= state << 5;
+        return state;
+    endfunction
+
+    // A factor: mostly small and near integers, now and then any bits at all.
+    function automatic int unsigned random_factor();
+        int unsigned kind = random() % 16;
+        int unsigned fixed, exponent, bits;
+        if (kind == 0) return random();
+        fixed = 32'h1_0000 + random() % (32'h1_0000 << (random() % 7));
+        if (kind < 8) fixed = (fixed & 32'hFFFF_0000) + (random() % 8 == 0 ? random() % 64 : 0);
+        if (fixed > 32'h40_0000) fixed = 32'h40_0000;
+        // To binary32: a 23-bit number is exact.
+        exponent = 0;
+        for (int unsigned i = 0; i < 24; i++) if (fixed[i]) exponent = i;
+        bits = ((exponent + 32'd111) << 23) | ((fixed << (23 - exponent)) & 32'h007F_FFFF);
+        // And its neighbours, one unit in the last place away.
+        return (kind < 3) ? bits + random() % 3 - 1 : bits;
+    endfunction
+
+    function automatic stimulus_t random_stimulus();
+        stimulus_t s;
+        s.domain       = 2'(random() % 3);
+        s.partitioning = 2'(random() % 4);
+        s.out          = 2'(random() % 8 < 6 ? 2 + random() % 2 : random() % 2);
+        s.split        = random() % 4 == 0;
+        for (int unsigned i = 0; i < 6; i++) s.x[i] = random_factor();
+        if (random() % 4 == 0) for (int unsigned i = 1; i < 6; i++) s.x[i] = s.x[0];
+        return s;
+    endfunction
+
+    // ---- driving -------------------------------------------------------------------------------
+
+    // What the design is offered; the process below sees whether it has taken it.
+    stimulus_t   offered;
+    bit          is_offered = 1'b0, is_accepted = 1'b0;
+    int unsigned idle = 0; // clocks without anything passing
+
+    // One clock. Inputs change at falling edges; what will pass at the rising edge is known a moment later.
+    always @(negedge clk) begin
+        patch_valid        = is_offered;
+        patch_domain       = offered.domain;
+        patch_partitioning = offered.partitioning;
+        patch_out          = offered.out;
+        patch_center       = offered.split;
+        patch_factors      = offered.x;
+        if (gaps) begin
+            int unsigned bits;
+            bits = random();
+            counts_ready    = bits[1:0] != 2'd0;
+            point_ready     = bits[3:2] != 2'd0;
+            primitive_ready = bits[5:4] != 2'd0;
+        end
+        #1;
+        cycles++;
+        idle++;
+        if (!rst) begin
+            if (patch_valid && patch_ready) begin
+                idle = 0;
+                is_offered  = 1'b0;
+                is_accepted = 1'b1;
+                of_factors.push_back(offered);
+                of_counts.push_back(offered);
+                of_points.push_back(offered);
+                of_primitives.push_back(offered);
+            end
+            if (dut.stage_factors.context_valid && dut.stage_factors.advance) check_factor();
+            if (counts_valid && counts_ready) check_counts();
+            if (point_valid && point_ready) check_point();
+            if (primitive_valid && primitive_ready) check_primitive();
+            if (differences.size() != 0) show();
+            if (idle > 20000) begin
+                if (of_points.size() != 0) $display("MISMATCH stage=points signal=valid element=%0d observed=0x0 expected=0x1",
+                    next_point);
+                $fatal(1, "FAIL: nothing passes any more");
+            end
+        end
+    end
+
+    task automatic send(input stimulus_t s);
+        counts_t c;
+        if (gaps && random() % 8 == 0) repeat (random() % 24) @(posedge clk);
+        c = model_count(config_of(s), s.x);
+        offered            = s;
+        offered.points     = c.points;
+        offered.primitives = c.primitives;
+        is_accepted        = 1'b0;
+        is_offered         = 1'b1;
+        while (!is_accepted) @(posedge clk);
+        // A design with a fault may go wrong for ever; what is shown is enough.
+        if (mismatches > MAX_SHOWN) give_verdict();
+    endtask
+
+    // Whether every patch that was accepted has come out whole.
+    function automatic bit is_empty();
+        while (of_points.size() != 0 && of_points[0].points == 0) void'(of_points.pop_front());
+        while (of_primitives.size() != 0 && of_primitives[0].primitives == 0) void'(of_primitives.pop_front());
+        return of_counts.size() == 0 && of_points.size() == 0 && of_primitives.size() == 0;
+    endfunction
+
+    task automatic drain();
+        while (!is_empty()) @(posedge clk);
+        repeat (32) @(posedge clk);
+    endtask
+
+    task automatic send_file(input string path);
+        int          fd;
+        int unsigned count;
+        string       domain, partitioning, out, split, rest;
+        bit [31:0]   word;
+        fd = $fopen(path, "r");
+        count = 0;
+        if (fd == 0) $fatal(1, "%s: cannot be read", path);
+        while ($fscanf(fd, "%s %s %s %s", domain, partitioning, out, split) == 4) begin
+            stimulus_t s;
+            s = '0;
+            s.domain       = 2'(number_of(domain, DOMAINS[0], DOMAINS[1], DOMAINS[2], ""));
+            s.partitioning = 2'(number_of(partitioning, PARTITIONINGS[0], PARTITIONINGS[1],
+                PARTITIONINGS[2], PARTITIONINGS[3]));
+            s.out          = 2'(number_of(out, OUTPUTS[0], OUTPUTS[1], OUTPUTS[2], OUTPUTS[3]));
+            s.split        = 1'(number_of(split, SPLITS[0], SPLITS[1], "", ""));
+            for (int unsigned i = 0; i < factor_count(s); i++) begin
+                if ($fscanf(fd, "%h", word) != 1) $fatal(1, "%s: patch %0d lacks factors", path, count);
+                s.x[i] = word;
+            end
+            void'($fgets(rest, fd));
+            send(s);
+            count++;
+        end
+        $fclose(fd);
+        if (count == 0) $fatal(1, "%s: no patches", path);
+        $display("%s: %0d patches", path, count);
+    endtask
+
+    function automatic int unsigned number_of(
+            input string word, input string n0, input string n1, input string n2, input string n3);
+        if (word == n0) return 0;
+        if (word == n1) return 1;
+        if (word == n2 && n2 != "") return 2;
+        if (word == n3 && n3 != "") return 3;
+        $fatal(1, "`%s` is no name of the specification", word);
+        return 0;
+    endfunction
+
+    // Resets in the middle of a patch; nothing of it may be left.
+    task automatic reset_in_the_middle(input int unsigned count);
+        repeat (count) begin
+            send(random_stimulus());
+            repeat (random() % 40) @(posedge clk);
+            @(negedge clk);
+            rst = 1'b1;
+            repeat (2) @(negedge clk);
+            #2;
+            of_factors.delete();
+            of_counts.delete();
+            of_points.delete();
+            of_primitives.delete();
+            next_point = 0;
+            next_primitive = 0;
+            rst = 1'b0;
+        end
+    endtask
+
+    task automatic give_verdict();
+        $display("%0d patches, %0d points, %0d primitives, %0d clocks, %0d mismatches",
+            patches_checked, points_checked, primitives_checked, cycles, mismatches);
+        if (mismatches != 0) $fatal(1, "FAIL");
+        if (points_checked == 0 || primitives_checked == 0) $fatal(1, "FAIL: nothing was checked");
+        $display("PASS");
+        $finish;
+    endtask
+
+    int unsigned random_patches = 0, resets = 0, fault = 0;
+    string       path;
+
+    initial begin
+        gaps = $test$plusargs("gaps") != 0;
+        void'($value$plusargs("seed=%d", seed));
+        void'($value$plusargs("random=%d", random_patches));
+        void'($value$plusargs("resets=%d", resets));
+        void'($value$plusargs("fault=%d", fault));
+        tess_fault_pkg::number = fault;
+        state = (seed == 0) ? 32'h9E37_79B9 : seed;
+        repeat (3) @(posedge clk);
+        @(negedge clk);
+        rst = 1'b0;
+        reset_in_the_middle(resets);
+        if ($value$plusargs("stimuli=%s", path)) send_file(path);
+        repeat (random_patches) send(random_stimulus());
+        drain();
+        give_verdict();
+    end
+endmodule

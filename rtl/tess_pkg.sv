@@ -1,0 +1,39 @@
+// Numbers and widths that the modules share; structures are in tess_types.svh. Section numbers refer to docs/specification.md;
+// section 14 derives the widths, and a test of the model asserts them.
+/* verilator lint_off UNUSEDPARAM */ // a complete list of names
+package tess_pkg;
+    // Domains, partitionings and output primitives have the numbers of tess.h.
+    localparam logic [1:0] ISOLINE  = 2'd0;
+    localparam logic [1:0] TRIANGLE = 2'd1;
+    localparam logic [1:0] QUAD     = 2'd2;
+
+    localparam logic [1:0] INTEGER         = 2'd0;
+    localparam logic [1:0] POW2            = 2'd1;
+    localparam logic [1:0] FRACTIONAL_ODD  = 2'd2;
+    localparam logic [1:0] FRACTIONAL_EVEN = 2'd3;
+
+    localparam logic [1:0] POINT        = 2'd0;
+    localparam logic [1:0] LINE         = 2'd1;
+    localparam logic [1:0] TRIANGLE_CW  = 2'd2;
+    localparam logic [1:0] TRIANGLE_CCW = 2'd3;
+
+    // 16.16 locations.
+    localparam logic [16:0] ONE       = 17'h1_0000;
+    localparam logic [16:0] HALF      = 17'h0_8000;
+    localparam logic [16:0] ONE_THIRD = 17'h0_5555;
+    localparam logic [15:0] TWO_THIRDS = 16'hAAAA;
+
+    // Kinds of stitches (sections 7.2, 7.3 and 7.4).
+    localparam logic [1:0] TRANSITION          = 2'd0;
+    localparam logic [1:0] RING                = 2'd1;
+    localparam logic [1:0] STRIP               = 2'd2; // all diagonals forward
+    localparam logic [1:0] STRIP_EXCEPT_MIDDLE = 2'd3;
+
+    localparam int CONTEXT_BITS = 70; // of tess_context_t
+    // A patch has at most six factors: outer first, then inside. Vectors hold one context for each.
+    localparam int FACTORS = 6;
+    localparam int CONTEXTS_BITS = FACTORS * CONTEXT_BITS;
+    localparam int COUNTS_BITS = FACTORS * 7;
+
+endpackage
+/* verilator lint_on UNUSEDPARAM */

@@ -1,0 +1,58 @@
+// Places a point in one dimension (specification, section 5), in two registered stages: position, then blend.
+`include "tess_types.svh"
+module tess_place (
+    input  logic               clk,
+    input  logic               advance, // both stages move on
+    /* verilator lint_off UNUSEDSIGNAL */ // `points` bounds in_p
+    input  tess_context_t in_context,
+    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic [6:0]         in_p,    // below the context's points
+    output logic [16:0]        location // two stages later: 0..ONE
+);
+    logic        flip_next, middle_next;
+    logic [16:0] coarse_next, fine_next;
+    tess_place_position place_position (
+        .inv_floor  (in_context.inv_floor),
+        .inv_ceil   (in_context.inv_ceil),
+        .half_points(in_context.half_points),
+        .split      (in_context.split),
+        .odd        (in_context.odd),
+        .p          (in_p),
+        .flip       (flip_next),
+        .middle     (middle_next),
+        /* verilator lint_off PINCONNECTEMPTY */
+        .position   (),
+        /* verilator lint_on PINCONNECTEMPTY */
+        .coarse     (coarse_next),
+        .fine       (fine_next)
+    );
+
+    logic        flip, middle;
+    logic [15:0] fraction;
+    logic [16:0] coarse, fine;
+    always_ff @(posedge clk) begin
+        if (advance) begin
+            flip     <= flip_next;
+            middle   <= middle_next;
+            fraction <= in_context.fraction;
+            coarse   <= coarse_next;
+            fine     <= fine_next;
+        end
+    end
+
+    logic [16:0] location_next;
+    tess_place_blend place_blend (
+        .fraction     (fraction),
+        .flip         (flip),
+        .middle       (middle),
+        .coarse       (coarse),
+        .fine         (fine),
+        /* verilator lint_off PINCONNECTEMPTY */
+        .half_location(),
+        /* verilator lint_on PINCONNECTEMPTY */
+        .location     (location_next)
+    );
+    always_ff @(posedge clk) begin
+        if (advance) location <= location_next;
+    end
+endmodule

@@ -1,0 +1,122 @@
+// A fixed-function tessellator: configuration and factors in, two streams out. See docs/rtl.md.
+//
+// Every stream is valid/ready: an element passes at a rising edge of clk where both are 1. Each patch has one entry in
+// the stream of counts; then its points and its primitives come in the order of the specification, `last` with
+// the last of each. A culled patch has counts of 0, and nothing in the other streams. The three streams do not wait
+// for each other within a patch; none is more than one patch ahead of another.
+`include "tess_fault.svh"
+`include "tess_types.svh"
+module tess_top (
+    input  logic         clk,
+    input  logic         rst,              // synchronous
+
+    input  logic         patch_valid,
+    output logic         patch_ready,
+    input  logic [1:0]   patch_domain,       // numbers of tess_pkg
+    input  logic [1:0]   patch_partitioning,
+    input  logic [1:0]   patch_out,
+    input  logic         patch_center,       // split order: 0 ruler, 1 center
+    input  logic [191:0] patch_factors,      // binary32 in the order of section 1, factor 0 in the lowest bits
+
+    output logic         counts_valid,
+    input  logic         counts_ready,
+    output logic [12:0]  counts_points,      // 0..4225
+    output logic [13:0]  counts_primitives,  // 0..8192
+
+    output logic         point_valid,
+    input  logic         point_ready,
+    output logic [16:0]  point_u,            // 16.16, 0..ONE
+    output logic [16:0]  point_v,
+    output logic         point_last,
+
+    output logic         primitive_valid,
+    input  logic         primitive_ready,
+    output logic [1:0]   primitive_size,     // 1 to 3 indices; the others are 0
+    output logic [12:0]  primitive_i0,
+    output logic [12:0]  primitive_i1,
+    output logic [12:0]  primitive_i2,
+    output logic         primitive_last
+);
+    logic                               made_valid, made_ready;
+    tess_patch_t                   made;
+    logic [tess_pkg::CONTEXTS_BITS-1:0] contexts;
+    tess_factors stage_factors (
+        .clk, .rst,
+        .in_valid       (patch_valid),
+        .in_ready       (patch_ready),
+        .in_domain      (patch_domain),
+        .in_partitioning(patch_partitioning),
+        .in_out         (patch_out),
+        .in_center      (patch_center),
+        .in_factors     (patch_factors),
+        .out_valid      (made_valid),
+        .out_ready      (made_ready),
+        .out_patch      (made),
+        .out_contexts   (contexts)
+    );
+
+    // A patch leaves the front end when all three have taken it.
+    logic points_took, connect_took, counts_took;
+    logic points_ready, connect_ready, counts_free;
+    logic points_takes, connect_takes, counts_takes;
+    assign points_takes  = made_valid && !points_took && points_ready;
+    assign connect_takes = made_valid && !connect_took && connect_ready;
+    assign counts_takes  = made_valid && !counts_took && counts_free;
+    assign made_ready    = (points_took || points_takes) && (connect_took || connect_takes)
+                        && (counts_took || counts_takes);
+
+    always_ff @(posedge clk) begin
+        if (rst || made_ready) begin
+            points_took  <= 1'b0;
+            connect_took <= 1'b0;
+            counts_took  <= 1'b0;
+        end else begin
+            points_took  <= points_took || points_takes;
+            connect_took <= connect_took || connect_takes;
+            counts_took  <= counts_took || counts_takes;
+        end
+    end
+
+    assign counts_free = !counts_valid || counts_ready;
+    always_ff @(posedge clk) begin
+        if (rst) begin
+            counts_valid <= 1'b0;
+        end else if (counts_free) begin
+            counts_valid      <= counts_takes;
+            counts_points     <= made.points;
+            counts_primitives <= made.primitives;
+        end
+    end
+
+    tess_points stage_points (
+        .clk, .rst,
+        .start_valid   (made_valid && !points_took),
+        .start_ready   (points_ready),
+        .start_patch   (made),
+        .start_contexts(contexts),
+        .out_valid     (point_valid),
+        .out_ready     (point_ready),
+        .out_u         (point_u),
+        .out_v         (point_v),
+        .out_last      (point_last)
+    );
+
+    logic [tess_pkg::COUNTS_BITS-1:0] counts;
+    for (genvar i = 0; i < tess_pkg::FACTORS; i++) begin : g_counts
+        assign counts[7*i +: 7] = contexts[tess_pkg::CONTEXT_BITS*i +: 7];
+    end
+    tess_connect stage_connect (
+        .clk, .rst,
+        .start_valid (made_valid && !connect_took),
+        .start_ready (connect_ready),
+        .start_patch (made),
+        .start_counts(counts),
+        .out_valid   (primitive_valid),
+        .out_ready   (primitive_ready),
+        .out_size    (primitive_size),
+        .out_i0      (primitive_i0),
+        .out_i1      (primitive_i1),
+        .out_i2      (primitive_i2),
+        .out_last    (primitive_last)
+    );
+endmodule
