@@ -1,17 +1,18 @@
-//! Runs what is not Rust: the header in a C and a C++ compiler, the C example, the Verilog bench,
-//! the UVM package.
+//! Runs what is not Rust: the header in a C and a C++ compiler, the C example, the Verilog benches
+//! of the placer and of the whole circuit, the UVM package.
 //!
 //! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the
 //! environment variable `CI` set they fail.
 
 mod foreign {
     pub(crate) mod c;
+    pub(crate) mod rtl;
     pub(crate) mod tools;
     pub(crate) mod uvm;
     pub(crate) mod verilog;
 }
 
-use foreign::{c, tools, uvm, verilog};
+use foreign::{c, rtl, tools, uvm, verilog};
 use libtest_mimic::{Arguments, Failed, Trial};
 
 type Test = fn() -> Result<(), Failed>;
@@ -25,6 +26,9 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("example_refuses_bad_usage", &["cc"], c::example_refuses_bad_usage),
     ("fuzz_finds_a_planted_fault", &["cc"], c::fuzz_finds_a_planted_fault),
     ("fuzz_entry_is_cpp", &["c++"], c::fuzz_entry_is_cpp),
+    ("rtl_equals_model", &["c++", "make", "verilator"], rtl::equals_model),
+    ("rtl_faults_are_caught", &["c++", "make", "verilator"], rtl::faults_are_caught),
+    ("rtl_stimuli_are_checked", &["c++", "make", "verilator"], rtl::stimuli_are_checked),
     ("verilog_equals_model", &["c++", "make", "verilator"], verilog::equals_model),
     ("verilog_faults_are_caught", &["c++", "make", "verilator"], verilog::faults_are_caught),
     ("uvm_compiles_and_runs", &["c++", "make", "verilator"], uvm::compiles_and_runs),

@@ -3,7 +3,7 @@
     python run.py [--sim verilator|icarus] [--fault N] [--random N] [--seed N] [--coverage FILE]
                   [--testcase level_1_stimuli|random_stimuli]
 
-The design is bindings/c/verilog/rtl of the repository. Exit status: 0 equal, 1 different. `--fault`
+The design is rtl/ of the repository. Exit status: 0 equal, 1 different. `--fault`
 takes a design with a planted fault: 1 factor context, 2 flip, 3 rounding; the run then fails.
 """
 
@@ -15,7 +15,8 @@ from pathlib import Path
 from cocotb.runner import get_results, get_runner
 
 HERE = Path(__file__).resolve().parent
-RTL = HERE.parents[3] / "bindings" / "c" / "verilog" / "rtl"
+RTL = HERE.parents[3] / "rtl"
+PLACER = ["factor_context", "place_blend", "place_position", "placer", "reciprocal"]
 
 
 def arguments() -> argparse.Namespace:
@@ -35,7 +36,7 @@ def main() -> int:
     build = (options.build / f"{options.sim}-{options.fault}").resolve()
     runner = get_runner(options.sim)
     runner.build(
-        verilog_sources=sorted(RTL.glob("*.sv")),
+        verilog_sources=[RTL / f"tess_{module}.sv" for module in PLACER],
         hdl_toplevel="tess_placer",
         parameters={"PLANTED_FAULT": options.fault},
         build_dir=build,
