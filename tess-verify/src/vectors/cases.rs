@@ -4,7 +4,7 @@ use super::header::MAGIC;
 use super::lines::Lines;
 use super::{VectorError, VectorFile};
 use crate::case::Case;
-use std::io::BufRead;
+use std::io::{BufRead, Chain, Cursor, Read};
 
 /// The cases of a text: of a vector file whose records are single patches, or lines that begin with
 /// `case`, between which empty lines and lines that begin with `#` may stand.
@@ -19,8 +19,29 @@ pub struct Cases<R> {
 
 #[derive(Debug)]
 enum Source<R> {
-    File(VectorFile<R>),
-    Lines(Lines<R>),
+    File(VectorFile<Begun<R>>),
+    Lines(Lines<Begun<R>>),
+}
+
+/// A reader with the bytes in front that were taken from it.
+type Begun<R> = Chain<Cursor<Vec<u8>>, R>;
+
+/// Takes the bytes that a text and `expected` begin with, however few the reader has at a time.
+fn common_beginning(reader: &mut impl BufRead, expected: &[u8]) -> Vec<u8> {
+    let mut taken = Vec::new();
+    while taken.len() < expected.len() {
+        // What cannot be read is an error of the first line.
+        let Ok(buffer) = reader.fill_buf() else { break };
+        let pairs = buffer.iter().zip(&expected[taken.len()..]);
+        let more = pairs.take_while(|(found, expected)| found == expected).count();
+        let is_all = more > 0 && more == buffer.len();
+        taken.extend_from_slice(&buffer[..more]);
+        reader.consume(more);
+        if !is_all {
+            break;
+        }
+    }
+    taken
 }
 
 impl<R: BufRead> Cases<R> {
@@ -29,7 +50,9 @@ impl<R: BufRead> Cases<R> {
     /// # Errors
     /// A vector file that begins wrongly, or whose records are no single patches.
     pub fn new(name: impl AsRef<str>, mut reader: R) -> Result<Self, VectorError> {
-        let is_file = reader.fill_buf().is_ok_and(|text| text.starts_with(MAGIC.as_bytes()));
+        let begun = common_beginning(&mut reader, MAGIC.as_bytes());
+        let is_file = begun.len() == MAGIC.len();
+        let reader = Cursor::new(begun).chain(reader);
         let source = if is_file {
             let file = VectorFile::new(name, reader)?;
             if !file.header().kind.has_cases() {
@@ -71,5 +94,29 @@ impl<R: BufRead> Iterator for Cases<R> {
         self.found = true;
         self.ended = !matches!(case, Some(Ok(_)));
         case
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::BufReader;
+
+    const LINE: &str = "case isoline integer line ruler 40000000 40400000\n";
+
+    /// A pipe may give few bytes at a time.
+    #[test]
+    fn the_format_does_not_depend_on_how_much_comes_at_once() {
+        let listing = format!("{LINE}points 0\nindices 0\nend\n");
+        let file = format!("{MAGIC} 1 kind=listings count=1 source=a\n{listing}");
+        for text in [file.as_str(), LINE, &format!("# a remark\n{LINE}")] {
+            for capacity in 1..=2 * MAGIC.len() {
+                let reader = BufReader::with_capacity(capacity, text.as_bytes());
+                let cases: Result<Vec<_>, _> = Cases::new("a", reader).and_then(Iterator::collect);
+                let cases = cases.unwrap_or_else(|error| panic!("{capacity} bytes: {error}"));
+                assert_eq!(cases.len(), 1, "{capacity} bytes of {text}");
+            }
+        }
+        assert!(Cases::new("a", &b"# tess"[..]).is_ok_and(|mut cases| cases.all(|c| c.is_err())));
     }
 }
