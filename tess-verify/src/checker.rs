@@ -16,6 +16,7 @@ use crate::case::Case;
 use crate::compare::{Element, Mismatch, Stage};
 use crate::strength::{Elements, Order, Strength};
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
+use crate::workers;
 use findings::{Findings, Found};
 use std::io::BufRead;
 use std::sync::{Mutex, PoisonError};
@@ -93,21 +94,14 @@ pub fn check_asked<R: BufRead + Send>(
         }
         result
     };
-    let mut results = Vec::new();
-    std::thread::scope(|scope| {
-        let workers: Vec<_> = backends.iter_mut().map(|b| scope.spawn(|| run(b))).collect();
-        for worker in workers {
-            let panicked = |_| Err(BackendError::new("the backend panicked"));
-            results.push(worker.join().unwrap_or_else(panicked));
-        }
-    });
+    let results = workers::run(backends, run);
     // A malformed file is reported as such, whatever a backend answered meanwhile.
     if let Some(Err(error)) = lock(&source).stopped.take() {
         return Err(error.into());
     }
     let mut findings = source.into_inner().unwrap_or_else(PoisonError::into_inner).finish()?;
     for result in results {
-        findings.join(result?);
+        findings.join(result.ok_or_else(|| BackendError::new("the backend panicked"))??);
     }
     Ok(findings.report())
 }

@@ -26,6 +26,7 @@ pub mod strength;
 pub mod vectors;
 pub mod verify;
 pub mod ways;
+mod workers;
 pub mod workloads;
 
 pub use backend::{Backend, BackendError};

@@ -83,12 +83,9 @@ fn verify_subject(
         }
         Ok(())
     };
-    std::thread::scope(|scope| {
-        let threads: Vec<_> = workers.iter_mut().map(|list| scope.spawn(|| work(list))).collect();
-        threads.into_iter().try_for_each(|thread| {
-            thread.join().unwrap_or_else(|_| Err(BackendError::new("a backend panicked")))
-        })
-    })?;
+    let results = crate::workers::run(workers, work);
+    let panicked = || BackendError::new("a backend panicked");
+    results.into_iter().try_for_each(|result| result.ok_or_else(panicked)?)?;
     Ok(rows.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 

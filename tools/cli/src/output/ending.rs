@@ -1,5 +1,7 @@
 //! What is done before a signal ends the process: half-written files go, reports are ended.
 
+#[cfg(unix)]
+use signal_hook::{iterator::Signals, low_level};
 use std::collections::BTreeMap;
 use std::io;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -71,10 +73,36 @@ pub(super) fn end(last: impl FnOnce()) {
 
 /// Starts to listen to the signals that end a process: the first one does the cleanups before it
 /// ends the process as it would have without; a second one ends it at once.
+///
+/// Where no thread can be started, signals end the process at once.
 #[cfg(unix)]
 fn listen() -> io::Result<()> {
+    use std::sync::mpsc::sync_channel;
+    let (give, take) = sync_channel::<Signals>(1);
+    let wait = move || {
+        if let Some(signal) = take.recv().ok().and_then(|mut signals| signals.forever().next()) {
+            end(|| {
+                // The exit code of a shell, should the signal not be in the crate's table.
+                if low_level::emulate_default_handler(signal).is_err() {
+                    low_level::exit(128 + signal);
+                }
+            });
+        }
+    };
+    // The signals are caught only when there is a thread that takes them.
+    if std::thread::Builder::new().spawn(wait).is_ok() {
+        // The thread waits for them, so the channel is open.
+        _ = give.send(caught()?);
+    }
+    Ok(())
+}
+
+/// The signals that end a process, but for those that it was started to ignore. From here on the first
+/// does nothing by itself, and the second ends the process.
+#[cfg(unix)]
+fn caught() -> io::Result<Signals> {
     use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-    use signal_hook::{flag, iterator::Signals, low_level};
+    use signal_hook::flag;
     use std::sync::Arc;
     use std::sync::atomic::AtomicBool;
 
@@ -85,18 +113,7 @@ fn listen() -> io::Result<()> {
         flag::register_conditional_default(signal, Arc::clone(&second))?;
         flag::register(signal, Arc::clone(&second))?;
     }
-    let mut signals = Signals::new(heard)?;
-    let wait = move || {
-        if let Some(signal) = signals.forever().next() {
-            end(|| {
-                // The exit code of a shell, should the signal not be in the crate's table.
-                if low_level::emulate_default_handler(signal).is_err() {
-                    low_level::exit(128 + signal);
-                }
-            });
-        }
-    };
-    std::thread::Builder::new().spawn(wait).map(drop)
+    Signals::new(heard)
 }
 
 /// Elsewhere temporary files stay behind when the process is ended from outside.

@@ -1,0 +1,35 @@
+//! Threads, where there may be fewer than processors.
+
+use rayon::ThreadPoolBuilder;
+use std::sync::Mutex;
+use std::thread::{Builder, available_parallelism, scope};
+
+/// The most threads that are tried.
+const MOST: usize = 1024;
+
+/// Starts rayon's pool with the threads that can be started, if these are fewer than it would start by
+/// itself, which would panic. Without any, the pool is this thread.
+pub(crate) fn start_pool() {
+    let asked = std::env::var("RAYON_NUM_THREADS").ok().and_then(|number| number.parse().ok());
+    let asked = asked.filter(|&number: &usize| number > 0);
+    let wanted = asked.unwrap_or_else(|| available_parallelism().map_or(1, usize::from)).min(MOST);
+    let there = startable(wanted);
+    if there < wanted {
+        let pool = match there {
+            0 => ThreadPoolBuilder::new().num_threads(1).use_current_thread(),
+            _ => ThreadPoolBuilder::new().num_threads(there),
+        };
+        // It fails if there is a pool already, which is as good.
+        _ = pool.build_global();
+    }
+}
+
+/// How many threads, up to the number that is wanted, can run beside this one now.
+pub(crate) fn startable(wanted: usize) -> usize {
+    let gate = Mutex::new(());
+    scope(|scope| {
+        let _closed = gate.lock();
+        let start = |_: &usize| Builder::new().spawn_scoped(scope, || drop(gate.lock())).is_ok();
+        (0..wanted).take_while(start).count()
+    })
+}
