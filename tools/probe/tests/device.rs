@@ -111,9 +111,9 @@ fn shaders_are_as_compiled() {
 /// integration.
 fn compiled(name: &str, text: &str) -> Option<Vec<u8>> {
     let stage = name.rsplit_once('.').map_or(name, |(_, stage)| stage);
-    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
-    let unique = format!("{:?}-{name}", std::thread::current().id());
-    let (source, binary) = (folder.join(&unique), folder.join(unique + ".spv"));
+    // Other processes may run the same test.
+    let folder = tempfile::tempdir_in(env!("CARGO_TARGET_TMPDIR")).expect("a folder");
+    let (source, binary) = (folder.path().join(name), folder.path().join("compiled.spv"));
     std::fs::write(&source, text).expect("the folder can be written");
     let mut compiler = Command::new("glslangValidator");
     compiler.args(["-V", "--target-env", "vulkan1.1", "-S", stage]).arg(format!("-I{SHADERS}"));

@@ -1,5 +1,6 @@
 //! Finding tools, running them, and building the library that they link.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use std::sync::OnceLock;
@@ -9,9 +10,17 @@ pub(crate) fn crate_folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// A folder for what the tests build.
+/// A folder for what the tests build. It stays, so that a simulator's build is soon done again. One
+/// process has it at a time: another that runs the same tests waits.
 pub(crate) fn build_folder() -> &'static Path {
-    Path::new(env!("CARGO_TARGET_TMPDIR"))
+    static LOCK: OnceLock<File> = OnceLock::new();
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    LOCK.get_or_init(|| {
+        let file = File::create(folder.join("foreign.lock")).expect("the folder can be written");
+        file.lock().expect("files can be locked");
+        file
+    });
+    folder
 }
 
 /// Whether a tool can be run.

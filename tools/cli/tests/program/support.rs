@@ -1,10 +1,10 @@
 //! Running the program.
 
 use std::io::Write;
-#[cfg(unix)]
+use std::ops::Deref;
 use std::path::Path;
-use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
+use tempfile::TempDir;
 
 /// What a run of the program left.
 pub(crate) struct Run {
@@ -62,10 +62,43 @@ pub(crate) fn tess_with_environment(words: &str, variables: &[(&str, &str)]) -> 
     command(words).envs(variables.iter().copied()).output().expect("tess runs").into()
 }
 
-/// An empty directory of a test's own.
-pub(crate) fn directory(test: &str) -> PathBuf {
-    let directory = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(test);
-    _ = std::fs::remove_dir_all(&directory);
-    std::fs::create_dir_all(&directory).expect("a directory for the test");
-    directory
+/// The program.
+#[cfg(target_os = "linux")]
+pub(crate) fn tess_program() -> &'static Path {
+    Path::new(env!("CARGO_BIN_EXE_tess"))
+}
+
+/// An empty directory for one run of one test, removed when it is dropped. Other processes may run the
+/// same test at the same time.
+pub(crate) struct Folder(TempDir);
+
+impl Deref for Folder {
+    type Target = Path;
+
+    fn deref(&self) -> &Path {
+        self.0.path()
+    }
+}
+
+impl AsRef<Path> for Folder {
+    fn as_ref(&self) -> &Path {
+        self
+    }
+}
+
+/// A directory for a test.
+pub(crate) fn directory(test: &str) -> Folder {
+    let mut builder = tempfile::Builder::new();
+    let made = builder.prefix(&format!("{test}-")).tempdir_in(env!("CARGO_TARGET_TMPDIR"));
+    Folder(made.expect("a directory for the test"))
+}
+
+/// Another run of the same test removed the folder of the first, which used its path.
+#[test]
+fn directories_are_not_shared() {
+    let folders = [directory("shared"), directory("shared")];
+    assert_ne!(*folders[0], *folders[1], "each run has its own");
+    let path = folders[0].to_owned();
+    drop(folders);
+    assert!(!path.exists(), "and leaves nothing");
 }

@@ -12,6 +12,7 @@ mod metal;
 use libtest_mimic::{Arguments, Failed, Trial};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
 
 type Test = fn() -> Result<(), Failed>;
 
@@ -40,7 +41,11 @@ fn main() {
         let failing = missing.clone();
         Trial::test(name, move || Err(failing.into())).with_kind(missing).with_ignored_flag(!in_ci)
     });
-    libtest_mimic::run(&Arguments::from_args(), trials.collect()).exit();
+    let conclusion = libtest_mimic::run(&Arguments::from_args(), trials.collect());
+    if let (Some(folder), false) = (FOLDERS.get(), conclusion.has_failed()) {
+        _ = std::fs::remove_dir_all(folder);
+    }
+    conclusion.exit();
 }
 
 /// Whether a tool can be run.
@@ -62,11 +67,20 @@ fn run(command: &mut Command) -> Result<String, String> {
     }
 }
 
-/// Writes the shaders of these options into an empty folder of this name.
+static FOLDERS: OnceLock<PathBuf> = OnceLock::new();
+
+/// The folder of this process, in which every test has others. Another process may run the same tests.
+fn folders() -> &'static Path {
+    FOLDERS.get_or_init(|| {
+        let made =
+            tempfile::Builder::new().prefix("shaders-").tempdir_in(env!("CARGO_TARGET_TMPDIR"));
+        made.expect("a folder").keep()
+    })
+}
+
+/// Writes the shaders of these options into a new folder of this name.
 fn shaders(name: &str, options: &str) -> Result<PathBuf, String> {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("shaders").join(name);
-    _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(folder.parent().unwrap_or(&folder)).map_err(|e| e.to_string())?;
+    let folder = folders().join(name);
     let mut command = Command::new(env!("CARGO_BIN_EXE_tess"));
     command.arg("shaders").args(options.split_whitespace()).arg("-o").arg(&folder);
     run(&mut command)?;
