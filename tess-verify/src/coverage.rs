@@ -10,6 +10,7 @@ mod ucis;
 use crate::case::Case;
 use std::collections::BTreeMap;
 use std::fmt;
+use std::io;
 use std::sync::LazyLock;
 use tess_core::{FactorContext, SplitOrder};
 pub use ucis::UcisError;
@@ -112,6 +113,14 @@ impl Coverage {
     /// Any other text, and files of a version with other bins: [`UcisError`] names the line.
     pub fn from_ucis(text: &str) -> Result<Self, UcisError> {
         ucis::read(text)
+    }
+
+    /// Reads a file of what [`Coverage::to_ucis`] gave. A file that is longer is not read to its end.
+    ///
+    /// # Errors
+    /// What the reader says; [`io::ErrorKind::InvalidData`] with a [`UcisError`] for any other text.
+    pub fn read_ucis(reader: impl io::Read) -> io::Result<Self> {
+        ucis::read_bounded(reader)
     }
 
     /// The bins that were never hit, in alphabetical order.

@@ -7,6 +7,7 @@
 use super::Coverage;
 use crate::quote::quoted;
 use std::fmt::{self, Write};
+use std::io::{self, Read};
 
 /// A line of the file: the text around a bin's hits, or a whole line.
 enum Line<'a> {
@@ -69,6 +70,18 @@ pub(super) fn write(coverage: &Coverage) -> String {
         };
     }
     text
+}
+
+/// More bytes than any file has.
+const MOST_BYTES: u64 = 1 << 20;
+
+/// Reads a file that [`write`] wrote. Of a longer one, which is wrong in its first [`MOST_BYTES`], the
+/// rest is left.
+pub(super) fn read_bounded(reader: impl Read) -> io::Result<Coverage> {
+    let mut bytes = Vec::new();
+    reader.take(MOST_BYTES).read_to_end(&mut bytes)?;
+    let text = String::from_utf8_lossy(&bytes);
+    read(&text).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
 }
 
 /// Reads a file that [`write`] wrote.
@@ -139,6 +152,21 @@ mod tests {
         let selection = Selection { random: Some(200), ..Selection::level(GenLevel::Three, seed) };
         selection.cases().for_each(|case| coverage.record(&case));
         coverage
+    }
+
+    /// A file with the largest hits fits the bound, and what is endless ends there.
+    #[test]
+    fn files_are_bounded() {
+        let mut full = Coverage::new();
+        let bins: Vec<String> = full.bins().map(|(bin, _)| bin.to_owned()).collect();
+        bins.iter().for_each(|bin| assert!(full.add(bin, u64::MAX), "{bin}"));
+        let text = write(&full);
+        assert!((text.len() as u64) < MOST_BYTES, "{} bytes", text.len());
+        assert_eq!(read_bounded(text.as_bytes()).expect("it is right"), full);
+        let endless = read_bounded(text.as_bytes().chain(io::repeat(b'x'))).expect_err("too long");
+        assert!(endless.to_string().contains("expected the end of the file"), "{endless}");
+        let wrong = read_bounded(io::repeat(0xFF)).expect_err("no text");
+        assert_eq!(wrong.kind(), io::ErrorKind::InvalidData, "{wrong}");
     }
 
     #[test]

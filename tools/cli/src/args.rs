@@ -1,7 +1,7 @@
 //! What several commands take: a patch (domain, factors and configuration), generated cases, names.
 
 use crate::failure::Failure;
-use crate::output::note;
+use crate::output::{counted, note};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::case::{Case, factor};
@@ -58,8 +58,7 @@ impl PatchArgs {
     fn wrong_count(&self) -> Failure {
         let (outer, inner) = self.domain.factor_names().split_at(self.domain.outer_factors());
         let list = |names: &[&str]| {
-            let ending = if names.len() == 1 { "" } else { "s" };
-            format!("{} ({} factor{ending})", names.join(","), names.len())
+            format!("{} ({})", names.join(","), counted(names.len() as u64, "factor"))
         };
         let inner = match inner {
             [] => "no --inner".to_owned(),

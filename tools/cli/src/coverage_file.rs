@@ -1,40 +1,92 @@
 //! Coverage files, which commands add to.
 
 use crate::failure::Failure;
-use crate::output::OutputArgs;
-use std::fs;
+use crate::output::{OutputArgs, Role, create_unless_there};
+use same_file::Handle;
+use std::fs::File;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tess_verify::coverage::Coverage;
 
-/// A file of coverage and what it holds so far.
+/// A file of coverage, and hits to add to it.
 #[derive(Debug)]
 pub(crate) struct CoverageFile {
-    output: OutputArgs,
-    /// What the file will hold.
+    path: PathBuf,
+    /// What this command adds.
     pub(crate) coverage: Coverage,
 }
 
 impl CoverageFile {
-    /// Reads the file; one that is not there yet holds nothing.
+    /// Begins to count for a file that has a [`role`]. It need not be there yet.
     ///
     /// # Errors
-    /// A file that cannot be read, or holds no coverage of this version's bins.
+    /// A place that cannot be written; a file that cannot be read, or holds no coverage of this
+    /// version's bins.
     pub(crate) fn open(path: PathBuf) -> Result<Self, Failure> {
-        let coverage = match fs::read_to_string(&path) {
-            Ok(text) => Coverage::from_ucis(&text)
-                .map_err(|error| Failure::bad_input(format!("{}: {error}", path.display())))?,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => Coverage::new(),
-            Err(error) => return Err(Failure::file("read", &path, &error)),
-        };
-        Ok(Self { output: OutputArgs { file: path }, coverage })
+        OutputArgs { file: path.clone() }.require_writable()?;
+        match File::open(&path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+            found => drop(read(&path, found)?),
+        }
+        Ok(Self { path, coverage: Coverage::new() })
     }
 
-    /// Writes the file, whole or not at all.
+    /// Adds the hits to the file, after `report` took the sum. Processes that add to one file take
+    /// turns, so that no hit is lost.
     ///
     /// # Errors
-    /// The place cannot be written.
-    pub(crate) fn write(&self) -> Result<(), Failure> {
-        self.output.write(self.coverage.to_ucis().as_bytes())
+    /// What `report` says; a file that cannot be locked, read or written, which is then as it was.
+    pub(crate) fn add(
+        self,
+        report: impl FnOnce(&Coverage) -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        let path = &self.path;
+        let _lock = locked(path).map_err(|error| Failure::file("lock", path, &error))?;
+        let mut sum = read(path, File::open(path))?;
+        sum.merge(&self.coverage);
+        report(&sum)?;
+        OutputArgs { file: path.clone() }.write(sum.to_ucis().as_bytes())
+    }
+}
+
+/// A coverage file as one of the command's files.
+///
+/// # Errors
+/// A path that is no regular file: a pipe would wait, and a device may be endless.
+pub(crate) fn role(path: &Path) -> Result<Role<'_>, Failure> {
+    let is_other = path.metadata().is_ok_and(|found| !found.is_file());
+    if path.as_os_str() == "-" || is_other {
+        return Err(Failure::bad_input(format!(
+            "--coverage {} is no regular file; the command reads it and replaces it",
+            path.display()
+        )));
+    }
+    Ok(Role::output("--coverage", path))
+}
+
+fn read(path: &Path, file: io::Result<File>) -> Result<Coverage, Failure> {
+    let file = file.map_err(|error| Failure::file("read", path, &error))?;
+    Coverage::read_ucis(file)
+        .map_err(|error| Failure::bad_input(format!("{}: {error}", path.display())))
+}
+
+/// Locks the file, made empty if it is not there. The lock ends when the handle is dropped.
+///
+/// Who had the lock before has replaced the file, so that it may be another one after the wait.
+fn locked(path: &Path) -> io::Result<Handle> {
+    loop {
+        match File::options().read(true).write(true).open(path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                create_unless_there(path, Coverage::new().to_ucis().as_bytes())?;
+            }
+            Err(error) => return Err(error),
+            Ok(file) => {
+                file.lock()?;
+                let locked = Handle::from_file(file)?;
+                if Handle::from_path(path).is_ok_and(|now| now == locked) {
+                    return Ok(locked);
+                }
+            }
+        }
     }
 }

@@ -71,7 +71,10 @@ impl Failure {
     /// A file that could not be read or written: exit code 2.
     #[must_use]
     pub(crate) fn file(action: &str, path: &Path, error: &dyn Error) -> Self {
-        Self::bad_input(format!("cannot {action} {}: {error}", path.display()))
+        let why = error.to_string();
+        // The crate of temporary files names its own file behind the cause.
+        let why = why.split_once(" at path \"").map_or(why.as_str(), |(why, _)| why);
+        Self::bad_input(format!("cannot {action} {}: {why}", path.display()))
     }
 }
 

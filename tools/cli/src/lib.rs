@@ -12,6 +12,7 @@ mod coverage_file;
 mod failure;
 mod formats;
 mod output;
+mod threads;
 
 #[cfg(feature = "fuzzing")]
 #[doc(hidden)]
@@ -19,6 +20,9 @@ pub use commands::fuzzing;
 
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser};
 use commands::Command;
+use failure::{Exit, Failure};
+use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 /// A bit-exact model of the Direct3D 11 class fixed-function tessellator.
@@ -43,9 +47,14 @@ Examples:
 /// Runs the program on the process's arguments and says how it ended.
 #[must_use]
 pub fn main() -> ExitCode {
-    let program = Program::from_arg_matches(&command_line().get_matches());
-    let command = program.unwrap_or_else(|error| error.exit()).command;
-    match commands::run(&command) {
+    let arguments = command_line().try_get_matches();
+    let program = arguments.and_then(|arguments| Program::from_arg_matches(&arguments));
+    let ended = match program {
+        Ok(program) => commands::run(&program.command),
+        Err(error) if error.use_stderr() => error.exit(),
+        Err(help) => show(&help),
+    };
+    match ended {
         Ok(exit) => exit.into(),
         Err(failure) => {
             if !failure.message.is_empty() {
@@ -54,6 +63,16 @@ pub fn main() -> ExitCode {
             failure.exit.into()
         }
     }
+}
+
+/// Writes what `--help` and `--version` are asked for.
+///
+/// # Errors
+/// Stdout cannot be written.
+fn show(help: &clap::Error) -> Result<Exit, Failure> {
+    let is_open = output::stdout().map(drop);
+    let written = is_open.and_then(|()| help.print()).and_then(|()| io::stdout().flush());
+    written.map(|()| Exit::Done).map_err(|error| Failure::write(Path::new("-"), error))
 }
 
 /// The command line, on which a negative number is a value that may be wrong, never an option: an

@@ -11,6 +11,7 @@ pub(crate) mod simd;
 mod tests;
 
 use crate::failure::Failure;
+use crate::threads::start_pool;
 use clap::ValueEnum;
 use simd::Simd;
 use tess_simd::{Level, LevelUnavailable};
@@ -146,6 +147,7 @@ impl BackendOptions {
 
     fn simd(self) -> Result<Box<dyn Backend>, Failure> {
         let level = self.level()?;
+        start_pool();
         Ok(match self.index_type {
             IndexType::U16 => Box::new(Simd::<u16>::with_level(level).map_err(unavailable)?),
             IndexType::U32 => Box::new(Simd::<u32>::with_level(level).map_err(unavailable)?),

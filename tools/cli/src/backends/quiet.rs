@@ -15,6 +15,7 @@ pub(crate) fn start_again_for_loader() {
     if let Ok(program) = std::env::current_exe() {
         let mut again = std::process::Command::new(program);
         again.args(std::env::args_os().skip(1)).env(VARIABLE, std::env::temp_dir());
+        crate::output::stay_closed();
         // It returns only if it fails, and then the message is all that is wrong.
         drop(again.exec());
     }

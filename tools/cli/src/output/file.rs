@@ -47,7 +47,7 @@ impl Destination {
 }
 
 /// The path that a chain of symbolic links ends at, whether anything is there or not.
-fn follow(path: &Path) -> io::Result<PathBuf> {
+pub(super) fn follow(path: &Path) -> io::Result<PathBuf> {
     let mut path = path.to_owned();
     for _ in 0..40 {
         match fs::read_link(&path) {
@@ -139,6 +139,19 @@ impl Write for Partial {
 
     fn flush(&mut self) -> io::Result<()> {
         self.file.flush()
+    }
+}
+
+/// Makes a file of this content, unless there is a file already.
+///
+/// # Errors
+/// The folder cannot be written, or the path is none of a file.
+pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()> {
+    let mut partial = Partial::of(&follow(path)?)?;
+    partial.write_all(content)?;
+    match partial.file.persist_noclobber(&partial.path) {
+        Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => Ok(()),
+        made => made.map(drop).map_err(|error| error.error),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::ending::{self, Guard};
 use super::file::{folder_of, temporary};
+use crate::failure::Failure;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -13,6 +14,17 @@ pub(crate) struct NewFolder {
     folder: TempDir,
     becomes: PathBuf,
     _guard: Guard,
+}
+
+/// Refuses `-` where a folder is needed.
+///
+/// # Errors
+/// The path is `-`.
+pub(crate) fn refuse_stdout(folder: &Path, why: &str) -> Result<(), Failure> {
+    if folder.as_os_str() == "-" {
+        return Err(Failure::bad_input(format!("{why}: give a folder with -o")));
+    }
+    Ok(())
 }
 
 impl NewFolder {

@@ -4,6 +4,7 @@
 //! [`ending`] what must not stay behind when a signal ends the process. [`form`] chooses the form of
 //! a file by its name.
 
+mod distinct;
 pub(crate) mod ending;
 mod file;
 mod folder;
@@ -12,14 +13,18 @@ mod rows;
 mod stdout;
 
 use crate::failure::Failure;
+use crate::threads::startable;
+pub(crate) use distinct::{Role, refuse_shared};
 use file::Destination;
-pub(crate) use file::OutputFile;
-pub(crate) use folder::NewFolder;
+pub(crate) use file::{OutputFile, create_unless_there};
+pub(crate) use folder::{NewFolder, refuse_stdout};
 use indicatif::{ProgressBar, ProgressStyle};
 pub(crate) use rows::{Frame, Rows};
 use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::time::Duration;
+#[cfg(all(target_os = "linux", any(feature = "gpu", feature = "probe")))]
+pub(crate) use stdout::stay_closed;
 pub(crate) use stdout::{stdout, stop_when_reader_leaves};
 
 /// The `-o` option.
@@ -73,6 +78,24 @@ impl OutputArgs {
         }
     }
 
+    /// Refuses a place that cannot be written, before long work for it.
+    ///
+    /// # Errors
+    /// As [`OutputArgs::write`] would; but a pipe is not opened, which waits for its reader.
+    pub(crate) fn require_writable(&self) -> Result<(), Failure> {
+        let attempt = || match Destination::of(&self.file)? {
+            Destination::Stdout => stdout().map(drop),
+            Destination::Stream(_) => Ok(()),
+            Destination::File(path) => file::Partial::of(&path).map(drop),
+        };
+        attempt().map_err(|error| Failure::write(&self.file, error))
+    }
+
+    /// The option as one of the command's files.
+    pub(crate) fn role(&self) -> Role<'_> {
+        Role::output("-o", &self.file)
+    }
+
     /// Whether the result goes to stdout.
     #[must_use]
     pub(crate) fn is_stdout(&self) -> bool {
@@ -96,8 +119,17 @@ pub(crate) fn progress(length: u64, unit: &str) -> ProgressBar {
     let style = ProgressStyle::with_template(&template);
     let bar = ProgressBar::new(length);
     bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.enable_steady_tick(Duration::from_millis(200));
+    // The bar ticks from a thread, and panics if there is none.
+    if !bar.is_hidden() && startable(1) == 1 {
+        bar.enable_steady_tick(Duration::from_millis(200));
+    }
     bar
+}
+
+/// A number with what it counts: `1 point`, `2 points`.
+pub(crate) fn counted(number: u64, one: &str) -> String {
+    let ending = if number == 1 { "" } else { "s" };
+    format!("{number} {one}{ending}")
 }
 
 /// Says something on stderr that is no part of the result.

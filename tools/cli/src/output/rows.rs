@@ -44,8 +44,9 @@ impl Rows {
     /// Rows to come, by name.
     ///
     /// # Errors
-    /// Signals cannot be listened to.
+    /// Stdout is closed, or signals cannot be listened to.
     pub(crate) fn new(frame: Frame, to_come: impl IntoIterator<Item = String>) -> io::Result<Self> {
+        drop(stdout()?);
         let to_come = to_come.into_iter().collect();
         let (state, guard) = ending::guarded(|| {
             let state = Arc::new(Mutex::new(State { frame, printed: 0, to_come }));

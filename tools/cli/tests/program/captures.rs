@@ -49,10 +49,10 @@ fn a_device_that_repeats_one_case_does_not_pass() {
     );
     let (header, body) = right.stdout.split_once('\n').expect("a header");
     let (first, _) = body.split_once("case quad").expect("two cases");
-    let run = check(&format!("{header}\n{first}{first}"));
+    let run = check(&format!("{header}\n{first}{first}# end\n"));
     assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
     assert!(run.stdout.contains(&format!("observed {TRI}, expected {QUAD}")), "{}", run.stdout);
-    let run = check(&format!("{}\n{first}", header.replace("count=2", "count=1")));
+    let run = check(&format!("{header}\n{first}# end\n"));
     assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
     assert!(run.stdout.contains(&format!("observed none, expected {QUAD}")), "{}", run.stdout);
     let run = tess_with_input("check - --cases /nowhere", &right.stdout);
@@ -151,4 +151,38 @@ fn a_patch_or_cases() {
     }
     let form = tess_with_input("patch --cases - --format json", TRI);
     assert_eq!((form.code, form.stderr.contains("--format text")), (Some(2), true));
+}
+
+/// Cases are tessellated as they come: this many would not fit the memory, and never end.
+#[cfg(unix)]
+#[test]
+fn cases_are_not_collected() {
+    use std::io::{Read, Write};
+    use std::process::Stdio;
+    let mut patch = crate::support::command("patch --cases -");
+    let patch = patch.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn();
+    let mut patch = patch.expect("tess starts");
+    let mut input = patch.stdin.take().expect("stdin is piped");
+    let lines = format!("{QUAD}\n").repeat(1000);
+    // It ends when the program does.
+    let asking = std::thread::spawn(move || while input.write_all(lines.as_bytes()).is_ok() {});
+    let mut output = patch.stdout.take().expect("stdout is piped");
+    let mut begun = vec![0; 100_000];
+    output.read_exact(&mut begun).expect("listings before the last case");
+    drop(output);
+    assert_eq!(patch.wait().expect("it ends").code(), Some(141), "the reader left");
+    asking.join().expect("the pipe is closed");
+}
+
+/// A case that cannot be read leaves the file as it was.
+#[test]
+fn a_wrong_case_writes_no_file() {
+    let folder = directory("a_wrong_case_writes_no_file");
+    let file = folder.join("right.txt");
+    write(&file, "as it was").expect("written");
+    let words = format!("patch --cases - -o {}", file.display());
+    let run = tess_with_input(&words, &format!("{TRI}\ncase cube\n"));
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("stdin:2: "), "{}", run.stderr);
+    assert_eq!(read_to_string(&file).expect("readable"), "as it was");
 }

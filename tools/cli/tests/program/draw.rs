@@ -46,13 +46,13 @@ fn overlays_show_differences() {
     let draw = format!("draw {PATCH} --overlay {}", file.display());
     let equal = tess(&draw);
     assert_eq!(equal.code, Some(0), "{}", equal.stderr);
-    assert!(equal.stderr.contains("0 points and 0 primitives differ"), "{}", equal.stderr);
+    assert!(equal.stderr.contains(": 0 points and 0 primitives"), "{}", equal.stderr);
 
     let faulty = listing.replacen("00000 10000", "00100 0fff0", 1).replacen("\n0 1 ", "\n1 0 ", 1);
     fs::write(&file, faulty).expect("a faulty listing");
     let different = tess(&draw);
     assert_eq!(different.code, Some(1), "{}", different.stderr);
-    assert!(different.stderr.contains("1 points and 1 primitives"), "{}", different.stderr);
+    assert!(different.stderr.contains(": 1 point and 1 primitive\n"), "{}", different.stderr);
     assert!(different.stdout.contains("#d51f1f"), "something is red");
 
     let other = tess(&draw.replace("3,4,5,6", "3,4,5,7"));

@@ -142,6 +142,44 @@ fn a_closed_stdout() {
     }
 }
 
+/// So are help, and commands that execute the program again for the loader of GPU drivers.
+#[test]
+fn a_closed_stdout_of_help_and_devices() {
+    let folder = directory("a_closed_stdout_of_help_and_devices");
+    let mut commands = vec!["--help", "--version", "help patch", "bench --help"];
+    if cfg!(feature = "probe") {
+        commands.push("probe --list");
+    }
+    if cfg!(feature = "gpu") {
+        commands.push("patch tri --outer 2,3,4 --inner 5 --backend gpu");
+        // It would work for a minute before its first row.
+        let verify = "unset XDG_RUNTIME_DIR; $TESS verify --backend gpu --subject interiors >&-";
+        let run = shell(verify, &folder);
+        assert_eq!((run.code, run.stderr.contains("stdout is closed")), (Some(2), true));
+    }
+    for words in commands {
+        for (to, message) in [(">&-", "stdout is closed"), ("> /dev/full", "cannot write stdout")] {
+            let run = shell(&format!("unset XDG_RUNTIME_DIR; $TESS {words} {to}"), &folder);
+            assert_eq!(run.code, Some(2), "{words} {to}: {}", run.stderr);
+            assert!(run.stderr.contains(message), "{words} {to}: {}", run.stderr);
+        }
+    }
+}
+
+/// Messages name what was asked for, not the temporary file beside it.
+#[cfg(target_os = "linux")]
+#[test]
+fn messages_have_no_temporary_names() {
+    for words in [PATCH.to_owned(), PATCH.replace("patch", "explain"), "mesh".to_owned()] {
+        let run = tess(&format!("{words} -o /proc/a.obj"));
+        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains("cannot write /proc/a.obj"), "{words}: {}", run.stderr);
+        assert!(!run.stderr.contains(".tess-"), "{words}: {}", run.stderr);
+    }
+    let run = tess("gen --level 3 --count 1 --format readmemh -o /proc/a");
+    assert!(run.stderr.contains("/proc/a") && !run.stderr.contains(".tess-"), "{}", run.stderr);
+}
+
 /// The binary part of a glTF file replaces nothing but the binary part of that glTF file.
 #[test]
 fn the_bin_of_a_gltf() {
@@ -210,4 +248,20 @@ fn terminal() -> fs::File {
     // The copy ends, with an error, when nobody has the other side.
     std::thread::spawn(move || std::io::copy(&mut fs::File::from(ours), &mut std::io::sink()));
     theirs
+}
+
+/// Several files need a folder, and stdout is none.
+#[test]
+fn folders_are_not_stdout() {
+    let folder = directory("folders_are_not_stdout");
+    let mut commands = vec!["gen --level 3 --count 1 --format readmemh -o -"];
+    if cfg!(feature = "shaders") {
+        commands.push("shaders --target spirv -o -");
+    }
+    for words in commands {
+        let run = shell(&format!("$TESS {words}"), &folder);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains("give a folder with -o"), "{words}: {}", run.stderr);
+        assert_eq!(names(&folder), [""; 0], "{words}: nothing is made");
+    }
 }

@@ -4,6 +4,10 @@ mod backends;
 mod bench;
 mod captures;
 mod check;
+#[cfg(unix)]
+mod coverage;
+#[cfg(unix)]
+mod distinct;
 mod draw;
 mod explain;
 #[cfg(unix)]
@@ -21,3 +25,5 @@ mod patch;
 mod probe;
 mod rules;
 mod support;
+#[cfg(target_os = "linux")]
+mod threads;

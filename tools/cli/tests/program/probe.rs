@@ -21,7 +21,8 @@ fn an_equal_device_ends_with_0() {
 
 #[test]
 fn reports_are_json_on_request() {
-    let file = directory("probe-json").join("report.json");
+    let folder = directory("probe-json");
+    let file = folder.join("report.json");
     let run = tess(&format!("probe {FEW} --denormals flush --json -o {}", file.display()));
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let text = std::fs::read_to_string(file).expect("it was written");
@@ -29,6 +30,34 @@ fn reports_are_json_on_request() {
     assert_eq!(report["different"], 0, "{text}");
     assert_eq!(report["patches"].as_u64(), Some(200), "{text}");
     assert_eq!(report["rows"][0]["set_digest"].as_str().map(str::len), Some(16), "{text}");
+}
+
+/// What cannot be written is refused before the device is asked, which is not there.
+#[test]
+fn outputs_are_tried_first() {
+    for (option, why) in [
+        ("--picture first.jpg", "name it .svg, .png"),
+        ("--picture /nowhere/first.png", "cannot write /nowhere/first.png"),
+        ("-o /nowhere/report.txt", "cannot write /nowhere/report.txt"),
+    ] {
+        let run = tess(&format!("probe --device 1000 {option}"));
+        assert_eq!(run.code, Some(2), "{option}: {}", run.stderr);
+        assert!(run.stderr.contains(why), "{option}: {}", run.stderr);
+    }
+}
+
+/// The loader's word for a manifest that it cannot read is that memory is short.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_malformed_manifest_is_said() {
+    let folder = directory("a_malformed_manifest_is_said");
+    let manifest = folder.join("icd.json");
+    std::fs::write(&manifest, "{ this is no JSON").expect("written");
+    let path = manifest.to_str().expect("text");
+    let variables = [("VK_DRIVER_FILES", path), ("VK_ICD_FILENAMES", path)];
+    let run = crate::support::tess_with_environment("probe --list", &variables);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(3), ""), "{}", run.stderr);
+    assert!(run.stderr.contains("manifest") && run.stderr.contains("driver"), "{}", run.stderr);
 }
 
 #[test]

@@ -51,6 +51,12 @@ fn instance() -> Result<(ash::Entry, ash::Instance), Error> {
         vk::Result::ERROR_INCOMPATIBLE_DRIVER => {
             Error::NoLoader("no driver is installed".to_owned())
         }
+        // What the loader gives where it can read no driver's manifest.
+        vk::Result::ERROR_OUT_OF_HOST_MEMORY => Error::NoLoader(
+            "the loader cannot begin: a driver's manifest is malformed, or memory is short; \
+             VK_LOADER_DEBUG=error says more"
+                .to_owned(),
+        ),
         other => Error::of("vkCreateInstance")(other),
     })?;
     Ok((entry, instance))

@@ -1,7 +1,7 @@
 //! The records that differ, as a vector file.
 
 use crate::failure::Failure;
-use crate::output::{OutputFile, note};
+use crate::output::{OutputFile, counted, note};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -61,9 +61,10 @@ impl Failures {
         let others = report.mismatches.saturating_sub(records);
         if others > 0 {
             let path = path.display();
+            let left = counted(others, "difference");
             note(&format!(
-                "{others} differences are not in {path}: cases without a record, and records that are \
-                 right for the case that they state but answer another or contradict one before them"
+                "{left} left out of {path}: cases without a record, and records that are right for the \
+                 case that they state but answer another or contradict one before them"
             ));
         }
         let ended = written.and_then(|()| writeln!(file, "# end"));

@@ -9,9 +9,9 @@ pub(crate) use strength::{ConversionName, DenormalsName};
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
-use crate::coverage_file::CoverageFile;
+use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
-use crate::output::{progress, stdout, stop_when_reader_leaves};
+use crate::output::{Role, counted, progress, refuse_shared, stdout, stop_when_reader_leaves};
 use failures::Failures;
 use indicatif::ProgressBar;
 use std::fs::File;
@@ -96,6 +96,7 @@ pub(crate) struct Args {
 /// # Errors
 /// Malformed, short or empty input; a backend that is not available.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    refuse_shared(&args.roles()?)?;
     let mut backends = backends(args)?;
     let name =
         if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
@@ -126,7 +127,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
     if let Some(coverage) = coverage {
-        coverage.into_inner().unwrap_or_else(PoisonError::into_inner).write()?;
+        coverage.into_inner().unwrap_or_else(PoisonError::into_inner).add(|_| Ok(()))?;
     }
     if let Some(failures) = failures {
         failures.finish(&report)?;
@@ -142,6 +143,18 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 }
 
 impl Args {
+    /// The files of the command.
+    ///
+    /// # Errors
+    /// The coverage file can be none.
+    fn roles(&self) -> Result<Vec<Role<'_>>, Failure> {
+        let cases = self.cases.as_deref().map(|path| Role::input("--cases", path));
+        let failures = self.failures.as_deref().map(|path| Role::output("--failures", path));
+        let coverage = self.coverage.as_deref().map(coverage_file::role).transpose()?;
+        let others = [cases, failures, coverage].into_iter().flatten();
+        Ok([Role::input("FILE", &self.file), Role::stdout()].into_iter().chain(others).collect())
+    }
+
     /// The coverage file, if one is given.
     ///
     /// # Errors
@@ -170,7 +183,7 @@ impl Args {
                 "--cases is for records that are single patches; this file's kind is {kind}"
             )));
         }
-        if path == &self.file {
+        if Role::input("--cases", path).is_same_file(&Role::input("FILE", &self.file)) {
             return Err(Failure::bad_input("--cases is the file to check itself"));
         }
         read_cases(path).map(Some)
@@ -214,8 +227,8 @@ fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
     if let Some(way) = turn {
         writeln!(
             out,
-            "one mistake explains all {} differences: {}",
-            report.mismatches,
+            "one mistake explains all {}: {}",
+            counted(report.mismatches, "difference"),
             way.words()
         )?;
     }

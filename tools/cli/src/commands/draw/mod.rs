@@ -5,7 +5,7 @@ use crate::backends::{BackendArgs, BackendName};
 use crate::failure::{Exit, Failure};
 use crate::formats::{OnePatch, PictureFormat};
 use crate::output::form;
-use crate::output::{OutputArgs, note};
+use crate::output::{OutputArgs, Role, counted, note, refuse_shared};
 use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -73,6 +73,9 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         args.output.refuse_terminal("a PNG picture")?;
     }
     args.options.fit(case.domain(), case.config.output)?;
+    if let Some(overlay) = &args.overlay {
+        refuse_shared(&[Role::input("--overlay", overlay), args.output.role()])?;
+    }
     note_large_factors(&case);
     let patch = OnePatch::tessellate(args.select()?.as_mut(), case)?;
     let pair = match (args.against, &args.overlay) {
@@ -140,8 +143,11 @@ fn draw_overlay(
     let (drawing, differences) = drawing::overlay(&expected.listing, &observed.listing, options);
     let (points, primitives) = (differences.points, differences.primitives);
     note(&format!(
-        "{points} points and {primitives} primitives differ between {} and {}",
-        expected.backend, observed.backend
+        "differences between {} and {}: {} and {}",
+        expected.backend,
+        observed.backend,
+        counted(points as u64, "point"),
+        counted(primitives as u64, "primitive")
     ));
     const SHOWN: usize = 20;
     let words = &differences.in_words;
@@ -156,7 +162,8 @@ fn draw_overlay(
 fn report_left_out(drawing: &Drawing) {
     if drawing.labels_left_out > 0 {
         let count = drawing.labels_left_out;
-        note(&format!("{count} numbers left out for lack of room; a larger --size shows more"));
+        let numbers = counted(count as u64, "number");
+        note(&format!("{numbers} left out for lack of room; a larger --size shows more"));
     }
 }
 

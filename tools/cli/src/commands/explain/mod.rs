@@ -72,8 +72,9 @@ fn found<T>(report: Option<T>, patch: &Patch, what: &str, number: u32) -> Result
     let counts = patch.counts();
     report.ok_or_else(|| {
         Failure::bad_input(format!(
-            "there is no {what} {number}: the patch has {} points and {} primitives, from 0",
-            counts.points, counts.primitives
+            "there is no {what} {number}: the patch has {} and {}, from 0",
+            output::counted(counts.points.into(), "point"),
+            output::counted(counts.primitives.into(), "primitive")
         ))
     })
 }

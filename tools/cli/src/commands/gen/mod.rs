@@ -1,9 +1,11 @@
 //! `tess gen`: test vectors with expected results from the model.
 
 use crate::args::{SelectionArgs, name_of};
-use crate::coverage_file::CoverageFile;
+use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
-use crate::output::{NewFolder, OutputArgs, note, progress, stop_when_reader_leaves};
+use crate::output::{
+    NewFolder, OutputArgs, note, progress, refuse_shared, refuse_stdout, stop_when_reader_leaves,
+};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use std::fs::File;
@@ -49,7 +51,7 @@ pub(crate) struct Args {
     /// Instead of vectors, report which coverage bins they hit
     ///
     /// With a FILE, add the hits to what that file holds, as UCIS XML, and report the sum. Shards may
-    /// add to one file, one after another.
+    /// add to one file, at the same time too.
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with = "format")]
     coverage: Option<Option<PathBuf>>,
     #[command(flatten)]
@@ -113,14 +115,20 @@ impl Args {
 
     /// Reports the coverage of the cases, added to what a file holds if one is given.
     fn report(&self, file: Option<PathBuf>, count: u64) -> Result<Exit, Failure> {
+        if let Some(path) = &file {
+            refuse_shared(&[coverage_file::role(path)?, self.output.role()])?;
+        }
         let mut file = file.map(CoverageFile::open).transpose()?;
         let mut alone = Coverage::new();
         let coverage = file.as_mut().map_or(&mut alone, |file| &mut file.coverage);
         let bar = self.progress(count);
         bar.wrap_iter(self.cases()).for_each(|case| coverage.record(&case));
         bar.finish_and_clear();
-        self.output.write(coverage.to_string().as_bytes())?;
-        file.map_or(Ok(()), |file| file.write())?;
+        let report = |sum: &Coverage| self.output.write(sum.to_string().as_bytes());
+        match file {
+            Some(file) => file.add(report)?,
+            None => report(&alone)?,
+        }
         Ok(Exit::Done)
     }
 
@@ -162,9 +170,7 @@ impl Args {
 
 /// Writes the memory images into a new folder.
 fn images(folder: &Path, cases: impl Iterator<Item = Case>) -> Result<(), Failure> {
-    if folder.as_os_str() == "-" {
-        return Err(Failure::bad_input("readmemh writes several files: give a folder with -o"));
-    }
+    refuse_stdout(folder, "readmemh writes several files")?;
     let write = || {
         let new = NewFolder::create(folder)?;
         write_images(new.path(), cases)?;

@@ -16,7 +16,8 @@ pub use input::fuzzing;
 
 use crate::args::name_of;
 use crate::failure::{Exit, Failure};
-use crate::output::{OutputArgs, form, note};
+use crate::output::{OutputArgs, Role, form, note, refuse_shared};
+use crate::threads::start_pool;
 use clap::builder::ValueParser;
 use glam::Vec3;
 use input::{Input, height};
@@ -24,7 +25,7 @@ use output::{IndexWidth, Options, ResultForm};
 use pipeline::Job;
 use statistics::{Stage, Statistics};
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tess_core::Partitioning;
 use tess_surface::{DisplacedModel, Displacement, FactorRule, HeightError, Model, Style};
 use tess_verify::names::Named;
@@ -166,18 +167,22 @@ fn too_high(error: HeightError) -> Failure {
 /// A model that cannot be read or tessellated, an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let form = args.form()?;
+    let part = output::part_beside(&args.output, form);
+    refuse_shared(&args.roles(&[], part.as_deref()))?;
+    start_pool();
     let mut statistics = Statistics::default();
     let style = args.surface.map(|surface| match surface {
         SurfaceName::Flat => Style::Flat,
         SurfaceName::Pn => Style::PointNormal,
     });
-    let (Input { model, up, notes }, displacement) = statistics.time(Stage::Load, || {
+    let (Input { model, up, notes, files }, displacement) = statistics.time(Stage::Load, || {
         let map = args.displace.as_deref();
         let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
         let input = input::load(args.input.as_deref(), style)?;
         let displacement = map.map(|map| Displacement::new(map, args.height).map_err(too_high));
         Ok::<_, Failure>((input, displacement.transpose()?))
     })?;
+    refuse_shared(&args.roles(&files, part.as_deref()))?;
     notes.iter().for_each(|line| note(&format!("note: {line}")));
     let displaced = statistics.time(Stage::Load, || {
         displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
@@ -200,6 +205,17 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 }
 
 impl Args {
+    /// The files of the command: with the buffers beside the model that it reads, and the binary part
+    /// beside the result that it writes.
+    fn roles<'a>(&'a self, buffers: &'a [PathBuf], part: Option<&'a Path>) -> Vec<Role<'a>> {
+        let input = self.input.as_deref().map(|path| Role::input("IN", path));
+        let map = self.displace.as_deref().map(|path| Role::input("--displace", path));
+        let buffers = buffers.iter().map(|path| Role::input("the model's buffer", path));
+        let inputs = input.into_iter().chain(map).chain(buffers);
+        let part = part.map(|path| Role::output("the binary part of -o,", path));
+        inputs.chain([Role::output("-o", &self.output)]).chain(part).collect()
+    }
+
     /// The form of the result.
     ///
     /// # Errors

@@ -1,5 +1,6 @@
 //! What was done and how long each stage took.
 
+use crate::output::counted;
 use std::fmt;
 use std::time::{Duration, Instant};
 
@@ -51,7 +52,9 @@ impl Statistics {
 impl fmt::Display for Statistics {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { patches, vertices, triangles, times } = self;
-        writeln!(f, "{patches} patches, {vertices} vertices, {triangles} triangles")?;
+        let patches = if *patches == 1 { "1 patch".into() } else { format!("{patches} patches") };
+        let triangles_there = counted(*triangles, "triangle");
+        writeln!(f, "{patches}, {vertices} vertices, {triangles_there}")?;
         let mut line = |name: &str, time: Duration| {
             let seconds = time.as_secs_f64();
             let rate = *triangles as f64 / seconds.max(1e-9) / 1e6;

@@ -5,11 +5,11 @@ use crate::args::{PatchArgs, note_large_factors};
 use crate::backends::BackendArgs;
 use crate::failure::{Exit, Failure};
 use crate::formats::{Format, OnePatch};
-use crate::output::{OutputArgs, form};
+use crate::output::{OutputArgs, Role, form, refuse_shared};
 use std::io;
 use std::path::{Path, PathBuf};
 use tess_verify::case::Case;
-use tess_verify::vectors::{Header, Kind};
+use tess_verify::vectors::{Header, Kind, VectorError};
 
 /// Tessellate one patch, or the cases of a file
 #[derive(Debug, clap::Args)]
@@ -66,30 +66,34 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 }
 
 impl Args {
-    /// Tessellates every case into one file of listings.
+    /// Tessellates the cases one after another into one file of listings. How many there are shows
+    /// at the end, so the header has no count, and the file marks its end.
     fn run_cases(&self, path: &Path, format: Format) -> Result<Exit, Failure> {
         if format != Format::Text {
             return Err(Failure::bad_input("--cases writes listings, --format text"));
         }
-        let cases: Result<Vec<Case>, _> = read_cases(path)?.collect();
-        let cases = cases.map_err(|error| Failure::bad_input(error.to_string()))?;
+        refuse_shared(&[Role::input("--cases", path), self.output.role()])?;
+        let mut cases = read_cases(path)?;
         let mut backend = self.backend.select()?;
         let source = format!("tess-{}", backend.name());
-        let count = Some(cases.len() as u64);
-        let header = Header { kind: Kind::Listings, count, source, notes: Vec::new() };
+        let header = Header { kind: Kind::Listings, count: None, source, notes: Vec::new() };
+        let mut listing = |case: Result<Case, VectorError>| {
+            let case = case.map_err(|error| Failure::bad_input(error.to_string()))?;
+            OnePatch::tessellate(backend.as_mut(), case).map(|patch| patch.listing)
+        };
         let mut failed = None;
         let written = self.output.stream(|out| {
             writeln!(out, "{header}")?;
-            for &case in &cases {
-                match OnePatch::tessellate(backend.as_mut(), case) {
-                    Ok(patch) => write!(out, "{}", patch.listing)?,
+            for case in &mut cases {
+                match listing(case) {
+                    Ok(listing) => write!(out, "{listing}")?,
                     Err(failure) => {
                         failed = Some(failure);
-                        return Err(io::Error::other("the backend failed"));
+                        return Err(io::Error::other("the cases end early"));
                     }
                 }
             }
-            Ok(())
+            writeln!(out, "# end")
         });
         failed.map_or(written, Err).map(|()| Exit::Done)
     }

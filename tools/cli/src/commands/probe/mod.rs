@@ -9,10 +9,10 @@ use crate::backends::quiet;
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
 use crate::output::form;
-use crate::output::{OutputArgs, json, note, progress};
+use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
 use clap::ValueEnum;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tess_probe::{First, Prober, Report, cases, list, probe};
 use tess_verify::drawing::{self, DrawOptions};
 use tess_verify::generate::{GenLevel, Selection};
@@ -117,14 +117,19 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     if cases.is_empty() {
         return Err(Failure::bad_input("these arguments select no case"));
     }
+    args.output.require_writable()?;
+    let picture = args.picture.as_deref().map(Picture::prepare).transpose()?;
+    if let Some(picture) = &picture {
+        refuse_shared(&[Role::output("--picture", &picture.output.file), args.output.role()])?;
+    }
     let open = if args.points { Prober::open_for_points } else { Prober::open };
     let mut prober = open(args.device).map_err(unavailable)?;
     let bar = progress(cases.len() as u64, "patches");
     let report = probe(&mut prober, &cases, args.strength(), |patches| bar.inc(patches));
     bar.finish_and_clear();
     let report = report.map_err(unavailable)?;
-    if let (Some(file), Some(first)) = (&args.picture, &report.unexplained.first) {
-        draw(file, first)?;
+    if let (Some(picture), Some(first)) = (&picture, &report.unexplained.first) {
+        picture.draw(first)?;
     }
     let text = if args.json { json(&report) } else { report.to_string() };
     args.output.write(text.as_bytes())?;
@@ -189,17 +194,35 @@ fn conclude(report: &Report) -> Exit {
     }
 }
 
-/// The model's patch with what the device gave over it.
-fn draw(file: &std::path::Path, first: &First) -> Result<(), Failure> {
-    let Some(output) = first.output() else {
-        note("no picture: a coordinate of the device is no number that can be drawn");
-        return Ok(());
-    };
-    let case = first.case;
-    let listing = |output| Listing { case, output, line: 0 };
-    let expected = listing(case.patch().tessellate());
-    let options = DrawOptions { size: 800, ..DrawOptions::default() };
-    let (drawing, _) = drawing::overlay(&expected, &listing(output), &options);
-    let format: PictureFormat = form::choose(None, file)?;
-    OutputArgs { file: file.to_owned() }.write(&format.render(&drawing.picture)?)
+/// A picture to draw if there is something to show.
+struct Picture {
+    format: PictureFormat,
+    output: OutputArgs,
+}
+
+impl Picture {
+    /// Finds the form and tries the place, before the device is asked.
+    ///
+    /// # Errors
+    /// A name that says no form; a place that cannot be written.
+    fn prepare(file: &Path) -> Result<Self, Failure> {
+        let format = form::choose(None, file)?;
+        let output = OutputArgs { file: file.to_owned() };
+        output.require_writable()?;
+        Ok(Self { format, output })
+    }
+
+    /// Draws the model's patch with what the device gave over it.
+    fn draw(&self, first: &First) -> Result<(), Failure> {
+        let Some(output) = first.output() else {
+            note("no picture: a coordinate of the device is no number that can be drawn");
+            return Ok(());
+        };
+        let case = first.case;
+        let listing = |output| Listing { case, output, line: 0 };
+        let expected = listing(case.patch().tessellate());
+        let options = DrawOptions { size: 800, ..DrawOptions::default() };
+        let (drawing, _) = drawing::overlay(&expected, &listing(output), &options);
+        self.output.write(&self.format.render(&drawing.picture)?)
+    }
 }

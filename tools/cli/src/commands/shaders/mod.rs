@@ -11,7 +11,7 @@ mod tests;
 
 use crate::args::name_of;
 use crate::failure::{Exit, Failure};
-use crate::output::{NewFolder, json};
+use crate::output::{NewFolder, json, refuse_stdout};
 use clap::ValueEnum;
 #[cfg(feature = "probe")]
 pub(crate) use languages::Checks;
@@ -102,6 +102,7 @@ enum NumberingName {
 /// # Errors
 /// The folder is there already or cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    refuse_stdout(&args.folder, "the shaders are several files")?;
     let setup = args.setup();
     let translation = Translation { target: args.target, checks: args.checks };
     let shaders = Shaders::new(setup, translation)?;

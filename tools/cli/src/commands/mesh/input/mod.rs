@@ -14,7 +14,7 @@ mod text;
 
 use crate::failure::Failure;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tess_surface::{Fault, MeshError, Model, PolygonMesh, Style, teapot};
 
 /// Which way is up in a model.
@@ -35,6 +35,8 @@ pub(crate) struct Input {
     pub(crate) up: Up,
     /// What was left out, for the user to know.
     pub(crate) notes: Vec<String>,
+    /// The files beside the model's own that were read.
+    pub(crate) files: Vec<PathBuf>,
 }
 
 /// Where each face of a mesh stands in its file.
@@ -94,15 +96,15 @@ fn load_obj(bytes: &[u8], style: Option<Style>) -> Result<Input, String> {
 }
 
 fn load_gltf(bytes: &[u8], path: &Path, style: Option<Style>) -> Result<Input, String> {
-    let gltf::Scene { mesh, runs } = gltf::parse(bytes, path.parent(), gltf::MOST)?;
-    polygons(mesh, &Places::Runs(runs), style)
+    let gltf::Scene { mesh, runs, files } = gltf::parse(bytes, path.parent(), gltf::MOST)?;
+    Ok(Input { files, ..polygons(mesh, &Places::Runs(runs), style)? })
 }
 
 fn load_bpt(bytes: &[u8]) -> Result<Input, String> {
     let bpt::Bpt { patches, lines } = bpt::parse(bytes)?;
     let place = |patch: usize| format!("patch {} at line {}", patch + 1, lines[patch]);
     let model = Model::bezier(patches).map_err(|error| refused(error, place))?;
-    Ok(Input { model, up: Up::Z, notes: Vec::new() })
+    Ok(Input { model, up: Up::Z, notes: Vec::new(), files: Vec::new() })
 }
 
 fn embedded_teapot(style: Option<Style>) -> Result<Input, Failure> {
@@ -111,7 +113,7 @@ fn embedded_teapot(style: Option<Style>) -> Result<Input, Failure> {
     }
     let model = Model::bezier(teapot::patches());
     let model = model.map_err(|error| Failure::bad_input(format!("the teapot: {error}")))?;
-    Ok(Input { model, up: Up::Z, notes: Vec::new() })
+    Ok(Input { model, up: Up::Z, notes: Vec::new(), files: Vec::new() })
 }
 
 fn style_of_patches(what: &str) -> Failure {
@@ -141,7 +143,7 @@ fn polygons(mut mesh: PolygonMesh, places: &Places, style: Option<Style>) -> Res
             model.crowded_edges()
         ));
     }
-    Ok(Input { model, up: Up::Y, notes })
+    Ok(Input { model, up: Up::Y, notes, files: Vec::new() })
 }
 
 /// The message about a model whose faces are named by `place`, such as `line 12`.

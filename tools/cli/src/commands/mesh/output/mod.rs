@@ -12,7 +12,7 @@ use super::pipeline::Block;
 use super::view::View;
 use crate::failure::Failure;
 use crate::output::form::Form;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How much there will be.
 #[derive(Clone, Copy, Debug, Default)]
@@ -94,6 +94,11 @@ impl ResultForm {
     pub(crate) const fn is_text(self) -> bool {
         matches!(self, Self::Obj)
     }
+}
+
+/// The second file of a form that has two: the binary part of glTF.
+pub(crate) fn part_beside(path: &Path, form: ResultForm) -> Option<PathBuf> {
+    (form == ResultForm::Gltf).then(|| path.with_extension("bin"))
 }
 
 /// The sink for a file.

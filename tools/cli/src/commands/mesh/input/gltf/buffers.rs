@@ -11,7 +11,15 @@ use std::path::{Component, Path, PathBuf};
 /// Most bytes that all buffers of a model may have together: what a GLB file can hold.
 const MOST: u64 = 1 << 32;
 
-/// Every buffer's content, exactly as long as the buffer says.
+/// What [`load`] found.
+pub(super) struct Buffers<'a> {
+    /// Every buffer's content, exactly as long as the buffer says.
+    pub(super) contents: Vec<Cow<'a, [u8]>>,
+    /// The files beside that were read.
+    pub(super) files: Vec<PathBuf>,
+}
+
+/// The content of every buffer.
 ///
 /// # Errors
 /// A buffer without content or with too little, a URI that leads out of `folder`, a file that
@@ -20,9 +28,9 @@ pub(super) fn load<'a>(
     buffers: &[Buffer],
     folder: Option<&Path>,
     blob: Option<&'a [u8]>,
-) -> Result<Vec<Cow<'a, [u8]>>, String> {
+) -> Result<Buffers<'a>, String> {
     let mut left = MOST;
-    let mut contents = Vec::new();
+    let (mut contents, mut files) = (Vec::new(), Vec::new());
     for (number, buffer) in buffers.iter().enumerate() {
         let path = format!("buffers[{number}]");
         let length = buffer.byte_length;
@@ -35,7 +43,9 @@ pub(super) fn load<'a>(
         let content = match &buffer.uri {
             Some(uri) => {
                 let read = from_uri(uri, folder, length);
-                Cow::Owned(read.map_err(|what| broken(format!("{path}.uri"), what))?)
+                let (bytes, file) = read.map_err(|what| broken(format!("{path}.uri"), what))?;
+                files.extend(file);
+                Cow::Owned(bytes)
             }
             None => {
                 let blob = blob.filter(|_| number == 0);
@@ -46,7 +56,7 @@ pub(super) fn load<'a>(
         };
         contents.push(exactly(content, length).map_err(|what| broken(&path, what))?);
     }
-    Ok(contents)
+    Ok(Buffers { contents, files })
 }
 
 fn exactly(content: Cow<'_, [u8]>, length: u64) -> Result<Cow<'_, [u8]>, String> {
@@ -62,15 +72,22 @@ fn exactly(content: Cow<'_, [u8]>, length: u64) -> Result<Cow<'_, [u8]>, String>
     })
 }
 
-fn from_uri(uri: &str, folder: Option<&Path>, length: u64) -> Result<Vec<u8>, String> {
+/// The bytes that a URI stands for, and the file that they are from.
+fn from_uri(
+    uri: &str,
+    folder: Option<&Path>,
+    length: u64,
+) -> Result<(Vec<u8>, Option<PathBuf>), String> {
     if let Some(data) = uri.strip_prefix("data:") {
         let text = data.split_once(";base64,").ok_or("data without `;base64,` is not read")?.1;
-        return BASE64_STANDARD.decode(text).map_err(|error| error.to_string());
+        let bytes = BASE64_STANDARD.decode(text).map_err(|error| error.to_string())?;
+        return Ok((bytes, None));
     }
     let relative = file_name(uri)?;
     let folder = folder.ok_or("a file without a folder cannot have other files beside it")?;
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    read_file(&folder.join(relative), folder, length)
+    let file = folder.join(relative);
+    Ok((read_file(&file, folder, length)?, Some(file)))
 }
 
 /// The relative path of a URI that names a file in the model's folder or below it.

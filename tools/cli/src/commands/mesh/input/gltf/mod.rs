@@ -12,10 +12,11 @@ mod primitive;
 mod scene;
 
 use accessor::Data;
+use buffers::Buffers;
 use document::broken;
 use primitive::Placed;
 use scene::out_of_range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use tess_surface::PolygonMesh;
 
 /// Most vertices and most triangles of a scene. Nodes can repeat a mesh, so that a small file can
@@ -29,6 +30,8 @@ pub(crate) struct Scene {
     pub(crate) mesh: PolygonMesh,
     /// The first face and the name of every primitive of every node.
     pub(crate) runs: Vec<(usize, String)>,
+    /// The files beside that buffers were read from.
+    pub(crate) files: Vec<PathBuf>,
 }
 
 /// Reads the default scene, or the first one, with its nodes' transforms applied. Buffers may be
@@ -41,9 +44,9 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>, most: usize) -> Result<
     let document = document::parse(json)?;
     accessor::check(&document)?;
     let nodes = scene::nodes(&document)?;
-    let buffers = buffers::load(&document.buffers, folder, blob)?;
-    let data = Data { document: &document, buffers };
-    let mut scene = Scene::default();
+    let Buffers { contents, files } = buffers::load(&document.buffers, folder, blob)?;
+    let data = Data { document: &document, buffers: contents };
+    let mut scene = Scene { files, ..Scene::default() };
     for (number, transform) in nodes {
         let Some(mesh) = document.nodes[number].mesh else { continue };
         let primitives = &document.meshes.get(mesh).ok_or_else(|| {
