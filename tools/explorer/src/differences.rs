@@ -67,7 +67,7 @@ fn apply(output: &mut Tessellation, size: usize, word: &str) -> Option<()> {
     let number: usize = fields.next()?.parse().ok()?;
     match kind {
         "P" if number <= MAX_POINTS => output.points.resize(number, DomainPoint::from_bits(0, 0)),
-        "T" if number * size <= MAX_INDICES => output.indices.resize(number * size, 0),
+        "T" if number <= MAX_INDICES / size => output.indices.resize(number * size, 0),
         "p" => {
             let mut bits = || u32::from_str_radix(fields.next()?, 16).ok();
             *output.points.get_mut(number)? = DomainPoint::from_bits(bits()?, bits()?);
@@ -125,6 +125,10 @@ mod tests {
             "t0.1.2",
             "t99.1.2.3",
             "P9999999",
+            "T9999999",
+            "T18446744073709551615",
+            "T6148914691236517206",
+            "T1431655766",
             "é",
         ] {
             assert!(model().with_differences(words).is_none(), "{words:?}");

@@ -43,7 +43,7 @@ test("both backends are equal to the model, and a planted fault is named", async
   await page.waitForFunction(() => document.getElementById("badge-cpu").dataset.is === "equal");
   assert.match(await gpuBadge(page), /^GPU: point \d+ [uv]: observed 0x[0-9a-f]+, expected 0x[0-9a-f]+ \(stage: location\)$/);
   await page.selectOption("#against", "gpu");
-  await page.waitForFunction(() => /points and 0 primitives differ/.test(document.getElementById("verdict").textContent));
+  await page.waitForFunction(() => /points? and 0 primitives/.test(document.getElementById("verdict").textContent));
   await close(page);
 });
 
@@ -94,7 +94,7 @@ test("a dropped listing with one flipped triangle is marked", async () => {
   const [a, b, c] = lines[first + 12].split(" ");
   lines[first + 12] = [a, c, b].join(" ");
   await drop(lines.join("\n"));
-  assert.match(await verdict("differ"), /^0 points and 1 primitives differ. First difference: index 1 of primitive 12: /);
+  assert.match(await verdict("Differences"), /^Differences: 0 points and 1 primitive\. The first: index 1 of primitive 12: /);
   assert.ok(await redPixels(page) > 50, "the triangle is marked");
   await picture(page, "flipped-triangle");
   await page.click("#tab-share");
@@ -112,13 +112,25 @@ test("a dropped listing with one flipped triangle is marked", async () => {
   await close(page);
 });
 
+test("the error of the first listing stays", async () => {
+  const page = await open();
+  await page.click("#tab-compare");
+  await page.fill("#pasted", "case quad\n");
+  await page.waitForTimeout(300);
+  const said = await text(page, "verdict");
+  assert.ok(said !== "" && !said.startsWith("Paste"), said);
+  await page.fill("#pasted", "");
+  await page.waitForFunction(() => document.getElementById("verdict").textContent.startsWith("Paste"));
+  await close(page);
+});
+
 test("split orders and partitionings are compared", async () => {
   const page = await open();
   await enter(page, CASES[0]);
   await page.click("#tab-compare");
   await page.selectOption("#against", "split");
   await page.waitForFunction(() => document.getElementById("verdict").textContent.includes(" center "));
-  assert.match(await text(page, "verdict"), /points and \d+ primitives differ\. First difference: point/);
+  assert.match(await text(page, "verdict"), /points and \d+ primitives\. The first: point/);
   await page.selectOption("#against", "integer");
   await page.waitForFunction(() => document.getElementById("verdict").textContent.includes("quad integer"));
   await close(page);

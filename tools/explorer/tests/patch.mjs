@@ -209,3 +209,19 @@ test("links between factors, special values and curiosities change the patch", a
   assert.ok(areas.some((area) => area < 0), "a factor whose locations go backwards has flipped triangles");
   await close(page);
 });
+
+for (const words of [
+  "colours=nope", "answer=compare&against=nope", "tab=surface&surface=nope", "tab=nope", "answer=nope", "numbers=nope",
+  "link=nope", "answer=compare&fault=nope", "theme=nope", "tab=surface&spacing=nope", "tab=surface&rule=nope",
+  "tab=surface&by=nope", "tab=surface&factor=nope", "tab=surface&eye=nope", "pick=nope", "built=nope", "view=nope",
+  "answer=compare&against=listing&device=nope", "tab=surface&kept=nope", "line=nope",
+]) {
+  test(`a link with an unknown value is shown: ${words}`, async () => {
+    const page = await open(`#${words}`);
+    await enter(page, lineOf(records[0]));
+    await page.click("#tab-patch");
+    await page.click("#tab-share");
+    assert.equal(await copied(page, "Listing of the whole patch"), records[0]);
+    await close(page);
+  });
+}

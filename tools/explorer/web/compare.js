@@ -1,13 +1,15 @@
 // Other results against the model's: split orders, partitionings, a device's listing, both backends.
 
 import { GpuBatch, ListingFile, PatchView, compare, difference_words, simd } from "./tess_explorer.js";
-import { element, formatLine, set, state } from "./state.js";
+import { counted, element, formatLine, set, state } from "./state.js";
 import { contents, patch } from "./patch.js";
 import { draw, over } from "./picture.js";
 import { toBits } from "./controls.js";
 import * as gpu from "./gpu.js";
 
 let file = null;
+// Why the last listing cannot be read.
+let refusal = "";
 let gpuBusy = false;
 let gpuVerdict = { line: "", fault: "", difference: "", view: null };
 
@@ -33,13 +35,15 @@ async function openFile(given) {
 function readListing(text) {
   file?.free();
   file = null;
+  refusal = "";
   element("listing-cases-label").hidden = true;
   if (text.trim() === "") return update(), draw();
   set({ against: "listing", answer: "compare" });
   try {
     file = new ListingFile(text);
   } catch (error) {
-    return say("verdict", "different", error.message);
+    refusal = error.message;
+    return update(), draw();
   }
   const cases = file.cases().split("\n");
   element("listing-cases").replaceChildren(...cases.map((line) => new Option(line, line)));
@@ -126,10 +130,10 @@ function show() {
     const { equal, first, points, primitives } = JSON.parse(compare(patch.view, other));
     const isOtherCase = other.line() !== patch.line;
     over.other = { ...contents(other), isOtherCase, differing: { points, primitives } };
-    const counts = `${points.length} points and ${primitives.length} primitives differ.`;
+    const counts = `Differences: ${counted(points.length, "point")} and ${counted(primitives.length, "primitive")}.`;
     const isLong = state.against === "listing" && !equal && difference_words(patch.view, other) === undefined;
     const words = isOtherCase ? `In red: ${other.line()}. ` : isLong ? "Too many differences for a link. " : "";
-    say("verdict", equal ? "equal" : "different", words + (equal ? "Equal, bit by bit." : `${counts} First difference: ${first}`));
+    say("verdict", equal ? "equal" : "different", words + (equal ? "Equal, bit by bit." : `${counts} The first: ${first}`));
     other.free();
   }
 }
@@ -141,9 +145,10 @@ function otherResult() {
   if (against === "split") return other({ split: patch.parts.split === "ruler" ? "center" : "ruler" });
   if (against === "simd") return cpuResult();
   if (against === "listing") {
-    if (!file && state.device) return patch.view.with_differences(state.device) ?? null;
+    if (!file && !refusal && state.device) return patch.view.with_differences(state.device) ?? null;
     const listing = file?.listing(patch.line);
     if (listing) set({ device: difference_words(patch.view, listing) ?? "" });
+    else if (refusal) say("verdict", "different", refusal);
     else say("verdict", "absent", file ? "The listing has no such patch." : "Paste or drop a listing, such as `tess patch` writes.");
     return listing ?? null;
   }

@@ -6,10 +6,8 @@ import * as state from "./state.js";
 import * as controls from "./controls.js";
 import * as picture from "./picture.js";
 
-const { element, set } = state;
+const { TABS, element, set } = state;
 
-// Two lists of tabs: the views of the page, and the answers about the patch.
-const TABS = { tab: ["patch", "surface", "measure"], answer: ["ask", "compare", "share", "learn"] };
 const PREFIX = { tab: "view", answer: "answer" };
 
 function startTabs(key) {

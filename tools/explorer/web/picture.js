@@ -2,7 +2,7 @@
 
 import { Mesh, colourOf, fit } from "./mesh.js";
 import { Layout, View } from "./layout.js";
-import { element, flush, set, state } from "./state.js";
+import { counted, element, flush, set, state } from "./state.js";
 import { patch } from "./patch.js";
 import { fills, legend } from "./colours.js";
 import { drawOverlay } from "./overlay.js";
@@ -37,8 +37,8 @@ export function update(keys) {
   if (["line", "colours"].some((key) => keys.has(key))) uploaded = "";
   element("legend").textContent = legend(state.colours);
   const { points, primitives, size } = patch;
-  const noun = ["points", "lines", "triangles"][size - 1];
-  element("counts").textContent = `${points.length / 2} points, ${primitives} ${noun}, ${patch.indices.length} indices`;
+  const noun = ["point", "line", "triangle"][size - 1], indices = counted(patch.indices.length, "index", "indices");
+  element("counts").textContent = [counted(points.length / 2, "point"), counted(primitives, noun), indices].join(", ");
   draw();
 }
 

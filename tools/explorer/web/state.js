@@ -12,6 +12,27 @@ const DEFAULTS = {
   surface: "teapot", spacing: "fractional_odd", rule: "uniform", factor: "5", wire: "1", eye: "", kept: "", by: "gpu",
 };
 
+// Two lists of tabs: the views of the page, and the answers about the patch.
+export const TABS = { tab: ["patch", "surface", "measure"], answer: ["ask", "compare", "share", "learn"] };
+
+// The lists that the other keys are chosen from; keys that are not here have any text.
+const LISTS = {
+  link: "link", colours: "colours", numbers: "numbers", against: "against", fault: "fault", surface: "surface",
+  rule: "rule", by: "surface-by",
+};
+
+// Whether a key can have a value. An address may be of another version, or mistyped.
+function isPossible(key, value) {
+  if (key in TABS) return TABS[key].includes(value);
+  if (key in LISTS) return [...element(LISTS[key]).options].some((option) => option.value === value);
+  if (key === "theme") return ["", "light", "dark"].includes(value);
+  if (key === "spacing") return known.partitionings.some(({ name }) => name === value);
+  if (key === "factor") return value.trim() !== "" && Number.isFinite(Number(value));
+  if (key === "built") return /^\d*$/.test(value);
+  if (key === "pick") return /^([pt]\d+)?$/.test(value);
+  return true;
+}
+
 export const state = { ...DEFAULTS };
 export let known = null;
 
@@ -69,7 +90,7 @@ function read(fragment) {
   const words = new URLSearchParams(fragment.slice(1));
   const values = { ...DEFAULTS };
   for (const key of Object.keys(DEFAULTS)) {
-    if (words.has(key)) values[key] = words.get(key);
+    if (words.has(key) && isPossible(key, words.get(key))) values[key] = words.get(key);
   }
   set(values);
 }
@@ -101,5 +122,8 @@ export function formatLine({ domain, partitioning, output, split, factors }) {
   const words = factors.map((bits) => bits.toString(16).padStart(8, "0"));
   return ["case", domain, partitioning, output, split, ...words].join(" ");
 }
+
+// A number with what it counts: `1 point`, `2 points`.
+export const counted = (number, one, many = `${one}s`) => `${number} ${number === 1 ? one : many}`;
 
 export const element = (id) => document.getElementById(id);

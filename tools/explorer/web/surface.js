@@ -5,7 +5,7 @@ import { SurfaceView } from "./tess_explorer.js";
 import { Mesh, colourOf, fit } from "./mesh.js";
 import { eyeOf, fromText, lightOf, moved, projection, toText } from "./orbit.js";
 import { Solid } from "./solid.js";
-import { element, set, state } from "./state.js";
+import { counted, element, set, state } from "./state.js";
 
 const COLOUR = [0x8f, 0xb8, 0xdc];
 
@@ -113,7 +113,8 @@ function setFactors() {
 }
 
 function count(vertices, triangles) {
-  element("surface-counts").textContent = `${surface.patches()} patches, ${vertices} vertices, ${triangles} triangles`;
+  const words = [counted(surface.patches(), "patch", "patches"), counted(vertices, "vertex", "vertices")];
+  element("surface-counts").textContent = [...words, counted(triangles, "triangle")].join(", ");
 }
 
 function drawOnCpu() {
