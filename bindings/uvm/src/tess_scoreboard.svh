@@ -58,7 +58,10 @@ class tess_scoreboard extends uvm_component;
 
     // The first element that differs, counts first; empty if none does.
     static function string first_difference(tess_result_item right, tess_result_item found);
-        if (found.u.size() != right.u.size() || found.v.size() != right.v.size())
+        if (found.u.size() != found.v.size())
+            return $sformatf("number of coordinates: observed %0d u and %0d v, expected %0d of each",
+                found.u.size(), found.v.size(), right.u.size());
+        if (found.u.size() != right.u.size())
             return $sformatf("number of points: observed %0d, expected %0d",
                 found.u.size(), right.u.size());
         if (found.indices.size() != right.indices.size())

@@ -1,5 +1,6 @@
 // Runs predictor and scoreboard: equal results pass, each planted difference is found. With the stub
-// of UVM; `+fault=N` takes a difference: 1 point, 2 index, 3 number of points, 4 a result too few.
+// of UVM; `+fault=N` takes a difference: 1 point, 2 index, 3 number of points, 4 a result too few,
+// 5 a v too few.
 module tb_uvm;
     import uvm_pkg::*;
     import tess_dpi::*;
@@ -40,6 +41,7 @@ module tb_uvm;
                     void'(observed.u.pop_back());
                     void'(observed.v.pop_back());
                 end
+                if (fault == 5) void'(observed.v.pop_back());
             end
             if (!(fault == 4 && n == 7)) scoreboard.observed.write(observed);
         end

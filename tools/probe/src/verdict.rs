@@ -110,3 +110,47 @@ pub(crate) fn third_is_right(case: &Case, captured: &Captured) -> bool {
     };
     captured.vertices.iter().all(right)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distances_are_rounded_up() {
+        let distance = |units: f32| scaled_distance((units * ONE_UNIT).to_bits(), 1000);
+        const ONE_UNIT: f32 = 1.0 / 65536.0;
+        for (units, expected) in
+            [(1000.0, 0), (1000.25, 1), (999.75, 1), (1001.0, 1), (1001.5, 2), (997.0, 3)]
+        {
+            assert_eq!(distance(units), expected, "{units}");
+        }
+        for odd in [f32::NAN, f32::INFINITY, -3.0, 4e9] {
+            assert_eq!(scaled_distance(odd.to_bits(), 1000), 2 * ONE, "{odd}");
+        }
+    }
+
+    /// 0 to the bit where there is no third coordinate.
+    #[test]
+    fn third_coordinates() {
+        let case = |line: &str| line.parse::<Case>().expect("a case");
+        let one = 1f32.to_bits();
+        let quad =
+            "case quad integer point ruler 3f800000 3f800000 3f800000 3f800000 3f800000 3f800000";
+        let lines = "case isoline integer point ruler 3f800000 3f800000";
+        let tri = "case tri integer point ruler 3f800000 3f800000 3f800000 3f800000";
+        for (line, w, is_right) in [
+            (quad, 0, true),
+            (quad, 1, false),
+            (quad, one, false),
+            (quad, (-0f32).to_bits(), false),
+            (lines, 0, true),
+            (lines, one, false),
+            (lines, (-0f32).to_bits(), false),
+            (tri, one, true),
+            (tri, 0, false),
+        ] {
+            let captured = Captured { vertices: vec![[0, 0, w]] };
+            assert_eq!(third_is_right(&case(line), &captured), is_right, "{line}, {w:08x}");
+        }
+    }
+}

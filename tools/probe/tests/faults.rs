@@ -147,6 +147,22 @@ fn flushed_denormals_are_explained_and_may_be_asked_for() {
     assert_eq!((explained(&report), report.unexplained.patches), (vec![], 1), "{LINE}");
 }
 
+/// What explains every odd patch is told from what explains some.
+#[test]
+fn explanations_of_all_and_of_some() {
+    let report = |lines: &[&str]| {
+        let mut judge = Judge::new(info(), Method::Primitives, any());
+        lines.iter().for_each(|line| judge.add(&case(line), &Captured::default()));
+        judge.finish()
+    };
+    let all = report(&[DENORMAL, DENORMAL]);
+    assert_eq!((all.explanations[0].patches, all.explanations[0].is_all), (2, true), "{all}");
+    assert!(all.to_string().contains("explains all (2)"), "{all}");
+    let some = report(&[DENORMAL, LINE]);
+    assert_eq!((some.explanations[0].patches, some.explanations[0].is_all), (1, false), "{some}");
+    assert!(some.to_string().contains("explains some (1)"), "{some}");
+}
+
 #[test]
 fn another_conversion_is_explained() {
     // 3 + 2^-17 lies halfway between two numbers; the even one is the model's.

@@ -5,11 +5,12 @@ use libtest_mimic::Failed;
 use std::process::Command;
 
 /// The planted differences, and what the scoreboard says of each.
-const FAULTS: [(u32, &str); 4] = [
+const FAULTS: [(u32, &str); 5] = [
     (1, "point 3: observed ("),
     (2, "index 4: observed "),
     (3, "number of points: observed "),
     (4, "1 expected and 0 observed results have no partner"),
+    (5, "number of coordinates: observed "),
 ];
 
 /// It compiles; equal results pass, and each planted difference is reported.

@@ -186,3 +186,60 @@ fn a_wrong_case_writes_no_file() {
     assert!(run.stderr.contains("stdin:2: "), "{}", run.stderr);
     assert_eq!(read_to_string(&file).expect("readable"), "as it was");
 }
+
+/// Each freedom makes its own difference equal, and no other one.
+#[test]
+fn every_freedom_is_used() {
+    let listing = |case: &str, right: &str| {
+        let right = tess_with_input("patch --cases -", &format!("case {right}\n")).stdout;
+        right.replacen(right_of(&right), case, 1)
+    };
+    let quad = "quad fractional_odd triangle_cw ruler 40a00000 40d00000 40e00000 40500000 40a80000";
+    let culled = "tri integer triangle_cw ruler 00000000 40400000 40400000 40400000";
+    // A denormal that counts as zero; a factor halfway between two numbers that went to the other one;
+    // another leading vertex; a triangle that is not the model's.
+    let flushed = listing(&culled.replace("00000000", "00000001"), culled);
+    let converted = listing(&format!("{quad} 40400020"), &format!("{quad} 40400040"));
+    let whole = tess_with_input("patch --cases -", TRI).stdout;
+    let turned = whole.replacen("\n0 1 ", "\n1 TURNED 0 ", 1);
+    let third = whole.split("\n0 1 ").nth(1).and_then(|rest| rest.split('\n').next());
+    let third = third.expect("a first triangle");
+    let turned = turned.replacen(&format!("1 TURNED 0 {third}"), &format!("1 {third} 0"), 1);
+    let wrong = whole.replacen(&format!("\n0 1 {third}\n"), &format!("\n0 {third} 1\n"), 1);
+    let freedoms = ["--denormals flush", "--conversion 0.6ulp", "--order any", "--points"];
+    for (number, device) in [flushed, converted, turned, wrong].iter().enumerate() {
+        let strictly = tess_with_input("check -", device);
+        assert_eq!(strictly.code, Some(1), "{device}: {}{}", strictly.stdout, strictly.stderr);
+        for (other, freedom) in freedoms.iter().enumerate() {
+            // Points alone have no leading vertex.
+            let equal = other == number || (number, other) == (2, 3);
+            let run = tess_with_input(&format!("check - {freedom}"), device);
+            let code = Some(if equal { 0 } else { 1 });
+            assert_eq!(run.code, code, "{freedom}: {device}{}{}", run.stdout, run.stderr);
+        }
+    }
+}
+
+/// The case of a file's first listing.
+fn right_of(text: &str) -> &str {
+    let line = text.lines().find_map(|line| line.strip_prefix("case "));
+    line.expect("a case line")
+}
+
+/// What is kept and what is left out are all the differences.
+#[test]
+fn failures_are_counted() {
+    let folder = directory("failures_are_counted");
+    let [asked, failing] = ["asked.txt", "failing.txt"].map(|name| folder.join(name));
+    write(&asked, format!("{TRI}\n{TRI}\n{TRI}\n{QUAD}\n")).expect("written");
+    let right = tess_with_input("patch --cases -", &format!("{TRI}\n{TRI}\n{TRI}\n")).stdout;
+    let wrong = right.replacen("\n00000 10000\n", "\n00000 0ffff\n", 2);
+    let words = format!("check - --cases {} --failures {}", asked.display(), failing.display());
+    let run = tess_with_input(&words, &wrong);
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.ends_with("4 cases, 3 mismatches\n"), "{}", run.stdout);
+    let note = format!("tess: 1 difference left out of {}", failing.display());
+    assert!(run.stderr.starts_with(&note), "{}", run.stderr);
+    let kept = read_to_string(&failing).expect("written");
+    assert_eq!(kept.matches("\ncase ").count(), 2, "{kept}");
+}

@@ -189,6 +189,69 @@ fn median(mut values: Vec<f64>) -> f64 {
 mod tests {
     use super::*;
 
+    /// Takes a second for each part, and half a second to fill its bytes.
+    struct Slow {
+        digest: u64,
+    }
+
+    impl Runner for Slow {
+        fn backend(&self) -> &'static str {
+            "slow"
+        }
+
+        fn level(&self) -> String {
+            String::new()
+        }
+
+        fn threads(&self) -> u32 {
+            1
+        }
+
+        fn index_type(&self) -> tess_verify::workloads::IndexType {
+            tess_verify::workloads::IndexType::U32
+        }
+
+        fn prepare(
+            &mut self,
+            workload: &Workload,
+            _: WorkingSet,
+        ) -> Result<Vec<Amount>, BackendError> {
+            let patches = workload.patches.len() as u64;
+            Ok(vec![Amount { patches, triangles: 2 * patches, bytes: 3 * patches }])
+        }
+
+        fn digest(&mut self) -> Result<u64, BackendError> {
+            Ok(self.digest)
+        }
+
+        fn run(&mut self, _: usize) -> Result<Duration, BackendError> {
+            Ok(Duration::from_secs(1))
+        }
+
+        fn fill(&mut self, _: usize) -> Result<Duration, BackendError> {
+            Ok(Duration::from_millis(500))
+        }
+    }
+
+    /// The ratios say how much faster the backend is than the others, and a wrong result has none.
+    #[test]
+    fn ratios_and_digests() {
+        let workload = &tess_verify::workloads::named("uniform-1")[0];
+        let plan = Plan { workload, working_set: WorkingSet::Cache, samples: 1 };
+        let digest = workload.digest_in(Order::Specification);
+        let row = measure(&mut Slow { digest }, plan).expect("it is right");
+        let patches = workload.patches.len() as f64;
+        assert_eq!(row.patches_per_s.to_bits(), patches.to_bits(), "a second for all");
+        assert_eq!(row.triangles_per_s.to_bits(), (2.0 * patches).to_bits(), "two for each");
+        assert_eq!(row.bytes_per_s.to_bits(), (3.0 * patches).to_bits(), "three for each");
+        assert_eq!(row.fill_ratio.to_bits(), 0.5f64.to_bits(), "filling takes half the time");
+        assert!(row.core_ratio < 0.5, "the core takes no second: {}", row.core_ratio);
+        let failure = measure(&mut Slow { digest: digest ^ 1 }, plan).map(|_| ());
+        let failure = failure.expect_err("a result that is wrong is not timed");
+        assert_eq!(failure.exit as u8, 1, "{failure}");
+        assert!(failure.to_string().contains("slow gives digest"), "{failure}");
+    }
+
     #[test]
     fn medians() {
         assert_eq!(median(vec![3.0, 1.0, 2.0]).to_bits(), 2.0f64.to_bits(), "odd count");
