@@ -5,6 +5,9 @@ use numpy::{
     Element, Ix1, Ix2, PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray, PyUntypedArray,
     PyUntypedArrayMethods,
 };
+use numpy::PyArray;
+use numpy::ndarray::Dimension;
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use std::ops::Range;
 use tess_core::{Domain, DomainPoint};
@@ -31,16 +34,53 @@ pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<
     if untyped.ndim() != 2 || untyped.shape()[1] != factors {
         return Err(wrong(described(untyped)));
     }
+    refuse_masked("factors", array)?;
     let borrowed = |error| argument(format!("factors: {error}"));
     if let Ok(array) = array.cast::<PyArray2<f32>>() {
         let array = array.try_readonly().map_err(borrowed)?;
-        Ok(array.as_array().iter().copied().collect())
+        copied(array.as_array().iter().copied())
     } else if let Ok(array) = array.cast::<PyArray2<u32>>() {
         let array = array.try_readonly().map_err(borrowed)?;
-        Ok(array.as_array().iter().copied().map(f32::from_bits).collect())
+        copied(array.as_array().iter().copied().map(f32::from_bits))
     } else {
         Err(wrong(described(untyped)))
     }
+}
+
+/// The elements in a new vector.
+///
+/// # Errors
+/// `MemoryError`: a broadcast array can have more elements than there is memory.
+pub(crate) fn copied<T>(elements: impl ExactSizeIterator<Item = T>) -> PyResult<Vec<T>> {
+    let mut copy = Vec::new();
+    copy.try_reserve_exact(elements.len()).map_err(|_| {
+        PyMemoryError::new_err(format!("no memory for a copy of {} elements", elements.len()))
+    })?;
+    copy.extend(elements);
+    Ok(copy)
+}
+
+/// An array of zeros.
+///
+/// # Errors
+/// `MemoryError`.
+pub(crate) fn zeros<'py, T: Element, D: Dimension>(
+    py: Python<'py>,
+    shape: impl IntoPyObject<'py>,
+) -> PyResult<Bound<'py, PyArray<T, D>>> {
+    let made = numpy::get_array_module(py)?.call_method1("zeros", (shape, T::get_dtype(py)))?;
+    Ok(made.cast_into()?)
+}
+
+/// Refuses numpy's masked arrays, whose mask would be lost.
+///
+/// # Errors
+/// The array is one.
+pub(crate) fn refuse_masked(what: &str, array: &Bound<'_, PyAny>) -> PyResult<()> {
+    if array.hasattr("mask")? && array.hasattr("filled")? {
+        return Err(argument(format!("{what}: the mask of a masked array would be lost; fill it first")));
+    }
+    Ok(())
 }
 
 /// Type and shape in words.

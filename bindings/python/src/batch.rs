@@ -1,8 +1,10 @@
 //! Many patches at the speed of `tess-simd`.
 
-use crate::arrays::{self, Array1, Array2, Flat, Rows, addresses, described, overlap, writable};
+use crate::arrays::{
+    self, Array1, Array2, Flat, Rows, addresses, described, overlap, refuse_masked, writable,
+};
 use crate::errors::{self, argument, output};
-use crate::names::{config, named};
+use crate::names::{config, named, whole, whole_or_none};
 use crate::values;
 use numpy::{PyArray, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
@@ -42,7 +44,7 @@ impl Tessellator {
     #[new]
     #[pyo3(signature = (partitioning = "integer", output = "triangle_cw", split = "ruler",
         threads = 1))]
-    fn new(partitioning: &str, output: &str, split: &str, threads: usize) -> PyResult<Self> {
+    fn new(partitioning: &str, output: &str, split: &str, #[pyo3(from_py_with = whole)] threads: usize) -> PyResult<Self> {
         let config = config(partitioning, output, split)?;
         let most = tess_simd::Tessellator::MAX_THREADS;
         if !(1..=most).contains(&threads) {
@@ -119,7 +121,7 @@ impl Tessellator {
         factors: &Bound<'py, PyAny>,
         points: &str,
         indices: &str,
-        base_vertex: Option<u32>,
+        #[pyo3(from_py_with = whole_or_none)] base_vertex: Option<u32>,
         out: Option<&Bound<'py, PyTuple>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let batch = owned(named(domain)?, factors)?;
@@ -155,14 +157,14 @@ impl Tessellator {
 fn owned(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Patches> {
     let flat = arrays::factors(domain, array)?;
     Ok(match domain {
-        Domain::Isoline => Patches::Isolines(of::<2, _>(&flat)),
-        Domain::Triangle => Patches::Triangles(of::<4, _>(&flat)),
-        Domain::Quad => Patches::Quads(of::<6, _>(&flat)),
+        Domain::Isoline => Patches::Isolines(of::<2, _>(&flat)?),
+        Domain::Triangle => Patches::Triangles(of::<4, _>(&flat)?),
+        Domain::Quad => Patches::Quads(of::<6, _>(&flat)?),
     })
 }
 
-fn of<const N: usize, T: From<[f32; N]>>(flat: &[f32]) -> Vec<T> {
-    flat.as_chunks::<N>().0.iter().map(|factors| T::from(*factors)).collect()
+fn of<const N: usize, T: From<[f32; N]>>(flat: &[f32]) -> PyResult<Vec<T>> {
+    arrays::copied(flat.as_chunks::<N>().0.iter().map(|factors| T::from(*factors)))
 }
 
 /// Patches of one domain in the layout that is the fastest.
@@ -209,16 +211,16 @@ impl<'py> Arrays<'py> {
         };
         Ok(Self {
             points: match points {
-                "float32" => Points::Float(PyArray::zeros(py, [counts.points, 2], false)),
-                "fixed" => Points::Fixed(PyArray::zeros(py, [counts.points, 2], false)),
+                "float32" => Points::Float(arrays::zeros(py, (counts.points, 2))?),
+                "fixed" => Points::Fixed(arrays::zeros(py, (counts.points, 2))?),
                 other => return Err(unknown("points", other, "float32 or fixed")),
             },
             indices: match indices {
-                "uint32" => Indices::Long(PyArray::zeros(py, [counts.indices], false)),
-                "uint16" => Indices::Short(PyArray::zeros(py, [counts.indices], false)),
+                "uint32" => Indices::Long(arrays::zeros(py, (counts.indices,))?),
+                "uint16" => Indices::Short(arrays::zeros(py, (counts.indices,))?),
                 other => return Err(unknown("indices", other, "uint32 or uint16")),
             },
-            ranges: PyArray::zeros(py, [counts.patches, 4], false),
+            ranges: arrays::zeros(py, (counts.patches, 4))?,
         })
     }
 
@@ -229,8 +231,11 @@ impl<'py> Arrays<'py> {
             return Err(output(format!("{message} {} arrays", out.len())));
         }
         let element = |i: usize| out.get_item(i);
+        for array in out {
+            refuse_masked("out", &array)?;
+        }
         let ranges = match out.len() {
-            2 => PyArray::zeros(py, [counts.patches, 4], false),
+            2 => arrays::zeros(py, (counts.patches, 4))?,
             _ => rows::<u32>(&element(2)?, 4)
                 .ok_or_else(|| wrong(&element(2), "ranges", "(.., 4), uint32"))?,
         };

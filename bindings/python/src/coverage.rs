@@ -1,13 +1,18 @@
 //! Functional coverage as an object.
 
 use crate::errors::{argument, file_format};
+use crate::names::whole;
 use crate::patch::Patch;
 use crate::{stages, values};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::path::PathBuf;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::io::ErrorKind;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tess_verify::case::Case;
+
+/// How many patches are taken from the interpreter before they are counted.
+const RECORDED_TOGETHER: usize = 4096;
 
 /// Which of the specification's cases were hit, and how often.
 ///
@@ -21,7 +26,7 @@ use tess_verify::case::Case;
 /// (2, Group(hit=2, bins=4))
 #[pyclass(frozen, module = "tess_model")]
 #[derive(Default)]
-pub(crate) struct Coverage(Mutex<tess_verify::coverage::Coverage>);
+pub(crate) struct Coverage(Arc<Mutex<tess_verify::coverage::Coverage>>);
 
 #[pymethods]
 impl Coverage {
@@ -32,24 +37,31 @@ impl Coverage {
 
     /// Counts the bins that a patch hits, or those of several patches.
     fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<()> {
-        let cases: Vec<Case> = match patches.cast::<Patch>() {
-            Ok(patch) => vec![patch.get().case],
-            Err(_) => patches
-                .try_iter()?
+        if let Ok(patch) = patches.cast::<Patch>() {
+            self.lock().record(&patch.get().case);
+            return Ok(());
+        }
+        let mut patches = patches.try_iter()?;
+        loop {
+            let some = patches.by_ref().take(RECORDED_TOGETHER);
+            let cases: Vec<Case> = some
                 .map(|patch| Ok(patch?.cast::<Patch>()?.get().case))
-                .collect::<PyResult<_>>()?,
-        };
-        py.detach(|| {
-            let mut coverage = self.lock();
-            cases.iter().for_each(|case| coverage.record(case));
-        });
-        Ok(())
+                .collect::<PyResult<_>>()?;
+            if cases.is_empty() {
+                return Ok(());
+            }
+            py.check_signals()?;
+            py.detach(|| {
+                let mut coverage = self.lock();
+                cases.iter().for_each(|case| coverage.record(case));
+            });
+        }
     }
 
     /// Counts the bins of one factor's context, for the bench of a stage that sees no patch: those of
     /// the groups ``context`` and ``exceptional``. The arguments are those of :func:`context`.
     #[pyo3(signature = (factor, parity, split_order = "ruler"))]
-    fn record_context(&self, factor: u32, parity: &str, split_order: &str) -> PyResult<()> {
+    fn record_context(&self, #[pyo3(from_py_with = whole)] factor: u32, parity: &str, split_order: &str) -> PyResult<()> {
         let (split, context) = stages::factor_context(factor, parity, split_order)?;
         self.lock().record_context(split, &context);
         Ok(())
@@ -57,7 +69,7 @@ impl Coverage {
 
     /// Adds to the hits of one bin.
     #[pyo3(signature = (bin, hits = 1))]
-    fn add(&self, bin: &str, hits: u64) -> PyResult<()> {
+    fn add(&self, bin: &str, #[pyo3(from_py_with = whole)] hits: u64) -> PyResult<()> {
         let found = self.lock().add(bin, hits);
         if found { Ok(()) } else { Err(argument(format!("there is no bin {bin:?}"))) }
     }
@@ -106,7 +118,7 @@ impl Coverage {
     #[staticmethod]
     fn from_ucis(text: &str) -> PyResult<Self> {
         let read = tess_verify::coverage::Coverage::from_ucis(text);
-        read.map(|coverage| Self(Mutex::new(coverage))).map_err(file_format)
+        read.map(|coverage| Self(Arc::new(Mutex::new(coverage)))).map_err(file_format)
     }
 
     /// Writes a coverage file: UCIS XML.
@@ -117,10 +129,13 @@ impl Coverage {
     /// Reads a coverage file.
     #[staticmethod]
     fn read(path: PathBuf) -> PyResult<Self> {
-        let text = std::fs::read_to_string(&path)?;
-        let read = tess_verify::coverage::Coverage::from_ucis(&text);
-        let error = |error| file_format(format!("{}: {error}", path.display()));
-        read.map(|coverage| Self(Mutex::new(coverage))).map_err(error)
+        let read = tess_verify::coverage::Coverage::read_ucis(std::fs::File::open(&path)?);
+        read.map(|coverage| Self(Arc::new(Mutex::new(coverage)))).map_err(|error| {
+            match error.kind() {
+                ErrorKind::InvalidData => file_format(format!("{}: {error}", path.display())),
+                _ => error.into(),
+            }
+        })
     }
 
     fn __eq__(&self, other: &Self) -> bool {
@@ -136,6 +151,11 @@ impl Coverage {
 }
 
 impl Coverage {
+    /// The same coverage, for another thread.
+    pub(crate) fn shared(&self) -> Self {
+        Self(Arc::clone(&self.0))
+    }
+
     /// The coverage, alone; nothing waits for the interpreter while it holds this.
     pub(crate) fn lock(&self) -> MutexGuard<'_, tess_verify::coverage::Coverage> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)

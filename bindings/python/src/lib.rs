@@ -3,7 +3,8 @@
 //!
 //! `patch` is one patch, `batch` many; `stages` single numbers of one stage; `vectors` and `coverage`
 //! the verification kit. `names` and `arrays` turn arguments into the libraries' types, `values`
-//! makes the named tuples of `python/tess_model/values.py`, `errors` the exceptions.
+//! makes the named tuples of `python/tess_model/values.py`, `errors` the exceptions;
+//! `signals` lets Ctrl-C end what takes long.
 //!
 //! Nothing here holds the interpreter's lock while it tessellates or compares.
 
@@ -13,6 +14,7 @@ mod coverage;
 mod errors;
 mod names;
 mod patch;
+mod signals;
 mod stages;
 mod strength;
 mod values;

@@ -1,7 +1,10 @@
 //! Names and factors of a patch, as arguments.
 
+use crate::arrays::refuse_masked;
 use crate::errors::argument;
+use pyo3::conversion::FromPyObjectOwned;
 use pyo3::prelude::*;
+use pyo3::types::{PyByteArray, PyBytes};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::case::Case;
 use tess_verify::names::Named;
@@ -41,43 +44,71 @@ pub(crate) fn factors(domain: Domain, outer: &[f32], inner: &[f32]) -> PyResult<
     PatchFactors::from_slice(domain, &[outer, inner].concat()).ok_or_else(wrong)
 }
 
-/// One factor or several, as floats.
-#[derive(FromPyObject)]
-pub(crate) enum Floats {
-    /// A number.
-    One(f64),
-    /// A sequence or an array.
-    Many(Vec<f64>),
+/// One factor or several, as binary32 rounded to the nearest.
+///
+/// # Errors
+/// Something else than a number, a sequence of numbers or an array.
+#[expect(clippy::cast_possible_truncation, reason = "to the nearest binary32, as documented")]
+pub(crate) fn floats(factors: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
+    let all: Vec<f64> = one_or_many(factors, "numbers")?;
+    Ok(all.into_iter().map(|factor| factor as f32).collect())
 }
 
-impl Floats {
-    /// As binary32, rounded to the nearest.
-    #[expect(clippy::cast_possible_truncation, reason = "to the nearest binary32, as documented")]
-    pub(crate) fn to_f32(&self) -> Vec<f32> {
-        match self {
-            Self::One(factor) => vec![*factor as f32],
-            Self::Many(factors) => factors.iter().map(|factor| *factor as f32).collect(),
-        }
+/// One factor or several, from the bits of binary32 numbers.
+///
+/// # Errors
+/// Something else than an integer below 2^32, a sequence of such integers or an array.
+pub(crate) fn bits(factors: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
+    let all: Vec<u32> = one_or_many(factors, "integers from 0 to 2**32 - 1")?;
+    Ok(all.into_iter().map(f32::from_bits).collect())
+}
+
+fn one_or_many<T>(factors: &Bound<'_, PyAny>, what: &str) -> PyResult<Vec<T>>
+where
+    T: for<'a> FromPyObjectOwned<'a>,
+{
+    refuse_masked("factors", factors)?;
+    let is_text = factors.is_instance_of::<PyBytes>() || factors.is_instance_of::<PyByteArray>();
+    let found = if is_text {
+        None
+    } else {
+        factors.extract().map(|one| vec![one]).or_else(|_| factors.extract()).ok()
+    };
+    found.ok_or_else(|| argument(format!("factors are {what}, not {}", shown(factors))))
+}
+
+/// A value for a message: as Python shows it, if that is short.
+fn shown(value: &Bound<'_, PyAny>) -> String {
+    let repr = value.repr().map(|repr| repr.to_string()).unwrap_or_default();
+    match repr.chars().count() {
+        1..=80 => repr,
+        _ => format!("an object of type {}", value.get_type()),
     }
 }
 
-/// One factor or several, as the bits of binary32 numbers.
-#[derive(FromPyObject)]
-pub(crate) enum Bits {
-    /// A number.
-    One(u32),
-    /// A sequence or an array.
-    Many(Vec<u32>),
+/// A whole number of the range of `T`, for arguments.
+///
+/// # Errors
+/// Any other value.
+pub(crate) fn whole<T>(value: &Bound<'_, PyAny>) -> PyResult<T>
+where
+    T: for<'a> FromPyObjectOwned<'a>,
+{
+    value.extract::<T>().map_err(|_| {
+        let most = 8 * size_of::<T>();
+        argument(format!("expected an integer from 0 to 2**{most} - 1, not {}", shown(value)))
+    })
 }
 
-impl Bits {
-    /// The numbers with these bits.
-    pub(crate) fn to_f32(&self) -> Vec<f32> {
-        match self {
-            Self::One(bits) => vec![f32::from_bits(*bits)],
-            Self::Many(all) => all.iter().map(|bits| f32::from_bits(*bits)).collect(),
-        }
-    }
+/// The same, or `None`.
+///
+/// # Errors
+/// As for [`whole`].
+pub(crate) fn whole_or_none<T>(value: &Bound<'_, PyAny>) -> PyResult<Option<T>>
+where
+    T: for<'a> FromPyObjectOwned<'a>,
+{
+    if value.is_none() { Ok(None) } else { whole(value).map(Some) }
 }
 
 /// A case from its line, `case DOMAIN PARTITIONING OUTPUT SPLIT FACTOR...`.

@@ -1,7 +1,7 @@
 //! One patch, with everything that the model knows of it.
 
 use crate::errors::{argument, no_such_element};
-use crate::names::{Bits, Floats, case, config, factors, named};
+use crate::names::{bits, case, config, factors, floats, named, whole, whole_or_none};
 use crate::{stages, values};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
@@ -48,14 +48,14 @@ impl Patch {
         output = "triangle_cw", split = "ruler"))]
     fn new(
         domain: &str,
-        outer: Floats,
-        inner: Option<Floats>,
+        outer: &Bound<'_, PyAny>,
+        inner: Option<&Bound<'_, PyAny>>,
         partitioning: &str,
         output: &str,
         split: &str,
     ) -> PyResult<Self> {
-        let inner = inner.map(|inner| inner.to_f32()).unwrap_or_default();
-        Self::of(domain, &outer.to_f32(), &inner, config(partitioning, output, split)?)
+        let inner = inner.map_or_else(|| Ok(Vec::new()), floats)?;
+        Self::of(domain, &floats(outer)?, &inner, config(partitioning, output, split)?)
     }
 
     /// The patch whose factors have these binary32 bit patterns: as the constructor, with integers
@@ -69,14 +69,14 @@ impl Patch {
         output = "triangle_cw", split = "ruler"))]
     fn from_bits(
         domain: &str,
-        outer: Bits,
-        inner: Option<Bits>,
+        outer: &Bound<'_, PyAny>,
+        inner: Option<&Bound<'_, PyAny>>,
         partitioning: &str,
         output: &str,
         split: &str,
     ) -> PyResult<Self> {
-        let inner = inner.map(|inner| inner.to_f32()).unwrap_or_default();
-        Self::of(domain, &outer.to_f32(), &inner, config(partitioning, output, split)?)
+        let inner = inner.map_or_else(|| Ok(Vec::new()), bits)?;
+        Self::of(domain, &bits(outer)?, &inner, config(partitioning, output, split)?)
     }
 
     /// The patch of a case line, as vector files and :attr:`case` have it:
@@ -197,25 +197,25 @@ impl Patch {
     }
 
     /// Point ``i`` as (u, v), 16.16 integers, in constant time.
-    fn point(&self, i: u32) -> PyResult<(u32, u32)> {
+    fn point(&self, #[pyo3(from_py_with = whole)] i: u32) -> PyResult<(u32, u32)> {
         let point = self.case.patch().point(i).ok_or_else(|| self.missing("point", i))?;
         Ok((point.u.to_bits(), point.v.to_bits()))
     }
 
     /// Primitive ``t`` as its 1, 2 or 3 indices, in constant time.
-    fn primitive<'py>(&self, py: Python<'py>, t: u32) -> PyResult<Bound<'py, PyTuple>> {
+    fn primitive<'py>(&self, py: Python<'py>, #[pyo3(from_py_with = whole)] t: u32) -> PyResult<Bound<'py, PyTuple>> {
         let found = self.case.patch().primitive(t).ok_or_else(|| self.missing("primitive", t))?;
         PyTuple::new(py, found.indices())
     }
 
     /// Where point ``i`` comes from: :class:`PointOrigin`.
-    fn locate_point<'py>(&self, py: Python<'py>, i: u32) -> PyResult<Bound<'py, PyAny>> {
+    fn locate_point<'py>(&self, py: Python<'py>, #[pyo3(from_py_with = whole)] i: u32) -> PyResult<Bound<'py, PyAny>> {
         let origin = self.case.patch().locate_point(i).ok_or_else(|| self.missing("point", i))?;
         values::point_origin(py, origin)
     }
 
     /// Where primitive ``t`` comes from: :class:`PrimitiveOrigin`.
-    fn locate_primitive<'py>(&self, py: Python<'py>, t: u32) -> PyResult<Bound<'py, PyAny>> {
+    fn locate_primitive<'py>(&self, py: Python<'py>, #[pyo3(from_py_with = whole)] t: u32) -> PyResult<Bound<'py, PyAny>> {
         let patch = self.case.patch();
         let origin = patch.locate_primitive(t).ok_or_else(|| self.missing("primitive", t))?;
         values::primitive_origin(py, origin)
@@ -224,7 +224,7 @@ impl Patch {
     /// Where point ``p`` of an edge with a factor of this patch lies, with every step:
     /// :class:`Placement`. ``factor`` is a name as in :attr:`processed`; ``p`` is below the ``points``
     /// of its context.
-    fn place<'py>(&self, py: Python<'py>, factor: &str, p: u32) -> PyResult<Bound<'py, PyAny>> {
+    fn place<'py>(&self, py: Python<'py>, factor: &str, #[pyo3(from_py_with = whole)] p: u32) -> PyResult<Bound<'py, PyAny>> {
         let names = self.case.domain().factor_names();
         let number = names.iter().position(|name| *name == factor).ok_or_else(|| {
             argument(format!("there is no factor {factor:?}; there are {}", names.join(", ")))
@@ -239,7 +239,7 @@ impl Patch {
     /// Every stage of the patch as text, or where one point or one primitive comes from: what
     /// ``tess explain`` prints.
     #[pyo3(signature = (*, point = None, primitive = None))]
-    fn explain(&self, point: Option<u32>, primitive: Option<u32>) -> PyResult<String> {
+    fn explain(&self, #[pyo3(from_py_with = whole_or_none)] point: Option<u32>, #[pyo3(from_py_with = whole_or_none)] primitive: Option<u32>) -> PyResult<String> {
         Ok(self.report(point, primitive)?.0)
     }
 
@@ -255,8 +255,8 @@ impl Patch {
     fn explanation<'py>(
         &self,
         py: Python<'py>,
-        point: Option<u32>,
-        primitive: Option<u32>,
+        #[pyo3(from_py_with = whole_or_none)] point: Option<u32>,
+        #[pyo3(from_py_with = whole_or_none)] primitive: Option<u32>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let json = self.report(point, primitive)?.1.to_string();
         py.import("json")?.getattr("loads")?.call1((json,))
@@ -269,7 +269,7 @@ impl Patch {
     ///     colours: ``plain``; ``order``, which numbers the primitives too; or ``rings``.
     ///     size: Width and height in pixels, 64..8192.
     #[pyo3(signature = (*, indices = false, colours = "plain", size = 800))]
-    fn to_svg(&self, py: Python<'_>, indices: bool, colours: &str, size: u32) -> PyResult<String> {
+    fn to_svg(&self, py: Python<'_>, indices: bool, colours: &str, #[pyo3(from_py_with = whole)] size: u32) -> PyResult<String> {
         let colours = match colours {
             "plain" => Colours::Plain,
             "order" => Colours::Order,

@@ -1,7 +1,7 @@
 //! Single numbers of one stage: contexts and placements.
 
 use crate::errors::argument;
-use crate::names::named;
+use crate::names::{named, whole};
 use crate::values;
 use pyo3::prelude::*;
 use tess_core::fixed_point::ONE;
@@ -41,7 +41,7 @@ pub(crate) fn factor_context(
 #[pyo3(signature = (factor, parity, split_order = "ruler"))]
 pub(crate) fn context<'py>(
     py: Python<'py>,
-    factor: u32,
+    #[pyo3(from_py_with = whole)] factor: u32,
     parity: &str,
     split_order: &str,
 ) -> PyResult<Bound<'py, PyAny>> {
@@ -60,9 +60,9 @@ pub(crate) fn context<'py>(
 #[pyo3(signature = (factor, parity, p, split_order = "ruler"))]
 pub(crate) fn place<'py>(
     py: Python<'py>,
-    factor: u32,
+    #[pyo3(from_py_with = whole)] factor: u32,
     parity: &str,
-    p: u32,
+    #[pyo3(from_py_with = whole)] p: u32,
     split_order: &str,
 ) -> PyResult<Bound<'py, PyAny>> {
     let (_, context) = factor_context(factor, parity, split_order)?;

@@ -4,6 +4,10 @@ use crate::errors::argument;
 use pyo3::PyResult;
 use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
 
+/// The orders that `tess check` knows.
+const ORDERS: [(&str, Order); 3] =
+    [("exact", Order::Exact), ("sequence", Order::Sequence), ("any", Order::Any)];
+
 /// What `tess check` takes as `--order`, `--points`, `--conversion` and `--denormals`.
 pub(crate) fn strength(
     order: &str,
@@ -12,7 +16,7 @@ pub(crate) fn strength(
     denormals: &str,
 ) -> PyResult<Strength> {
     Ok(Strength {
-        order: one_of("order", order, &[("exact", Order::Exact), ("any", Order::Any)])?,
+        order: one_of("order", order, &ORDERS)?,
         elements: one_of(
             "elements",
             elements,

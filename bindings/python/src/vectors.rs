@@ -1,28 +1,33 @@
 //! Test vectors: generated, read, written and checked.
 
-use crate::arrays::described;
+use crate::arrays::{copied, described, refuse_masked};
 use crate::coverage::Coverage;
 use crate::errors::{self, argument, file_format};
-use crate::names::named;
+use crate::names::{named, whole, whole_or_none};
 use crate::patch::Patch;
+use crate::signals::{self, Watch, Watched};
 use crate::strength::{one_of, strength};
 use crate::values;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Write};
+use std::io::{self, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, PoisonError};
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::backend::Backend;
 use tess_verify::case::Case;
-use tess_verify::checker::{self, Tested};
+use tess_verify::checker::{self, CheckError, Report, Tested};
 use tess_verify::core_backend::CoreBackend;
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::names::Named;
-use tess_verify::vectors::{Header, Kind, Listing, write_listings, write_patches};
+use tess_verify::vectors::{
+    Header, Kind, Listing, VectorError, write_listings, write_patches,
+};
 
-type Source = Box<dyn Iterator<Item = Case> + Send>;
+/// Cases; `None` for one of another shard.
+type Source = Box<dyn Iterator<Item = Option<Case>> + Send>;
 
 /// An iterator over generated patches: what :func:`generate` gives.
 #[pyclass(frozen, module = "tess_model")]
@@ -34,8 +39,14 @@ impl Cases {
         slf
     }
 
-    fn __next__(&self) -> Option<Patch> {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).next().map(|case| Patch { case })
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Patch>> {
+        let mut watch = Watch::default();
+        // Between two patches of a shard there may be any number of other shards'.
+        let next = py.detach(|| {
+            let mut cases = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            cases.by_ref().take_while(|_| watch.goes_on()).find_map(|case| case)
+        });
+        watch.finish().map(|()| next.map(|case| Patch { case }))
     }
 }
 
@@ -46,7 +57,7 @@ impl Cases {
 ///         3, random alone.
 ///     seed: Seed of everything random.
 ///     count: Number of random patches at the end; ``None``: 500, 20000 and 1000000.
-///     domain, partitioning: One only; ``None``: all.
+///     domain, partitioning, output, split: One only; ``None``: all.
 ///     shard: ``(i, n)``, i in 1..n: one of n disjoint parts; ``None``: all.
 ///
 /// >>> import tess_model
@@ -54,14 +65,17 @@ impl Cases {
 /// 10
 #[pyfunction]
 #[pyo3(signature = (level = 1, *, seed = 1, count = None, domain = None, partitioning = None,
-    shard = None))]
+    output = None, split = None, shard = None))]
+#[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub(crate) fn generate(
-    level: u8,
-    seed: u64,
-    count: Option<u64>,
+    #[pyo3(from_py_with = whole)] level: u8,
+    #[pyo3(from_py_with = whole)] seed: u64,
+    #[pyo3(from_py_with = whole_or_none)] count: Option<u64>,
     domain: Option<&str>,
     partitioning: Option<&str>,
-    shard: Option<(u64, u64)>,
+    output: Option<&str>,
+    split: Option<&str>,
+    #[pyo3(from_py_with = part_of_all)] shard: Option<(u64, u64)>,
 ) -> PyResult<Cases> {
     let level = match level {
         1 => GenLevel::One,
@@ -76,11 +90,17 @@ pub(crate) fn generate(
     let shard = Shard { part: part - 1, of };
     let domain = domain.map(named).transpose()?;
     let partitioning = partitioning.map(named).transpose()?;
-    let cases =
-        Selection { random: count, domain, partitioning, ..Selection::level(level, seed) }.cases();
+    let (output, split) = (output.map(named).transpose()?, split.map(named).transpose()?);
+    let all = Selection::level(level, seed);
+    let cases = Selection { random: count, domain, partitioning, output, split, ..all }.cases();
     let numbered = (0..).zip(cases);
-    let chosen = numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case);
+    let chosen = numbered.map(move |(i, case)| shard.has(i).then_some(case));
     Ok(Cases(Mutex::new(Box::new(chosen))))
+}
+
+/// The argument `shard`: two whole numbers, or `None`.
+fn part_of_all(shard: &Bound<'_, PyAny>) -> PyResult<Option<(u64, u64)>> {
+    shard.extract().map_err(|_| argument("a shard is (i, n) with i from 1 to n"))
 }
 
 /// Writes a vector file with the model's results, as ``tess gen`` does.
@@ -98,23 +118,36 @@ pub(crate) fn write_vectors(
     form: &str,
 ) -> PyResult<()> {
     let kind = one_of("form", form, &[("patches", Kind::Patches), ("listings", Kind::Listings)])?;
-    let cases: Vec<Case> = patches
-        .try_iter()?
-        .map(|patch| Ok(patch?.cast::<Patch>()?.get().case))
-        .collect::<PyResult<_>>()?;
-    if cases.is_empty() {
-        return Err(argument("a vector file has at least one patch"));
-    }
+    let cases = patches_of(patches)?;
     let source = "tess-core".to_owned();
     let header = Header { kind, count: Some(cases.len() as u64), source, notes: Vec::new() };
-    Ok(py.detach(|| {
+    let mut watch = Watch::default();
+    let written = py.detach(|| {
         let mut file = BufWriter::new(File::create(path)?);
+        let cases = cases.into_iter().take_while(|_| watch.goes_on());
         match kind {
-            Kind::Listings => write_listings(&mut file, &header, cases.into_iter())?,
-            _ => write_patches(&mut file, &header, cases.into_iter())?,
+            Kind::Listings => write_listings(&mut file, &header, cases)?,
+            _ => write_patches(&mut file, &header, cases)?,
         }
         file.flush()
-    })?)
+    });
+    watch.finish()?;
+    Ok(written?)
+}
+
+/// The cases of an iterable of patches, at least one.
+fn patches_of(patches: &Bound<'_, PyAny>) -> PyResult<Vec<Case>> {
+    let mut watch = Watch::default();
+    let cases: Vec<Case> = patches
+        .try_iter()?
+        .take_while(|_| watch.goes_on())
+        .map(|patch| Ok(patch?.cast::<Patch>()?.get().case))
+        .collect::<PyResult<_>>()?;
+    watch.finish()?;
+    if cases.is_empty() {
+        return Err(argument("at least one patch is needed"));
+    }
+    Ok(cases)
 }
 
 /// A vector file: an iterator over its :class:`Record` s. The reader is strict; a file that is
@@ -130,25 +163,32 @@ pub(crate) struct VectorFile {
     /// Where the results come from: a name for people.
     #[pyo3(get)]
     source: String,
-    records: Mutex<tess_verify::vectors::VectorFile<BufReader<File>>>,
+    records: Mutex<Reader>,
+    raised: Arc<Mutex<Option<PyErr>>>,
 }
 
 #[pymethods]
 impl VectorFile {
     #[new]
-    fn new(path: PathBuf) -> PyResult<Self> {
-        let file = open(&path)?;
+    fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let opened = signals::interruptible(py, move |stop| open(&path, stop))?;
+        let (file, raised) = opened.map_err(NotOpen::into_error)?;
         let header = file.header();
         let (kind, count, source) = (header.kind.name(), header.count, header.source.clone());
-        Ok(Self { kind, count, source, records: Mutex::new(file) })
+        Ok(Self { kind, count, source, records: Mutex::new(file), raised })
     }
 
     fn __iter__(slf: Py<Self>) -> Py<Self> {
         slf
     }
 
-    fn __next__(&self) -> PyResult<Option<Record>> {
-        let next = self.records.lock().unwrap_or_else(PoisonError::into_inner).next();
+    fn __next__(&self, py: Python<'_>) -> PyResult<Option<Record>> {
+        py.check_signals()?;
+        let next =
+            py.detach(|| self.records.lock().unwrap_or_else(PoisonError::into_inner).next());
+        if let Some(error) = self.raised.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            return Err(error);
+        }
         next.transpose().map(|record| record.map(Record)).map_err(file_format)
     }
 
@@ -158,9 +198,34 @@ impl VectorFile {
     }
 }
 
-fn open(path: &Path) -> PyResult<tess_verify::vectors::VectorFile<BufReader<File>>> {
-    let reader = BufReader::new(File::open(path)?);
-    tess_verify::vectors::VectorFile::new(path.display().to_string(), reader).map_err(file_format)
+/// A vector file whose reader can be interrupted.
+type Reader = tess_verify::vectors::VectorFile<BufReader<Watched>>;
+
+/// Why a vector file cannot be read from.
+enum NotOpen {
+    File(io::Error),
+    Format(VectorError),
+}
+
+impl NotOpen {
+    fn into_error(self) -> PyErr {
+        match self {
+            Self::File(error) => error.into(),
+            Self::Format(error) => file_format(error),
+        }
+    }
+}
+
+/// Opens a vector file and reads its first line.
+fn open(
+    path: &Path,
+    stop: Arc<AtomicBool>,
+) -> Result<(Reader, Arc<Mutex<Option<PyErr>>>), NotOpen> {
+    let file = Watched::new(File::open(path).map_err(NotOpen::File)?, stop);
+    let raised = file.raised();
+    let name = path.display().to_string();
+    let reader = tess_verify::vectors::VectorFile::new(name, BufReader::new(file));
+    reader.map(|reader| (reader, raised)).map_err(NotOpen::Format)
 }
 
 /// One record of a vector file.
@@ -223,18 +288,19 @@ impl Record {
 /// Args:
 ///     path: The file.
 ///     tested: ``auto``, or ``model``.
-///     order: ``exact``, or ``any`` order of points and primitives.
+///     order: ``exact``; ``sequence``, the model's with points by their coordinates; or ``any``.
 ///     elements: ``primitives``, or ``points`` alone.
 ///     conversion: ``exact``, or ``0.6ulp``.
 ///     denormals: ``keep``, or ``flush``.
 ///     coverage: Counts the bins that the file's patches hit.
+///     cases: The patches that were asked: the file must answer them, one for one and in their order.
 ///
 /// Returns:
-///     A :class:`Report`. The last four but one are the strengths of a comparison with a device
+///     A :class:`Report`. ``order`` to ``denormals`` are the strengths of a comparison with a device
 ///     (docs/verification.md); they are refused where the model is tested.
 #[pyfunction]
 #[pyo3(signature = (path, *, tested = "auto", order = "exact", elements = "primitives",
-    conversion = "exact", denormals = "keep", coverage = None))]
+    conversion = "exact", denormals = "keep", coverage = None, cases = None))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub(crate) fn check<'py>(
     py: Python<'py>,
@@ -245,33 +311,47 @@ pub(crate) fn check<'py>(
     conversion: &str,
     denormals: &str,
     coverage: Option<&Bound<'py, Coverage>>,
+    cases: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let strength = strength(order, elements, conversion, denormals)?;
+    let asked = cases.map(patches_of).transpose()?;
     let model = one_of("tested", tested, &[("auto", false), ("model", true)])?;
-    let file = open(&path)?;
-    let tested = if file.header().kind == Kind::Listings && !model {
-        Tested::Listings(strength)
-    } else if strength.is_strictest() {
-        Tested::Backend
-    } else {
-        return Err(argument(
-            "order, elements, conversion and denormals are for listings of a device",
-        ));
-    };
-    let coverage = coverage.map(|coverage| coverage.get());
-    let report = py.detach(|| {
-        let threads = std::thread::available_parallelism().map_or(1, usize::from);
-        let mut backends: Vec<Box<dyn Backend>> =
-            (0..threads).map(|_| Box::new(CoreBackend) as Box<dyn Backend>).collect();
-        checker::check(file, &mut backends, tested, &|checked| {
-            if let Some(coverage) = coverage {
-                let mut coverage = coverage.lock();
-                let cases = checked.records.iter().filter_map(tess_verify::vectors::Record::case);
-                cases.for_each(|case| coverage.record(&case));
-            }
-        })
-    });
-    values::report(py, &report.map_err(errors::check)?)
+    let coverage = coverage.map(|coverage| coverage.get().shared());
+    let report = signals::interruptible(py, move |stop| {
+        let (file, _) = open(&path, stop).map_err(NotOpen::into_error)?;
+        let tested = if file.header().kind == Kind::Listings && !model {
+            Tested::Listings(strength)
+        } else if strength.is_strictest() {
+            Tested::Backend
+        } else {
+            return Err(argument(
+                "order, elements, conversion and denormals are for listings of a device",
+            ));
+        };
+        run_check(file, tested, asked, coverage.as_ref()).map_err(errors::check)
+    })?;
+    values::report(py, &report?)
+}
+
+/// Checks on every processor.
+fn run_check(
+    file: Reader,
+    tested: Tested,
+    asked: Option<Vec<Case>>,
+    coverage: Option<&Coverage>,
+) -> Result<Report, CheckError> {
+    let mut asked = asked.map(|asked| asked.into_iter().map(Ok));
+    let asked = asked.as_mut().map(|asked| asked as _);
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    let mut backends: Vec<Box<dyn Backend>> =
+        (0..threads).map(|_| Box::new(CoreBackend) as Box<dyn Backend>).collect();
+    checker::check_asked(file, asked, &mut backends, tested, &|checked| {
+        if let Some(coverage) = coverage {
+            let mut coverage = coverage.lock();
+            let cases = checked.records.iter().filter_map(tess_verify::vectors::Record::case);
+            cases.for_each(|case| coverage.record(&case));
+        }
+    })
 }
 
 /// Compares what a device answered with the model.
@@ -280,6 +360,8 @@ pub(crate) fn check<'py>(
 ///     answers: Tuples (patch, points, indices): a :class:`Patch`, uint32 of shape (points, 2) in
 ///         16.16, and uint32 of any shape whose elements in order are the indices.
 ///     order, elements, conversion, denormals: As for :func:`check`.
+///     cases: The patches that were asked. Answers for others, too few or too many raise
+///         :class:`ArgumentError`. There must be an answer.
 ///
 /// >>> from tess_model import Patch, check_device
 /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)
@@ -292,7 +374,7 @@ pub(crate) fn check<'py>(
 ///   point 3 u: observed 0x08001, expected 0x08000 (stage: location)
 #[pyfunction]
 #[pyo3(signature = (answers, *, order = "exact", elements = "primitives", conversion = "exact",
-    denormals = "keep"))]
+    denormals = "keep", cases = None))]
 pub(crate) fn check_device<'py>(
     py: Python<'py>,
     answers: &Bound<'py, PyAny>,
@@ -300,12 +382,41 @@ pub(crate) fn check_device<'py>(
     elements: &str,
     conversion: &str,
     denormals: &str,
+    cases: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let strength = strength(order, elements, conversion, denormals)?;
-    let answers: Vec<(Case, Tessellation)> =
-        answers.try_iter()?.map(|answer| device_answer(&answer?)).collect::<PyResult<_>>()?;
+    let mut watch = Watch::default();
+    let answers: Vec<(Case, Tessellation)> = answers
+        .try_iter()?
+        .take_while(|_| watch.goes_on())
+        .map(|answer| device_answer(&answer?))
+        .collect::<PyResult<_>>()?;
+    watch.finish()?;
+    if answers.is_empty() {
+        return Err(argument("there is no answer to check"));
+    }
+    if let Some(cases) = cases {
+        require_answers(&patches_of(cases)?, &answers)?;
+    }
+    let mut watch = Watch::default();
+    let answers = answers.into_iter().take_while(|_| watch.goes_on());
     let report = py.detach(|| checker::check_device(answers, strength));
+    watch.finish()?;
     values::report(py, &report)
+}
+
+/// Refuses answers for other cases than those that were asked.
+fn require_answers(asked: &[Case], answers: &[(Case, Tessellation)]) -> PyResult<()> {
+    let pairs = asked.iter().zip(answers).enumerate();
+    for (number, (asked, (answered, _))) in pairs {
+        if asked != answered {
+            let number = number + 1;
+            return Err(argument(format!("answer {number} is for {answered}; asked was {asked}")));
+        }
+    }
+    let (asked, answers) = (asked.len(), answers.len());
+    let message = format!("{answers} answers for {asked} cases");
+    if asked == answers { Ok(()) } else { Err(argument(message)) }
 }
 
 fn device_answer(answer: &Bound<'_, PyAny>) -> PyResult<(Case, Tessellation)> {
@@ -313,20 +424,20 @@ fn device_answer(answer: &Bound<'_, PyAny>) -> PyResult<(Case, Tessellation)> {
         Bound<'_, Patch>,
         Bound<'_, PyUntypedArray>,
         Bound<'_, PyUntypedArray>,
-    ) = answer.extract()?;
+    ) = answer
+        .extract()
+        .map_err(|_| argument("an answer is (patch, points, indices): a Patch and two arrays"))?;
+    refuse_masked("points", &points)?;
+    refuse_masked("indices", &indices)?;
     let wrong = |what: &str, array: &Bound<'_, PyUntypedArray>| {
         argument(format!("{what} must be uint32, not {}", described(array)))
     };
     let pairs = points.cast::<PyArray2<u32>>().ok().filter(|array| array.shape()[1] == 2);
     let pairs = pairs.ok_or_else(|| wrong("points of shape (.., 2)", &points))?;
     let points = pairs.try_readonly().map_err(argument)?;
-    let points = points
-        .as_array()
-        .rows()
-        .into_iter()
-        .map(|row| DomainPoint::from_bits(row[0], row[1]))
-        .collect();
+    let rows = points.as_array();
+    let points = copied(rows.rows().into_iter().map(|row| DomainPoint::from_bits(row[0], row[1])))?;
     let flat = indices.cast::<numpy::PyArrayDyn<u32>>().map_err(|_| wrong("indices", &indices))?;
-    let indices = flat.try_readonly().map_err(argument)?.as_array().iter().copied().collect();
+    let indices = copied(flat.try_readonly().map_err(argument)?.as_array().iter().copied())?;
     Ok((patch.get().case, Tessellation { points, indices }))
 }

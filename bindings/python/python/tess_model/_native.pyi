@@ -201,6 +201,8 @@ def generate(
     count: Optional[int] = None,
     domain: Optional[str] = None,
     partitioning: Optional[str] = None,
+    output: Optional[str] = None,
+    split: Optional[str] = None,
     shard: Optional[tuple[int, int]] = None,
 ) -> Cases: ...
 def write_vectors(path: _Path, patches: Iterable[Patch], *, form: str = "patches") -> None: ...
@@ -213,6 +215,7 @@ def check(
     conversion: str = "exact",
     denormals: str = "keep",
     coverage: Optional[Coverage] = None,
+    cases: Optional[Iterable[Patch]] = None,
 ) -> Report: ...
 def check_device(
     answers: Iterable[tuple[Patch, npt.NDArray[np.uint32], npt.NDArray[np.uint32]]],
@@ -221,4 +224,5 @@ def check_device(
     elements: str = "primitives",
     conversion: str = "exact",
     denormals: str = "keep",
+    cases: Optional[Iterable[Patch]] = None,
 ) -> Report: ...

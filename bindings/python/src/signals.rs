@@ -1,0 +1,105 @@
+//! Signals such as Ctrl-C: Python handles them between its own steps, so what takes long asks for them.
+
+use crate::errors::TessError;
+use pyo3::exceptions::PyOSError;
+use pyo3::prelude::*;
+use std::fs::File;
+use std::io::{self, Read};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+/// How many steps of a loop go by between two looks.
+const STEPS: u32 = 256;
+/// How long a call waits for its thread between two looks.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+/// Looks for signals in a loop that runs without the interpreter.
+#[derive(Default)]
+pub(crate) struct Watch {
+    steps: u32,
+    raised: Option<PyErr>,
+}
+
+impl Watch {
+    /// Whether the loop is to go on: no handler of a signal has raised an exception.
+    pub(crate) fn goes_on(&mut self) -> bool {
+        self.steps += 1;
+        if self.steps.is_multiple_of(STEPS) && self.raised.is_none() {
+            self.raised = Python::attach(|py| py.check_signals()).err();
+        }
+        self.raised.is_none()
+    }
+
+    /// The exception that ended the loop, if one did.
+    pub(crate) fn finish(self) -> PyResult<()> {
+        self.raised.map_or(Ok(()), Err)
+    }
+}
+
+/// A file whose reader can be interrupted, also while it waits for a pipe.
+pub(crate) struct Watched {
+    file: File,
+    stop: Arc<AtomicBool>,
+    raised: Arc<Mutex<Option<PyErr>>>,
+}
+
+impl Watched {
+    /// A file that is read until `stop` is set.
+    pub(crate) fn new(file: File, stop: Arc<AtomicBool>) -> Self {
+        Self { file, stop, raised: Arc::default() }
+    }
+
+    /// Where the exception will be that a handler raised while this was read.
+    pub(crate) fn raised(&self) -> Arc<Mutex<Option<PyErr>>> {
+        Arc::clone(&self.raised)
+    }
+}
+
+impl Read for Watched {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        loop {
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(io::Error::other("interrupted"));
+            }
+            match self.file.read(buffer) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {
+                    if let Err(error) = Python::attach(|py| py.check_signals()) {
+                        *self.raised.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
+                        self.stop.store(true, Ordering::Relaxed);
+                    }
+                }
+                read => return read,
+            }
+        }
+    }
+}
+
+/// Does work on another thread while this one looks for signals. If a handler raises, the flag that
+/// `work` got is set, and the thread is left to end by itself: it may wait for a pipe for ever.
+///
+/// # Errors
+/// What a handler of a signal raised; no thread can be started; the work panicked.
+pub(crate) fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce(Arc<AtomicBool>) -> T + Send + 'static,
+) -> PyResult<T> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let (give, take) = sync_channel(1);
+    let own = Arc::clone(&stop);
+    // Nobody takes the result of work that was interrupted.
+    let run = move || _ = give.send(work(own));
+    std::thread::Builder::new().spawn(run).map_err(|error| PyOSError::new_err(error))?;
+    loop {
+        match py.detach(|| take.recv_timeout(PATIENCE)) {
+            Ok(result) => return Ok(result),
+            Err(RecvTimeoutError::Timeout) => py.check_signals().inspect_err(|_| {
+                stop.store(true, Ordering::Relaxed);
+            })?,
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(TessError::new_err("the work ended without a result"));
+            }
+        }
+    }
+}
