@@ -98,7 +98,7 @@ fn failing_records_that_answer_other_cases() {
     let run = tess_with_input(&format!("check - --cases {asked} --failures {failing}"), &wrong);
     assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
     assert!(run.stdout.ends_with("3 cases, 3 mismatches\n"), "{}", run.stdout);
-    let note = "2 differences are not in ";
+    let note = "2 differences left out of ";
     assert!(run.stderr.contains(note), "{}", run.stderr);
     let kept = read_to_string(failing.to_string()).expect("a file");
     assert!(kept.contains(QUAD) && !kept.contains(TRI), "{kept}");
