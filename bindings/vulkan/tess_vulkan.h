@@ -24,7 +24,7 @@ struct tess_output {
 struct tess_vulkan *tess_vulkan_open(const char *folder, uint32_t device, char message[256]);
 
 /* Tessellates `patches` patches, whose factors are binary32 bits in the specification's order, with
-   room for so many points and primitives, at least 1 each. Runs it `runs` times and gives the
+   room for these numbers of points and primitives, at least 1 each. Runs it `runs` times and gives the
    time of the fastest. Gives 0, or -1 after an error. Free the output with tess_output_free. */
 int tess_vulkan_run(struct tess_vulkan *host, const uint32_t *factors, uint32_t patches,
                     uint32_t points, uint32_t primitives, uint32_t runs,

@@ -629,7 +629,7 @@ typedef int32_t (*TessDevice)(void *user,
 #define TESS_UNKNOWN_VALUE 3
 
 /**
- * The number of factors is not that of the domain: 2 (isoline), 4 (triangle), 6 (quad).
+ * The number of factors does not fit the domain: 2 (isoline), 4 (triangle), 6 (quad).
  */
 #define TESS_WRONG_FACTOR_COUNT 4
 

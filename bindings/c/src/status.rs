@@ -13,7 +13,7 @@ pub const TESS_NULL_POINTER: TessStatus = 1;
 pub const TESS_MISALIGNED: TessStatus = 2;
 /// An enumeration (domain, partitioning, ...) has a value that is not listed.
 pub const TESS_UNKNOWN_VALUE: TessStatus = 3;
-/// The number of factors is not that of the domain: 2 (isoline), 4 (triangle), 6 (quad).
+/// The number of factors does not fit the domain: 2 (isoline), 4 (triangle), 6 (quad).
 pub const TESS_WRONG_FACTOR_COUNT: TessStatus = 4;
 /// A buffer is too small; the counts that were asked for say what is needed.
 pub const TESS_BUFFER_TOO_SMALL: TessStatus = 5;
@@ -40,7 +40,7 @@ const MESSAGES: [&CStr; 14] = [
     c"a pointer is null",
     c"a pointer is not aligned",
     c"an enumeration has an unknown value",
-    c"the number of factors is not that of the domain",
+    c"the number of factors does not fit the domain",
     c"a buffer is too small",
     c"there is no element of this number",
     c"no factor has this context",

@@ -1,12 +1,12 @@
 //! numpy arrays as the libraries' slices.
 
 use crate::errors::{argument, output};
+use numpy::PyArray;
+use numpy::ndarray::Dimension;
 use numpy::{
     Element, Ix1, Ix2, PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray, PyUntypedArray,
     PyUntypedArrayMethods,
 };
-use numpy::PyArray;
-use numpy::ndarray::Dimension;
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use std::ops::Range;
@@ -78,7 +78,9 @@ pub(crate) fn zeros<'py, T: Element, D: Dimension>(
 /// The array is one.
 pub(crate) fn refuse_masked(what: &str, array: &Bound<'_, PyAny>) -> PyResult<()> {
     if array.hasattr("mask")? && array.hasattr("filled")? {
-        return Err(argument(format!("{what}: the mask of a masked array would be lost; fill it first")));
+        return Err(argument(format!(
+            "{what}: the mask of a masked array would be lost; fill it first"
+        )));
     }
     Ok(())
 }
@@ -92,9 +94,9 @@ pub(crate) fn described(array: &Bound<'_, PyUntypedArray>) -> String {
 ///
 /// # Errors
 /// It is read-only, misaligned, or borrowed by another call.
-pub(crate) fn writable<'py, T: Element, D: numpy::ndarray::Dimension>(
+pub(crate) fn writable<'py, T: Element, D: Dimension>(
     what: &str,
-    array: &Bound<'py, numpy::PyArray<T, D>>,
+    array: &Bound<'py, PyArray<T, D>>,
 ) -> PyResult<PyReadwriteArray<'py, T, D>> {
     if !array.data().is_aligned() {
         return Err(output(format!("{what}: the array is not aligned to its elements")));
@@ -109,9 +111,9 @@ pub(crate) fn writable<'py, T: Element, D: numpy::ndarray::Dimension>(
 ///
 /// # Errors
 /// It is not C-contiguous: its elements may lie before its first one, and apart.
-pub(crate) fn addresses<T: Element, D: numpy::ndarray::Dimension>(
+pub(crate) fn addresses<T: Element, D: Dimension>(
     what: &str,
-    array: &Bound<'_, numpy::PyArray<T, D>>,
+    array: &Bound<'_, PyArray<T, D>>,
 ) -> PyResult<Range<usize>> {
     if !array.is_c_contiguous() {
         return Err(output(format!("{what}: the array is not C-contiguous")));

@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PySlice, PyTuple};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
-use tess_simd::{BatchCounts, Buffers, Counted, IndexFormat, Numbering, PatchRange, OutputPoint};
+use tess_simd::{BatchCounts, Buffers, Counted, IndexFormat, Numbering, OutputPoint, PatchRange};
 use tess_verify::names::Named;
 
 /// Tessellates batches in one configuration, on the CPU's vector units.
@@ -44,7 +44,12 @@ impl Tessellator {
     #[new]
     #[pyo3(signature = (partitioning = "integer", output = "triangle_cw", split = "ruler",
         threads = 1))]
-    fn new(partitioning: &str, output: &str, split: &str, #[pyo3(from_py_with = whole)] threads: usize) -> PyResult<Self> {
+    fn new(
+        partitioning: &str,
+        output: &str,
+        split: &str,
+        #[pyo3(from_py_with = whole)] threads: usize,
+    ) -> PyResult<Self> {
         let config = config(partitioning, output, split)?;
         let most = tess_simd::Tessellator::MAX_THREADS;
         if !(1..=most).contains(&threads) {

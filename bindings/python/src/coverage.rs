@@ -6,8 +6,8 @@ use crate::patch::Patch;
 use crate::{stages, values};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::path::PathBuf;
 use std::io::ErrorKind;
+use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tess_verify::case::Case;
 
@@ -35,7 +35,7 @@ impl Coverage {
         Self::default()
     }
 
-    /// Counts the bins that a patch hits, or those of several patches.
+    /// Counts the bins that one patch or several patches hit.
     fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<()> {
         if let Ok(patch) = patches.cast::<Patch>() {
             self.lock().record(&patch.get().case);
@@ -61,7 +61,12 @@ impl Coverage {
     /// Counts the bins of one factor's context, for the bench of a stage that sees no patch: those of
     /// the groups ``context`` and ``exceptional``. The arguments are those of :func:`context`.
     #[pyo3(signature = (factor, parity, split_order = "ruler"))]
-    fn record_context(&self, #[pyo3(from_py_with = whole)] factor: u32, parity: &str, split_order: &str) -> PyResult<()> {
+    fn record_context(
+        &self,
+        #[pyo3(from_py_with = whole)] factor: u32,
+        parity: &str,
+        split_order: &str,
+    ) -> PyResult<()> {
         let (split, context) = stages::factor_context(factor, parity, split_order)?;
         self.lock().record_context(split, &context);
         Ok(())
@@ -74,7 +79,7 @@ impl Coverage {
         if found { Ok(()) } else { Err(argument(format!("there is no bin {bin:?}"))) }
     }
 
-    /// Adds the hits of another coverage, such as that of another shard.
+    /// Adds the hits of another coverage, such as another shard's.
     fn merge(&self, other: &Self) {
         let other = other.lock().clone();
         self.lock().merge(&other);

@@ -203,19 +203,31 @@ impl Patch {
     }
 
     /// Primitive ``t`` as its 1, 2 or 3 indices, in constant time.
-    fn primitive<'py>(&self, py: Python<'py>, #[pyo3(from_py_with = whole)] t: u32) -> PyResult<Bound<'py, PyTuple>> {
+    fn primitive<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = whole)] t: u32,
+    ) -> PyResult<Bound<'py, PyTuple>> {
         let found = self.case.patch().primitive(t).ok_or_else(|| self.missing("primitive", t))?;
         PyTuple::new(py, found.indices())
     }
 
     /// Where point ``i`` comes from: :class:`PointOrigin`.
-    fn locate_point<'py>(&self, py: Python<'py>, #[pyo3(from_py_with = whole)] i: u32) -> PyResult<Bound<'py, PyAny>> {
+    fn locate_point<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = whole)] i: u32,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let origin = self.case.patch().locate_point(i).ok_or_else(|| self.missing("point", i))?;
         values::point_origin(py, origin)
     }
 
     /// Where primitive ``t`` comes from: :class:`PrimitiveOrigin`.
-    fn locate_primitive<'py>(&self, py: Python<'py>, #[pyo3(from_py_with = whole)] t: u32) -> PyResult<Bound<'py, PyAny>> {
+    fn locate_primitive<'py>(
+        &self,
+        py: Python<'py>,
+        #[pyo3(from_py_with = whole)] t: u32,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let patch = self.case.patch();
         let origin = patch.locate_primitive(t).ok_or_else(|| self.missing("primitive", t))?;
         values::primitive_origin(py, origin)
@@ -224,7 +236,12 @@ impl Patch {
     /// Where point ``p`` of an edge with a factor of this patch lies, with every step:
     /// :class:`Placement`. ``factor`` is a name as in :attr:`processed`; ``p`` is below the ``points``
     /// of its context.
-    fn place<'py>(&self, py: Python<'py>, factor: &str, #[pyo3(from_py_with = whole)] p: u32) -> PyResult<Bound<'py, PyAny>> {
+    fn place<'py>(
+        &self,
+        py: Python<'py>,
+        factor: &str,
+        #[pyo3(from_py_with = whole)] p: u32,
+    ) -> PyResult<Bound<'py, PyAny>> {
         let names = self.case.domain().factor_names();
         let number = names.iter().position(|name| *name == factor).ok_or_else(|| {
             argument(format!("there is no factor {factor:?}; there are {}", names.join(", ")))
@@ -239,7 +256,11 @@ impl Patch {
     /// Every stage of the patch as text, or where one point or one primitive comes from: what
     /// ``tess explain`` prints.
     #[pyo3(signature = (*, point = None, primitive = None))]
-    fn explain(&self, #[pyo3(from_py_with = whole_or_none)] point: Option<u32>, #[pyo3(from_py_with = whole_or_none)] primitive: Option<u32>) -> PyResult<String> {
+    fn explain(
+        &self,
+        #[pyo3(from_py_with = whole_or_none)] point: Option<u32>,
+        #[pyo3(from_py_with = whole_or_none)] primitive: Option<u32>,
+    ) -> PyResult<String> {
         Ok(self.report(point, primitive)?.0)
     }
 
@@ -269,7 +290,13 @@ impl Patch {
     ///     colours: ``plain``; ``order``, which numbers the primitives too; or ``rings``.
     ///     size: Width and height in pixels, 64..8192.
     #[pyo3(signature = (*, indices = false, colours = "plain", size = 800))]
-    fn to_svg(&self, py: Python<'_>, indices: bool, colours: &str, #[pyo3(from_py_with = whole)] size: u32) -> PyResult<String> {
+    fn to_svg(
+        &self,
+        py: Python<'_>,
+        indices: bool,
+        colours: &str,
+        #[pyo3(from_py_with = whole)] size: u32,
+    ) -> PyResult<String> {
         let colours = match colours {
             "plain" => Colours::Plain,
             "order" => Colours::Order,

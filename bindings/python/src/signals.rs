@@ -11,7 +11,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 /// How many steps of a loop go by between two looks.
-const STEPS: u32 = 256;
+pub(crate) const STEPS: u32 = 256;
 /// How long a call waits for its thread between two looks.
 const PATIENCE: Duration = Duration::from_millis(20);
 
@@ -87,12 +87,14 @@ pub(crate) fn interruptible<T: Send + 'static>(
 ) -> PyResult<T> {
     let stop = Arc::new(AtomicBool::new(false));
     let (give, take) = sync_channel(1);
+    let take = Mutex::new(take);
     let own = Arc::clone(&stop);
     // Nobody takes the result of work that was interrupted.
     let run = move || _ = give.send(work(own));
     std::thread::Builder::new().spawn(run).map_err(|error| PyOSError::new_err(error))?;
     loop {
-        match py.detach(|| take.recv_timeout(PATIENCE)) {
+        let wait = || take.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(PATIENCE);
+        match py.detach(wait) {
             Ok(result) => return Ok(result),
             Err(RecvTimeoutError::Timeout) => py.check_signals().inspect_err(|_| {
                 stop.store(true, Ordering::Relaxed);

@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::backend::Backend;
@@ -22,16 +22,18 @@ use tess_verify::checker::{self, CheckError, Report, Tested};
 use tess_verify::core_backend::CoreBackend;
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::names::Named;
-use tess_verify::vectors::{
-    Header, Kind, Listing, VectorError, write_listings, write_patches,
-};
+use tess_verify::vectors::{Header, Kind, Listing, VectorError, write_listings, write_patches};
 
 /// Cases; `None` for one of another shard.
 type Source = Box<dyn Iterator<Item = Option<Case>> + Send>;
 
 /// An iterator over generated patches: what :func:`generate` gives.
 #[pyclass(frozen, module = "tess_model")]
-pub(crate) struct Cases(Mutex<Source>);
+pub(crate) struct Cases {
+    source: Mutex<Source>,
+    /// Patches given: `list` takes them without a step of the interpreter between two.
+    given: AtomicU32,
+}
 
 #[pymethods]
 impl Cases {
@@ -40,10 +42,13 @@ impl Cases {
     }
 
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<Patch>> {
+        if self.given.fetch_add(1, Ordering::Relaxed).is_multiple_of(signals::STEPS) {
+            py.check_signals()?;
+        }
         let mut watch = Watch::default();
         // Between two patches of a shard there may be any number of other shards'.
         let next = py.detach(|| {
-            let mut cases = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut cases = self.source.lock().unwrap_or_else(PoisonError::into_inner);
             cases.by_ref().take_while(|_| watch.goes_on()).find_map(|case| case)
         });
         watch.finish().map(|()| next.map(|case| Patch { case }))
@@ -95,7 +100,7 @@ pub(crate) fn generate(
     let cases = Selection { random: count, domain, partitioning, output, split, ..all }.cases();
     let numbered = (0..).zip(cases);
     let chosen = numbered.map(move |(i, case)| shard.has(i).then_some(case));
-    Ok(Cases(Mutex::new(Box::new(chosen))))
+    Ok(Cases { source: Mutex::new(Box::new(chosen)), given: AtomicU32::new(0) })
 }
 
 /// The argument `shard`: two whole numbers, or `None`.
@@ -184,8 +189,7 @@ impl VectorFile {
 
     fn __next__(&self, py: Python<'_>) -> PyResult<Option<Record>> {
         py.check_signals()?;
-        let next =
-            py.detach(|| self.records.lock().unwrap_or_else(PoisonError::into_inner).next());
+        let next = py.detach(|| self.records.lock().unwrap_or_else(PoisonError::into_inner).next());
         if let Some(error) = self.raised.lock().unwrap_or_else(PoisonError::into_inner).take() {
             return Err(error);
         }

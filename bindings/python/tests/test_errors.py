@@ -138,7 +138,10 @@ def interrupted(script: str, path: "Path | str" = "") -> float:
     assert process.poll() is None, "it works when the signal comes"
     begun = time.monotonic()
     process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=60)
+    try:
+        _, said = process.communicate(timeout=60)
+    finally:
+        process.kill()
     assert b"KeyboardInterrupt" in said, said
     return time.monotonic() - begun
 

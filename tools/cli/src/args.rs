@@ -42,7 +42,7 @@ impl PatchArgs {
     /// The patch: its configuration and raw factors.
     ///
     /// # Errors
-    /// The numbers of outer and inside factors are not those of the domain.
+    /// The domain has other numbers of outer or inside factors.
     pub(crate) fn case(&self) -> Result<Case, Failure> {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };

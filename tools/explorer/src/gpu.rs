@@ -100,7 +100,7 @@ impl GpuBatch {
         Self::of_cases(&cases.map_err(thrown)?).map_err(thrown)
     }
 
-    /// The patches of a workload of `tess bench`, or as many of the first ones as make so many MiB of output.
+    /// The patches of a workload of `tess bench`, or the first ones, up to this many MiB of output.
     ///
     /// # Errors
     /// There is no workload of that name, or not one of its patches makes so little.
@@ -245,7 +245,7 @@ fn capacity(config: Config, patches: &[PatchFactors]) -> Capacity {
     Capacity { points: capacity.points.max(1), primitives: capacity.primitives.max(1) }
 }
 
-/// How many patches make up to so many MiB of output.
+/// How many patches make up to this many MiB of output.
 fn fitting(workload: &Workload, mebibytes: u32) -> usize {
     let mut bytes = 0;
     let fits = |counts: &Counts| {

@@ -5,7 +5,7 @@ import { element, state } from "./state.js";
 import { copy } from "./share.js";
 import * as gpu from "./gpu.js";
 
-// Each number is the best of repeated passes that take so many seconds together, at least of one.
+// Each number is the best of repeated passes that together take this many seconds, or of one pass.
 const seconds = () => Number(element("measure-seconds").value);
 let isListed = false;
 

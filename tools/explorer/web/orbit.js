@@ -11,7 +11,7 @@ export function fromText(text, otherwise = HOME) {
   return [turn, lift, far].every(Number.isFinite) ? { turn, lift, far } : otherwise;
 }
 
-// Turned by so many radians, and that much further away.
+// Turned by these angles in radians, and further away by this factor.
 export function moved({ turn, lift, far }, by, up, away) {
   const within = (value, low, high) => Math.min(Math.max(value, low), high);
   return { turn: turn + by, lift: within(lift + up, -1.5, 1.5), far: within(far * away, 1.15, 12) };

@@ -28,7 +28,7 @@ export function useWebGL() {
   draw();
 }
 
-// The picture anew after these keys of the state changed.
+// Draws the picture again after these keys of the state changed.
 export function update(keys) {
   if (keys.has("line") && view.layout.triangle !== (patch.parts.domain === "tri")) {
     view = new View(new Layout(patch.parts.domain));

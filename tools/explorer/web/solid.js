@@ -45,7 +45,7 @@ const SAMPLES = 4;
 const SCENE_BYTES = 96;
 
 export class Solid {
-  // Draws on `canvas`. An error says why it cannot; `colour` is that of the surface, from 0 to 1.
+  // Draws on `canvas`. An error says why it cannot; `colour` is the surface's, from 0 to 1.
   static async on(canvas, colour) {
     const gpu = await open();
     const context = canvas.getContext("webgpu");
@@ -106,7 +106,7 @@ export class Solid {
     this.isStale = true;
   }
 
-  // Draws, after tessellating anew if there are new factors; resolves when the GPU is done.
+  // Draws, and tessellates first if there are new factors; resolves when the GPU is done.
   async draw({ matrix, edge, width, light }) {
     const { gpu: { device }, context: { canvas }, prepared: { buffers } } = this;
     device.queue.writeBuffer(this.scene, 0, new Float32Array([...matrix, ...edge, ...light, width]));

@@ -100,7 +100,7 @@ function scene() {
   return { matrix, edge: [...colourOf("--mesh-edge"), 0.75], width, light: lightOf(orbit(), eye, sphere) };
 }
 
-// Sets the factors anew if they, the surface or, with factors by distance, the eye changed; whether they did.
+// Sets the factors again if they, the surface or, with factors by distance, the eye changed; whether they did.
 function setFactors() {
   const eye = eyeOf(state.kept ? fromText(state.kept) : orbit(), sphere);
   const wanted = [state.by, missing, state.spacing, state.rule, state.factor, state.rule === "distance" ? eye : ""].join(" ");

@@ -41,7 +41,7 @@ pub struct Times {
 
 /// Pixels along each side of the picture.
 const PICTURE: u32 = 1024;
-/// A workload is repeated until it has so many triangles, or so many patches; not on processors.
+/// A workload is repeated until it has this many triangles or patches; not on processors.
 const TRIANGLES: u64 = 1 << 23;
 const PATCHES: usize = 1 << 20;
 
@@ -172,7 +172,7 @@ impl Bench {
         })
     }
 
-    /// Makes sure that the compute shaders gave so many indices.
+    /// Makes sure that the compute shaders gave this number of indices.
     fn check(&self, indices: u64) -> Result<(), Error> {
         for compute in [&self.compute, &self.ordered] {
             let given = compute.buffer(Resource::Arguments).download(&self.commands, 1)?[0];
@@ -241,7 +241,7 @@ impl Bench {
 
     fn draw(&self, device: &ash::Device, to: vk::CommandBuffer, pipeline: &Pipeline) {
         self.bind(device, to, pipeline);
-        // SAFETY: a pipeline is bound, and the buffer of factors has so many patches.
+        // SAFETY: a pipeline is bound, and the buffer of factors has this many patches.
         unsafe { device.cmd_draw(to, self.patches, 1, 0, 0) };
     }
 

@@ -18,7 +18,7 @@ pub(crate) enum Verdict {
     Order,
     /// The model's points, other primitives.
     Connectivity,
-    /// Points that the model does not have, or fewer: so many units of 2^-16 from the nearest.
+    /// Points that the model does not have, or fewer; the distance from the nearest in units of 2^-16.
     Coordinates(u32),
     /// A patch that the model culls, or one that only the device culls.
     Culling,

@@ -100,7 +100,7 @@ fn shaders_are_as_compiled() {
         let text = std::fs::read_to_string(format!("{SHADERS}/{name}")).expect("it is there");
         let Some(anew) = compiled(&name, &text) else { return };
         let kept = std::fs::read(format!("{SHADERS}/{name}.spv")).expect("it is there");
-        let again = "glslangValidator -V --target-env vulkan1.1 FILE -o FILE.spv makes it anew";
+        let again = "glslangValidator -V --target-env vulkan1.1 FILE -o FILE.spv makes it again";
         assert!(anew == kept, "{name}.spv is not what {name} compiles to; {again}");
         compared += 1;
     }

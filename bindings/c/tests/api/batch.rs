@@ -303,14 +303,15 @@ fn groups_are_joined_ranges() {
     let mut shared = ranges;
     let status = unsafe { tess_batch_groups(&shared[0], 3, &0, 1, &raw mut shared[1]) };
     assert_eq!(status, TESS_OVERLAP, "a range that is read and written");
-    let mut words = [0u32, 1, 2, 3, 4, 5, 6, 7];
+    let mut words = [0u32; 16];
+    words[1] = 1;
     let at = words.as_mut_ptr();
-    for (start, group) in [(0, 0), (3, 0), (4, 0), (0, 1), (0, 2)] {
+    for (start, group) in [(0, 0), (3, 0), (7, 0), (0, 1)] {
         let (starts, to) = unsafe { (at.add(start), at.add(group).cast::<TessRange>()) };
         let status = unsafe { tess_batch_groups(ranges.as_ptr(), 3, starts, 2, to) };
         assert_eq!(status, TESS_OVERLAP, "starts at word {start}, groups at word {group}");
     }
-    assert_eq!(words, [0, 1, 2, 3, 4, 5, 6, 7], "nothing is written");
+    assert!(words[0] == 0 && words[1] == 1 && words[2..] == [0; 14], "nothing is written");
     let null_groups = unsafe { tess_batch_groups(ranges.as_ptr(), 3, &0, 1, null_mut()) };
     assert_eq!(null_groups, TESS_NULL_POINTER, "nowhere to write");
 }

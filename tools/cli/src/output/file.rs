@@ -191,7 +191,7 @@ impl OutputFile {
         Ok(Self { content })
     }
 
-    /// Whether a path is not that of a pipe, a device or stdout. It opens nothing, as opening a pipe
+    /// Whether a path leads to no pipe, no device and not to stdout. It opens nothing, as opening a pipe
     /// waits for its reader.
     pub(crate) fn would_be_file(path: &Path) -> bool {
         !matches!(Destination::of(path), Ok(Destination::Stdout | Destination::Stream(_)))

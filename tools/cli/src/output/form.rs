@@ -13,7 +13,7 @@ pub(crate) trait Form: ValueEnum + PartialEq {
     const COMMON_EXTENSIONS: &'static [&'static str] = &[];
 }
 
-/// The form that is asked for, else that of the file's name, else the default.
+/// The form that is asked for, else the form that the file's name says, else the default.
 ///
 /// # Errors
 /// The name says another form than the one asked for, or one that there is not.

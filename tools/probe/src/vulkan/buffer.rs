@@ -5,7 +5,7 @@ use crate::error::Error;
 use ash::vk;
 use std::sync::Arc;
 
-/// A buffer with memory of its own.
+/// A buffer with its own memory.
 #[derive(Debug)]
 pub(crate) struct Buffer {
     gpu: Arc<Gpu>,

@@ -5,7 +5,7 @@ use crate::error::Error;
 use ash::vk;
 use std::sync::Arc;
 
-/// One command buffer, recorded anew for each submission, and queries.
+/// One command buffer, recorded again for each submission, and queries.
 #[derive(Debug)]
 pub(crate) struct Commands {
     gpu: Arc<Gpu>,

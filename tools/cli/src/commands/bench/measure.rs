@@ -44,7 +44,7 @@ impl fmt::Display for Plan<'_> {
 }
 
 /// Checks the digest, then times backend, fill and core in turn, part by part; the core alone first,
-/// if the backend has a device of its own.
+/// if the backend runs on a separate device.
 ///
 /// A part's time is the median over the samples; the workload's is the sum over its parts.
 ///

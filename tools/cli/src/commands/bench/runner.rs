@@ -64,7 +64,7 @@ pub(crate) trait Runner {
     /// Threads it runs on.
     fn threads(&self) -> u32;
 
-    /// What a row's name says behind that of the workload.
+    /// What follows the workload's name in a row.
     fn remark(&self) -> &'static str {
         ""
     }
@@ -77,7 +77,7 @@ pub(crate) trait Runner {
     /// Width of the indices it writes.
     fn index_type(&self) -> IndexType;
 
-    /// Whether it runs on a device of its own, so that the core's times need not be taken in turn
+    /// Whether it runs on a separate device, so that the core's times need not be taken in turn
     /// with its own, nor in the same working set.
     fn is_device(&self) -> bool {
         false

@@ -29,7 +29,7 @@ pub(crate) struct Args {
     backend: BackendArgs,
     #[command(flatten)]
     options: DrawArgs,
-    /// Form of the picture [default: that of the file's name, else svg]
+    /// Form of the picture [default: from the file's name, else svg]
     #[arg(long, value_name = "NAME")]
     format: Option<PictureFormat>,
     /// Draw this backend's result, with what differs from it in red; exit code 1 if anything does

@@ -57,7 +57,7 @@ pub(crate) struct Args {
     /// replaced only if the .gltf that is there refers to it.
     #[arg(short = 'o', long = "out", value_name = "OUT", required = true)]
     output: PathBuf,
-    /// Form of the result [default: that of the file's name]
+    /// Form of the result [default: from the file's name]
     #[arg(long, value_name = "NAME")]
     format: Option<ResultForm>,
     /// Surface of triangles and quads [default: pn]
@@ -102,7 +102,7 @@ enum SurfaceName {
 #[derive(Clone, Copy, Debug, clap::Args)]
 #[group(multiple = false)]
 struct RuleArgs {
-    /// The same factor everywhere, at most 64, or 63 with `fractional_odd` [default: that]
+    /// The same factor everywhere [default: the largest: 64, or 63 with `fractional_odd`]
     #[arg(long, value_name = "F", value_parser = ValueParser::new(positive))]
     factor: Option<f32>,
     /// Factor at distance 1 from the eye, falling off with the distance

@@ -1,6 +1,6 @@
 //! Factors, tessellation and evaluation, a block of patches at a time.
 //!
-//! Memory beyond the model is that of its patches' factors and of one block, whatever the factors.
+//! Beyond the model, memory holds the factors of its patches and one block, whatever the factors.
 
 use super::output::{Sink, Totals};
 use super::statistics::{Stage, Statistics};

@@ -28,7 +28,7 @@ pub(crate) struct Args {
     cases: Option<PathBuf>,
     #[command(flatten)]
     backend: BackendArgs,
-    /// Form of the result [default: that of the file's name, else text]
+    /// Form of the result [default: from the file's name, else text]
     #[arg(long, value_name = "NAME")]
     format: Option<Format>,
     #[command(flatten)]

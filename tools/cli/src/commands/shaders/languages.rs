@@ -238,7 +238,7 @@ impl Parsed<'_> {
         })
     }
 
-    /// The buffer slot of Metal behind those of the bindings.
+    /// Metal's first buffer slot behind the bindings.
     fn sizes_slot(self) -> u32 {
         u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX)
     }

@@ -28,7 +28,7 @@ printed when it is done.
 
 --random N compares N patches of each configuration (domain, partitioning, output, split order:
 96) instead, all kinds of factors in every position and most of the patches small. The same seed
-gives the same patches; a larger N begins with those of a smaller one.
+gives the same patches; a larger N begins with the patches of a smaller N.
 
 --rules NAME judges each backend by what a standard demands of output, without the model, over the
 patches of `tess gen --rules` (docs/rules.md). core is the model itself then.

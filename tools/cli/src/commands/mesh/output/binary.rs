@@ -158,7 +158,7 @@ impl Layout {
         (self.vertex_bytes() + self.index_bytes()).next_multiple_of(4)
     }
 
-    /// The document; `uri` names the file of the binary part, if it is a file of its own.
+    /// The document; `uri` names the file of the binary part, if it is a separate file.
     pub(super) fn document(&self, uri: Option<&str>) -> Value {
         let vertex_bytes = self.vertex_bytes();
         let mut buffer = json!({ "byteLength": self.length() });
