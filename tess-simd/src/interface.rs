@@ -2,6 +2,7 @@
 
 pub(crate) mod counted;
 pub(crate) mod groups;
+pub(crate) mod one_patch;
 pub(crate) mod owned;
 #[cfg(feature = "taps")]
 pub(crate) mod taps;

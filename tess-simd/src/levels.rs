@@ -19,7 +19,7 @@ use crate::stages::points::Lookup;
 #[cfg(target_arch = "x86_64")]
 use crate::stages::points::{Code, permute, permute::Permutes};
 use crate::stages::settings::Settings;
-use tess_core::Config;
+use tess_core::{Config, Counts, PatchFactors};
 
 at_each_level! {
     /// [`kernels::front_end::count`] at a level.
@@ -45,6 +45,12 @@ at_each_level! {
 }
 
 at_each_level! {
+    /// [`kernels::front_end::process_one`] at a level.
+    fn process_one(config: Config, factors: PatchFactors, packet: &mut Packet) -> Counts
+        = kernels::front_end::process_one;
+}
+
+at_each_level! {
     /// [`kernels::emit::emit`] at a level: points of compact patches by permutes where the level has
     /// them, otherwise by look-up.
     fn emit<P: OutputPoint, I: IndexFormat>(
@@ -52,6 +58,7 @@ at_each_level! {
         packets: Packets<'_>,
         room: Room<'_, P, I>,
         caches: &mut Caches,
+        lookup: &mut Lookup,
     ) -> Offsets = emit_by_lookup, avx512 = emit_by_permutes;
 }
 
@@ -61,8 +68,9 @@ fn emit_by_lookup<P: OutputPoint, I: IndexFormat>(
     packets: Packets<'_>,
     room: Room<'_, P, I>,
     caches: &mut Caches,
+    lookup: &mut Lookup,
 ) -> Offsets {
-    kernels::emit::emit(settings, packets, room, caches, &mut Lookup::new())
+    kernels::emit::emit(settings, packets, room, caches, lookup)
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -72,6 +80,7 @@ with_avx512! {
         packets: Packets<'_>,
         room: Room<'_, P, I>,
         caches: &mut Caches,
+        _: &mut Lookup,
     ) -> Offsets {
         // A closure has the instructions of the function around it; a method of a trait cannot.
         let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {

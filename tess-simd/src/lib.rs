@@ -20,6 +20,7 @@ pub use data::level::{Level, LevelUnavailable};
 pub use data::output::{BatchCounts, Buffers, ExactOutput, Numbering, Output, PatchRange};
 pub use interface::counted::Counted;
 pub use interface::groups::{BadGroup, group_ranges};
+pub use interface::one_patch::CountedPatch;
 pub use interface::owned::OwnedBatch;
 #[cfg(feature = "taps")]
 pub use interface::taps::{contexts, fixed_factors, locations};

@@ -123,11 +123,21 @@ fn messages() {
     assert_eq!(LevelUnavailable(Level::Avx512).to_string(), message, "a level");
 }
 
-/// `Tessellator::memory` is the memory that a tessellator allocates, and a little more for itself.
+/// `Tessellator::memory` is the memory that a tessellator allocates, and a little more for itself. Tables
+/// that it shares are there before.
 fn memory() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    drop(Tessellator::new(config));
     let mut made = None;
-    let allocated = measure(|| made = Tessellator::with_level(config, Level::Baseline).ok());
+    let allocated = measure(|| {
+        made = Tessellator::with_level(config, Level::Baseline).ok();
+        let patches = [QuadFactors::uniform(3.0)];
+        let counted = made.as_mut().map(|tessellator| {
+            let mut output = tess_simd::ExactOutput::new();
+            tessellator.tessellate(&patches, Numbering::PerPatch, &mut output)
+        });
+        assert!(matches!(counted, Some(Ok(_))), "{counted:?}");
+    });
     let memory = made.map_or(0, |tessellator| tessellator.memory());
     let own = memory.checked_sub(usize::try_from(allocated.bytes_current).unwrap_or(0));
     assert!(own.is_some_and(|own| (0..2048).contains(&own)), "{memory} bytes, {own:?} its own");

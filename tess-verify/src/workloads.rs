@@ -6,8 +6,8 @@
 mod scenes;
 
 pub use scenes::{
-    SEED, UNIFORM_FACTORS, character, meshes, mosaic, mosaic_even, seed_table, terrain, uniform,
-    worst,
+    SEED, UNIFORM_FACTORS, character, meshes, mosaic, mosaic_even, seed_table, single, terrain,
+    uniform, worst,
 };
 
 use crate::digest::Fnv1a;
@@ -191,12 +191,13 @@ pub fn all() -> Vec<Workload> {
     workloads.extend(seed_table());
     workloads.extend([terrain(), character(), mosaic(), mosaic_even()]);
     workloads.extend(meshes());
+    workloads.extend(single());
     workloads.push(worst());
     workloads
 }
 
 /// The workloads that a name stands for: the one of that name, or all of a family such as `uniform` or
-/// `seed-table`; none for an unknown name.
+/// `seed-table` or `single`; none for an unknown name.
 #[must_use]
 pub fn named(name: &str) -> Vec<Workload> {
     let all = all();

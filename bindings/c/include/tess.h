@@ -879,8 +879,9 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
  * Makes a tessellator for batches of one domain in one configuration.
  *
  * `level` is `TESS_LEVEL_...`; all levels give the same bits, and one that this machine lacks
- * gives `TESS_LEVEL_UNAVAILABLE`. Takes a few milliseconds and about a megabyte; make it once and
- * keep it. What is stored in `batch` is to be given to `tess_batch_free`.
+ * gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
+ * millisecond, later ones a microsecond. From its first patch on a batch holds about a megabyte.
+ * What is stored in `batch` is to be given to `tess_batch_free`.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
@@ -973,6 +974,36 @@ TessStatus tess_batch_groups(const struct TessRange *ranges,
                              const uint32_t *starts,
                              size_t group_count,
                              struct TessRange *groups);
+
+/**
+ * Tessellates one patch into the caller's buffers: `tess_batch_run` for those who have one patch at a time,
+ * as drivers, emulators and test benches do.
+ *
+ * `factors` holds the factors of one patch: 2, 4 or 6 floats. Of `output` the ranges, the numbering and
+ * `base_vertex` are ignored; indices count from the patch's first point. With `TESS_OK` the output is
+ * written and `counts` has its sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is
+ * needed; with any other status nothing is. Up to 64 elements behind the output are overwritten in either
+ * buffer, as far as it has room for them; a call is fastest where it has. Buffers, factors and `counts`
+ * must not overlap (`TESS_OVERLAP`).
+ *
+ * Nothing is allocated, but where a patch has point counts that this batch has not met before. A call
+ * costs less than `tess_batch_run` with one patch, which counts twice; large patches cost the same.
+ *
+ * The caller must ensure:
+ * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+ *
+ * Other pointers that are not null and aligned must be valid:
+ * - `factors` for reading as many floats as the domain has factors,
+ * - `output` for reading one structure,
+ * - the buffers that it names for writing as many elements of their formats as it says,
+ * - `counts` for writing one structure,
+ *
+ * and no other thread may use any of them at the same time.
+ */
+TessStatus tess_batch_patch(struct TessBatch *batch,
+                            const float *factors,
+                            const struct TessBatchOutput *output,
+                            struct TessCounts *counts);
 
 /**
  * Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.

@@ -3,11 +3,13 @@
 mod input;
 mod output;
 mod run;
+mod single;
 
 pub use output::{
     TESS_INDEX_U16, TESS_INDEX_U32, TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH,
     TESS_POINT_F32, TESS_POINT_FIXED, TessBatchCounts, TessBatchOutput, TessRange,
 };
+pub use single::tess_batch_patch;
 
 use crate::boundary;
 use crate::status::{
@@ -39,8 +41,9 @@ pub struct TessBatch {
 /// Makes a tessellator for batches of one domain in one configuration.
 ///
 /// `level` is `TESS_LEVEL_...`; all levels give the same bits, and one that this machine lacks
-/// gives `TESS_LEVEL_UNAVAILABLE`. Takes a few milliseconds and about a megabyte; make it once and
-/// keep it. What is stored in `batch` is to be given to `tess_batch_free`.
+/// gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
+/// millisecond, later ones a microsecond. From its first patch on a batch holds about a megabyte.
+/// What is stored in `batch` is to be given to `tess_batch_free`.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:

@@ -13,6 +13,7 @@ const SOURCES: &[&str] = &[
     "prepare",
     "batch",
     "batch/output",
+    "batch/single",
     "fuzz",
 ];
 

@@ -1,4 +1,30 @@
 //! The t-th triangle of a stitch, from closed forms.
+//!
+//! The specification walks a transition position by position; here step `t` is found without the steps
+//! before it. `locate::rings` calls this for one triangle.
+//!
+//! A half edge is a mask: a bit for each of the positions 1..=32, set where the half edge has a point. The
+//! number of steps up to a position is then a count of bits. With 3 half steps on the outer edge and 2 on the
+//! inner one, ruler order puts points at positions 17 (rank 1) and 9 (rank 2):
+//!
+//! ```text
+//! bit        31 ........ 16 ....... 8 ........ 0
+//! outer       0          1          1          0      positions 9 and 17
+//! inner       0          1          0          0      position 17
+//!
+//! step        0      1      2      3    |  4      5      6      7
+//! position    -      9      17     17   |  17     17     9      -
+//! advances    outer  outer  inner  outer|  outer  inner  outer  outer
+//! ```
+//!
+//! The first half takes the inner row's step before the outer row's at each position. The second half is the
+//! first one of a patch walked the other way: step `t` is the mirror image of step `total - 1 - t`. Between
+//! them are the steps of the middle, one for each of the two factors whose parity is odd; here are none. The
+//! test `the_worked_transition` has the first half's steps.
+//!
+//! What holds: `t` is below the stitch's size, which the caller has from the same counts; the position of a
+//! step is the largest one before which at most `t` steps are done, and the five bits of the search find it
+//! among 32. A walk would take up to 126 steps.
 
 use crate::factor_context::FactorContext;
 use crate::row::Row;
@@ -6,7 +32,7 @@ use crate::ruler::has_point;
 use crate::state::{Parity, SplitOrder};
 use crate::stitch::Triangle;
 
-/// A half edge as a mask: bit k - 1 is set if position k in 1..=32 has a point.
+/// The positions of a half edge: bit `k - 1` is set if position `k` in 1..=32 has a point.
 #[derive(Clone, Copy)]
 struct HalfEdge(u32);
 
@@ -133,5 +159,23 @@ pub(crate) fn ring_triangle((outer, inner): (&Row, &Row), inner_points: u32, t: 
         (true, false) => [o0, o1, i1],
         (false, true) => [i0, o0, o1],
         (false, false) => [i0, o1, i1],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The numbers of the head of this file.
+    #[test]
+    fn the_worked_transition() {
+        let [outer, inner] = [3, 2].map(|half| HalfEdge::new(SplitOrder::Ruler, half));
+        assert_eq!((outer.0, inner.0), ((1 << 8) | (1 << 16), 1 << 16), "positions 9 and 17");
+        let steps = [0, 1, 2, 3].map(|t| match half_step(outer, inner, 1, t) {
+            Step::Outer { o, i } => ("outer", o, i),
+            Step::Inner { o, i } => ("inner", o, i),
+        });
+        let expected = [("outer", 0, 0), ("outer", 1, 0), ("inner", 2, 0), ("outer", 2, 1)];
+        assert_eq!(steps, expected, "row that advances, and the positions before");
     }
 }

@@ -109,6 +109,19 @@ impl Batch<'_> {
         self.len() == 0
     }
 
+    /// The factors of a patch; `None` if the batch has no such patch.
+    #[inline(always)]
+    pub(crate) fn patch(&self, i: usize) -> Option<PatchFactors> {
+        match self {
+            Self::Isolines(patches) => patches.get(i).map(|&factors| factors.into()),
+            Self::Triangles(patches) => patches.get(i).map(|&factors| factors.into()),
+            Self::Quads(patches) => patches.get(i).map(|&factors| factors.into()),
+            Self::Patches(patches) => patches.get(i).copied(),
+            Self::Columns(columns) => (i < shortest(columns))
+                .then(|| columns.map(|column| column.get(i).copied().unwrap_or_default())),
+        }
+    }
+
     /// Whether its patches have one domain and its columns one length.
     ///
     /// # Errors

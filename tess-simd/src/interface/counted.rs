@@ -145,7 +145,7 @@ impl<'a> Counted<'a> {
 }
 
 /// The first `needed` elements of a caller's buffer.
-fn prefix<T>(slice: &mut [T], needed: usize, buffer: Buffer) -> Result<&mut [T], Error> {
+pub(super) fn prefix<T>(slice: &mut [T], needed: usize, buffer: Buffer) -> Result<&mut [T], Error> {
     let got = slice.len();
     slice.get_mut(..needed).ok_or(Error::BufferTooSmall { buffer, needed, got })
 }

@@ -17,23 +17,25 @@ use crate::threads::Workspaces;
 use crate::threads::slices::{CountShare, Slicing};
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use tess_core::Config;
-use tess_core::Order;
+use tess_core::{Config, Order};
 
 /// Tessellates batches of patches in one configuration.
 ///
-/// [`Tessellator::new`] makes tables, which takes about a millisecond and 1.1 to 2.2 MB
-/// ([`Tessellator::memory`]). Make one for each configuration and keep it. After the first batch only an
-/// [`Output`] that grows allocates memory, and on several threads a short list for each batch.
+/// Making one is cheap: less than a microsecond and a kilobyte. Tables that follow from the configuration
+/// (0.2 to 0.8 MB) are made once for the process, by the first tessellator that needs them, in about a
+/// millisecond; without the feature `std` each tessellator makes its own. What it learns of patches
+/// takes 1.1 MB more for each thread, from the first patch on ([`Tessellator::memory`]). After its first
+/// batch it allocates nothing but what an [`Output`] grows by and, on several threads, a short list for
+/// each batch.
 #[derive(Clone, Debug)]
 pub struct Tessellator {
-    level: Level,
-    settings: Settings,
-    workspaces: Workspaces,
+    pub(super) level: Level,
+    pub(super) settings: Settings,
+    pub(super) workspaces: Workspaces,
     /// The counts of each slice of the batch that was counted last.
     slices: Vec<PartCounts>,
     /// The packets of the batch that was counted last, if it had at most one chunk.
-    kept: Box<[Packet; Chunk::PACKETS]>,
+    kept: Option<Box<[Packet; Chunk::PACKETS]>>,
 }
 
 impl Tessellator {
@@ -59,7 +61,7 @@ impl Tessellator {
             settings: Settings::new(config),
             workspaces: Workspaces::new(),
             slices: Vec::new(),
-            kept: Box::new([Packet::EMPTY; _]),
+            kept: None,
         }
     }
 
@@ -106,10 +108,13 @@ impl Tessellator {
         self.level
     }
 
-    /// Bytes of memory that its tables and workspaces take.
+    /// Bytes of memory that it takes on the heap so far; tables that it shares with others are not
+    /// counted.
     #[must_use]
     pub fn memory(&self) -> usize {
-        self.settings.stitches.bytes() + self.workspaces.bytes() + size_of_val(&*self.kept)
+        let kept = self.kept.as_deref().map_or(0, size_of_val);
+        let slices = self.slices.capacity() * size_of::<PartCounts>();
+        self.settings.stitches.bytes() + self.workspaces.bytes() + kept + slices
     }
 
     /// Counts a batch. The result says which buffer sizes the batch needs and writes into such buffers.
@@ -128,7 +133,8 @@ impl Tessellator {
         slices.clear();
         let keep = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
         if keep {
-            slices.push(levels::count_and_keep(level, settings.config, &batch, kept));
+            let packets = kept.get_or_insert_with(|| Box::new([Packet::EMPTY; _]));
+            slices.push(levels::count_and_keep(level, settings.config, &batch, packets));
         } else {
             slices.resize(slicing.slices, PartCounts::default());
             let share = CountShare { batch, slice: slicing.patches, counts: slices };
@@ -138,7 +144,7 @@ impl Tessellator {
         if total.points.max(total.indices) > u64::from(u32::MAX) {
             return Err(Error::BatchTooLarge { points: total.points, indices: total.indices });
         }
-        let kept = keep.then_some(&**kept);
+        let kept = if keep { kept.as_deref() } else { None };
         Ok(Counted { level, settings, workspaces, batch, slicing, slices, total, kept })
     }
 

@@ -138,7 +138,8 @@ pub(crate) fn emit<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
             first.indices += range.indices;
         }
         caches.compact.make_room();
-        if packet.all_compact() {
+        // One patch's lane was written a moment ago: all lanes together would wait for it.
+        if ranges.len() > 1 && packet.all_compact() {
             emit_compact(settings, (packet, ranges), numbering, caches, &mut out, compact_points);
             continue;
         }

@@ -5,7 +5,7 @@ use crate::data::chunk::{Chunk, Stretch};
 use crate::data::lanes::LANES;
 use crate::stages::counts::{PacketCounts, PartCounts};
 use crate::stages::packet::{Packet, packet_counts};
-use tess_core::Config;
+use tess_core::{Config, Counts, PatchFactors};
 
 /// Takes up to a chunk of patches through the front end. Lanes past the end count as culled; packets past the end
 /// stay as they are.
@@ -46,12 +46,38 @@ pub(crate) fn count_and_keep(
     batch: &Batch<'_>,
     kept: &mut [Packet; Chunk::PACKETS],
 ) -> PartCounts {
+    if batch.len() <= FEW {
+        return count_and_keep_few(config, batch, &mut kept[0]);
+    }
     let mut sums = Sums::default();
     process(config, batch, kept);
     for packet in kept.iter().take(batch.len().div_ceil(LANES)) {
         sums.add(&packet.counts, 1);
     }
     sums.total()
+}
+
+/// As many patches are processed one by one: that takes less than a whole packet.
+const FEW: usize = 4;
+
+/// [`count_and_keep`] of at most [`FEW`] patches.
+#[inline(always)]
+fn count_and_keep_few(config: Config, batch: &Batch<'_>, kept: &mut Packet) -> PartCounts {
+    let mut total = PartCounts::default();
+    for lane in 0..FEW {
+        let Some(factors) = batch.patch(lane) else { break };
+        let counts = kept.process_one(config, lane, factors);
+        total.points += u64::from(counts.points);
+        total.indices += u64::from(counts.indices);
+        total.largest = total.largest.max(counts.points);
+    }
+    total
+}
+
+/// Takes one patch through the front end, as the first of a packet, and returns its output sizes.
+#[inline(always)]
+pub(crate) fn process_one(config: Config, factors: PatchFactors, packet: &mut Packet) -> Counts {
+    packet.process_one(config, 0, factors)
 }
 
 /// Sums lane by lane.

@@ -1,8 +1,8 @@
 //! Output sizes of a packet, by formula (spec section 12.6).
 
-use crate::data::lanes::{Column, LANES, Lanes, factor, is_odd};
+use crate::data::lanes::{Column, EdgePoints, LANES, Lanes, factor, is_odd};
 use crate::stages::factors::Processed;
-use tess_core::{Config, Domain, OutputPrimitive};
+use tess_core::{Config, Counts, Domain, OutputPrimitive};
 
 /// Points and indices of each patch of a packet.
 #[derive(Clone, Copy, Debug)]
@@ -47,13 +47,13 @@ pub(crate) fn counts(
 ) -> PacketCounts {
     let each = indices_each(config.output, domain);
     match domain {
-        Domain::Isoline => of_each_lane(each, processed, |lane| isoline(points, lane)),
-        Domain::Triangle => {
-            of_each_lane(each, processed, |lane| triangle(points, processed.minimum[lane], lane))
-        }
-        Domain::Quad => {
-            of_each_lane(each, processed, |lane| quad(points, processed.minimum[lane], lane))
-        }
+        Domain::Isoline => of_each_lane(each, processed, |lane| isoline(of_lane(points, lane))),
+        Domain::Triangle => of_each_lane(each, processed, |lane| {
+            triangle(of_lane(points, lane), processed.minimum[lane])
+        }),
+        Domain::Quad => of_each_lane(each, processed, |lane| {
+            quad(of_lane(points, lane), processed.minimum[lane])
+        }),
     }
 }
 
@@ -88,16 +88,44 @@ fn of_each_lane(
     counts
 }
 
+/// The output sizes of one patch, which is not culled.
 #[inline(always)]
-fn isoline(points: &Column, lane: usize) -> Sizes {
-    let (density, detail) = (factor(points, 0)[lane], factor(points, 1)[lane]);
+pub(crate) fn counts_of_patch(
+    config: Config,
+    domain: Domain,
+    edges: &EdgePoints,
+    minimum: u32,
+) -> Counts {
+    let of = |factor: usize| edges[factor];
+    let sizes = match domain {
+        Domain::Isoline => isoline(of),
+        Domain::Triangle => triangle(of, minimum),
+        Domain::Quad => quad(of, minimum),
+    };
+    let each = indices_each(config.output, domain);
+    let (mut primitives, mut indices) = (0, 0);
+    for (size, each) in sizes.into_iter().zip(each) {
+        primitives += size * each.min(1);
+        indices += size * each;
+    }
+    Counts { points: sizes[0], primitives, indices }
+}
+
+/// The point counts of a lane.
+#[inline(always)]
+fn of_lane(points: &Column, lane: usize) -> impl Fn(usize) -> u32 {
+    move |number| factor(points, number)[lane]
+}
+
+#[inline(always)]
+fn isoline(points: impl Fn(usize) -> u32) -> Sizes {
+    let (density, detail) = (points(0), points(1));
     let lines = density.wrapping_sub(1);
     [lines.wrapping_mul(detail), lines.wrapping_mul(detail.wrapping_sub(1)), 0]
 }
 
 #[inline(always)]
-fn triangle(points: &Column, minimum: u32, lane: usize) -> Sizes {
-    let n = |f: usize| factor(points, f)[lane];
+fn triangle(n: impl Fn(usize) -> u32, minimum: u32) -> Sizes {
     let half = n(3) / 2;
     let odd = u32::from(is_odd(n(3)));
     let rings = half.wrapping_sub(1).wrapping_mul(3);
@@ -106,8 +134,7 @@ fn triangle(points: &Column, minimum: u32, lane: usize) -> Sizes {
 }
 
 #[inline(always)]
-fn quad(points: &Column, minimum: u32, lane: usize) -> Sizes {
-    let n = |f: usize| factor(points, f)[lane];
+fn quad(n: impl Fn(usize) -> u32, minimum: u32) -> Sizes {
     let boundary = n(0).wrapping_add(n(1)).wrapping_add(n(2)).wrapping_add(n(3)).wrapping_sub(4);
     disc(boundary, n(4).wrapping_sub(2).wrapping_mul(n(5).wrapping_sub(2)), minimum)
 }

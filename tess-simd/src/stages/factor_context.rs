@@ -22,9 +22,15 @@ pub(crate) struct Context {
 pub(crate) fn point_counts<const ALL: usize>(fixed: &Column, odd: &Column) -> Column {
     let mut points = [0; LANES * MAX_FACTORS];
     for i in 0..ALL {
-        points[i] = 2 * ((half(fixed[i], odd[i]) + 0xFFFF) >> 16) + 1 - odd[i];
+        points[i] = point_count(fixed[i], odd[i]);
     }
     points
+}
+
+/// The point count of a factor in range.
+#[inline(always)]
+pub(crate) fn point_count(fixed: u32, odd: u32) -> u32 {
+    2 * ((half(fixed, odd) + 0xFFFF) >> 16) + 1 - odd
 }
 
 impl Context {

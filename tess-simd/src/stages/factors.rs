@@ -73,6 +73,69 @@ fn process_as<const OUTER: usize, const ALL: usize>(
     Processed { fixed, odd, alive: alive::<OUTER>(raw), minimum }
 }
 
+/// Factors of one patch that are processed at once: those that there are, filled up to a short vector.
+pub(crate) const FACTORS_AT_ONCE: usize = 8;
+
+/// The factors of one patch as fixed-point numbers. Those that its domain does not have are unspecified,
+/// and in range.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OneProcessed {
+    /// As in [`Processed`].
+    pub(crate) fixed: [u32; FACTORS_AT_ONCE],
+    /// 1 where the parity is odd.
+    pub(crate) odd: [u32; FACTORS_AT_ONCE],
+    /// Whether it is not culled.
+    pub(crate) alive: bool,
+    /// Whether it is a minimum patch.
+    pub(crate) minimum: bool,
+}
+
+/// Processes the raw factors of one patch, of which those below `OUTER` are outer ones and those below
+/// `ALL` exist; zeros follow these.
+#[inline(always)]
+pub(crate) fn process_one<const OUTER: usize, const ALL: usize>(
+    partitioning: Partitioning,
+    raw: &[f32; FACTORS_AT_ONCE],
+) -> OneProcessed {
+    let (low, high) = partitioning.range();
+    let any_greater = |bound| raw.iter().fold(false, |any, &x| any | is_greater(x, bound));
+    let is_odd = partitioning == Partitioning::FractionalOdd;
+    let inside_low =
+        if is_odd && any_greater(ONE_PLUS_2_POW_MINUS_17) { ONE_PLUS_2_POW_MINUS_16 } else { low };
+    let (mut fixed, mut odd) = ([ONE; FACTORS_AT_ONCE], [u32::from(is_odd); FACTORS_AT_ONCE]);
+    let mut clamped = [1.0; FACTORS_AT_ONCE];
+    for i in 0..FACTORS_AT_ONCE {
+        clamped[i] = clamp(raw[i], if i < OUTER { low } else { inside_low }, high);
+    }
+    for i in 0..FACTORS_AT_ONCE {
+        if partitioning.has_integer_factors() {
+            let integer = ceil(clamped[i]);
+            fixed[i] = integer << 16;
+            odd[i] = integer & 1 & u32::from(i < OUTER || integer != 1);
+        } else {
+            fixed[i] = to_fixed(clamped[i]);
+        }
+    }
+    OneProcessed {
+        fixed,
+        odd,
+        alive: raw[..OUTER].iter().fold(true, |alive, &x| alive & is_greater(x, 0.0)),
+        minimum: fixed[..ALL].iter().fold(true, |minimum, &x| minimum & (x == ONE)),
+    }
+}
+
+/// [`process_one`] of an isoline patch, whose density is an integer under every partitioning.
+#[inline(always)]
+pub(crate) fn process_one_isoline(
+    partitioning: Partitioning,
+    raw: &[f32; FACTORS_AT_ONCE],
+) -> OneProcessed {
+    let mut processed = process_one::<2, 2>(partitioning, raw);
+    let density = ceil(clamp(raw[0], 1.0, 64.0));
+    (processed.fixed[0], processed.odd[0]) = (density << 16, density & 1);
+    OneProcessed { minimum: false, ..processed }
+}
+
 /// Step 1: 1 where every outer factor is greater than zero.
 #[inline(always)]
 fn alive<const OUTER: usize>(raw: &Column<f32>) -> Lanes {
@@ -107,11 +170,12 @@ fn clamp(x: f32, low: f32, high: f32) -> f32 {
     f32::from_bits(bits.max(low).min(high).cast_unsigned())
 }
 
+const ONE_PLUS_2_POW_MINUS_17: f32 = f32::from_bits(0x3F80_0040);
+const ONE_PLUS_2_POW_MINUS_16: f32 = f32::from_bits(0x3F80_0080);
+
 /// Step 4: the lower bound of the inside factors.
 #[inline(always)]
 fn inside_low<const ALL: usize>(partitioning: Partitioning, raw: &Column<f32>) -> Lanes<f32> {
-    const ONE_PLUS_2_POW_MINUS_17: f32 = f32::from_bits(0x3F80_0040);
-    const ONE_PLUS_2_POW_MINUS_16: f32 = f32::from_bits(0x3F80_0080);
     let mut low = [partitioning.range().0; LANES];
     if partitioning == Partitioning::FractionalOdd {
         for factors in raw[..ALL].as_chunks::<LANES>().0 {

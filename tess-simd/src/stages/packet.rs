@@ -58,6 +58,8 @@
 //! are compiled (`docs/performance.md`). So lanes are plain arrays, and the compiler makes vectors of each
 //! level's width.
 
+mod one;
+
 use crate::data::lanes::{Column, EdgePoints, LANES, Lanes, MAX_FACTORS, is_odd};
 use crate::stages::counts::{PacketCounts, counts};
 use crate::stages::factor_context::{Context, point_counts};

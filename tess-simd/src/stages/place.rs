@@ -69,6 +69,13 @@ impl Spacings {
         }
     }
 
+    /// Sets the spacing of an element, but for its points.
+    #[inline(always)]
+    pub(crate) const fn set(&mut self, i: usize, spacing: &Spacing) {
+        let Spacing { split, step, lag, .. } = *spacing;
+        (self.split[i], self.step[i], self.lag[i]) = (split, step, lag);
+    }
+
     /// The spacing of an element with this many points.
     #[inline(always)]
     pub(crate) const fn get(&self, i: usize, points: u32) -> Spacing {

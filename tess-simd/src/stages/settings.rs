@@ -1,6 +1,6 @@
 //! What a tessellator is made for.
 
-use crate::stages::stitch::Stitches;
+use crate::stages::stitch::SharedStitches;
 use tess_core::Config;
 use tess_core::Order;
 
@@ -10,12 +10,12 @@ use tess_core::Order;
 pub(crate) struct Settings {
     pub(crate) config: Config,
     pub(crate) order: Order,
-    pub(crate) stitches: Stitches,
+    pub(crate) stitches: SharedStitches,
 }
 
 impl Settings {
-    /// Makes the tables.
+    /// Makes the tables, unless they are there.
     pub(crate) fn new(config: Config) -> Self {
-        Self { config, order: Order::Specification, stitches: Stitches::new(config) }
+        Self { config, order: Order::Specification, stitches: SharedStitches::of(config) }
     }
 }

@@ -5,8 +5,10 @@
 //! turns them into indices.
 
 mod rows;
+mod shared;
 mod step_code;
 mod tables;
 
 pub(crate) use rows::{Replaced, Rows};
+pub(crate) use shared::SharedStitches;
 pub(crate) use tables::Stitches;

@@ -19,6 +19,11 @@ impl Workspaces {
         self.0 = Workspace::new();
     }
 
+    /// The workspace of the calling thread.
+    pub(crate) fn one(&mut self) -> &mut Workspace {
+        &mut self.0
+    }
+
     /// How many threads write at a time.
     #[expect(clippy::unused_self, reason = "the same interface as with a pool")]
     pub(crate) const fn threads(&self) -> usize {

@@ -10,8 +10,11 @@ use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
 use crate::stages::packet::Packet;
+use crate::stages::points::Lookup;
 use crate::stages::settings::Settings;
 use alloc::boxed::Box;
+use core::slice::from_ref;
+use tess_core::{Config, Counts, PatchFactors};
 
 /// What is the same for all parts of a batch.
 #[derive(Clone, Copy, Debug)]
@@ -32,28 +35,87 @@ pub(crate) struct Part<'a> {
     pub(crate) first: Offsets,
 }
 
-/// What a thread keeps from batch to batch. Two threads' workspaces share no cache lines.
+/// What a thread keeps from batch to batch, made when it is first used. Two threads' workspaces share no
+/// cache lines.
 #[derive(Clone, Debug)]
 #[repr(align(128))]
-pub(crate) struct Workspace {
-    packets: Box<[Packet; Chunk::PACKETS]>,
+pub(crate) struct Workspace(Option<Box<Memory>>);
+
+/// A workspace that is in use.
+#[derive(Clone, Debug)]
+#[repr(align(128))]
+struct Memory {
+    packets: [Packet; Chunk::PACKETS],
+    /// The first lane has the patch that comes alone.
+    one: Packet,
+    lookup: Lookup,
     /// The ranges of a chunk, where the caller wants none.
     ranges: [PatchRange; Chunk::PATCHES],
     caches: Caches,
 }
 
 impl Workspace {
-    pub(crate) fn new() -> Self {
-        Self {
-            packets: Box::new([Packet::EMPTY; _]),
-            ranges: [PatchRange::default(); _],
-            caches: Caches::new(),
-        }
+    pub(crate) const fn new() -> Self {
+        Self(None)
     }
 
     /// Bytes of memory that it takes on the heap.
     pub(crate) fn bytes(&self) -> usize {
-        size_of::<[Packet; Chunk::PACKETS]>() + self.caches.bytes()
+        self.0.as_ref().map_or(0, |memory| size_of::<Memory>() + memory.caches.bytes())
+    }
+
+    #[inline]
+    fn memory(&mut self) -> &mut Memory {
+        self.0.get_or_insert_with(Memory::new)
+    }
+
+    /// Takes one patch through the front end and returns its output sizes.
+    pub(crate) fn process(
+        &mut self,
+        level: Level,
+        config: Config,
+        factors: PatchFactors,
+    ) -> Counts {
+        levels::process_one(level, config, factors, &mut self.memory().one)
+    }
+
+    /// Writes the patch that was processed last. What lies behind it in the buffers may be overwritten.
+    pub(crate) fn emit(&mut self, level: Level, settings: &Settings, target: Target<'_>) {
+        let Target { points, indices, .. } = target;
+        let memory = self.memory();
+        match (points, indices) {
+            (AnyPoints::F32(p), AnyIndices::U16(i)) => memory.emit_one(level, settings, p, i),
+            (AnyPoints::F32(p), AnyIndices::U32(i)) => memory.emit_one(level, settings, p, i),
+            (AnyPoints::Fixed(p), AnyIndices::U16(i)) => memory.emit_one(level, settings, p, i),
+            (AnyPoints::Fixed(p), AnyIndices::U32(i)) => memory.emit_one(level, settings, p, i),
+        }
+    }
+}
+
+impl Memory {
+    #[cold]
+    fn new() -> Box<Self> {
+        Box::new(Self {
+            packets: [Packet::EMPTY; _],
+            one: Packet::EMPTY,
+            lookup: Lookup::new(),
+            ranges: [PatchRange::default(); _],
+            caches: Caches::new(),
+        })
+    }
+
+    fn emit_one<P: OutputPoint, I: IndexFormat>(
+        &mut self,
+        level: Level,
+        settings: &Settings,
+        points: &mut [P],
+        indices: &mut [I],
+    ) {
+        let Self { one, lookup, caches, .. } = self;
+        let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
+        let packets = Packets { packets: from_ref(one), first, numbering };
+        let ranges = &mut [PatchRange::default()];
+        levels::emit(level, settings, packets, Room { points, indices, ranges }, caches, lookup);
     }
 }
 
@@ -84,6 +146,7 @@ fn emit_as<P: OutputPoint, I: IndexFormat>(
     mut first: Offsets,
     workspace: &mut Workspace,
 ) {
+    let workspace = workspace.memory();
     let Job { level, settings, numbering, kept } = job;
     let Buffers { mut points, mut indices, mut ranges } = buffers;
     let (mut start, all) = (0, batch.len());
@@ -94,13 +157,20 @@ fn emit_as<P: OutputPoint, I: IndexFormat>(
             let stretch = Stretch::new(batch, start);
             let batch = batch.slice(&(start..start + stretch.patches));
             levels::process(level, settings.config, &batch, &mut workspace.packets);
-            (stretch, &*workspace.packets)
+            (stretch, &workspace.packets)
         };
         let own = &mut workspace.ranges[..patches];
         let ranges_here = ranges.as_mut().map_or(own, |all| &mut all[start..start + patches]);
         let packets = Packets { packets, first, numbering };
         let room = Room { points: &mut *points, indices: &mut *indices, ranges: ranges_here };
-        let mut end = levels::emit(level, settings, packets, room, &mut workspace.caches);
+        let mut end = levels::emit(
+            level,
+            settings,
+            packets,
+            room,
+            &mut workspace.caches,
+            &mut workspace.lookup,
+        );
         if times > 1 {
             let range = PatchRange {
                 first_point: first.points,

@@ -51,6 +51,11 @@ impl Workspaces {
         self.0.fill_with(|| Mutex::new(Workspace::new()));
     }
 
+    /// A workspace for the calling thread alone.
+    pub(crate) fn one(&mut self) -> &mut Workspace {
+        self.0[0].get_mut().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// How many threads write at a time.
     pub(crate) fn threads(&self) -> usize {
         self.0.len()
@@ -58,7 +63,11 @@ impl Workspaces {
 
     /// Bytes of memory that they take on the heap.
     pub(crate) fn bytes(&self) -> usize {
-        self.0.len() * (size_of::<Mutex<Workspace>>() + self.lend(|workspace| workspace.bytes()))
+        let bytes = |workspace: &Mutex<Workspace>| {
+            let workspace = workspace.lock().unwrap_or_else(PoisonError::into_inner);
+            size_of::<Mutex<Workspace>>() + workspace.bytes()
+        };
+        self.0.iter().map(bytes).sum()
     }
 
     /// Counts a share on all threads.
@@ -174,8 +183,11 @@ fn limit_global_pool() {
 
 impl Clone for Workspaces {
     fn clone(&self) -> Self {
-        let copy = || self.lend(|workspace| Mutex::new(workspace.clone()));
-        Self((0..self.threads()).map(|_| copy()).collect())
+        let copy = |workspace: &Mutex<Workspace>| {
+            let workspace = workspace.lock().unwrap_or_else(PoisonError::into_inner);
+            Mutex::new(workspace.clone())
+        };
+        Self(self.0.iter().map(copy).collect())
     }
 }
 

@@ -59,6 +59,22 @@ fn isolines() -> Workload {
     Workload::single("seed-table/isolines", config, patches)
 }
 
+/// `single/...`: workloads of small patches, one patch at a time.
+#[must_use]
+pub fn single() -> Vec<Workload> {
+    let uniforms = [1, 2, 4, 8].map(uniform);
+    let scenes = [terrain(), character(), mosaic(), mosaic_even()];
+    uniforms
+        .into_iter()
+        .chain(scenes)
+        .map(|workload| Workload {
+            name: format!("single/{}", workload.name),
+            calls: Calls::SinglePatch,
+            ..workload
+        })
+        .collect()
+}
+
 /// `terrain`: a flat ground of 64 x 64 quads seen by a camera, `fractional_even`.
 ///
 /// Patch (x, z) covers the unit square from (x, z), u along x and v along z. The camera stands at

@@ -7,14 +7,14 @@ use tess_capi::batch::{
     TESS_INDEX_U16, TESS_INDEX_U32, TESS_LEVEL_AVX512, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_BATCH,
     TESS_NUMBERING_PER_PATCH, TESS_POINT_F32, TESS_POINT_FIXED, TessBatch, TessBatchCounts,
     TessBatchOutput, TessRange, tess_batch_count, tess_batch_create, tess_batch_free,
-    tess_batch_groups, tess_batch_level, tess_batch_run,
+    tess_batch_groups, tess_batch_level, tess_batch_patch, tess_batch_run,
 };
 use tess_capi::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_LEVEL_UNAVAILABLE, TESS_MISALIGNED,
     TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE, TESS_OVERLAP, TESS_TOO_LARGE,
     TESS_UNKNOWN_VALUE, TESS_WRONG_FACTOR_COUNT, TessStatus,
 };
-use tess_capi::types::TessConfig;
+use tess_capi::types::{TessConfig, TessCounts};
 use tess_core::{Domain, Patch, Tessellation};
 
 /// A batch and memory for its output, all of it filled with `FILL`.
@@ -314,4 +314,83 @@ fn groups_are_joined_ranges() {
     assert!(words[0] == 0 && words[1] == 1 && words[2..] == [0; 14], "nothing is written");
     let null_groups = unsafe { tess_batch_groups(ranges.as_ptr(), 3, &0, 1, null_mut()) };
     assert_eq!(null_groups, TESS_NULL_POINTER, "nowhere to write");
+}
+
+/// Each patch alone, in every pair of formats, into buffers that are just large enough and into larger ones.
+#[test]
+fn one_patch_a_call() {
+    let config = TessConfig { domain: 2, partitioning: 2, output: 2, split: 0 };
+    let fixture = Fixture::new(config, TESS_LEVEL_DETECT).expect("always available");
+    for (number, expected) in fixture.patches.iter().enumerate() {
+        for room in [0, 200] {
+            let mut points = vec![[FILL; 2]; expected.points.len() + room];
+            let mut indices = vec![FILL; expected.indices.len() + room];
+            let mut output = room_for(&mut points, &mut indices);
+            let (status, counts) = one(&fixture, number, &output);
+            assert_eq!(status, TESS_OK, "patch {number}");
+            let found = (counts.points as usize, counts.indices as usize);
+            assert_eq!(found, (expected.points.len(), expected.indices.len()), "patch {number}");
+            let bits = |point: &tess_core::DomainPoint| [point.u.to_bits(), point.v.to_bits()];
+            let same = points.iter().zip(&expected.points).all(|(a, b)| *a == bits(b));
+            assert!(same && indices.starts_with(&expected.indices), "patch {number}, room {room}");
+            let behind = points.iter().skip(found.0 + 64).all(|&point| point == [FILL; 2]);
+            assert!(behind, "patch {number}: far behind the output");
+
+            (output.point_format, output.index_type) = (TESS_POINT_F32, TESS_INDEX_U16);
+            assert_eq!(one(&fixture, number, &output).0, TESS_OK, "patch {number}");
+            let floats = |point: &tess_core::DomainPoint| point.to_f32().map(f32::to_bits);
+            let same = points.iter().zip(&expected.points).all(|(a, b)| *a == floats(b));
+            assert!(same, "patch {number} in floats, room {room}");
+        }
+    }
+}
+
+/// What is refused, and that nothing but the sizes is written then.
+#[test]
+fn one_patch_is_refused() {
+    let config = TessConfig { domain: 2, partitioning: 0, output: 2, split: 0 };
+    let fixture = Fixture::new(config, TESS_LEVEL_DETECT).expect("always available");
+    let number = fixture.patches.iter().position(|patch| patch.points.len() > 8).expect("one");
+    let expected = &fixture.patches[number];
+    let (mut points, mut indices) =
+        (vec![[FILL; 2]; expected.points.len() - 1], vec![FILL; expected.indices.len()]);
+    let small = room_for(&mut points, &mut indices);
+    let (status, counts) = one(&fixture, number, &small);
+    assert_eq!((status, counts.points as usize), (TESS_BUFFER_TOO_SMALL, points.len() + 1));
+    assert_eq!(points, vec![[FILL; 2]; points.len()], "points of a buffer that is too small");
+    assert_eq!(indices, vec![FILL; indices.len()], "indices of a buffer that is too small");
+    let unknown = TessBatchOutput { point_format: 9, ..small };
+    assert_eq!(one(&fixture, number, &unknown).0, TESS_UNKNOWN_VALUE, "a format");
+    let both = TessBatchOutput { indices: small.points, index_capacity: 1, ..small };
+    assert_eq!(one(&fixture, number, &both).0, TESS_OVERLAP, "points and indices");
+    let (b, f) = (fixture.batch, fixture.factors.as_ptr());
+    let mut counts = TessCounts::default();
+    unsafe {
+        assert_eq!(tess_batch_patch(null_mut(), f, &small, &mut counts), TESS_NULL_POINTER);
+        assert_eq!(tess_batch_patch(b, null(), &small, &mut counts), TESS_NULL_POINTER);
+        assert_eq!(tess_batch_patch(b, f, null(), &mut counts), TESS_NULL_POINTER);
+        assert_eq!(tess_batch_patch(b, f, &small, null_mut()), TESS_NULL_POINTER);
+    }
+}
+
+fn room_for(points: &mut [[u32; 2]], indices: &mut [u32]) -> TessBatchOutput {
+    TessBatchOutput {
+        points: points.as_mut_ptr().cast(),
+        point_capacity: points.len(),
+        indices: indices.as_mut_ptr().cast(),
+        index_capacity: indices.len(),
+        ranges: null_mut(),
+        range_capacity: 0,
+        point_format: TESS_POINT_FIXED,
+        index_type: TESS_INDEX_U32,
+        numbering: TESS_NUMBERING_PER_PATCH,
+        base_vertex: 0,
+    }
+}
+
+/// One patch of a fixture of quads.
+fn one(fixture: &Fixture, number: usize, output: &TessBatchOutput) -> (TessStatus, TessCounts) {
+    let mut counts = TessCounts::default();
+    let factors = fixture.factors[6 * number..][..6].as_ptr();
+    (unsafe { tess_batch_patch(fixture.batch, factors, output, &mut counts) }, counts)
 }

@@ -34,7 +34,7 @@ Examples:
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
 a part's time is the median of its samples, a workload's the sum over its parts. A row is printed as
 soon as it is measured; what could not be measured is left out and named at the end. Workloads:
-uniform-1 to uniform-64, seed-table, terrain, character, mosaic, mosaic-even, meshes, worst.")]
+uniform-1 to uniform-64, seed-table, terrain, character, mosaic, mosaic-even, meshes, single, worst.")]
 pub(crate) struct Args {
     /// Workload or family of workloads; may be repeated [default: all]
     #[arg(long, value_name = "NAME")]

@@ -8,8 +8,8 @@ use std::hint::black_box;
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
-use tess_core::DomainPoint;
 use tess_core::fixed::types::U16F16;
+use tess_core::{DomainPoint, PatchFactors};
 use tess_simd::{
     BatchCounts, Buffers, IndexFormat, Numbering, Order, OwnedBatch, PatchRange, Tessellator,
 };
@@ -51,6 +51,8 @@ struct SimdRunner<I> {
 struct Prepared {
     tessellator: Tessellator,
     patches: OwnedBatch,
+    /// The same patches where each is a call of its own, otherwise none.
+    single: Vec<PatchFactors>,
     batches: Vec<Batch>,
     /// The batches of each part.
     parts: Vec<Range<usize>>,
@@ -100,11 +102,20 @@ impl<I: Index> SimdRunner<I> {
 
     /// Tessellates one batch into its place.
     fn tessellate(&mut self, batch: usize) -> Result<(), BackendError> {
-        let Some(Prepared { tessellator, patches, batches, .. }) = &mut self.prepared else {
+        let Some(Prepared { tessellator, patches, single, batches, .. }) = &mut self.prepared
+        else {
             return Err(BackendError::new("nothing is prepared"));
         };
         let Batch { patches: range, start, .. } = &batches[batch];
         let (points, indices) = (&mut self.points[start.0..], &mut self.indices[start.1..]);
+        if let Some(&factors) = single.get(range.start) {
+            let counts = tessellator
+                .patch(factors, points, indices)
+                .map_err(|error| BackendError::new(error.to_string()))?;
+            let (points, indices) = (counts.points, counts.indices);
+            self.ranges[0] = PatchRange { first_point: 0, points, first_index: 0, indices };
+            return Ok(());
+        }
         let buffers = Buffers::new(points, indices).with_ranges(&mut self.ranges);
         let batch = part(patches, range)?;
         let write = || tessellator.write(batch, Numbering::PerPatch, buffers);
@@ -191,7 +202,11 @@ impl<I: Index> Runner for SimdRunner<I> {
         self.indices =
             vec![I::wrapping_from(1); largest(|batch| batch.start.1 + batch.counts.indices)];
         self.ranges = vec![PatchRange::default(); largest(|batch| batch.patches.len())];
-        self.prepared = Some(Prepared { tessellator, patches, batches, parts });
+        let single = match workload.calls {
+            Calls::SinglePatch => workload.patches.clone(),
+            _ => Vec::new(),
+        };
+        self.prepared = Some(Prepared { tessellator, patches, single, batches, parts });
         Ok(amounts)
     }
 

@@ -1,0 +1,102 @@
+//! One patch into the caller's buffers.
+
+use super::{
+    TESS_INDEX_U16, TESS_INDEX_U32, TESS_POINT_F32, TESS_POINT_FIXED, TessBatch, TessBatchOutput,
+    status_of,
+};
+use crate::boundary;
+use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INTERNAL, TESS_UNKNOWN_VALUE, TessStatus, answer};
+use crate::types::TessCounts;
+use tess_core::{DomainPoint, PatchFactors};
+use tess_simd::{CountedPatch, IndexFormat, OutputPoint};
+
+/// Tessellates one patch into the caller's buffers: `tess_batch_run` for those who have one patch at a time,
+/// as drivers, emulators and test benches do.
+///
+/// `factors` holds the factors of one patch: 2, 4 or 6 floats. Of `output` the ranges, the numbering and
+/// `base_vertex` are ignored; indices count from the patch's first point. With `TESS_OK` the output is
+/// written and `counts` has its sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is
+/// needed; with any other status nothing is. Up to 64 elements behind the output are overwritten in either
+/// buffer, as far as it has room for them; a call is fastest where it has. Buffers, factors and `counts`
+/// must not overlap (`TESS_OVERLAP`).
+///
+/// Nothing is allocated, but where a patch has point counts that this batch has not met before. A call
+/// costs less than `tess_batch_run` with one patch, which counts twice; large patches cost the same.
+///
+/// # Safety
+/// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+///
+/// Other pointers that are not null and aligned must be valid:
+/// - `factors` for reading as many floats as the domain has factors,
+/// - `output` for reading one structure,
+/// - the buffers that it names for writing as many elements of their formats as it says,
+/// - `counts` for writing one structure,
+///
+/// and no other thread may use any of them at the same time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_batch_patch(
+    batch: *mut TessBatch,
+    factors: *const f32,
+    output: *const TessBatchOutput,
+    counts: *mut TessCounts,
+) -> TessStatus {
+    answer(|| {
+        boundary::check(batch)?;
+        boundary::check(counts)?;
+        // SAFETY: `output` is readable, as the caller promises.
+        let output = unsafe { boundary::read(output) }?;
+        // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
+        let batch = unsafe { &mut *batch };
+        let run = match (output.point_format, output.index_type) {
+            (TESS_POINT_FIXED, TESS_INDEX_U32) => run::<DomainPoint, u32>,
+            (TESS_POINT_FIXED, TESS_INDEX_U16) => run::<DomainPoint, u16>,
+            (TESS_POINT_F32, TESS_INDEX_U32) => run::<[f32; 2], u32>,
+            (TESS_POINT_F32, TESS_INDEX_U16) => run::<[f32; 2], u16>,
+            _ => return Err(TESS_UNKNOWN_VALUE),
+        };
+        // SAFETY: `factors`, `counts` and the buffers are as this function asks for them; the
+        // element types are those of the formats.
+        unsafe { run(batch, factors, &output, counts) }
+    })
+}
+
+/// Tessellates a patch in one pair of formats.
+///
+/// # Safety
+/// - As for [`tess_batch_patch`], the buffers' elements being `P` and `I`.
+unsafe fn run<P: OutputPoint, I: IndexFormat>(
+    batch: &mut TessBatch,
+    factors: *const f32,
+    output: &TessBatchOutput,
+    counts: *mut TessCounts,
+) -> Result<(), TessStatus> {
+    let number = batch.domain.factors();
+    let points = (output.points.cast::<P>(), output.point_capacity);
+    let indices = (output.indices.cast::<I>(), output.index_capacity);
+    boundary::check_all_apart(&[
+        boundary::bytes(factors, number)?,
+        boundary::bytes(points.0, points.1)?,
+        boundary::bytes(indices.0, indices.1)?,
+        boundary::bytes(counts, 1)?,
+    ])?;
+    // SAFETY: as many floats as the domain has factors, as the caller promises.
+    let factors = unsafe { boundary::list(factors, number) }?;
+    let factors = PatchFactors::from_slice(batch.domain, factors).ok_or(TESS_INTERNAL)?;
+    // SAFETY: writable, as the caller promises, and apart from all else, as was just checked.
+    let points = unsafe { boundary::room(points.0, points.1) }?;
+    // SAFETY: as above.
+    let indices = unsafe { boundary::room(indices.0, indices.1) }?;
+    let mut counted = batch.tessellator.count_patch(factors);
+    let needed = counted.counts();
+    // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
+    unsafe { boundary::write(counts, needed.into()) }?;
+    if points.len() < needed.points as usize || indices.len() < needed.indices as usize {
+        return Err(TESS_BUFFER_TOO_SMALL);
+    }
+    let end = |needed: u32, room: usize| room.min(needed as usize + CountedPatch::OVERRUN);
+    let (end_of_points, end_of_indices) =
+        (end(needed.points, points.len()), end(needed.indices, indices.len()));
+    let points = boundary::initialised(&mut points[..end_of_points], P::default());
+    let indices = boundary::initialised(&mut indices[..end_of_indices], I::default());
+    counted.write(points, indices).map(|_| ()).map_err(|error| status_of(&error))
+}

@@ -1,0 +1,102 @@
+//! One patch a call, for callers that have no batch.
+//!
+//! Such a call goes through no chunk, no slices and no pool: the front end takes the one patch ([`Packet`]'s
+//! `one`), and the kernel of batches writes it as the only patch of a packet, from the same templates. So
+//! whatever one of the two ways has learned of a topology, the other knows.
+//!
+//! [`Packet`]: crate::stages::packet::Packet
+
+use crate::data::error::{Buffer, Error};
+use crate::data::format::{IndexFormat, OutputPoint};
+use crate::data::output::Buffers;
+use crate::interface::counted::prefix;
+use crate::interface::tessellator::Tessellator;
+use tess_core::{Counts, PatchFactors};
+
+/// One patch whose output was counted, ready to be written any number of times. Made by
+/// [`Tessellator::count_patch`].
+#[derive(Debug)]
+#[must_use = "a count alone writes nothing"]
+pub struct CountedPatch<'a> {
+    tessellator: &'a mut Tessellator,
+    counts: Counts,
+}
+
+impl Tessellator {
+    /// Tessellates one patch into the caller's buffers, its indices counted from its own first point:
+    /// [`Tessellator::count_patch`] and [`CountedPatch::write`] in one. Returns the output sizes.
+    ///
+    /// Call it with one patch at a time; [`Tessellator::write`] is faster from a few patches on. It uses the
+    /// calling thread alone, and allocates only where it meets a topology for the first time.
+    ///
+    /// ```
+    /// use tess_simd::Tessellator;
+    /// use tess_simd::tess_core::{Config, OutputPrimitive, Partitioning, QuadFactors};
+    /// use tess_simd::tess_core::{MAX_INDICES, MAX_POINTS};
+    ///
+    /// let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    /// let mut tessellator = Tessellator::new(config);
+    /// let (mut points, mut indices) = (vec![[0.0; 2]; MAX_POINTS], vec![0u16; MAX_INDICES]);
+    ///
+    /// let counts = tessellator.patch(QuadFactors::uniform(2.0), &mut points, &mut indices)?;
+    /// assert_eq!((counts.points, counts.primitives, counts.indices), (9, 8, 24));
+    /// assert_eq!(points[8], [0.5, 0.5]);
+    /// # Ok::<(), tess_simd::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::BufferTooSmall`]; then nothing is written.
+    pub fn patch<P: OutputPoint, I: IndexFormat>(
+        &mut self,
+        factors: impl Into<PatchFactors>,
+        points: &mut [P],
+        indices: &mut [I],
+    ) -> Result<Counts, Error> {
+        self.count_patch(factors).write(points, indices)
+    }
+
+    /// Counts one patch: the sizes of the buffers that it needs, and then a `write` into them.
+    pub fn count_patch(&mut self, factors: impl Into<PatchFactors>) -> CountedPatch<'_> {
+        let (level, config) = (self.level, self.settings.config);
+        let counts = self.workspaces.one().process(level, config, factors.into());
+        CountedPatch { tessellator: self, counts }
+    }
+}
+
+impl CountedPatch<'_> {
+    /// As many elements behind the output may be overwritten in either buffer. Buffers with that much room
+    /// are written fastest.
+    pub const OVERRUN: usize = 64;
+
+    /// The output sizes; zeros if the patch is culled.
+    #[must_use]
+    pub const fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Writes the patch into the caller's buffers, its indices counted from its own first point. Returns the
+    /// output sizes. Of what lies behind the output, the first [`CountedPatch::OVERRUN`] elements are
+    /// unspecified afterwards.
+    ///
+    /// # Errors
+    /// [`Error::BufferTooSmall`]; then nothing is written.
+    pub fn write<P: OutputPoint, I: IndexFormat>(
+        &mut self,
+        points: &mut [P],
+        indices: &mut [I],
+    ) -> Result<Counts, Error> {
+        let Tessellator { level, settings, workspaces, .. } = &mut *self.tessellator;
+        prefix(points, self.counts.points as usize, Buffer::Points)?;
+        prefix(indices, self.counts.indices as usize, Buffer::Indices)?;
+        let points = with_overrun(points, self.counts.points);
+        let indices = with_overrun(indices, self.counts.indices);
+        workspaces.one().emit(*level, settings, Buffers::new(points, indices).into());
+        Ok(self.counts)
+    }
+}
+
+/// What may be written of a buffer whose output has this length.
+fn with_overrun<T>(buffer: &mut [T], length: u32) -> &mut [T] {
+    let end = buffer.len().min(length as usize + CountedPatch::OVERRUN);
+    &mut buffer[..end]
+}

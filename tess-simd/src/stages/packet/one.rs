@@ -1,0 +1,127 @@
+//! The front end of one patch: its factors stand side by side, as patches do in a packet.
+//!
+//! A packet of one patch would cost what sixteen cost. Here each stage is one short vector with an element
+//! for each factor, and the results go to one lane of a packet, so that everything behind the front end
+//! finds a patch as it always does.
+
+use super::{COMPACT_EDGE, COMPACT_TRIANGLE_INSIDE, Packet};
+use crate::data::lanes::{EdgePoints, LANES, MAX_FACTORS};
+use crate::stages::counts::counts_of_patch;
+use crate::stages::factor_context::{Context, point_count};
+use crate::stages::factors::{FACTORS_AT_ONCE, OneProcessed, process_one, process_one_isoline};
+use crate::stages::place::Spacing;
+use tess_core::{Config, Counts, Domain, PatchFactors};
+
+impl Packet {
+    /// Processes the raw factors of one patch; the other lanes stay as they are. Returns its output sizes,
+    /// zeros if it is culled.
+    #[inline(always)]
+    pub(crate) fn process_one(
+        &mut self,
+        config: Config,
+        lane: usize,
+        factors: PatchFactors,
+    ) -> Counts {
+        let partitioning = config.partitioning;
+        let processed = match factors {
+            PatchFactors::Isoline(factors) => {
+                let [density, detail] = factors.into();
+                let raw = [density, detail, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+                process_one_isoline(partitioning, &raw)
+            }
+            PatchFactors::Triangle(factors) => {
+                let [u0, v0, w0, inside] = factors.into();
+                let raw = [u0, v0, w0, inside, 0.0, 0.0, 0.0, 0.0];
+                process_one::<3, 4>(partitioning, &raw)
+            }
+            PatchFactors::Quad(factors) => {
+                let [u0, v0, u1, v1, inside_u, inside_v] = factors.into();
+                let raw = [u0, v0, u1, v1, inside_u, inside_v, 0.0, 0.0];
+                process_one::<4, 6>(partitioning, &raw)
+            }
+        };
+        self.keep_one(config, lane, factors.domain(), &processed)
+    }
+
+    /// Makes the lane from processed factors.
+    #[inline(always)]
+    fn keep_one(
+        &mut self,
+        config: Config,
+        lane: usize,
+        domain: Domain,
+        processed: &OneProcessed,
+    ) -> Counts {
+        let lane = lane % LANES;
+        let edges = self.keep_points(config, lane, domain, processed);
+        let minimum = u32::from(processed.minimum);
+        let counts = if processed.alive {
+            counts_of_patch(config, domain, &edges, minimum)
+        } else {
+            Counts::default()
+        };
+        (self.config, self.domain) = (config, domain);
+        self.counts.points[lane] = counts.points;
+        self.counts.indices[lane] = counts.indices;
+        self.minimum[lane] = minimum;
+        self.topologies[lane] = topology(&edges, minimum);
+        self.compact[lane] = u32::from(is_compact(domain, &edges));
+        counts
+    }
+
+    /// Keeps the factors, the point counts and, where factors are not integers, the spacings. Returns the
+    /// point counts; 0 for factors that the domain does not have.
+    #[inline(always)]
+    fn keep_points(
+        &mut self,
+        config: Config,
+        lane: usize,
+        domain: Domain,
+        OneProcessed { fixed, odd, .. }: &OneProcessed,
+    ) -> EdgePoints {
+        let mut points = [0; FACTORS_AT_ONCE];
+        if config.partitioning.has_integer_factors() {
+            for i in 0..FACTORS_AT_ONCE {
+                points[i] = point_count(fixed[i], odd[i]);
+            }
+        } else {
+            let [mut split, mut step, mut lag] = [[0; FACTORS_AT_ONCE]; 3];
+            for i in 0..FACTORS_AT_ONCE {
+                let spacing = Spacing::new(&Context::new(fixed[i], odd[i], config.split));
+                (points[i], split[i]) = (spacing.points, spacing.split);
+                (step[i], lag[i]) = (spacing.step, spacing.lag);
+            }
+            for i in 0..MAX_FACTORS {
+                let (points, split) = (points[i], split[i]);
+                let spacing = Spacing { points, split, step: step[i], lag: lag[i] };
+                self.spacings.set(i * LANES + lane, &spacing);
+            }
+        }
+        let mut edges = [0; MAX_FACTORS];
+        for i in 0..MAX_FACTORS {
+            edges[i] = if i < domain.factors() { points[i] } else { 0 };
+            self.fixed[i * LANES + lane] = fixed[i];
+            self.points[i * LANES + lane] = edges[i];
+        }
+        edges
+    }
+}
+
+/// The number of a topology, as packets have it.
+#[inline(always)]
+fn topology(edges: &EdgePoints, minimum: u32) -> u64 {
+    let topology = edges.iter().fold(1, |topology, &points| (topology << 7) | u64::from(points));
+    (topology << 1) | u64::from(minimum)
+}
+
+/// See [`PacketPatch::is_compact`](super::PacketPatch::is_compact).
+#[inline(always)]
+fn is_compact(domain: Domain, edges: &EdgePoints) -> bool {
+    let [.., inside, _, _] = *edges;
+    let fits = edges.iter().fold(true, |fits, &points| fits & (points as usize <= COMPACT_EDGE));
+    match domain {
+        Domain::Isoline => false,
+        Domain::Triangle => fits & (inside as usize <= COMPACT_TRIANGLE_INSIDE),
+        Domain::Quad => fits,
+    }
+}
