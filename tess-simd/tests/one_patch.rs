@@ -15,7 +15,7 @@ use tess_core::{
 use tess_simd::{
     Batch, Buffer, Buffers, Error, IndexFormat, Level, Numbering, Order, OutputPoint, Tessellator,
 };
-use tess_verify::generate::{self, Selection};
+use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::random::SplitMix64;
 
 /// Points and indices that no patch has.
@@ -75,7 +75,7 @@ fn compare(level: Level, config: Config, order: Order, all: &[(PatchFactors, Tes
 /// Level 1 of the kit and random patches, domains mixed, in an order that makes neighbours unlike.
 #[test]
 fn one_patch_a_call_is_the_core() {
-    let cases: Vec<_> = Selection::level(generate::Level::One, 1).cases().collect();
+    let cases: Vec<_> = Selection::level(GenLevel::One, 1).cases().collect();
     for (seed, config) in (0..).zip(configs()) {
         let own = cases.iter().filter(|case| case.config == config).map(|case| case.factors);
         let mut all: Vec<_> = own.collect();

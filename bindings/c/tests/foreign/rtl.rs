@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
-use tess_verify::generate::{Level, Selection};
+use tess_verify::generate::{GenLevel, Selection};
 
 /// The planted faults: number, the stage and the signal that are named first.
 const FAULTS: &[(u32, &str, &str)] = &[
@@ -53,7 +53,7 @@ fn verdict(said: &str, patches: u64) -> Result<(), String> {
 pub(crate) fn equals_model() -> Result<(), Failed> {
     let mut lines = String::new();
     let mut count = 20_000;
-    for case in Selection::level(Level::One, 1).cases() {
+    for case in Selection::level(GenLevel::One, 1).cases() {
         let case = case.to_string();
         writeln!(lines, "{}", case.strip_prefix("case ").ok_or("a case line")?)?;
         count += 1;
