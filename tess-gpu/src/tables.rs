@@ -29,7 +29,7 @@ pub(crate) const PLAIN_STRIP: u32 = MIRRORED_STRIP + 64;
 /// Words of the whole table.
 pub(crate) const WORDS: u32 = STITCHES_AT + STITCH_WORDS * (PLAIN_STRIP + 1);
 
-/// All tables of a split order, [`WORDS`] words.
+/// All tables of a split order, as words: what [`Resource::Tables`](crate::Resource::Tables) holds.
 #[must_use]
 pub fn tables(split: SplitOrder) -> Vec<u32> {
     let mut words: Vec<u32> = (1..=64).filter_map(reciprocal).collect();
