@@ -132,8 +132,9 @@ impl Tessellator {
         let slicing = Slicing::new(batch.len(), workspaces.threads());
         slices.clear();
         let keep = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
+        // Made by the first batch whatever its size, so that no later one allocates.
+        let packets = kept.get_or_insert_with(|| Box::new([Packet::EMPTY; _]));
         if keep {
-            let packets = kept.get_or_insert_with(|| Box::new([Packet::EMPTY; _]));
             slices.push(levels::count_and_keep(level, settings.config, &batch, packets));
         } else {
             slices.resize(slicing.slices, PartCounts::default());
@@ -144,7 +145,7 @@ impl Tessellator {
         if total.points.max(total.indices) > u64::from(u32::MAX) {
             return Err(Error::BatchTooLarge { points: total.points, indices: total.indices });
         }
-        let kept = if keep { kept.as_deref() } else { None };
+        let kept = keep.then_some(&**packets);
         Ok(Counted { level, settings, workspaces, batch, slicing, slices, total, kept })
     }
 
