@@ -83,7 +83,7 @@ fn overlays_of_coordinates() {
     fs::write(&file, capture.replace("0 0 1", "0 0.5 0.5")).expect("a faulty capture");
     let run = tess(&draw);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
-    assert!(run.stderr.contains("1 points and 1 primitives differ"), "{}", run.stderr);
+    assert!(run.stderr.contains(": 1 point and 1 primitive\n"), "{}", run.stderr);
 }
 
 /// What cannot be drawn is marked in red and named.
