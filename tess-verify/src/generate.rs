@@ -113,7 +113,7 @@ impl Selection {
             GenLevel::Rules => related::systematic(),
         };
         let systematic = systematic.into_iter().filter(move |case| self.selects(case));
-        let random: Box<dyn Iterator<Item = Case>> = match self.level {
+        let random: Box<dyn Iterator<Item = Case> + Send> = match self.level {
             GenLevel::Rules => Box::new(self.random_families()),
             _ => Box::new(self.random_cases()),
         };

@@ -60,11 +60,3 @@ impl fmt::Display for Info {
         }
     }
 }
-
-/// Every device that the system's loader knows, in its order.
-///
-/// # Errors
-/// [`Error::NoLoader`](crate::Error::NoLoader) without Vulkan.
-pub fn list() -> Result<Vec<Info>, crate::Error> {
-    crate::vulkan::list()
-}

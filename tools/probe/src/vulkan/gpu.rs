@@ -62,8 +62,11 @@ fn instance() -> Result<(ash::Entry, ash::Instance), Error> {
     Ok((entry, instance))
 }
 
-/// What every device is called, in the loader's order.
-pub(crate) fn list() -> Result<Vec<Info>, Error> {
+/// Every device that the system's loader knows, in its order.
+///
+/// # Errors
+/// [`Error::NoLoader`] without Vulkan.
+pub fn list() -> Result<Vec<Info>, Error> {
     let (_entry, instance) = instance()?;
     // SAFETY: the instance is alive.
     let devices = unsafe { instance.enumerate_physical_devices() };

@@ -10,5 +10,6 @@ pub(crate) use buffer::Buffer;
 pub(crate) use commands::Commands;
 pub(crate) use compute::Compute;
 pub use compute::Spirv;
-pub(crate) use gpu::{Gpu, list};
+pub(crate) use gpu::Gpu;
+pub use gpu::list;
 pub(crate) use pipeline::{Pass, Pipeline, Program, STAGES, Vertices};

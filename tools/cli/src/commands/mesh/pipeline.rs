@@ -2,7 +2,7 @@
 //!
 //! Beyond the model, memory holds the factors of its patches and one block, whatever the factors.
 
-use super::output::{Sink, Totals};
+use super::output::{Block, Sink, Totals};
 use super::statistics::{Stage, Statistics};
 use crate::failure::Failure;
 use crate::output::progress;
@@ -33,17 +33,6 @@ pub(crate) struct Job<'a> {
     pub(crate) partitioning: Partitioning,
     /// The same patches with their displacement, if they are displaced.
     pub(crate) displaced: Option<&'a DisplacedModel<'a>>,
-}
-
-/// Part of the result.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Block<'a> {
-    /// How many vertices came before.
-    pub(crate) first_vertex: u64,
-    /// The vertices.
-    pub(crate) vertices: &'a [Sample],
-    /// Three numbers for each triangle, counted from this block's first vertex.
-    pub(crate) indices: &'a [u32],
 }
 
 /// Patches of one domain, their factors ready.

@@ -1,46 +1,12 @@
 //! A stage in each language, through naga's writers.
 
 use super::manifest::{Binding, Kind, Sizes, Stage as Described};
-use clap::ValueEnum;
+use super::translation::{Checks, Target, Translation};
 use naga::back::{glsl, hlsl, msl, spv};
 use naga::proc::{BoundsCheckPolicies, BoundsCheckPolicy};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ResourceBinding, ShaderStage, TypeInner};
-use serde::Serialize;
 use tess_gpu::{Access, Resource, Setup, Stage};
-
-/// The languages.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub(super) enum Target {
-    /// WebGPU
-    Wgsl,
-    /// Vulkan 1.1, OpenGL 4.6: SPIR-V 1.3
-    Spirv,
-    /// OpenGL 4.3
-    Glsl,
-    /// Direct3D 11 and 12: shader model 5.1
-    Hlsl,
-    /// Metal 2.0; no compiler has checked it
-    Msl,
-}
-
-/// Which accesses and loops a shader checks itself.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum Checks {
-    /// All: even a buffer that is too small is not overrun, and every loop ends
-    Full,
-    /// None: buffers must have the sizes that the manifest says
-    None,
-}
-
-/// How stages are written.
-#[derive(Clone, Copy, Debug, Serialize)]
-pub(super) struct Translation {
-    pub(super) target: Target,
-    pub(super) checks: Checks,
-}
 
 /// A stage in its language.
 pub(super) struct Written {

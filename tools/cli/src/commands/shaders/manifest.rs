@@ -1,8 +1,8 @@
 //! The manifest: what a host needs to run the shaders. docs/shaders.md explains each entry.
 
-use super::languages::Translation;
 use super::plan::{Variant, name_of, resources};
 use super::structures::Structure;
+use super::translation::Translation;
 use serde::Serialize;
 use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{IndexType, Numbering, PointFormat, Resource, Setup};

@@ -8,16 +8,12 @@ mod plan;
 mod structures;
 #[cfg(test)]
 mod tests;
+mod translation;
 
 use crate::args::name_of;
 use crate::failure::{Exit, Failure};
 use crate::output::{NewFolder, json, refuse_stdout};
 use clap::ValueEnum;
-#[cfg(feature = "probe")]
-pub(crate) use languages::Checks;
-#[cfg(not(feature = "probe"))]
-use languages::Checks;
-use languages::{Target, Translation};
 use manifest::Manifest;
 use std::fs;
 use std::io;
@@ -25,6 +21,11 @@ use std::path::{Path, PathBuf};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::tables;
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+#[cfg(feature = "probe")]
+pub(crate) use translation::Checks;
+#[cfg(not(feature = "probe"))]
+use translation::Checks;
+use translation::{Target, Translation};
 
 /// Write the compute shaders for any API, with a manifest that says how to run them
 #[derive(Debug, clap::Args)]

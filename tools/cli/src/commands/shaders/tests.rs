@@ -1,7 +1,7 @@
 //! The formulas against the plan, and every language against a compiler that is not naga.
 
-use super::languages::{Checks, Target, Translation};
 use super::plan::{self, Count, Variant};
+use super::translation::{Checks, Target, Translation};
 use super::{Shaders, header};
 use std::collections::HashSet;
 use std::mem::offset_of;

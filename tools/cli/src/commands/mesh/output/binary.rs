@@ -3,9 +3,9 @@
 //! How many vertices and indices there will be is known beforehand. So every thread makes the bytes of a
 //! part of a block, and writes them to their place.
 
+use super::Block;
 use super::{IndexWidth, Options, Totals};
 use crate::commands::mesh::input::Up;
-use crate::commands::mesh::pipeline::Block;
 use crate::output::OutputFile;
 use glam::Vec3;
 use rayon::prelude::*;

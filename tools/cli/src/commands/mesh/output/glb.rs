@@ -1,8 +1,8 @@
 //! GLB: JSON and binary part in one file.
 
+use super::Block;
 use super::binary::Binary;
 use super::{Options, Sink, Totals};
-use crate::commands::mesh::pipeline::Block;
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use std::io;

@@ -1,8 +1,8 @@
 //! glTF in two files: the JSON, and the binary part beside it with the extension `.bin`.
 
+use super::Block;
 use super::binary::Binary;
 use super::{Options, Sink, Totals};
-use crate::commands::mesh::pipeline::Block;
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use serde_json::Value;

@@ -8,11 +8,22 @@ mod picture;
 mod raster;
 
 use super::input::Up;
-use super::pipeline::Block;
 use super::view::View;
 use crate::failure::Failure;
 use crate::output::form::Form;
 use std::path::{Path, PathBuf};
+use tess_surface::Sample;
+
+/// Part of the result.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Block<'a> {
+    /// How many vertices came before.
+    pub(crate) first_vertex: u64,
+    /// The vertices.
+    pub(crate) vertices: &'a [Sample],
+    /// Three numbers for each triangle, counted from this block's first vertex.
+    pub(crate) indices: &'a [u32],
+}
 
 /// How much there will be.
 #[derive(Clone, Copy, Debug, Default)]

@@ -1,7 +1,7 @@
 //! OBJ: positions, texture coordinates, normals and triangles, block after block.
 
+use super::Block;
 use super::Sink;
-use crate::commands::mesh::pipeline::Block;
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use std::io::{self, BufWriter, Write};

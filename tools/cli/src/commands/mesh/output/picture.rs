@@ -1,8 +1,8 @@
 //! PNG pictures: shaded, or with the triangles' edges.
 
+use super::Block;
 use super::raster::{Fragment, Raster};
 use super::{Options, Sink};
-use crate::commands::mesh::pipeline::Block;
 use crate::commands::mesh::view::View;
 use crate::failure::Failure;
 use crate::output::OutputFile;
