@@ -38,11 +38,14 @@ impl Watch {
     }
 }
 
+/// The exception that a signal's handler raised, if one did.
+pub(crate) type Raised = Arc<Mutex<Option<PyErr>>>;
+
 /// A file whose reader can be interrupted, also while it waits for a pipe.
 pub(crate) struct Watched {
     file: File,
     stop: Arc<AtomicBool>,
-    raised: Arc<Mutex<Option<PyErr>>>,
+    raised: Raised,
 }
 
 impl Watched {
@@ -52,7 +55,7 @@ impl Watched {
     }
 
     /// Where the exception will be that a handler raised while this was read.
-    pub(crate) fn raised(&self) -> Arc<Mutex<Option<PyErr>>> {
+    pub(crate) fn raised(&self) -> Raised {
         Arc::clone(&self.raised)
     }
 }
@@ -91,7 +94,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
     let own = Arc::clone(&stop);
     // Nobody takes the result of work that was interrupted.
     let run = move || _ = give.send(work(own));
-    std::thread::Builder::new().spawn(run).map_err(|error| PyOSError::new_err(error))?;
+    std::thread::Builder::new().spawn(run).map_err(PyOSError::new_err)?;
     loop {
         let wait = || take.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(PATIENCE);
         match py.detach(wait) {

@@ -5,7 +5,7 @@ use crate::coverage::Coverage;
 use crate::errors::{self, argument, file_format};
 use crate::names::{named, whole, whole_or_none};
 use crate::patch::Patch;
-use crate::signals::{self, Watch, Watched};
+use crate::signals::{self, Raised, Watch, Watched};
 use crate::strength::{one_of, strength};
 use crate::values;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
@@ -169,7 +169,7 @@ pub(crate) struct VectorFile {
     #[pyo3(get)]
     source: String,
     records: Mutex<Reader>,
-    raised: Arc<Mutex<Option<PyErr>>>,
+    raised: Raised,
 }
 
 #[pymethods]
@@ -221,10 +221,7 @@ impl NotOpen {
 }
 
 /// Opens a vector file and reads its first line.
-fn open(
-    path: &Path,
-    stop: Arc<AtomicBool>,
-) -> Result<(Reader, Arc<Mutex<Option<PyErr>>>), NotOpen> {
+fn open(path: &Path, stop: Arc<AtomicBool>) -> Result<(Reader, Raised), NotOpen> {
     let file = Watched::new(File::open(path).map_err(NotOpen::File)?, stop);
     let raised = file.raised();
     let name = path.display().to_string();
