@@ -16,13 +16,13 @@ fn quads(factor: f32, count: usize) -> Vec<PatchFactors> {
     vec![PatchFactors::uniform(Domain::Quad, factor); count]
 }
 
-/// A device that allows buffers of 1 MiB.
-fn small_device() -> Gpu {
+/// A device that allows buffers up to this size, in bytes.
+fn small_device(max_buffer_size: u64) -> Gpu {
     let mut gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let adapter = pollster::block_on(instance.request_adapter(&Default::default()));
     let descriptor = wgpu::DeviceDescriptor {
-        required_limits: wgpu::Limits { max_buffer_size: 1 << 20, ..Default::default() },
+        required_limits: wgpu::Limits { max_buffer_size, ..Default::default() },
         ..Default::default()
     };
     let device = pollster::block_on(adapter.expect("an adapter").request_device(&descriptor));
@@ -82,19 +82,20 @@ fn patches_of_another_domain_are_refused() {
 /// Too much output, too many factors, and what lies between them.
 #[test]
 fn what_exceeds_the_device_is_refused() {
-    let gpu = small_device();
-    let mut tessellator = Tessellator::new(&gpu.device);
-    let limit = 1 << 20;
-    // The tables of constants alone are larger.
-    let output = tessellator.tessellate(&gpu, setup(Domain::Quad), &quads(1.0, 1));
-    let expected = |buffer: &str, needed| {
-        let buffer = buffer.to_owned();
-        Some(Error::BufferTooLarge { buffer, needed, limit })
-    };
-    assert_eq!(output.err(), expected("tables", 4 * 540_864), "tables");
-    let patches = quads(1.0, 50_000);
-    let output = tessellator.tessellate(&gpu, setup(Domain::Quad), &patches);
-    assert_eq!(output.err(), expected("factors", 24 * 50_000), "factors");
+    // The tables of constants alone are larger: fewer patches would not help.
+    let (needed, got) = (4 * 540_864, 1 << 20);
+    let gpu = small_device(got);
+    let output =
+        Tessellator::new(&gpu.device).tessellate(&gpu, setup(Domain::Quad), &quads(1.0, 1));
+    let expected = Error::LimitTooLow { limit: "max_buffer_size", needed, got };
+    assert_eq!(output.err(), Some(expected), "tables");
+
+    let limit = 1 << 22;
+    let gpu = small_device(limit);
+    let patches = quads(1.0, 200_000);
+    let output = Tessellator::new(&gpu.device).tessellate(&gpu, setup(Domain::Quad), &patches);
+    let (buffer, needed) = ("factors".to_owned(), 24 * 200_000);
+    assert_eq!(output.err(), Some(Error::BufferTooLarge { buffer, needed, limit }), "factors");
 
     let mut machine = Machine::open();
     let patches = quads(64.0, 8_000);
