@@ -170,12 +170,11 @@ module tess_connect (
     tess_mask inner_begins_mask (.points(begins_inside), .center(begins_center), .mask(inner_begins));
 
     logic [7:0] steps, step_next;
-    logic       ends_edge, is_last, has_strip;
+    logic       ends_edge, is_last;
     assign steps     = {1'b0, outer_points} + {1'b0, inner_points} - 8'd2;
     assign step_next = {1'b0, outer_at} + {1'b0, inner_at} + 8'd1;
     assign ends_edge = step_next == steps;
     assign is_last   = number == patch.primitives - 14'd1;
-    assign has_strip = is_quad;
 
     assign start_ready = advance && (!active || is_last);
 
@@ -246,7 +245,7 @@ module tess_connect (
                         ring        <= ring + 6'd1;
                         outer_start <= outer_after;
                         inner_start <= inner_after + {12'd0, `TESS_FAULT(9)};
-                        if (is_last_ring) at <= has_strip ? AT_STRIP : AT_CENTRE;
+                        if (is_last_ring) at <= is_quad ? AT_STRIP : AT_CENTRE;
                     end
                 end else begin
                     outer_at   <= outer_at + {6'd0, advances_outer};

@@ -7,7 +7,6 @@
 //   +gaps           random gaps between patches, random back-pressure on each stream
 //   +resets=N       N resets, each in the middle of a patch, before anything is checked
 //   +fault=N        plants fault N of the design, which must then be found
-//   +cycles         says for each configuration how many clocks its patches took (without +gaps)
 // Exit: PASS, or $fatal. Each difference prints the patch as a line that `tess explain` and +stimuli take.
 module tb_tess;
     import tess_dpi::*;
