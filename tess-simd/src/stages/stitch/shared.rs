@@ -50,9 +50,11 @@ impl SharedStitches {
         Self(alloc::sync::Arc::new(Stitches::new(config)))
     }
 
-    /// Bytes of the tables if they belong to this tessellator and its clones, 0 if to the process.
+    /// Bytes of the tables and of the counters of their owners if they belong to this tessellator and
+    /// its clones, 0 if to the process.
     pub(crate) fn bytes(&self) -> usize {
-        if cfg!(feature = "std") { 0 } else { self.0.bytes() }
+        const COUNTERS: usize = 2 * size_of::<usize>();
+        if cfg!(feature = "std") { 0 } else { COUNTERS + self.0.bytes() }
     }
 }
 
