@@ -1,18 +1,19 @@
-//! Runs what is not Rust: the header in a C and a C++ compiler, the C example, the Verilog benches
-//! of the placer and of the whole circuit, the UVM package.
+//! Runs what is not Rust: the header in a C and a C++ compiler, the C example, the tessellator
+//! for Mesa, the Verilog benches of the placer and of the whole circuit, the UVM package.
 //!
 //! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the
 //! environment variable `CI` set they fail.
 
 mod foreign {
     pub(crate) mod c;
+    pub(crate) mod mesa;
     pub(crate) mod rtl;
     pub(crate) mod tools;
     pub(crate) mod uvm;
     pub(crate) mod verilog;
 }
 
-use foreign::{c, rtl, tools, uvm, verilog};
+use foreign::{c, mesa, rtl, tools, uvm, verilog};
 use libtest_mimic::{Arguments, Failed, Trial};
 
 type Test = fn() -> Result<(), Failed>;
@@ -26,6 +27,8 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("example_refuses_bad_usage", &["cc"], c::example_refuses_bad_usage),
     ("fuzz_finds_a_planted_fault", &["cc"], c::fuzz_finds_a_planted_fault),
     ("fuzz_entry_is_cpp", &["c++"], c::fuzz_entry_is_cpp),
+    ("mesa_interface_equals_golden", &["cc"], mesa::equals_golden),
+    ("mesa_draws_equal_model", &["cc"], mesa::draws_equal_model),
     ("rtl_equals_model", &["c++", "make", "verilator"], rtl::equals_model),
     ("rtl_faults_are_caught", &["c++", "make", "verilator"], rtl::faults_are_caught),
     ("rtl_stimuli_are_checked", &["c++", "make", "verilator"], rtl::stimuli_are_checked),
