@@ -81,8 +81,8 @@ fn slot_of<const N: usize>(target: u32, sizes: [u32; N]) -> (u32, u32) {
 
 #[cfg(test)]
 mod tests {
-    use crate::{Config, OutputPrimitive, Partitioning, Patch};
-    use crate::{PointOrigin, PrimitiveOrigin, QuadFactors};
+    use crate::{Config, DomainPoint, OutputPrimitive, Partitioning, Patch, Primitive};
+    use crate::{PointOrigin, PrimitiveOrigin, QuadFactors, TriangleFactors};
 
     /// The numbers of the head of this file.
     #[test]
@@ -101,5 +101,46 @@ mod tests {
             Some(PrimitiveOrigin::Ring { ring: 2, edge: 0, step: 7 }),
             "38 + 7"
         );
+    }
+
+    /// The numbers of the heads of `rings` and `point`.
+    #[test]
+    fn the_worked_rings() {
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+        let patch = Patch::new(config, TriangleFactors::from([3.0, 3.0, 3.0, 8.0]));
+        let rings = [18, 12, 6];
+        let points = 9 + rings.iter().sum::<u32>() + 1;
+        assert_eq!((patch.counts().points, patch.counts().primitives), (points, 27 + 30 + 18 + 6));
+        let (ring, edge) = (3, 0);
+        assert_eq!(patch.locate_primitive(60), Some(PrimitiveOrigin::Ring { ring, edge, step: 3 }));
+        assert_eq!(
+            patch.primitive(60),
+            Some(Primitive::Triangle([40, 29, 30])),
+            "27 to 31, 39 to 41"
+        );
+        let origin = PointOrigin::Ring { ring: 2, edge: 1, p: 2 };
+        assert_eq!(patch.locate_point(33), Some(origin), "9 + 18 + 4 + 2");
+        assert_eq!(
+            patch.point(33),
+            Some(DomainPoint::from_bits(0x6aaa, 0x2aab)),
+            "5 / 12 and 1 / 6"
+        );
+    }
+
+    /// The pictures of `centre_strip`.
+    #[test]
+    fn the_worked_strips() {
+        let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+        let strip = |inside_u, inside_v| {
+            let factors = QuadFactors::from([3.0, 3.0, 3.0, 3.0, inside_u, inside_v]);
+            let patch = Patch::new(config, factors);
+            [20, 21, 22, 23, 24, 25].map(|t| patch.primitive(t).expect("the last six"))
+        };
+        let along_u =
+            [[12, 13, 14], [12, 14, 19], [19, 14, 15], [19, 15, 18], [18, 15, 16], [18, 16, 17]];
+        assert_eq!(strip(5.0, 3.0), along_u.map(Primitive::Triangle), "all alike");
+        let along_v =
+            [[12, 13, 19], [19, 13, 18], [13, 17, 18], [13, 14, 17], [14, 15, 17], [17, 15, 16]];
+        assert_eq!(strip(3.0, 5.0), along_v.map(Primitive::Triangle), "the middle is turned");
     }
 }

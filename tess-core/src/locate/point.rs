@@ -1,4 +1,37 @@
 //! Which line, edge or ring the i-th point of a patch lies on, and where on it.
+//!
+//! [`locate`] turns a point's number into its origin, and [`point`] the origin into coordinates. They are apart because
+//! tests, `tess explain` and debuggers want the origin, and because shaders keep an origin to step to the next point.
+//!
+//! # The data
+//!
+//! ```text
+//! isoline    line 0: detail points | line 1 | ...                              i / points, i % points
+//! triangle   outer edges: n - 1 each | ring 1: 3 (n - 3) | ring 2: 3 (n - 5) | ... | centre: 1 if n is odd
+//! quad       outer edges: n - 1 each | ring 1: 2 (u - 3) + 2 (v - 3) | ...         | centre row
+//! ```
+//!
+//! An edge has its first point and leaves its last one to the next edge. Interior rings have the points of the inside
+//! factors, whatever the outer edges have.
+//!
+//! # One patch
+//!
+//! The triangle (3, 3, 3; 8), integer, has 9 points on its outer edges and n = 9 inside: 18, 12 and 6 on rings 1, 2 and
+//! 3, and the centre. Point 33 is number 24 of the interior. The rings begin at 0, 18 and 30, so it is number 6 of
+//! ring 2, which has 9 - 1 - 2 * 2 = 4 points on each edge: edge 1, point 2. Its coordinates are 0x6aaa and 0x2aab, close
+//! to 5 / 12 and 1 / 6. The test `the_worked_rings` has these numbers.
+//!
+//! # What holds
+//!
+//! - `i` is below the patch's count. Any other number would become a point of the centre.
+//! - `triangle_points_before` and `quad_points_before` are 0 for ring 1 and grow with the ring up to the last one that
+//!   goes round. Beyond it they fall, so the search ends there.
+//! - The sizes of a ring's edges are at least 1, since a ring that goes round has two points along each axis.
+//!
+//! # Why not simpler
+//!
+//! A walk that subtracts ring after ring takes up to 31 steps, and threads of a workgroup would wait for the longest.
+//! The search takes five for every point.
 
 use crate::connect::rings::Rings;
 use crate::connect::{quad as quad_rings, triangle as triangle_rings};
