@@ -1,5 +1,6 @@
 //! Planted faults: `cargo mutants` changes one thing at a time and demands that a test fails.
 
+mod built;
 mod fault;
 mod planted;
 
