@@ -117,7 +117,7 @@ fn messages() {
     let message = "a column has 8 factors and another 9; all need one length";
     assert_eq!(error.to_string(), message, "columns");
     let (found, expected) = (Domain::Quad, Domain::Triangle);
-    let message = "patch 3 has the domain Quad, those before it Triangle; a batch has one domain";
+    let message = "patch 3 has the domain Quad, its batch Triangle; a batch has one domain";
     assert_eq!(Error::MixedDomains { patch: 3, found, expected }.to_string(), message, "domains");
     let message = "this machine cannot run the CPU level avx512";
     assert_eq!(LevelUnavailable(Level::Avx512).to_string(), message, "a level");

@@ -50,11 +50,11 @@ pub enum Error {
     },
     /// The patches of the batch have different domains. Make a batch of each domain.
     MixedDomains {
-        /// Number of the first patch that differs from those before it.
+        /// Number of the first patch with another domain than the batch.
         patch: usize,
         /// Its domain.
         found: Domain,
-        /// The domain of the patches before it.
+        /// The batch's domain: the one it was made with, or the first patch's.
         expected: Domain,
     },
 }
@@ -85,8 +85,7 @@ impl fmt::Display for Error {
             }
             Self::MixedDomains { patch, found, expected } => write!(
                 f,
-                "patch {patch} has the domain {found:?}, those before it {expected:?}; a batch has \
-                 one domain"
+                "patch {patch} has the domain {found:?}, its batch {expected:?}; a batch has one domain"
             ),
         }
     }

@@ -11,8 +11,10 @@ impl fmt::Display for Explanation {
         writeln!(f, "Decisions (spec section 3)")?;
         self.decisions.iter().try_for_each(|sentence| writeln!(f, "  {sentence}"))?;
         writeln!(f, "\nCounts (spec section 12.6)")?;
-        let Self { points, primitives, indices, .. } = self;
-        writeln!(f, "  {points} points, {primitives} primitives, {indices} indices")?;
+        let points = counted(self.points, ["point", "points"]);
+        let primitives = counted(self.primitives, ["primitive", "primitives"]);
+        let indices = counted(self.indices, ["index", "indices"]);
+        writeln!(f, "  {points}, {primitives}, {indices}")?;
         self.write_points(f)?;
         self.write_stitches(f)
     }
@@ -70,6 +72,11 @@ impl Explanation {
         }
         Ok(())
     }
+}
+
+/// A number with the word for what it counts.
+fn counted(number: u32, [one, many]: [&str; 2]) -> String {
+    format!("{number} {}", if number == 1 { one } else { many })
 }
 
 fn write_factor(f: &mut fmt::Formatter<'_>, factor: &FactorReport) -> fmt::Result {
