@@ -2,7 +2,7 @@
 
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::case::Case;
-use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
+use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength, flushed};
 
 const QUAD: &str = "case quad fractional_odd triangle_cw ruler \
                     40600000 40200000 40a00000 40400000 40900000 40d00000";
@@ -147,6 +147,14 @@ fn denormals_are_flushed_in_every_outer_position() {
             assert_eq!(is_flushed, position < domain.outer_factors(), "{domain:?} {position}");
         }
     }
+}
+
+/// The case that a culled patch answers has its inside factors as they were.
+#[test]
+fn outer_denormals_alone_become_zero() {
+    let given = QUAD.replace("40600000", "00000001").replace("40d00000", "00000001");
+    let flushed = flushed(&case(&given)).expect("the first factor is flushed");
+    assert_eq!(flushed, case(&given.replacen("00000001", "00000000", 1)), "the last one is not");
 }
 
 #[test]

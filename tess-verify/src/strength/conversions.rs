@@ -26,7 +26,7 @@
 use super::{Conversion, Denormals, Strength};
 use crate::case::Case;
 use crate::generate::from_fixed;
-use tess_core::{Domain, PatchFactors, ProcessedFactor, Tessellation};
+use tess_core::{PatchFactors, ProcessedFactor, Tessellation};
 
 /// A value, rounded and clamped, that has two legal fixed-point numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,11 +64,8 @@ impl Alternatives {
             (Conversion::Within06Ulp, Some(factors)) => factors,
             _ => return Self { case: *case, values, value_of: none },
         };
-        let mut position = 0;
         let value_of = factors.map(|factor| {
-            let ambiguous = ambiguous(&factor).filter(|_| is_fractional(case, position));
-            position += 1;
-            let ambiguous = ambiguous?;
+            let ambiguous = ambiguous(&factor)?;
             let known = values.iter().position(|value| *value == ambiguous);
             Some(known.unwrap_or_else(|| {
                 values.push(ambiguous);
@@ -95,14 +92,9 @@ impl Alternatives {
     }
 }
 
-/// Whether factor `position` keeps its fraction.
-fn is_fractional(case: &Case, position: usize) -> bool {
-    let density = case.domain() == Domain::Isoline && position == 0;
-    !density && !case.config.partitioning.has_integer_factors()
-}
-
 /// The legal numbers of a factor that lies within 0.4 to 0.6 of the way between two: the nearest is at most
-/// half a unit away, and the other one at most 0.6 if the nearest is at least 0.4.
+/// half a unit away, and the other one at most 0.6 if the nearest is at least 0.4. A density, or a factor of an integer
+/// partitioning, was rounded up to an integer before, so it has one number.
 #[expect(clippy::float_arithmetic, reason = "exact: a binary32 scaled by 2^16 in binary64")]
 fn ambiguous(factor: &ProcessedFactor) -> Option<Ambiguous> {
     let scaled = f64::from(f32::from_bits(factor.rounded)) * 65536.0;
@@ -176,5 +168,7 @@ mod tests {
         assert_eq!(values(&tie.replace("40a00000", "40400020")), 1, "one value on two edges");
         assert_eq!(values(&tie.replace("40a00000", "40800010")), 2, "two values");
         assert_eq!(values(&tie.replace("fractional_odd", "integer")), 0, "rounded up");
+        let line = "case isoline fractional_odd line ruler 40400020 40400020";
+        assert_eq!(values(line), 1, "the detail; the density is rounded up");
     }
 }
