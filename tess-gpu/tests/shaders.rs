@@ -2,9 +2,11 @@
 
 mod common;
 
+use common::evaluate::{self, Argument};
 use common::{COUNTING, DRAWING, PULLING, all_setups, parse};
 use naga::{AddressSpace, Module, ScalarKind, TypeInner};
-use tess_gpu::{Access, Binding, Counting, Fault, Pull, Resource, Stage, Tap, layout};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+use tess_gpu::{Access, Binding, Counting, Fault, Pull, Resource, Setup, Stage, Tap, layout};
 
 #[test]
 fn every_shader_is_valid_in_every_setup() {
@@ -188,6 +190,46 @@ fn layouts_are_those_of_the_shaders() {
         members(&module, "Status")[..5],
         (0..).map(|n| 4 * n).zip(status).collect::<Vec<_>>()
     );
+}
+
+/// Each bit of two words, and no bit.
+fn words_of_one_bit() -> impl Iterator<Item = [u32; 2]> {
+    (0..=64).map(|bit| 1u64.checked_shl(bit).unwrap_or(0)).map(|bits| {
+        let [low, high] = [bits, bits >> 32].map(|half| half & u64::from(u32::MAX));
+        [low, high].map(|half| u32::try_from(half).expect("32 bits"))
+    })
+}
+
+/// Topologies and contexts have the same bits in both languages: each accessor reads them from the same place.
+#[test]
+fn packed_words_are_read_alike() {
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    let module = parse(&Stage::ExpandPoints.source(Setup::new(Domain::Quad, config)));
+    for words in words_of_one_bit() {
+        let shaders = |name| evaluate::call(&module, name, &[Argument::Two(words)]);
+        let topology = layout::Topology(words);
+        assert_eq!(shaders("state_of"), topology.state(), "{words:x?}");
+        let inside = ["inside_u", "inside_v"].map(shaders);
+        assert_eq!(inside, topology.inside_points(), "{words:x?}");
+        for edge in 0..4 {
+            let arguments = [Argument::Two(words), Argument::One(edge)];
+            let points = evaluate::call(&module, "outer_points", &arguments);
+            assert_eq!(points, topology.outer_points(edge), "{words:x?}, edge {edge}");
+        }
+        let context = layout::unpack_context(words);
+        // The shaders leave out the top bit of `inv_ceil`, which multiplies 0.
+        let rest = context.inv_ceil & 0xffff;
+        for (name, expected) in [
+            ("inv_floor_of", context.inv_floor),
+            ("inv_ceil_of", rest),
+            ("fraction_of", context.fraction),
+            ("half_points_of", context.half_points),
+            ("split_of", context.split),
+            ("odd_of", context.parity.odd()),
+        ] {
+            assert_eq!(shaders(name), expected, "{name} of {words:x?}");
+        }
+    }
 }
 
 fn members<'a>(module: &'a Module, name: &str) -> Vec<(usize, &'a str)> {

@@ -2,6 +2,8 @@
 
 #![allow(dead_code, reason = "each test crate uses its part")]
 
+pub(crate) mod evaluate;
+
 use naga::Module;
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
