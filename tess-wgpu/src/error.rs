@@ -111,6 +111,11 @@ pub enum Error {
         /// The most that the device's `max_storage_buffer_binding_size` allows.
         most: u32,
     },
+    /// The device lacks features. Ask for them when it is opened, as [`crate::Gpu::open_with`] does.
+    MissingFeatures {
+        /// What it lacks.
+        missing: wgpu::Features,
+    },
     /// A tessellation stage cannot be made or used like this.
     Stage(StageError),
     /// wgpu refused an object or a command, for example to read beyond the end of a buffer.
@@ -186,6 +191,10 @@ impl fmt::Display for Error {
                 f,
                 "{got} patches without a point buffer are more than one binding holds, {most}; \
                  make fewer at a time, or store the points"
+            ),
+            Self::MissingFeatures { missing } => write!(
+                f,
+                "the device lacks {missing}; ask for it when the device is opened, if the adapter has it"
             ),
             Self::Stage(error) => error.fmt(f),
             Self::Refused { reason } => write!(f, "wgpu refused: {reason}"),

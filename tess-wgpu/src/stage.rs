@@ -141,18 +141,19 @@ impl TessellationStage {
     }
 
     /// The buffers of the last frame that was prepared, for an engine that records the draws itself. A call of
-    /// [`Self::prepare`] replaces them if it makes more room or if [`Self::set_groups`] came before it. `None`
-    /// unless points and indices are stored.
-    #[must_use]
-    pub const fn buffers(&self) -> Option<DrawBuffers<'_>> {
+    /// [`Self::prepare`] replaces them if it makes more room or if [`Self::set_groups`] came before it.
+    ///
+    /// # Errors
+    /// [`StageError::NothingStored`] unless points and indices are stored.
+    pub const fn buffers(&self) -> Result<DrawBuffers<'_>, Error> {
         match (&self.output.stored.points, &self.output.stored.indices) {
-            (Some(points), Some(indices)) => Some(DrawBuffers {
+            (Some(points), Some(indices)) => Ok(DrawBuffers {
                 points,
                 indices,
                 arguments: self.output.batch.draw_arguments(),
                 group_arguments: self.output.batch.group_arguments(),
             }),
-            _ => None,
+            _ => Err(Error::Stage(StageError::NothingStored)),
         }
     }
 
@@ -170,11 +171,28 @@ impl TessellationStage {
     /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or `draw`
     /// on.
     ///
+    /// A group other than the present one is tried first, in an encoder that is dropped. For groups that are replaced
+    /// each frame, [`Self::set_bind_group_unchecked`] saves the trial.
+    ///
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]; [`StageError::BadBindGroup`] for a group that does not go with its layout.
     /// The bind groups are then what they were.
     pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
         self.bound.set(&self.device, number, group)
+    }
+
+    /// Replaces a bind group as [`Self::set_bind_group`] does, without the trial. It is for a group that an earlier
+    /// call of [`Self::set_bind_group`] took for this number, or that has the same layout. With another group,
+    /// [`Self::prepare`] succeeds, and wgpu reports an error when the frame's encoder is finished.
+    ///
+    /// # Errors
+    /// [`StageError::NoSuchBindGroup`]. The bind groups are then what they were.
+    pub fn set_bind_group_unchecked(
+        &mut self,
+        number: u32,
+        group: &wgpu::BindGroup,
+    ) -> Result<(), Error> {
+        self.bound.set_unchecked(number, group)
     }
 
     /// Records new factors from the host for the first `patches.len()` patches. Patches that never had

@@ -19,20 +19,23 @@ impl Stopwatch {
         .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS)
         .union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_PASSES);
 
-    /// `None` if the device lacks [`Self::FEATURES`] or has no memory left.
-    #[must_use]
-    pub fn new(gpu: &Gpu) -> Option<Self> {
-        if !gpu.device.features().contains(Self::FEATURES) {
-            return None;
+    /// Makes room for timestamps.
+    ///
+    /// # Errors
+    /// [`Error::MissingFeatures`] of [`Self::FEATURES`]; [`Error::OutOfMemory`].
+    pub fn new(gpu: &Gpu) -> Result<Self, Error> {
+        let missing = Self::FEATURES - gpu.device.features();
+        if !missing.is_empty() {
+            return Err(Error::MissingFeatures { missing });
         }
         let usage = wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC;
-        let resolved = gpu.buffer("timestamps", 8 * u64::from(MAX_STAMPS), usage).ok()?;
+        let resolved = gpu.buffer("timestamps", 8 * u64::from(MAX_STAMPS), usage)?;
         let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
             label: Some("timestamps"),
             ty: wgpu::QueryType::Timestamp,
             count: MAX_STAMPS,
         });
-        Some(Self { queries, resolved })
+        Ok(Self { queries, resolved })
     }
 
     /// Runs what `work` records, and returns the nanoseconds that it took on the device.

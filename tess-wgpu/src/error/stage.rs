@@ -84,7 +84,7 @@ pub enum StageError {
     },
     /// The factors of this stage do not come from the host. Make it with `Factors::Host`.
     NotHostFactors,
-    /// A stage without a pipeline has to store its points and indices. Leave out `points`.
+    /// Whoever draws without the stage's pipeline needs stored points and indices. Leave out `points`.
     NothingStored,
 }
 
@@ -135,7 +135,7 @@ impl fmt::Display for StageError {
                 "the factors of this stage do not come from the host; make it with Factors::Host",
             ),
             Self::NothingStored => f.write_str(
-                "a stage without a pipeline stores its points and indices; leave out `points`",
+                "to draw without the stage's pipeline, points and indices have to be stored; leave out `points`",
             ),
             Self::BadBindGroup { number, reason } => write!(
                 f,

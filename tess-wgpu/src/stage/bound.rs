@@ -44,13 +44,24 @@ impl Bound {
         number: u32,
         group: &wgpu::BindGroup,
     ) -> Result<(), Error> {
-        let groups = self.groups.len();
-        let own = self.groups.get_mut(number as usize).zip(self.trials.get(number as usize));
-        let (own, trial) = own.ok_or(StageError::NoSuchBindGroup { number, groups })?;
-        if own != group {
+        let own = self.groups.get(number as usize).zip(self.trials.get(number as usize));
+        if let Some((own, trial)) = own
+            && own != group
+        {
             check(device, trial, number, group)?;
-            *own = group.clone();
         }
+        self.set_unchecked(number, group)
+    }
+
+    /// Replaces a group that is known to go with its layout.
+    pub(super) fn set_unchecked(
+        &mut self,
+        number: u32,
+        group: &wgpu::BindGroup,
+    ) -> Result<(), Error> {
+        let groups = self.groups.len();
+        let own = self.groups.get_mut(number as usize);
+        *own.ok_or(StageError::NoSuchBindGroup { number, groups })? = group.clone();
         Ok(())
     }
 }

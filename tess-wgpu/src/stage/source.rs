@@ -120,6 +120,36 @@ mod tests {
         assert_eq!(with_own_names(source), expected, "and nothing else");
     }
 
+    /// What helpers call among themselves; the README says nothing of it.
+    const OF_HELPERS: [&str; 6] = [
+        "tess_bilinear",
+        "tess_in_range",
+        "tess_is_before",
+        "tess_is_behind",
+        "tess_pn_edge_point",
+        "tess_root_quotient",
+    ];
+
+    #[test]
+    fn the_readme_has_every_helper() {
+        let readme = include_str!("../../README.md");
+        let declared = joined("", "");
+        let names = declared.lines().filter_map(|line| line.strip_prefix("fn ")?.split('(').next());
+        let (mut silent, mut own) = (Vec::new(), Vec::new());
+        for name in names {
+            match OF_HELPERS.contains(&name) {
+                true => own.push(name),
+                false
+                    if readme.contains(&format!("| `{name}("))
+                        || readme.contains(&format!(", `{name}(")) => {}
+                false => silent.push(name),
+            }
+        }
+        assert!(silent.is_empty(), "the README's table lacks {silent:?}");
+        own.sort_unstable();
+        assert_eq!(own, OF_HELPERS, "all of them are there");
+    }
+
     /// The least that a user writes, for a domain.
     fn user(domain: Domain) -> String {
         let kind = match domain {

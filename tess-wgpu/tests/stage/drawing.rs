@@ -173,6 +173,9 @@ fn a_stage_without_a_pipeline_stores_its_points() {
     for points in [Points::Pull, Points::PullWithoutIndices] {
         let refused = scene.builder().points(points).without_pipeline().build(&scene.gpu.device);
         assert_eq!(refused.err(), Some(StageError::NothingStored.into()), "{points:?}");
+        let stage = scene.build(scene.builder().points(points));
+        let refused = stage.buffers().err();
+        assert_eq!(refused, Some(StageError::NothingStored.into()), "{points:?}: its buffers");
     }
 }
 

@@ -4,7 +4,7 @@ use crate::drawing::scene;
 use crate::scene::{PATCHES, Scene, source};
 use tess_core::{Domain, Partitioning, PatchFactors};
 use tess_wgpu::stage::{Factors, PatchCount, Points, StageError};
-use tess_wgpu::{Error, Gpu, TessellationStage, Tessellator};
+use tess_wgpu::{Error, Gpu, Stopwatch, TessellationStage, Tessellator};
 use wgpu::BufferUsages as Usage;
 
 fn quads() -> Scene {
@@ -197,8 +197,14 @@ fn what_a_stage_cannot_do_is_refused() {
         let expected = StageError::BadPatchCount { offset, size: 8, usage };
         assert_eq!(refused, Some(expected.into()), "{usage:?} at {offset}");
     }
-    let refused = stage.set_bind_group(1, &scene.group).err();
-    assert_eq!(refused, Some(StageError::NoSuchBindGroup { number: 1, groups: 1 }.into()));
+    let refused = [
+        stage.set_bind_group(1, &scene.group).err(),
+        stage.set_bind_group_unchecked(1, &scene.group).err(),
+    ];
+    assert_eq!(
+        refused,
+        [0; 2].map(|_| Some(StageError::NoSuchBindGroup { number: 1, groups: 1 }.into()))
+    );
     assert_eq!(stage.set_bind_group(0, &scene.group), Ok(()), "the one that there is");
     let mut refused = None;
     let drawn = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
@@ -236,6 +242,14 @@ fn a_device_without_compute_shaders_is_refused() {
     let patches = [PatchFactors::uniform(scene.domain, 3.0)];
     let output = Tessellator::new(&gpu.device).tessellate(&gpu, setup, &patches);
     assert_eq!(output.err(), Some(low), "batches");
+}
+
+#[test]
+fn a_device_without_timestamps_is_told_what_it_lacks() {
+    let refused = Stopwatch::new(&limited(wgpu::Limits::default())).err();
+    let error = Error::MissingFeatures { missing: Stopwatch::FEATURES };
+    assert!(error.to_string().contains("TIMESTAMP_QUERY_INSIDE_PASSES"), "{error}");
+    assert_eq!(refused, Some(error), "it was opened without");
 }
 
 #[test]

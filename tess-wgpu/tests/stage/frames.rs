@@ -212,6 +212,22 @@ fn bind_groups_go_with_their_layouts() {
 }
 
 #[test]
+fn bind_groups_are_replaced() {
+    let mut scene = scene(Domain::Quad, Partitioning::Integer);
+    let mut stage = scene.build(scene.builder());
+    let reversed: Vec<_> = scene.patches.iter().rev().copied().collect();
+    let (own, other) = (scene.group.clone(), scene.bind(&reversed));
+    for round in 0..2 {
+        stage.set_bind_group_unchecked(0, &other).expect("it goes with the layout");
+        scene.patches.reverse();
+        assert_exact(&scene, &mut stage, &format!("another group, round {round}"));
+        stage.set_bind_group(0, &own).expect("it goes with the layout");
+        scene.patches.reverse();
+        assert_exact(&scene, &mut stage, &format!("the first group, round {round}"));
+    }
+}
+
+#[test]
 fn a_first_frame_is_exact_where_room_was_made() {
     for overflow in [Overflow::Coarser, Overflow::DrawNothing] {
         for points in [Points::Stored, Points::Pull] {

@@ -39,6 +39,21 @@ fn is_gl(gpu: &Gpu) -> bool {
     gpu.info.backend == wgpu::Backend::Gl
 }
 
+/// A buffer of these factors.
+fn given(gpu: &Gpu, patches: &[PatchFactors]) -> wgpu::Buffer {
+    let words = tess_gpu::layout::factor_words(patches);
+    let bytes = bytemuck::cast_slice(&words);
+    gpu.upload("given", bytes, Usage::STORAGE).expect("the device has room")
+}
+
+fn bind(gpu: &Gpu, layout: &wgpu::BindGroupLayout, factors: &wgpu::Buffer) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: factors.as_entire_binding() }],
+    })
+}
+
 /// A device, a target and the patches' factors.
 #[derive(Debug)]
 pub(crate) struct Scene {
@@ -63,9 +78,7 @@ impl Scene {
 
     /// On this device.
     pub(crate) fn on(gpu: Gpu, domain: Domain, config: Config, patches: Vec<PatchFactors>) -> Self {
-        let words = tess_gpu::layout::factor_words(&patches);
-        let bytes = bytemuck::cast_slice(&words);
-        let factors = gpu.upload("given", bytes, Usage::STORAGE).expect("the device has room");
+        let factors = given(&gpu, &patches);
         let ty = wgpu::BufferBindingType::Storage { read_only: true };
         let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
             label: None,
@@ -80,11 +93,7 @@ impl Scene {
                 count: None,
             }],
         });
-        let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: factors.as_entire_binding() }],
-        });
+        let group = bind(&gpu, &layout, &factors);
         let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
             label: None,
             size: wgpu::Extent3d { width: SIZE[0], height: SIZE[1], depth_or_array_layers: 1 },
@@ -100,6 +109,11 @@ impl Scene {
             source = source.replace("@interpolate(flat)", "@interpolate(flat, either)");
         }
         Self { gpu, domain, config, patches, factors, layout, group, target, source }
+    }
+
+    /// The user's bind group with other factors.
+    pub(crate) fn bind(&self, patches: &[PatchFactors]) -> wgpu::BindGroup {
+        bind(&self.gpu, &self.layout, &given(&self.gpu, patches))
     }
 
     /// What the model says of these patches.

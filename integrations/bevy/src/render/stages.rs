@@ -149,7 +149,8 @@ impl Prepared {
         }
         let Some((stage, _)) = &mut self.stage else { return Ok(()) };
         stage.prepare(context.command_encoder(), content.patches)?;
-        self.drawn = stage.buffers().map(|buffers| Drawn {
+        let buffers = stage.buffers()?;
+        self.drawn = Some(Drawn {
             points: buffers.points.clone().into(),
             indices: buffers.indices.clone().into(),
             arguments: buffers.group_arguments.clone().into(),

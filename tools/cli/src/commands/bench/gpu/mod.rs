@@ -54,8 +54,8 @@ impl GpuRunner {
         }
         let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
             .map_err(|error| Failure::unavailable(error.to_string()))?;
-        let stopwatch = Stopwatch::new(&gpu).ok_or_else(|| {
-            Failure::unavailable(format!("{} has no timestamps to measure with", gpu.name()))
+        let stopwatch = Stopwatch::new(&gpu).map_err(|error| {
+            Failure::unavailable(format!("{} cannot be measured: {error}", gpu.name()))
         })?;
         let tessellator = Tessellator::new(&gpu.device);
         let fill = Fill::new(&gpu);
