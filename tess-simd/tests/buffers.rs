@@ -246,10 +246,44 @@ fn a_warm_tessellator_allocates_nothing() {
     };
     assert!(run(&large) > 0, "the output grows, and the counter sees it");
     assert_eq!(run(&large), 0, "warm");
+    assert!(run(&small) > 0, "templates of small patches");
     assert_eq!(run(&small), 0, "a smaller batch");
     assert_eq!(run(&[]), 0, "an empty batch");
-    let unseen: Vec<_> = (0..250u16)
-        .map(|i| QuadFactors { u0: f32::from(i % 7), v1: f32::from(i % 5), ..quad(3.5) })
-        .collect();
-    assert_eq!(run(&unseen), 0, "topologies that it has not seen");
+}
+
+/// All memory at once: no patch and no batch allocates, whatever comes, and there is not more in the end.
+#[test]
+fn a_reserved_tessellator_allocates_nothing() {
+    for partitioning in Partitioning::ALL {
+        let mut tessellator = Tessellator::new(Config { partitioning, ..CONFIG });
+        tessellator.reserve();
+        let memory = tessellator.memory();
+        assert!((1 << 20..1_200_000).contains(&memory), "{memory} bytes");
+        let mut output = Output::<[f32; 2], u32>::new();
+        let largest = Tessellator::new(CONFIG).tessellate(
+            &[QuadFactors::uniform(64.0); 300],
+            Numbering::PerPatch,
+            &mut output,
+        );
+        assert!(largest.is_ok(), "{largest:?}");
+        let (mut points, mut indices) = (vec![[0.0_f32; 2]; 5000], vec![0u16; 25_000]);
+        let patch = |i: u16| QuadFactors {
+            u0: f32::from(i % 7 + 1),
+            v1: f32::from(i % 5 + 1),
+            ..quad(f32::from(i % 250) / 4.0 + 1.0)
+        };
+        let all: Vec<_> = (0..6000).map(patch).collect();
+        let allocated = measure(|| {
+            for few in all.chunks(300) {
+                let result = tessellator.tessellate(few, Numbering::PerPatch, &mut output);
+                assert!(result.is_ok(), "{result:?}");
+            }
+            for &patch in &all {
+                let result = tessellator.patch(patch, &mut points, &mut indices);
+                assert!(result.is_ok(), "{result:?}");
+            }
+        });
+        assert_eq!(allocated.count_total, 0, "{partitioning:?}: allocations");
+        assert_eq!(tessellator.memory(), memory, "{partitioning:?}: memory");
+    }
 }

@@ -139,7 +139,8 @@ fn buffers_that_are_too_small() {
     }
 }
 
-/// A second tessellator of a configuration has its tables; a patch that was seen allocates nothing.
+/// A second tessellator of a configuration has its tables; a small patch takes little memory, and one that was
+/// seen none.
 #[test]
 fn memory() {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
@@ -159,6 +160,10 @@ fn memory() {
             assert!(written.is_ok(), "{written:?}");
         }
     };
-    once();
+    let first = measure(&mut once).bytes_max;
+    assert!(first <= 32 << 10, "{first} bytes for the first patches");
     assert_eq!(measure(once).count_total, 0, "allocations");
+    let (memory, first) = (tessellator.memory(), usize::try_from(first).expect("few"));
+    let tables = if cfg!(feature = "std") { 0 } else { 1 << 20 };
+    assert!((first / 2..=first + 2048 + tables).contains(&memory), "{memory} bytes, {first}");
 }

@@ -23,10 +23,13 @@ use tess_core::{Config, Order};
 ///
 /// Making one is cheap: less than a microsecond and a kilobyte. Tables that follow from the configuration
 /// (0.2 to 0.8 MB) are made once for the process, by the first tessellator that needs them, in about a
-/// millisecond; without the feature `std` each tessellator makes its own. What it learns of patches
-/// takes 1.1 MB more for each thread, from the first patch on ([`Tessellator::memory`]). After its first
-/// batch it allocates nothing but what an [`Output`] grows by and, on several threads, a short list for
-/// each batch.
+/// millisecond; without the feature `std` each tessellator makes its own.
+///
+/// What it learns of patches takes memory as it is used ([`Tessellator::memory`]): some 10 KB from the first
+/// small patch on, 20 KB more from the first batch on, and at most 1.1 MB for each thread. It allocates where a
+/// patch has point counts that are new to it, seldom after the first frames. [`Tessellator::reserve`] takes all
+/// of it before. What else is allocated is what an [`Output`] grows by and, on several threads, a short list
+/// for each batch.
 #[derive(Clone, Debug)]
 pub struct Tessellator {
     pub(super) level: Level,
@@ -71,7 +74,7 @@ impl Tessellator {
     /// A batch uses one thread for each 256 KiB of its output, so a second thread joins from 512 KiB on. The
     /// threads belong to the rayon pool that the caller runs in, otherwise to rayon's global pool. The global
     /// pool is started with at most [`Tessellator::MAX_THREADS`] threads, even if `RAYON_NUM_THREADS` asks for
-    /// more. Each thread takes 1.1 MB.
+    /// more. Each thread takes up to 1.1 MB.
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
@@ -108,6 +111,14 @@ impl Tessellator {
         self.level
     }
 
+    /// Takes all the memory that patches may ever need, 1.1 MB for each thread, so that no later call on one
+    /// thread allocates. For programs in which an allocation may not come late; others are faster without.
+    pub fn reserve(&mut self) {
+        self.workspaces.reserve();
+        self.slices.reserve(1);
+        self.kept.get_or_insert_with(no_packets);
+    }
+
     /// Bytes of memory that it takes on the heap so far; tables that it shares with others are not
     /// counted.
     #[must_use]
@@ -132,8 +143,8 @@ impl Tessellator {
         let slicing = Slicing::new(batch.len(), workspaces.threads());
         slices.clear();
         let keep = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
-        // Made by the first batch whatever its size, so that no later one allocates.
-        let packets = kept.get_or_insert_with(|| Box::new([Packet::EMPTY; _]));
+        // Made by the first batch whatever its size, so that no later one has to.
+        let packets = kept.get_or_insert_with(no_packets);
         if keep {
             slices.push(levels::count_and_keep(level, settings.config, &batch, packets));
         } else {
@@ -175,4 +186,9 @@ impl Tessellator {
     ) -> Result<BatchCounts, Error> {
         self.count(batch)?.tessellate(numbering, output)
     }
+}
+
+#[cold]
+fn no_packets() -> Box<[Packet; Chunk::PACKETS]> {
+    Box::new([Packet::EMPTY; _])
 }

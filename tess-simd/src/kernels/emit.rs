@@ -55,7 +55,6 @@ use crate::stages::packet::{Packet, PacketPatch};
 use crate::stages::points::{self, CompactPoints, LocationTables};
 use crate::stages::settings::Settings;
 use crate::stages::template::{CompactTemplate, CompactTemplates, Start, Templates, long};
-use alloc::boxed::Box;
 use tess_core::DomainPoint;
 
 /// Packets to write.
@@ -88,23 +87,31 @@ pub(crate) struct Offsets {
 /// configuration and the patches' factors.
 #[derive(Clone, Debug)]
 pub(crate) struct Caches {
-    tables: Box<LocationTables>,
+    tables: LocationTables,
     templates: Templates,
     compact: CompactTemplates,
 }
 
 impl Caches {
-    pub(crate) fn new() -> Self {
+    /// Empty ones, which grow as they are used.
+    pub(crate) const fn new() -> Self {
         Self {
-            tables: Box::new(LocationTables::EMPTY),
+            tables: LocationTables::EMPTY,
             templates: Templates::new(),
             compact: CompactTemplates::new(),
         }
     }
 
     /// Bytes of memory that they take on the heap.
-    pub(crate) fn bytes(&self) -> usize {
-        size_of::<LocationTables>() + self.templates.bytes() + self.compact.bytes()
+    pub(crate) const fn bytes(&self) -> usize {
+        self.tables.bytes() + self.templates.bytes() + self.compact.bytes()
+    }
+
+    /// Takes all the memory that they may ever need.
+    pub(crate) fn reserve(&mut self) {
+        self.tables.reserve();
+        self.templates.reserve();
+        self.compact.reserve();
     }
 }
 

@@ -6,6 +6,7 @@
 //! templates. Compact patches have templates in another form (`compact`).
 
 mod compact;
+mod room;
 
 pub(crate) use compact::{CompactTemplate, CompactTemplates, Start, long};
 
@@ -14,8 +15,8 @@ use crate::stages::connect::{self, cache_order};
 use crate::stages::packet::PacketPatch;
 use crate::stages::points::{self, LocationTables};
 use crate::stages::settings::Settings;
-use alloc::boxed::Box;
 use alloc::vec::Vec;
+use room::Room;
 use tess_core::{Config, Domain, DomainPoint, Patch, PatchFactors};
 
 /// The most points of a patch whose template is kept from the first one on: a quad of factor 16 has this many.
@@ -27,19 +28,15 @@ const SLOTS: usize = 1024;
 const INDEX_ROOM: usize = 96 << 10;
 /// Points of all templates.
 const POINT_ROOM: usize = 24 << 10;
-/// Room to read whole blocks.
-const PADDING: usize = 128;
-
-/// The templates of one configuration. 404 KiB.
+/// The templates of one configuration. They take memory as they are made, at most 400 KiB.
 #[derive(Clone, Debug)]
 pub(crate) struct Templates {
-    slots: Box<[Slot; SLOTS]>,
+    /// [`SLOTS`], but none before the first template.
+    slots: Vec<Slot>,
     /// Topology of the last large patch that had no template.
     last_large: u64,
-    indices: Vec<u16>,
-    points: Vec<DomainPoint>,
-    indices_used: usize,
-    points_used: usize,
+    indices: Room<u16, INDEX_ROOM>,
+    points: Room<DomainPoint, POINT_ROOM>,
 }
 
 /// Where a template begins.
@@ -49,6 +46,10 @@ struct Slot {
     topology: u64,
     point: u32,
     index: u32,
+}
+
+impl Slot {
+    const EMPTY: Self = Self { topology: 0, point: 0, index: 0 };
 }
 
 /// One patch's template.
@@ -61,22 +62,21 @@ pub(crate) struct Template<'a> {
 }
 
 impl Templates {
-    pub(crate) fn new() -> Self {
-        Self {
-            slots: Box::new([Slot { topology: 0, point: 0, index: 0 }; SLOTS]),
-            last_large: 0,
-            indices: alloc::vec![0; INDEX_ROOM],
-            points: alloc::vec![DomainPoint::default(); POINT_ROOM],
-            indices_used: 0,
-            points_used: 0,
-        }
+    /// No templates, and no memory for any.
+    pub(crate) const fn new() -> Self {
+        Self { slots: Vec::new(), last_large: 0, indices: Room::new(), points: Room::new() }
     }
 
     /// Bytes of memory that they take on the heap.
     pub(crate) const fn bytes(&self) -> usize {
-        size_of::<[Slot; SLOTS]>()
-            + INDEX_ROOM * size_of::<u16>()
-            + POINT_ROOM * size_of::<DomainPoint>()
+        self.slots.capacity() * size_of::<Slot>() + self.indices.bytes() + self.points.bytes()
+    }
+
+    /// Takes all the memory that they may ever need.
+    pub(crate) fn reserve(&mut self) {
+        self.slots.resize(SLOTS, Slot::EMPTY);
+        self.indices.reserve();
+        self.points.reserve();
     }
 
     /// The template of a patch that is not culled, if there is one or should be.
@@ -88,18 +88,16 @@ impl Templates {
         tables: &mut LocationTables,
     ) -> Option<Template<'_>> {
         let topology = patch.topology();
-        let slot = slot(topology);
-        if self.slots[slot].topology != topology {
-            if !self.wanted(patch) {
-                return None;
-            }
-            self.make(settings, patch, tables);
-        }
-        let Slot { point, index, .. } = self.slots[slot];
+        let found = self.slots.get(slot(topology)).copied();
+        let Slot { point, index, .. } = match found.filter(|slot| slot.topology == topology) {
+            Some(slot) => slot,
+            None if self.wanted(patch) => self.make(settings, patch, tables),
+            None => return None,
+        };
         let decided = patch.integer() || patch.is_minimum();
         Some(Template {
-            indices: self.indices.get(index as usize..).unwrap_or_default(),
-            points: decided.then(|| self.points.get(point as usize..).unwrap_or_default()),
+            indices: self.indices.from(index),
+            points: decided.then(|| self.points.from(point)),
         })
     }
 
@@ -116,30 +114,33 @@ impl Templates {
     #[inline(never)]
     pub(crate) fn specified(&mut self, settings: &Settings, patch: PacketPatch<'_>) -> &[u16] {
         self.make_room(0, patch.indices() as usize);
-        let room = &mut self.indices[self.indices_used..];
+        let room = self.indices.free(patch.indices() as usize);
         connect::emit(settings, patch, 0, &mut Writer::new(room));
         room
     }
 
     /// Makes room for a template; if there is none, all others are forgotten.
     fn make_room(&mut self, points: usize, indices: usize) {
-        let full = self.indices_used + indices + PADDING > INDEX_ROOM
-            || self.points_used + points + PADDING > POINT_ROOM;
-        if full {
+        if !(self.indices.fits(indices) && self.points.fits(points)) {
             self.slots.iter_mut().for_each(|slot| slot.topology = 0);
-            (self.indices_used, self.points_used) = (0, 0);
+            self.indices.clear();
+            self.points.clear();
         }
     }
 
     /// Makes a template.
     #[cold]
     #[inline(never)]
-    #[expect(clippy::cast_possible_truncation, reason = "places in the room")]
-    fn make(&mut self, settings: &Settings, patch: PacketPatch<'_>, tables: &mut LocationTables) {
+    fn make(
+        &mut self,
+        settings: &Settings,
+        patch: PacketPatch<'_>,
+        tables: &mut LocationTables,
+    ) -> Slot {
         let (points, indices) = (patch.points() as usize, patch.indices() as usize);
         self.make_room(points, 2 * indices);
-        let index_room = &mut self.indices[self.indices_used..];
-        let point_room = &mut self.points[self.points_used..];
+        let index_room = self.indices.free(2 * indices);
+        let point_room = self.points.free(points);
         if patch.is_minimum() {
             write_minimum(settings.config, patch.domain(), point_room, index_room);
         } else {
@@ -149,10 +150,11 @@ impl Templates {
             }
         }
         let topology = patch.topology();
-        self.slots[slot(topology)] =
-            Slot { topology, point: self.points_used as u32, index: self.indices_used as u32 };
-        self.indices_used += indices;
-        self.points_used += points;
+        let made =
+            Slot { topology, point: self.points.take(points), index: self.indices.take(indices) };
+        self.slots.resize(SLOTS, Slot::EMPTY);
+        self.slots[slot(topology)] = made;
+        made
     }
 }
 

@@ -30,6 +30,11 @@ impl Workspaces {
         1
     }
 
+    /// Takes all the memory that it may ever need.
+    pub(crate) fn reserve(&mut self) {
+        self.0.reserve();
+    }
+
     /// Bytes of memory that it takes on the heap.
     pub(crate) fn bytes(&self) -> usize {
         self.0.bytes()

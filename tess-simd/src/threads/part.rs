@@ -45,13 +45,20 @@ pub(crate) struct Workspace(Option<Box<Memory>>);
 #[derive(Clone, Debug)]
 #[repr(align(128))]
 struct Memory {
-    packets: [Packet; Chunk::PACKETS],
     /// The first lane has the patch that comes alone.
     one: Packet,
     lookup: Lookup,
+    caches: Caches,
+    /// Made by the first batch.
+    chunk: Option<Box<ChunkMemory>>,
+}
+
+/// What a chunk of a batch takes.
+#[derive(Clone, Debug)]
+struct ChunkMemory {
+    packets: [Packet; Chunk::PACKETS],
     /// The ranges of a chunk, where the caller wants none.
     ranges: [PatchRange; Chunk::PATCHES],
-    caches: Caches,
 }
 
 impl Workspace {
@@ -61,7 +68,17 @@ impl Workspace {
 
     /// Bytes of memory that it takes on the heap.
     pub(crate) fn bytes(&self) -> usize {
-        self.0.as_ref().map_or(0, |memory| size_of::<Memory>() + memory.caches.bytes())
+        self.0.as_ref().map_or(0, |memory| {
+            let chunk = memory.chunk.as_deref().map_or(0, size_of_val);
+            size_of::<Memory>() + memory.caches.bytes() + chunk
+        })
+    }
+
+    /// Takes all the memory that it may ever need.
+    pub(crate) fn reserve(&mut self) {
+        let Memory { caches, chunk, .. } = self.memory();
+        caches.reserve();
+        chunk.get_or_insert_with(ChunkMemory::new);
     }
 
     #[inline]
@@ -96,11 +113,10 @@ impl Memory {
     #[cold]
     fn new() -> Box<Self> {
         Box::new(Self {
-            packets: [Packet::EMPTY; _],
             one: Packet::EMPTY,
             lookup: Lookup::new(),
-            ranges: [PatchRange::default(); _],
             caches: Caches::new(),
+            chunk: None,
         })
     }
 
@@ -116,6 +132,13 @@ impl Memory {
         let packets = Packets { packets: from_ref(one), first, numbering };
         let ranges = &mut [PatchRange::default()];
         levels::emit(level, settings, packets, Room { points, indices, ranges }, caches, lookup);
+    }
+}
+
+impl ChunkMemory {
+    #[cold]
+    fn new() -> Box<Self> {
+        Box::new(Self { packets: [Packet::EMPTY; _], ranges: [PatchRange::default(); _] })
     }
 }
 
@@ -146,7 +169,8 @@ fn emit_as<P: OutputPoint, I: IndexFormat>(
     mut first: Offsets,
     workspace: &mut Workspace,
 ) {
-    let workspace = workspace.memory();
+    let Memory { lookup, caches, chunk, .. } = workspace.memory();
+    let own = &mut **chunk.get_or_insert_with(ChunkMemory::new);
     let Job { level, settings, numbering, kept } = job;
     let Buffers { mut points, mut indices, mut ranges } = buffers;
     let (mut start, all) = (0, batch.len());
@@ -156,21 +180,15 @@ fn emit_as<P: OutputPoint, I: IndexFormat>(
         } else {
             let stretch = Stretch::new(batch, start);
             let batch = batch.slice(&(start..start + stretch.patches));
-            levels::process(level, settings.config, &batch, &mut workspace.packets);
-            (stretch, &workspace.packets)
+            levels::process(level, settings.config, &batch, &mut own.packets);
+            (stretch, &own.packets)
         };
-        let own = &mut workspace.ranges[..patches];
-        let ranges_here = ranges.as_mut().map_or(own, |all| &mut all[start..start + patches]);
+        let own_ranges = &mut own.ranges[..patches];
+        let ranges_here =
+            ranges.as_mut().map_or(own_ranges, |all| &mut all[start..start + patches]);
         let packets = Packets { packets, first, numbering };
         let room = Room { points: &mut *points, indices: &mut *indices, ranges: ranges_here };
-        let mut end = levels::emit(
-            level,
-            settings,
-            packets,
-            room,
-            &mut workspace.caches,
-            &mut workspace.lookup,
-        );
+        let mut end = levels::emit(level, settings, packets, room, caches, lookup);
         if times > 1 {
             let range = PatchRange {
                 first_point: first.points,

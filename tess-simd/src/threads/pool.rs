@@ -61,6 +61,13 @@ impl Workspaces {
         self.0.len()
     }
 
+    /// Takes all the memory that they may ever need.
+    pub(crate) fn reserve(&mut self) {
+        for workspace in &mut self.0 {
+            workspace.get_mut().unwrap_or_else(PoisonError::into_inner).reserve();
+        }
+    }
+
     /// Bytes of memory that they take on the heap.
     pub(crate) fn bytes(&self) -> usize {
         let bytes = |workspace: &Mutex<Workspace>| {

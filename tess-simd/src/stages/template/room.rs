@@ -1,0 +1,103 @@
+//! Where templates lie: one after another, in memory that grows with them.
+
+use alloc::vec::Vec;
+
+/// Elements that can be read behind the last template, so that whole blocks are copied.
+pub(super) const PADDING: usize = 128;
+
+/// Elements that the first template takes memory for, and as many again are taken as there are.
+const LEAST: usize = 1024;
+
+/// The indices or the points of all templates, at most `MOST` elements with the padding.
+#[derive(Clone, Debug)]
+pub(super) struct Room<T, const MOST: usize> {
+    all: Vec<T>,
+    used: usize,
+}
+
+impl<T: Copy + Default, const MOST: usize> Room<T, MOST> {
+    /// No elements, and no memory for any.
+    pub(super) const fn new() -> Self {
+        Self { all: Vec::new(), used: 0 }
+    }
+
+    /// Bytes of memory that it takes on the heap.
+    pub(super) const fn bytes(&self) -> usize {
+        self.all.capacity() * size_of::<T>()
+    }
+
+    /// Takes the memory of all elements.
+    pub(super) fn reserve(&mut self) {
+        self.grow(MOST);
+    }
+
+    /// Elements that are used by templates.
+    #[cfg(all(test, feature = "std"))]
+    pub(super) const fn used(&self) -> usize {
+        self.used
+    }
+
+    /// Whether this many more elements fit.
+    #[inline(always)]
+    pub(super) const fn fits(&self, more: usize) -> bool {
+        self.used + more + PADDING <= MOST
+    }
+
+    /// Forgets all elements; keeps their memory.
+    pub(super) const fn clear(&mut self) {
+        self.used = 0;
+    }
+
+    /// The free elements, at least this many and the padding, for which there must be room ([`Self::fits`]).
+    pub(super) fn free(&mut self, elements: usize) -> &mut [T] {
+        let needed = self.used + elements + PADDING;
+        debug_assert!(needed <= MOST, "{needed} elements do not fit");
+        if self.all.len() < needed {
+            self.grow(needed.max(LEAST).max(2 * self.all.len()).min(MOST));
+        }
+        &mut self.all[self.used..]
+    }
+
+    /// Makes the first free elements part of the templates; returns the place of the first.
+    #[expect(clippy::cast_possible_truncation, reason = "places in the room")]
+    pub(super) const fn take(&mut self, elements: usize) -> u32 {
+        let first = self.used;
+        self.used += elements;
+        first as u32
+    }
+
+    /// The elements from a place on.
+    #[inline(always)]
+    pub(super) fn from(&self, place: u32) -> &[T] {
+        self.all.get(place as usize..).unwrap_or_default()
+    }
+
+    fn grow(&mut self, elements: usize) {
+        self.all.reserve_exact(elements - self.all.len());
+        self.all.resize(elements, T::default());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Memory comes with the first elements, doubles, and ends where the room does.
+    #[test]
+    fn memory_follows_the_elements() {
+        let mut room = Room::<u16, 4000>::new();
+        assert_eq!(room.bytes(), 0, "at first");
+        let mut lengths = Vec::new();
+        while room.fits(500) {
+            let free = room.free(500);
+            assert!(free.len() >= 500 + PADDING, "{} free elements", free.len());
+            free[0] = 7;
+            let first = room.take(500);
+            assert_eq!(room.from(first)[0], 7, "the elements that were free");
+            lengths.push(room.bytes() / 2);
+        }
+        assert_eq!(lengths, [1024, 2048, 2048, 4000, 4000, 4000, 4000], "elements");
+        room.clear();
+        assert_eq!((room.take(1), room.bytes()), (0, 8000), "from the front, in the same memory");
+    }
+}
