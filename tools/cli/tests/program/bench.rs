@@ -47,10 +47,25 @@ fn bad_options_say_what_would_be_right() {
         ("bench --backend simd --cpu-level avx1024", "avx512"),
         ("bench --index-type u8", "u16 or u32"),
         ("bench --working-set ram", "stream"),
+        ("bench --frame 8", "--backend simd"),
+        ("bench --backend simd --frame 0", "1..=1024"),
     ];
     for (words, remedy) in cases {
         let run = tess(words);
         assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
         assert!(run.stderr.contains(remedy), "{words}: {}", run.stderr);
     }
+}
+
+/// Frames repeat a workload until a call has their output, and what is timed is still compared with the model.
+#[test]
+fn frames() {
+    let words = "bench --backend simd --workload uniform-2 --working-set cache --samples 1 --json";
+    let run = tess(&format!("{words} --frame 2 --threads 2"));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let json: Value = serde_json::from_str(&run.stdout).expect("JSON");
+    assert_eq!(json[0]["workload"], "uniform-2, frames of 2 MiB", "{json}");
+    let run = tess(&format!("{} --frame 2", words.replace("uniform-2", "single/uniform-1")));
+    assert!(run.stderr.contains("its calls have their size: no --frame"), "{}", run.stderr);
+    assert_ne!(run.code, Some(0), "{}", run.stdout);
 }

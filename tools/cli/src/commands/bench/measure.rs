@@ -62,11 +62,15 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
     let mut run = Times::new(parts.len());
     let mut fill = Times::new(parts.len());
     let in_turn = if runner.is_device() { 0 } else { core.parts.len() };
-    let threads = runner.threads();
+    let (threads, sleeps) = (runner.threads(), runner.sleeps());
+    let take =
+        |times: &mut Times, part, run: &mut dyn FnMut() -> Result<Duration, BackendError>| {
+            if sleeps { times.take_one(part, run) } else { times.take(part, threads, run) }
+        };
     for _ in 0..plan.samples {
         for part in 0..parts.len().max(in_turn) {
-            run.take(part, threads, || runner.run(part))?;
-            fill.take(part, threads, || runner.fill(part))?;
+            take(&mut run, part, &mut || runner.run(part))?;
+            take(&mut fill, part, &mut || runner.fill(part))?;
             if part < in_turn {
                 core.take(part)?;
             }
@@ -155,11 +159,28 @@ impl Times {
         Ok(())
     }
 
+    /// Takes the time of one run of a part, if there is such a part, after a pause.
+    #[expect(clippy::disallowed_methods, reason = "a pause has no event to wait for")]
+    fn take_one(
+        &mut self,
+        part: usize,
+        run: impl FnOnce() -> Result<Duration, BackendError>,
+    ) -> Result<(), BackendError> {
+        if let Some(samples) = self.parts.get_mut(part) {
+            std::thread::sleep(PAUSE);
+            samples.push(run()?.as_secs_f64());
+        }
+        Ok(())
+    }
+
     /// The sum of the medians.
     fn seconds(&self) -> f64 {
         self.parts.iter().map(|samples| median(samples.clone())).sum::<f64>().max(1e-9)
     }
 }
+
+/// In this time threads that have nothing to do fall asleep.
+const PAUSE: Duration = Duration::from_millis(2);
 
 /// The mean time of as many runs as take a fifth of a millisecond for each thread, in seconds. The first run of
 /// several threads is not timed: it wakes them.

@@ -30,6 +30,7 @@ Examples:
   tess bench --backend simd --cpu-level avx2 --workload terrain
   tess bench --backend simd --order cache --workload uniform-64
   tess bench --backend gpu --no-copies --working-set stream --workload uniform
+  tess bench --backend simd --threads 8 --frame 16 --workload terrain
 
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
 a part's time is the median of its samples, a workload's the sum over its parts. A row is printed as
@@ -51,6 +52,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
+    /// One batch of about N MiB a call, each after a pause in which threads fall asleep, as frames have it
+    #[arg(long, value_name = "N")]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=1024))]
+    frame: Option<u32>,
     /// Interleaved runs that each median is taken of
     #[arg(long, value_name = "N", default_value_t = 9)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -102,9 +107,15 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     if args.order == OrderName::Cache && args.backend == BackendName::Core {
         return Err(Failure::bad_input("--order cache goes with --backend simd or gpu"));
     }
+    if args.frame.is_some()
+        && (args.backend != BackendName::Simd || working_sets != [WorkingSet::Cache])
+    {
+        return Err(Failure::bad_input("--frame goes with --backend simd --working-set cache"));
+    }
     let options = RunnerOptions {
         level,
         threads: args.threads,
+        frame: args.frame.map(|mebibytes| mebibytes as usize),
         index_type,
         order: args.order.into(),
         #[cfg(feature = "gpu")]

@@ -64,9 +64,14 @@ pub(crate) trait Runner {
     /// Threads it runs on.
     fn threads(&self) -> u32;
 
+    /// Whether threads sleep when a run begins, so that it is timed with waking them.
+    fn sleeps(&self) -> bool {
+        false
+    }
+
     /// What follows the workload's name in a row.
-    fn remark(&self) -> &'static str {
-        ""
+    fn remark(&self) -> String {
+        String::new()
     }
 
     /// The order of the triangles it writes.
@@ -123,6 +128,8 @@ pub(crate) struct RunnerOptions {
     pub(crate) threads: u32,
     /// Width of the indices.
     pub(crate) index_type: IndexType,
+    /// MiB of output of one call of the simd backend; if there is none, what workload and threads say.
+    pub(crate) frame: Option<usize>,
     /// The order of triangles; backend core has the specification's alone.
     pub(crate) order: Order,
     /// Whether the shaders expand each patch on its own.

@@ -56,6 +56,8 @@ struct Prepared {
     batches: Vec<Batch>,
     /// The batches of each part.
     parts: Vec<Range<usize>>,
+    /// Patches of the workload; behind them it is repeated.
+    once: usize,
 }
 
 /// Patches that are tessellated in one call, and what that writes.
@@ -123,11 +125,11 @@ impl<I: Index> SimdRunner<I> {
         result.map(|_| ()).map_err(|error| BackendError::new(error.to_string()))
     }
 
-    /// Adds a tessellated batch to a digest of whole patches.
-    fn digest_batch(&self, batch: &Batch, digest: &mut Fnv1a) {
+    /// Adds the first patches of a tessellated batch to a digest of whole patches.
+    fn digest_batch(&self, batch: &Batch, patches: usize, digest: &mut Fnv1a) {
         let points = &self.points[batch.start.0..];
         let indices = &self.indices[batch.start.1..];
-        for range in &self.ranges[..batch.patches.len()] {
+        for range in &self.ranges[..patches] {
             digest.word(range.points);
             digest.word(range.indices);
             let points = &points[range.first_point as usize..][..range.points as usize];
@@ -153,6 +155,16 @@ impl<I: Index> Runner for SimdRunner<I> {
         self.options.threads
     }
 
+    fn sleeps(&self) -> bool {
+        self.options.frame.is_some()
+    }
+
+    fn remark(&self) -> String {
+        self.options
+            .frame
+            .map_or_else(String::new, |mebibytes| format!(", frames of {mebibytes} MiB"))
+    }
+
     fn order(&self) -> Order {
         self.options.order
     }
@@ -171,13 +183,19 @@ impl<I: Index> Runner for SimdRunner<I> {
             .map_err(|error| BackendError::new(error.to_string()))?
             .threads(threads)
             .order(self.options.order);
+        let once = workload.patches.len();
+        let workload = &repeated(workload, self.options.frame, I::TYPE);
         let patches = OwnedBatch::try_from(&workload.patches[..])
             .map_err(|error| BackendError::new(error.to_string()))?;
         let totals = workload.totals();
         let indices_each = totals.indices / totals.primitives.max(1);
         let mut batches = Vec::new();
         // Where the workload does not say what a call is, it has a mebibyte for each thread.
-        let together = if workload.calls == Calls::Batch { threads } else { 1 };
+        let together = match (workload.calls, self.options.frame) {
+            (Calls::Batch, frame) => frame.unwrap_or(threads),
+            (_, None) => 1,
+            (_, Some(_)) => return Err(BackendError::new("its calls have their size: no --frame")),
+        };
         for ranges in workload.cache_batches(I::TYPE).chunks(together) {
             let (Some(first), Some(last)) = (ranges.first(), ranges.last()) else { continue };
             let range = first.start..last.end;
@@ -206,21 +224,22 @@ impl<I: Index> Runner for SimdRunner<I> {
             Calls::SinglePatch => workload.patches.clone(),
             _ => Vec::new(),
         };
-        self.prepared = Some(Prepared { tessellator, patches, single, batches, parts });
+        self.prepared = Some(Prepared { tessellator, patches, single, batches, parts, once });
         Ok(amounts)
     }
 
     fn digest(&mut self) -> Result<u64, BackendError> {
         let mut digest = Fnv1a::new();
         let mut batch = 0;
-        while let Some(Prepared { patches, batches, .. }) = &self.prepared {
+        while let Some(Prepared { once, batches, .. }) = &self.prepared {
             let Some(next) = batches.get(batch).cloned() else { break };
-            let last = next.patches.end == patches.batch().len();
+            let end = next.patches.end.min(*once);
+            let last = end == *once;
             self.tessellate(batch)?;
-            self.digest_batch(&next, &mut digest);
+            self.digest_batch(&next, end - next.patches.start, &mut digest);
             batch += 1;
             if last {
-                break; // a stream repeats the workload from here on
+                break; // the workload is repeated from here on
             }
         }
         Ok(digest.finish())
@@ -273,6 +292,14 @@ fn fill<I: Index>(points: &mut [[f32; 2]], indices: &mut [I], pool: &ThreadPool)
         let (points, indices) = &mut *part;
         fill(points, indices);
     });
+}
+
+/// The workload again and again until it has a frame's output, if there are frames.
+fn repeated(workload: &Workload, frame: Option<usize>, index_type: IndexType) -> Workload {
+    let wanted = frame.map_or(0, |mebibytes| (mebibytes as u64) << 20);
+    let times = wanted.div_ceil(workload.totals().bytes(index_type).max(1)).max(1);
+    let times = usize::try_from(times).unwrap_or(usize::MAX);
+    Workload { patches: workload.patches.repeat(times), ..workload.clone() }
 }
 
 /// The patches of a range.

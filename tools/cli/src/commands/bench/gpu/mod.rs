@@ -172,10 +172,10 @@ impl Runner for GpuRunner {
         self.index_type
     }
 
-    fn remark(&self) -> &'static str {
+    fn remark(&self) -> String {
         match self.copies {
-            Copies::WhereAlike => "",
-            Copies::Never => ", no copies",
+            Copies::WhereAlike => String::new(),
+            Copies::Never => ", no copies".to_owned(),
         }
     }
 
