@@ -62,6 +62,17 @@ at_each_level! {
     ) -> Offsets = emit_by_lookup, avx512 = emit_by_permutes;
 }
 
+at_each_level! {
+    /// [`kernels::emit::emit_one`] at a level, points as in [`emit`].
+    fn emit_one<P: OutputPoint, I: IndexFormat>(
+        settings: &Settings,
+        packet: &Packet,
+        out: (&mut [P], &mut [I]),
+        caches: &mut Caches,
+        lookup: &mut Lookup,
+    ) = kernels::emit::emit_one, avx512 = emit_one_by_permutes;
+}
+
 #[inline(always)]
 fn emit_by_lookup<P: OutputPoint, I: IndexFormat>(
     settings: &Settings,
@@ -87,6 +98,19 @@ with_avx512! {
             permute::emit(patch, codes, out);
         };
         kernels::emit::emit(settings, packets, room, caches, &mut Permutes(permute))
+    }
+
+    fn emit_one_by_permutes<P: OutputPoint, I: IndexFormat>(
+        settings: &Settings,
+        packet: &Packet,
+        out: (&mut [P], &mut [I]),
+        caches: &mut Caches,
+        _: &mut Lookup,
+    ) {
+        let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {
+            permute::emit(patch, codes, out);
+        };
+        kernels::emit::emit_one(settings, packet, out, caches, &mut Permutes(permute));
     }
 }
 

@@ -246,7 +246,6 @@ fn a_warm_tessellator_allocates_nothing() {
     };
     assert!(run(&large) > 0, "the output grows, and the counter sees it");
     assert_eq!(run(&large), 0, "warm");
-    assert!(run(&small) > 0, "templates of small patches");
     assert_eq!(run(&small), 0, "a smaller batch");
     assert_eq!(run(&[]), 0, "an empty batch");
 }

@@ -166,6 +166,27 @@ pub(crate) fn emit<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
     first
 }
 
+/// Writes the first patch of a packet, a compact one that is not culled, its indices counted from its own first
+/// point.
+///
+/// [`emit`] could do it, but first loads what the loops of large patches take.
+#[inline(always)]
+pub(crate) fn emit_one<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
+    settings: &Settings,
+    packet: &Packet,
+    (points, indices): (&mut [P], &mut [I]),
+    caches: &mut Caches,
+    compact_points: &mut M,
+) {
+    let patch = packet.patch(0);
+    let Caches { compact, tables, .. } = caches;
+    compact.make_room();
+    let template = compact.find(settings, patch, tables, M::kept);
+    let template = compact.get(template);
+    points_of(patch, template, &mut Writer::new(points), compact_points);
+    indices_of(patch, template, 0, &mut Writer::new(indices));
+}
+
 /// Writes a packet of compact patches, stage by stage, so that a wrongly predicted branch in one stage discards no
 /// work of another.
 #[inline(always)]

@@ -128,6 +128,13 @@ impl Memory {
         indices: &mut [I],
     ) {
         let Self { one, lookup, caches, .. } = self;
+        let patch = one.patch(0);
+        if patch.points() == 0 {
+            return;
+        }
+        if patch.is_compact() {
+            return levels::emit_one(level, settings, one, (points, indices), caches, lookup);
+        }
         let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
         let packets = Packets { packets: from_ref(one), first, numbering };
         let ranges = &mut [PatchRange::default()];

@@ -151,13 +151,7 @@ impl CompactTemplates {
     /// No templates, and no memory for any.
     pub(crate) const fn new() -> Self {
         let other_bits = u64::BITS - FIRST_SETS.ilog2();
-        Self {
-            sets: Vec::new(),
-            other_bits,
-            way: 0,
-            indices: Room::new(),
-            points: Room::new(),
-        }
+        Self { sets: Vec::new(), other_bits, way: 0, indices: Room::new(), points: Room::new() }
     }
 
     /// Bytes of memory that they take on the heap.
@@ -276,7 +270,8 @@ impl CompactTemplates {
         let before = core::mem::replace(&mut self.sets, alloc::vec![Set::EMPTY; sets]);
         self.other_bits = u64::BITS - sets.ilog2();
         for Set { topologies, starts } in before {
-            for (topology, start) in topologies.into_iter().zip(starts).filter(|entry| entry.0 != 0) {
+            for (topology, start) in topologies.into_iter().zip(starts).filter(|entry| entry.0 != 0)
+            {
                 self.enter(topology, start);
             }
         }
