@@ -35,10 +35,8 @@ module tess_connect (
     // ---- the walk ------------------------------------------------------------------------------
 
     logic                             active;
-    /* verilator lint_off UNUSEDSIGNAL */
     /* verilator lint_off UNUSEDSIGNAL */ // no stage needs every field
-    tess_patch_t                 patch;
-    /* verilator lint_on UNUSEDSIGNAL */
+    tess_patch_t                      patch;
     /* verilator lint_on UNUSEDSIGNAL */
     logic [tess_pkg::COUNTS_BITS-1:0] counts;
     logic [2:0]                       at;
@@ -316,4 +314,8 @@ module tess_connect (
             out_last  <= is_last;
         end
     end
+
+`ifdef TESS_PROOF
+`include "formal/inside_connect.svh"
+`endif
 endmodule

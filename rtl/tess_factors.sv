@@ -200,4 +200,8 @@ module tess_factors (
             end
         end
     end
+
+`ifdef TESS_PROOF
+`include "formal/inside_factors.svh"
+`endif
 endmodule

@@ -56,33 +56,22 @@ module tess_top (
     );
 
     // A patch leaves the front end when all three have taken it.
-    logic points_took, connect_took, counts_took;
     logic points_ready, connect_ready, counts_free;
-    logic points_takes, connect_takes, counts_takes;
-    assign points_takes  = made_valid && !points_took && points_ready;
-    assign connect_takes = made_valid && !connect_took && connect_ready;
-    assign counts_takes  = made_valid && !counts_took && counts_free;
-    assign made_ready    = (points_took || points_takes) && (connect_took || connect_takes)
-                        && (counts_took || counts_takes);
-
-    always_ff @(posedge clk) begin
-        if (rst || made_ready) begin
-            points_took  <= 1'b0;
-            connect_took <= 1'b0;
-            counts_took  <= 1'b0;
-        end else begin
-            points_took  <= points_took || points_takes;
-            connect_took <= connect_took || connect_takes;
-            counts_took  <= counts_took || counts_takes;
-        end
-    end
+    logic points_starts, connect_starts, counts_starts;
+    tess_fork #(.N(3)) stage_fork (
+        .clk, .rst,
+        .in_valid (made_valid),
+        .in_ready (made_ready),
+        .out_valid({counts_starts, connect_starts, points_starts}),
+        .out_ready({counts_free, connect_ready, points_ready})
+    );
 
     assign counts_free = !counts_valid || counts_ready;
     always_ff @(posedge clk) begin
         if (rst) begin
             counts_valid <= 1'b0;
         end else if (counts_free) begin
-            counts_valid      <= counts_takes;
+            counts_valid      <= counts_starts;
             counts_points     <= made.points;
             counts_primitives <= made.primitives;
         end
@@ -90,7 +79,7 @@ module tess_top (
 
     tess_points stage_points (
         .clk, .rst,
-        .start_valid   (made_valid && !points_took),
+        .start_valid   (points_starts),
         .start_ready   (points_ready),
         .start_patch   (made),
         .start_contexts(contexts),
@@ -107,7 +96,7 @@ module tess_top (
     end
     tess_connect stage_connect (
         .clk, .rst,
-        .start_valid (made_valid && !connect_took),
+        .start_valid (connect_starts),
         .start_ready (connect_ready),
         .start_patch (made),
         .start_counts(counts),

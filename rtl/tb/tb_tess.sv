@@ -1,4 +1,4 @@
-// Checks tess_top against the golden model over DPI-C: every element, in order, and the front end's values.
+// Checks tess_top, in tess_axis, against the golden model over DPI-C: every element, in order, and the front end's values.
 //
 //   +stimuli=FILE   patches, one a line: domain partitioning output split factors (names and hex digits of `tess gen`,
 //                   blanks instead of commas; more words on the line are not looked at)
@@ -6,7 +6,8 @@
 //   +seed=N         seed of everything random (default 1)
 //   +gaps           random gaps between patches, random back-pressure on each stream
 //   +resets=N       N resets, each in the middle of a patch, before anything is checked
-//   +fault=N        plants fault N of the design, which must then be found
+//   +alone          each patch waits until the one before is out: latencies
+//   +fault=N        plants fault N of the design (rtl/tb/faults.txt), which must then be found
 // Exit: PASS, or $fatal. Each difference prints the patch as a line that `tess explain` and +stimuli take.
 module tb_tess;
     import tess_dpi::*;
@@ -49,7 +50,36 @@ module tb_tess;
     logic [1:0]   primitive_size;
     logic [12:0]  primitive_i0, primitive_i1, primitive_i2;
 
-    tess_top dut (.*);
+    // The design in its AXI4-Stream wrapper, so that every comparison covers both.
+    logic [31:0] counts_data;
+    logic [47:0] point_data;
+    logic [55:0] primitive_data;
+    tess_axis axis (
+        .aclk                   (clk),
+        .aresetn                (!rst),
+        .s_axis_patch_tvalid    (patch_valid),
+        .s_axis_patch_tready    (patch_ready),
+        .s_axis_patch_tdata     ({patch_factors, 1'b0, patch_center, patch_out, patch_partitioning, patch_domain}),
+        .m_axis_counts_tvalid   (counts_valid),
+        .m_axis_counts_tready   (counts_ready),
+        .m_axis_counts_tdata    (counts_data),
+        .m_axis_point_tvalid    (point_valid),
+        .m_axis_point_tready    (point_ready),
+        .m_axis_point_tdata     (point_data),
+        .m_axis_point_tlast     (point_last),
+        .m_axis_primitive_tvalid(primitive_valid),
+        .m_axis_primitive_tready(primitive_ready),
+        .m_axis_primitive_tdata (primitive_data),
+        .m_axis_primitive_tlast (primitive_last)
+    );
+    assign counts_points     = counts_data[12:0];
+    assign counts_primitives = counts_data[29:16];
+    assign point_u           = point_data[16:0];
+    assign point_v           = point_data[40:24];
+    assign primitive_i1      = primitive_data[28:16];
+    assign primitive_i2      = primitive_data[44:32];
+    assign primitive_size    = primitive_data[49:48];
+    assign primitive_i0 = primitive_data[12:0];
 
     always #5 clk = ~clk;
 
@@ -89,6 +119,7 @@ module tb_tess;
     difference_t differences[$];
 
     localparam int unsigned AT_FACTORS = 0, AT_CONTEXT = 1, AT_COUNTS = 2, AT_POINTS = 3, AT_CONNECT = 4;
+    string MODULES[5] = '{"tess_factor", "tess_factor_context", "tess_factors", "tess_points", "tess_connect"};
     string STAGES[5] = '{"factors", "factor_context", "counts", "points", "connect"};
     string SIGNALS[18] = '{"culled", "fixed", "odd", "fraction", "half_points", "points", "split", "inv_floor", "inv_ceil",
         "primitives", "u", "v", "last", "size", "i0", "i1", "i2", "valid"};
@@ -99,6 +130,19 @@ module tb_tess;
         if (observed != expected) differences.push_back({stage, signal, element, observed, expected, s});
     endfunction
 
+    // The command that explains the patch, or the element that differs.
+    function automatic string explain(input difference_t d);
+        int unsigned outer = (d.s.domain == 2'(TRIANGLE)) ? 3 : (d.s.domain == 2'(QUAD)) ? 4 : 2;
+        string text = {"tess explain ", DOMAINS[d.s.domain]};
+        for (int unsigned i = 0; i < factor_count(d.s); i++)
+            text = {text, (i == 0) ? " --outer " : (i == outer) ? " --inner " : ",", $sformatf("0x%08x", d.s.x[i])};
+        text = {text, " --partitioning ", PARTITIONINGS[d.s.partitioning], " --output ", OUTPUTS[d.s.out],
+            " --split ", SPLITS[d.s.split]};
+        if (d.stage == AT_POINTS)  text = {text, $sformatf(" --point %0d", d.element)};
+        if (d.stage == AT_CONNECT) text = {text, $sformatf(" --primitive %0d", d.element)};
+        return text;
+    endfunction
+
     function automatic void show();
         while (differences.size() != 0) begin
             difference_t d = differences.pop_front();
@@ -107,6 +151,7 @@ module tb_tess;
                 $display("MISMATCH stage=%s signal=%s element=%0d observed=0x%05x expected=0x%05x",
                     STAGES[d.stage], SIGNALS[d.signal], d.element, d.observed, d.expected);
                 $display("    case %s", line_of(d.s));
+                $display("    module %s; %s", MODULES[d.stage], explain(d));
             end
         end
     endfunction
@@ -116,21 +161,21 @@ module tb_tess;
     // The front end: each factor as it is converted, then its context. Culled patches have none.
     function automatic void check_factor();
         stimulus_t s = of_factors[0];
-        int unsigned k = 32'(dut.stage_factors.context_k);
-        if (!dut.stage_factors.context_culled) begin
+        int unsigned k = 32'(axis.top.stage_factors.context_k);
+        if (!axis.top.stage_factors.context_culled) begin
             processed_t p = model_process(config_of(s), s.x, k);
             context_t c = model_context(p.fixed, p.parity, split_order_e'(s.split));
             if (p.outcome == CULLED) compare(s, AT_FACTORS, 0, k, 0, 1);
-            compare(s, AT_FACTORS, 1, k, 32'(dut.stage_factors.fixed), p.fixed);
-            compare(s, AT_FACTORS, 2, k, 32'(dut.stage_factors.odd), int'(p.parity));
-            compare(s, AT_CONTEXT, 3, k, 32'(dut.stage_factors.made.fraction), c.fraction);
-            compare(s, AT_CONTEXT, 4, k, 32'(dut.stage_factors.made.half_points), c.half_points);
-            compare(s, AT_CONTEXT, 5, k, 32'(dut.stage_factors.made.points), c.points);
-            compare(s, AT_CONTEXT, 6, k, 32'(dut.stage_factors.made.split), c.split);
-            compare(s, AT_CONTEXT, 7, k, 32'(dut.stage_factors.made.inv_floor), c.inv_floor);
-            compare(s, AT_CONTEXT, 8, k, 32'(dut.stage_factors.made.inv_ceil), c.inv_ceil);
+            compare(s, AT_FACTORS, 1, k, 32'(axis.top.stage_factors.fixed), p.fixed);
+            compare(s, AT_FACTORS, 2, k, 32'(axis.top.stage_factors.odd), int'(p.parity));
+            compare(s, AT_CONTEXT, 3, k, 32'(axis.top.stage_factors.made.fraction), c.fraction);
+            compare(s, AT_CONTEXT, 4, k, 32'(axis.top.stage_factors.made.half_points), c.half_points);
+            compare(s, AT_CONTEXT, 5, k, 32'(axis.top.stage_factors.made.points), c.points);
+            compare(s, AT_CONTEXT, 6, k, 32'(axis.top.stage_factors.made.split), c.split);
+            compare(s, AT_CONTEXT, 7, k, 32'(axis.top.stage_factors.made.inv_floor), c.inv_floor);
+            compare(s, AT_CONTEXT, 8, k, 32'(axis.top.stage_factors.made.inv_ceil), c.inv_ceil);
         end
-        if (dut.stage_factors.context_last) void'(of_factors.pop_front());
+        if (axis.top.stage_factors.context_last) void'(of_factors.pop_front());
     endfunction
 
     function automatic void check_counts();
@@ -182,6 +227,35 @@ module tb_tess;
         if (next_primitive == s.primitives) begin
             next_primitive = 0;
             void'(of_primitives.pop_front());
+        end
+    endfunction
+
+    // ---- clocks --------------------------------------------------------------------------------
+
+    bit              alone;
+    bit              has_elements = 1'b0; // the last patch of which something came is not culled
+    int unsigned     silent = 0, most_silent = 0; // clocks with an element of neither stream, between two patches
+    int unsigned     point_latency = 0, primitive_latency = 0;
+    longint unsigned accepted_at = 0;
+    bit              has_point = 1'b0, has_primitive = 1'b0; // something of the last accepted patch has come
+
+    function automatic void count_clocks();
+        if (point_valid || primitive_valid) begin
+            if (has_elements && silent > most_silent) most_silent = silent;
+            silent = 0;
+            has_elements = 1'b1;
+        end else begin
+            silent++;
+        end
+        // Culled patches have no elements, so they are no gap between elements.
+        if (counts_valid && counts_points == 13'd0) has_elements = 1'b0;
+        if (alone && point_valid && !has_point) begin
+            has_point = 1'b1;
+            if (point_latency < 32'(cycles - accepted_at)) point_latency = 32'(cycles - accepted_at);
+        end
+        if (alone && primitive_valid && !has_primitive) begin
+            has_primitive = 1'b1;
+            if (primitive_latency < 32'(cycles - accepted_at)) primitive_latency = 32'(cycles - accepted_at);
         end
     endfunction
 
@@ -254,6 +328,9 @@ module tb_tess;
         if (!rst) begin
             if (patch_valid && patch_ready) begin
                 idle = 0;
+                accepted_at = cycles;
+                has_point = 1'b0;
+                has_primitive = 1'b0;
                 is_offered  = 1'b0;
                 is_accepted = 1'b1;
                 of_factors.push_back(offered);
@@ -261,11 +338,12 @@ module tb_tess;
                 of_points.push_back(offered);
                 of_primitives.push_back(offered);
             end
-            if (dut.stage_factors.context_valid && dut.stage_factors.advance) check_factor();
+            if (axis.top.stage_factors.context_valid && axis.top.stage_factors.advance) check_factor();
             if (counts_valid && counts_ready) check_counts();
             if (point_valid && point_ready) check_point();
             if (primitive_valid && primitive_ready) check_primitive();
             if (differences.size() != 0) show();
+            count_clocks();
             if (idle > 20000) begin
                 if (of_points.size() != 0) $display("MISMATCH stage=points signal=valid element=%0d observed=0x0 expected=0x1",
                     next_point);
@@ -273,6 +351,8 @@ module tb_tess;
             end
         end
     end
+
+    int unsigned fault = 0, patches_behind = 0; // patches sent since a planted fault was found
 
     task automatic send(input stimulus_t s);
         counts_t c;
@@ -284,8 +364,10 @@ module tb_tess;
         is_accepted        = 1'b0;
         is_offered         = 1'b1;
         while (!is_accepted) @(posedge clk);
-        // A design with a fault may go wrong for ever; what is shown is enough.
-        if (mismatches > MAX_SHOWN) give_verdict();
+        // A design with a fault may go wrong for ever, or seldom; what is shown is enough.
+        if (fault != 0 && mismatches != 0) patches_behind++;
+        if (mismatches > MAX_SHOWN || patches_behind > 100) give_verdict();
+        if (alone) drain();
     endtask
 
     // Whether every patch that was accepted has come out whole.
@@ -361,17 +443,21 @@ module tb_tess;
     task automatic give_verdict();
         $display("%0d patches, %0d points, %0d primitives, %0d clocks, %0d mismatches",
             patches_checked, points_checked, primitives_checked, cycles, mismatches);
+        if (alone) $display("latency: first point %0d clocks, first primitive %0d clocks", point_latency, primitive_latency);
+        else if (!gaps) $display("between patches: at most %0d clocks", most_silent);
+        if (tess_check_pkg::failures != 0) $fatal(1, "FAIL: %0d assertions", tess_check_pkg::failures);
         if (mismatches != 0) $fatal(1, "FAIL");
         if (points_checked == 0 || primitives_checked == 0) $fatal(1, "FAIL: nothing was checked");
         $display("PASS");
         $finish;
     endtask
 
-    int unsigned random_patches = 0, resets = 0, fault = 0;
+    int unsigned random_patches = 0, resets = 0;
     string       path;
 
     initial begin
         gaps = $test$plusargs("gaps") != 0;
+        alone = $test$plusargs("alone") != 0;
         void'($value$plusargs("seed=%d", seed));
         void'($value$plusargs("random=%d", random_patches));
         void'($value$plusargs("resets=%d", resets));

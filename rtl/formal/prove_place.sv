@@ -1,0 +1,37 @@
+// tess_place_position equals the first half of the formula of section 5, computed here in 64 bits, for every input in
+// range: the widths of section 14.1 suffice. Proved for all inputs at once.
+`ifndef TESS_PROOF_FLIP_FAULT
+`define TESS_PROOF_FLIP_FAULT 1'b0
+`endif
+module prove_place_position (
+    input logic [16:0] inv_floor, inv_ceil,
+    input logic [5:0]  half_points, split,
+    input logic        odd,
+    input logic [6:0]  p
+);
+    logic        flip, middle;
+    logic [5:0]  position;
+    logic [16:0] coarse, fine;
+    tess_place_position #(.PLANT_FLIP_FAULT(`TESS_PROOF_FLIP_FAULT)) place_position (.*);
+
+    logic [63:0] q, pf, a, b;
+    logic        flips, is_middle;
+    always_comb begin
+        flips = p >= half_points;
+        q = flips ? 64'd2 * half_points - p - odd : 64'(p);
+        is_middle = q == half_points;
+        pf = (q > split) ? q - 64'd1 : q;
+        a = pf * inv_floor;
+        b = q * inv_ceil;
+
+        // Section 14.1: what a context holds.
+        assume (half_points >= 1 && half_points <= 32 && split <= 33);
+        assume (inv_floor >= 1024 && inv_floor <= 64'h1_0000 && inv_ceil >= 1024 && inv_ceil <= 64'h1_0000);
+        assume (p < (odd ? 64'd2 * half_points : 64'd2 * half_points + 64'd1));
+        if (!is_middle) assume (a <= 64'h800A && b <= 64'h8000);
+
+        assert (flip == flips && middle == is_middle);
+        assert (position == q);
+        assert (middle || (coarse == a && fine == b));
+    end
+endmodule

@@ -1,0 +1,156 @@
+// Checks single stages against the golden model over DPI-C, for every input of a range.
+//
+//   +first=N +factors=N   15.16 factors from N on, as many: context and the place of every point, of both parities
+//                         where the factor has them, in both split orders
+//   +bits=HEX +words=N    binary32 patterns from HEX on, as many: factor processing in every partitioning, of outer and
+//                         inside factors, with and without the picture frame
+//   +fault=N              plants fault N of the design
+// Exit: PASS with the numbers of comparisons, or $fatal.
+module tb_stages;
+    import tess_dpi::*;
+
+    localparam int unsigned MAX_SHOWN = 20;
+    int unsigned     mismatches = 0;
+    longint unsigned contexts_checked = 0, places_checked = 0, factors_checked = 0;
+
+    function automatic void differs(
+            input string stage, input string signal, input int unsigned given, input int unsigned element,
+            input int unsigned observed, input int unsigned expected);
+        mismatches++;
+        if (mismatches <= MAX_SHOWN)
+            $display("MISMATCH stage=%s signal=%s input=0x%08x element=%0d observed=0x%05x expected=0x%05x",
+                stage, signal, given, element, observed, expected);
+        if (mismatches == MAX_SHOWN) $fatal(1, "FAIL");
+    endfunction
+
+    // ---- context and place ---------------------------------------------------------------------
+
+    logic          clk = 1'b0;
+    logic [22:0]   factor;
+    logic          center;
+    tess_context_t made;
+    logic          odd;
+    logic [6:0]    p;
+    logic [16:0]   location; // of the point of the clock before
+    assign made.odd = odd;
+    tess_factor_context factor_context (
+        .factor, .odd, .center,
+        .inv_floor  (made.inv_floor),
+        .inv_ceil   (made.inv_ceil),
+        .fraction   (made.fraction),
+        .half_points(made.half_points),
+        .split      (made.split),
+        .points     (made.points)
+    );
+    tess_place place (.clk, .advance(1'b1), .in_context(made), .in_p(p), .location);
+
+    task automatic check_context(input int unsigned fixed, input bit is_odd, input bit is_center);
+        context_t c;
+        factor = 23'(fixed);
+        odd    = is_odd;
+        center = is_center;
+        #1;
+        c = model_context(fixed, parity_e'(is_odd), split_order_e'(is_center));
+        if (32'(made.inv_floor) != c.inv_floor)
+            differs("factor_context", "inv_floor", fixed, 0, 32'(made.inv_floor), c.inv_floor);
+        if (32'(made.inv_ceil) != c.inv_ceil)
+            differs("factor_context", "inv_ceil", fixed, 0, 32'(made.inv_ceil), c.inv_ceil);
+        if (32'(made.fraction) != c.fraction)
+            differs("factor_context", "fraction", fixed, 0, 32'(made.fraction), c.fraction);
+        if (32'(made.half_points) != c.half_points)
+            differs("factor_context", "half_points", fixed, 0, 32'(made.half_points), c.half_points);
+        if (32'(made.split) != c.split)
+            differs("factor_context", "split", fixed, 0, 32'(made.split), c.split);
+        if (32'(made.points) != c.points)
+            differs("factor_context", "points", fixed, 0, 32'(made.points), c.points);
+        contexts_checked++;
+        check_places(fixed, c.points);
+    endtask
+
+    // Two stages: behind the edge for point k the location of point k - 1 is there.
+    task automatic check_places(input int unsigned fixed, input int unsigned points);
+        for (int unsigned k = 0; k <= points; k++) begin
+            p = (k < points) ? 7'(k) : 7'd0;
+            #1 clk = 1'b1;
+            #1 clk = 1'b0;
+            if (k != 0) begin
+                placement_t s = model_place(fixed, parity_e'(odd), split_order_e'(center), k - 1);
+                if (32'(location) != s.location)
+                    differs("place", "location", fixed, k - 1, 32'(location), s.location);
+                places_checked++;
+            end
+        end
+    endtask
+
+    // ---- factor processing ---------------------------------------------------------------------
+
+    logic [31:0] bits;
+    logic [1:0]  partitioning;
+    logic        is_inside, has_frame;
+    logic [22:0] fixed;
+    logic        fixed_odd;
+    tess_factor processing (.bits, .partitioning, .is_inside, .has_frame, .fixed, .odd(fixed_odd));
+
+    // A triangle patch: the factor is outer 0 or inside; the frame comes from outer 1, or from the factor itself.
+    task automatic check_factor(input int unsigned word, input int unsigned number, input bit framed);
+        config_t    cfg;
+        factors_t   x;
+        processed_t r;
+        cfg.domain       = TRIANGLE;
+        cfg.partitioning = partitioning_e'(number);
+        cfg.out          = TRIANGLE_CW;
+        cfg.split_order  = RULER;
+        x    = '{default: 32'h3F80_0000};
+        x[1] = framed ? 32'h4000_0000 : 32'h3F80_0000;
+        bits         = word;
+        partitioning = 2'(number);
+        for (int unsigned side = 0; side < 2; side++) begin
+            int unsigned place_of = (side == 1) ? 3 : 0;
+            x[place_of] = word;
+            is_inside = side == 1;
+            has_frame = framed || (!word[31] && word[30:0] > 31'h3F80_0040 && word[30:0] <= 31'h7F80_0000);
+            r = model_process(cfg, x, place_of);
+            #1;
+            if (r.outcome != CULLED) begin
+                if (32'(fixed) != r.fixed) differs("factors", "fixed", word, number, 32'(fixed), r.fixed);
+                if (32'(fixed_odd) != int'(r.parity)) differs("factors", "odd", word, number, 32'(fixed_odd), int'(r.parity));
+                factors_checked++;
+            end
+            x[place_of] = 32'h3F80_0000;
+        end
+    endtask
+
+    // ---- ranges --------------------------------------------------------------------------------
+
+    int unsigned first = 0, factors = 0, from = 0, words = 0, fault = 0;
+
+    initial begin
+        void'($value$plusargs("first=%d", first));
+        void'($value$plusargs("factors=%d", factors));
+        void'($value$plusargs("bits=%h", from));
+        void'($value$plusargs("words=%d", words));
+        void'($value$plusargs("fault=%d", fault));
+        tess_fault_pkg::number = fault;
+        if (factors != 0 && (first < 32'h1_0000 || first + factors - 1 > 32'h40_0000))
+            $fatal(1, "factors are 0x10000 to 0x400000, not 0x%05x to 0x%05x", first, first + factors - 1);
+        // Even factors are 1 or 2 to 64, odd ones 1 to 63 (section 3).
+        for (int unsigned f = first; f < first + factors; f++) begin
+            for (int unsigned order = 0; order < 2; order++) begin
+                if (f == 32'h1_0000 || f >= 32'h2_0000) check_context(f, 1'b0, order == 1);
+                if (f <= 32'h3F_0000) check_context(f, 1'b1, order == 1);
+            end
+        end
+        for (int unsigned i = 0; i < words; i++) begin
+            for (int unsigned number = 0; number < 4; number++) begin
+                check_factor(from + i, number, 1'b0);
+                check_factor(from + i, number, 1'b1);
+            end
+        end
+        $display("%0d contexts, %0d places, %0d processed factors, %0d mismatches",
+            contexts_checked, places_checked, factors_checked, mismatches);
+        if (mismatches != 0) $fatal(1, "FAIL");
+        if (contexts_checked + factors_checked == 0) $fatal(1, "FAIL: nothing was checked");
+        $display("PASS");
+        $finish;
+    end
+endmodule

@@ -1,0 +1,165 @@
+// Assertions on the design, bound to its modules. A bench compiles this file beside the design; each failure prints
+// the stage and the signal, and counts in tess_check_pkg::failures, which the bench's verdict looks at.
+package tess_check_pkg;
+    int unsigned failures = 0;
+
+    function automatic void failed(input string stage, input string signal);
+        failures++;
+        if (failures <= 20) $display("ASSERTION stage=%s signal=%s at %0t", stage, signal, $time);
+    endfunction
+endpackage
+
+`define TESS_CHECK(STAGE, SIGNAL, CONDITION) \
+    assert property (@(posedge clk) disable iff (rst) CONDITION) \
+    else tess_check_pkg::failed(STAGE, SIGNAL);
+
+// A stream: an element that is not taken stays, and is offered until it is; a reset withdraws it.
+module tess_check_stream #(
+    parameter string STAGE = "",
+    parameter int    WIDTH = 1
+) (
+    input logic             clk, rst,
+    input logic             valid, ready,
+    input logic [WIDTH-1:0] data
+);
+    logic             is_stalled, was_reset;
+    logic [WIDTH-1:0] stalled;
+    always_ff @(posedge clk) begin
+        is_stalled <= valid && !ready && !rst;
+        stalled    <= data;
+        was_reset  <= rst;
+    end
+    `TESS_CHECK(STAGE, "valid", !is_stalled || valid)
+    `TESS_CHECK(STAGE, "data", !is_stalled || data == stalled)
+    `TESS_CHECK(STAGE, "reset", !was_reset || !valid)
+endmodule
+
+// A stream against the counts that its stage was started with: as many elements, `last` with the last alone.
+module tess_check_counts #(
+    parameter string STAGE = ""
+) (
+    input logic        clk, rst,
+    input logic        start,     // a patch begins
+    input logic [13:0] elements,  // of it; patches without have none to come
+    input logic        passes,    // an element leaves
+    input logic        last
+);
+    logic [13:0] due[$]; // elements to come of each patch, the oldest first
+    always @(posedge clk) begin
+        if (rst) begin
+            due.delete();
+        end else begin
+            if (passes && due.size() == 0) tess_check_pkg::failed(STAGE, "valid");
+            if (passes && due.size() != 0) begin
+                if (last != (due[0] == 14'd1)) tess_check_pkg::failed(STAGE, "last");
+                due[0] = due[0] - 14'd1;
+                if (due[0] == 14'd0) void'(due.pop_front());
+            end
+            if (start && elements != 14'd0) due.push_back(elements);
+        end
+    end
+endmodule
+
+// Section 14.1: ranges of what the front end makes.
+module tess_check_factors (
+    input logic        clk, rst, advance, context_valid, context_culled, out_valid, out_ready,
+    input logic [22:0] fixed,
+    input logic [6:0]  points,
+    input logic [5:0]  half_points, split,
+    input logic [16:0] inv_floor, inv_ceil,
+    input logic [12:0] out_points,
+    input logic [13:0] out_primitives
+);
+    logic is_made;
+    assign is_made = context_valid && !context_culled;
+    `TESS_CHECK("factors", "fixed", !is_made || (fixed >= 23'h01_0000 && fixed <= 23'h40_0000))
+    `TESS_CHECK("factor_context", "points", !is_made || (points >= 7'd2 && points <= 7'd65))
+    `TESS_CHECK("factor_context", "half_points", !is_made || (half_points >= 6'd1 && half_points <= 6'd32))
+    `TESS_CHECK("factor_context", "split", !is_made || split <= 6'd33)
+    `TESS_CHECK("factor_context", "inv_floor", !is_made || (inv_floor >= 17'd1024 && inv_floor <= 17'h1_0000))
+    `TESS_CHECK("factor_context", "inv_ceil", !is_made || (inv_ceil >= 17'd1024 && inv_ceil <= 17'h1_0000))
+    `TESS_CHECK("counts", "points", !out_valid || out_points <= 13'd4225)
+    `TESS_CHECK("counts", "primitives", !out_valid || out_primitives <= 14'd8192)
+    tess_check_stream #(.STAGE("factors"), .WIDTH(27)) stream (
+        .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_points, out_primitives}));
+endmodule
+bind tess_factors tess_check_factors checks (
+    .clk, .rst, .advance, .context_valid, .context_culled, .out_valid, .out_ready, .fixed,
+    .points(made.points), .half_points(made.half_points), .split(made.split),
+    .inv_floor(made.inv_floor), .inv_ceil(made.inv_ceil),
+    .out_points(out_patch.points), .out_primitives(out_patch.primitives)
+);
+
+// Positions are on their edges, ring numbers climb by one, locations end at ONE.
+module tess_check_points (
+    input logic        clk, rst, active, start_valid, start_ready, out_valid, out_ready, out_last,
+    input logic [5:0]  ring,
+    input logic [12:0] index, patch_points, start_points,
+    input logic [6:0]  a_p, a_points, b_p, b_points,
+    input logic        is_placed, // the placers' results are used
+    input logic [16:0] out_u, out_v
+);
+    logic [5:0] ring_before;
+    logic       was_active, was_start;
+    always_ff @(posedge clk) begin
+        ring_before <= ring;
+        was_active  <= active && !rst;
+        was_start   <= start_valid && start_ready;
+    end
+    `TESS_CHECK("points", "ring", !(active && was_active && !was_start) || ring == ring_before || ring == ring_before + 6'd1)
+    `TESS_CHECK("points", "index", !active || index < patch_points)
+    `TESS_CHECK("points", "a_p", !(active && is_placed) || a_p < a_points)
+    `TESS_CHECK("points", "b_p", !(active && is_placed) || b_p < b_points)
+    `TESS_CHECK("points", "u", !out_valid || out_u <= 17'h1_0000)
+    `TESS_CHECK("points", "v", !out_valid || out_v <= 17'h1_0000)
+    tess_check_stream #(.STAGE("points"), .WIDTH(35)) stream (
+        .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_u, out_v, out_last}));
+    tess_check_counts #(.STAGE("points")) counts (
+        .clk, .rst, .start(start_valid && start_ready), .elements({1'b0, start_points}),
+        .passes(out_valid && out_ready), .last(out_last));
+endmodule
+bind tess_points tess_check_points checks (
+    .clk, .rst, .active, .start_valid, .start_ready, .out_valid, .out_ready, .out_last, .ring, .index,
+    .patch_points(patch.points), .start_points(start_patch.points), .a_p, .a_points(a_context.points), .b_p,
+    .b_points(b_context.points), .is_placed(at != AT_CORNER), .out_u, .out_v
+);
+
+// Indices are numbers of the patch's points, rings climb by one, a stitch stays on its rows.
+module tess_check_connect (
+    input logic        clk, rst, advance, active, start_valid, start_ready, out_valid, out_ready, out_last,
+    input logic [12:0] patch_points,
+    input logic [13:0] start_primitives,
+    input logic [5:0]  ring,
+    input logic        is_stitch,
+    input logic [6:0]  outer_at, inner_at, outer_points, inner_points,
+    input logic [1:0]  out_size,
+    input logic [12:0] out_i0, out_i1, out_i2
+);
+    logic [12:0] points; // of the patch whose primitive is offered
+    logic [5:0]  ring_before;
+    logic        was_active, was_start;
+    always_ff @(posedge clk) begin
+        if (advance) points <= patch_points;
+        ring_before <= ring;
+        was_active  <= active && !rst;
+        was_start   <= start_valid && start_ready;
+    end
+    `TESS_CHECK("connect", "ring", !(active && was_active && !was_start) || ring == ring_before || ring == ring_before + 6'd1)
+    `TESS_CHECK("connect", "outer_at", !(active && is_stitch) || outer_at < outer_points)
+    `TESS_CHECK("connect", "inner_at", !(active && is_stitch) || inner_at < inner_points)
+    `TESS_CHECK("connect", "i0", !out_valid || out_i0 < points)
+    `TESS_CHECK("connect", "i1", !out_valid || out_i1 < points)
+    `TESS_CHECK("connect", "i2", !out_valid || out_i2 < points)
+    `TESS_CHECK("connect", "size", !out_valid || out_size != 2'd0)
+    tess_check_stream #(.STAGE("connect"), .WIDTH(42)) stream (
+        .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_size, out_i0, out_i1, out_i2, out_last}));
+    tess_check_counts #(.STAGE("connect")) counts (
+        .clk, .rst, .start(start_valid && start_ready), .elements(start_primitives),
+        .passes(out_valid && out_ready), .last(out_last));
+endmodule
+bind tess_connect tess_check_connect checks (
+    .clk, .rst, .advance, .active, .start_valid, .start_ready, .out_valid, .out_ready, .out_last,
+    .patch_points(patch.points), .start_primitives(start_patch.primitives), .ring,
+    .is_stitch(at == AT_STITCH || at == AT_STRIP), .outer_at, .inner_at, .outer_points, .inner_points,
+    .out_size, .out_i0, .out_i1, .out_i2
+);

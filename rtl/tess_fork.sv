@@ -1,0 +1,27 @@
+// Hands each element of a stream to N consumers, each of which takes it once, whenever it is ready. The element leaves
+// when the last of them has taken it, in the same clock.
+`include "tess_fault.svh"
+module tess_fork #(
+    parameter int N = 3
+) (
+    input  logic         clk,
+    input  logic         rst,
+    input  logic         in_valid,
+    output logic         in_ready,
+    output logic [N-1:0] out_valid,
+    input  logic [N-1:0] out_ready
+);
+    logic [N-1:0] took, takes; // before this clock; in this clock
+    assign out_valid = {N{in_valid}} & ~took;
+    assign takes     = out_valid & out_ready;
+    assign in_ready  = &(took | takes) || (`TESS_FAULT(13) && takes[0]);
+
+    always_ff @(posedge clk) begin
+        if (rst || in_ready) took <= '0;
+        else                 took <= took | takes;
+    end
+
+`ifdef TESS_PROOF
+`include "formal/inside_fork.svh"
+`endif
+endmodule
