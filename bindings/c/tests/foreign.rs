@@ -31,6 +31,12 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("mesa_draws_equal_model", &["cc"], mesa::draws_equal_model),
     ("rtl_equals_model", &["c++", "make", "verilator"], rtl::equals_model),
     ("rtl_faults_are_caught", &["c++", "make", "verilator"], rtl::faults_are_caught),
+    ("rtl_stages_equal_model", &["c++", "make", "verilator"], rtl::stages_equal_model),
+    (
+        "rtl_systemc_modules_are_equal",
+        &["c++", "make", "verilator", "systemc"],
+        rtl::systemc_modules_are_equal,
+    ),
     ("rtl_stimuli_are_checked", &["c++", "make", "verilator"], rtl::stimuli_are_checked),
     ("verilog_equals_model", &["c++", "make", "verilator"], verilog::equals_model),
     ("verilog_faults_are_caught", &["c++", "make", "verilator"], verilog::faults_are_caught),

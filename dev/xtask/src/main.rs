@@ -17,6 +17,7 @@ mod ports;
 mod publish;
 mod python;
 mod records;
+mod rtl;
 mod setup;
 mod suite;
 mod tally;
@@ -47,6 +48,11 @@ usage: cargo xtask <command>
   integrations
           build the plugin for Bevy, run its tests and its example, and compare the pictures of its two
           ways to tessellate; `ci` leaves it out, as Bevy takes long to build
+  rtl     lint the circuit and compare it with the model in Verilator: level 1, random patches under back-pressure,
+          single stages; plant its faults; print clocks for the workloads of `tess bench`
+  rtl --long | --prove | --synth
+          compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
+          where it stopped; prove handshakes and placement; print what the circuit costs
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
   circles [FOLDER...]
@@ -116,6 +122,10 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["explorer", "--serve"] => explorer::serve(),
         ["explorer", "--test"] => explorer::test(),
         ["integrations"] => after_setup(&integrations::run),
+        ["rtl"] => rtl::run(),
+        ["rtl", "--long"] => rtl::long(),
+        ["rtl", "--prove"] => rtl::prove(),
+        ["rtl", "--synth"] => rtl::synthesize(),
         ["covergroups"] => covergroups::write(),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),

@@ -3,7 +3,7 @@
 mod needs;
 
 use crate::command;
-pub(crate) use needs::{ICARUS, PYTHON};
+pub(crate) use needs::{ICARUS, PYTHON, SOLVER, VERILATOR, YOSYS};
 use std::path::Path;
 use std::process::{Command, Stdio};
 

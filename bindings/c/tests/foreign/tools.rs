@@ -23,8 +23,12 @@ pub(crate) fn build_folder() -> &'static Path {
     folder
 }
 
-/// Whether a tool can be run.
+/// Whether a tool can be run; of the library `systemc`, whether its header is there.
 pub(crate) fn has(tool: &str) -> bool {
+    if tool == "systemc" {
+        let include = std::env::var_os("SYSTEMC_INCLUDE").unwrap_or_else(|| "/usr/include".into());
+        return Path::new(&include).join("systemc").exists();
+    }
     let mut command = Command::new(tool);
     command.arg("--version").stdout(Stdio::null()).stderr(Stdio::null());
     command.status().is_ok_and(|status| status.success())

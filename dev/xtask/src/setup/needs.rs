@@ -39,10 +39,11 @@ pub(super) const BEYOND: &[Need] = &[
         packages: &["xvfb", "libx11-xcb1", "libxcursor1", "libxi6", "libxkbcommon-x11-0"],
         is_there: || has_program("Xvfb"),
     },
+    VERILATOR,
     Need {
-        what: "Verilator (tests of the SystemVerilog interface)",
-        packages: &["verilator"],
-        is_there: || has_program("verilator"),
+        what: "SystemC (tests of the SystemC modules)",
+        packages: &["libsystemc-dev"],
+        is_there: || Path::new("/usr/include/systemc").exists(),
     },
     ICARUS,
     PYTHON,
@@ -54,6 +55,24 @@ pub(crate) const PYTHON: Need = Need {
     packages: &["python3", "python3-venv"],
     is_there: has_python,
 };
+
+/// The simulator of the benches.
+pub(crate) const VERILATOR: Need = Need {
+    what: "Verilator with a C++ compiler and make (benches of the SystemVerilog interface and of the circuit)",
+    packages: &["verilator", "g++", "make"],
+    is_there: || ["verilator", "c++", "make"].into_iter().all(has_program),
+};
+
+/// Synthesis of the circuit, and what proofs are made of.
+pub(crate) const YOSYS: Need = Need {
+    what: "Yosys (synthesis and proofs of the circuit)",
+    packages: &["yosys"],
+    is_there: || has_program("yosys") && has_program("yosys-smtbmc"),
+};
+
+/// The solver of proofs.
+pub(crate) const SOLVER: Need =
+    Need { what: "Z3 (proofs of the circuit)", packages: &["z3"], is_there: || has_program("z3") };
 
 /// The second simulator of the cocotb bench.
 pub(crate) const ICARUS: Need = Need {

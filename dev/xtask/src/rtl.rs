@@ -1,0 +1,78 @@
+//! The circuit in `rtl`: lint, comparison with the model, planted faults and clocks in one command; long comparisons,
+//! proofs and costs in others.
+
+mod bench;
+mod clocks;
+mod cost;
+mod faults;
+mod long;
+mod proofs;
+mod stages;
+
+use bench::Bench;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use tess_verify::case::Case;
+use tess_verify::generate::{GenLevel, Selection};
+
+/// Random patches behind level 1; the bench draws them itself.
+const RANDOM_PATCHES: u64 = 20_000;
+
+/// Compares the circuit with the model: level 1 and random patches under back-pressure, gaps and resets, parts of the
+/// single stages, every planted fault, then clocks.
+///
+/// # Errors
+/// A tool is missing, the lint warns, an element differs, or a planted fault is not found.
+pub(crate) fn run() -> Result<(), String> {
+    let bench = Bench::built()?;
+    println!("\nlint: no warnings");
+    let level_1: Vec<Case> = Selection::level(GenLevel::One, 1).cases().collect();
+    let stimuli = bench.stimuli("level-1", &level_1)?;
+    let random = format!("+random={RANDOM_PATCHES}");
+    let verdict = bench.compare(&[&stimuli, &random, "+gaps", "+resets=100"])?;
+    verdict.demand(level_1.len() as u64 + RANDOM_PATCHES)?;
+    println!("level 1, {RANDOM_PATCHES} random patches, 100 resets: {verdict}");
+    stages::part(&bench.folder)?;
+    faults::run(&bench)?;
+    clocks::run(&bench)
+}
+
+/// Compares for hours, and goes on where an earlier run has stopped.
+///
+/// # Errors
+/// As for [`run`].
+pub(crate) fn long() -> Result<(), String> {
+    long::run(&Bench::built()?)
+}
+
+/// Proves the handshakes and the placement.
+///
+/// # Errors
+/// A tool is missing, a proof fails, or one holds although a fault is planted.
+pub(crate) fn prove() -> Result<(), String> {
+    proofs::run()
+}
+
+/// Synthesizes the circuit and prints what it costs.
+///
+/// # Errors
+/// A tool is missing or fails.
+pub(crate) fn synthesize() -> Result<(), String> {
+    cost::run()
+}
+
+/// The folder of the circuit.
+fn sources() -> PathBuf {
+    crate::command::workspace().join("rtl")
+}
+
+/// Cases as the bench reads them, one a line.
+fn lines(cases: &[Case]) -> String {
+    let mut text = String::new();
+    for case in cases {
+        let line = case.to_string();
+        // Writing to a String does not fail.
+        _ = writeln!(text, "{}", line.strip_prefix("case ").unwrap_or(&line));
+    }
+    text
+}

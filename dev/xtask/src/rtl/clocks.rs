@@ -1,0 +1,83 @@
+//! How many clocks the workloads of `tess bench` take, without back-pressure.
+
+use super::bench::{Bench, Verdict};
+use tess_verify::case::Case;
+use tess_verify::workloads::{self, Calls, Workload};
+
+/// Points of a workload that are enough; what is behind them is left out.
+const POINTS: u64 = 100_000;
+
+/// Prints latencies, then a row of a table for each workload.
+///
+/// # Errors
+/// A patch differs from the model.
+pub(crate) fn run(bench: &Bench) -> Result<(), String> {
+    let (_, said) = bench.compare_aloud(&["+random=1000", "+alone"])?;
+    println!("\nclocks, one patch alone: {}", line(&said, "latency: ")?);
+    println!(
+        "\n| workload | patches | points | primitives | clocks | points a clock | primitives a clock | clocks between patches |"
+    );
+    println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
+    // The circuit does not know how many patches a call has.
+    let batches = workloads::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
+    for workload in batches {
+        let file = workload.name.replace('/', "-");
+        let stimuli = bench.stimuli(&file, &beginning(&workload))?;
+        let (verdict, said) = bench.compare_aloud(&[&stimuli])?;
+        let between = line(&said, "between patches: at most ")?.replace(" clocks", "");
+        println!("{}", row(&workload.name, verdict, &between));
+    }
+    Ok(())
+}
+
+/// The first patches, with enough points together.
+fn beginning(workload: &Workload) -> Vec<Case> {
+    let mut points = 0;
+    let cases = workload.patches.iter().zip(workload.counts());
+    let chosen = cases.take_while(|(_, counts)| {
+        let is_wanted = points < POINTS;
+        points += u64::from(counts.points);
+        is_wanted
+    });
+    chosen.map(|(&factors, _)| Case { config: workload.config, factors }).collect()
+}
+
+/// What a line says behind this prefix.
+fn line<'a>(said: &'a str, prefix: &str) -> Result<&'a str, String> {
+    said.lines()
+        .find_map(|line| line.strip_prefix(prefix))
+        .ok_or_else(|| format!("the bench does not say `{prefix}`:\n{said}"))
+}
+
+fn row(name: &str, verdict: Verdict, between: &str) -> String {
+    let Verdict { patches, points, primitives, clocks } = verdict;
+    let rate = |elements: u64| {
+        let thousandths = elements * 1000 / clocks.max(1);
+        format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
+    };
+    format!(
+        "| `{name}` | {patches} | {points} | {primitives} | {clocks} | {} | {} | {between} |",
+        rate(points),
+        rate(primitives)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rates_have_three_places() {
+        let verdict = Verdict { patches: 1, points: 9, primitives: 8, clocks: 16 };
+        let expected = "| `x` | 1 | 9 | 8 | 16 | 0.562 | 0.500 | 3 |";
+        assert_eq!(row("x", verdict, "3"), expected, "a row");
+    }
+
+    #[test]
+    fn a_beginning_has_enough_points() {
+        let worst = workloads::worst();
+        let some = beginning(&worst);
+        let points: u32 = some.iter().map(|case| case.patch().counts().points).sum();
+        assert!(u64::from(points) >= POINTS && some.len() < worst.patches.len(), "{points} points");
+    }
+}

@@ -1,0 +1,138 @@
+//! Proofs with Yosys and an SMT solver: for all inputs and any number of clocks, not for those of a test.
+
+use super::sources;
+use crate::command::{self, target};
+use crate::setup;
+use std::process::Command;
+use std::time::Instant;
+
+/// A property that is proved of a module.
+struct Proof {
+    /// The module, and what holds.
+    says: &'static str,
+    top: &'static str,
+    /// Its sources in `rtl`, `tess_pkg.sv` apart.
+    files: &'static [&'static str],
+    /// Clocks of the base case and of the induction step; 0 for circuits without state.
+    depth: u32,
+    /// A fault that the design has for a proof to fail on, as Verilog defines.
+    fault: Option<&'static str>,
+}
+
+const PROOFS: &[Proof] = &[
+    Proof {
+        says: "tess_fork hands each patch to each stage exactly once",
+        top: "tess_fork",
+        files: &["tess_fork", "formal/prove_fork"],
+        depth: 6,
+        fault: Some("TESS_PROOF_FAULT=13"),
+    },
+    Proof {
+        says: "tess_factors neither drops nor doubles a patch",
+        top: "tess_factors",
+        files: &[
+            "tess_reciprocal",
+            "tess_factor",
+            "tess_factor_context",
+            "tess_factors",
+            "formal/prove_factors",
+        ],
+        depth: 4,
+        fault: None,
+    },
+    Proof {
+        says: "tess_points neither drops nor doubles a point",
+        top: "tess_points",
+        files: &[
+            "tess_place",
+            "tess_place_position",
+            "tess_place_blend",
+            "tess_points",
+            "formal/prove_points",
+        ],
+        depth: 4,
+        fault: Some("TESS_PROOF_FAULT=10"),
+    },
+    Proof {
+        says: "tess_connect neither drops nor doubles a primitive",
+        top: "tess_connect",
+        files: &["tess_rows", "tess_stitch", "tess_mask", "tess_connect", "formal/prove_connect"],
+        depth: 4,
+        fault: None,
+    },
+    Proof {
+        says: "tess_place_position equals the first half of the formula of section 5",
+        top: "prove_place_position",
+        files: &["tess_place_position", "formal/prove_place"],
+        depth: 0,
+        fault: Some("TESS_PROOF_FLIP_FAULT=1"),
+    },
+];
+
+/// Proves each, and sees each fail on its planted fault.
+///
+/// # Errors
+/// A tool is missing, a proof fails, or one holds although a fault is planted.
+pub(crate) fn run() -> Result<(), String> {
+    setup::provide(&[setup::YOSYS, setup::SOLVER])?;
+    for proof in PROOFS {
+        let began = Instant::now();
+        proof.write(None)?;
+        if let Some(counterexample) = proof.fails()? {
+            return Err(format!("not proved: {}\n{counterexample}", proof.says));
+        }
+        println!("proved: {}, {:.1} s", proof.says, began.elapsed().as_secs_f32());
+        let Some(fault) = proof.fault else { continue };
+        proof.write(Some(fault))?;
+        if proof.fails()?.is_none() {
+            return Err(format!("proved with {fault}, which makes it wrong: {}", proof.says));
+        }
+        println!("    with {fault} it fails, as it must");
+    }
+    Ok(())
+}
+
+impl Proof {
+    fn file(&self) -> std::path::PathBuf {
+        target().join("rtl").join(format!("{}.smt2", self.top))
+    }
+
+    /// Has Yosys write what is to be proved.
+    fn write(&self, define: Option<&str>) -> Result<(), String> {
+        let define = define.map(|define| format!("-D {define} ")).unwrap_or_default();
+        let files: Vec<String> = self.files.iter().map(|name| format!("{name}.sv")).collect();
+        std::fs::create_dir_all(target().join("rtl")).map_err(|error| error.to_string())?;
+        // Outputs that no property looks at go, and the multipliers behind them.
+        let script = format!(
+            "read_verilog -sv -formal -D TESS_PROOF {define}-I . tess_pkg.sv {}; hierarchy -top {}; proc; flatten; \
+             delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
+            files.join(" "),
+            self.top,
+            self.file().display()
+        );
+        let mut yosys = Command::new("yosys");
+        command::quiet_output(yosys.args(["-q", "-p", &script]).current_dir(sources())).map(|_| ())
+    }
+
+    /// Why it cannot be proved; `None` if it is.
+    fn fails(&self) -> Result<Option<String>, String> {
+        let steps = self.depth.max(1).to_string();
+        let base = self.solve(&["-t", &steps])?;
+        if base.is_some() || self.depth == 0 {
+            return Ok(base);
+        }
+        self.solve(&["-i", "-t", &steps])
+    }
+
+    fn solve(&self, arguments: &[&str]) -> Result<Option<String>, String> {
+        let mut solver = Command::new("yosys-smtbmc");
+        solver.args(["--noprogress", "-s", "z3"]).args(arguments).arg(self.file());
+        let output = solver.output().map_err(|error| format!("yosys-smtbmc: {error}"))?;
+        let said = String::from_utf8_lossy(&output.stdout).into_owned();
+        match said.lines().last().and_then(|line| line.split("Status: ").nth(1)) {
+            Some("PASSED") if output.status.success() => Ok(None),
+            Some("FAILED") => Ok(Some(said)),
+            _ => Err(format!("yosys-smtbmc ended with {}\n{said}", output.status)),
+        }
+    }
+}

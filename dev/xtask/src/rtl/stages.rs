@@ -1,0 +1,106 @@
+//! Single stages for every input of a range: context and place by factor, factor processing by binary32 pattern.
+
+use super::bench::{library, output};
+use super::sources;
+use crate::command;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The factors in 15.16, 1 to 64.
+const FACTORS: Range<u32> = 0x1_0000..0x40_0001;
+/// The binary32 patterns of the binades from 1 to 64.
+const BINADES: Range<u32> = 0x3F80_0000..0x4280_0000;
+
+/// Inputs that one run of the bench takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Inputs {
+    /// 15.16 factors: the first, and how many.
+    Factors(u32, u32),
+    /// binary32 patterns: the first, and how many.
+    Words(u32, u32),
+}
+
+impl Inputs {
+    fn arguments(self) -> [String; 2] {
+        match self {
+            Self::Factors(first, count) => [format!("+first={first}"), format!("+factors={count}")],
+            Self::Words(first, count) => [format!("+bits={first:x}"), format!("+words={count}")],
+        }
+    }
+}
+
+/// The part that every run of `cargo xtask rtl` does: the factors about 1, 2, 63 and 64, and 4096 patterns about 1.
+///
+/// # Errors
+/// A value differs, or the bench cannot be built.
+pub(crate) fn part(folder: &Path) -> Result<(), String> {
+    let stages = Stages::built(folder)?;
+    println!();
+    let factors = [0x1_0000, 0x1_FFC0, 0x2_FFC0, 0x3E_FFC0, 0x3F_FF81];
+    for inputs in factors.map(|first| Inputs::Factors(first, 128)) {
+        println!("{}", stages.compare(inputs)?);
+    }
+    println!("{}", stages.compare(Inputs::Words(0x3F7F_F800, 4096))?);
+    Ok(())
+}
+
+/// Every input, in ranges of about a minute each.
+pub(crate) fn all() -> Vec<Inputs> {
+    let cut = |range: Range<u32>, size: u32| {
+        let end = range.end;
+        range.step_by(size as usize).map(move |first| (first, size.min(end - first)))
+    };
+    let words = cut(BINADES, 1 << 20).map(|(first, count)| Inputs::Words(first, count));
+    words.chain(cut(FACTORS, 1 << 16).map(|(first, count)| Inputs::Factors(first, count))).collect()
+}
+
+/// The bench of the stages.
+pub(crate) struct Stages(PathBuf);
+
+impl Stages {
+    /// Builds it in a folder below this one.
+    ///
+    /// # Errors
+    /// Verilator fails.
+    pub(crate) fn built(folder: &Path) -> Result<Self, String> {
+        let mut script = Command::new(sources().join("run"));
+        script.args(["--stages", "--build"]);
+        script.env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", folder);
+        command::run(&mut script)?;
+        Ok(Self(folder.join("stages/Vtb_stages")))
+    }
+
+    /// Compares a range; gives what was compared.
+    ///
+    /// # Errors
+    /// Something differs: what the bench printed.
+    pub(crate) fn compare(&self, inputs: Inputs) -> Result<String, String> {
+        let arguments = inputs.arguments();
+        let (succeeded, said) = output(&self.0, &arguments.each_ref().map(String::as_str))?;
+        let tally = said.lines().find(|line| line.ends_with(", 0 mismatches"));
+        match tally.filter(|_| succeeded && said.lines().any(|line| line == "PASS")) {
+            Some(tally) => Ok(format!("stages {}: {tally}", arguments.join(" "))),
+            None => Err(format!("{} {}:\n{said}", self.0.display(), arguments.join(" "))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_cover_every_input_once() {
+        let (mut factors, mut words) = (FACTORS.start, BINADES.start);
+        for inputs in all() {
+            let (next, first, count) = match inputs {
+                Inputs::Factors(first, count) => (&mut factors, first, count),
+                Inputs::Words(first, count) => (&mut words, first, count),
+            };
+            assert_eq!(*next, first, "no gap");
+            *next += count;
+        }
+        assert_eq!((factors, words), (FACTORS.end, BINADES.end), "to the ends");
+    }
+}
