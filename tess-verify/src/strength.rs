@@ -143,8 +143,7 @@ impl Strength {
         match (self.order, self.elements) {
             (Order::Exact, Elements::Primitives) => observed == expected,
             (Order::Sequence, Elements::Primitives) => {
-                observed.indices.len() == expected.indices.len()
-                    && vertices(observed).eq(vertices(expected))
+                vertices(observed).eq(vertices(expected))
                     && first_stray(observed, expected).is_none()
             }
             (Order::Exact | Order::Sequence, Elements::Points) => {

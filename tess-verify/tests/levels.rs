@@ -69,7 +69,17 @@ fn level_2_has_both_split_orders_everywhere() {
 
 /// A patch, bins that it hits, and bins that it does not. 3f800080 is 1 + 2^-16, 3f800040 is 1 + 2^-17; 40400020
 /// lies halfway between 3 and 3 + 2^-16, and 40400060 halfway between the next two.
-const TABLE: [(&str, &[&str], &[&str]); 11] = [
+const TABLE: [(&str, &[&str], &[&str]); 13] = [
+    (
+        "quad integer bf000000 40000000 40000000 40000000 40000000 40000000",
+        &["cull/quad/u0/negative"],
+        &["cull/quad/u0/zero"],
+    ),
+    (
+        "isoline fractional_even 40000000 40000000",
+        &["clamp/fractional_even/outer/within"],
+        &["clamp/fractional_even/outer/below"],
+    ),
     ("tri fractional_odd 3f800000 3f800000 3f800000 3f800000", &["picture_frame/all_one"], &[]),
     ("tri fractional_odd 40000000 3f800000 3f800000 3f800000", &["picture_frame/raised"], &[]),
     (

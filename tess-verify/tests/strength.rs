@@ -77,8 +77,43 @@ fn points_alone() {
     other.indices.clear();
     other.points.push(other.points[0]);
     assert!(strength.accepts(&case, &other), "indices and repetitions do not count");
+    let mut fewer = other.clone();
+    let gone = fewer.points[3];
+    fewer.points.retain(|point| *point != gone);
+    assert!(!strength.accepts(&case, &fewer), "a point less");
     other.points[3] = DomainPoint::from_bits(1, 2);
     assert!(!strength.accepts(&case, &other), "a point's place does");
+}
+
+/// Without indices, and in the model's order.
+#[test]
+fn points_alone_in_order() {
+    let case = case(QUAD);
+    for order in [Order::Exact, Order::Sequence] {
+        let strength = Strength { order, elements: Elements::Points, ..Strength::default() };
+        let good = Tessellation { indices: Vec::new(), ..output(&case) };
+        assert!(strength.accepts(&case, &good), "{order:?}: indices do not count");
+        let mut reversed = good.clone();
+        reversed.points.reverse();
+        assert!(!strength.accepts(&case, &reversed), "{order:?}: the order does");
+        let mut longer = good;
+        longer.points.push(longer.points[0]);
+        assert!(!strength.accepts(&case, &longer), "{order:?}: a repetition does");
+    }
+}
+
+/// What is compared as a sequence ends where the model's ends.
+#[test]
+fn a_sequence_has_its_length() {
+    let case = case(QUAD);
+    let strength = Strength { order: Order::Sequence, ..Strength::default() };
+    let good = output(&case);
+    let mut longer = good.clone();
+    longer.indices.extend_from_slice(&good.indices[..3]);
+    assert!(!strength.accepts(&case, &longer), "a triangle more");
+    let mut shorter = good;
+    shorter.indices.truncate(shorter.indices.len() - 3);
+    assert!(!strength.accepts(&case, &shorter), "a triangle less");
 }
 
 /// The factor 3 + 2^-17 lies halfway between 0x30000 and 0x30001.

@@ -262,6 +262,23 @@ fn take<T: Ord>(list: &mut Peekable<impl Iterator<Item = T>>, element: T) -> usi
 mod tests {
     use super::*;
 
+    /// A point that is missing is shown with the nearest one of those that are too many.
+    #[test]
+    fn the_nearest_point_stands_instead() {
+        let line =
+            "case quad integer point ruler 40000000 40000000 40000000 40000000 40000000 40000000";
+        let case: Case = line.parse().expect("a case");
+        let output = |u: [u32; 2]| Tessellation {
+            points: u.map(|u| DomainPoint::from_bits(u, 0)).to_vec(),
+            indices: Vec::new(),
+        };
+        let (observed, expected) = (output([0x101, 0x9000]), output([0x100, 0x8000]));
+        let first = first_difference(Elements::Points, &case, &observed, &expected);
+        let first = first.expect("all four differ");
+        assert_eq!(first.vertices, [[0x100, 0]], "the first one");
+        assert_eq!(first.instead.map(|other| other.vertices), Some(vec![[0x101, 0]]), "beside it");
+    }
+
     /// The triangle in the head of this file.
     #[test]
     fn keys_of_one_triangle() {
