@@ -4,6 +4,7 @@ use crate::error::{Error, checked};
 use crate::open::{self, Wanted};
 use std::fmt;
 use std::future::Future;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::pin::{Pin, pin};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::task::{Context, Poll, Waker};
@@ -143,8 +144,7 @@ impl Gpu {
 
     /// Waits until everything submitted has run.
     fn wait(&self) -> Result<(), Error> {
-        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
-        waited.map_err(|error| lost(&error))?;
+        poll(&self.device, wgpu::PollType::wait_indefinitely())?;
         check_alive(&self.device)
     }
 }
@@ -178,8 +178,8 @@ impl Future for Arrival<'_> {
     type Output = Result<(), Error>;
 
     fn poll(self: Pin<&mut Self>, context: &mut Context<'_>) -> Poll<Self::Output> {
-        if let Err(error) = self.device.poll(wgpu::PollType::Poll) {
-            return Poll::Ready(Err(lost(&error)));
+        if let Err(error) = poll(self.device, wgpu::PollType::Poll) {
+            return Poll::Ready(Err(error));
         }
         // Whoever answers holds the other half until then.
         let is_dropped = Arc::strong_count(&self.answer) == 1;
@@ -232,6 +232,17 @@ pub(crate) fn filled(
         buffer.unmap();
         Ok(buffer)
     })?
+}
+
+/// Polls the device. wgpu panics in this call if the driver has lost the device, so a panic is an error if that is why.
+pub(crate) fn poll(device: &wgpu::Device, kind: wgpu::PollType) -> Result<(), Error> {
+    match catch_unwind(AssertUnwindSafe(|| device.poll(kind))) {
+        Ok(polled) => polled.map(drop).map_err(|error| lost(&error)),
+        Err(panic) => {
+            check_alive(device)?;
+            resume_unwind(panic)
+        }
+    }
 }
 
 /// An error if the device is lost. wgpu does not say so when it makes objects or takes commands, but

@@ -57,8 +57,7 @@ impl Feedbacks {
 
     /// Takes what has arrived.
     pub(crate) fn take(&mut self, device: &wgpu::Device, frame: u64) -> Result<(), Error> {
-        let polled = device.poll(wgpu::PollType::Poll);
-        polled.map_err(|error| Error::DeviceLost { reason: error.to_string() })?;
+        gpu::poll(device, wgpu::PollType::Poll)?;
         for mut one in std::mem::take(&mut self.under_way) {
             // The encoder holds the other half until the answer is there; it goes with an encoder that is dropped.
             let has_encoder = Arc::get_mut(&mut one.state).is_none();

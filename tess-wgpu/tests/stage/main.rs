@@ -11,6 +11,8 @@ mod cracks;
 mod drawing;
 mod errors;
 mod frames;
+#[cfg(target_os = "linux")]
+mod lost;
 mod model;
 mod porting;
 mod room;
