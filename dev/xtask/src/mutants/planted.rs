@@ -136,7 +136,8 @@ impl Rig {
 fn chosen(words: &[&str]) -> Result<Vec<Fault>, String> {
     let mut faults = fault::read(&workspace().join(LISTS))?;
     faults.retain(|fault| {
-        let shown = format!("{} {} {}", fault.folder.display(), fault.tests, fault.name);
+        let Fault { folder, tests, filters, name, .. } = fault;
+        let shown = format!("{} {tests} {} {name}", folder.display(), filters.join(" "));
         words.is_empty() || words.iter().any(|word| shown.contains(word))
     });
     if faults.is_empty() { Err(format!("no fault has one of {words:?}")) } else { Ok(faults) }
