@@ -14,6 +14,7 @@ pub use report::{CheckError, Difference, MAX_DIFFERENCES, Report};
 use crate::backend::{Backend, BackendError};
 use crate::case::Case;
 use crate::compare::{Element, Mismatch, Stage};
+use crate::known::Known;
 use crate::strength::{Elements, Order, Strength};
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
 use crate::workers;
@@ -77,6 +78,22 @@ pub fn check_asked<R: BufRead + Send>(
     tested: Tested,
     checked: &(dyn Fn(Checked<'_>) + Sync),
 ) -> Result<Report, CheckError> {
+    check_known(file, asked, &Known::default(), backends, tested, checked)
+}
+
+/// [`check_asked`], where a record that differs from what is right for its case is no mismatch if that is `known`.
+/// A record that answers another case than was asked is one all the same.
+///
+/// # Errors
+/// The errors of [`check_asked`].
+pub fn check_known<R: BufRead + Send>(
+    file: VectorFile<R>,
+    asked: Option<Asked<'_>>,
+    known: &Known,
+    backends: &mut [Box<dyn Backend>],
+    tested: Tested,
+    checked: &(dyn Fn(Checked<'_>) + Sync),
+) -> Result<Report, CheckError> {
     if backends.is_empty() {
         return Err(BackendError::new("no backend to check with").into());
     }
@@ -88,7 +105,7 @@ pub fn check_asked<R: BufRead + Send>(
     let unanswered = Findings::default();
     let source = Mutex::new(Source { file, asked, unanswered, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
-        let result = run(&how, &source, backend.as_mut(), checked);
+        let result = run(&how, &source, known, backend.as_mut(), checked);
         if result.is_err() {
             lock(&source).stopped.get_or_insert(Ok(()));
         }
@@ -240,6 +257,7 @@ fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
 fn run<R: BufRead>(
     how: &How,
     source: &Mutex<Source<'_, R>>,
+    known: &Known,
     backend: &mut dyn Backend,
     checked: &(dyn Fn(Checked<'_>) + Sync),
 ) -> Result<Findings, BackendError> {
@@ -248,6 +266,11 @@ fn run<R: BufRead>(
         let unit = lock(source).next_unit(how);
         let Some(Unit { numbers, astray, records }) = unit else { return Ok(findings) };
         let found = check_unit(how, backend, &records)?;
+        let found: Vec<Found> = found
+            .into_iter()
+            .zip(&records)
+            .map(|(found, record)| found.unless_known(record.case(), known))
+            .collect();
         let different: Vec<bool> = found.iter().map(Found::is_different).collect();
         let answers = numbers.into_iter().zip(&records).zip(astray.into_iter().zip(found));
         for ((number, record), (astray, found)) in answers {

@@ -14,6 +14,7 @@ pub mod drawing;
 pub mod explanation;
 pub mod formats;
 pub mod generate;
+pub mod known;
 pub mod names;
 pub mod picture;
 mod quote;
@@ -31,13 +32,16 @@ pub mod workloads;
 
 pub use backend::{Backend, BackendError};
 pub use case::{Case, CaseError};
-pub use checker::{CheckError, Report, Tested, check, check_asked, check_case, check_device};
+pub use checker::{
+    CheckError, Report, Tested, check, check_asked, check_case, check_device, check_known,
+};
 pub use compare::{Element, Mismatch, Stage};
 pub use core_backend::CoreBackend;
 pub use coverage::Coverage;
 pub use generate::{GenLevel, Selection, Shard};
+pub use known::Known;
 pub use names::Named;
 pub use strength::{Conversion, Denormals, Elements, Order, Strength};
 pub use vectors::{Cases, Header, Kind, Listing, Record, VectorError, VectorFile};
-pub use verify::{Plan, Row, Subject, verify};
+pub use verify::{Plan, Row, Subject, verify, verify_known};
 pub use ways::Way;

@@ -8,7 +8,7 @@ mod subject;
 mod topologies;
 mod units;
 
-pub use run::{Row, verify};
+pub use run::{Row, verify, verify_known};
 pub use subject::{Random, Subject};
 pub use units::{RandomUnit, Unit, Units};
 

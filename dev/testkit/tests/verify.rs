@@ -5,7 +5,8 @@ use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::backend::Backend;
 use tess_verify::core_backend::CoreBackend;
 use tess_verify::generate::Shard;
-use tess_verify::verify::{Plan, Random, Row, Subject, verify};
+use tess_verify::known::Known;
+use tess_verify::verify::{Plan, Random, Row, Subject, verify, verify_known};
 
 fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &Plan) -> Vec<Row> {
     verify(workers, plan, &|_, _, _| {}).expect("the backends run")
@@ -64,4 +65,25 @@ fn one_bit_of_one_random_patch() {
         assert!(first.contains("point "), "the element is named: {first}");
         assert!(first.contains("\n  tess patch "), "it can be run again: {first}");
     }
+}
+
+/// The patch that differs is excused, and no other; the stage of what is not is counted.
+#[test]
+fn a_known_difference_is_no_mismatch() {
+    let plan = Plan::random(Random { patches: 100, seed: 3 });
+    let faulty = || -> Vec<Vec<Box<dyn Backend>>> {
+        vec![vec![Box::new(Faulty::new(CoreBackend, Fault::PointU, 101))]]
+    };
+    let row = run(&mut faulty(), &plan).remove(0);
+    assert_eq!(row.stages.values().sum::<u64>(), 1, "{row:?}");
+    let line = row.first.as_deref().and_then(|first| first.lines().next()).expect("a case line");
+    let with = |known: Known| {
+        let rows = verify_known(&mut faulty(), &plan, &known, &|_, _, _| {});
+        let row = rows.expect("the backend runs").remove(0);
+        (row.mismatches, row.known, known.gone().len())
+    };
+    let case = line.parse().expect("a case");
+    assert_eq!(with(Known::new([case])), (0, 1, 0), "excused");
+    let other = "case isoline integer point ruler 12345678 3f800000".parse().expect("a case");
+    assert_eq!(with(Known::new([other])), (1, 0, 0), "another case excuses nothing");
 }

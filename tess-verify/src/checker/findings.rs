@@ -5,6 +5,7 @@ use super::report::Turns;
 use super::{Difference, MAX_DIFFERENCES, Report};
 use crate::case::Case;
 use crate::compare::Mismatch;
+use crate::known::Known;
 use crate::strength::Conversions;
 
 /// What is found of a record.
@@ -17,12 +18,20 @@ pub(super) enum Found {
     Different(Mismatch, Option<Case>),
     /// What is wrong with a device's output for a case, and which turns explain it.
     Turned(Mismatch, Case, Turns),
+    /// It differs, and that is known.
+    Known,
 }
 
 impl Found {
     /// Whether the record differs, as far as it shows on its own.
     pub(super) const fn is_different(&self) -> bool {
         matches!(self, Self::Different(..) | Self::Turned(..))
+    }
+
+    /// The same, unless it is a difference that is known of this case.
+    pub(super) fn unless_known(self, case: Option<Case>, known: &Known) -> Self {
+        let is_known = case.is_some_and(|case| known.excuses(&case, self.is_different()));
+        if is_known { Self::Known } else { self }
     }
 
     pub(super) fn new(mismatch: Option<Mismatch>, case: Option<Case>) -> Self {
@@ -49,6 +58,7 @@ impl Findings {
         self.report.cases += 1;
         match found {
             Found::Equal => {}
+            Found::Known => self.report.known += 1,
             Found::Converted(case, conversions) => {
                 self.uses.push(Use { number, line, case, conversions });
             }
@@ -66,6 +76,7 @@ impl Findings {
 
     fn differ(&mut self, difference: Difference, file: impl FnOnce() -> Option<String>) {
         self.report.mismatches += 1;
+        *self.report.stages.entry(difference.mismatch.stage).or_default() += 1;
         if self.report.differences.len() < MAX_DIFFERENCES {
             self.report.differences.push(Difference { file: file(), ..difference });
         }

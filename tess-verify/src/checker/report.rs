@@ -2,10 +2,11 @@
 
 use crate::backend::BackendError;
 use crate::case::Case;
-use crate::compare::Mismatch;
+use crate::compare::{Mismatch, Stage};
 use crate::names::Named;
 use crate::vectors::{Header, Kind, Record, VectorError};
 use crate::ways::Way;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// How many differences a report shows in full.
@@ -17,8 +18,12 @@ pub const MAX_DIFFERENCES: usize = 20;
 pub struct Report {
     /// Records that were checked: all of the file.
     pub cases: u64,
-    /// Records that differ.
+    /// Records that differ, and are not [`Known`](crate::known::Known).
     pub mismatches: u64,
+    /// How many of them point to each stage.
+    pub stages: BTreeMap<Stage, u64>,
+    /// Records that differ and are known.
+    pub known: u64,
     /// The first differences, at most [`MAX_DIFFERENCES`], in the order of the file.
     pub differences: Vec<Difference>,
     /// What explains every difference so far; `None` if there is none.
@@ -49,6 +54,10 @@ impl Report {
         }
         self.cases += other.cases;
         self.mismatches += other.mismatches;
+        self.known += other.known;
+        for (stage, more) in other.stages {
+            *self.stages.entry(stage).or_default() += more;
+        }
         self.differences.extend(other.differences);
         self.differences.sort_by_key(|difference| difference.number);
         self.differences.truncate(MAX_DIFFERENCES);
@@ -58,7 +67,8 @@ impl Report {
 /// The summary line.
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} cases, {} mismatches", self.cases, self.mismatches)
+        write!(f, "{} cases, {} mismatches", self.cases, self.mismatches)?;
+        if self.known > 0 { write!(f, ", {} known", self.known) } else { Ok(()) }
     }
 }
 

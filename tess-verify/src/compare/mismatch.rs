@@ -3,8 +3,8 @@
 use std::fmt;
 use tess_core::FixedFactor;
 
-/// A stage on a patch's way, as far as a difference can be traced back.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+/// A stage on a patch's way, as far as a difference can be traced back; in the order of that way.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
 pub enum Stage {
     /// Factor preparation (spec section 9).

@@ -2,7 +2,7 @@
 
 use super::header::MAGIC;
 use super::lines::Lines;
-use super::{VectorError, VectorFile};
+use super::{Header, VectorError, VectorFile};
 use crate::case::Case;
 use std::io::{BufRead, Chain, Cursor, Read};
 
@@ -65,6 +65,14 @@ impl<R: BufRead> Cases<R> {
             Source::Lines(Lines::new(name.as_ref(), reader))
         };
         Ok(Self { source, found: false, ended: false })
+    }
+
+    /// The first line of a vector file; `None` of case lines alone.
+    pub const fn header(&self) -> Option<&Header> {
+        match &self.source {
+            Source::File(file) => Some(file.header()),
+            Source::Lines(_) => None,
+        }
     }
 
     fn read(&mut self) -> Result<Option<Case>, VectorError> {

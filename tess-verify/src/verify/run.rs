@@ -5,10 +5,12 @@ use super::{Plan, Subject, Unit, Units};
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::Case;
 use crate::checker::tessellate;
-use crate::compare;
+use crate::compare::{self, Mismatch, Stage};
 use crate::core_backend::CoreBackend;
+use crate::known::Known;
 use crate::names::Named;
 use crate::sequences::bucket;
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder, Tessellation};
@@ -22,8 +24,12 @@ pub struct Row {
     pub backend: &'static str,
     /// Elements compared: patches, binary32 factors or locations.
     pub compared: u64,
-    /// Units in which something differed.
+    /// Units in which something differed that is not known.
     pub mismatches: u64,
+    /// How many of them point to each stage, by their first difference.
+    pub stages: BTreeMap<Stage, u64>,
+    /// Patches that differ and are known.
+    pub known: u64,
     /// The first difference, as text.
     pub first: Option<String>,
 }
@@ -40,12 +46,25 @@ pub fn verify(
     plan: &Plan,
     progress: &(dyn Fn(Subject, u64, u64) + Sync),
 ) -> Result<Vec<Row>, BackendError> {
+    verify_known(workers, plan, &Known::default(), progress)
+}
+
+/// [`verify`], where a patch that differs is no mismatch if that is `known`.
+///
+/// # Errors
+/// The errors of [`verify`].
+pub fn verify_known(
+    workers: &mut [Vec<Box<dyn Backend>>],
+    plan: &Plan,
+    known: &Known,
+    progress: &(dyn Fn(Subject, u64, u64) + Sync),
+) -> Result<Vec<Row>, BackendError> {
     if workers.first().is_none_or(Vec::is_empty) {
         return Err(BackendError::new("no backend to verify"));
     }
     let mut table = Vec::new();
     for &subject in &plan.subjects {
-        table.extend(verify_subject(workers, plan, subject, progress)?);
+        table.extend(verify_subject(workers, plan, known, subject, progress)?);
     }
     Ok(table)
 }
@@ -53,30 +72,22 @@ pub fn verify(
 fn verify_subject(
     workers: &mut [Vec<Box<dyn Backend>>],
     plan: &Plan,
+    known: &Known,
     subject: Subject,
     progress: &(dyn Fn(Subject, u64, u64) + Sync),
 ) -> Result<Vec<Row>, BackendError> {
     let units = Units::of(subject);
     let mine = plan.shard.items(units.count());
     let names: Vec<&'static str> = workers[0].iter().map(|backend| backend.name()).collect();
-    let rows: Vec<Row> = names
-        .into_iter()
-        .map(|backend| Row { subject, backend, compared: 0, mismatches: 0, first: None })
-        .collect();
+    let rows: Vec<Row> = names.into_iter().map(|backend| Row::new(subject, backend)).collect();
     let rows = Mutex::new(rows);
     let (next, done) = (AtomicU64::new(0), AtomicU64::new(0));
     let work = |backends: &mut Vec<Box<dyn Backend>>| -> Result<(), BackendError> {
         let next_unit = || plan.shard.item(next.fetch_add(1, Ordering::Relaxed));
         while let Some(unit) = next_unit().and_then(|number| units.get(number)) {
             for (column, backend) in backends.iter_mut().enumerate() {
-                let (compared, difference) = compare_unit(backend.as_mut(), &unit)?;
-                let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
-                let row = &mut rows[column];
-                row.compared += compared;
-                if let Some(difference) = difference {
-                    row.mismatches += 1;
-                    row.first.get_or_insert(difference);
-                }
+                let compared = compare_unit(backend.as_mut(), &unit, known)?;
+                rows.lock().unwrap_or_else(PoisonError::into_inner)[column].add(compared);
             }
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
             progress(subject, done, mine);
@@ -89,29 +100,73 @@ fn verify_subject(
     Ok(rows.into_inner().unwrap_or_else(PoisonError::into_inner))
 }
 
-/// How many elements were compared, and the first difference.
-type Compared = (u64, Option<String>);
+/// What was compared of one unit.
+struct Compared {
+    elements: u64,
+    known: u64,
+    /// The first difference that is not known, as text, and its stage.
+    first: Option<(Stage, String)>,
+}
 
-fn compare_unit(backend: &mut dyn Backend, unit: &Unit) -> Result<Compared, BackendError> {
+impl Row {
+    const fn new(subject: Subject, backend: &'static str) -> Self {
+        let stages = BTreeMap::new();
+        Self { subject, backend, compared: 0, mismatches: 0, stages, known: 0, first: None }
+    }
+
+    fn add(&mut self, unit: Compared) {
+        self.compared += unit.elements;
+        self.known += unit.known;
+        if let Some((stage, first)) = unit.first {
+            self.mismatches += 1;
+            *self.stages.entry(stage).or_default() += 1;
+            self.first.get_or_insert(first);
+        }
+    }
+}
+
+impl Compared {
+    /// Elements that are no patches, of which none is known.
+    fn values(elements: u64, name: &str, mismatch: Option<Mismatch>) -> Self {
+        let first = mismatch.map(|mismatch| (mismatch.stage, format!("{name}: {mismatch}")));
+        Self { elements, known: 0, first }
+    }
+}
+
+fn compare_unit(
+    backend: &mut dyn Backend,
+    unit: &Unit,
+    known: &Known,
+) -> Result<Compared, BackendError> {
     match unit {
-        Unit::Patches(cases) => compare_patches(backend, cases),
-        Unit::Random(unit) => compare_patches(backend, &unit.cases()),
+        Unit::Patches(cases) => compare_patches(backend, cases, known),
+        Unit::Random(unit) => compare_patches(backend, &unit.cases(), known),
         Unit::Values { partitioning, first } => compare_values(backend, *partitioning, *first),
         Unit::Bucket { split, parity, bucket } => compare_bucket(backend, *split, *parity, *bucket),
     }
 }
 
-fn compare_patches(backend: &mut dyn Backend, cases: &[Case]) -> Result<Compared, BackendError> {
+fn compare_patches(
+    backend: &mut dyn Backend,
+    cases: &[Case],
+    known: &Known,
+) -> Result<Compared, BackendError> {
     let observed = tessellate(backend, cases)?;
     let mut expected = Tessellation::default();
-    let mut differences = cases.iter().zip(&observed).filter_map(|(case, observed)| {
+    let mut compared = Compared { elements: cases.len() as u64, known: 0, first: None };
+    for (case, observed) in cases.iter().zip(&observed) {
         expected.points.clear();
         expected.indices.clear();
         case.patch().emit(&mut expected);
-        let mismatch = compare::tessellations(case, observed, &expected)?;
-        Some(format!("{case}\n  {mismatch}\n  {}", case.command()))
-    });
-    Ok((cases.len() as u64, differences.next()))
+        let mismatch = compare::tessellations(case, observed, &expected);
+        if known.excuses(case, mismatch.is_some()) {
+            compared.known += 1;
+        } else if let Some(mismatch) = mismatch {
+            let text = || format!("{case}\n  {mismatch}\n  {}", case.command());
+            compared.first.get_or_insert_with(|| (mismatch.stage, text()));
+        }
+    }
+    Ok(compared)
 }
 
 fn compare_values(
@@ -124,8 +179,7 @@ fn compare_values(
     let observed = all_answered(backend, "factors", answers, values.len())?;
     let expected = CoreBackend.fixed_factors(partitioning, &values)?;
     let mismatch = compare::fixed_factors(&values, &observed, &expected);
-    let difference = mismatch.map(|mismatch| format!("{}: {mismatch}", partitioning.name()));
-    Ok((u64::from(VALUES), difference))
+    Ok(Compared::values(u64::from(VALUES), partitioning.name(), mismatch))
 }
 
 fn compare_bucket(
@@ -142,7 +196,6 @@ fn compare_bucket(
     let locations = backend.locations(&contexts)?;
     let mismatch = compare::contexts(&factors, &observed, &contexts)
         .or_else(|| compare::locations(&factors, &contexts, &locations, &expected));
-    let order = split.name();
-    let difference = mismatch.map(|mismatch| format!("{order} {}: {mismatch}", parity.name()));
-    Ok((expected.len() as u64, difference))
+    let name = format!("{} {}", split.name(), parity.name());
+    Ok(Compared::values(expected.len() as u64, &name, mismatch))
 }

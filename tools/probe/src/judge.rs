@@ -6,10 +6,13 @@ use crate::info::Info;
 use crate::output::output;
 use crate::report::{Explanation, First, Report, Row, Unexplained};
 use crate::verdict::{Verdict, any_order, third_is_right, verdict};
+use std::collections::BTreeMap;
+use std::sync::Arc;
 use tess_core::Tessellation;
 use tess_verify::case::Case;
 use tess_verify::checker::check_device;
 use tess_verify::coordinate::fixed;
+use tess_verify::known::Known;
 use tess_verify::names::Named;
 use tess_verify::strength::{Elements, Strength};
 use tess_verify::ways::Way;
@@ -21,8 +24,13 @@ pub struct Judge {
     method: Method,
     /// What counts as equal.
     strength: Strength,
+    /// What may differ all the same.
+    known: Arc<Known>,
     rows: Vec<(Row, Digests)>,
     different: u64,
+    excused: u64,
+    stages: BTreeMap<String, u64>,
+    first_different: Option<First>,
     /// Patches that are not the model's in any order, by what explains them.
     ways: [u64; Way::ALL.len()],
     odd: u64,
@@ -43,13 +51,23 @@ impl Judge {
             info: info.clone(),
             method,
             strength: Strength { elements, ..strength },
+            known: Arc::default(),
             rows: Vec::new(),
             different: 0,
+            excused: 0,
+            stages: BTreeMap::new(),
+            first_different: None,
             ways: [0; Way::ALL.len()],
             odd: 0,
             unexplained: 0,
             first: None,
         }
+    }
+
+    /// The same, but a case that differs does not count as different if that is known.
+    #[must_use]
+    pub fn with_known(self, known: &Arc<Known>) -> Self {
+        Self { known: Arc::clone(known), ..self }
     }
 
     /// Adds a patch: what was asked, and what the device gave.
@@ -67,11 +85,24 @@ impl Judge {
             self.strength.equal(case, observed, &expected) || self.strength.accepts(case, observed)
         };
         let equal = third && observed.as_ref().is_some_and(is_equal);
-        self.different += u64::from(!equal);
+        if self.known.excuses(case, !equal) {
+            self.excused += 1;
+        } else if !equal {
+            self.differ(case, captured, observed.as_ref());
+        }
         let in_any_order = matches!(verdict, Verdict::Sequence | Verdict::Leading | Verdict::Order);
         if !in_any_order || !third {
             self.explain(case, captured, observed.as_ref(), third);
         }
+    }
+
+    /// Counts a difference that is not known.
+    fn differ(&mut self, case: &Case, captured: &Captured, observed: Option<&Tessellation>) {
+        self.different += 1;
+        self.row(case).0.different += 1;
+        let described = self.describe(self.strength, case, captured, observed);
+        *self.stages.entry(described.stage.clone()).or_default() += 1;
+        self.first_different.get_or_insert(described);
     }
 
     fn explain(
@@ -96,15 +127,21 @@ impl Judge {
         if !allowed {
             self.unexplained += 1;
             if self.first.is_none() {
-                self.first = Some(self.describe(case, captured, observed));
+                self.first = Some(self.describe(any_order(self.method), case, captured, observed));
             }
         }
     }
 
-    /// A difference in full.
-    fn describe(&self, case: &Case, captured: &Captured, observed: Option<&Tessellation>) -> First {
+    /// A difference in a strength in full.
+    fn describe(
+        &self,
+        strength: Strength,
+        case: &Case,
+        captured: &Captured,
+        observed: Option<&Tessellation>,
+    ) -> First {
         let mismatch = observed.and_then(|observed| {
-            let report = check_device([(*case, observed.clone())], any_order(self.method));
+            let report = check_device([(*case, observed.clone())], strength);
             report.differences.into_iter().next().map(|difference| difference.mismatch)
         });
         let (difference, stage) = match (mismatch, observed) {
@@ -157,6 +194,9 @@ impl Judge {
             },
             patches: rows.iter().map(|row| row.patches).sum(),
             different: self.different,
+            known: self.excused,
+            stages: self.stages,
+            first_different: self.first_different,
             odd: self.odd,
             explanations: explanations.map(explanation).collect(),
             unexplained: Unexplained { patches: self.unexplained, first: self.first },

@@ -24,7 +24,7 @@ pub use digests::Digests;
 pub use error::Error;
 pub use info::Info;
 pub use judge::Judge;
-pub use probe::probe;
+pub use probe::{probe, probe_known};
 pub use report::{Explanation, First, Report, Row, Unexplained};
 pub use rules::rules;
 pub use tess_verify::ways::Way;

@@ -5,8 +5,10 @@ use crate::cases::groups;
 use crate::error::Error;
 use crate::judge::Judge;
 use crate::report::Report;
+use std::sync::Arc;
 use tess_core::PatchFactors;
 use tess_verify::case::Case;
+use tess_verify::known::Known;
 use tess_verify::strength::Strength;
 
 /// Patches that are captured before they are compared.
@@ -21,9 +23,23 @@ pub fn probe(
     prober: &mut Prober,
     cases: &[Case],
     strength: Strength,
+    progress: impl FnMut(u64),
+) -> Result<Report, Error> {
+    probe_known(prober, cases, strength, &Arc::default(), progress)
+}
+
+/// [`probe`], where a case that differs does not count as different if that is `known`.
+///
+/// # Errors
+/// The device fails.
+pub fn probe_known(
+    prober: &mut Prober,
+    cases: &[Case],
+    strength: Strength,
+    known: &Arc<Known>,
     mut progress: impl FnMut(u64),
 ) -> Result<Report, Error> {
-    let mut judge = Judge::new(prober.info(), prober.method(), strength);
+    let mut judge = Judge::new(prober.info(), prober.method(), strength).with_known(known);
     for group in groups(cases) {
         for part in group.chunks(AT_ONCE) {
             let factors: Vec<PatchFactors> = part.iter().map(|case| case.factors).collect();

@@ -6,6 +6,7 @@ use crate::info::Info;
 use crate::output::output;
 use crate::verdict::Verdict;
 use serde::Serialize;
+use std::collections::BTreeMap;
 use std::fmt;
 use tess_core::Tessellation;
 use tess_verify::case::Case;
@@ -21,8 +22,14 @@ pub struct Report {
     pub method: &'static str,
     /// Patches that were compared.
     pub patches: u64,
-    /// Patches that differ in the strength that was asked for.
+    /// Patches that differ in the strength that was asked for, and are not known to.
     pub different: u64,
+    /// Patches that differ so, and are known to.
+    pub known: u64,
+    /// How many of the different ones point to each stage.
+    pub stages: BTreeMap<String, u64>,
+    /// The first of the different ones.
+    pub first_different: Option<First>,
     /// Patches that are not the model's in any order.
     pub odd: u64,
     /// What explains some of the odd ones.
@@ -99,6 +106,8 @@ pub struct Row {
     pub output: &'static str,
     /// Patches.
     pub patches: u64,
+    /// Patches that differ in the strength that was asked for, and are not known to.
+    pub different: u64,
     /// The model's primitives in the model's order.
     pub sequence: u64,
     /// The same with another leading vertex.

@@ -6,10 +6,11 @@
     reason = "exact numbers"
 )]
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 use tess_core::Domain;
 use tess_probe::{Captured, Info, Judge, Method, Report, Way};
 use tess_verify::case::Case;
+use tess_verify::known::Known;
 use tess_verify::strength::{Denormals, Order, Strength};
 
 const LINE: &str = "case quad fractional_odd triangle_cw ruler 40a00000 40d00000 40e00000 40500000 40a80000 40c00000";
@@ -75,6 +76,21 @@ fn exact_captures_are_equal_in_order() {
     }
 }
 
+/// A known case that differs is counted beside the different ones; another known case changes nothing.
+#[test]
+fn known_differences_are_no_verdict() {
+    for (known, different, excused) in [(LINE, 0, 1), (DENORMAL, 1, 0)] {
+        let known = Arc::new(Known::new([case(known)]));
+        let mut judge = Judge::new(info(), Method::Primitives, any()).with_known(&known);
+        let mut captured = exact(&case(LINE));
+        captured.vertices.truncate(3);
+        judge.add(&case(LINE), &captured);
+        let report = judge.finish();
+        assert_eq!((report.different, report.known), (different, excused), "{report}");
+        assert_eq!(report.rows[0].different, different, "{report}");
+    }
+}
+
 #[test]
 fn a_moved_point_is_seen_with_its_distance() {
     let moved = |captured: &mut Captured| {
@@ -88,6 +104,8 @@ fn a_moved_point_is_seen_with_its_distance() {
     assert_eq!((report.different, report.rows[0].coordinates, report.rows[0].max_units), (1, 1, 3));
     let first = report.unexplained.first.expect("no freedom moves a point");
     assert_eq!((first.line.as_str(), first.stage.as_str()), (LINE, "location"));
+    assert_eq!((report.stages["location"], report.rows[0].different), (1, 1), "counted");
+    assert!(report.first_different.is_some_and(|first| first.line == LINE), "and named");
     assert!(first.command.starts_with("tess patch quad"), "{}", first.command);
 }
 
