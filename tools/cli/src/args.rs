@@ -1,5 +1,6 @@
 //! What several commands take: a patch (domain, factors and configuration), generated cases, names.
 
+use crate::campaign::{Placed, ShardArgs};
 use crate::failure::Failure;
 use crate::output::{counted, note};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -96,9 +97,8 @@ pub(crate) struct SelectionArgs {
     /// One output primitive only
     #[arg(long, value_name = "NAME", value_parser = name_of::<OutputPrimitive>())]
     output: Option<OutputPrimitive>,
-    /// One of N disjoint parts, counted from 1
-    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
-    pub(crate) shard: Shard,
+    #[command(flatten)]
+    pub(crate) shard: ShardArgs,
 }
 
 impl SelectionArgs {
@@ -121,7 +121,7 @@ impl SelectionArgs {
 
     /// What the cases depend on, so that a file says how it was made. Each note has the name of its
     /// option, but for `--count`, whose note is `random`.
-    pub(crate) fn notes(&self) -> Vec<(String, String)> {
+    pub(crate) fn notes(&self, placed: Placed) -> Vec<(String, String)> {
         let pair = |key: &str, value: String| (key.to_owned(), value);
         let mut notes = vec![
             pair("level", self.level.to_string()),
@@ -134,8 +134,8 @@ impl SelectionArgs {
             ("output", self.output.map(Named::name)),
         ];
         notes.extend(named.into_iter().filter_map(|(key, name)| Some(pair(key, name?.into()))));
-        if self.shard != Shard::WHOLE {
-            notes.push(pair("shard", format!("{}/{}", self.shard.part + 1, self.shard.of)));
+        if placed.shard != Shard::WHOLE {
+            notes.push(pair("shard", format!("{}/{}", placed.shard.part + 1, placed.shard.of)));
         }
         notes
     }
@@ -158,14 +158,4 @@ pub(crate) fn note_large_factors(case: &Case) {
 pub(crate) fn name_of<T: Named + Send + Sync>() -> impl TypedValueParser<Value = T> {
     PossibleValuesParser::new(T::NAMES.iter().map(|(name, _)| *name))
         .try_map(|name| T::from_name(&name))
-}
-
-/// `I/N`, with I in 1..=N.
-pub(crate) fn shard(text: &str) -> Result<Shard, String> {
-    let parts = text.split_once('/');
-    let numbers = parts.and_then(|(i, n)| Some((i.parse::<u64>().ok()?, n.parse::<u64>().ok()?)));
-    match numbers {
-        Some((i, n)) if (1..=n).contains(&i) => Ok(Shard { part: i - 1, of: n }),
-        _ => Err("a shard is I/N with I from 1 to N, such as 3/8".to_owned()),
-    }
 }

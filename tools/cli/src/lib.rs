@@ -1,12 +1,13 @@
 //! The library behind the program `tess`: [`main`] is all of it that others can call.
 //!
 //! `commands` has a folder for each command. What they share lies beside it: `args` (a patch on the
-//! command line), `backends` (who tessellates it), `formats` (what it is shown as), `output`
-//! and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and explanations are made by
+//! command line), `backends` (who tessellates it), `campaign` (which part of the work, and its report), `formats`
+//! (what it is shown as), `output` and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and explanations are made by
 //! `tess-verify`.
 
 mod args;
 mod backends;
+mod campaign;
 mod commands;
 mod coverage_file;
 mod failure;
@@ -18,9 +19,11 @@ mod threads;
 #[doc(hidden)]
 pub use commands::fuzzing;
 
+use campaign::Invocation;
 use clap::{Arg, ArgAction, CommandFactory, FromArgMatches, Parser};
 use commands::Command;
 use failure::{Exit, Failure};
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
@@ -47,10 +50,15 @@ Examples:
 /// Runs the program on the process's arguments and says how it ended.
 #[must_use]
 pub fn main() -> ExitCode {
-    let arguments = command_line().try_get_matches();
-    let program = arguments.and_then(|arguments| Program::from_arg_matches(&arguments));
-    let ended = match program {
-        Ok(program) => commands::run(&program.command),
+    let mut program = command_line();
+    let words: Vec<OsString> = std::env::args_os().collect();
+    let asked = program.try_get_matches_from_mut(&words).and_then(|matches| {
+        let words = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        let invocation = Invocation::new(words, &program, &matches);
+        Program::from_arg_matches(&matches).map(|asked| (asked.command, invocation))
+    });
+    let ended = match asked {
+        Ok((command, invocation)) => commands::run(&command, &invocation),
         Err(error) if error.use_stderr() => error.exit(),
         Err(help) => show(&help),
     };

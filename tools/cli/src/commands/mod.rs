@@ -5,6 +5,7 @@ mod check;
 mod draw;
 mod explain;
 mod r#gen;
+mod merge;
 mod mesh;
 mod patch;
 #[cfg(feature = "probe")]
@@ -16,6 +17,7 @@ mod verify;
 #[cfg(feature = "fuzzing")]
 pub use mesh::fuzzing;
 
+use crate::campaign::Invocation;
 use crate::failure::{Exit, Failure};
 use clap::Subcommand;
 pub(crate) use patch::without_patch_if_cases;
@@ -30,6 +32,7 @@ pub(crate) enum Command {
     Bench(bench::Args),
     Mesh(mesh::Args),
     Gen(r#gen::Args),
+    Merge(merge::Args),
     #[cfg(feature = "probe")]
     Probe(probe::Args),
     #[cfg(feature = "shaders")]
@@ -41,19 +44,20 @@ pub(crate) enum Command {
 ///
 /// # Errors
 /// As each command says.
-pub(crate) fn run(command: &Command) -> Result<Exit, Failure> {
+pub(crate) fn run(command: &Command, invocation: &Invocation) -> Result<Exit, Failure> {
     match command {
         Command::Patch(args) => patch::run(args),
         Command::Explain(args) => explain::run(args),
         Command::Draw(args) => draw::run(args),
-        Command::Check(args) => check::run(args),
+        Command::Check(args) => check::run(args, invocation),
         Command::Bench(args) => bench::run(args),
         Command::Mesh(args) => mesh::run(args),
-        Command::Gen(args) => r#gen::run(args),
+        Command::Gen(args) => r#gen::run(args, invocation),
+        Command::Merge(args) => merge::run(args),
         #[cfg(feature = "probe")]
-        Command::Probe(args) => probe::run(args),
+        Command::Probe(args) => probe::run(args, invocation),
         #[cfg(feature = "shaders")]
         Command::Shaders(args) => shaders::run(args),
-        Command::Verify(args) => verify::run(args),
+        Command::Verify(args) => verify::run(args, invocation),
     }
 }

@@ -155,6 +155,28 @@ pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()>
     }
 }
 
+/// Removes what an earlier run left, so that a run that is killed leaves nothing that looks like its result.
+///
+/// # Errors
+/// It is there and cannot be removed.
+pub(crate) fn remove_earlier(path: &Path) -> io::Result<()> {
+    match fs::remove_file(follow(path)?) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        removed => removed,
+    }
+}
+
+/// Writes a whole file from a cleanup, where no [`Guard`] can be made.
+///
+/// # Errors
+/// The place cannot be written; a file that was there is then as it was.
+pub(crate) fn write_while_ending(path: &Path, content: &[u8]) -> io::Result<()> {
+    let path = follow(path)?;
+    let mut file = Partial::create(&path, path.metadata().ok().as_ref())?;
+    file.write_all(content)?;
+    file.persist(&path).map(drop).map_err(|error| error.error)
+}
+
 /// An output that is written in any order and put in its place at the end.
 #[derive(Debug)]
 pub(crate) struct OutputFile {

@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::threads::startable;
 pub(crate) use distinct::{Role, refuse_shared};
 use file::Destination;
-pub(crate) use file::{OutputFile, create_unless_there};
+pub(crate) use file::{OutputFile, create_unless_there, remove_earlier, write_while_ending};
 pub(crate) use folder::{NewFolder, refuse_stdout};
 use indicatif::{ProgressBar, ProgressStyle};
 pub(crate) use rows::{Frame, Rows};

@@ -2,6 +2,8 @@
 
 mod backends;
 mod bench;
+#[cfg(unix)]
+mod campaigns;
 mod captures;
 mod check;
 #[cfg(unix)]

@@ -1,6 +1,7 @@
 //! `tess check`: runs the cases of a vector file and compares.
 
 mod failures;
+mod record;
 pub(crate) mod rules;
 mod strength;
 
@@ -9,6 +10,7 @@ pub(crate) use strength::{ConversionName, DenormalsName};
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
+use crate::campaign::{Invocation, KnownArgs, Recorder, ReportArgs, ShardArgs, conclude};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
 use crate::output::{Role, counted, progress, refuse_shared, stdout, stop_when_reader_leaves};
@@ -24,6 +26,7 @@ use tess_verify::backend::Backend;
 use tess_verify::checker::{self, CheckError, Difference, Report, Tested};
 use tess_verify::compare::Element;
 use tess_verify::explanation::{PointReport, PrimitiveReport};
+use tess_verify::known::Known;
 use tess_verify::names::Named;
 use tess_verify::rules::Specification;
 use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
@@ -45,6 +48,9 @@ which freedom of the public specification counts as equal (docs/verification.md)
 With --cases, the file must answer those cases, one for one and in their order. They are a vector file,
 or lines that begin with `case`.
 
+A file may be one shard of a campaign (docs/campaigns.md). Which one is said by --shard, by the batch system, or
+by the note shard=I/N in the first line of --cases or FILE; they may not contradict each other.
+
 If one mistake explains every difference (triangles turn the other way, u and v are exchanged, u or v
 runs backwards), a line says so, and only the first difference is shown.
 
@@ -61,7 +67,9 @@ Examples:
   tess patch tri --outer 3,4,5 --inner 4 | tess check -
   ./my-device | tess check - --order any --conversion 0.6ulp
   tess check device.txt --cases asked.txt --failures failing.txt
-  tess check device.txt --rules vulkan")]
+  tess check device.txt --rules vulkan
+  tess check device.txt --known deviations.txt
+  tess check device-3.txt --cases asked-3.txt --report report-3.jsonl --junit junit-3.xml")]
 pub(crate) struct Args {
     /// Vector file; - is stdin
     #[arg(value_name = "FILE")]
@@ -77,7 +85,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
     #[arg(conflicts_with_all = [
         "backend", "order", "primitives", "points", "conversion", "denormals", "cases", "failures",
-        "coverage",
+        "coverage", "known",
     ])]
     rules: Option<Specification>,
     /// What was asked: records that answer other cases, too few or too many are differences
@@ -89,32 +97,62 @@ pub(crate) struct Args {
     /// Add the coverage bins that the file's patches hit to this file of UCIS XML
     #[arg(long, value_name = "FILE")]
     coverage: Option<PathBuf>,
+    #[command(flatten)]
+    shard: ShardArgs,
+    #[command(flatten)]
+    known: KnownArgs,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 /// Runs the command.
 ///
 /// # Errors
 /// Malformed, short or empty input; a backend that is not available.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     refuse_shared(&args.roles()?)?;
+    let file = VectorFile::new(args.name(), open(&args.file)?).map_err(|e| failure(e.into()))?;
+    let asked = args.asked(file.header().kind)?;
+    let asked_header = asked.as_ref().and_then(Cases::header);
+    let placed = record::place(args.shard, file.header(), asked_header)?;
+    let known = args.known.read(read_cases)?;
+    let recorder = args.report.begin(invocation, placed)?;
+    asked_header
+        .into_iter()
+        .for_each(|asked| recorder.update(|report| record::add_asked(report, asked)));
+    let ended = match args.rules {
+        Some(specification) => {
+            stop_when_reader_leaves();
+            rules::run(file, specification, &recorder)
+        }
+        None => compare(args, file, asked, &known, &recorder),
+    };
+    conclude(&known, &recorder);
+    recorder.finish(ended)
+}
+
+/// Cases or records from a file or from stdin.
+type Reader = Box<dyn BufRead + Send>;
+
+/// Compares the records of a file.
+fn compare(
+    args: &Args,
+    file: VectorFile<Reader>,
+    mut asked: Option<Cases<Reader>>,
+    known: &Known,
+    recorder: &Recorder,
+) -> Result<Exit, Failure> {
     let mut backends = backends(args)?;
-    let name =
-        if args.file.as_os_str() == "-" { "stdin".into() } else { args.file.display().to_string() };
-    let file = VectorFile::new(&name, open(&args.file)?).map_err(|e| failure(e.into()))?;
-    if let Some(specification) = args.rules {
-        stop_when_reader_leaves();
-        return rules::run(file, specification);
-    }
     let tested = args.strength.tested(file.header().kind, args.backend)?;
     let coverage = args.coverage(file.header().kind)?;
-    let mut asked = args.asked(file.header().kind)?;
     let failures = args.failures.as_deref().map(|path| Failures::new(path, file.header()));
     let failures = failures.transpose()?;
     stop_when_reader_leaves();
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
     let asked = asked.as_mut().map(|asked| asked as _);
-    let report = checker::check_asked(file, asked, &mut backends, tested, &|checked| {
+    let report = checker::check_known(file, asked, known, &mut backends, tested, &|checked| {
         bar.inc(checked.records.len() as u64);
+        recorder.update(|report| record::add(report, checked));
         if let Some(failures) = &failures {
             failures.add(checked);
         }
@@ -126,13 +164,17 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     });
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
+    recorder.update(|record| record::finish(record, &report));
     if let Some(coverage) = coverage {
-        coverage.into_inner().unwrap_or_else(PoisonError::into_inner).add(|_| Ok(()))?;
+        let coverage = coverage.into_inner().unwrap_or_else(PoisonError::into_inner);
+        recorder.update(|record| record::add_coverage(record, &coverage.coverage));
+        coverage.add(|_| Ok(()))?;
     }
     if let Some(failures) = failures {
         failures.finish(&report)?;
     }
     let backend = backends.first().map_or("core", |backend| backend.name());
+    let name = args.name();
     let sides = match tested {
         Tested::Listings(_) => format!("tested: {name}; right: the model"),
         _ => format!("tested: the backend {backend}; right: {name}"),
@@ -151,8 +193,14 @@ impl Args {
         let cases = self.cases.as_deref().map(|path| Role::input("--cases", path));
         let failures = self.failures.as_deref().map(|path| Role::output("--failures", path));
         let coverage = self.coverage.as_deref().map(coverage_file::role).transpose()?;
-        let others = [cases, failures, coverage].into_iter().flatten();
+        let others = [cases, failures, coverage, self.known.role()].into_iter().flatten();
+        let others = others.chain(self.report.roles());
         Ok([Role::input("FILE", &self.file), Role::stdout()].into_iter().chain(others).collect())
+    }
+
+    /// What messages call the file.
+    fn name(&self) -> String {
+        if self.file.as_os_str() == "-" { "stdin".into() } else { self.file.display().to_string() }
     }
 
     /// The coverage file, if one is given.
@@ -175,7 +223,7 @@ impl Args {
     ///
     /// # Errors
     /// They cannot be read, or the file to check has no patches that could answer them.
-    fn asked(&self, kind: Kind) -> Result<Option<Cases<Box<dyn BufRead + Send>>>, Failure> {
+    fn asked(&self, kind: Kind) -> Result<Option<Cases<Reader>>, Failure> {
         let Some(path) = &self.cases else { return Ok(None) };
         if !kind.has_cases() {
             let kind = kind.name();
@@ -205,12 +253,12 @@ fn backends(args: &Args) -> Result<Vec<Box<dyn Backend>>, Failure> {
 ///
 /// # Errors
 /// It cannot be read, or begins wrongly.
-pub(crate) fn read_cases(path: &Path) -> Result<Cases<Box<dyn BufRead + Send>>, Failure> {
+pub(crate) fn read_cases(path: &Path) -> Result<Cases<Reader>, Failure> {
     let name = if path.as_os_str() == "-" { "stdin".into() } else { path.display().to_string() };
     Cases::new(name, open(path)?).map_err(|error| Failure::bad_input(error.to_string()))
 }
 
-fn open(path: &Path) -> Result<Box<dyn BufRead + Send>, Failure> {
+fn open(path: &Path) -> Result<Reader, Failure> {
     if path.as_os_str() == "-" {
         return Ok(Box::new(BufReader::new(io::stdin())));
     }

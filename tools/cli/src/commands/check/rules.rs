@@ -1,12 +1,14 @@
 //! `tess check --rules`: a device's listings, judged by what a standard demands.
 
+use crate::campaign::Recorder;
+use crate::campaign::report::{First, Part};
 use crate::failure::{Exit, Failure};
 use crate::output::{progress, stdout};
 use indicatif::ProgressBar;
 use std::io::{BufRead, Write};
 use std::path::Path;
 use tess_verify::names::Named;
-use tess_verify::rules::{Checker, RulesReport, Specification, Verdict};
+use tess_verify::rules::{Checker, Row, RulesReport, Specification, Verdict};
 use tess_verify::vectors::{Kind, Record, VectorError, VectorFile};
 
 /// Judges every listing of a file and prints the verdicts.
@@ -16,6 +18,7 @@ use tess_verify::vectors::{Kind, Record, VectorError, VectorFile};
 pub(super) fn run<R: BufRead>(
     file: VectorFile<R>,
     specification: Specification,
+    recorder: &Recorder,
 ) -> Result<Exit, Failure> {
     let kind = file.header().kind;
     if kind != Kind::Listings {
@@ -35,7 +38,22 @@ pub(super) fn run<R: BufRead>(
         bar.inc(1);
     }
     bar.finish_and_clear();
-    show(&checker.report())
+    let report = checker.report();
+    recorder.update(|record| record.add_parts(parts("listings", &report)));
+    show(&report)
+}
+
+/// The rules of a report as parts of a run: how many patches each judged and how many of them break it.
+pub(crate) fn parts(tested: &str, report: &RulesReport) -> Vec<Part> {
+    let part = |row: &Row| {
+        let first = row.smallest.as_ref().map(|example| {
+            let cases: Vec<String> = example.cases.iter().map(ToString::to_string).collect();
+            First { case: Some(cases.join("\n")), difference: example.what.clone() }
+        });
+        let name = format!("{tested} {}", row.rule.name());
+        Part { name, cases: row.judged, mismatches: row.broken, first }
+    };
+    report.rows.iter().map(part).collect()
 }
 
 /// Prints a report; different if a rule is broken.

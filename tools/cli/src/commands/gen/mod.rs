@@ -1,10 +1,13 @@
 //! `tess gen`: test vectors with expected results from the model.
 
 use crate::args::{SelectionArgs, name_of};
+use crate::campaign::report::Part;
+use crate::campaign::{Invocation, Placed, Recorder, ReportArgs};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
 use crate::output::{
-    NewFolder, OutputArgs, note, progress, refuse_shared, refuse_stdout, stop_when_reader_leaves,
+    NewFolder, OutputArgs, Role, note, progress, refuse_shared, refuse_stdout,
+    stop_when_reader_leaves,
 };
 use clap::ValueEnum;
 use indicatif::ProgressBar;
@@ -34,7 +37,8 @@ Examples:
   tess gen --level 3 --seed 7 --count 1000 --format readmemh -o vectors/
   tess gen --rules --split ruler --format listing | ./my-device | tess check - --rules vulkan
   tess gen --level 1 --coverage
-  tess gen --level 2 --shard 1/8 --coverage coverage.xml")]
+  tess gen --level 2 --shard 1/8 --coverage coverage.xml
+  tess gen --level 2 --shard 1/8 -o vectors-1.csv --report report-1.jsonl")]
 pub(crate) struct Args {
     #[command(flatten)]
     selection: SelectionArgs,
@@ -55,6 +59,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with = "format")]
     coverage: Option<Option<PathBuf>>,
     #[command(flatten)]
+    report: ReportArgs,
+    #[command(flatten)]
     output: OutputArgs,
 }
 
@@ -72,12 +78,19 @@ enum Format {
 ///
 /// # Errors
 /// A selection without any case; an output that cannot be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
+    let placed = args.selection.shard.place()?;
+    refuse_shared(&args.roles()?)?;
+    let recorder = args.report.begin(invocation, placed)?;
+    let ended = generate(args, placed, &recorder);
+    recorder.finish(ended)
+}
+
+fn generate(args: &Args, placed: Placed, recorder: &Recorder) -> Result<Exit, Failure> {
     let all = args.all();
-    let count = args.selection.shard.items(all);
+    let count = placed.shard.items(all);
     if count == 0 && all > 0 {
-        let (part, of) = (args.selection.shard.part + 1, args.selection.shard.of);
-        note(&format!("no case in shard {part}/{of}: nothing is written"));
+        note(&format!("no case in shard {placed}: nothing is written"));
         return Ok(Exit::Done);
     }
     if count == 0 {
@@ -86,44 +99,67 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         ));
     }
     if let Some(file) = &args.coverage {
-        return args.report(file.clone(), count);
+        return args.report_coverage(file.clone(), count, placed, recorder);
     }
-    let header = args.header(count);
+    let header = args.header(count, placed);
     let bar = args.progress(count);
-    let cases = bar.wrap_iter(args.cases());
+    let cases = bar.wrap_iter(args.cases(placed));
     let written = match args.format {
         Format::Csv => args.output.stream(|out| write_patches(out, &header, cases)),
         Format::Listing => args.output.stream(|out| write_listings(out, &header, cases)),
         Format::Readmemh => images(&args.output.file, cases),
     };
     bar.finish_and_clear();
-    written.map(|()| Exit::Done)
+    written?;
+    recorder.update(|report| report.add_parts([part(count)]));
+    Ok(Exit::Done)
+}
+
+/// What was generated, for the report.
+fn part(cases: u64) -> Part {
+    Part { name: "vectors".to_owned(), cases, ..Part::default() }
 }
 
 impl Args {
+    /// The files of the command.
+    ///
+    /// # Errors
+    /// The coverage file can be none.
+    fn roles(&self) -> Result<Vec<Role<'_>>, Failure> {
+        let coverage = self.coverage.iter().flatten().map(|path| coverage_file::role(path));
+        let coverage: Vec<_> = coverage.collect::<Result<_, _>>()?;
+        Ok(coverage.into_iter().chain([self.output.role()]).chain(self.report.roles()).collect())
+    }
+
     fn selection(&self) -> Selection {
         let selection = self.selection.selection();
         let level = if self.rules { GenLevel::Rules } else { selection.level };
         Selection { split: self.split, level, ..selection }
     }
 
-    fn cases(&self) -> impl Iterator<Item = Case> {
-        let shard = self.selection.shard;
+    fn cases(&self, Placed { shard, .. }: Placed) -> impl Iterator<Item = Case> {
         let numbered = (0..).zip(self.selection().cases());
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
     }
 
     /// Reports the coverage of the cases, added to what a file holds if one is given.
-    fn report(&self, file: Option<PathBuf>, count: u64) -> Result<Exit, Failure> {
-        if let Some(path) = &file {
-            refuse_shared(&[coverage_file::role(path)?, self.output.role()])?;
-        }
+    fn report_coverage(
+        &self,
+        file: Option<PathBuf>,
+        count: u64,
+        placed: Placed,
+        recorder: &Recorder,
+    ) -> Result<Exit, Failure> {
         let mut file = file.map(CoverageFile::open).transpose()?;
         let mut alone = Coverage::new();
         let coverage = file.as_mut().map_or(&mut alone, |file| &mut file.coverage);
         let bar = self.progress(count);
-        bar.wrap_iter(self.cases()).for_each(|case| coverage.record(&case));
+        bar.wrap_iter(self.cases(placed)).for_each(|case| coverage.record(&case));
         bar.finish_and_clear();
+        recorder.update(|report| {
+            report.add_parts([part(count)]);
+            report.coverage = Some(coverage.bins().map(|(_, hits)| hits).collect());
+        });
         let report = |sum: &Coverage| self.output.write(sum.to_string().as_bytes());
         match file {
             Some(file) => file.add(report)?,
@@ -151,8 +187,8 @@ impl Args {
     }
 
     /// The first line of what is written, with the arguments that the cases depend on as notes.
-    fn header(&self, count: u64) -> Header {
-        let mut notes = self.selection.notes();
+    fn header(&self, count: u64, placed: Placed) -> Header {
+        let mut notes = self.selection.notes(placed);
         if self.rules {
             let random = self.selection().random_count().to_string();
             for (key, value) in [("level", "rules".to_owned()), ("random", random)] {

@@ -3,9 +3,11 @@
 #[cfg(feature = "shaders")]
 mod bench;
 
-use super::check::{ConversionName, DenormalsName, rules};
+use super::check::{ConversionName, DenormalsName, read_cases, rules};
 use crate::args::{SelectionArgs, name_of};
 use crate::backends::quiet;
+use crate::campaign::report::{First as FirstOf, Part, Report as Record};
+use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, conclude};
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
 use crate::output::form;
@@ -13,9 +15,13 @@ use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use tess_probe::{First, Prober, Report, cases, list, probe};
+use std::sync::Arc;
+use tess_probe::{First, Prober, Report, Row, cases, list, probe_known};
+use tess_verify::case::Case;
 use tess_verify::drawing::{self, DrawOptions};
 use tess_verify::generate::{GenLevel, Selection};
+use tess_verify::known::Known;
+use tess_verify::names::Named;
 use tess_verify::rules::Specification;
 use tess_verify::strength::{Order, Strength};
 use tess_verify::vectors::Listing;
@@ -38,6 +44,8 @@ Examples:
   tess probe --device 1 --level 2 --denormals flush
   tess probe --level 3 --seed 7 --count 100000 --shard 1/8
   tess probe --json -o device.json --picture first.png
+  tess probe --level 2 --shard 1/8 --report report-1.jsonl --junit junit-1.xml
+  tess probe --known deviations.txt
   tess probe --rules vulkan
   tess probe --bench                    is compute faster than the hardware?")]
 pub(crate) struct Args {
@@ -63,7 +71,7 @@ pub(crate) struct Args {
     points: bool,
     /// Instead, judge the device by the rules of this standard: vulkan, opengl or d3d11 (docs/rules.md)
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
-    #[arg(conflicts_with_all = ["level", "shard", "points", "picture", "json"])]
+    #[arg(conflicts_with_all = ["level", "given", "points", "picture", "json", "known"])]
     rules: Option<Specification>,
     /// Write the report as JSON (docs/probe.md explains it)
     #[arg(long)]
@@ -73,7 +81,7 @@ pub(crate) struct Args {
     picture: Option<PathBuf>,
     /// Time the fixed-function stage beside the compute shaders, and drawing what each gives
     #[cfg(feature = "shaders")]
-    #[arg(long, conflicts_with_all = ["points", "picture", "rules"])]
+    #[arg(long, conflicts_with_all = ["points", "picture", "rules", "known", "report", "junit"])]
     bench: bool,
     /// With --bench: workloads of `tess bench` [default: uniform, terrain and character]
     #[cfg(feature = "shaders")]
@@ -83,6 +91,10 @@ pub(crate) struct Args {
     #[cfg(feature = "shaders")]
     #[arg(long, value_name = "WHICH", default_value = "full", requires = "bench")]
     checks: super::shaders::Checks,
+    #[command(flatten)]
+    known: KnownArgs,
+    #[command(flatten)]
+    report: ReportArgs,
     #[command(flatten)]
     output: OutputArgs,
 }
@@ -100,7 +112,7 @@ enum OrderName {
 /// # Errors
 /// No Vulkan, no such device, one that cannot be captured, or one that fails; no case to ask; an
 /// output that cannot be written.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     quiet::start_again_for_loader();
     if args.list {
         return args.list_devices();
@@ -110,30 +122,22 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         let Args { device, workload, checks, json, output, .. } = args;
         return bench::run(*device, workload, *checks, *json, output).map(|()| Exit::Done);
     }
-    if let Some(specification) = args.rules {
-        return args.judge(specification);
-    }
-    let cases = cases(args.selection.selection(), args.selection.shard);
-    if cases.is_empty() {
-        return Err(Failure::bad_input("these arguments select no case"));
-    }
+    let placed = match args.rules {
+        Some(_) => args.selection.shard.whole("probe --rules")?,
+        None => args.selection.shard.place()?,
+    };
+    let known = args.known.read(read_cases)?;
     args.output.require_writable()?;
     let picture = args.picture.as_deref().map(Picture::prepare).transpose()?;
-    if let Some(picture) = &picture {
-        refuse_shared(&[Role::output("--picture", &picture.output.file), args.output.role()])?;
-    }
-    let open = if args.points { Prober::open_for_points } else { Prober::open };
-    let mut prober = open(args.device).map_err(unavailable)?;
-    let bar = progress(cases.len() as u64, "patches");
-    let report = probe(&mut prober, &cases, args.strength(), |patches| bar.inc(patches));
-    bar.finish_and_clear();
-    let report = report.map_err(unavailable)?;
-    if let (Some(picture), Some(first)) = (&picture, &report.unexplained.first) {
-        picture.draw(first)?;
-    }
-    let text = if args.json { json(&report) } else { report.to_string() };
-    args.output.write(text.as_bytes())?;
-    Ok(conclude(&report))
+    let drawn = picture.iter().map(|picture| Role::output("--picture", &picture.output.file));
+    let others = args.known.role().into_iter().chain(args.report.roles());
+    refuse_shared(&drawn.chain([args.output.role()]).chain(others).collect::<Vec<_>>())?;
+    let recorder = args.report.begin(invocation, placed)?;
+    let ended = match args.rules {
+        Some(specification) => args.judge(specification, &recorder),
+        None => args.compare(placed, picture.as_ref(), known, &recorder),
+    };
+    recorder.finish(ended)
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
@@ -142,6 +146,37 @@ fn unavailable(error: tess_probe::Error) -> Failure {
 }
 
 impl Args {
+    /// Compares the device with the model.
+    fn compare(
+        &self,
+        placed: Placed,
+        picture: Option<&Picture>,
+        known: Known,
+        recorder: &Recorder,
+    ) -> Result<Exit, Failure> {
+        let args = self;
+        let cases = cases(args.selection.selection(), placed.shard);
+        if cases.is_empty() {
+            return Err(Failure::bad_input("these arguments select no case"));
+        }
+        let open = if args.points { Prober::open_for_points } else { Prober::open };
+        let mut prober = open(args.device).map_err(unavailable)?;
+        let bar = progress(cases.len() as u64, "patches");
+        let known = Arc::new(known);
+        let strength = args.strength();
+        let report = probe_known(&mut prober, &cases, strength, &known, |patches| bar.inc(patches));
+        bar.finish_and_clear();
+        let report = report.map_err(unavailable)?;
+        recorder.update(|record| note_parts(record, &report));
+        conclude(&known, recorder);
+        if let (Some(picture), Some(first)) = (picture, &report.unexplained.first) {
+            picture.draw(first)?;
+        }
+        let text = if args.json { json(&report) } else { report.to_string() };
+        args.output.write(text.as_bytes())?;
+        Ok(verdict(&report))
+    }
+
     fn list_devices(&self) -> Result<Exit, Failure> {
         let devices = list().map_err(unavailable)?;
         if devices.is_empty() {
@@ -158,7 +193,7 @@ impl Args {
     }
 
     /// Judges the device by the rules of a standard.
-    fn judge(&self, specification: Specification) -> Result<Exit, Failure> {
+    fn judge(&self, specification: Specification, recorder: &Recorder) -> Result<Exit, Failure> {
         let mut prober = Prober::open(self.device).map_err(unavailable)?;
         let selection = Selection { level: GenLevel::Rules, ..self.selection.selection() };
         let bar = progress(selection.cases().count() as u64, "patches");
@@ -166,7 +201,9 @@ impl Args {
             tess_probe::rules(&mut prober, selection, specification, |patches| bar.inc(patches));
         bar.finish_and_clear();
         note(&prober.info().to_string());
-        rules::show(&report.map_err(unavailable)?)
+        let report = report.map_err(unavailable)?;
+        recorder.update(|record| record.add_parts(rules::parts("device", &report)));
+        rules::show(&report)
     }
 
     fn strength(&self) -> Strength {
@@ -183,15 +220,43 @@ impl Args {
 }
 
 /// Says on stderr how it ends.
-fn conclude(report: &Report) -> Exit {
-    let Report { patches, different, .. } = report;
-    if *different == 0 {
+fn verdict(report: &Report) -> Exit {
+    let Report { patches, different, known, .. } = report;
+    if *different == 0 && *known > 0 {
+        note(&format!(
+            "equal: {} of {patches} patches; the differences of {known} are known",
+            patches - known
+        ));
+        Exit::Done
+    } else if *different == 0 {
         note(&format!("equal: all {patches} patches, as far as they were compared"));
         Exit::Done
     } else {
         note(&format!("different: {different} of {patches} patches"));
         Exit::Different
     }
+}
+
+fn first(first: &First) -> FirstOf {
+    FirstOf { case: Some(first.line.clone()), difference: first.difference.clone() }
+}
+
+/// Whether a row counts this case.
+fn is_of(row: &Row, case: &Case) -> bool {
+    let Case { config, .. } = case;
+    let names = (case.domain().name(), config.partitioning.name(), config.output.name());
+    names == (row.domain, row.partitioning, row.output)
+}
+
+/// Adds the configurations, and where each first differs.
+fn note_parts(record: &mut Record, report: &Report) {
+    record.add_parts(report.rows.iter().map(|row| Part {
+        name: format!("{} {} {}", row.domain, row.partitioning, row.output),
+        cases: row.patches,
+        mismatches: row.different,
+        first: report.first_different.as_ref().filter(|first| is_of(row, &first.case)).map(first),
+    }));
+    record.add_stages(report.stages.iter().map(|(stage, more)| (stage, *more)));
 }
 
 /// A picture to draw if there is something to show.

@@ -1,20 +1,23 @@
 //! `tess verify`: every backend against the model.
 
-use super::check::rules;
-use crate::args::{name_of, shard};
+use super::check::{read_cases, rules};
+use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
+use crate::campaign::report::{First, Part, Report};
+use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, ShardArgs, conclude};
 use crate::failure::{Exit, Failure};
-use crate::output::{Frame, Rows, note, progress, stop_when_reader_leaves};
+use crate::output::{Frame, Role, Rows, note, progress, refuse_shared, stop_when_reader_leaves};
 use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 use tess_core::SplitOrder;
 use tess_verify::backend::Backend;
-use tess_verify::generate::{GenLevel, Selection, Shard};
+use tess_verify::generate::{GenLevel, Selection};
+use tess_verify::known::Known;
 use tess_verify::names::Named;
 use tess_verify::rules::{Specification, check_rules};
 use tess_verify::second::SecondFormulation;
-use tess_verify::verify::{Plan, Random, Row, Subject, verify};
+use tess_verify::verify::{Plan, Random, Row, Subject, verify_known};
 
 /// Compare every backend with the model, over generated levels or over everything there is
 #[derive(Debug, clap::Args)]
@@ -40,7 +43,8 @@ Examples:
   tess verify --backend simd --exhaustive
   tess verify --exhaustive --shard 3/64
   tess verify --backend gpu --random 100000
-  tess verify --backend simd --rules d3d11")]
+  tess verify --backend simd --rules d3d11
+  tess verify --exhaustive --shard 3/64 --report report-3.jsonl --junit junit-3.xml")]
 pub(crate) struct Args {
     /// Backend to compare; core is the model's second formulation [default: simd and gpu]
     #[arg(long, value_name = "NAME")]
@@ -59,66 +63,91 @@ pub(crate) struct Args {
     random: Option<u64>,
     /// Instead, judge by the rules of this standard: vulkan, opengl or d3d11
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
-    #[arg(conflicts_with_all = ["exhaustive", "subject", "random", "shard"])]
+    #[arg(conflicts_with_all = ["exhaustive", "subject", "random", "given", "known"])]
     rules: Option<Specification>,
     /// Seed of the random patches
     #[arg(long, value_name = "N", default_value_t = 1, requires = "random")]
     seed: u64,
-    /// One of N disjoint parts, counted from 1
-    #[arg(long, value_name = "I/N", default_value = "1/1", value_parser = shard)]
-    shard: Shard,
+    #[command(flatten)]
+    shard: ShardArgs,
+    #[command(flatten)]
+    known: KnownArgs,
+    #[command(flatten)]
+    report: ReportArgs,
 }
 
 /// Runs the command.
 ///
 /// # Errors
 /// A backend that is not available.
-pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     args.options.fit(args.backends())?;
-    if let Some(specification) = args.rules {
-        return args.judge(specification);
-    }
-    let mut workers = args.workers()?;
-    let Plan { subjects, shard } = args.plan();
-    let unwritten = |error| Failure::write(Path::new("-"), error);
-    stop_when_reader_leaves();
-    let names = subjects.iter().map(|subject| subject.name().to_owned());
-    let rows = Rows::new(Frame { opening: heading(), ..Frame::default() }, names);
-    let rows = rows.map_err(unwritten)?;
-    let bar = progress(0, "units");
-    let started = Instant::now();
-    let mut all_equal = true;
-    for &subject in &subjects {
-        let one = Plan { subjects: vec![subject], shard };
-        let table = verify(&mut workers, &one, &|subject, done, all| {
-            bar.set_length(all);
-            bar.set_message(subject.name());
-            bar.set_position(done);
-        });
-        let table = table.inspect_err(|_| bar.finish_and_clear())?;
-        all_equal &= table.iter().all(|row| row.mismatches == 0);
-        rows.print(&bar, &lines(&table)).map_err(unwritten)?;
-        bar.suspend(|| report_empty(&table, shard));
-    }
-    bar.finish_and_clear();
-    rows.print(&bar, &format!("in {} s\n", started.elapsed().as_secs())).map_err(unwritten)?;
-    rows.finish().map_err(unwritten)?;
-    Ok(if all_equal { Exit::Done } else { Exit::Different })
+    let placed = match args.rules {
+        Some(_) => args.shard.whole("verify --rules")?,
+        None => args.shard.place()?,
+    };
+    let roles = args.known.role().into_iter().chain([Role::stdout()]).chain(args.report.roles());
+    refuse_shared(&roles.collect::<Vec<_>>())?;
+    let known = args.known.read(read_cases)?;
+    let workers = args.workers()?;
+    let recorder = args.report.begin(invocation, placed)?;
+    let ended = match args.rules {
+        Some(specification) => args.judge(specification, &recorder),
+        None => args.compare(workers, placed, &known, &recorder),
+    };
+    conclude(&known, &recorder);
+    recorder.finish(ended)
 }
 
 impl Args {
-    fn plan(&self) -> Plan {
+    /// Compares the backends with the model.
+    fn compare(
+        &self,
+        mut workers: Vec<Vec<Box<dyn Backend>>>,
+        placed: Placed,
+        known: &Known,
+        recorder: &Recorder,
+    ) -> Result<Exit, Failure> {
+        let Plan { subjects, shard } = self.plan(placed);
+        let unwritten = |error| Failure::write(Path::new("-"), error);
+        stop_when_reader_leaves();
+        let names = subjects.iter().map(|subject| subject.name().to_owned());
+        let rows = Rows::new(Frame { opening: heading(), ..Frame::default() }, names);
+        let rows = rows.map_err(unwritten)?;
+        let bar = progress(0, "units");
+        let started = Instant::now();
+        let mut all_equal = true;
+        for &subject in &subjects {
+            let one = Plan { subjects: vec![subject], shard };
+            let table = verify_known(&mut workers, &one, known, &|subject, done, all| {
+                bar.set_length(all);
+                bar.set_message(subject.name());
+                bar.set_position(done);
+            });
+            let table = table.inspect_err(|_| bar.finish_and_clear())?;
+            recorder.update(|report| record(report, &table));
+            all_equal &= table.iter().all(|row| row.mismatches == 0);
+            rows.print(&bar, &lines(&table)).map_err(unwritten)?;
+            bar.suspend(|| report_empty(&table, placed));
+        }
+        bar.finish_and_clear();
+        rows.print(&bar, &format!("in {} s\n", started.elapsed().as_secs())).map_err(unwritten)?;
+        rows.finish().map_err(unwritten)?;
+        Ok(if all_equal { Exit::Done } else { Exit::Different })
+    }
+
+    fn plan(&self, placed: Placed) -> Plan {
         let plan = match self.random {
             Some(patches) => Plan::random(Random { patches, seed: self.seed }),
             None if self.exhaustive => Plan::exhaustive(),
             None => Plan::levels(),
         };
         let subjects = if self.subject.is_empty() { plan.subjects } else { self.subject.clone() };
-        Plan { subjects, shard: self.shard }
+        Plan { subjects, shard: placed.shard }
     }
 
     /// Judges each backend by the rules of a standard.
-    fn judge(&self, specification: Specification) -> Result<Exit, Failure> {
+    fn judge(&self, specification: Specification, recorder: &Recorder) -> Result<Exit, Failure> {
         let split = Some(SplitOrder::Ruler);
         let selection = Selection { split, ..Selection::level(GenLevel::Rules, 1) };
         let cases: Vec<_> = selection.cases().collect();
@@ -132,7 +161,9 @@ impl Args {
                 check_rules(backend.as_mut(), cases, specification, |n| bar.set_position(n));
             bar.finish_and_clear();
             note(&format!("{}: {}", backend.name(), backend.device()));
-            if rules::show(&report?)? == Exit::Different {
+            let report = report?;
+            recorder.update(|record| record.add_parts(rules::parts(backend.name(), &report)));
+            if rules::show(&report)? == Exit::Different {
                 exit = Exit::Different;
             }
         }
@@ -166,15 +197,31 @@ impl Args {
 }
 
 /// Says of which subjects the shard has nothing: they have fewer units than shards were asked for.
-fn report_empty(table: &[Row], shard: Shard) {
+fn report_empty(table: &[Row], placed: Placed) {
     let mut empty: Vec<&str> =
         table.iter().filter(|row| row.compared == 0).map(|row| row.subject.name()).collect();
     empty.dedup();
     for subject in empty {
-        let (part, of) = (shard.part + 1, shard.of);
+        let part = placed.shard.part + 1;
         note(&format!(
-            "nothing to compare in shard {part}/{of}: {subject} has fewer than {part} units"
+            "nothing to compare in shard {placed}: {subject} has fewer than {part} units"
         ));
+    }
+}
+
+/// Adds the rows of one subject to the report.
+fn record(report: &mut Report, table: &[Row]) {
+    for row in table {
+        let first = row.first.as_ref().map(|text| match text.split_once('\n') {
+            Some((case, difference)) => {
+                First { case: Some(case.to_owned()), difference: difference.trim().to_owned() }
+            }
+            None => First { case: None, difference: text.clone() },
+        });
+        let name = format!("{} {}", row.subject.name(), row.backend);
+        let (cases, mismatches) = (row.compared, row.mismatches);
+        report.add_parts([Part { name, cases, mismatches, first }]);
+        report.add_stages(row.stages.iter().map(|(stage, more)| (stage, *more)));
     }
 }
 
@@ -189,6 +236,9 @@ fn lines(table: &[Row]) -> String {
         let subject = subject.name();
         // Writing to a String does not fail.
         _ = writeln!(text, "{subject:<12} {backend:<8} {compared:>15} {mismatches:>10}");
+    }
+    for Row { subject, backend, known, .. } in table.iter().filter(|row| row.known > 0) {
+        _ = writeln!(text, "known of {} in {backend}: {known}", subject.name());
     }
     for Row { subject, backend, first, .. } in table {
         if let Some(first) = first {

@@ -1,0 +1,168 @@
+//! `JUnit` XML, in the form that Jenkins, GitLab and their like read.
+
+use super::report::{Part, Report, State};
+use std::fmt::Write;
+
+/// Some test cases under a name.
+#[derive(Clone, Debug)]
+pub(crate) struct Suite {
+    pub(crate) name: String,
+    pub(crate) milliseconds: u64,
+    pub(crate) tests: Vec<Test>,
+}
+
+/// One test case. Its class and name stay the same from build to build, so that its history is one.
+#[derive(Clone, Debug)]
+pub(crate) struct Test {
+    pub(crate) class: String,
+    pub(crate) name: String,
+    pub(crate) milliseconds: Option<u64>,
+    pub(crate) outcome: Outcome,
+}
+
+/// How a test case ended; what is wrong in a line, and in full.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Outcome {
+    Passed,
+    /// Something differs.
+    Failed(String, String),
+    /// It could not be tested.
+    Error(String, String),
+}
+
+impl Suite {
+    /// A run: a test case for each part, and one for the run itself if it did not come to its end.
+    pub(crate) fn of_run(report: &Report) -> Self {
+        let name = format!("tess {}", report.command);
+        let class = name.replace(' ', ".");
+        let shard = match report.shards {
+            1 => String::new(),
+            of => format!(" (shard {}/{of})", report.shard),
+        };
+        let test = |name: &str, outcome| Test {
+            class: class.clone(),
+            name: format!("{name}{shard}"),
+            milliseconds: None,
+            outcome,
+        };
+        let mut tests: Vec<Test> =
+            report.parts.iter().map(|part| test(&part.name, of_part(part))).collect();
+        if report.state != State::Done || tests.is_empty() {
+            tests.push(test("run", of_end(report)));
+        }
+        Self { name, milliseconds: report.milliseconds, tests }
+    }
+
+    /// The suite as a document.
+    pub(crate) fn to_xml(&self) -> String {
+        let count =
+            |is: fn(&Outcome) -> bool| self.tests.iter().filter(|test| is(&test.outcome)).count();
+        let totals = format!(
+            "tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"0\" time=\"{}\"",
+            self.tests.len(),
+            count(|outcome| matches!(outcome, Outcome::Failed(..))),
+            count(|outcome| matches!(outcome, Outcome::Error(..))),
+            seconds(self.milliseconds)
+        );
+        let name = escaped(&self.name);
+        let mut text = format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"tess\" {totals}>\n  \
+             <testsuite name=\"{name}\" {totals}>\n"
+        );
+        self.tests.iter().for_each(|test| test.write(&mut text));
+        text + "  </testsuite>\n</testsuites>\n"
+    }
+}
+
+impl Test {
+    fn write(&self, text: &mut String) {
+        let (class, name) = (escaped(&self.class), escaped(&self.name));
+        let time = self.milliseconds.map(|time| format!(" time=\"{}\"", seconds(time)));
+        let time = time.unwrap_or_default();
+        let opening = format!("    <testcase classname=\"{class}\" name=\"{name}\"{time}");
+        let (kind, message, full) = match &self.outcome {
+            Outcome::Passed => return text.push_str(&(opening + "/>\n")),
+            Outcome::Failed(message, full) => ("failure", message, full),
+            Outcome::Error(message, full) => ("error", message, full),
+        };
+        let (message, full) = (escaped(message), escaped(full));
+        // Writing to a String does not fail.
+        _ = writeln!(
+            text,
+            "{opening}>\n      <{kind} message=\"{message}\" type=\"{kind}\">{full}</{kind}>\n    </testcase>"
+        );
+    }
+}
+
+fn of_part(part: &Part) -> Outcome {
+    if part.mismatches == 0 {
+        return Outcome::Passed;
+    }
+    let Part { cases, mismatches, .. } = part;
+    let first = part.first.as_ref().map(|first| {
+        let case = first.case.iter().map(|case| format!("{case}\n")).collect::<String>();
+        format!("first: {case}{}", first.difference)
+    });
+    Outcome::Failed(format!("{mismatches} of {cases} differ"), first.unwrap_or_default())
+}
+
+fn of_end(report: &Report) -> Outcome {
+    let message = report.message.clone().unwrap_or_default();
+    match report.state {
+        State::Done => Outcome::Passed,
+        State::Interrupted => Outcome::Error("interrupted".to_owned(), message),
+        State::Failed => Outcome::Error("failed".to_owned(), message),
+    }
+}
+
+/// Such as `1.050`.
+pub(crate) fn seconds(milliseconds: u64) -> String {
+    format!("{}.{:03}", milliseconds / 1000, milliseconds % 1000)
+}
+
+/// Text for an attribute or an element. What XML 1.0 has no way to write becomes U+FFFD.
+fn escaped(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\n' | '\t' => _ = write!(escaped, "&#{};", u32::from(c)),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => escaped.push('\u{fffd}'),
+            c => escaped.push(c),
+        }
+    }
+    escaped
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_is_a_document() {
+        let part =
+            |name: &str, mismatches| Part { name: name.into(), cases: 9, mismatches, first: None };
+        let parts = vec![part("level-1 simd", 0), part("a<b>&\"c\u{1}\"", 2)];
+        let (command, message) = ("verify".to_owned(), Some("two\nlines".to_owned()));
+        let run = Report { command, parts, message, shard: 3, shards: 8, ..Report::default() };
+        let text = Suite::of_run(&Report { milliseconds: 1050, ..run }).to_xml();
+        let expected = "\
+<?xml version=\"1.0\" encoding=\"UTF-8\"?>
+<testsuites name=\"tess\" tests=\"3\" failures=\"1\" errors=\"1\" skipped=\"0\" time=\"1.050\">
+  <testsuite name=\"tess verify\" tests=\"3\" failures=\"1\" errors=\"1\" skipped=\"0\" time=\"1.050\">
+    <testcase classname=\"tess.verify\" name=\"level-1 simd (shard 3/8)\"/>
+    <testcase classname=\"tess.verify\" name=\"a&lt;b&gt;&amp;&quot;c\u{fffd}&quot; (shard 3/8)\">
+      <failure message=\"2 of 9 differ\" type=\"failure\"></failure>
+    </testcase>
+    <testcase classname=\"tess.verify\" name=\"run (shard 3/8)\">
+      <error message=\"interrupted\" type=\"error\">two&#10;lines</error>
+    </testcase>
+  </testsuite>
+</testsuites>
+";
+        assert_eq!(text, expected, "escaped, counted");
+    }
+}

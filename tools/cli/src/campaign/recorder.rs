@@ -1,0 +1,169 @@
+//! Writes the report of a run when it ends, however it ends.
+
+use super::invocation::{Invocation, commit, executable};
+use super::junit::Suite;
+use super::report::{FORMAT, Report, State};
+use super::shard::Placed;
+use crate::failure::{Exit, Failure};
+use crate::output::ending::{self, Guard};
+use crate::output::{OutputArgs, OutputFile, Role, remove_earlier, write_while_ending};
+use std::fmt;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+/// The options that ask for a report.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct ReportArgs {
+    /// Write what was run and what was found to this file, a line of JSON that `tess merge` reads
+    ///
+    /// It is written at the end, and a signal is an end too. The report of an earlier run is removed at the
+    /// beginning. docs/campaigns.md explains its entries.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Write the result to this file as `JUnit` XML, for Jenkins and its like
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+}
+
+impl ReportArgs {
+    /// The files of the options.
+    pub(crate) fn roles(&self) -> impl Iterator<Item = Role<'_>> {
+        self.places().map(|(option, path)| Role::output(option, path))
+    }
+
+    fn places(&self) -> impl Iterator<Item = (&'static str, &Path)> {
+        let places = [("--report", &self.report), ("--junit", &self.junit)];
+        places.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?)))
+    }
+
+    /// Begins to record a run.
+    ///
+    /// # Errors
+    /// Places that cannot be written or are no files; signals that cannot be listened to.
+    pub(crate) fn begin(
+        &self,
+        invocation: &Invocation,
+        placed: Placed,
+    ) -> Result<Recorder, Failure> {
+        for (option, path) in self.places() {
+            if !OutputFile::would_be_file(path) {
+                let message =
+                    format!("{option} {} is no file; a whole file is written", path.display());
+                return Err(Failure::bad_input(message));
+            }
+            OutputArgs { file: path.to_owned() }.require_writable()?;
+            remove_earlier(path).map_err(|error| Failure::file("replace", path, &error))?;
+        }
+        let files = self.clone();
+        if self.places().next().is_none() {
+            let live = Arc::new(Mutex::new(None));
+            return Ok(Recorder { files, live, _guard: None });
+        }
+        let live = Live { report: begun(invocation, placed), since: Instant::now() };
+        let (live, guard) = ending::guarded(|| {
+            let live = Arc::new(Mutex::new(Some(live)));
+            let (at_end, files) = (Arc::clone(&live), files.clone());
+            let interrupted = move || {
+                let live = lock(&at_end).take();
+                live.into_iter().for_each(|live| files.interrupt(live));
+            };
+            Ok((live, Box::new(interrupted)))
+        })
+        .map_err(|error| Failure::bad_input(format!("cannot listen to signals: {error}")))?;
+        Ok(Recorder { files, live, _guard: Some(guard) })
+    }
+
+    /// Each file with what belongs into it.
+    fn contents(&self, report: &Report) -> impl Iterator<Item = (&Path, String)> {
+        let line = self.report.as_deref().map(|path| (path, report.line()));
+        let xml = self.junit.as_deref().map(|path| (path, Suite::of_run(report).to_xml()));
+        line.into_iter().chain(xml)
+    }
+
+    fn interrupt(&self, live: Live) {
+        let report = live.ended(State::Interrupted);
+        for (path, text) in self.contents(&report) {
+            // Nobody is left to be told; `tess merge` says that the report is missing.
+            _ = write_while_ending(path, text.as_bytes());
+        }
+    }
+}
+
+fn begun(invocation: &Invocation, placed: Placed) -> Report {
+    Report {
+        format: FORMAT.to_owned(),
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        commit: commit().to_owned(),
+        executable: executable(),
+        command: invocation.command.clone(),
+        words: invocation.words.clone(),
+        options: invocation.options.clone(),
+        seed: invocation.seed(),
+        shard: placed.shard.part + 1,
+        shards: placed.shard.of,
+        shard_from: placed.source.map(str::to_owned),
+        ..Report::default()
+    }
+}
+
+/// A run that goes on.
+struct Live {
+    report: Report,
+    since: Instant,
+}
+
+impl Live {
+    fn ended(self, state: State) -> Report {
+        let time = self.since.elapsed().as_millis();
+        Report { state, milliseconds: u64::try_from(time).unwrap_or(u64::MAX), ..self.report }
+    }
+}
+
+/// The record of one run.
+pub(crate) struct Recorder {
+    files: ReportArgs,
+    /// `None` if nobody asked for it, and when it is written.
+    live: Arc<Mutex<Option<Live>>>,
+    _guard: Option<Guard>,
+}
+
+impl fmt::Debug for Recorder {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Recorder").field("files", &self.files).finish_non_exhaustive()
+    }
+}
+
+fn lock(live: &Mutex<Option<Live>>) -> MutexGuard<'_, Option<Live>> {
+    live.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl Recorder {
+    /// Adds what is known so far, from any thread. Without a report to write, nothing is done.
+    pub(crate) fn update(&self, add: impl FnOnce(&mut Report)) {
+        if let Some(live) = lock(&self.live).as_mut() {
+            add(&mut live.report);
+        }
+    }
+
+    /// Writes the report of a run that ended, and gives its end.
+    ///
+    /// # Errors
+    /// The run's; a file that cannot be written.
+    pub(crate) fn finish(self, ended: Result<Exit, Failure>) -> Result<Exit, Failure> {
+        let Some(live) = lock(&self.live).take() else { return ended };
+        let state = match &ended {
+            Ok(_) => State::Done,
+            Err(failure) if failure.exit == Exit::ReaderLeft => State::Interrupted,
+            Err(_) => State::Failed,
+        };
+        let message = ended.as_ref().err().map(ToString::to_string);
+        let report = Report { message, ..live.ended(state) };
+        let mut written = Ok(());
+        for (path, text) in self.files.contents(&report) {
+            written = written.and(OutputArgs { file: path.to_owned() }.write(text.as_bytes()));
+        }
+        let exit = ended?;
+        written.map(|()| exit)
+    }
+}

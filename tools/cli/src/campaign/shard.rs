@@ -1,0 +1,243 @@
+//! Which part of the work a command does: `--shard`, or what a batch system says in the environment.
+
+use crate::failure::Failure;
+use crate::output::note;
+use std::fmt;
+use std::fs::File;
+use std::path::Path;
+use tess_verify::generate::Shard;
+
+/// The `--shard` option.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct ShardArgs {
+    /// One of N disjoint parts, counted from 1 [default: what the batch system says, or 1/1]
+    ///
+    /// Without it, the part is taken from the environment: `TEST_SHARD_INDEX` and `TEST_TOTAL_SHARDS` (Bazel,
+    /// googletest), `SLURM_ARRAY_TASK_ID` (Slurm arrays that begin with 0 or 1), `JOB_COMPLETION_INDEX` with
+    /// `TESS_SHARDS` (Kubernetes). --shard 1/1 does everything whatever they say.
+    #[arg(long = "shard", value_name = "I/N", value_parser = shard)]
+    given: Option<Shard>,
+}
+
+/// A part of the work, and who said so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Placed {
+    pub(crate) shard: Shard,
+    /// `--shard`, or the variable that numbers the part; `None` if all is done because nobody said anything.
+    pub(crate) source: Option<&'static str>,
+}
+
+impl Placed {
+    /// All of the work, which cannot be cut.
+    pub(crate) const WHOLE: Self = Self { shard: Shard::WHOLE, source: None };
+}
+
+const OPTION: &str = "--shard";
+
+/// Such as `3/8`, or `3/8 (from SLURM_ARRAY_TASK_ID)` if no option says it.
+impl fmt::Display for Placed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.shard.part + 1, self.shard.of)?;
+        let source = self.source.filter(|source| *source != OPTION);
+        source.map_or(Ok(()), |source| write!(f, " (from {source})"))
+    }
+}
+
+impl ShardArgs {
+    /// The part to do.
+    ///
+    /// # Errors
+    /// Variables of a batch system that contradict each other, or from which no part follows; a status file
+    /// that cannot be touched.
+    pub(crate) fn place(self) -> Result<Placed, Failure> {
+        if let Some(shard) = self.given {
+            return Ok(Placed { shard, source: Some(OPTION) });
+        }
+        let value = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+        let placed = from_environment(&value).map_err(|message| {
+            Failure::bad_input(format!(
+                "{message}; or give --shard I/N, --shard 1/1 for everything"
+            ))
+        })?;
+        if let (Some(BAZEL), Some(file)) = (placed.source, value("TEST_SHARD_STATUS_FILE")) {
+            // This is how a test says to its runner that it does its shard alone.
+            let path = Path::new(&file);
+            let touched = File::options().append(true).create(true).open(path);
+            touched.map_err(|error| Failure::file("touch", path, &error))?;
+        }
+        if placed.source.is_some() {
+            note(&format!("shard {placed}"));
+        }
+        Ok(placed)
+    }
+
+    /// All of what cannot be cut.
+    ///
+    /// # Errors
+    /// A batch system asks for parts, so that everything would be done several times.
+    pub(crate) fn whole(self, what: &str) -> Result<Placed, Failure> {
+        let placed = self.place()?;
+        if placed.shard == Shard::WHOLE {
+            return Ok(Placed::WHOLE);
+        }
+        Err(Failure::bad_input(format!(
+            "{what} cannot be cut into shards, and this is shard {placed}: run it once, with --shard 1/1"
+        )))
+    }
+}
+
+const BAZEL: &str = "TEST_SHARD_INDEX";
+const SLURM: &str = "SLURM_ARRAY_TASK_ID";
+const KUBERNETES: &str = "JOB_COMPLETION_INDEX";
+/// The number of shards where the batch system does not say it.
+const TOTAL: &str = "TESS_SHARDS";
+
+/// The values of environment variables that are set and not empty.
+type Environment<'a> = &'a dyn Fn(&str) -> Option<String>;
+
+fn from_environment(value: Environment<'_>) -> Result<Placed, String> {
+    let systems =
+        [(BAZEL, bazel(value)?), (SLURM, slurm(value)?), (KUBERNETES, kubernetes(value)?)];
+    let mut found = systems
+        .into_iter()
+        .filter_map(|(source, shard)| Some(Placed { shard: shard?, source: Some(source) }));
+    let Some(first) = found.next() else { return Ok(Placed::WHOLE) };
+    match found.find(|other| other.shard != first.shard) {
+        Some(other) => Err(format!("two batch systems disagree: shard {first}, shard {other}")),
+        None => Ok(first),
+    }
+}
+
+/// Bazel and googletest count from 0.
+fn bazel(value: Environment<'_>) -> Result<Option<Shard>, String> {
+    const OF: &str = "TEST_TOTAL_SHARDS";
+    match (number(value, BAZEL)?, number(value, OF)?) {
+        (None, None) => Ok(None),
+        (Some(part), Some(of)) => part_of(BAZEL, part, OF, of).map(Some),
+        (Some(_), None) => Err(format!("{BAZEL} is set, and {OF} is not")),
+        (None, Some(_)) => Err(format!("{OF} is set, and {BAZEL} is not")),
+    }
+}
+
+/// Kubernetes counts from 0, and does not say how many there are.
+fn kubernetes(value: Environment<'_>) -> Result<Option<Shard>, String> {
+    match (number(value, KUBERNETES)?, number(value, TOTAL)?) {
+        (None, _) => Ok(None),
+        (Some(part), Some(of)) => part_of(KUBERNETES, part, TOTAL, of).map(Some),
+        (Some(_), None) => Err(format!(
+            "{KUBERNETES} is set, and {TOTAL} is not: set it to the completions of the Job"
+        )),
+    }
+}
+
+/// Slurm counts from where the array begins. Only a whole array, which begins with 0 or 1 and leaves nothing
+/// out, says which part of everything a task is.
+fn slurm(value: Environment<'_>) -> Result<Option<Shard>, String> {
+    let Some(task) = number(value, SLURM)? else { return Ok(None) };
+    let other = |name: &'static str| {
+        number(value, name)?.ok_or_else(|| format!("{SLURM} is set, and {name} is not"))
+    };
+    let (first, last) = (other("SLURM_ARRAY_TASK_MIN")?, other("SLURM_ARRAY_TASK_MAX")?);
+    let count = other("SLURM_ARRAY_TASK_COUNT")?;
+    if first > 1 || last < first || last - first != count.wrapping_sub(1) {
+        return Err(format!(
+            "the Slurm array has {count} tasks from {first} to {last}: a campaign's begins with 0 or 1 and \
+             leaves no number out"
+        ));
+    }
+    let part =
+        task.checked_sub(first).ok_or_else(|| format!("{SLURM} is {task}, less than {first}"))?;
+    part_of(SLURM, part, "SLURM_ARRAY_TASK_COUNT", count).map(Some)
+}
+
+fn part_of(index: &str, part: u64, total: &str, of: u64) -> Result<Shard, String> {
+    if part < of {
+        return Ok(Shard { part, of });
+    }
+    Err(format!("{index} says part {part}, counted from 0, and {total} says {of} parts"))
+}
+
+fn number(value: Environment<'_>, name: &str) -> Result<Option<u64>, String> {
+    let Some(text) = value(name) else { return Ok(None) };
+    text.parse().map(Some).map_err(|_| format!("{name} is `{text}`, which is no number"))
+}
+
+/// `I/N`, with I in 1..=N.
+pub(crate) fn shard(text: &str) -> Result<Shard, String> {
+    let parts = text.split_once('/');
+    let numbers = parts.and_then(|(i, n)| Some((i.parse::<u64>().ok()?, n.parse::<u64>().ok()?)));
+    match numbers {
+        Some((i, n)) if (1..=n).contains(&i) => Ok(Shard { part: i - 1, of: n }),
+        _ => Err("a shard is I/N with I from 1 to N, such as 3/8".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(variables: &str) -> Result<String, String> {
+        let value = |name: &str| {
+            let mut pairs = variables.split(' ').filter_map(|pair| pair.split_once('='));
+            pairs.find(|(known, _)| *known == name).map(|(_, value)| value.to_owned())
+        };
+        from_environment(&value).map(|placed| placed.to_string())
+    }
+
+    const ARRAY: &str = "SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=8 SLURM_ARRAY_TASK_COUNT=8";
+
+    #[test]
+    fn each_system_counts_as_it_does() {
+        for (variables, placed) in [
+            ("", "1/1"),
+            ("TESS_SHARDS=4", "1/1"),
+            ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=0", "1/8 (from TEST_SHARD_INDEX)"),
+            ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=7", "8/8 (from TEST_SHARD_INDEX)"),
+            ("JOB_COMPLETION_INDEX=2 TESS_SHARDS=3", "3/3 (from JOB_COMPLETION_INDEX)"),
+            (&format!("SLURM_ARRAY_TASK_ID=8 {ARRAY}"), "8/8 (from SLURM_ARRAY_TASK_ID)"),
+            (
+                "SLURM_ARRAY_TASK_ID=0 SLURM_ARRAY_TASK_MIN=0 SLURM_ARRAY_TASK_MAX=3 \
+                 SLURM_ARRAY_TASK_COUNT=4",
+                "1/4 (from SLURM_ARRAY_TASK_ID)",
+            ),
+            (
+                "TEST_TOTAL_SHARDS=2 TEST_SHARD_INDEX=1 JOB_COMPLETION_INDEX=1 TESS_SHARDS=2",
+                "2/2 (from TEST_SHARD_INDEX)",
+            ),
+        ] {
+            assert_eq!(of(variables).as_deref(), Ok(placed), "{variables}");
+        }
+    }
+
+    #[test]
+    fn what_gives_no_part_is_an_error() {
+        for (variables, why) in [
+            ("TEST_SHARD_INDEX=0", "TEST_TOTAL_SHARDS is not"),
+            ("TEST_TOTAL_SHARDS=8", "TEST_SHARD_INDEX is not"),
+            ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=8", "says part 8, counted from 0"),
+            ("TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=-1", "which is no number"),
+            ("JOB_COMPLETION_INDEX=0", "set it to the completions of the Job"),
+            ("JOB_COMPLETION_INDEX=3 TESS_SHARDS=3", "says part 3, counted from 0"),
+            ("SLURM_ARRAY_TASK_ID=3", "SLURM_ARRAY_TASK_MIN is not"),
+            (
+                "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=3 \
+                 SLURM_ARRAY_TASK_COUNT=1",
+                "begins with 0 or 1",
+            ),
+            (
+                "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=5 \
+                 SLURM_ARRAY_TASK_COUNT=2",
+                "leaves no number out",
+            ),
+            (&format!("SLURM_ARRAY_TASK_ID=9 {ARRAY}"), "says part 8, counted from 0"),
+            (&format!("SLURM_ARRAY_TASK_ID=0 {ARRAY}"), "less than 1"),
+            (
+                "TEST_TOTAL_SHARDS=8 TEST_SHARD_INDEX=0 JOB_COMPLETION_INDEX=1 TESS_SHARDS=8",
+                "two batch systems disagree",
+            ),
+        ] {
+            let found = of(variables);
+            assert!(found.as_ref().is_err_and(|e| e.contains(why)), "{variables}: {found:?}");
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! What a check adds to the report of its run.
+
+use crate::campaign::report::{First, Part, Report};
+use crate::campaign::{Placed, ShardArgs, shard};
+use crate::failure::Failure;
+use tess_verify::case::Case;
+use tess_verify::checker::{self, Checked, Difference};
+use tess_verify::coverage::Coverage;
+use tess_verify::names::Named;
+use tess_verify::vectors::Header;
+
+/// The part of a record's case: its configuration, but for the split order.
+fn part_of(case: Option<Case>) -> String {
+    let Some(case) = case else { return "rows".to_owned() };
+    let (partitioning, output) = (case.config.partitioning.name(), case.config.output.name());
+    format!("{} {partitioning} {output}", case.domain().name())
+}
+
+/// Adds records as they are checked.
+pub(super) fn add(report: &mut Report, checked: Checked<'_>) {
+    for (record, different) in checked.records.iter().zip(checked.different) {
+        let part = Part { cases: 1, mismatches: u64::from(*different), ..Part::default() };
+        report.add_to_part(&part_of(record.case()), part);
+    }
+}
+
+/// The part of what no record shows by itself.
+const OTHERS: &str = "answers to other cases, contradictions";
+
+/// Adds what is known at the end: stages, differences, and mismatches that no record shows by itself.
+pub(super) fn finish(report: &mut Report, found: &checker::Report) {
+    let others = Part {
+        cases: found.cases.saturating_sub(report.cases),
+        mismatches: found.mismatches.saturating_sub(report.mismatches),
+        ..Part::default()
+    };
+    if others.cases > 0 || others.mismatches > 0 {
+        report.add_to_part(OTHERS, others);
+    }
+    for difference in &found.differences {
+        let is_other = difference.case.is_none() && report.parts.iter().any(|p| p.name == OTHERS);
+        let name = if is_other { OTHERS.to_owned() } else { part_of(difference.case) };
+        let first = Some(first(difference));
+        report.add_to_part(&name, Part { first, ..Part::default() });
+    }
+    // The threads of a check take turns in no order.
+    report.parts.sort_by(|a, b| a.name.cmp(&b.name));
+    report.first = found.differences.first().map(first);
+    report.add_stages(found.stages.iter().map(|(stage, more)| (stage, *more)));
+}
+
+fn first(difference: &Difference) -> First {
+    let case = difference.case.map(|case| case.to_string());
+    First { case, difference: difference.mismatch.to_string() }
+}
+
+/// Adds the bins that the file hits.
+pub(super) fn add_coverage(report: &mut Report, coverage: &Coverage) {
+    report.coverage = Some(coverage.bins().map(|(_, hits)| hits).collect());
+}
+
+/// Adds how the cases were made, which shards of one campaign have in common.
+pub(super) fn add_asked(report: &mut Report, asked: &Header) {
+    for (key, value) in asked.notes.iter().filter(|(key, _)| key != SHARD) {
+        report.options.insert(format!("asked {key}"), vec![value.clone()]);
+        if key == "seed" {
+            report.seed = value.parse().ok();
+        }
+    }
+}
+
+const SHARD: &str = "shard";
+
+/// Which part a file is: as the option or the environment says, or the note in the first line of the cases that
+/// were asked, or of the file itself.
+///
+/// # Errors
+/// They contradict each other; a note that is no shard.
+pub(super) fn place(
+    said: ShardArgs,
+    file: &Header,
+    asked: Option<&Header>,
+) -> Result<Placed, Failure> {
+    let mut placed = said.place()?;
+    let headers = [("--cases", asked), ("FILE", Some(file))];
+    for (source, header) in headers.into_iter().filter_map(|(of, header)| Some((of, header?))) {
+        let Some((_, text)) = header.notes.iter().find(|(key, _)| key == SHARD) else { continue };
+        let noted = shard(text).map_err(|error| {
+            Failure::bad_input(format!("{source}: the note shard={text}: {error}"))
+        })?;
+        let noted = Placed { shard: noted, source: Some(source) };
+        if placed.source.is_some() && placed.shard != noted.shard {
+            let message = format!(
+                "one says shard {placed}, the other shard {noted}: give the file of that shard"
+            );
+            return Err(Failure::bad_input(message));
+        }
+        if placed.source.is_none() {
+            placed = noted;
+        }
+    }
+    Ok(placed)
+}

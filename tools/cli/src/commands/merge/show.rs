@@ -1,0 +1,196 @@
+//! A campaign as text, CSV and `JUnit` XML.
+
+use super::again::Pattern;
+use super::campaign::{Campaign, Fault, SHOWN};
+use super::read::Found;
+use crate::campaign::junit::{Outcome, Suite, Test, seconds};
+use crate::campaign::report::{First, Report, State};
+use crate::output::counted;
+use std::fmt::Write;
+
+/// The table, what differs, what is wrong, and the commands to run again.
+pub(super) fn text(campaign: &Campaign) -> String {
+    let mut text = String::new();
+    campaign.all().take(1).for_each(|one| heading(&mut text, &one.report));
+    table(&mut text, campaign);
+    differing(&mut text, campaign);
+    faults(&mut text, campaign);
+    summary(&mut text, campaign);
+    text
+}
+
+// Writing to a String does not fail: the results of `write!` are dropped throughout.
+
+fn heading(text: &mut String, report: &Report) {
+    let options =
+        report.options.iter().map(|(name, values)| format!(" {name}={}", values.join(",")));
+    let options: String = options.collect();
+    let Report { command, version, commit, .. } = report;
+    _ = writeln!(text, "tess {command}:{options}\ntess {version}, commit {commit}");
+}
+
+fn table(text: &mut String, campaign: &Campaign) {
+    _ = writeln!(text, "{:<44} {:>15} {:>10}", "part", "cases", "mismatches");
+    for part in campaign.parts() {
+        _ = writeln!(text, "{:<44} {:>15} {:>10}", part.name, part.cases, part.mismatches);
+    }
+    let (cases, mismatches) = (campaign.cases(), campaign.mismatches());
+    _ = writeln!(text, "{:<44} {cases:>15} {mismatches:>10}", "all");
+    for (stage, mismatches) in campaign.stages() {
+        _ = writeln!(text, "stage {stage}: {mismatches}");
+    }
+    if let Some(known) = campaign.known() {
+        let (entries, different) = (known.entries, known.different);
+        _ = writeln!(text, "known differences: {different} of {} occur", counted(entries, "case"));
+        known.gone.iter().for_each(|line| _ = writeln!(text, "no longer different: {line}"));
+    }
+}
+
+fn differing(text: &mut String, campaign: &Campaign) {
+    let differing: Vec<&Found> = campaign.done().filter(|one| one.report.mismatches > 0).collect();
+    for Found { place, report } in differing.iter().take(SHOWN) {
+        let Report { shard, shards, cases, mismatches, .. } = report;
+        _ = writeln!(text, "shard {shard}/{shards} differs: {mismatches} of {cases} ({place})");
+        report.first.iter().for_each(|first| _ = writeln!(text, "  {}", words(first, "\n  ")));
+    }
+    more(text, differing.len() as u64, "differing shard");
+}
+
+fn words(first: &First, between: &str) -> String {
+    let case = first.case.iter().map(|case| format!("{case}{between}")).collect::<String>();
+    case + &first.difference
+}
+
+fn faults(text: &mut String, campaign: &Campaign) {
+    for (place, why) in campaign.strangers.iter().take(SHOWN) {
+        _ = writeln!(text, "{place} is of another campaign: {why}");
+    }
+    more(text, campaign.strangers.len() as u64, "report of another campaign");
+    let mut again = Vec::new();
+    for (shard, fault) in campaign.faults().take(SHOWN) {
+        let shard_of = format!("shard {shard}/{}", campaign.of);
+        _ = match &fault {
+            Fault::Missing => writeln!(text, "{shard_of} is missing"),
+            Fault::Unfinished(place, why) => writeln!(text, "{shard_of} {why} ({place})"),
+            Fault::Double(places) => writeln!(text, "{shard_of} is double: {places}"),
+        };
+        if !matches!(fault, Fault::Double(_)) {
+            again.push(shard);
+        }
+    }
+    if campaign.faults().nth(SHOWN).is_some() {
+        _ = writeln!(text, "and more shards");
+    }
+    if campaign.cases() == 0 {
+        _ = writeln!(text, "no case was compared");
+    }
+    let reports: Vec<&Report> = campaign.all().map(|one| &one.report).collect();
+    let Some(pattern) = Pattern::of(&reports).filter(|_| !again.is_empty()) else { return };
+    _ = writeln!(text, "run again:");
+    again.iter().for_each(|shard| _ = writeln!(text, "  {}", pattern.command(*shard)));
+}
+
+fn more(text: &mut String, all: u64, one: &str) {
+    let hidden = all.saturating_sub(SHOWN as u64);
+    if hidden > 0 {
+        _ = writeln!(text, "and {} more", counted(hidden, one));
+    }
+}
+
+fn summary(text: &mut String, campaign: &Campaign) {
+    let once = campaign.done().filter(|one| is_single(campaign, one)).count();
+    let (of, time) = (counted(campaign.of, "shard"), seconds(campaign.milliseconds()));
+    let (cases, mismatches) = (campaign.cases(), campaign.mismatches());
+    _ = writeln!(
+        text,
+        "{once} of {of} ran once: {cases} cases, {mismatches} mismatches, {time} s of all shards"
+    );
+}
+
+fn is_single(campaign: &Campaign, one: &Found) -> bool {
+    campaign.all().filter(|other| other.report.shard == one.report.shard).count() == 1
+}
+
+/// A row for each report of the campaign, and one for each missing shard.
+pub(super) fn csv(campaign: &Campaign) -> String {
+    let mut text =
+        "shard,shards,state,cases,mismatches,seconds,first,difference,report\n".to_owned();
+    for Found { place, report } in campaign.all() {
+        let state = match report.state {
+            State::Done => "done",
+            State::Interrupted => "interrupted",
+            State::Failed => "failed",
+        };
+        let (case, difference) = match &report.first {
+            Some(first) => (first.case.as_deref().unwrap_or_default(), first.difference.as_str()),
+            None => ("", ""),
+        };
+        let Report { shard, shards, cases, mismatches, milliseconds, .. } = report;
+        let [case, difference, place] = [case, difference, place].map(field);
+        let time = seconds(*milliseconds);
+        _ = writeln!(
+            text,
+            "{shard},{shards},{state},{cases},{mismatches},{time},{case},{difference},{place}"
+        );
+    }
+    let missing = campaign.faults().filter(|(_, fault)| *fault == Fault::Missing);
+    for (shard, _) in missing.take(SHOWN) {
+        _ = writeln!(text, "{shard},{},missing,0,0,0.000,,,", campaign.of);
+    }
+    text
+}
+
+/// A field of CSV, in quotes where it must be.
+fn field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        return format!("\"{}\"", text.replace('"', "\"\""));
+    }
+    text.to_owned()
+}
+
+/// A test case for each shard, and one for each report of another campaign.
+pub(super) fn junit(campaign: &Campaign) -> String {
+    let command = campaign.all().next().map(|one| one.report.command.as_str()).unwrap_or_default();
+    let class = format!("tess.{command}");
+    let of = campaign.of;
+    let test = |shard: u64, milliseconds, outcome| Test {
+        class: class.clone(),
+        name: format!("shard {shard}/{of}"),
+        milliseconds,
+        outcome,
+    };
+    let well = campaign.done().filter(|one| is_single(campaign, one));
+    let mut tests: Vec<(u64, Test)> = well
+        .map(|Found { report, .. }| {
+            let time = Some(report.milliseconds);
+            (report.shard, test(report.shard, time, outcome(report)))
+        })
+        .collect();
+    for (shard, fault) in campaign.faults().take(SHOWN) {
+        let error = match fault {
+            Fault::Missing => Outcome::Error("missing".to_owned(), "it has no report".to_owned()),
+            Fault::Unfinished(place, why) => Outcome::Error(why, place),
+            Fault::Double(places) => Outcome::Error("double".to_owned(), places),
+        };
+        tests.push((shard, test(shard, None, error)));
+    }
+    tests.sort_by_key(|(shard, _)| *shard);
+    let strangers = campaign.strangers.iter().map(|(place, why)| Test {
+        class: class.clone(),
+        name: place.clone(),
+        milliseconds: None,
+        outcome: Outcome::Error("of another campaign".to_owned(), why.clone()),
+    });
+    let tests = tests.into_iter().map(|(_, test)| test).chain(strangers).collect();
+    let (name, milliseconds) = (format!("tess {command}"), campaign.milliseconds());
+    Suite { name, milliseconds, tests }.to_xml()
+}
+
+fn outcome(report: &Report) -> Outcome {
+    let Report { cases, mismatches, .. } = report;
+    if *mismatches == 0 {
+        return Outcome::Passed;
+    }
+    let first = report.first.as_ref().map(|first| words(first, "\n")).unwrap_or_default();
+    Outcome::Failed(format!("{mismatches} of {cases} differ"), first)
+}

@@ -1,0 +1,384 @@
+//! Campaigns: reports of shards, `JUnit` XML, `tess merge`, shards from the environment, known differences.
+
+use crate::support::{Folder, Run, command, directory, shell, tess, tess_with_input};
+use serde_json::Value;
+use std::fs;
+use std::path::Path;
+
+fn json(path: &Path) -> Value {
+    let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    assert_eq!(text.matches('\n').count(), 1, "one line: {text}");
+    serde_json::from_str(&text).expect("it is JSON")
+}
+
+/// Runs `tess` in a folder.
+fn tess_in(folder: &Folder, words: &str) -> Run {
+    command(words).current_dir(folder).output().expect("tess runs").into()
+}
+
+/// A listing of 40 cases with a fault in the last point, and the line of its case.
+fn faulty_listing() -> (String, String) {
+    let right = tess("gen --level 3 --count 40 --domain tri --format listing").stdout;
+    let is_point =
+        |line: &&str| line.split_once(' ').is_some_and(|(u, v)| u.len() == 5 && v.len() == 5);
+    let mut lines: Vec<&str> = right.lines().collect();
+    let at = lines.iter().rposition(is_point).expect("a point");
+    let case = lines[..at].iter().rfind(|line| line.starts_with("case ")).expect("its case");
+    let case = (*case).to_owned();
+    let last = if lines[at].ends_with('0') { "1" } else { "0" };
+    let faulty = format!("{}{last}", &lines[at][..10]);
+    lines[at] = &faulty;
+    (lines.join("\n") + "\n", case)
+}
+
+#[test]
+fn reports_say_what_was_run_and_found() {
+    let folder = directory("reports");
+    let run =
+        tess_in(&folder, "verify --backend simd --random 20 --seed 7 --shard 2/3 --report r.jsonl");
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let report = json(&folder.join("r.jsonl"));
+    assert_eq!(report["format"], "tess-report 1", "{report}");
+    assert_eq!(report["version"], env!("CARGO_PKG_VERSION"), "{report}");
+    assert_eq!((&report["shard"], &report["shards"]), (&2.into(), &3.into()), "{report}");
+    assert_eq!((&report["seed"], &report["state"]), (&7.into(), &"done".into()), "{report}");
+    assert_eq!(report["options"]["random"][0], "20", "{report}");
+    assert_eq!(report["words"][2], "--backend", "{report}");
+    assert_eq!(report["parts"][0]["name"], "random simd", "{report}");
+    let row = run.stdout.lines().nth(1).expect("a row").split_whitespace().nth(2);
+    assert_eq!(report["cases"].to_string(), row.expect("a number"), "{}", run.stdout);
+    assert_eq!(report["mismatches"], 0, "{report}");
+    let commit = report["commit"].as_str().expect("text");
+    let hex = commit.trim_end_matches("+changes");
+    assert!(
+        commit == "unknown" || (hex.len() == 40 && hex.chars().all(|c| c.is_ascii_hexdigit())),
+        "{commit}"
+    );
+}
+
+/// The stage, the configuration and the case line of a planted difference.
+#[test]
+fn differences_are_in_the_report() {
+    let folder = directory("report-differences");
+    let (faulty, case) = faulty_listing();
+    let report = folder.join("r.jsonl");
+    let xml = folder.join("r.xml");
+    let words = format!("check - --report {} --junit {}", report.display(), xml.display());
+    let run = tess_with_input(&words, &faulty);
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    let report = json(&report);
+    assert_eq!((&report["cases"], &report["mismatches"]), (&40.into(), &1.into()), "{report}");
+    assert_eq!(report["stages"]["location"], 1, "{report}");
+    assert_eq!(report["first"]["case"], case.as_str(), "{report}");
+    let configuration = case.split(' ').skip(1).take(3).collect::<Vec<_>>().join(" ");
+    let parts = report["parts"].as_array().expect("parts");
+    let wrong: Vec<&Value> = parts.iter().filter(|part| part["mismatches"] != 0).collect();
+    assert_eq!(wrong.len(), 1, "{report}");
+    assert_eq!(wrong[0]["name"], configuration.as_str(), "{report}");
+    let names = parts.iter().map(|part| part["name"].as_str());
+    assert!(names.is_sorted(), "whatever the threads did: {report}");
+    let xml = fs::read_to_string(xml).expect("JUnit");
+    assert!(xml.contains(" failures=\"1\" errors=\"0\" "), "{xml}");
+    let failing = format!("name=\"{configuration}\">\n      <failure message=\"1 of ");
+    assert!(xml.contains(&failing) && xml.contains(&case), "{xml}");
+}
+
+#[test]
+fn failed_runs_have_a_report() {
+    let folder = directory("report-failed");
+    let report = folder.join("r.jsonl");
+    fs::write(&report, "an earlier report").expect("written");
+    let truncated = tess("gen --level 3 --count 3").stdout;
+    let words =
+        format!("check - --report {} --junit {}", report.display(), folder.join("r.xml").display());
+    let run = tess_with_input(&words, &truncated[..truncated.len() - 30]);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    let report = json(&report);
+    assert_eq!(report["state"], "failed", "{report}");
+    assert!(report["message"].as_str().is_some_and(|m| m.contains("stdin:5")), "{report}");
+    let xml = fs::read_to_string(folder.join("r.xml")).expect("JUnit");
+    assert!(xml.contains(" errors=\"1\" ") && xml.contains("<error message=\"failed\""), "{xml}");
+}
+
+/// What an earlier run left does not look like the result of one that was killed.
+#[cfg(unix)]
+#[test]
+fn interrupted_and_killed_runs() {
+    let folder = directory("report-interrupted");
+    for (signal, state) in [("TERM", Some("interrupted")), ("KILL", None)] {
+        fs::write(folder.join("r.jsonl"), "an earlier report").expect("written");
+        let script = format!(
+            "\"$TESS\" verify --backend simd --exhaustive --report r.jsonl > rows & p=$!\n\
+             while ! grep -q ^level-1 rows; do sleep 0.05; done; kill -s {signal} $p; wait $p"
+        );
+        shell(&script, &folder);
+        let report = folder.join("r.jsonl");
+        assert_eq!(report.exists(), state.is_some(), "{signal}");
+        if let Some(state) = state {
+            let report = json(&report);
+            assert_eq!(report["state"], state, "{report}");
+            assert_eq!(report["parts"][0]["cases"], 35904, "what was done is in it: {report}");
+        }
+    }
+}
+
+#[test]
+fn places_of_reports_are_tried_first() {
+    let folder = directory("report-places");
+    for (option, why) in [
+        ("--report /nowhere/r.jsonl", "cannot write /nowhere/r.jsonl"),
+        ("--junit /nowhere/r.xml", "cannot write /nowhere/r.xml"),
+        ("--report /dev/null", "--report /dev/null is no file"),
+        ("--report one --junit one", "are the same file"),
+        ("--report one -o one", "are the same file"),
+    ] {
+        let run = tess_in(&folder, &format!("gen --level 3 --count 2 {option}"));
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{option}: {}", run.stderr);
+        assert!(run.stderr.contains(why), "{option}: {}", run.stderr);
+    }
+    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 0, "nothing is written");
+}
+
+/// Three shards of generated coverage.
+fn campaign(folder: &Folder) {
+    for part in 1..=3 {
+        let words = format!(
+            "gen --level 3 --count 50 --shard {part}/3 --coverage c{part}.xml --report r{part}.jsonl"
+        );
+        assert_eq!(tess_in(folder, &words).code, Some(0), "{words}");
+    }
+}
+
+#[test]
+fn a_whole_campaign() {
+    let folder = directory("merge-whole");
+    campaign(&folder);
+    let words = "merge r1.jsonl r3.jsonl r2.jsonl --csv a.csv --junit a.xml --coverage a-cov.xml";
+    let run = tess_in(&folder, words);
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    assert!(
+        run.stdout.contains("\n3 of 3 shards ran once: 50 cases, 0 mismatches, "),
+        "{}",
+        run.stdout
+    );
+    tess_in(&folder, "gen --level 3 --count 50 --coverage whole.xml");
+    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a file");
+    assert!(read("a-cov.xml") == read("whole.xml"), "the hits of all shards");
+    let csv = read("a.csv");
+    let rows: Vec<&str> = csv.lines().collect();
+    assert_eq!(rows.len(), 4, "{csv}");
+    assert!(rows[3].starts_with("3,3,done,16,0,") && rows[3].ends_with(",r3.jsonl"), "{csv}");
+    assert!(read("a.xml").contains("tests=\"3\" failures=\"0\" errors=\"0\""), "{}", read("a.xml"));
+    let all = read("r1.jsonl") + &read("r2.jsonl") + &read("r3.jsonl");
+    let run = tess_with_input("merge -", &all);
+    assert_eq!(run.code, Some(0), "one file of all: {}{}", run.stdout, run.stderr);
+}
+
+#[test]
+fn what_is_missing_or_double() {
+    let folder = directory("merge-missing");
+    campaign(&folder);
+    let run = tess_in(&folder, "merge r1.jsonl r3.jsonl --junit a.xml --coverage a-cov.xml");
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    assert!(run.stdout.contains("shard 2/3 is missing\n"), "{}", run.stdout);
+    let again = run.stdout.split_once("run again:\n").expect("a command").1.lines().next();
+    let again = again.expect("a line").trim();
+    let expected = " gen --level 3 --count 50 --shard 2/3 --coverage c2.xml --report r2.jsonl";
+    assert!(again.ends_with(expected), "{again}");
+    assert!(!folder.join("a-cov.xml").exists(), "coverage of all shards or none");
+    let xml = fs::read_to_string(folder.join("a.xml")).expect("JUnit");
+    assert!(xml.contains("name=\"shard 2/3\">\n      <error message=\"missing\""), "{xml}");
+
+    fs::rename(folder.join("r2.jsonl"), folder.join("away.jsonl")).expect("moved");
+    assert_eq!(shell(again, &folder).code, Some(0), "the printed command runs: {again}");
+    let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl");
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+
+    let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl away.jsonl");
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    assert!(run.stdout.contains("shard 2/3 is double: r2.jsonl, away.jsonl\n"), "{}", run.stdout);
+    let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl r4.jsonl");
+    assert_eq!(run.code, Some(2), "a file that is not there: {}", run.stdout);
+    assert!(run.stderr.contains("there is no r4.jsonl"), "{}", run.stderr);
+}
+
+/// Each of these differs from the campaign in one thing.
+#[test]
+fn reports_of_other_campaigns() {
+    let folder = directory("merge-strangers");
+    campaign(&folder);
+    let own = fs::read_to_string(folder.join("r2.jsonl")).expect("a report");
+    let report: Value = serde_json::from_str(&own).expect("JSON");
+    let commit = report["commit"].as_str().expect("text").to_owned();
+    for (old, new, why) in [
+        ("\"seed\":1", "\"seed\":2", "the seed is 2; in r1.jsonl it is 1"),
+        ("\"version\":\"", "\"version\":\"9", "the version is 9"),
+        (&format!("\"commit\":\"{commit}"), "\"commit\":\"00", "the commit is 00"),
+        (
+            "\"count\":[\"50\"]",
+            "\"count\":[\"51\"]",
+            "an option is count=51; in r1.jsonl it is count=50",
+        ),
+        ("\"shards\":3", "\"shards\":4", "the number of shards is 4; in r1.jsonl it is 3"),
+        ("\"command\":\"gen\"", "\"command\":\"check\"", "the command is check"),
+    ] {
+        let other = own.replacen(old, new, 1);
+        assert_ne!(other, own, "{old}");
+        fs::write(folder.join("r2.jsonl"), other).expect("written");
+        let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl");
+        assert_eq!(run.code, Some(2), "{new}: {}", run.stdout);
+        let expected = format!("r2.jsonl is of another campaign: {why}");
+        assert!(run.stdout.contains(&expected), "{expected}: {}", run.stdout);
+        assert!(run.stdout.contains("shard 2/3 is missing"), "{new}: {}", run.stdout);
+    }
+}
+
+#[test]
+fn differing_and_unfinished_shards() {
+    let folder = directory("merge-differing");
+    campaign(&folder);
+    let own = fs::read_to_string(folder.join("r2.jsonl")).expect("a report");
+    let differing = own.replacen("\"mismatches\":0", "\"mismatches\":2", 2).replacen(
+        "\"first\":null",
+        "\"first\":{\"case\":\"case a\",\"difference\":\"b, c\"}",
+        1,
+    );
+    fs::write(folder.join("r2.jsonl"), differing).expect("written");
+    let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl --csv a.csv --junit a.xml");
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    let shown = "shard 2/3 differs: 2 of 17 (r2.jsonl)\n  case a\n  b, c\n";
+    assert!(run.stdout.contains(shown), "{}", run.stdout);
+    let csv = fs::read_to_string(folder.join("a.csv")).expect("CSV");
+    assert!(csv.contains(",case a,\"b, c\",r2.jsonl\n"), "{csv}");
+    let xml = fs::read_to_string(folder.join("a.xml")).expect("JUnit");
+    assert!(xml.contains("<failure message=\"2 of 17 differ\""), "{xml}");
+    for (state, shown) in
+        [("interrupted", "was interrupted"), ("failed", "failed: nothing said why")]
+    {
+        let unfinished = own.replacen("\"state\":\"done\"", &format!("\"state\":\"{state}\""), 1);
+        fs::write(folder.join("r2.jsonl"), unfinished).expect("written");
+        let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl");
+        assert_eq!(run.code, Some(2), "{state}: {}", run.stdout);
+        assert!(run.stdout.contains(&format!("shard 2/3 {shown} (r2.jsonl)\n")), "{}", run.stdout);
+        assert!(run.stdout.contains("run again:\n"), "{}", run.stdout);
+    }
+}
+
+#[test]
+fn what_is_no_report() {
+    let folder = directory("merge-malformed");
+    campaign(&folder);
+    let own = fs::read_to_string(folder.join("r2.jsonl")).expect("a report");
+    for (text, why) in [
+        (String::new(), "bad.jsonl:1: the file is empty"),
+        ("\n".to_owned(), "bad.jsonl:1: no report"),
+        (own[..own.len() / 2].to_owned(), "bad.jsonl:1: no report"),
+        (own.replacen("report 1", "report 2", 1), "the format is `tess-report 2`"),
+        (own.replacen("\"shard\":2", "\"shard\":0", 1), "shards are counted from 1"),
+        (own.replacen("\"shard\":2", "\"shard\":4", 1), "shard 4 of 3"),
+        (own.replacen("\"cases\":17", "\"cases\":18", 1), "the parts add up to 17"),
+        (own.replacen("\"cases\"", "\"case\"", 1), "unknown field `case`"),
+        (own.clone() + "{}\n", "bad.jsonl:2: no report"),
+    ] {
+        fs::write(folder.join("bad.jsonl"), &text).expect("written");
+        let run = tess_in(&folder, "merge r1.jsonl bad.jsonl r3.jsonl");
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{why}: {}", run.stderr);
+        assert!(run.stderr.contains(why), "{why}: {}", run.stderr);
+    }
+}
+
+fn with_variables(folder: &Folder, words: &str, variables: &[(&str, &str)]) -> Run {
+    let mut command = command(words);
+    command.current_dir(folder).envs(variables.iter().copied());
+    command.output().expect("tess runs").into()
+}
+
+#[test]
+fn shards_from_the_environment() {
+    let folder = directory("shards-environment");
+    let gen_words = "gen --level 3 --count 50 --domain tri --report r.jsonl";
+    let status = folder.join("status");
+    let bazel = [
+        ("TEST_TOTAL_SHARDS", "3"),
+        ("TEST_SHARD_INDEX", "1"),
+        ("TEST_SHARD_STATUS_FILE", status.to_str().expect("text")),
+    ];
+    let whole = with_variables(&folder, &format!("{gen_words} --shard 1/1"), &bazel);
+    assert_eq!(whole.stdout.lines().count(), 52, "the option wins: {}", whole.stderr);
+    assert!(!status.exists(), "the runner is not told that its shards are done");
+    let part = with_variables(&folder, gen_words, &bazel);
+    assert!(part.stderr.contains("tess: shard 2/3 (from TEST_SHARD_INDEX)\n"), "{}", part.stderr);
+    assert!(status.exists(), "the runner is told");
+    assert_eq!(json(&folder.join("r.jsonl"))["shard_from"], "TEST_SHARD_INDEX", "in the report");
+    assert_eq!(
+        part.stdout,
+        tess("gen --level 3 --count 50 --domain tri --shard 2/3").stdout,
+        "that part"
+    );
+    let run = with_variables(&folder, "gen --level 3 --count 5", &[("JOB_COMPLETION_INDEX", "0")]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "no total: {}", run.stderr);
+    assert!(run.stderr.contains("TESS_SHARDS is not"), "{}", run.stderr);
+    let run = with_variables(&folder, "verify --backend simd --rules d3d11", &bazel);
+    assert_eq!(run.code, Some(2), "it cannot be cut: {}", run.stderr);
+    assert!(run.stderr.contains("cannot be cut into shards"), "{}", run.stderr);
+}
+
+/// A file is the shard that its first line notes.
+#[test]
+fn shards_of_files() {
+    let folder = directory("shards-files");
+    let asked = "gen --level 3 --count 40 --seed 5 --format listing --shard 2/4 -o asked.txt";
+    assert_eq!(tess_in(&folder, asked).code, Some(0));
+    let run = tess_in(&folder, "check asked.txt --cases asked.txt --report r.jsonl");
+    assert_eq!(run.code, Some(2), "the file itself: {}", run.stderr);
+    fs::copy(folder.join("asked.txt"), folder.join("device.txt")).expect("copied");
+    let run = tess_in(&folder, "check device.txt --cases asked.txt --report r.jsonl");
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let report = json(&folder.join("r.jsonl"));
+    assert_eq!((&report["shard"], &report["shards"]), (&2.into(), &4.into()), "{report}");
+    assert_eq!(
+        (&report["seed"], &report["shard_from"]),
+        (&5.into(), &"--cases".into()),
+        "{report}"
+    );
+    assert_eq!(report["options"]["asked random"][0], "40", "{report}");
+    let run = tess_in(&folder, "check device.txt --shard 3/4");
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("one says shard 3/4, the other shard 2/4 (from FILE)"),
+        "{}",
+        run.stderr
+    );
+}
+
+/// A deviation that is known is no mismatch; another one is, and one that is gone is named.
+#[test]
+fn known_differences() {
+    let folder = directory("known");
+    let (faulty, case) = faulty_listing();
+    fs::write(folder.join("device.txt"), &faulty).expect("written");
+    let run = tess_in(&folder, "check device.txt --failures known.txt");
+    assert_eq!(run.code, Some(1), "{}", run.stdout);
+    let equal = faulty.lines().find(|line| line.starts_with("case ")).expect("another case");
+    fs::write(folder.join("lines.txt"), format!("# documented\n{case}\n{equal}\n"))
+        .expect("written");
+    let run = tess_in(&folder, "check device.txt --known known.txt --report r.jsonl");
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    assert_eq!(run.stdout, "40 cases, 0 mismatches, 1 known\n", "what --failures wrote");
+    let run = tess_in(&folder, "check device.txt --known lines.txt --report r.jsonl");
+    assert_eq!(run.code, Some(0), "{}", run.stdout);
+    let gone = format!("tess: no longer different, though known: 1 case\n  {equal}\n");
+    assert_eq!(run.stderr, gone, "lines, too");
+    let known = &json(&folder.join("r.jsonl"))["known"];
+    assert_eq!((&known["entries"], &known["different"]), (&2.into(), &1.into()), "{known}");
+    assert_eq!(known["gone"][0], equal, "{known}");
+    fs::write(folder.join("other.txt"), format!("{equal}\n")).expect("written");
+    let run = tess_in(&folder, "check device.txt --known other.txt");
+    assert_eq!(run.code, Some(1), "it is another case: {}", run.stdout);
+    let run = tess_in(&folder, "verify --backend simd --random 2 --known lines.txt");
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    fs::write(folder.join("empty.txt"), "").expect("written");
+    let run = tess_in(&folder, "check device.txt --known empty.txt");
+    assert_eq!(run.code, Some(2), "no case: {}", run.stdout);
+    assert!(run.stderr.contains("there is no case"), "{}", run.stderr);
+}
