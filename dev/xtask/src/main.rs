@@ -9,6 +9,7 @@ mod covergroups;
 mod explorer;
 mod features;
 mod fuzz;
+mod install;
 mod integrations;
 mod levels;
 mod mutants;
@@ -53,6 +54,9 @@ usage: cargo xtask <command>
   rtl --long | --prove | --synth
           compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
           where it stopped; prove handshakes and placement; print what the circuit costs
+  install --prefix FOLDER
+          build the C library and install its header, both libraries and `tess.pc` there, so that
+          `cc program.c $(pkg-config --cflags --libs tess)` works
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
   circles [FOLDER...]
@@ -126,6 +130,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["rtl", "--long"] => rtl::long(),
         ["rtl", "--prove"] => rtl::prove(),
         ["rtl", "--synth"] => rtl::synthesize(),
+        ["install", "--prefix", folder] => install::run(folder),
         ["covergroups"] => covergroups::write(),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),

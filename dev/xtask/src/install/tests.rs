@@ -1,0 +1,54 @@
+//! A C program finds, links and runs what is installed, as its author would type it.
+
+use super::*;
+
+/// Runs a line of the shell in `folder`; gives what it prints.
+fn shell(folder: &Path, line: &str) -> String {
+    let mut shell = Command::new("sh");
+    shell.args(["-ec", line]).current_dir(folder);
+    shell.env("PKG_CONFIG_PATH", folder.join("usr/lib/pkgconfig")).env_remove("LD_LIBRARY_PATH");
+    let output = shell.output().expect("a shell");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "`{line}` ended with {}: {said}", output.status);
+    String::from_utf8(output.stdout).expect("text")
+}
+
+/// The library as the tests around this one build it, or as cargo does.
+fn library() -> Built {
+    let own = "build -p tess-capi --lib";
+    let mut build_tests = match std::env::var("TESS_CAPI_BUILD") {
+        Ok(all) => cargo(&format!("{all} --no-run")),
+        Err(_) => cargo(own),
+    };
+    build(build_tests.arg(MESSAGES)).expect("a library")
+}
+
+#[test]
+fn programs_find_what_is_installed() {
+    let folder = command::target().join(format!("tmp/install-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder");
+    Files::new(&folder.join("usr")).install(&library()).expect("an installation");
+    fs::copy(workspace().join("bindings/c/examples/patch.c"), folder.join("patch.c"))
+        .expect("the example");
+
+    let arguments = "tri integer triangle_cw ruler 40a00000 40a00000 40a00000 40a00000";
+    shell(&folder, "cc patch.c $(pkg-config --cflags --libs tess) -o shared");
+    let needed = shell(&folder, "readelf -d shared");
+    assert!(needed.contains("[libtess.so"), "the shared library is taken where both are: {needed}");
+    let shared = shell(&folder, &format!("LD_LIBRARY_PATH=usr/lib ./shared {arguments}"));
+    assert!(shared.starts_with("points 27\n"), "the patch: {shared}");
+
+    // Without the shared library `-ltess` is the archive.
+    shell(&folder, "rm usr/lib/libtess.so*");
+    shell(&folder, "cc patch.c $(pkg-config --cflags --static --libs tess) -o static");
+    assert_eq!(shell(&folder, &format!("./static {arguments}")), shared, "the same patch");
+
+    let version = shell(&folder, "pkg-config --modversion tess");
+    assert_eq!(version.trim_end(), VERSION, "as the package");
+    fs::remove_dir_all(&folder).expect("the folder was made here");
+}
+
+#[test]
+fn sonames_change_with_what_may_break() {
+    assert_eq!(soname(), "libtess.so.0.1", "before 1.0 every minor version may break programs");
+}
