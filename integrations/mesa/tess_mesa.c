@@ -4,7 +4,7 @@
  * Mesa's draw module makes a tessellator for each run of an evaluation shader, hands it one patch a call and
  * destroys it. A tessellator is in one call at a time; any number of threads may have tessellators. Memory grows
  * to the largest patch so far and is kept: a destroyed tessellator waits, one for each configuration, for
- * the next p_tess_init, as a new one fills a megabyte with its first patch.
+ * the next p_tess_init, as a new one learns its patches and grows its buffers again.
  *
  * Mesa has no way to hear of an error. Without memory a patch has no points, which Mesa skips.
  */

@@ -33,8 +33,8 @@ struct tess_mesa_batch {
    unsigned num_patches;
    uint32_t num_points;
    uint32_t num_indices;
-   const float *points_u;
-   const float *points_v;
+   float *points_u;
+   float *points_v;
    const struct tess_mesa_range *ranges; /* one for each patch */
 };
 

@@ -139,8 +139,12 @@ impl Files {
     }
 }
 
-/// Copies a file to where another may be, which a running program may use.
+/// Copies a file to where another may be, which a running program may use. An equal one stays, with its time.
 fn replace(from: &Path, to: &Path) -> Result<(), String> {
+    let new = fs::read(from).map_err(|error| in_file(from, &error))?;
+    if fs::read(to).is_ok_and(|old| old == new) {
+        return Ok(());
+    }
     remove(to)?;
     fs::copy(from, to).map(drop).map_err(|error| in_file(to, &error))
 }

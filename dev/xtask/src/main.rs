@@ -12,6 +12,7 @@ mod fuzz;
 mod install;
 mod integrations;
 mod levels;
+mod mesa;
 mod mutants;
 mod packages;
 mod ports;
@@ -57,6 +58,10 @@ usage: cargo xtask <command>
   install --prefix FOLDER
           build the C library and install its header, both libraries and `tess.pc` there, so that
           `cc program.c $(pkg-config --cflags --libs tess)` works
+  mesa [build | compare | test]
+          get Mesa's sources from Debian, build its Vulkan driver lavapipe as it is and with this library as
+          its tessellator (in target/mesa, never installed), and compare them: docs/hosts/mesa.md. Takes an
+          hour on two cores, minutes when built before. `test` runs the tests of Vulkan on the patched driver
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
   circles [FOLDER...]
@@ -131,6 +136,10 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["rtl", "--prove"] => rtl::prove(),
         ["rtl", "--synth"] => rtl::synthesize(),
         ["install", "--prefix", folder] => install::run(folder),
+        ["mesa"] => mesa::run(),
+        ["mesa", "build"] => mesa::build(),
+        ["mesa", "compare"] => mesa::compare(),
+        ["mesa", "test"] => mesa::test(),
         ["covergroups"] => covergroups::write(),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),

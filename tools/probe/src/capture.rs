@@ -1,6 +1,6 @@
 //! What a device makes of patches: `gl_TessCoord` of each vertex, bit for bit.
 
-use crate::draws::{Draw, draws, words_of};
+use crate::draws::{DRAW_VERTICES, Draw, draws, words_of};
 use crate::error::Error;
 use crate::info::Info;
 use crate::modes::with_modes;
@@ -41,6 +41,7 @@ pub struct Prober {
     commands: Commands,
     evaluation: Vec<u32>,
     method: Method,
+    draw_vertices: usize,
     gpu: Arc<Gpu>,
 }
 
@@ -93,6 +94,14 @@ impl Prober {
         self
     }
 
+    /// Makes draws of at most this many vertices, [`DRAW_VERTICES`] unless asked for, as the model expects
+    /// them; a patch with more is a draw of its own.
+    #[must_use]
+    pub const fn with_draw_vertices(mut self, most: usize) -> Self {
+        self.draw_vertices = most;
+        self
+    }
+
     fn with(gpu: Arc<Gpu>, method: Method, evaluation: Vec<u32>) -> Result<Self, Error> {
         let queries = match method {
             Method::Primitives => vk::QueryType::TRANSFORM_FEEDBACK_STREAM_EXT,
@@ -107,6 +116,7 @@ impl Prober {
             commands,
             evaluation,
             method,
+            draw_vertices: DRAW_VERTICES,
             gpu,
         })
     }
@@ -165,7 +175,7 @@ impl Prober {
         patches: &[PatchFactors],
         expected: &[usize],
     ) -> Result<Vec<Captured>, Error> {
-        let draws = draws(expected);
+        let draws = draws(expected, self.draw_vertices);
         let factors: Vec<u32> = patches.iter().flat_map(|patch| words_of(config, *patch)).collect();
         let factor = PatchFactors::uniform(domain, 1.0);
         let size = match self.method {

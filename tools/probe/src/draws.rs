@@ -9,17 +9,17 @@ pub(crate) type Draw = (u32, u32);
 /// Words of factors that a patch has in the buffer.
 const FACTOR_WORDS: usize = 6;
 
-/// The most vertices that a draw is expected to have: lavapipe's numbers wrap after 65536.
-const DRAW_VERTICES: usize = 49152;
+/// The most vertices that a draw is expected to have, unless asked for: lavapipe's numbers wrap after 65536.
+pub const DRAW_VERTICES: usize = 49152;
 
-/// Cuts patches into draws of few enough vertices.
-pub(crate) fn draws(expected: &[usize]) -> Vec<Draw> {
+/// Cuts patches into draws of at most `most` vertices, or of one patch.
+pub(crate) fn draws(expected: &[usize], most: usize) -> Vec<Draw> {
     let mut draws: Vec<Draw> = Vec::new();
     let mut vertices = 0;
     for (number, &own) in (0..).zip(expected) {
         vertices += own;
         match draws.last_mut() {
-            Some((_, count)) if vertices <= DRAW_VERTICES => *count += 1,
+            Some((_, count)) if vertices <= most => *count += 1,
             _ => {
                 draws.push((number, 1));
                 vertices = own;
@@ -44,4 +44,17 @@ pub(crate) fn words_of(config: Config, factors: PatchFactors) -> [u32; FACTOR_WO
     words.iter_mut().zip(rounded.outer().map(bits)).for_each(|(word, bits)| *word = bits);
     words[4..].iter_mut().zip(rounded.inside().map(bits)).for_each(|(word, bits)| *word = bits);
     words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn draws_have_as_many_vertices_as_they_may() {
+        let expected = [40, 60, 1, 0, 200, 30];
+        assert_eq!(draws(&expected, 100), [(0, 2), (2, 2), (4, 1), (5, 1)], "one patch has more");
+        assert_eq!(draws(&expected, 1000), [(0, 6)], "all in one");
+        assert_eq!(draws(&[], 100), [], "no patches, no draws");
+    }
 }

@@ -21,6 +21,7 @@ pub use bench::{Times, bench};
 pub use capture::{Captured, Method, Prober};
 pub use cases::cases;
 pub use digests::Digests;
+pub use draws::DRAW_VERTICES;
 pub use error::Error;
 pub use info::Info;
 pub use judge::Judge;

@@ -69,6 +69,9 @@ pub(crate) struct Args {
     /// Capture domain points alone, as is done on devices without transform feedback
     #[arg(long)]
     points: bool,
+    /// The most vertices of a draw. Drivers whose numbers wrap around give other results with more than 65536
+    #[arg(long, value_name = "N", default_value_t = tess_probe::DRAW_VERTICES)]
+    draw_vertices: usize,
     /// Instead, judge the device by the rules of this standard: vulkan, opengl or d3d11 (docs/rules.md)
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
     #[arg(conflicts_with_all = ["level", "given", "points", "picture", "json", "known"])]
@@ -160,7 +163,8 @@ impl Args {
             return Err(Failure::bad_input("these arguments select no case"));
         }
         let open = if args.points { Prober::open_for_points } else { Prober::open };
-        let mut prober = open(args.device).map_err(unavailable)?;
+        let mut prober =
+            open(args.device).map_err(unavailable)?.with_draw_vertices(args.draw_vertices);
         let bar = progress(cases.len() as u64, "patches");
         let known = Arc::new(known);
         let strength = args.strength();

@@ -1,0 +1,159 @@
+//! Mesa's lavapipe with this library as its tessellator: gets Mesa's sources from Debian, builds the driver as it is and
+//! with the patches of `integrations/mesa`, all below target/mesa, and compares what they draw.
+
+mod build;
+mod proof;
+mod source;
+
+use crate::command::{self, in_file};
+use crate::setup::{self, Need, has_program};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const NEEDS: &[Need] = &[
+    Need {
+        what: "Debian's tools for source packages",
+        packages: &["dpkg-dev", "patch", "debian-archive-keyring"],
+        is_there: || ["dpkg-source", "patch"].into_iter().all(has_program),
+    },
+    Need {
+        what: "what Mesa's build runs (meson, ninja, bison, flex, glslangValidator, pkg-config, Mako)",
+        packages: &[
+            "meson",
+            "ninja-build",
+            "bison",
+            "flex",
+            "glslang-tools",
+            "pkg-config",
+            "python3-mako",
+            "gcc",
+            "g++",
+        ],
+        is_there: || {
+            let programs =
+                ["meson", "ninja", "bison", "flex", "glslangValidator", "pkg-config", "c++"];
+            programs.into_iter().all(has_program)
+                && Path::new("/usr/lib/python3/dist-packages/mako").exists()
+        },
+    },
+    Need {
+        what: "the libraries that lavapipe is built on (LLVM, libdrm, expat, zlib, elf, udev)",
+        packages: &[
+            "llvm-dev",
+            "libdrm-dev",
+            "libexpat1-dev",
+            "zlib1g-dev",
+            "libelf-dev",
+            "libudev-dev",
+        ],
+        is_there: || {
+            let headers = ["libdrm/drm.h", "expat.h", "zlib.h", "libelf.h", "libudev.h"];
+            let is_there = |header: &&str| Path::new("/usr/include").join(header).exists();
+            headers.iter().all(is_there)
+                && (has_program("llvm-config") || has_program("llvm-config-14"))
+        },
+    },
+];
+
+/// Mesa's sources with some of the patches, built.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Variant {
+    /// As Debian has them.
+    Unpatched,
+    /// The library in the place of Mesa's tessellator, one patch a call.
+    OnePatch,
+    /// All patches of a draw in one call.
+    WholeDraws,
+}
+
+impl Variant {
+    pub(super) const ALL: [Self; 3] = [Self::Unpatched, Self::OnePatch, Self::WholeDraws];
+
+    /// The first patches of `integrations/mesa/patches`, by name.
+    pub(super) const fn patches(self) -> usize {
+        self as usize
+    }
+
+    /// What it is called in the table, and the folder of what it is built to.
+    pub(super) const fn name(self) -> &'static str {
+        match self {
+            Self::Unpatched => "unpatched",
+            Self::OnePatch => "0001",
+            Self::WholeDraws => "0001+0002",
+        }
+    }
+}
+
+/// Where everything lies.
+#[derive(Debug)]
+pub(super) struct Place {
+    /// `target/mesa`
+    pub(super) root: PathBuf,
+    /// `integrations/mesa`
+    pub(super) integration: PathBuf,
+}
+
+impl Place {
+    /// The folder of a variant's driver.
+    pub(super) fn driver(&self, variant: Variant) -> PathBuf {
+        self.root.join(variant.name())
+    }
+
+    /// The manifest by which the Vulkan loader finds a variant's driver.
+    pub(super) fn manifest(&self, variant: Variant) -> PathBuf {
+        self.driver(variant).join("lvp_icd.json")
+    }
+
+    fn open() -> Result<Self, String> {
+        // Meson and the loader are given absolute paths.
+        let target = command::target();
+        let root = std::path::absolute(&target).map_err(|error| in_file(&target, &error))?;
+        let root = root.join("mesa");
+        fs::create_dir_all(&root).map_err(|error| in_file(&root, &error))?;
+        Ok(Self { root, integration: command::workspace().join("integrations/mesa") })
+    }
+}
+
+/// Builds the drivers, says where they are, and prints the table of what each does.
+///
+/// # Errors
+/// A step fails; or a patched driver is less exact than the unpatched one.
+pub(crate) fn run() -> Result<(), String> {
+    let place = build_all()?;
+    proof::run(&place)
+}
+
+/// Builds the drivers and says where they are.
+///
+/// # Errors
+/// A step fails.
+pub(crate) fn build() -> Result<(), String> {
+    build_all().map(drop)
+}
+
+/// Prints the table of drivers that are built.
+///
+/// # Errors
+/// As for [`run`]; or a driver is not built.
+pub(crate) fn compare() -> Result<(), String> {
+    proof::run(&Place::open()?)
+}
+
+/// Runs this project's tests of Vulkan on the driver with all patches.
+///
+/// # Errors
+/// A test fails, or the driver is not built.
+pub(crate) fn test() -> Result<(), String> {
+    proof::test(&Place::open()?)
+}
+
+fn build_all() -> Result<Place, String> {
+    setup::provide(NEEDS)?;
+    let place = Place::open()?;
+    source::provide(&place)?;
+    build::all(&place)?;
+    for variant in Variant::ALL {
+        println!("{}: VK_DRIVER_FILES={}", variant.name(), place.manifest(variant).display());
+    }
+    Ok(place)
+}

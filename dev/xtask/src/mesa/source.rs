@@ -1,0 +1,154 @@
+//! Mesa's sources: from Debian, with Debian's patches, and with some of ours.
+
+use super::{Place, Variant};
+use crate::command::{self, in_file};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The release of Debian whose Mesa the patches are for, and the version there.
+const RELEASE: &str = "bookworm";
+pub(super) const VERSION: &str = "22.3.6";
+
+impl Place {
+    /// Mesa's sources.
+    pub(super) fn source(&self) -> PathBuf {
+        self.root.join("source")
+    }
+
+    /// The files that our patches change, as they were before.
+    fn original(&self) -> PathBuf {
+        self.root.join("original")
+    }
+
+    /// The first `count` patches, in order.
+    pub(super) fn patches(&self, count: usize) -> Result<Vec<PathBuf>, String> {
+        let folder = self.integration.join("patches");
+        let entries = fs::read_dir(&folder).map_err(|error| in_file(&folder, &error))?;
+        let mut files: Vec<PathBuf> =
+            entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
+        files.sort();
+        if files.len() < count {
+            return Err(in_file(&folder, &format!("{count} patches are wanted")));
+        }
+        files.truncate(count);
+        Ok(files)
+    }
+}
+
+/// Gets and unpacks Mesa's sources where they are missing, and applies Debian's patches.
+pub(super) fn provide(place: &Place) -> Result<(), String> {
+    let source = place.source();
+    if source.exists() {
+        return Ok(());
+    }
+    download(place)?;
+    let unpacked = place.root.join(format!("mesa-{VERSION}"));
+    if !unpacked.exists() {
+        return Err(in_file(
+            &place.root,
+            &format!(
+                "Debian's {RELEASE} has another version of Mesa than {VERSION}, which the patches are for"
+            ),
+        ));
+    }
+    let series = unpacked.join("debian/patches/series");
+    let names = fs::read_to_string(&series).map_err(|error| in_file(&series, &error))?;
+    for name in names.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        apply(&unpacked, &unpacked.join("debian/patches").join(name))?;
+    }
+    for path in changed(&place.patches(Variant::ALL.len() - 1)?)? {
+        copy(&unpacked.join(&path), &place.original().join(&path))?;
+    }
+    fs::rename(&unpacked, &source).map_err(|error| in_file(&source, &error))
+}
+
+/// Downloads and unpacks the source package with lists of its own: the system's stay as they are.
+fn download(place: &Place) -> Result<(), String> {
+    let list = place.root.join("sources.list");
+    let keys = "/usr/share/keyrings/debian-archive-keyring.gpg";
+    let line = format!("deb-src [signed-by={keys}] {} {RELEASE} main\n", mirror()?);
+    fs::write(&list, line).map_err(|error| in_file(&list, &error))?;
+    let lists = place.root.join("lists");
+    fs::create_dir_all(lists.join("partial")).map_err(|error| in_file(&lists, &error))?;
+    let apt = || {
+        let mut apt = Command::new("apt-get");
+        apt.arg("-q").arg(format!("-oDir::Etc::SourceList={}", list.display()));
+        apt.arg("-oDir::Etc::SourceParts=/dev/null");
+        apt.arg(format!("-oDir::State::Lists={}", lists.display())).current_dir(&place.root);
+        apt
+    };
+    command::run(apt().arg("update"))?;
+    command::run(apt().args(["source", "mesa"]))
+}
+
+/// Where this system gets Debian's packages.
+fn mirror() -> Result<String, String> {
+    let mut apt = Command::new("apt-get");
+    apt.args(["indextargets", "--format", "$(REPO_URI) $(CODENAME)"]);
+    let known = command::output(apt.args(["Created-By: Packages", "Origin: Debian"]))?;
+    let own = known.lines().find_map(|line| {
+        let (mirror, codename) = line.split_once(' ')?;
+        // Others are of security updates and the like.
+        (!codename.contains('-')).then_some(mirror)
+    });
+    own.map(str::to_owned).ok_or_else(|| {
+        "no list of packages of Debian is known here; on Debian, `apt-get update` gets it"
+            .to_owned()
+    })
+}
+
+/// Makes the sources those of a variant. Files that stay the same are not touched, so that little is built again.
+pub(super) fn become_variant(place: &Place, variant: Variant) -> Result<(), String> {
+    let patches = place.patches(variant.patches())?;
+    let scratch = place.root.join("scratch");
+    let all = changed(&place.patches(Variant::ALL.len() - 1)?)?;
+    for path in &all {
+        copy(&place.original().join(path), &scratch.join(path))?;
+    }
+    for patch in &patches {
+        apply(&scratch, patch)?;
+    }
+    for path in &all {
+        copy_changed(&scratch.join(path), &place.source().join(path))?;
+    }
+    for file in ["tess_mesa.c", "tess_mesa.h"] {
+        let to = place.source().join("src/gallium/auxiliary/tessellator").join(file);
+        copy_changed(&place.integration.join(file), &to)?;
+    }
+    fs::remove_dir_all(&scratch).map_err(|error| in_file(&scratch, &error))
+}
+
+/// The files that patches change, as the lines `+++ b/PATH` name them.
+fn changed(patches: &[PathBuf]) -> Result<Vec<String>, String> {
+    let mut paths = Vec::new();
+    for patch in patches {
+        let text = fs::read_to_string(patch).map_err(|error| in_file(patch, &error))?;
+        paths
+            .extend(text.lines().filter_map(|line| line.strip_prefix("+++ b/")).map(str::to_owned));
+    }
+    paths.sort();
+    paths.dedup();
+    Ok(paths)
+}
+
+fn apply(folder: &Path, patch: &Path) -> Result<(), String> {
+    let mut command = Command::new("patch");
+    command.args(["-s", "-p1", "--no-backup-if-mismatch", "-i"]).arg(patch).current_dir(folder);
+    command::run(&mut command)
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), String> {
+    if let Some(folder) = to.parent() {
+        fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))?;
+    }
+    fs::copy(from, to).map(drop).map_err(|error| in_file(from, &error))
+}
+
+fn copy_changed(from: &Path, to: &Path) -> Result<(), String> {
+    let new = fs::read(from).map_err(|error| in_file(from, &error))?;
+    if fs::read(to).is_ok_and(|old| old == new) {
+        return Ok(());
+    }
+    fs::write(to, new).map_err(|error| in_file(to, &error))
+}
