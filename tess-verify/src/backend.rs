@@ -88,7 +88,38 @@ impl BackendError {
     pub fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), source: None }
     }
+
+    /// The answer of an implementation that does not have a configuration. A fuzz target leaves such a case out:
+    ///
+    /// ```
+    /// use tess_verify::BackendError;
+    ///
+    /// assert!(BackendError::unsupported("no isolines").is_unsupported());
+    /// assert!(!BackendError::new("the device is lost").is_unsupported());
+    /// ```
+    #[must_use]
+    pub fn unsupported(message: impl Into<String>) -> Self {
+        Self { message: message.into(), source: Some(Box::new(Unsupported)) }
+    }
+
+    /// Whether the implementation does not have the configuration: nothing was compared.
+    #[must_use]
+    pub fn is_unsupported(&self) -> bool {
+        self.source.as_deref().is_some_and(|source| source.is::<Unsupported>())
+    }
 }
+
+/// Why a configuration could not run: there is none in the implementation.
+#[derive(Debug)]
+struct Unsupported;
+
+impl fmt::Display for Unsupported {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the configuration is not supported")
+    }
+}
+
+impl Error for Unsupported {}
 
 impl fmt::Display for BackendError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -104,6 +104,24 @@ impl Selection {
         }
     }
 
+    /// A case in a configuration that is selected: one of another domain keeps its factors in turn.
+    ///
+    /// A fuzz target for a device that has some configurations gives it such cases.
+    #[must_use]
+    pub fn fit(&self, case: &Case) -> Case {
+        let Config { partitioning, output, split } = case.config;
+        let config = Config {
+            partitioning: self.partitioning.unwrap_or(partitioning),
+            output: self.output.unwrap_or(output),
+            split: self.split.unwrap_or(split),
+        };
+        let domain = self.domain.filter(|domain| *domain != case.domain());
+        let factors: Vec<f32> = case.factors.iter().collect();
+        let in_turn = |i: usize| factors[i % factors.len()];
+        let factors = domain.map_or(case.factors, |domain| PatchFactors::from_fn(domain, in_turn));
+        Case { config, factors }
+    }
+
     /// The cases, in order.
     pub fn cases(self) -> impl Iterator<Item = Case> {
         let systematic = match self.level {

@@ -297,3 +297,24 @@ fn equal_spacing_is_rounded() {
     let largest = (1..=64).max_by_key(|n| hundredths(*n)).expect("levels");
     assert_eq!((largest, hundredths(largest)), (53, 1226), "n, and hundredths of a unit");
 }
+
+/// What dEQP demands of 1 - c holds of every binary32 c from 0 to 1: it is no rule of tessellators. Every exponent,
+/// with both ends, the middle and random ones between.
+#[test]
+#[expect(clippy::float_arithmetic, reason = "what a shader computes")]
+#[expect(clippy::float_cmp, reason = "exactly 1")]
+fn one_minus_a_coordinate_cannot_fail() {
+    let mut random = tess_verify::random::SplitMix64::new(1);
+    for exponent in 0..127u32 {
+        let some = (0..1000).map(|_| random.next_u32() & 0x7F_FFFF);
+        for mantissa in
+            [0, 1, 0x3F_FFFF, 0x40_0000, 0x40_0001, 0x7F_FFFE, 0x7F_FFFF].into_iter().chain(some)
+        {
+            let c = f32::from_bits(exponent << 23 | mantissa);
+            assert_eq!(c + (1.0 - c), 1.0, "{c}");
+        }
+    }
+    // Beyond 1 it can: the range is what the rule stands on.
+    let beyond = f32::from_bits(0x4B80_0001);
+    assert_ne!(beyond + (1.0 - beyond), 1.0, "{beyond}");
+}

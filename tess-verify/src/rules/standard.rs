@@ -167,23 +167,23 @@ const fn vulkan(rule: Rule) -> &'static str {
 
 const fn opengl(rule: Rule) -> &'static str {
     match rule {
-        Rule::Same => "A.4 Tessellation Invariance, rule 1",
-        Rule::EdgeLevel => "A.4 Tessellation Invariance, rule 2",
-        Rule::Symmetric => "A.4 Tessellation Invariance, rule 3",
-        Rule::EveryEdge => "A.4 Tessellation Invariance, rule 4",
-        Rule::Winding => "A.4 Tessellation Invariance, rule 5",
-        Rule::Interior => "A.4 Tessellation Invariance, rule 6",
-        Rule::Transition => "A.4 Tessellation Invariance, rule 7",
-        Rule::Range => "A.4 Tessellation Invariance, rule 8",
+        Rule::Same => "Tessellation Invariance, rule 1",
+        Rule::EdgeLevel => "Tessellation Invariance, rule 2",
+        Rule::Symmetric => "Tessellation Invariance, rule 3",
+        Rule::EveryEdge => "Tessellation Invariance, rule 4",
+        Rule::Winding => "Tessellation Invariance, rule 5",
+        Rule::Interior => "Tessellation Invariance, rule 6",
+        Rule::Transition => "Tessellation Invariance, rule 7",
+        Rule::Range => "Tessellation Invariance, rule 8",
         Rule::Discard
         | Rule::Segments
         | Rule::Spacing
         | Rule::Monotone
         | Rule::Orientation
+        | Rule::Cover
+        | Rule::Isolines
         | Rule::PointsOnce
         | Rule::PointsSame => "11.2.2 Tessellation Primitive Generation",
-        Rule::Cover => "11.2.2.1 Triangle Tessellation, 11.2.2.2 Quad Tessellation",
-        Rule::Isolines => "11.2.2.3 Isoline Tessellation",
         Rule::Counts => "",
     }
 }
