@@ -265,6 +265,11 @@
 #define TESS_NUMBERING_PER_BATCH 1
 
 /**
+ * A device's answer: it does not have the configuration that it was asked for. Not a finding.
+ */
+#define TESS_DEVICE_UNSUPPORTED -1
+
+/**
  * Order: the model's, index for index.
  */
 #define TESS_ORDER_EXACT 0
@@ -278,6 +283,46 @@
  * Order: any, and any leading vertex of a triangle.
  */
 #define TESS_ORDER_ANY 2
+
+/**
+ * Denormals: a positive denormal outer factor is greater than zero.
+ */
+#define TESS_DENORMALS_KEEP 0
+
+/**
+ * Denormals: a positive denormal outer factor may be zero, which culls the patch.
+ */
+#define TESS_DENORMALS_FLUSH 1
+
+/**
+ * Conversion of factors to 16 fraction bits: to the nearest, ties to even.
+ */
+#define TESS_CONVERSION_EXACT 0
+
+/**
+ * Conversion: either neighbour where the fraction lies in 0.4 to 0.6.
+ */
+#define TESS_CONVERSION_WITHIN_0_6_ULP 1
+
+/**
+ * A configuration's field: any value.
+ */
+#define TESS_ANY 4294967295
+
+/**
+ * Standard: Vulkan.
+ */
+#define TESS_SPECIFICATION_VULKAN 0
+
+/**
+ * Standard: OpenGL.
+ */
+#define TESS_SPECIFICATION_OPENGL 1
+
+/**
+ * Standard: Direct3D 11.
+ */
+#define TESS_SPECIFICATION_D3D11 2
 
 /**
  * Tessellates batches. Made by `tess_batch_create`, given back to `tess_batch_free`.
@@ -597,8 +642,9 @@ typedef struct TessBatchOutput {
  * A tessellator under test: it writes the points and indices of one patch and their counts.
  *
  * `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices; both and
- * `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is what
- * `tess_fuzz` was given. It answers 0, or any other number if it could not run, which is a finding.
+ * `counts` are zero before the call, and `counts->primitives` is not looked at. `user` is what the function
+ * that calls it was given. It answers 0, `TESS_DEVICE_UNSUPPORTED`, or any other number if it could not run,
+ * which is a finding.
  */
 typedef int32_t (*TessDevice)(void *user,
                               const struct TessConfig *config,
@@ -607,6 +653,40 @@ typedef int32_t (*TessDevice)(void *user,
                               struct TessPoint *points,
                               uint32_t *indices,
                               struct TessCounts *counts);
+
+/**
+ * What counts as equal, and which configurations are asked for.
+ */
+typedef struct TessFuzzOptions {
+  /**
+   * `TESS_ORDER_...`
+   */
+  uint32_t order;
+  /**
+   * `TESS_DENORMALS_...`
+   */
+  uint32_t denormals;
+  /**
+   * `TESS_CONVERSION_...`
+   */
+  uint32_t conversion;
+  /**
+   * `TESS_DOMAIN_...`, or `TESS_ANY`.
+   */
+  uint32_t domain;
+  /**
+   * `TESS_PARTITIONING_...`, or `TESS_ANY`.
+   */
+  uint32_t partitioning;
+  /**
+   * `TESS_OUTPUT_...`, or `TESS_ANY`.
+   */
+  uint32_t output;
+  /**
+   * `TESS_SPLIT_...`, or `TESS_ANY`.
+   */
+  uint32_t split;
+} TessFuzzOptions;
 
 /**
  * Done.
@@ -674,9 +754,14 @@ typedef int32_t (*TessDevice)(void *user,
 #define TESS_INTERNAL 12
 
 /**
- * A tessellator under test differs from the model (`tess_fuzz`).
+ * A tessellator under test differs from the model (`tess_fuzz`) or breaks a rule (`tess_check_rules`).
  */
 #define TESS_DIFFERENT 13
+
+/**
+ * Nothing was compared: the tessellator under test does not have the configuration.
+ */
+#define TESS_LEFT_OUT 14
 
 #ifdef __cplusplus
 extern "C" {
@@ -1008,25 +1093,60 @@ TessStatus tess_batch_patch(struct TessBatch *batch,
 /**
  * Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.
  *
- * Any bytes are a patch; most are small, and boundaries are frequent. `order` is `TESS_ORDER_...`.
- * `TESS_OK`: equal. `TESS_DIFFERENT`: a finding, and `message` has the case as a line that
- * `tess patch --cases` takes, a command that shows what is right, and the first difference. The
- * message ends with a zero byte and is cut off at `message_capacity` bytes; 1024 are enough. This
- * function allocates.
+ * Any bytes are a patch, of a configuration that the options ask for; most are small, and boundaries are
+ * frequent. Without options (null), the comparison is exact and every configuration is asked for.
+ *
+ * - `TESS_OK`: equal.
+ * - `TESS_LEFT_OUT`: the tessellator does not have the configuration; nothing was compared. Count these: a run
+ *   in which every patch is left out shows nothing.
+ * - `TESS_DIFFERENT`: a finding, and `message` has the case as a line that `tess patch --cases` takes, a
+ *   command that shows what is right, and the first difference. The message ends with a zero byte and is cut
+ *   off at `message_capacity` bytes; 1024 are enough.
+ *
+ * This function allocates.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:
  * - `data` for reading `size` bytes,
  * - `device` for calls as its type says,
+ * - `options` for reading one structure,
  * - `message` for writing `message_capacity` bytes.
  */
 TessStatus tess_fuzz(const uint8_t *data,
                      size_t size,
                      TessDevice device,
                      void *user,
-                     uint32_t order,
+                     const struct TessFuzzOptions *options,
                      char *message,
                      size_t message_capacity);
+
+/**
+ * Asks a tessellator for the patches of `tess gen --rules` and judges its outputs by the rules of a standard.
+ *
+ * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come after the 12 150
+ * systematic ones of the standard split order. The model is not asked, but for the number of primitives in
+ * Direct3D 11. Patches of configurations that the tessellator does not have are left out.
+ *
+ * - `TESS_OK`: no rule is broken.
+ * - `TESS_DIFFERENT`: a rule is broken, or the tessellator failed.
+ * - `TESS_LEFT_OUT`: it has none of the configurations; nothing was judged.
+ *
+ * `report` then has what `tess check --rules` prints: each rule as held, broken or not exercised, with the smallest
+ * patches that break it; or the patch at which the tessellator failed. It ends with a zero byte and is cut off at
+ * `report_capacity` bytes; 8192 are enough. This function allocates.
+ *
+ * The caller must ensure:
+ * Pointers that are not null and aligned must be valid:
+ * - `device` for calls as its type says,
+ * - `report` for writing `report_capacity` bytes.
+ */
+TessStatus tess_check_rules(uint32_t specification,
+                            uint64_t random,
+                            uint64_t seed,
+                            TessDevice device,
+                            void *user,
+                            char *report,
+                            size_t report_capacity);
 
 #ifdef __cplusplus
 }  // extern "C"

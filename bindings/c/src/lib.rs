@@ -3,12 +3,14 @@
 pub mod batch;
 mod boundary;
 mod context;
+pub mod device;
 pub mod dpi;
 pub mod fuzz;
 pub mod patch;
 pub mod prepare;
 pub mod probe;
 pub mod process;
+pub mod rules;
 pub mod status;
 pub mod types;
 pub mod version;

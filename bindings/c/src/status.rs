@@ -31,11 +31,13 @@ pub const TESS_INDEX_TOO_LARGE: TessStatus = 10;
 pub const TESS_LEVEL_UNAVAILABLE: TessStatus = 11;
 /// A defect of this library; nothing was written.
 pub const TESS_INTERNAL: TessStatus = 12;
-/// A tessellator under test differs from the model (`tess_fuzz`).
+/// A tessellator under test differs from the model (`tess_fuzz`) or breaks a rule (`tess_check_rules`).
 pub const TESS_DIFFERENT: TessStatus = 13;
+/// Nothing was compared: the tessellator under test does not have the configuration.
+pub const TESS_LEFT_OUT: TessStatus = 14;
 
 /// Every status with its message, in the order of their numbers.
-const MESSAGES: [&CStr; 14] = [
+const MESSAGES: [&CStr; 15] = [
     c"done",
     c"a pointer is null",
     c"a pointer is not aligned",
@@ -49,7 +51,8 @@ const MESSAGES: [&CStr; 14] = [
     c"an index does not fit the index format",
     c"the CPU level is not available",
     c"a defect of the library",
-    c"the tessellator differs from the model",
+    c"the tessellator differs from what is right",
+    c"nothing was compared",
 ];
 
 /// What a status means, in English, without a newline.

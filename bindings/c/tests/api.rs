@@ -10,6 +10,7 @@ mod api {
     mod dpi;
     mod fuzz;
     mod hostile;
+    mod rules;
     mod samples;
     mod single;
 }

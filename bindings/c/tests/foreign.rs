@@ -29,6 +29,7 @@ const TESTS: &[(&str, &[&str], Test)] = &[
     ("fuzz_entry_is_cpp", &["c++"], c::fuzz_entry_is_cpp),
     ("mesa_interface_equals_golden", &["cc"], mesa::equals_golden),
     ("mesa_draws_equal_model", &["cc"], mesa::draws_equal_model),
+    ("rules_example_judges_the_model", &["cc"], c::rules_example_judges_the_model),
     ("rtl_equals_model", &["c++", "make", "verilator"], rtl::equals_model),
     ("rtl_faults_are_caught", &["c++", "make", "verilator"], rtl::faults_are_caught),
     ("rtl_stages_equal_model", &["c++", "make", "verilator"], rtl::stages_equal_model),

@@ -14,7 +14,9 @@ const SOURCES: &[&str] = &[
     "batch",
     "batch/output",
     "batch/single",
+    "device",
     "fuzz",
+    "rules",
 ];
 
 /// With `TESS_BLESS` set, writes the header instead of comparing it.

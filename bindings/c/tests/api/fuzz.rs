@@ -2,13 +2,27 @@
 
 use std::ffi::{CStr, c_char, c_void};
 use std::ptr::{null, null_mut};
-use tess_capi::fuzz::{TESS_ORDER_ANY, TESS_ORDER_EXACT, TessDevice, tess_fuzz};
+use tess_capi::device::{TESS_DEVICE_UNSUPPORTED, TessDevice};
+use tess_capi::fuzz::{
+    TESS_CONVERSION_WITHIN_0_6_ULP, TESS_DENORMALS_FLUSH, TESS_ORDER_ANY, TESS_ORDER_EXACT,
+    TessFuzzOptions, tess_fuzz,
+};
 use tess_capi::patch::tess_patch;
-use tess_capi::status::{TESS_DIFFERENT, TESS_NULL_POINTER, TESS_OK, TESS_UNKNOWN_VALUE};
-use tess_capi::types::{TESS_MAX_INDICES, TESS_MAX_POINTS, TessConfig, TessCounts, TessPoint};
+use tess_capi::status::{
+    TESS_DIFFERENT, TESS_LEFT_OUT, TESS_NULL_POINTER, TESS_OK, TESS_UNKNOWN_VALUE,
+};
+use tess_capi::types::{
+    TESS_DOMAIN_QUAD, TESS_MAX_INDICES, TESS_MAX_POINTS, TESS_OUTPUT_LINE,
+    TESS_PARTITIONING_FRACTIONAL_EVEN, TESS_SPLIT_CENTER, TessConfig, TessCounts, TessPoint,
+};
 
 /// What is done to the model's answer.
 type Fault = fn(&mut TessCounts, *mut u32) -> i32;
+
+/// Every configuration, and an order.
+fn in_order(order: u32) -> TessFuzzOptions {
+    TessFuzzOptions { order, ..TessFuzzOptions::default() }
+}
 
 /// The model's own answer, then the fault that `user` points to.
 unsafe extern "C" fn device(
@@ -41,16 +55,21 @@ unsafe extern "C" fn device(
 }
 
 /// Asks about bytes that stand for a triangle patch with the factors 5, 4, 3 and 5.
-fn ask(mut fault: Fault, order: u32) -> (u32, String) {
+fn ask(fault: Fault, order: u32) -> (u32, String) {
+    ask_for(fault, in_order(order))
+}
+
+fn ask_for(mut fault: Fault, options: TessFuzzOptions) -> (u32, String) {
     let data = [2, 2, 0, 1, 60, 0, 3, 12, 4, 3, 12, 3, 3, 12, 2, 3, 12, 4];
     let mut message: [c_char; 400] = [1; 400];
     let user = (&raw mut fault).cast();
     let (size, room) = (data.len(), message.len());
     // SAFETY: arrays of this function, and a device that keeps to its type.
     let status = unsafe {
-        tess_fuzz(data.as_ptr(), size, Some(device), user, order, message.as_mut_ptr(), room)
+        tess_fuzz(data.as_ptr(), size, Some(device), user, &options, message.as_mut_ptr(), room)
     };
-    if status == TESS_OK {
+    if status != TESS_DIFFERENT {
+        assert_eq!(message, [1; 400], "no message");
         return (status, String::new());
     }
     // SAFETY: a message ends with a zero byte.
@@ -100,14 +119,118 @@ fn wrong_arguments_are_refused_and_messages_cut_off() {
     let mut message: [c_char; 8] = [1; 8];
     let mut call = |device: TessDevice, order, room| {
         // SAFETY: no data, an array of this function, and a device that keeps to its type.
-        unsafe { tess_fuzz(null(), 0, device, user, order, message.as_mut_ptr(), room) }
+        unsafe {
+            let options = in_order(order);
+            tess_fuzz(null(), 0, device, user, &options, message.as_mut_ptr(), room)
+        }
     };
     assert_eq!(call(None, TESS_ORDER_EXACT, 8), TESS_NULL_POINTER, "no device");
     assert_eq!(call(Some(device), 3, 8), TESS_UNKNOWN_VALUE, "no such order");
     assert_eq!(call(Some(device), TESS_ORDER_EXACT, 5), TESS_DIFFERENT, "five bytes of room");
     assert_eq!(message.map(|byte| byte.to_ne_bytes()[0]), *b"case\0\x01\x01\x01", "cut off");
     // SAFETY: as above, and no room at all.
-    let status =
-        unsafe { tess_fuzz(null(), 0, Some(device), user, TESS_ORDER_EXACT, null_mut(), 0) };
+    let status = unsafe { tess_fuzz(null(), 0, Some(device), user, null(), null_mut(), 0) };
     assert_eq!(status, TESS_DIFFERENT, "no room");
+}
+
+/// A patch of a configuration that the device does not have is left out: neither equal nor different.
+#[test]
+fn what_a_device_does_not_have_is_left_out() {
+    let (status, message) = ask(|_, _| TESS_DEVICE_UNSUPPORTED, TESS_ORDER_EXACT);
+    assert_eq!(status, TESS_LEFT_OUT, "{message}");
+}
+
+/// Whatever the bytes say, the device is asked for the configuration that it has.
+#[test]
+fn configurations_are_filtered() {
+    let only = TessFuzzOptions {
+        domain: TESS_DOMAIN_QUAD,
+        partitioning: TESS_PARTITIONING_FRACTIONAL_EVEN,
+        output: TESS_OUTPUT_LINE,
+        split: TESS_SPLIT_CENTER,
+        ..TessFuzzOptions::default()
+    };
+    let (status, message) = ask_for(|_, _| 7, only);
+    assert_eq!(status, TESS_DIFFERENT, "{message}");
+    // The bytes' factors 5, 4, 3 and 5, in turn.
+    let line = "case quad fractional_even line center \
+                40a00000 40800000 40400000 40a00000 40a00000 40800000\n";
+    assert!(message.starts_with(line), "{message}");
+    assert_eq!(ask_for(|_, _| 0, only).0, TESS_OK, "the model has it");
+    for wrong in [
+        TessFuzzOptions { domain: 3, ..only },
+        TessFuzzOptions { partitioning: 4, ..only },
+        TessFuzzOptions { output: 4, ..only },
+        TessFuzzOptions { split: 2, ..only },
+        TessFuzzOptions { denormals: 2, ..only },
+        TessFuzzOptions { conversion: 2, ..only },
+    ] {
+        assert_eq!(ask_for(|_, _| 0, wrong).0, TESS_UNKNOWN_VALUE, "{wrong:?}");
+    }
+}
+
+/// Gives the model's output for other factors: what a device does that has one of the freedoms.
+unsafe extern "C" fn free_device(
+    user: *mut c_void,
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    points: *mut TessPoint,
+    indices: *mut u32,
+    counts: *mut TessCounts,
+) -> i32 {
+    // SAFETY: as `tess_fuzz` promises.
+    let factors = unsafe { std::slice::from_raw_parts(factors, factor_count) };
+    let change = |factor: f32| match factor.to_bits() {
+        // A denormal is flushed to zero.
+        1..0x0080_0000 => 0.0,
+        // 3 + 2^-17, a tie, is rounded up.
+        0x4040_0020 => f32::from_bits(0x4040_0040),
+        _ => factor,
+    };
+    let changed: Vec<f32> = factors.iter().copied().map(change).collect();
+    let mut none: Fault = |_, _| 0;
+    let _ = user;
+    // SAFETY: as `device` asks for.
+    unsafe {
+        let user = (&raw mut none).cast();
+        device(user, config, changed.as_ptr(), factor_count, points, indices, counts)
+    }
+}
+
+/// Pseudo-random bytes find the freedoms of a device, and none where they are granted.
+#[test]
+fn freedoms_are_granted() {
+    let findings = |options: TessFuzzOptions| {
+        let mut state = 1u64;
+        (0..if cfg!(miri) { 10 } else { 20_000 })
+            .filter(|_| {
+                let bytes: [u8; 64] = std::array::from_fn(|_| {
+                    state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                    state.to_le_bytes()[7]
+                });
+                // SAFETY: an array of this function, and a device that keeps to its type.
+                let status = unsafe {
+                    tess_fuzz(
+                        bytes.as_ptr(),
+                        bytes.len(),
+                        Some(free_device),
+                        null_mut(),
+                        &options,
+                        null_mut(),
+                        0,
+                    )
+                };
+                status == TESS_DIFFERENT
+            })
+            .count()
+    };
+    let exact = findings(TessFuzzOptions::default());
+    assert!(exact > 0 || cfg!(miri), "the device differs");
+    let granted = TessFuzzOptions {
+        denormals: TESS_DENORMALS_FLUSH,
+        conversion: TESS_CONVERSION_WITHIN_0_6_ULP,
+        ..TessFuzzOptions::default()
+    };
+    assert_eq!(findings(granted), 0, "of {exact} findings");
 }

@@ -162,6 +162,23 @@ pub(crate) fn fuzz_entry_is_cpp() -> Result<(), Failed> {
     Ok(())
 }
 
+/// The example prints what `tess verify --backend core --rules vulkan` does, and ends with 1.
+pub(crate) fn rules_example_judges_the_model() -> Result<(), Failed> {
+    let program = build_folder().join("rules");
+    let mut command = Command::new("cc");
+    command.arg("-std=c99").args(STRICT).arg("-I").arg(crate_folder().join("include"));
+    command.arg(crate_folder().join("examples/rules.c"));
+    command.arg(libraries()?.archive).args(SYSTEM_LIBRARIES).arg("-o").arg(&program);
+    run(&mut command)?;
+    let judged = output(&mut Command::new(&program))?;
+    let report = text(&judged.stdout);
+    let summary = "12150 patches, vulkan: 9 rules held, 8 broken, 0 not exercised\n";
+    if judged.status.code() != Some(1) || !report.ends_with(summary) {
+        return Err(format!("{}: {report}", judged.status).into());
+    }
+    Ok(())
+}
+
 pub(crate) fn example_refuses_bad_usage() -> Result<(), Failed> {
     let program = static_example("patch-usage")?;
     for (arguments, complaint) in [
