@@ -4,8 +4,8 @@ use crate::errors::{argument, output};
 use numpy::PyArray;
 use numpy::ndarray::Dimension;
 use numpy::{
-    Element, Ix1, Ix2, PyArray1, PyArray2, PyArrayMethods, PyReadwriteArray, PyUntypedArray,
-    PyUntypedArrayMethods,
+    Element, Ix1, Ix2, PyArray1, PyArray2, PyArrayDescrMethods, PyArrayDyn, PyArrayMethods,
+    PyReadwriteArray, PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
@@ -18,33 +18,80 @@ use tess_verify::names::Named;
 /// nothing.
 ///
 /// # Errors
-/// No array of shape (patches, factors of the domain), float32 or uint32 (bit patterns).
+/// Nothing of shape (patches, factors of the domain): floats that are binary32 numbers exactly, or uint32 (bit
+/// patterns). Other integers are refused: they could be either.
 pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     let factors = domain.factors();
     let wrong = |found: String| {
         argument(format!(
-            "factors must be a numpy array of shape (patches, {factors}) for the domain {}, float32 \
-             or uint32 (bit patterns), not {found}",
+            "factors must be an array of shape (patches, {factors}) for the domain {}, of floats or of uint32 (bit \
+             patterns), not {found}",
             domain.name()
         ))
     };
-    let Ok(untyped) = array.cast::<PyUntypedArray>() else {
+    refuse_masked("factors", array)?;
+    let made = numpy::get_array_module(array.py())?.call_method1("asarray", (array,));
+    let made = made.map_err(|_| wrong("a sequence of other shapes".to_owned()))?;
+    let Ok(untyped) = made.cast::<PyUntypedArray>() else {
         return Err(wrong(format!("an object of type {}", array.get_type().name()?)));
     };
     if untyped.ndim() != 2 || untyped.shape()[1] != factors {
         return Err(wrong(described(untyped)));
     }
-    refuse_masked("factors", array)?;
     let borrowed = |error| argument(format!("factors: {error}"));
-    if let Ok(array) = array.cast::<PyArray2<f32>>() {
+    if let Ok(array) = made.cast::<PyArray2<f32>>() {
         let array = array.try_readonly().map_err(borrowed)?;
         copied(array.as_array().iter().copied())
-    } else if let Ok(array) = array.cast::<PyArray2<u32>>() {
+    } else if let Ok(array) = made.cast::<PyArray2<u32>>() {
         let array = array.try_readonly().map_err(borrowed)?;
         copied(array.as_array().iter().copied().map(f32::from_bits))
+    } else if let Ok(array) = made.cast::<PyArray2<f64>>() {
+        let array = array.try_readonly().map_err(borrowed)?;
+        let inexact = |factor: &&f64| narrowed(**factor).is_none();
+        if let Some(factor) = array.as_array().iter().find(inexact) {
+            return Err(argument(format!(
+                "factors: {factor} is no binary32 number; round it first"
+            )));
+        }
+        copied(array.as_array().iter().map(|factor| narrowed(*factor).unwrap_or(f32::NAN)))
     } else {
         Err(wrong(described(untyped)))
     }
+}
+
+/// The binary32 number that this is, if it is one; a NaN may lose its payload.
+#[expect(clippy::cast_possible_truncation, reason = "what is lost is looked for")]
+fn narrowed(factor: f64) -> Option<f32> {
+    let narrow = factor as f32;
+    (factor.is_nan() || f64::from(narrow).to_bits() == factor.to_bits()).then_some(narrow)
+}
+
+/// Integers as uint32: an array of any integer type, or what numpy makes one of, if nothing is lost.
+///
+/// # Errors
+/// Something else than integers, or one that is negative or 2**32 and more.
+pub(crate) fn exact_words<'py>(
+    what: &str,
+    integers: &Bound<'py, PyAny>,
+) -> PyResult<Bound<'py, PyArrayDyn<u32>>> {
+    let py = integers.py();
+    refuse_masked(what, integers)?;
+    let array = numpy::get_array_module(py)?.call_method1("asarray", (integers,))?;
+    if let Ok(words) = array.cast::<PyArrayDyn<u32>>() {
+        return Ok(words.clone());
+    }
+    let untyped = array.cast::<PyUntypedArray>()?;
+    let wrong = || argument(format!("{what} must be uint32, not {}", described(untyped)));
+    let is_integer = matches!(untyped.dtype().kind(), b'i' | b'u');
+    if !is_integer && !untyped.is_empty() {
+        return Err(wrong());
+    }
+    let words = array.call_method1("astype", (u32::get_dtype(py),))?;
+    let is_equal = array.call_method1("__eq__", (&words,))?.call_method0("all")?;
+    if !is_equal.is_truthy()? {
+        return Err(argument(format!("{what}: an element is negative or above 2**32 - 1")));
+    }
+    Ok(words.cast_into()?)
 }
 
 /// The elements in a new vector.

@@ -1,8 +1,8 @@
 //! The Python package `tess-model`: the model, its batches and its verification kit as Python
 //! objects.
 //!
-//! `patch` is one patch, `batch` many; `stages` single numbers of one stage; `vectors` and `coverage`
-//! the verification kit. `names` and `arrays` turn arguments into the libraries' types, `values`
+//! `patch` is one patch, `batch` many; `stages` single numbers of one stage; `vectors`, `rules` and
+//! `coverage` the verification kit. `names` and `arrays` turn arguments into the libraries' types, `values`
 //! makes the named tuples of `python/tess_model/values.py`, `errors` the exceptions;
 //! `signals` lets Ctrl-C end what takes long.
 //!
@@ -14,6 +14,7 @@ mod coverage;
 mod errors;
 mod names;
 mod patch;
+mod rules;
 mod signals;
 mod stages;
 mod strength;
@@ -34,6 +35,8 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<vectors::VectorFile>()?;
     module.add_function(wrap_pyfunction!(stages::context, module)?)?;
     module.add_function(wrap_pyfunction!(stages::place, module)?)?;
+    module.add_function(wrap_pyfunction!(stages::process_factor, module)?)?;
+    module.add_function(wrap_pyfunction!(rules::check_rules, module)?)?;
     module.add_function(wrap_pyfunction!(vectors::generate, module)?)?;
     module.add_function(wrap_pyfunction!(vectors::write_vectors, module)?)?;
     module.add_function(wrap_pyfunction!(vectors::check, module)?)?;

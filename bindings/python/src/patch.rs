@@ -7,7 +7,7 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde_json::Value;
-use tess_core::{Config, Domain, DomainPoint, ProcessedFactor, ProcessedPatch, Tessellation};
+use tess_core::{Config, Domain, DomainPoint, ProcessedPatch, Tessellation};
 use tess_verify::case::Case;
 use tess_verify::drawing::{Colours, DrawOptions, draw, has_rings};
 use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
@@ -159,13 +159,8 @@ impl Patch {
         let processed: Vec<_> =
             patch.processed().factors().map_or_else(Vec::new, |f| f.iter().collect());
         let names = self.case.domain().factor_names().iter();
-        let each =
-            names.zip(self.case.factors.iter()).zip(processed).map(|((name, raw), factor)| {
-                let ProcessedFactor { clamped, rounded, fixed, context } = factor;
-                let context = values::context(py, &context)?;
-                let elements = (*name, raw.to_bits(), clamped, rounded, fixed.to_bits(), context);
-                values::value(py, "ProcessedFactor", elements)
-            });
+        let factors = names.zip(self.case.factors.iter()).zip(processed);
+        let each = factors.map(|((name, raw), factor)| values::processed(py, name, raw, &factor));
         PyTuple::new(py, each.collect::<PyResult<Vec<_>>>()?)
     }
 

@@ -2,10 +2,14 @@
 
 use crate::errors::argument;
 use crate::names::{named, whole};
+use crate::strength::one_of;
 use crate::values;
 use pyo3::prelude::*;
 use tess_core::fixed_point::ONE;
-use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
+use tess_core::{
+    Config, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, Patch, SplitOrder,
+    TriangleFactors,
+};
 
 /// The context of a 15.16 factor.
 ///
@@ -46,6 +50,39 @@ pub(crate) fn context<'py>(
     split_order: &str,
 ) -> PyResult<Bound<'py, PyAny>> {
     values::context(py, &factor_context(factor, parity, split_order)?.1)
+}
+
+/// One factor after factor processing (specification, section 3), a :class:`ProcessedFactor`; ``None`` if it culls
+/// the patch, as an outer factor that is NaN or not above 0 does.
+///
+/// Args:
+///     factor: The raw factor, rounded to the nearest binary32.
+///     partitioning, split: As for :class:`Patch`.
+///     role: ``outer`` or ``inside``: the factor ``u0`` or ``inside`` of a triangle patch whose others are 3.
+///
+/// >>> import tess_model
+/// >>> tess_model.process_factor(2.5, "fractional_odd").fixed
+/// 163840
+#[pyfunction]
+#[pyo3(signature = (factor, partitioning = "integer", *, role = "outer", split = "ruler"))]
+#[expect(clippy::cast_possible_truncation, reason = "to the nearest binary32, as documented")]
+pub(crate) fn process_factor<'py>(
+    py: Python<'py>,
+    factor: f64,
+    partitioning: &str,
+    role: &str,
+    split: &str,
+) -> PyResult<Option<Bound<'py, PyAny>>> {
+    let position = one_of("role", role, &[("outer", 0), ("inside", 3)])?;
+    let (partitioning, split) = (named::<Partitioning>(partitioning)?, named(split)?);
+    let config = Config { partitioning, output: OutputPrimitive::Point, split };
+    let raw = factor as f32;
+    let mut factors = [3.0; 4];
+    factors[position] = raw;
+    let patch = Patch::new(config, TriangleFactors::from(factors));
+    let processed = patch.processed().factors().and_then(|all| all.iter().nth(position));
+    let name = TriangleFactors::<f32>::NAMES[position];
+    processed.map(|factor| values::processed(py, name, raw, &factor)).transpose()
 }
 
 /// Where point ``p`` of an edge lies, with every step (specification, section 5), a

@@ -3,7 +3,7 @@
 use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 use tess_core::place::Placement;
-use tess_core::{FactorContext, PointOrigin, PrimitiveOrigin};
+use tess_core::{FactorContext, PointOrigin, PrimitiveOrigin, ProcessedFactor};
 use tess_verify::checker::{Difference, Report};
 use tess_verify::names::Named;
 
@@ -20,6 +20,19 @@ pub(crate) fn context<'py>(py: Python<'py>, c: &FactorContext) -> PyResult<Bound
     let parity = c.parity.name();
     let elements = (parity, c.inv_floor, c.inv_ceil, c.fraction, c.half_points, c.split, c.points);
     value(py, "FactorContext", elements)
+}
+
+/// A factor by its name and raw value after factor processing.
+pub(crate) fn processed<'py>(
+    py: Python<'py>,
+    name: &str,
+    raw: f32,
+    factor: &ProcessedFactor,
+) -> PyResult<Bound<'py, PyAny>> {
+    let ProcessedFactor { clamped, rounded, fixed, context } = factor;
+    let elements =
+        (name, raw.to_bits(), clamped, rounded, fixed.to_bits(), self::context(py, context)?);
+    value(py, "ProcessedFactor", elements)
 }
 
 pub(crate) fn placement<'py>(py: Python<'py>, placed: &Placement) -> PyResult<Bound<'py, PyAny>> {

@@ -1,6 +1,6 @@
 //! Test vectors: generated, read, written and checked.
 
-use crate::arrays::{copied, described, refuse_masked};
+use crate::arrays::{copied, exact_words};
 use crate::coverage::Coverage;
 use crate::errors::{self, argument, file_format};
 use crate::names::{named, whole, whole_or_none};
@@ -8,7 +8,7 @@ use crate::patch::Patch;
 use crate::signals::{self, Raised, Watch, Watched};
 use crate::strength::{one_of, strength};
 use crate::values;
-use numpy::{PyArray1, PyArray2, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Write};
@@ -64,13 +64,14 @@ impl Cases {
 ///     count: Number of random patches at the end; ``None``: 500, 20000 and 1000000.
 ///     domain, partitioning, output, split: One only; ``None``: all.
 ///     shard: ``(i, n)``, i in 1..n: one of n disjoint parts; ``None``: all.
+///     rules: Instead of a level, families of patches that :func:`check_rules` compares.
 ///
 /// >>> import tess_model
 /// >>> len(list(tess_model.generate(level=3, count=10, domain="tri")))
 /// 10
 #[pyfunction]
 #[pyo3(signature = (level = 1, *, seed = 1, count = None, domain = None, partitioning = None,
-    output = None, split = None, shard = None))]
+    output = None, split = None, shard = None, rules = false))]
 #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
 pub(crate) fn generate(
     #[pyo3(from_py_with = whole)] level: u8,
@@ -81,8 +82,11 @@ pub(crate) fn generate(
     output: Option<&str>,
     split: Option<&str>,
     #[pyo3(from_py_with = part_of_all)] shard: Option<(u64, u64)>,
+    rules: bool,
 ) -> PyResult<Cases> {
     let level = match level {
+        1 if rules => GenLevel::Rules,
+        other if rules => return Err(argument(format!("rules have no level {other}"))),
         1 => GenLevel::One,
         2 => GenLevel::Two,
         3 => GenLevel::Three,
@@ -203,16 +207,16 @@ impl VectorFile {
 }
 
 /// A vector file whose reader can be interrupted.
-type Reader = tess_verify::vectors::VectorFile<BufReader<Watched>>;
+pub(crate) type Reader = tess_verify::vectors::VectorFile<BufReader<Watched>>;
 
 /// Why a vector file cannot be read from.
-enum NotOpen {
+pub(crate) enum NotOpen {
     File(io::Error),
     Format(VectorError),
 }
 
 impl NotOpen {
-    fn into_error(self) -> PyErr {
+    pub(crate) fn into_error(self) -> PyErr {
         match self {
             Self::File(error) => error.into(),
             Self::Format(error) => file_format(error),
@@ -221,7 +225,7 @@ impl NotOpen {
 }
 
 /// Opens a vector file and reads its first line.
-fn open(path: &Path, stop: Arc<AtomicBool>) -> Result<(Reader, Raised), NotOpen> {
+pub(crate) fn open(path: &Path, stop: Arc<AtomicBool>) -> Result<(Reader, Raised), NotOpen> {
     let file = Watched::new(File::open(path).map_err(NotOpen::File)?, stop);
     let raised = file.raised();
     let name = path.display().to_string();
@@ -358,8 +362,9 @@ fn run_check(
 /// Compares what a device answered with the model.
 ///
 /// Args:
-///     answers: Tuples (patch, points, indices): a :class:`Patch`, uint32 of shape (points, 2) in
-///         16.16, and uint32 of any shape whose elements in order are the indices.
+///     answers: Tuples (patch, points, indices): a :class:`Patch`, integers of shape (points, 2) in
+///         16.16, and integers of any shape whose elements in order are the indices. Arrays of uint32 are the
+///         fastest; those of other integer types and lists are taken if every element is below 2**32.
 ///     order, elements, conversion, denormals: As for :func:`check`.
 ///     cases: The patches that were asked. Answers for others, too few or too many raise
 ///         :class:`ArgumentError`. There must be an answer.
@@ -386,6 +391,19 @@ pub(crate) fn check_device<'py>(
     cases: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let strength = strength(order, elements, conversion, denormals)?;
+    let answers = device_answers(answers)?;
+    if let Some(cases) = cases {
+        require_answers(&patches_of(cases)?, &answers)?;
+    }
+    let mut watch = Watch::default();
+    let answers = answers.into_iter().take_while(|_| watch.goes_on());
+    let report = py.detach(|| checker::check_device(answers, strength));
+    watch.finish()?;
+    values::report(py, &report)
+}
+
+/// What a device answered, at least once.
+pub(crate) fn device_answers(answers: &Bound<'_, PyAny>) -> PyResult<Vec<(Case, Tessellation)>> {
     let mut watch = Watch::default();
     let answers: Vec<(Case, Tessellation)> = answers
         .try_iter()?
@@ -396,14 +414,7 @@ pub(crate) fn check_device<'py>(
     if answers.is_empty() {
         return Err(argument("there is no answer to check"));
     }
-    if let Some(cases) = cases {
-        require_answers(&patches_of(cases)?, &answers)?;
-    }
-    let mut watch = Watch::default();
-    let answers = answers.into_iter().take_while(|_| watch.goes_on());
-    let report = py.detach(|| checker::check_device(answers, strength));
-    watch.finish()?;
-    values::report(py, &report)
+    Ok(answers)
 }
 
 /// Refuses answers for other cases than those that were asked.
@@ -421,24 +432,25 @@ fn require_answers(asked: &[Case], answers: &[(Case, Tessellation)]) -> PyResult
 }
 
 fn device_answer(answer: &Bound<'_, PyAny>) -> PyResult<(Case, Tessellation)> {
-    let (patch, points, indices): (
-        Bound<'_, Patch>,
-        Bound<'_, PyUntypedArray>,
-        Bound<'_, PyUntypedArray>,
-    ) = answer
+    let (patch, points, indices): (Bound<'_, Patch>, Bound<'_, PyAny>, Bound<'_, PyAny>) = answer
         .extract()
         .map_err(|_| argument("an answer is (patch, points, indices): a Patch and two arrays"))?;
-    refuse_masked("points", &points)?;
-    refuse_masked("indices", &indices)?;
-    let wrong = |what: &str, array: &Bound<'_, PyUntypedArray>| {
-        argument(format!("{what} must be uint32, not {}", described(array)))
+    let points = exact_words("points of shape (.., 2)", &points)?;
+    let rows = points.try_readonly().map_err(argument)?;
+    let rows = rows.as_array();
+    let points = match rows.shape() {
+        [_, 2] => {
+            copied(rows.rows().into_iter().map(|row| DomainPoint::from_bits(row[0], row[1])))?
+        }
+        _ if rows.is_empty() => Vec::new(),
+        _ => {
+            return Err(argument(format!(
+                "points must be of shape (.., 2), not {:?}",
+                rows.shape()
+            )));
+        }
     };
-    let pairs = points.cast::<PyArray2<u32>>().ok().filter(|array| array.shape()[1] == 2);
-    let pairs = pairs.ok_or_else(|| wrong("points of shape (.., 2)", &points))?;
-    let points = pairs.try_readonly().map_err(argument)?;
-    let rows = points.as_array();
-    let points = copied(rows.rows().into_iter().map(|row| DomainPoint::from_bits(row[0], row[1])))?;
-    let flat = indices.cast::<numpy::PyArrayDyn<u32>>().map_err(|_| wrong("indices", &indices))?;
+    let flat = exact_words("indices", &indices)?;
     let indices = copied(flat.try_readonly().map_err(argument)?.as_array().iter().copied())?;
     Ok((patch.get().case, Tessellation { points, indices }))
 }

@@ -199,8 +199,8 @@ def test_factors_and_output_in_one_memory() -> None:
 @pytest.mark.parametrize(
     "factors",
     [
-        None, 1.0, "x", [[1.0] * 6], np.ones(6, np.float32), np.ones((1, 5), np.float32),
-        np.ones((1, 6)), np.ones((1, 6), np.int32), np.ones((1, 6), ">f4"), np.ones((1, 6), object),
+        None, 1.0, "x", [[1] * 6], np.ones(6, np.float32), np.ones((1, 5), np.float32),
+        np.ones((1, 6), np.int32), np.ones((1, 6), ">f4"), np.ones((1, 6), object),
         np.ones((1, 1, 6), np.float32), np.ones((0, 0), np.float32), np.float32(1),
         np.zeros((1, 6), [("x", np.float32)]),
     ],

@@ -1,6 +1,7 @@
 """The placer's bench in both simulators: it passes, and finds planted faults."""
 
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -18,14 +19,14 @@ FAULTS = {
 }
 
 
-def bench(tmp_path: Path, sim: str, *options: str) -> "subprocess.CompletedProcess[str]":
+def bench(tmp_path: Path, sim: str, *options: str, script: Path = RUN) -> "subprocess.CompletedProcess[str]":
     arguments = ["--sim", sim, "--random", "50", "--build", str(BUILD), *options]
     # A simulator of another interpreter's cocotb would not find this one's packages.
     environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
     # By it cocotb's runner knows pytest, and would end `run.py` before its last line.
     environment.pop("PYTEST_CURRENT_TEST", None)
     return subprocess.run(
-        [sys.executable, str(RUN), *arguments, "--coverage", str(tmp_path / "coverage.xml")],
+        [sys.executable, str(script), *arguments, "--coverage", str(tmp_path / "coverage.xml")],
         capture_output=True,
         text=True,
         env=environment,
@@ -53,3 +54,16 @@ def test_planted_faults_are_found(tmp_path: Path, fault: int) -> None:
     run = bench(tmp_path, sim, "--fault", str(fault), "--testcase", "random_stimuli")
     assert run.returncode == 1 and "1 tests, 1 failed" in run.stdout, run.stdout + run.stderr
     assert f"{FAULTS[fault]} observed=0x" in run.stdout, run.stdout
+    coverage = Coverage.read(tmp_path / "coverage.xml")
+    assert coverage.groups["context"].hit > 0, "what a failing run drove counts"
+
+
+def test_a_copy_outside_the_repository(tmp_path: Path) -> None:
+    copy = tmp_path / "copy"
+    shutil.copytree(RUN.parent, copy, ignore=shutil.ignore_patterns("__pycache__", "sim_build"))
+    options = ("--testcase", "random_stimuli")
+    run = bench(tmp_path, "icarus", *options, script=copy / "run.py")
+    assert run.returncode == 2 and "--rtl names the folder" in run.stderr, run.stdout + run.stderr
+    rtl = str(RUN.parents[4] / "rtl")
+    run = bench(tmp_path, "icarus", *options, "--rtl", rtl, script=copy / "run.py")
+    assert run.returncode == 0 and "1 tests, 0 failed" in run.stdout, run.stdout + run.stderr

@@ -140,6 +140,12 @@ class Bench:
                 self.wrong.append(wrong)
                 return  # what follows from it is no news
 
+    def add_coverage(self, file: Path) -> None:
+        """Adds the bins to a file: what was driven counts, whatever the design gave."""
+        if file.exists():
+            self.coverage.merge(tess_model.Coverage.read(file))
+        self.coverage.write(file)
+
     def verdict(self) -> None:
         self.dut._log.info(f"{self.checked} vectors, {len(self.wrong)} mismatches")
         assert self.checked > 0 and not self.in_flight, f"{len(self.in_flight)} locations never came"
@@ -150,11 +156,8 @@ async def run(dut: Any, factors: Iterable[Factor]) -> None:
     bench = Bench(dut)
     await bench.reset()
     await bench.drive(factors)
+    bench.add_coverage(Path(os.environ["TESS_COVERAGE"]))
     bench.verdict()
-    file = Path(os.environ["TESS_COVERAGE"])
-    if file.exists():
-        bench.coverage.merge(tess_model.Coverage.read(file))
-    bench.coverage.write(file)
 
 
 @cocotb.test()

@@ -1,10 +1,10 @@
 """Runs the placer's bench in a simulator.
 
     python run.py [--sim verilator|icarus] [--fault N] [--random N] [--seed N] [--coverage FILE]
-                  [--testcase level_1_stimuli|random_stimuli]
+                  [--testcase level_1_stimuli|random_stimuli] [--rtl FOLDER]
 
-The design is rtl/ of the repository. Exit status: 0 equal, 1 different. `--fault`
-takes a design with a planted fault: 1 factor context, 2 flip, 3 rounding; the run then fails.
+The design is rtl/ of the repository; a copy of this folder outside the repository needs `--rtl`. Exit status: 0
+equal, 1 different, 2 no design. `--fault` takes a design with a planted fault: 1 factor context, 2 flip, 3 rounding; the run then fails.
 """
 
 import argparse
@@ -15,7 +15,7 @@ from pathlib import Path
 from cocotb.runner import get_results, get_runner
 
 HERE = Path(__file__).resolve().parent
-RTL = HERE.parents[3] / "rtl"
+RTL = Path(*HERE.parts[:-4], "rtl")
 PLACER = ["factor_context", "place_blend", "place_position", "placer", "reciprocal"]
 
 
@@ -28,7 +28,16 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--coverage", type=Path, default=Path("coverage.xml"), help="file to add to")
     parser.add_argument("--build", type=Path, default=Path("sim_build"), help="folder to build in")
     parser.add_argument("--testcase", help="one test alone")
-    return parser.parse_args()
+    parser.add_argument("--rtl", type=Path, default=RTL, help="folder of the design")
+    options = parser.parse_args()
+    missing = [name for name in sources(options.rtl) if not name.is_file()]
+    if missing:
+        parser.error(f"no design: {missing[0]} is no file; --rtl names the folder rtl of the repository")
+    return options
+
+
+def sources(rtl: Path) -> "list[Path]":
+    return [rtl.resolve() / f"tess_{module}.sv" for module in PLACER]
 
 
 def main() -> int:
@@ -36,7 +45,7 @@ def main() -> int:
     build = (options.build / f"{options.sim}-{options.fault}").resolve()
     runner = get_runner(options.sim)
     runner.build(
-        verilog_sources=[RTL / f"tess_{module}.sv" for module in PLACER],
+        verilog_sources=sources(options.rtl),
         hdl_toplevel="tess_placer",
         parameters={"PLANTED_FAULT": options.fault},
         build_dir=build,

@@ -26,9 +26,11 @@ from ._native import (
     __version__,
     check,
     check_device,
+    check_rules,
     context,
     generate,
     place,
+    process_factor,
     write_vectors,
 )
 from .errors import (
@@ -51,6 +53,9 @@ from .values import (
     PrimitiveOrigin,
     ProcessedFactor,
     Report,
+    RuleExample,
+    RuleRow,
+    RulesReport,
 )
 
 __all__ = [
@@ -74,15 +79,20 @@ __all__ = [
     "ProcessedFactor",
     "Record",
     "Report",
+    "RuleExample",
+    "RuleRow",
+    "RulesReport",
     "TessError",
     "Tessellator",
     "VectorFile",
     "__version__",
     "check",
     "check_device",
+    "check_rules",
     "context",
     "generate",
     "place",
+    "process_factor",
     "tessellate",
     "write_vectors",
 ]
@@ -92,7 +102,7 @@ _tessellator = _lru_cache(maxsize=4)(Tessellator)
 
 def tessellate(
     domain: str,
-    factors: "_npt.NDArray[Any]",
+    factors: "_npt.ArrayLike",
     *,
     partitioning: str = "integer",
     output: str = "triangle_cw",

@@ -18,6 +18,7 @@ from .values import (
     PrimitiveOrigin,
     ProcessedFactor,
     Report,
+    RulesReport,
 )
 
 __version__: str
@@ -32,9 +33,11 @@ __all__ = [
     "__version__",
     "check",
     "check_device",
+    "check_rules",
     "context",
     "generate",
     "place",
+    "process_factor",
     "write_vectors",
 ]
 
@@ -42,6 +45,8 @@ _Floats = Union[float, Sequence[float], npt.NDArray[np.floating[Any]]]
 _Bits = Union[int, Sequence[int], npt.NDArray[np.integer[Any]]]
 _Path = Union[str, PathLike[str]]
 _Array = npt.NDArray[Any]
+_Words = Union[npt.NDArray[np.integer[Any]], Sequence[int], Sequence[Sequence[int]]]
+_Answer = tuple[Patch, _Words, _Words]
 
 @final
 class Patch:
@@ -127,11 +132,11 @@ class Tessellator:
     def level(self) -> str: ...
     @property
     def threads(self) -> int: ...
-    def count(self, domain: str, factors: _Array) -> BatchCounts: ...
+    def count(self, domain: str, factors: npt.ArrayLike) -> BatchCounts: ...
     def tessellate(
         self,
         domain: str,
-        factors: _Array,
+        factors: npt.ArrayLike,
         *,
         points: str = "float32",
         indices: str = "uint32",
@@ -193,6 +198,9 @@ class VectorFile:
     def __next__(self) -> Record: ...
 
 def context(factor: int, parity: str, split_order: str = "ruler") -> FactorContext: ...
+def process_factor(
+    factor: float, partitioning: str = "integer", *, role: str = "outer", split: str = "ruler"
+) -> Optional[ProcessedFactor]: ...
 def place(factor: int, parity: str, p: int, split_order: str = "ruler") -> Placement: ...
 def generate(
     level: int = 1,
@@ -204,6 +212,7 @@ def generate(
     output: Optional[str] = None,
     split: Optional[str] = None,
     shard: Optional[tuple[int, int]] = None,
+    rules: bool = False,
 ) -> Cases: ...
 def write_vectors(path: _Path, patches: Iterable[Patch], *, form: str = "patches") -> None: ...
 def check(
@@ -218,7 +227,7 @@ def check(
     cases: Optional[Iterable[Patch]] = None,
 ) -> Report: ...
 def check_device(
-    answers: Iterable[tuple[Patch, npt.NDArray[np.uint32], npt.NDArray[np.uint32]]],
+    answers: Iterable[_Answer],
     *,
     order: str = "exact",
     elements: str = "primitives",
@@ -226,3 +235,4 @@ def check_device(
     denormals: str = "keep",
     cases: Optional[Iterable[Patch]] = None,
 ) -> Report: ...
+def check_rules(answers: Union[_Path, Iterable[_Answer]], specification: str) -> RulesReport: ...

@@ -172,6 +172,57 @@ class Difference(NamedTuple):
     """All of this as ``tess check`` prints it."""
 
 
+class RuleExample(NamedTuple):
+    """The smallest patches that break a rule."""
+
+    cases: "tuple[str, ...]"
+    """One patch or two, as ``Patch.from_case`` takes them."""
+    what: str
+    """What is wrong."""
+
+
+class RuleRow(NamedTuple):
+    """What became of one rule of a standard."""
+
+    rule: str
+    """Its name, as docs/rules.md has it."""
+    source: str
+    """Where the standard states it."""
+    verdict: str
+    """``held``, ``broken`` or ``not exercised``."""
+    judged: int
+    """Patches, or patches beside an earlier one, that it judged."""
+    broken: int
+    """How many of them break it."""
+    example: Optional[RuleExample]
+    """The smallest example, if it is broken."""
+
+
+class RulesReport(NamedTuple):
+    """The verdicts of all rules of one standard."""
+
+    specification: str
+    """``vulkan``, ``opengl`` or ``d3d11``."""
+    patches: int
+    """Patches that were judged."""
+    rows: "tuple[RuleRow, ...]"
+    """Its rules, in their order."""
+    text: str
+    """All of this as ``tess check --rules`` prints it."""
+
+    @property
+    def holds(self) -> bool:
+        """Whether no rule is broken."""
+        return all(row.verdict != "broken" for row in self.rows)
+
+    def rule(self, name: str) -> RuleRow:
+        """The row of a rule; ``KeyError`` if the standard has none of this name."""
+        for row in self.rows:
+            if row.rule == name:
+                return row
+        raise KeyError(name)
+
+
 class Report(NamedTuple):
     """The verdict on vectors or on a device."""
 
