@@ -32,11 +32,71 @@ class tess_patch_item extends uvm_sequence_item;
         for (int i = 0; i < 6; i++) x[i] = factors[i];
     endfunction
 
-    // Everything that the result depends on.
+    // Factors that the domain has.
+    function int unsigned factor_count();
+        return 2 + 2 * int'(domain);
+    endfunction
+
+    // Everything that the result depends on, as a line that `tess patch --cases` takes.
     virtual function string convert2string();
-        return $sformatf("domain=%0d partitioning=%0d output=%0d split=%0d %08x %08x %08x %08x %08x %08x",
-            domain, partitioning, out, split_order,
-            factors[0], factors[1], factors[2], factors[3], factors[4], factors[5]);
+        string words = $sformatf("case %s %s %s %s", domain_name(), partitioning_name(), output_name(),
+            split_name());
+        for (int unsigned i = 0; i < factor_count(); i++) words = {words, $sformatf(" %08x", factors[i])};
+        return words;
+    endfunction
+
+    protected function string domain_name();
+        case (domain)
+            ISOLINE:  return "isoline";
+            TRIANGLE: return "tri";
+            default:  return "quad";
+        endcase
+    endfunction
+
+    protected function string split_name();
+        if (split_order == CENTER) return "center";
+        return "ruler";
+    endfunction
+
+    protected function string partitioning_name();
+        case (partitioning)
+            INTEGER:        return "integer";
+            POW2:           return "pow2";
+            FRACTIONAL_ODD: return "fractional_odd";
+            default:        return "fractional_even";
+        endcase
+    endfunction
+
+    protected function string output_name();
+        case (out)
+            POINT:       return "point";
+            LINE:        return "line";
+            TRIANGLE_CW: return "triangle_cw";
+            default:     return "triangle_ccw";
+        endcase
+    endfunction
+
+    virtual function void do_copy(uvm_object rhs);
+        tess_patch_item other;
+        super.do_copy(rhs);
+        if (!$cast(other, rhs)) `uvm_fatal("TESS", "a patch is copied from an object that is none")
+        domain       = other.domain;
+        partitioning = other.partitioning;
+        out          = other.out;
+        split_order  = other.split_order;
+        factors      = other.factors;
+    endfunction
+
+    // Equal patches give equal results: factors that the domain does not have are not looked at.
+    virtual function bit do_compare(uvm_object rhs, uvm_comparer comparer);
+        tess_patch_item other;
+        if (!$cast(other, rhs)) return 0;
+        return super.do_compare(rhs, comparer) && convert2string() == other.convert2string();
+    endfunction
+
+    virtual function void do_print(uvm_printer printer);
+        super.do_print(printer);
+        printer.print_string("case", convert2string());
     endfunction
 endclass
 
@@ -51,5 +111,48 @@ class tess_result_item extends uvm_sequence_item;
 
     function new(string name = "tess_result_item");
         super.new(name);
+    endfunction
+
+    virtual function string convert2string();
+        return $sformatf("%0d points, %0d indices of %s", u.size(), indices.size(),
+            patch == null ? "no patch" : patch.convert2string());
+    endfunction
+
+    // The patch is copied too: a driver may change its own for the next one.
+    virtual function void do_copy(uvm_object rhs);
+        tess_result_item other;
+        uvm_object       from; // of the argument's very type, which Verilator 5.006 asks for
+        super.do_copy(rhs);
+        if (!$cast(other, rhs)) `uvm_fatal("TESS", "a result is copied from an object that is none")
+        patch = null;
+        if (other.patch != null) begin
+            patch = new(other.patch.get_name());
+            from  = other.patch;
+            patch.copy(from);
+        end
+        u       = other.u;
+        v       = other.v;
+        indices = other.indices;
+    endfunction
+
+    virtual function bit do_compare(uvm_object rhs, uvm_comparer comparer);
+        tess_result_item other;
+        uvm_object       others; // of the argument's very type, which Verilator 5.006 asks for
+        bit              same_patch;
+        if (!$cast(other, rhs)) return 0;
+        others = other.patch;
+        if (patch == null || other.patch == null) same_patch = patch == other.patch;
+        else same_patch = patch.do_compare(others, comparer);
+        return super.do_compare(rhs, comparer) && same_patch
+            && u == other.u && v == other.v && indices == other.indices;
+    endfunction
+
+    virtual function void do_print(uvm_printer printer);
+        super.do_print(printer);
+        printer.print_string("result", convert2string());
+        foreach (u[i])
+            printer.print_string($sformatf("point %0d", i), $sformatf("%05x %05x", u[i], i < v.size() ? v[i] : 0));
+        foreach (indices[i])
+            printer.print_string($sformatf("index %0d", i), $sformatf("%0d", indices[i]));
     endfunction
 endclass

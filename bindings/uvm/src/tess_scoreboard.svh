@@ -16,10 +16,14 @@ class tess_result_input extends uvm_subscriber #(tess_result_item);
     endfunction
 endclass
 
-// Compares results in order, exactly. Each difference is reported with its first wrong element.
+// Compares results exactly. Each difference is reported with its first wrong element, the stage of the
+// specification that it points to, and the patch as a line that `tess patch --cases` takes.
 class tess_scoreboard extends uvm_component;
     tess_result_input expected; // connect the predictor's port to expected.analysis_export
     tess_result_input observed; // and the monitor's to observed.analysis_export
+
+    // Whether results may come in another order than the patches: those of equal patches belong together.
+    bit unordered;
 
     int unsigned compared;
     int unsigned mismatches;
@@ -40,41 +44,64 @@ class tess_scoreboard extends uvm_component;
         observed.scoreboard = this;
     endfunction
 
-    // Takes a result, and compares as long as there is one of each.
+    // Takes a result, and compares it if its partner is there.
     virtual function void take(bit is_expected, tess_result_item t);
-        if (is_expected) expected_queue.push_back(t);
-        else             observed_queue.push_back(t);
-        while (expected_queue.size() > 0 && observed_queue.size() > 0) begin
-            tess_result_item right = expected_queue.pop_front();
-            tess_result_item found = observed_queue.pop_front();
-            string what = first_difference(right, found);
-            compared++;
-            if (what != "") begin
-                mismatches++;
-                `uvm_error("TESS", {what, "; ", right.patch.convert2string()})
-            end
+        int at;
+        if (t.patch == null) begin
+            `uvm_error("TESS", "a result has no patch")
+            return;
+        end
+        at = is_expected ? partner(observed_queue, t) : partner(expected_queue, t);
+        if (at < 0) begin
+            if (is_expected) expected_queue.push_back(t);
+            else             observed_queue.push_back(t);
+        end else if (is_expected) begin
+            compare_two(t, observed_queue[at]);
+            observed_queue.delete(at);
+        end else begin
+            compare_two(expected_queue[at], t);
+            expected_queue.delete(at);
+        end
+    endfunction
+
+    // The place of the first result that one belongs to; -1 if there is none.
+    protected function int partner(const ref tess_result_item waiting[$], input tess_result_item t);
+        string wanted = t.patch.convert2string();
+        if (!unordered) return waiting.size() == 0 ? -1 : 0;
+        foreach (waiting[i]) if (waiting[i].patch.convert2string() == wanted) return i;
+        return -1;
+    endfunction
+
+    protected function void compare_two(tess_result_item right, tess_result_item found);
+        string asked = right.patch.convert2string();
+        string what = found.patch.convert2string() == asked ? first_difference(right, found)
+            : {"the result is of ", found.patch.convert2string(), " (stage: answer)"};
+        compared++;
+        if (what != "") begin
+            mismatches++;
+            `uvm_error("TESS", {what, "\n", asked})
         end
     endfunction
 
     // The first element that differs, counts first; empty if none does.
     static function string first_difference(tess_result_item right, tess_result_item found);
         if (found.u.size() != found.v.size())
-            return $sformatf("number of coordinates: observed %0d u and %0d v, expected %0d of each",
+            return $sformatf("number of coordinates: observed %0d u and %0d v, expected %0d of each (stage: counts)",
                 found.u.size(), found.v.size(), right.u.size());
         if (found.u.size() != right.u.size())
-            return $sformatf("number of points: observed %0d, expected %0d",
+            return $sformatf("number of points: observed %0d, expected %0d (stage: counts)",
                 found.u.size(), right.u.size());
         if (found.indices.size() != right.indices.size())
-            return $sformatf("number of indices: observed %0d, expected %0d",
+            return $sformatf("number of indices: observed %0d, expected %0d (stage: counts)",
                 found.indices.size(), right.indices.size());
         for (int i = 0; i < right.u.size(); i++) begin
             if (found.u[i] != right.u[i] || found.v[i] != right.v[i])
-                return $sformatf("point %0d: observed (%05x, %05x), expected (%05x, %05x)",
+                return $sformatf("point %0d: observed (%05x, %05x), expected (%05x, %05x) (stage: location)",
                     i, found.u[i], found.v[i], right.u[i], right.v[i]);
         end
         for (int i = 0; i < right.indices.size(); i++) begin
             if (found.indices[i] != right.indices[i])
-                return $sformatf("index %0d: observed %0d, expected %0d",
+                return $sformatf("index %0d: observed %0d, expected %0d (stage: stitch)",
                     i, found.indices[i], right.indices[i]);
         end
         return "";

@@ -6,8 +6,8 @@
 //   tess_scoreboard    compares a device's results with the predictor's, in order
 //   tess_coverage      samples the covergroups of the specification's cases
 //
-// It needs tess_dpi.sv and the library of tess-capi. Results come in the order of the patches: a
-// device that answers out of order needs a component that sorts them in front of the scoreboard.
+// It needs tess_dpi.sv and the library of tess-capi. Results come in the order of the patches, or in any
+// order if the scoreboard's `unordered` is set: they then belong together by their patches.
 package tess_uvm;
     import uvm_pkg::*;
     import tess_dpi::*;

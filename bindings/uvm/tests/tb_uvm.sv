@@ -1,6 +1,7 @@
 // Runs predictor and scoreboard: equal results pass, each planted difference is found. With the stub
 // of UVM; `+fault=N` takes a difference: 1 point, 2 index, 3 number of points, 4 a result too few,
-// 5 a v too few.
+// 5 a v too few, 6 the result of another patch. Everything goes through clones, as in environments that keep
+// what they are given. `+unordered` gives the results from the last to the first.
 module tb_uvm;
     import uvm_pkg::*;
     import tess_dpi::*;
@@ -13,6 +14,32 @@ module tb_uvm;
     uvm_component   top;
     uvm_phase       phase;
     int             fault = 0;
+    tess_result_item kept[$];
+
+    // A clone is equal to what it is made of, and independent of it.
+    task automatic check_clones(tess_patch_item p, tess_result_item r);
+        tess_patch_item  q;
+        tess_result_item s;
+        uvm_printer      printer = new();
+        uvm_comparer     comparer = new();
+        uvm_object       qo, so; // of the arguments' very type, which Verilator 5.006 asks for
+        qo = p.clone();
+        so = r.clone();
+        if (!$cast(q, qo) || !$cast(s, so)) $fatal(1, "FAIL: a clone of another class");
+        comparer.m_compares = 1;
+        if (!p.do_compare(qo, comparer)) $fatal(1, "FAIL: a clone differs");
+        if (!p.compare(qo) || !r.compare(so)) $fatal(1, "FAIL: a clone differs");
+        q.factors[0] = q.factors[0] ^ 32'h1;
+        if (p.compare(qo)) $fatal(1, "FAIL: patches with other factors are equal");
+        s.patch.split_order = CENTER;
+        if (r.compare(so) || p.split_order == CENTER) $fatal(1, "FAIL: a clone shares its patch");
+        s.patch.split_order = RULER;
+        s.indices[0] = s.indices[0] + 1;
+        if (r.compare(so)) $fatal(1, "FAIL: results with other indices are equal");
+        r.do_print(printer);
+        p.do_print(printer);
+        if (printer.m_text.len() < 200) $fatal(1, "FAIL: little is printed: %s", printer.m_text);
+    endtask
 
     function automatic tess_patch_item patch(int number);
         tess_patch_item p = new("patch");
@@ -32,7 +59,13 @@ module tb_uvm;
         predictor.results.connect(scoreboard.expected.analysis_export);
         for (int n = 0; n < PATCHES; n++) begin
             automatic tess_patch_item  p = patch(n);
-            automatic tess_result_item observed = tess_predictor::predict(p);
+            automatic tess_result_item observed;
+            automatic tess_patch_item  q;
+            automatic tess_result_item predicted;
+            if (!$cast(q, p.clone())) $fatal(1, "FAIL: a clone of another class");
+            predicted = tess_predictor::predict(q);
+            if (!$cast(observed, predicted.clone())) $fatal(1, "FAIL: a clone of another class");
+            check_clones(p, observed);
             predictor.write(p);
             if (n == 5) begin
                 if (fault == 1) observed.v[3] = observed.v[3] ^ 32'h1;
@@ -42,9 +75,13 @@ module tb_uvm;
                     void'(observed.v.pop_back());
                 end
                 if (fault == 5) void'(observed.v.pop_back());
+                if (fault == 6) observed.patch.factors[1] = 32'h3F80_0000;
             end
-            if (!(fault == 4 && n == 7)) scoreboard.observed.write(observed);
+            if (!(fault == 4 && n == 7)) kept.push_back(observed);
         end
+        scoreboard.unordered = $test$plusargs("unordered") != 0;
+        if (scoreboard.unordered) kept.reverse();
+        foreach (kept[i]) scoreboard.observed.write(kept[i]);
         scoreboard.check_phase(phase);
         $display("%0d compared, %0d mismatches, %0d errors",
             scoreboard.compared, scoreboard.mismatches, errors);

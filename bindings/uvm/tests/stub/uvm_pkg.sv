@@ -1,6 +1,18 @@
 // A stub of the parts of UVM that tess_uvm uses, so that a simulator without UVM compiles and runs it
 // in this project's tests. It is no UVM: no factory, no phases but by hand, reports are lines.
 package uvm_pkg;
+    class uvm_comparer;
+        int unsigned m_compares;
+    endclass
+
+    // Keeps what is printed.
+    class uvm_printer;
+        string m_text;
+        function void print_string(string name, string value);
+            m_text = {m_text, name, ": ", value, "\n"};
+        endfunction
+    endclass
+
     class uvm_object;
         string m_name;
         function new(string name = "");
@@ -11,6 +23,29 @@ package uvm_pkg;
         endfunction
         virtual function string convert2string();
             return "";
+        endfunction
+        virtual function uvm_object create(string name = "");
+            return null;
+        endfunction
+        virtual function void do_copy(uvm_object rhs);
+        endfunction
+        virtual function bit do_compare(uvm_object rhs, uvm_comparer comparer);
+            return comparer.m_compares > 0;
+        endfunction
+        virtual function void do_print(uvm_printer printer);
+        endfunction
+        function void copy(uvm_object rhs);
+            do_copy(rhs);
+        endfunction
+        function bit compare(uvm_object rhs);
+            uvm_comparer comparer = new();
+            comparer.m_compares++;
+            return do_compare(rhs, comparer);
+        endfunction
+        virtual function uvm_object clone();
+            uvm_object made = create(m_name);
+            made.copy(this);
+            return made;
         endfunction
     endclass
 
