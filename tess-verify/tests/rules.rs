@@ -301,7 +301,6 @@ fn equal_spacing_is_rounded() {
 /// What dEQP demands of 1 - c holds of every binary32 c from 0 to 1: it is no rule of tessellators. Every exponent,
 /// with both ends, the middle and random ones between.
 #[test]
-#[expect(clippy::float_arithmetic, reason = "what a shader computes")]
 #[expect(clippy::float_cmp, reason = "exactly 1")]
 fn one_minus_a_coordinate_cannot_fail() {
     let mut random = tess_verify::random::SplitMix64::new(1);
