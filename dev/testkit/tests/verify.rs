@@ -72,7 +72,7 @@ fn one_bit_of_one_random_patch() {
 fn a_known_difference_is_no_mismatch() {
     let plan = Plan::random(Random { patches: 100, seed: 3 });
     let faulty = || -> Vec<Vec<Box<dyn Backend>>> {
-        vec![vec![Box::new(Faulty::new(CoreBackend, Fault::PointU, 101))]]
+        vec![vec![Box::new(Faulty::new(CoreBackend, Fault::PointU, 20))]]
     };
     let row = run(&mut faulty(), &plan).remove(0);
     assert_eq!(row.stages.values().sum::<u64>(), 1, "{row:?}");
