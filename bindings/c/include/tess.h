@@ -965,7 +965,8 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
  *
  * `level` is `TESS_LEVEL_...`; all levels give the same bits, and one that this machine lacks
  * gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
- * millisecond, later ones a microsecond. From its first patch on a batch holds about a megabyte.
+ * millisecond, later ones a microsecond. What a batch learns of patches takes memory as it is used:
+ * some 10 KB from the first small patch on, 1.1 MB at most. `tess_batch_reserve` takes all of it before.
  * What is stored in `batch` is to be given to `tess_batch_free`.
  *
  * The caller must ensure:
@@ -984,6 +985,14 @@ TessStatus tess_batch_create(const struct TessConfig *config,
  * - `batch` is null or came from `tess_batch_create`, is not in use and is not used again.
  */
 void tess_batch_free(struct TessBatch *batch);
+
+/**
+ * Takes all the memory that a batch may ever need, 1.1 MB, so that no later call with it allocates.
+ *
+ * The caller must ensure:
+ * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+ */
+TessStatus tess_batch_reserve(struct TessBatch *batch);
 
 /**
  * Says at which CPU level, `TESS_LEVEL_...`, a batch runs.
@@ -1017,8 +1026,8 @@ TessStatus tess_batch_count(struct TessBatch *batch,
  *
  * The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has its
  * sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is needed; with any other
- * status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). After the first
- * call with a batch, none allocates.
+ * status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). A call allocates
+ * where a patch has point counts that this batch has not met before; after `tess_batch_reserve` none does.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -1071,8 +1080,10 @@ TessStatus tess_batch_groups(const struct TessRange *ranges,
  * buffer, as far as it has room for them; a call is fastest where it has. Buffers, factors and `counts`
  * must not overlap (`TESS_OVERLAP`).
  *
- * Nothing is allocated, but where a patch has point counts that this batch has not met before. A call
- * costs less than `tess_batch_run` with one patch, which counts twice; large patches cost the same.
+ * A call takes about 80 ns for factors up to 4 and 115 ns for factor 8 (one core of a server of 2022 with
+ * AVX-512), and less than `tess_batch_run` with one patch, which counts twice. Large patches cost what they
+ * cost there. A call allocates where a patch has point counts that this batch has not met before; after
+ * `tess_batch_reserve` none does.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.

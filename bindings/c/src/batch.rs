@@ -14,12 +14,13 @@ pub use single::tess_batch_patch;
 use crate::boundary;
 use crate::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_INTERNAL, TESS_LEVEL_UNAVAILABLE,
-    TESS_OUT_OF_RANGE, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus, answer,
+    TESS_OUT_OF_RANGE, TESS_TOO_LARGE, TessStatus, answer,
 };
 use crate::types::{TessConfig, listed};
 use input::Patches;
+use output::in_formats;
 use run::run;
-use tess_core::{Domain, DomainPoint};
+use tess_core::Domain;
 use tess_simd::{Error, Level, PatchRange, Tessellator, group_ranges};
 
 /// CPU level: the most capable one of this machine.
@@ -42,7 +43,8 @@ pub struct TessBatch {
 ///
 /// `level` is `TESS_LEVEL_...`; all levels give the same bits, and one that this machine lacks
 /// gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
-/// millisecond, later ones a microsecond. From its first patch on a batch holds about a megabyte.
+/// millisecond, later ones a microsecond. What a batch learns of patches takes memory as it is used:
+/// some 10 KB from the first small patch on, 1.1 MB at most. `tess_batch_reserve` takes all of it before.
 /// What is stored in `batch` is to be given to `tess_batch_free`.
 ///
 /// # Safety
@@ -81,6 +83,20 @@ pub unsafe extern "C" fn tess_batch_free(batch: *mut TessBatch) {
         // SAFETY: it was made by `Box::into_raw` and nothing else owns it, as the caller promises.
         drop(unsafe { Box::from_raw(batch) });
     }
+}
+
+/// Takes all the memory that a batch may ever need, 1.1 MB, so that no later call with it allocates.
+///
+/// # Safety
+/// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_batch_reserve(batch: *mut TessBatch) -> TessStatus {
+    answer(|| {
+        boundary::check(batch)?;
+        // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
+        unsafe { &mut *batch }.tessellator.reserve();
+        Ok(())
+    })
 }
 
 /// Says at which CPU level, `TESS_LEVEL_...`, a batch runs.
@@ -140,8 +156,8 @@ pub unsafe extern "C" fn tess_batch_count(
 ///
 /// The factors are as for `tess_batch_count`. With `TESS_OK` the output is written and `counts` has its
 /// sizes; with `TESS_BUFFER_TOO_SMALL` only `counts` is written, with what is needed; with any other
-/// status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). After the first
-/// call with a batch, none allocates.
+/// status nothing is. Buffers, factors and `counts` must not overlap (`TESS_OVERLAP`). A call allocates
+/// where a patch has point counts that this batch has not met before; after `tess_batch_reserve` none does.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -168,13 +184,7 @@ pub unsafe extern "C" fn tess_batch_run(
         let output = unsafe { boundary::read(output) }?;
         // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
         let batch = unsafe { &mut *batch };
-        let run = match (output.point_format, output.index_type) {
-            (TESS_POINT_FIXED, TESS_INDEX_U32) => run::<DomainPoint, u32>,
-            (TESS_POINT_FIXED, TESS_INDEX_U16) => run::<DomainPoint, u16>,
-            (TESS_POINT_F32, TESS_INDEX_U32) => run::<[f32; 2], u32>,
-            (TESS_POINT_F32, TESS_INDEX_U16) => run::<[f32; 2], u16>,
-            _ => return Err(TESS_UNKNOWN_VALUE),
-        };
+        let run = in_formats!(output, run);
         // SAFETY: `factors`, `counts` and the buffers are as this function asks for them; the
         // element types are those of the formats.
         unsafe { run(batch, (factors, factor_count), &output, counts) }

@@ -1,8 +1,10 @@
 //! What `verilog/tess_dpi.sv` imports: scalars and bit patterns alone.
 //!
-//! In `SystemVerilog` every argument is an `int unsigned`, outputs included, so that calls are
-//! the same in every simulator. The functions are declared and documented in that file, with
+//! In `SystemVerilog` every argument is an `int unsigned`, outputs included, or the `chandle` of a patch
+//! that is held, so that calls are the same in every simulator. The functions are declared and documented in that file, with
 //! typed wrappers around them; they are no part of the C header.
+
+pub mod held;
 
 use crate::boundary;
 use crate::context::place_steps;

@@ -2,7 +2,7 @@
 //
 // Link the simulation with the library of tess-capi (libtess_capi.a or .so). All numbers cross as
 // `int unsigned`: factors as the bits of binary32 or 15.16 numbers, coordinates as 16.16 bits. So
-// the calls are the same in every simulator. Each import returns a status: 0 (TESS_OK) or the reason
+// the calls are the same in every simulator; only what holds a whole patch is a chandle. Each import returns a status: 0 (TESS_OK) or the reason
 // why its outputs were not written, which tess_status_message() puts in words.
 //
 // The wrappers below take enumerations and return structures; where the model refuses the arguments
@@ -125,6 +125,25 @@ package tess_dpi;
         input int unsigned f3, input int unsigned f4, input int unsigned f5,
         input int unsigned i, output int unsigned bin);
 
+    // A whole patch at a time, held until the next one: for benches that read all of its elements.
+    import "DPI-C" function int unsigned tess_dpi_open(
+        input int unsigned domain, input int unsigned partitioning,
+        input int unsigned out, input int unsigned split_order, output chandle held);
+
+    import "DPI-C" function void tess_dpi_close(input chandle held);
+
+    import "DPI-C" function int unsigned tess_dpi_patch(
+        input chandle held,
+        input int unsigned f0, input int unsigned f1, input int unsigned f2,
+        input int unsigned f3, input int unsigned f4, input int unsigned f5,
+        output int unsigned points, output int unsigned primitives, output int unsigned indices);
+
+    import "DPI-C" function int unsigned tess_dpi_held_point(
+        input chandle held, input int unsigned i, output int unsigned u, output int unsigned v);
+
+    import "DPI-C" function int unsigned tess_dpi_held_index(
+        input chandle held, input int unsigned i, output int unsigned index);
+
     localparam int unsigned TESS_OUT_OF_RANGE = 6;
 
     function automatic void require_ok(input int unsigned status, input string call);
@@ -188,6 +207,35 @@ package tess_dpi;
             x[0], x[1], x[2], x[3], x[4], x[5], t,
             r.size, r.i0, r.i1, r.i2), "primitive");
         return r;
+    endfunction
+
+    // What holds a patch of a configuration. Give it to tess_dpi_close in the end.
+    function automatic chandle model_open(input config_t cfg);
+        chandle held;
+        require_ok(tess_dpi_open(cfg.domain, cfg.partitioning, cfg.out, cfg.split_order, held), "open");
+        return held;
+    endfunction
+
+    // Tessellates a patch, which is held from then on; returns its sizes.
+    function automatic counts_t model_patch(input chandle held, input factors_t x);
+        counts_t c;
+        require_ok(tess_dpi_patch(held, x[0], x[1], x[2], x[3], x[4], x[5],
+            c.points, c.primitives, c.indices), "patch");
+        return c;
+    endfunction
+
+    // Point i of the patch that is held, i below its count.
+    function automatic point_t model_held_point(input chandle held, input int unsigned i);
+        point_t r;
+        require_ok(tess_dpi_held_point(held, i, r.u, r.v), "held point");
+        return r;
+    endfunction
+
+    // Index i of the patch that is held, i below its count.
+    function automatic int unsigned model_held_index(input chandle held, input int unsigned i);
+        int unsigned index;
+        require_ok(tess_dpi_held_index(held, i, index), "held index");
+        return index;
     endfunction
 
     // The i-th coverage bin that a patch hits, numbered as tess_covergroups.svh of tess_uvm; 0 if there

@@ -74,6 +74,21 @@ pub struct TessBatchOutput {
     pub base_vertex: u32,
 }
 
+/// The instance of a function for the formats of an output; `TESS_UNKNOWN_VALUE` if it names none.
+macro_rules! in_formats {
+    ($output:expr, $function:ident) => {{
+        use crate::batch::{TESS_INDEX_U16, TESS_INDEX_U32, TESS_POINT_F32, TESS_POINT_FIXED};
+        match ($output.point_format, $output.index_type) {
+            (TESS_POINT_FIXED, TESS_INDEX_U32) => $function::<tess_core::DomainPoint, u32>,
+            (TESS_POINT_FIXED, TESS_INDEX_U16) => $function::<tess_core::DomainPoint, u16>,
+            (TESS_POINT_F32, TESS_INDEX_U32) => $function::<[f32; 2], u32>,
+            (TESS_POINT_F32, TESS_INDEX_U16) => $function::<[f32; 2], u16>,
+            _ => return Err(crate::status::TESS_UNKNOWN_VALUE),
+        }
+    }};
+}
+pub(super) use in_formats;
+
 // The structures that the batch backend writes have the layout of those here.
 const _: () = {
     assert!(size_of::<TessRange>() == size_of::<PatchRange>(), "ranges have the same size");

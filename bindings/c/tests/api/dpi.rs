@@ -2,6 +2,10 @@
 
 use super::samples::{self, Sample, samples};
 use std::ptr::null_mut;
+use tess_capi::dpi::held::{
+    TessHeldPatch, tess_dpi_close, tess_dpi_held_index, tess_dpi_held_point, tess_dpi_open,
+    tess_dpi_patch,
+};
 use tess_capi::dpi::{
     tess_dpi_context, tess_dpi_count, tess_dpi_coverage, tess_dpi_place, tess_dpi_point,
     tess_dpi_primitive, tess_dpi_process,
@@ -77,6 +81,74 @@ fn primitives() {
         let expected = s.patch.primitive(t).map(|p| p.indices().to_vec());
         assert_eq!(observed, expected, "primitive {t} of {:?}, status {status}", s.factors);
     }
+}
+
+/// Whole patches, one after another in the handle of their configuration: every element, and none behind.
+#[test]
+fn held_patches() {
+    let mut open: Vec<(TessConfig, *mut TessHeldPatch)> = Vec::new();
+    for s in samples() {
+        let held = held(&mut open, s.config);
+        let [f0, f1, f2, f3, f4, f5] = bits(&s);
+        let mut out = [0u32; 3];
+        let [a, b, c] = out.each_mut().map(|slot| &raw mut *slot);
+        let status = unsafe { tess_dpi_patch(held, f0, f1, f2, f3, f4, f5, a, b, c) };
+        let counts = samples::counts(s.patch.counts());
+        let expected = [counts.points, counts.primitives, counts.indices];
+        assert_eq!((status, out), (TESS_OK, expected), "sizes of {:?}", s.factors);
+        let (points, indices) = unsafe { elements(held, counts.points, counts.indices) };
+        let whole = s.patch.tessellate();
+        let bits = |point: &tess_core::DomainPoint| [point.u.to_bits(), point.v.to_bits()];
+        let expected: Vec<_> = whole.points.iter().map(bits).collect();
+        assert_eq!(points, expected, "points of {:?} {:?}", s.config, s.factors);
+        assert_eq!(indices, whole.indices, "indices of {:?} {:?}", s.config, s.factors);
+    }
+    for (_, held) in open {
+        unsafe { tess_dpi_close(held) };
+    }
+    unsafe { tess_dpi_close(null_mut()) };
+}
+
+/// The handle of a configuration.
+fn held(
+    open: &mut Vec<(TessConfig, *mut TessHeldPatch)>,
+    config: TessConfig,
+) -> *mut TessHeldPatch {
+    let parts = |c: &TessConfig| [c.domain, c.partitioning, c.output, c.split];
+    if let Some((_, held)) = open.iter().find(|(other, _)| parts(other) == parts(&config)) {
+        return *held;
+    }
+    let mut held = null_mut();
+    let TessConfig { domain, partitioning, output, split } = config;
+    let status = unsafe { tess_dpi_open(domain, partitioning, output, split, &mut held) };
+    assert_eq!(status, TESS_OK, "{config:?}");
+    let first = unsafe { elements(held, 0, 0) };
+    assert_eq!(first, (Vec::new(), Vec::new()), "no patch yet");
+    open.push((config, held));
+    held
+}
+
+/// All points and indices of the patch that is held; there are none behind them.
+unsafe fn elements(
+    held: *const TessHeldPatch,
+    points: u32,
+    indices: u32,
+) -> (Vec<[u32; 2]>, Vec<u32>) {
+    let point = |i| {
+        let [mut u, mut v] = [0; 2];
+        let status = unsafe { tess_dpi_held_point(held, i, &mut u, &mut v) };
+        assert_eq!(status == TESS_OK, i < points, "point {i} of {points}: status {status}");
+        [u, v]
+    };
+    let index = |i| {
+        let mut index = 0;
+        let status = unsafe { tess_dpi_held_index(held, i, &mut index) };
+        assert_eq!(status == TESS_OK, i < indices, "index {i} of {indices}: status {status}");
+        index
+    };
+    let behind = (point(points), index(indices));
+    assert_eq!(behind, ([0, 0], 0), "nothing is written");
+    ((0..points).map(point).collect(), (0..indices).map(index).collect())
 }
 
 /// The numbers of the bins give the coverage that the verification kit counts.
@@ -205,6 +277,18 @@ fn refusals_write_nothing() {
         assert_eq!(last, TESS_NULL_POINTER, "the last output is null");
         let last = tess_dpi_place(0x2_0000, 0, 0, 0, a, b, c, d, e, null_mut());
         assert_eq!(last, TESS_NULL_POINTER, "the last output is null");
+        let none = null_mut();
+        assert_eq!(
+            tess_dpi_open(0, 0, 0, 0, null_mut()),
+            TESS_NULL_POINTER,
+            "no room for a handle"
+        );
+        let mut held = none;
+        assert_eq!(tess_dpi_open(3, 0, 0, 0, &mut held), TESS_UNKNOWN_VALUE, "no such domain");
+        assert!(held.is_null(), "nothing was made");
+        assert_eq!(tess_dpi_patch(none, 0, 0, 0, 0, 0, 0, a, b, c), TESS_NULL_POINTER, "no handle");
+        assert_eq!(tess_dpi_held_point(none, 0, a, b), TESS_NULL_POINTER, "no handle");
+        assert_eq!(tess_dpi_held_index(none, 0, a), TESS_NULL_POINTER, "no handle");
     }
     assert_eq!(out, [7; 6], "nothing was written");
 }
