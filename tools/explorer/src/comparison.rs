@@ -5,8 +5,8 @@ use crate::{json, thrown};
 use serde::Serialize;
 use std::cell::RefCell;
 use std::collections::HashMap;
-use tess_core::{Config, DomainPoint, Tessellation};
-use tess_simd::{Numbering, Output, Tessellator};
+use tess_core::{Config, Tessellation};
+use tess_simd::{ExactOutput, Numbering, Tessellator};
 use tess_verify::case::Case;
 use tess_verify::compare;
 use tess_verify::drawing::differing;
@@ -58,7 +58,7 @@ fn tessellate(case: Case) -> Result<Tessellation, tess_simd::Error> {
             Some((config, tessellator)) if *config == case.config => tessellator,
             _ => &mut kept.insert((case.config, Tessellator::new(case.config))).1,
         };
-        let mut output: Output<DomainPoint, u32> = Output::new();
+        let mut output = ExactOutput::new();
         kept.tessellate(&[case.factors], Numbering::PerPatch, &mut output)?;
         let (points, indices) = (output.points().to_vec(), output.indices().to_vec());
         Ok(Tessellation { points, indices })

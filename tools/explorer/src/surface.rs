@@ -5,7 +5,7 @@ use crate::thrown;
 use std::f32::consts::TAU;
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::layout::factor_words;
-use tess_simd::{Numbering, Output, Tessellator};
+use tess_simd::{ExactOutput, Numbering, Tessellator};
 use tess_surface::glam::{Vec3, Vec4};
 use tess_surface::{
     Face, FactorRule, Model, PolygonMesh, Sample, Sides, Style, Surface, shaders, teapot,
@@ -211,7 +211,8 @@ impl SurfaceView {
     }
 
     fn tessellate_here(&mut self) -> Result<(), String> {
-        let mut output: Output<[f32; 2], u32> = Output::new();
+        // One kind of points for the whole page: each takes kernels of its own.
+        let mut output = ExactOutput::new();
         let numbering = Numbering::PerBatch { base_vertex: 0 };
         Tessellator::new(self.config)
             .tessellate(&self.factors, numbering, &mut output)
@@ -222,11 +223,12 @@ impl SurfaceView {
     }
 
     /// Every patch's domain points on its surface.
-    fn evaluate(&mut self, output: &Output<[f32; 2], u32>) {
-        let mut vertices = vec![Sample::default(); output.points().len()];
+    fn evaluate(&mut self, output: &ExactOutput) {
+        let all: Vec<[f32; 2]> = output.points().iter().map(|point| point.to_f32()).collect();
+        let mut vertices = vec![Sample::default(); all.len()];
         for (number, range) in output.ranges().iter().enumerate() {
             let own = range.first_point as usize..(range.first_point + range.points) as usize;
-            let (points, samples) = (&output.points()[own.clone()], &mut vertices[own]);
+            let (points, samples) = (&all[own.clone()], &mut vertices[own]);
             self.model.patch(number).samples(points, samples);
         }
         self.vertices = vertices;

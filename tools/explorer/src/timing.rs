@@ -2,7 +2,7 @@
 
 use crate::{json, thrown};
 use std::ops::Range;
-use tess_simd::{Numbering, Output, Tessellator};
+use tess_simd::{ExactOutput, Numbering, Tessellator};
 use tess_verify::workloads::{self, IndexType, Workload};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -23,7 +23,7 @@ pub struct CpuBench {
     workload: Workload,
     batches: Vec<Range<usize>>,
     tessellator: Tessellator,
-    output: Output<[f32; 2], u32>,
+    output: ExactOutput,
 }
 
 #[wasm_bindgen]
@@ -39,7 +39,7 @@ impl CpuBench {
             (Some(workload), true) => {
                 let tessellator = Tessellator::new(workload.config);
                 let batches = workload.cache_batches(IndexType::U32);
-                Ok(Self { workload, batches, tessellator, output: Output::new() })
+                Ok(Self { workload, batches, tessellator, output: ExactOutput::new() })
             }
             _ => Err(thrown(format!("{name} is not the name of one workload"))),
         }
