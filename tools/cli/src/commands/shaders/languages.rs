@@ -15,12 +15,20 @@ pub(super) struct Written {
     pub(super) stage: Described,
 }
 
-impl Translation {
-    /// Writes a stage.
+/// A stage that naga has read, to be written in any language.
+pub(super) struct Read {
+    source: String,
+    module: Module,
+    info: ModuleInfo,
+    stage: Stage,
+}
+
+impl Read {
+    /// Reads a stage.
     ///
     /// # Errors
-    /// The language has no words for something in the stage.
-    pub(super) fn write(self, stage: Stage, setup: Setup) -> Result<Written, String> {
+    /// It is not valid.
+    pub(super) fn new(stage: Stage, setup: Setup) -> Result<Self, String> {
         let source = stage.source(setup);
         let failed = |error: &dyn std::fmt::Display| format!("{}: {error}", stage.entry_point());
         let module = naga::front::wgsl::parse_str(&source)
@@ -28,29 +36,47 @@ impl Translation {
         let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
         let info =
             validator.validate(&module).map_err(|error| failed(&error.emit_to_string(&source)))?;
-        let parsed = Parsed { module: &module, info: &info, stage };
+        Ok(Self { source, module, info, stage })
+    }
+}
+
+impl Translation {
+    /// Writes a stage.
+    ///
+    /// # Errors
+    /// The language has no words for something in the stage.
+    pub(super) fn write(self, stage: Stage, setup: Setup) -> Result<Written, String> {
+        self.write_read(&Read::new(stage, setup)?)
+    }
+
+    /// Writes a stage that was read.
+    ///
+    /// # Errors
+    /// The language has no words for something in the stage.
+    pub(super) fn write_read(self, read: &Read) -> Result<Written, String> {
+        let stage = read.stage;
         let (text, entry_point) = match self.target {
-            Target::Wgsl => (source.clone().into_bytes(), stage.entry_point().to_owned()),
-            Target::Spirv => self.spirv(parsed)?,
-            Target::Glsl => self.glsl(parsed)?,
-            Target::Hlsl => self.hlsl(parsed)?,
-            Target::Msl => self.msl(parsed)?,
+            Target::Wgsl => (read.source.clone().into_bytes(), stage.entry_point().to_owned()),
+            Target::Spirv => self.spirv(read)?,
+            Target::Glsl => self.glsl(read)?,
+            Target::Hlsl => self.hlsl(read)?,
+            Target::Msl => self.msl(read)?,
         };
         let file = format!("{}.{}", stage.entry_point(), self.target.extension());
-        let described = self.describe(parsed, file.clone(), entry_point);
+        let described = self.describe(read, file.clone(), entry_point);
         Ok(Written { file, text, stage: described })
     }
 
-    fn describe(self, parsed: Parsed<'_>, file: String, entry_point: String) -> Described {
+    fn describe(self, read: &Read, file: String, entry_point: String) -> Described {
         let sizes = (self.target == Target::Msl && self.checks == Checks::Full)
-            .then(|| Sizes { buffer: parsed.sizes_slot(), of_bindings: parsed.unsized_bindings() })
+            .then(|| Sizes { buffer: read.sizes_slot(), of_bindings: read.unsized_bindings() })
             .filter(|sizes| !sizes.of_bindings.is_empty());
         Described {
-            name: parsed.stage.entry_point(),
+            name: read.stage.entry_point(),
             file,
             entry_point,
-            workgroup_size: parsed.module.entry_points[0].workgroup_size,
-            bindings: parsed.bindings().collect(),
+            workgroup_size: read.module.entry_points[0].workgroup_size,
+            bindings: read.bindings().collect(),
             msl_sizes: sizes,
         }
     }
@@ -72,7 +98,7 @@ impl Translation {
         self.checks == Checks::Full
     }
 
-    fn spirv(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
+    fn spirv(self, read: &Read) -> Result<(Vec<u8>, String), String> {
         let options = spv::Options {
             lang_version: (1, 3),
             flags: spv::WriterFlags::empty(),
@@ -82,43 +108,43 @@ impl Translation {
             emit_int_div_checks: self.is_checked(),
             ..spv::Options::default()
         };
-        let words = spv::write_vec(parsed.module, parsed.info, &options, None)
-            .map_err(|error| parsed.failed("SPIR-V", &error))?;
+        let words = spv::write_vec(&read.module, &read.info, &options, None)
+            .map_err(|error| read.failed("SPIR-V", &error))?;
         let bytes = words.iter().flat_map(|word| word.to_le_bytes()).collect();
-        Ok((bytes, parsed.stage.entry_point().to_owned()))
+        Ok((bytes, read.stage.entry_point().to_owned()))
     }
 
-    fn glsl(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
+    fn glsl(self, read: &Read) -> Result<(Vec<u8>, String), String> {
         let options = glsl::Options {
             version: glsl::Version::Desktop(430),
             writer_flags: glsl::WriterFlags::empty(),
-            binding_map: parsed.map(|binding| u8::try_from(binding).unwrap_or(u8::MAX)).collect(),
+            binding_map: read.map(|binding| u8::try_from(binding).unwrap_or(u8::MAX)).collect(),
             zero_initialize_workgroup_memory: false,
         };
         let pipeline = glsl::PipelineOptions {
             shader_stage: ShaderStage::Compute,
-            entry_point: parsed.stage.entry_point().to_owned(),
+            entry_point: read.stage.entry_point().to_owned(),
             multiview: None,
         };
         let mut text = String::new();
         glsl::Writer::new(
             &mut text,
-            parsed.module,
-            parsed.info,
+            &read.module,
+            &read.info,
             &options,
             &pipeline,
             self.policies(),
         )
         .and_then(|mut writer| writer.write())
-        .map_err(|error| parsed.failed("GLSL", &error))?;
+        .map_err(|error| read.failed("GLSL", &error))?;
         Ok((text.into_bytes(), "main".to_owned()))
     }
 
-    fn hlsl(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
+    fn hlsl(self, read: &Read) -> Result<(Vec<u8>, String), String> {
         let target = |register| hlsl::BindTarget { register, ..Default::default() };
         let options = hlsl::Options {
             shader_model: hlsl::ShaderModel::V5_1,
-            binding_map: parsed.map(target).collect(),
+            binding_map: read.map(target).collect(),
             fake_missing_bindings: false,
             zero_initialize_workgroup_memory: false,
             restrict_indexing: self.is_checked(),
@@ -128,26 +154,26 @@ impl Translation {
         let mut text = String::new();
         let pipeline = hlsl::PipelineOptions::default();
         let info = hlsl::Writer::new(&mut text, &options, &pipeline)
-            .write(parsed.module, parsed.info, None)
-            .map_err(|error| parsed.failed("HLSL", &error))?;
-        let name = parsed.named("HLSL", &info.entry_point_names)?;
+            .write(&read.module, &read.info, None)
+            .map_err(|error| read.failed("HLSL", &error))?;
+        let name = read.named("HLSL", &info.entry_point_names)?;
         Ok((with_unsigned_zeros(&text).into_bytes(), name))
     }
 
-    fn msl(self, parsed: Parsed<'_>) -> Result<(Vec<u8>, String), String> {
+    fn msl(self, read: &Read) -> Result<(Vec<u8>, String), String> {
         let target = |slot: u32| msl::BindTarget {
             buffer: u8::try_from(slot).ok(),
             mutable: true,
             ..Default::default()
         };
         let resources = msl::EntryPointResources {
-            resources: parsed.map(target).collect(),
-            sizes_buffer: u8::try_from(parsed.sizes_slot()).ok(),
+            resources: read.map(target).collect(),
+            sizes_buffer: u8::try_from(read.sizes_slot()).ok(),
             ..Default::default()
         };
         let options = msl::Options {
             lang_version: (2, 0),
-            per_entry_point_map: [(parsed.stage.entry_point().to_owned(), resources)].into(),
+            per_entry_point_map: [(read.stage.entry_point().to_owned(), resources)].into(),
             fake_missing_bindings: false,
             bounds_check_policies: self.policies(),
             zero_initialize_workgroup_memory: false,
@@ -156,9 +182,9 @@ impl Translation {
             ..msl::Options::default()
         };
         let pipeline = msl::PipelineOptions::default();
-        let (text, info) = msl::write_string(parsed.module, parsed.info, &options, &pipeline)
-            .map_err(|error| parsed.failed("MSL", &error))?;
-        let name = parsed.named("MSL", &info.entry_point_names)?;
+        let (text, info) = msl::write_string(&read.module, &read.info, &options, &pipeline)
+            .map_err(|error| read.failed("MSL", &error))?;
+        let name = read.named("MSL", &info.entry_point_names)?;
         Ok((text.into_bytes(), name))
     }
 }
@@ -175,22 +201,14 @@ impl Target {
     }
 }
 
-/// A stage that naga has read.
-#[derive(Clone, Copy)]
-struct Parsed<'a> {
-    module: &'a Module,
-    info: &'a ModuleInfo,
-    stage: Stage,
-}
-
-impl Parsed<'_> {
+impl Read {
     /// Each binding with what stands for it in a language that numbers bindings of all kinds together.
-    fn map<T>(self, target: impl Fn(u32) -> T) -> impl Iterator<Item = (ResourceBinding, T)> {
+    fn map<T>(&self, target: impl Fn(u32) -> T) -> impl Iterator<Item = (ResourceBinding, T)> {
         let count = u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX);
         (0..count).map(move |binding| (ResourceBinding { group: 0, binding }, target(binding)))
     }
 
-    fn bindings(self) -> impl Iterator<Item = Binding> {
+    fn bindings(&self) -> impl Iterator<Item = Binding> {
         (0..).zip(self.stage.bindings()).map(|(binding, of)| {
             let is_written = of.1 == Access::ReadWrite;
             let kind = if of.0 == Resource::Job { Kind::Uniform } else { Kind::Storage };
@@ -205,12 +223,12 @@ impl Parsed<'_> {
     }
 
     /// Metal's first buffer slot behind the bindings.
-    fn sizes_slot(self) -> u32 {
+    fn sizes_slot(&self) -> u32 {
         u32::try_from(self.stage.bindings().len()).unwrap_or(u32::MAX)
     }
 
     /// The bindings whose length only the host knows, in the order in which naga's MSL asks for them.
-    fn unsized_bindings(self) -> Vec<u32> {
+    fn unsized_bindings(&self) -> Vec<u32> {
         let ends_open = |inner: &TypeInner| match inner {
             TypeInner::Array { size: naga::ArraySize::Dynamic, .. } => true,
             TypeInner::Struct { members, .. } => members.last().is_some_and(|member| {
@@ -226,13 +244,13 @@ impl Parsed<'_> {
             .collect()
     }
 
-    fn failed(self, language: &str, error: &dyn std::fmt::Display) -> String {
+    fn failed(&self, language: &str, error: &dyn std::fmt::Display) -> String {
         format!("{} has no words for {}: {error}", language, self.stage.entry_point())
     }
 
     /// The name that the entry point has in a language.
     fn named<E: std::fmt::Display>(
-        self,
+        &self,
         language: &str,
         names: &[Result<String, E>],
     ) -> Result<String, String> {

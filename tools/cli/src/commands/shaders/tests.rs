@@ -1,5 +1,6 @@
 //! The formulas against the plan, and every language against a compiler that is not naga.
 
+use super::languages::Read;
 use super::plan::{self, Count, Variant};
 use super::translation::{Checks, Target, Translation};
 use super::{Shaders, header};
@@ -121,10 +122,11 @@ fn every_language_has_words_for_every_stage() {
 }
 
 fn every_language_has_words(stage: tess_gpu::Stage, setup: Setup) {
+    let read = Read::new(stage, setup).expect("it is valid");
     for target in [Target::Glsl, Target::Hlsl, Target::Msl, Target::Spirv] {
         for checks in [Checks::Full, Checks::None] {
             let translation = Translation { target, checks };
-            let written = translation.write(stage, setup).expect("it has words");
+            let written = translation.write_read(&read).expect("it has words");
             let text = String::from_utf8_lossy(&written.text);
             assert!(!text.contains("NagaConstants"), "{target:?} {stage:?}");
             // HLSL has no numbers of workgroups: naga writes the workgroup's own again.
