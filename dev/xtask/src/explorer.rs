@@ -17,24 +17,6 @@ const LARGEST: u64 = 1_500_000;
 /// The version of the library that drives the browser.
 const PLAYWRIGHT: &str = "playwright-core@1.65.1";
 
-/// What the build needs beyond Rust.
-const PAGE: &[Need] = &[Need {
-    what: "wasm-opt of binaryen (makes the page smaller)",
-    packages: &["binaryen"],
-    is_there: || has_program("wasm-opt"),
-}];
-
-/// What the compiler uses of WebAssembly beyond its first version, as wasm-opt names it.
-const USED: &[&str] = &[
-    "--enable-bulk-memory",
-    "--enable-multivalue",
-    "--enable-mutable-globals",
-    "--enable-nontrapping-float-to-int",
-    "--enable-reference-types",
-    "--enable-sign-ext",
-    "--enable-simd",
-];
-
 /// What the browser tests need beyond what the build installs.
 const BROWSER: &[Need] = &[
     Need {
@@ -54,7 +36,6 @@ const BROWSER: &[Need] = &[
 /// # Errors
 /// A step that fails, or a page that is too large to load quickly.
 pub(crate) fn build() -> Result<(), String> {
-    setup::provide(PAGE)?;
     setup::target(TARGET)?;
     let mut library = cargo("build --package tess-explorer --profile wasm --target");
     library.arg(TARGET);
@@ -66,7 +47,6 @@ pub(crate) fn build() -> Result<(), String> {
         fs::remove_dir_all(&page).map_err(|error| in_file(&page, &error))?;
     }
     bind("wasm/tess_explorer.wasm", &page)?;
-    shrink(&page.join("tess_explorer_bg.wasm"))?;
     for file in files(&source().join("web"))? {
         let to = page.join(file.file_name().unwrap_or_default());
         fs::copy(&file, &to).map_err(|error| in_file(&file, &error))?;
@@ -86,12 +66,6 @@ fn bind(file: &str, folder: &Path) -> Result<(), String> {
     bindgen.arg(source().join("bindgen/Cargo.toml"));
     bindgen.arg("--target-dir").arg(target().join("explorer-bindgen")).arg("--");
     command::run(bindgen.arg(target().join(TARGET).join(file)).arg(folder))
-}
-
-/// Optimises a WebAssembly file for size, in its place.
-fn shrink(file: &Path) -> Result<(), String> {
-    let mut shrink = Command::new("wasm-opt");
-    command::run(shrink.arg("-Os").args(USED).arg(file).arg("-o").arg(file))
 }
 
 /// Builds the page and serves it until the command is stopped.
