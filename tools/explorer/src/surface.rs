@@ -211,7 +211,6 @@ impl SurfaceView {
     }
 
     fn tessellate_here(&mut self) -> Result<(), String> {
-        // One kind of points for the whole page: each takes kernels of its own.
         let mut output = ExactOutput::new();
         let numbering = Numbering::PerBatch { base_vertex: 0 };
         Tessellator::new(self.config)
