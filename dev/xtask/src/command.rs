@@ -25,6 +25,16 @@ pub(crate) fn built_program() -> PathBuf {
     target().join("debug").join(format!("tess{}", std::env::consts::EXE_SUFFIX))
 }
 
+/// Cargo's own folder, with the sources of dependencies.
+///
+/// # Errors
+/// There is no home directory.
+pub(crate) fn cargo_home() -> Result<PathBuf, String> {
+    let own = std::env::var_os("CARGO_HOME").map(PathBuf::from);
+    let home = own.or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
+    home.ok_or_else(|| "neither CARGO_HOME nor a home directory".into())
+}
+
 /// The message of an error with a file.
 pub(crate) fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
     format!("{}: {error}", path.display())

@@ -38,10 +38,7 @@ const BROWSER: &[Need] = &[
 pub(crate) fn build() -> Result<(), String> {
     setup::target(TARGET)?;
     let mut library = cargo("build --package tess-explorer --profile wasm --target");
-    library.arg(TARGET);
-    // Every browser with WebGPU has SIMD, and so has every other one since 2023.
-    library.env("CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS", "-C target-feature=+simd128");
-    command::run(&mut library)?;
+    command::run(library.arg(TARGET).env("CARGO_ENCODED_RUSTFLAGS", flags()?))?;
     let page = page();
     if page.exists() {
         fs::remove_dir_all(&page).map_err(|error| in_file(&page, &error))?;
@@ -58,6 +55,19 @@ pub(crate) fn build() -> Result<(), String> {
         return Err(format!("the page has {bytes} bytes; it may have {LARGEST}"));
     }
     Ok(())
+}
+
+/// Flags of the compiler, separated as cargo wants them. Every browser with WebGPU has SIMD, and so has every
+/// other one since 2023. Messages of panics name files of dependencies without this machine's folders,
+/// so that the page has the same size everywhere.
+fn flags() -> Result<String, String> {
+    command::run(cargo("fetch --locked --target").arg(TARGET))?;
+    let sources = command::cargo_home()?.join("registry/src");
+    let mut flags = vec!["-Ctarget-feature=+simd128".to_owned()];
+    for registry in fs::read_dir(&sources).into_iter().flatten().flatten() {
+        flags.push(format!("--remap-path-prefix={}/=", registry.path().display()));
+    }
+    Ok(flags.join("\u{1f}"))
 }
 
 /// Writes the JavaScript module of a WebAssembly file of the target folder.

@@ -22,10 +22,7 @@ pub(crate) fn dry_run() -> Result<(), String> {
 /// Removes what an earlier dry run left of the packages. Cargo takes them from a registry that is a
 /// folder, and believes that a version in a registry never changes: it would build old sources, or none.
 fn forget_packages() -> Result<(), String> {
-    let own = std::env::var_os("CARGO_HOME").map(PathBuf::from);
-    let home = own.or_else(|| std::env::home_dir().map(|home| home.join(".cargo")));
-    let Some(home) = home else { return Err("neither CARGO_HOME nor a home directory".into()) };
-    let target = command::target();
+    let (home, target) = (command::cargo_home()?, command::target());
     for package in packages::published()? {
         let (with_version, name) = (package.full_name(), format!("{}-", package.name));
         // A registry that is a folder has a name without a host.
