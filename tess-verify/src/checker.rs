@@ -1,5 +1,6 @@
 //! Runs the records of a vector file through a backend.
 
+mod asked;
 mod consistency;
 mod device;
 mod exhaustive;
@@ -8,16 +9,18 @@ mod patches;
 mod report;
 mod stages;
 
+pub use asked::{Asked, WINDOW};
 pub(crate) use patches::tessellate;
-pub use report::{CheckError, Difference, MAX_DIFFERENCES, Report};
+pub use report::{CheckError, Difference, Group, MAX_DIFFERENCES, Report};
 
 use crate::backend::{Backend, BackendError};
 use crate::case::Case;
-use crate::compare::{Element, Mismatch, Stage};
+use crate::compare::Mismatch;
 use crate::known::Known;
 use crate::strength::{Elements, Order, Strength};
 use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
 use crate::workers;
+use asked::Expected;
 use findings::{Findings, Found};
 use std::io::BufRead;
 use std::sync::{Mutex, PoisonError};
@@ -44,9 +47,6 @@ pub struct Checked<'a> {
     pub different: &'a [bool],
 }
 
-/// The cases that were asked, in the order in which a file is to answer them.
-pub type Asked<'a> = &'a mut (dyn Iterator<Item = Result<Case, VectorError>> + Send);
-
 /// Checks every record of a file.
 ///
 /// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
@@ -67,7 +67,8 @@ pub fn check<R: BufRead + Send>(
 }
 
 /// [`check`], and the records must answer the cases that were `asked`, one for one and in this order: a
-/// record that answers another case is a difference, and so is a case without a record.
+/// record that answers another case is a difference, and so is a case without a record. Behind it the
+/// comparison is in step again, if fewer than [`WINDOW`] cases in a row have no record.
 ///
 /// # Errors
 /// The errors of [`check`] and of reading `asked`.
@@ -102,8 +103,8 @@ pub fn check_known<R: BufRead + Send>(
         return Err(CheckError::NoListings(header.kind));
     }
     let how = How { header, tested };
-    let unanswered = Findings::default();
-    let source = Mutex::new(Source { file, asked, unanswered, taken: 0, stopped: None });
+    let expected = asked.map(Expected::new);
+    let source = Mutex::new(Source { file, expected, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, known, backend.as_mut(), checked);
         if result.is_err() {
@@ -161,9 +162,7 @@ struct How {
 /// The records that are still to be checked.
 struct Source<'a, R> {
     file: VectorFile<R>,
-    asked: Option<Asked<'a>>,
-    /// The cases that no record answers.
-    unanswered: Findings,
+    expected: Option<Expected<'a>>,
     taken: u64,
     /// Set when no more records are to be taken before the end, with the reason.
     stopped: Option<Result<(), VectorError>>,
@@ -216,29 +215,15 @@ impl<R: BufRead> Source<'_, R> {
                            primitives, or points in any order";
             return Err(self.file.error_at(record.line(), "coordinates", message));
         }
-        let Some(asked) = &mut self.asked else { return Ok((record, None)) };
-        let (expected, observed) = (asked.next().transpose()?, record.case());
-        let is_astray = expected.is_none() || expected != observed;
-        let astray = is_astray.then(|| other_answer(observed, expected));
+        let Some(expected) = &mut self.expected else { return Ok((record, None)) };
+        let astray = expected.answer(record.case())?;
         Ok((record, astray))
     }
 
     /// The cases that no record answers.
-    fn finish(mut self) -> Result<Findings, VectorError> {
-        let Some(asked) = self.asked else { return Ok(self.unanswered) };
-        for case in asked {
-            self.taken += 1;
-            let found = Found::new(Some(other_answer(None, Some(case?))), None);
-            self.unanswered.add(self.taken, None, found, || None);
-        }
-        Ok(self.unanswered)
+    fn finish(self) -> Result<Findings, VectorError> {
+        self.expected.map_or_else(|| Ok(Findings::default()), Expected::finish)
     }
-}
-
-fn other_answer(observed: Option<Case>, expected: Option<Case>) -> Mismatch {
-    let show = |case: Option<Case>| case.map_or("none".to_owned(), |case| case.to_string());
-    let (observed, expected) = (show(observed), show(expected));
-    Mismatch { element: Element::Case, observed, expected, stage: Stage::Answer }
 }
 
 /// Single patches are handed over in batches; a row of the other kinds is a whole batch.

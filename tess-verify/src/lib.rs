@@ -23,6 +23,7 @@ pub mod readmemh;
 pub mod rules;
 pub mod second;
 mod sequences;
+pub mod stage_vectors;
 pub mod strength;
 pub mod vectors;
 pub mod verify;

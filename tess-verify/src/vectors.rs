@@ -53,6 +53,14 @@ pub struct VectorFile<R> {
     /// Whether the line that marks the end was read.
     marked: bool,
     ended: bool,
+    emptiness: Emptiness,
+}
+
+/// Whether a file may have no record.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Emptiness {
+    Refused,
+    Accepted,
 }
 
 impl<R: BufRead> VectorFile<R> {
@@ -61,11 +69,26 @@ impl<R: BufRead> VectorFile<R> {
     /// # Errors
     /// An empty file, or a header or column names of another format.
     pub fn new(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
-        let mut lines = Lines::new(name.as_ref(), reader);
+        Self::open(name.as_ref(), reader, Emptiness::Refused)
+    }
+
+    /// [`Self::new`], for a file that may have no record: an empty shard's, or the failures of a run without any.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn maybe_empty(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
+        Self::open(name.as_ref(), reader, Emptiness::Accepted)
+    }
+
+    fn open(name: &str, reader: R, emptiness: Emptiness) -> Result<Self, VectorError> {
+        let mut lines = Lines::new(name, reader);
         let header = match lines.next()? {
             Some(first) => Header::parse(first)?,
             None => return Err(lines.error("header", Header::missing("an empty file"))),
         };
+        if header.count == Some(0) && emptiness == Emptiness::Refused {
+            return Err(lines.error("count", "is 0; a file without records shows nothing"));
+        }
         if let Some(columns) = header.kind.columns() {
             let found = lines.expect("columns")?;
             let expected = columns.join(",");
@@ -75,7 +98,7 @@ impl<R: BufRead> VectorFile<R> {
                 return Err(found.error("columns", message));
             }
         }
-        Ok(Self { lines, header, records: 0, marked: false, ended: false })
+        Ok(Self { lines, header, records: 0, marked: false, ended: false, emptiness })
     }
 
     /// What the first line says.
@@ -96,7 +119,7 @@ impl<R: BufRead> VectorFile<R> {
             return if is_whole { Ok(None) } else { Err(self.truncated()) };
         };
         if line.text == END && !self.marked && (announced.is_none() || is_whole) {
-            if records == 0 {
+            if records == 0 && self.emptiness == Emptiness::Refused {
                 return Err(line.error("end", "a file without records shows nothing"));
             }
             self.marked = true;

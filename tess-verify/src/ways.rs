@@ -49,8 +49,12 @@ impl Way {
         Self::MirroredV,
     ];
 
-    /// Those that turn a whole output round.
-    pub const TURNS: [Self; 5] = [
+    /// What may explain every difference of a file: the freedoms of `tess check`'s options first, then what turns a
+    /// whole output round.
+    pub const OF_FILES: [Self; 8] = [
+        Self::Flush,
+        Self::Conversion,
+        Self::FlushAndConversion,
         Self::Reversed,
         Self::Transposed,
         Self::TransposedReversed,
@@ -62,6 +66,17 @@ impl Way {
     #[must_use]
     pub const fn is_allowed(self) -> bool {
         matches!(self, Self::Flush | Self::Conversion | Self::FlushAndConversion | Self::Clamping)
+    }
+
+    /// The options of `tess check` under which this counts as equal; empty if there are none.
+    #[must_use]
+    pub const fn options(self) -> &'static str {
+        match self {
+            Self::Flush => "--denormals flush",
+            Self::Conversion => "--conversion 0.6ulp",
+            Self::FlushAndConversion => "--denormals flush --conversion 0.6ulp",
+            _ => "",
+        }
     }
 
     /// What the device does, in words.

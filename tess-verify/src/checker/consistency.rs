@@ -3,7 +3,7 @@
 //! Within 0.6 units in the last place some values have two legal fixed-point numbers. A device may
 //! take either, but always the same one: neighbouring patches meet because of that.
 
-use super::report::Turns;
+use super::report::Explained;
 use super::{Difference, Report};
 use crate::case::Case;
 use crate::compare::{Element, Mismatch, Stage};
@@ -29,15 +29,9 @@ pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
     for used in uses {
         if let Some(mismatch) = conflict(&used, &mut known) {
             let Use { number, line, case, .. } = used;
-            report.mismatches += 1;
-            report.explain(Turns::default());
-            report.differences.push(Difference {
-                number,
-                line,
-                mismatch,
-                case: Some(case),
-                file: None,
-            });
+            let case = Some(case);
+            report.explain(Explained::default());
+            report.differ(Difference { number, line, mismatch, case, file: None });
         }
     }
     report

@@ -1,7 +1,7 @@
 //! Observations of a device under test, compared with the model.
 
 use super::Found;
-use super::report::Turns;
+use super::report::Explained;
 use crate::case::Case;
 use crate::compare::{self, Element, Mismatch, Stage};
 use crate::generate::from_fixed;
@@ -18,7 +18,9 @@ pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) ->
         Some(conversions) if conversions.values.is_empty() => Found::Equal,
         Some(conversions) => Found::Converted(*case, conversions),
         None => match first_mismatch(case, observed, strength) {
-            Some(mismatch) => Found::Turned(mismatch, *case, turns(case, observed, strength)),
+            Some(mismatch) => {
+                Found::Explained(mismatch, *case, explained(case, observed, strength))
+            }
             None => Found::Equal,
         },
     }
@@ -43,9 +45,9 @@ pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -
     }
 }
 
-/// Which mistakes that turn outputs round explain an output.
-fn turns(case: &Case, observed: &Tessellation, strength: Strength) -> Turns {
-    Way::TURNS.map(|way| way.explains(case, observed, strength, 64))
+/// What explains an output: freedoms that were not granted, and mistakes that turn it round.
+fn explained(case: &Case, observed: &Tessellation, strength: Strength) -> Explained {
+    Way::OF_FILES.map(|way| way.explains(case, observed, strength, 64))
 }
 
 /// The first difference to the output that is the nearest of the legal ones.

@@ -1,8 +1,8 @@
 //! What is found record by record, and what it adds up to.
 
 use super::consistency::{Use, conflicts};
-use super::report::Turns;
-use super::{Difference, MAX_DIFFERENCES, Report};
+use super::report::Explained;
+use super::{Difference, Report};
 use crate::case::Case;
 use crate::compare::Mismatch;
 use crate::known::Known;
@@ -16,8 +16,8 @@ pub(super) enum Found {
     Converted(Case, Conversions),
     /// What is wrong with it, and the patch that shows it, if one does.
     Different(Mismatch, Option<Case>),
-    /// What is wrong with a device's output for a case, and which turns explain it.
-    Turned(Mismatch, Case, Turns),
+    /// What is wrong with a device's output for a case, and what explains it.
+    Explained(Mismatch, Case, Explained),
     /// It differs, and that is known.
     Known,
 }
@@ -25,7 +25,7 @@ pub(super) enum Found {
 impl Found {
     /// Whether the record differs, as far as it shows on its own.
     pub(super) const fn is_different(&self) -> bool {
-        matches!(self, Self::Different(..) | Self::Turned(..))
+        matches!(self, Self::Different(..) | Self::Explained(..))
     }
 
     /// The same, unless it is a difference that is known of this case.
@@ -63,23 +63,29 @@ impl Findings {
                 self.uses.push(Use { number, line, case, conversions });
             }
             Found::Different(mismatch, case) => {
-                self.report.explain(Turns::default());
-                self.differ(Difference { number, line, mismatch, case, file: None }, file);
+                let difference = Difference { number, line, mismatch, case, file: None };
+                self.differ(difference, Explained::default(), file);
             }
-            Found::Turned(mismatch, case, turns) => {
-                self.report.explain(turns);
+            Found::Explained(mismatch, case, explained) => {
                 let case = Some(case);
-                self.differ(Difference { number, line, mismatch, case, file: None }, file);
+                self.differ(
+                    Difference { number, line, mismatch, case, file: None },
+                    explained,
+                    file,
+                );
             }
         }
     }
 
-    fn differ(&mut self, difference: Difference, file: impl FnOnce() -> Option<String>) {
-        self.report.mismatches += 1;
-        *self.report.stages.entry(difference.mismatch.stage).or_default() += 1;
-        if self.report.differences.len() < MAX_DIFFERENCES {
-            self.report.differences.push(Difference { file: file(), ..difference });
-        }
+    fn differ(
+        &mut self,
+        difference: Difference,
+        explained: Explained,
+        file: impl FnOnce() -> Option<String>,
+    ) {
+        self.report.explain(explained);
+        let file = if self.report.shows(&difference) { file() } else { None };
+        self.report.differ(Difference { file, ..difference });
     }
 
     /// Adds what another worker found.

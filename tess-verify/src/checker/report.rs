@@ -1,11 +1,17 @@
 //! What a check found.
 
+mod group;
+mod origin;
+
+pub use group::Group;
+
 use crate::backend::BackendError;
 use crate::case::Case;
-use crate::compare::{Mismatch, Stage};
+use crate::compare::{Element, Mismatch, Stage};
 use crate::names::Named;
 use crate::vectors::{Header, Kind, Record, VectorError};
 use crate::ways::Way;
+use group::Groups;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -20,44 +26,78 @@ pub struct Report {
     pub cases: u64,
     /// Records that differ, and are not [`Known`](crate::known::Known).
     pub mismatches: u64,
-    /// How many of them point to each stage.
-    pub stages: BTreeMap<Stage, u64>,
     /// Records that differ and are known.
     pub known: u64,
     /// The first differences, at most [`MAX_DIFFERENCES`], in the order of the file.
     pub differences: Vec<Difference>,
+    groups: Groups,
     /// What explains every difference so far; `None` if there is none.
-    turns: Option<Turns>,
+    explained: Option<Explained>,
 }
 
-/// For each of [`Way::TURNS`], whether it explains an output.
-pub(super) type Turns = [bool; Way::TURNS.len()];
+/// For each of [`Way::OF_FILES`], whether it explains an output.
+pub(super) type Explained = [bool; Way::OF_FILES.len()];
 
 impl Report {
     /// The one mistake that turns outputs round and explains every difference, if one does.
     #[must_use]
     pub fn turn(&self) -> Option<Way> {
-        let turns = self.turns?;
-        Way::TURNS.into_iter().zip(turns).find_map(|(way, explains)| explains.then_some(way))
+        self.explanation(|way| !way.is_allowed())
     }
 
-    /// Adds which turns explain a difference.
-    pub(super) fn explain(&mut self, turns: Turns) {
-        let before = self.turns.unwrap_or([true; Way::TURNS.len()]);
-        self.turns = Some(std::array::from_fn(|i| before[i] && turns[i]));
+    /// The freedom that was not granted and explains every difference, each on its own, if one does:
+    /// [`Way::options`] says how to grant it.
+    #[must_use]
+    pub fn freedom(&self) -> Option<Way> {
+        self.explanation(Way::is_allowed)
+    }
+
+    /// The differences by stage and configuration, the one with the smallest case first.
+    #[must_use]
+    pub fn groups(&self) -> Vec<Group> {
+        self.groups.sorted()
+    }
+
+    /// How many mismatches point to each stage: the sums of the [groups](Self::groups).
+    #[must_use]
+    pub fn stages(&self) -> BTreeMap<Stage, u64> {
+        self.groups.stages()
+    }
+
+    fn explanation(&self, wanted: impl Fn(Way) -> bool) -> Option<Way> {
+        let ways = Way::OF_FILES.into_iter().zip(self.explained?);
+        ways.filter(|(_, explains)| *explains).map(|(way, _)| way).find(|way| wanted(*way))
+    }
+
+    /// Adds what explains a difference.
+    pub(super) fn explain(&mut self, explained: Explained) {
+        let before = self.explained.unwrap_or([true; Way::OF_FILES.len()]);
+        self.explained = Some(std::array::from_fn(|i| before[i] && explained[i]));
+    }
+
+    /// Whether a difference is one of those that are shown in full: of the first, or the smallest of a group.
+    pub(super) fn shows(&self, difference: &Difference) -> bool {
+        self.differences.len() < MAX_DIFFERENCES || self.groups.has_smallest(difference)
+    }
+
+    /// Adds a difference.
+    pub(super) fn differ(&mut self, difference: Difference) {
+        self.mismatches += 1;
+        self.groups.add(&difference);
+        if self.differences.len() < MAX_DIFFERENCES {
+            self.differences.push(difference);
+        }
     }
 
     /// Adds what another worker found.
     pub(super) fn add(&mut self, other: Self) {
-        if let Some(turns) = other.turns {
-            self.explain(turns);
+        if let Some(explained) = other.explained {
+            self.explain(explained);
         }
         self.cases += other.cases;
         self.mismatches += other.mismatches;
         self.known += other.known;
-        for (stage, more) in other.stages {
-            *self.stages.entry(stage).or_default() += more;
-        }
+        self.groups.join(other.groups);
         self.differences.extend(other.differences);
         self.differences.sort_by_key(|difference| difference.number);
         self.differences.truncate(MAX_DIFFERENCES);
@@ -114,6 +154,9 @@ pub(super) fn file_of(header: &Header, record: &Record) -> Option<String> {
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "record {}", self.number)?;
+        if self.mismatch.element == Element::Record {
+            write!(f, " is missing")?;
+        }
         if let Some(line) = self.line {
             write!(f, " (line {line})")?;
         }

@@ -72,6 +72,8 @@ pub enum Element {
     },
     /// The case that a record answers.
     Case,
+    /// The record that answers a case.
+    Record,
     /// A field of a factor's context.
     Context {
         /// The factor.
@@ -120,6 +122,7 @@ impl fmt::Display for Element {
                 write!(f, "third coordinate of vertex {position} of primitive {primitive}")
             }
             Self::Case => f.write_str("case that is answered"),
+            Self::Record => f.write_str("record"),
             Self::Context { factor, field } => {
                 write!(f, "{field} of the context of factor 0x{:06x}", factor.to_bits())
             }

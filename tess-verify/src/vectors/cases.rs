@@ -2,7 +2,7 @@
 
 use super::header::MAGIC;
 use super::lines::Lines;
-use super::{Header, VectorError, VectorFile};
+use super::{Emptiness, Header, VectorError, VectorFile};
 use crate::case::Case;
 use std::io::{BufRead, Chain, Cursor, Read};
 
@@ -49,12 +49,25 @@ impl<R: BufRead> Cases<R> {
     ///
     /// # Errors
     /// A vector file that begins wrongly, or whose records are no single patches.
-    pub fn new(name: impl AsRef<str>, mut reader: R) -> Result<Self, VectorError> {
+    pub fn new(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
+        Self::open(name.as_ref(), reader, Emptiness::Refused)
+    }
+
+    /// [`Self::new`], for a text that may be a vector file without records, as an empty shard has. Case lines alone
+    /// still must be some.
+    ///
+    /// # Errors
+    /// As for [`Self::new`].
+    pub fn maybe_empty(name: impl AsRef<str>, reader: R) -> Result<Self, VectorError> {
+        Self::open(name.as_ref(), reader, Emptiness::Accepted)
+    }
+
+    fn open(name: &str, mut reader: R, emptiness: Emptiness) -> Result<Self, VectorError> {
         let begun = common_beginning(&mut reader, MAGIC.as_bytes());
         let is_file = begun.len() == MAGIC.len();
         let reader = Cursor::new(begun).chain(reader);
         let source = if is_file {
-            let file = VectorFile::new(name, reader)?;
+            let file = VectorFile::open(name, reader, emptiness)?;
             if !file.header().kind.has_cases() {
                 let kind = crate::names::Named::name(file.header().kind);
                 let message = format!("{kind} has no single patches; listings and patches have");
@@ -62,7 +75,7 @@ impl<R: BufRead> Cases<R> {
             }
             Source::File(file)
         } else {
-            Source::Lines(Lines::new(name.as_ref(), reader))
+            Source::Lines(Lines::new(name, reader))
         };
         Ok(Self { source, found: false, ended: false })
     }

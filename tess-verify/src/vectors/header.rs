@@ -100,7 +100,7 @@ impl Kind {
 pub struct Header {
     /// What the records are.
     pub kind: Kind,
-    /// How many records follow, at least 1; `None` if the file marks its end instead.
+    /// How many records follow; `None` if the file marks its end instead.
     pub count: Option<u64>,
     /// Where the results come from: a name for people, by which nothing is decided.
     pub source: String,
@@ -180,7 +180,6 @@ fn pairs<'a>(
 
 fn parse_count(text: &str, line: Line<'_>) -> Result<u64, VectorError> {
     match decimal(text) {
-        Some(0) => Err(line.error("count", "is 0; a file without records shows nothing")),
         Some(count) => Ok(count),
         None => Err(line.error("count", format!("{} is not a number", quoted(text)))),
     }

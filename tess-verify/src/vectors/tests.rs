@@ -96,6 +96,28 @@ fn empty_truncated_and_surplus_files() {
     assert!(blank.starts_with("f:5: count: the header announces 2, but"), "{blank}");
 }
 
+/// A file without records is one only where that is asked for.
+#[test]
+fn files_without_records() {
+    let columns = Kind::Patches.columns().expect("a CSV kind").join(",");
+    for text in [
+        "# tess-vectors 1 kind=listings count=0 source=a\n".to_owned(),
+        "# tess-vectors 1 kind=listings source=a\n# end\n".to_owned(),
+        format!("# tess-vectors 1 kind=patches count=0 source=a\n{columns}\n"),
+    ] {
+        let error = read(&text).expect_err(&text).to_string();
+        assert!(error.ends_with("a file without records shows nothing"), "{error}");
+        let mut file = VectorFile::maybe_empty("f", text.as_bytes()).expect(&text);
+        assert!(file.next().is_none(), "no record in {text}");
+        let more = format!("{text}case");
+        let mut file = VectorFile::maybe_empty("f", more.as_bytes()).expect(&more);
+        assert!(file.next().is_some_and(|record| record.is_err()), "a record is surplus: {more}");
+    }
+    let cut = "# tess-vectors 1 kind=listings source=a\n";
+    let mut file = VectorFile::maybe_empty("f", cut.as_bytes()).expect("a header");
+    assert!(file.next().is_some_and(|record| record.is_err()), "truncated is not empty");
+}
+
 /// A listing that is cut after any of its lines, or inside its last, is truncated.
 #[test]
 fn listings_cut_anywhere() {

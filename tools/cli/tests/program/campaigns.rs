@@ -83,6 +83,30 @@ fn differences_are_in_the_report() {
     assert!(xml.contains(&failing) && xml.contains(&case), "{xml}");
 }
 
+/// A missing answer is a case of the report, in a part of its own, with the case that was asked.
+#[test]
+fn missing_answers_are_in_the_report() {
+    let folder = directory("report-missing");
+    let asked = tess("gen --level 3 --count 40 --domain tri --format listing").stdout;
+    let at = asked.match_indices("\ncase ").nth(8).expect("the ninth case").0 + 1;
+    let (case, _) = asked[at..].split_once('\n').expect("its line");
+    let end = at + asked[at..].find("\nend\n").expect("its end") + "\nend\n".len();
+    let answers = format!("{}{}", &asked[..at], &asked[end..]).replace("count=40", "count=39");
+    fs::write(folder.join("asked.txt"), &asked).expect("written");
+    fs::write(folder.join("device.txt"), answers).expect("written");
+    let run = tess_in(&folder, "check device.txt --cases asked.txt --report r.jsonl");
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.contains(&format!("record 9 is missing: {case}\n")), "{}", run.stdout);
+    let report = json(&folder.join("r.jsonl"));
+    assert_eq!((&report["cases"], &report["mismatches"]), (&40.into(), &1.into()), "{report}");
+    assert_eq!(report["stages"], serde_json::json!({ "answer": 1 }), "{report}");
+    assert_eq!(report["first"]["case"], case, "{report}");
+    let parts = report["parts"].as_array().expect("parts");
+    let wrong: Vec<&Value> = parts.iter().filter(|part| part["mismatches"] != 0).collect();
+    let [part] = wrong[..] else { panic!("{report}") };
+    assert_eq!((&part["cases"], &part["first"]["case"]), (&1.into(), &case.into()), "{report}");
+}
+
 #[test]
 fn failed_runs_have_a_report() {
     let folder = directory("report-failed");

@@ -122,8 +122,47 @@ fn headers_say_how_a_file_is_made() {
 #[test]
 fn a_shard_without_cases() {
     let run = tess("gen --level 3 --count 2 --shard 5/9");
-    assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "nothing is written");
-    assert_eq!(run.stderr, "tess: no case in shard 5/9: nothing is written\n", "but that is said");
+    assert_eq!(run.stderr, "tess: no case in shard 5/9\n", "it is said");
+    assert_eq!(run.code, Some(0), "a file without records: {}", run.stdout);
+    assert!(run.stdout.starts_with("# tess-vectors 1 kind=patches count=0 "), "{}", run.stdout);
+    let refused = tess_with_input("check -", &run.stdout);
+    assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""), "{}", refused.stderr);
+    let checked = tess_with_input("check - --empty", &run.stdout);
+    assert_eq!((checked.code, checked.stdout.as_str()), (Some(0), "0 cases, 0 mismatches\n"));
+    let folder = directory("empty-shard");
+    let asked = folder.join("asked.csv");
+    fs::write(&asked, &run.stdout).expect("written");
+    let options = format!("check - --cases {}", asked.display());
+    assert_eq!(tess_with_input(&options, &run.stdout).code, Some(2), "no case was asked");
+    let checked = tess_with_input(&format!("{options} --empty"), &run.stdout);
+    assert_eq!((checked.code, checked.stdout.as_str()), (Some(0), "0 cases, 0 mismatches\n"));
+    let one = tess("gen --level 3 --count 1").stdout;
+    let surplus = tess_with_input(&format!("{options} --empty"), &one);
+    assert_eq!(surplus.code, Some(1), "an answer to nothing: {}", surplus.stdout);
+    let truncated = tess_with_input("check - --empty", "");
+    assert_eq!(truncated.code, Some(2), "nothing at all is no file");
     assert_eq!(tess("gen --level 3 --count 0 --shard 5/9").code, Some(2), "no shard has any");
     assert_eq!(tess("gen --level 3 --count 0").code, Some(2), "no case at all");
+}
+
+/// Vectors of one stage: the same bytes for the same arguments, in both forms, for one block of a circuit.
+#[test]
+fn vectors_of_single_stages() {
+    for stage in ["factors", "context", "place", "stitch"] {
+        let options = format!("gen --stage {stage} --level 3 --seed 3 --count 40");
+        let csv = tess(&options);
+        assert_eq!(csv.code, Some(0), "{}", csv.stderr);
+        let [first, columns] = [0, 1].map(|line| csv.stdout.lines().nth(line).expect("a line"));
+        let rows = csv.stdout.lines().count() - 2;
+        assert!(
+            first.starts_with(&format!("# tess-stage 1 stage={stage} count={rows}: ")),
+            "{first}"
+        );
+        assert!(rows > 20 && columns.contains(','), "{rows} rows of {columns}");
+        assert_eq!(tess(&options).stdout, csv.stdout, "the same again");
+        let image = tess(&format!("{options} --format readmemh")).stdout;
+        assert_eq!(image.lines().filter(|line| !line.starts_with("//")).count(), rows, "{stage}");
+    }
+    assert_eq!(tess("gen --stage place --format listing").code, Some(2), "no such form");
+    assert_eq!(tess("gen --stage places").code, Some(2), "no such stage");
 }

@@ -23,13 +23,11 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use strength::StrengthArgs;
 use tess_verify::backend::Backend;
-use tess_verify::checker::{self, CheckError, Difference, Report, Tested};
-use tess_verify::compare::Element;
-use tess_verify::explanation::{PointReport, PrimitiveReport};
+use tess_verify::checker::{self, CheckError, Difference, MAX_DIFFERENCES, Report, Tested};
 use tess_verify::known::Known;
 use tess_verify::names::Named;
 use tess_verify::rules::Specification;
-use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
+use tess_verify::vectors::{Cases, Kind, Record, VectorError, VectorFile};
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
@@ -46,13 +44,15 @@ A device's listings are compared in a strength: --order, --points, --conversion 
 which freedom of the public specification counts as equal (docs/verification.md).
 
 With --cases, the file must answer those cases, one for one and in their order. They are a vector file,
-or lines that begin with `case`.
+or lines that begin with `case`. A case without an answer is one difference (`record 9 is missing`).
 
 A file may be one shard of a campaign (docs/campaigns.md). Which one is said by --shard, by the batch system, or
 by the note shard=I/N in the first line of --cases or FILE; they may not contradict each other.
 
 If one mistake explains every difference (triangles turn the other way, u and v are exchanged, u or v
-runs backwards), a line says so, and only the first difference is shown.
+runs backwards), a line says so, and only the first difference is shown. If a strength that was not asked for
+does (--denormals flush, --conversion 0.6ulp), a line says that. Of more than 20 differences, a table counts
+those of each stage and configuration, and the one with the smallest case is shown of each.
 
 With --rules, listings are judged by what a standard demands of output, without the model: each rule with
 its section, how many patches it judged and broke, and the smallest patches that break it. `tess gen --rules`
@@ -91,6 +91,9 @@ pub(crate) struct Args {
     /// What was asked: records that answer other cases, too few or too many are differences
     #[arg(long, value_name = "FILE")]
     cases: Option<PathBuf>,
+    /// Accept a FILE and --cases without records: those of an empty shard, or the failures of a run without any
+    #[arg(long)]
+    empty: bool,
     /// Write the records that differ to this file, which `tess check` reads; - is no file
     #[arg(long, value_name = "FILE")]
     failures: Option<PathBuf>,
@@ -111,7 +114,8 @@ pub(crate) struct Args {
 /// Malformed, short or empty input; a backend that is not available.
 pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     refuse_shared(&args.roles()?)?;
-    let file = VectorFile::new(args.name(), open(&args.file)?).map_err(|e| failure(e.into()))?;
+    let read = if args.empty { VectorFile::maybe_empty } else { VectorFile::new };
+    let file = read(args.name(), open(&args.file)?).map_err(|e| failure(e.into()))?;
     let asked = args.asked(file.header().kind)?;
     let asked_header = asked.as_ref().and_then(Cases::header);
     let placed = record::place(args.shard, file.header(), asked_header)?;
@@ -234,7 +238,7 @@ impl Args {
         if Role::input("--cases", path).is_same_file(&Role::input("FILE", &self.file)) {
             return Err(Failure::bad_input("--cases is the file to check itself"));
         }
-        read_cases(path).map(Some)
+        open_cases(path, if self.empty { Cases::maybe_empty } else { Cases::new }).map(Some)
     }
 }
 
@@ -254,8 +258,16 @@ fn backends(args: &Args) -> Result<Vec<Box<dyn Backend>>, Failure> {
 /// # Errors
 /// It cannot be read, or begins wrongly.
 pub(crate) fn read_cases(path: &Path) -> Result<Cases<Reader>, Failure> {
+    open_cases(path, Cases::new)
+}
+
+/// The cases of a file, read by either constructor of [`Cases`].
+fn open_cases(
+    path: &Path,
+    read: impl FnOnce(String, Reader) -> Result<Cases<Reader>, VectorError>,
+) -> Result<Cases<Reader>, Failure> {
     let name = if path.as_os_str() == "-" { "stdin".into() } else { path.display().to_string() };
-    Cases::new(name, open(path)?).map_err(|error| Failure::bad_input(error.to_string()))
+    read(name, open(path)?).map_err(|error| Failure::bad_input(error.to_string()))
 }
 
 fn open(path: &Path) -> Result<Reader, Failure> {
@@ -280,38 +292,36 @@ fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
             way.words()
         )?;
     }
-    let shown = if turn.is_some() { 1 } else { report.differences.len() };
-    for difference in report.differences.iter().take(shown) {
-        writeln!(out, "{difference}")?;
-        for line in model_values(difference).lines() {
-            writeln!(out, "  model: {line}")?;
-        }
-        for command in difference.commands(backend) {
-            writeln!(out, "  again: {command}")?;
-        }
+    let groups = report.groups();
+    let is_long = turn.is_none() && report.mismatches > report.differences.len() as u64;
+    if is_long {
+        groups.iter().try_for_each(|group| writeln!(out, "{group}"))?;
     }
-    let hidden = report.mismatches - shown as u64;
+    let all: Vec<&Difference> = if is_long {
+        groups.iter().map(|group| &group.smallest).take(MAX_DIFFERENCES).collect()
+    } else {
+        report.differences.iter().take(if turn.is_some() { 1 } else { MAX_DIFFERENCES }).collect()
+    };
+    all.iter().try_for_each(|difference| show_one(&mut out, difference, backend))?;
+    let hidden = report.mismatches - all.len() as u64;
     if hidden > 0 {
         writeln!(out, "and {hidden} more")?;
+    }
+    if let Some(way) = report.freedom() {
+        let all = counted(report.mismatches, "difference");
+        writeln!(out, "{} would accept all {all}: {}", way.options(), way.words())?;
     }
     writeln!(out, "{report}")?;
     out.flush()
 }
 
-/// Where the first wrong element comes from in the model, with the values that went into it.
-fn model_values(difference: &Difference) -> String {
-    let Some(case) = &difference.case else { return String::new() };
-    let number = |n: usize| u32::try_from(n).unwrap_or(u32::MAX);
-    let report: Option<String> = match difference.mismatch.element {
-        Element::Point { index, .. } => {
-            PointReport::new(&case.patch(), number(index)).map(|report| report.to_string())
-        }
-        Element::Index { primitive, .. } => {
-            PrimitiveReport::new(&case.patch(), number(primitive)).map(|report| report.to_string())
-        }
-        _ => None,
-    };
-    report.unwrap_or_default()
+/// A difference with where its first wrong element comes from in the model, and the commands that show it again.
+fn show_one(out: &mut impl Write, difference: &Difference, backend: &str) -> io::Result<()> {
+    writeln!(out, "{difference}")?;
+    for line in difference.origin().unwrap_or_default().lines() {
+        writeln!(out, "  model: {line}")?;
+    }
+    difference.commands(backend).iter().try_for_each(|command| writeln!(out, "  again: {command}"))
 }
 
 fn failure(error: CheckError) -> Failure {

@@ -5,6 +5,7 @@ use crate::campaign::{Placed, ShardArgs, shard};
 use crate::failure::Failure;
 use tess_verify::case::Case;
 use tess_verify::checker::{self, Checked, Difference};
+use tess_verify::compare::Stage;
 use tess_verify::coverage::Coverage;
 use tess_verify::names::Named;
 use tess_verify::vectors::Header;
@@ -25,7 +26,7 @@ pub(super) fn add(report: &mut Report, checked: Checked<'_>) {
 }
 
 /// The part of what no record shows by itself.
-const OTHERS: &str = "answers to other cases, contradictions";
+const OTHERS: &str = "missing answers, answers to other cases, contradictions";
 
 /// Adds what is known at the end: stages, differences, and mismatches that no record shows by itself.
 pub(super) fn finish(report: &mut Report, found: &checker::Report) {
@@ -38,15 +39,17 @@ pub(super) fn finish(report: &mut Report, found: &checker::Report) {
         report.add_to_part(OTHERS, others);
     }
     for difference in &found.differences {
-        let is_other = difference.case.is_none() && report.parts.iter().any(|p| p.name == OTHERS);
+        let is_other = difference.mismatch.stage == Stage::Answer;
         let name = if is_other { OTHERS.to_owned() } else { part_of(difference.case) };
-        let first = Some(first(difference));
-        report.add_to_part(&name, Part { first, ..Part::default() });
+        if report.parts.iter().any(|part| part.name == name) {
+            let first = Some(first(difference));
+            report.add_to_part(&name, Part { first, ..Part::default() });
+        }
     }
     // The threads of a check take turns in no order.
     report.parts.sort_by(|a, b| a.name.cmp(&b.name));
     report.first = found.differences.first().map(first);
-    report.add_stages(found.stages.iter().map(|(stage, more)| (stage, *more)));
+    report.add_stages(found.stages());
 }
 
 fn first(difference: &Difference) -> First {

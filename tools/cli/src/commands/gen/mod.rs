@@ -20,6 +20,7 @@ use tess_verify::coverage::Coverage;
 use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::names::Named;
 use tess_verify::readmemh;
+use tess_verify::stage_vectors::{self, Block};
 use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
 
 /// Generate test vectors with expected results; same arguments, same bytes
@@ -36,6 +37,7 @@ Examples:
   tess gen --level 1 --partitioning integer --output triangle_cw --split ruler --format listing
   tess gen --level 3 --seed 7 --count 1000 --format readmemh -o vectors/
   tess gen --rules --split ruler --format listing | ./my-device | tess check - --rules vulkan
+  tess gen --stage place --format readmemh -o place.memh
   tess gen --level 1 --coverage
   tess gen --level 2 --shard 1/8 --coverage coverage.xml
   tess gen --level 2 --shard 1/8 -o vectors-1.csv --report report-1.jsonl")]
@@ -49,6 +51,11 @@ pub(crate) struct Args {
     /// One split order only
     #[arg(long, value_name = "NAME", value_parser = name_of::<SplitOrder>())]
     split: Option<SplitOrder>,
+    /// Instead of patches, what one stage takes and gives for them: factors, context, place or stitch
+    ///
+    /// For blocks of a circuit: each distinct row once, as CSV or, with --format readmemh, as one image.
+    #[arg(long, value_name = "NAME", value_parser = name_of::<Block>(), conflicts_with = "coverage")]
+    stage: Option<Block>,
     /// Form of the vectors
     #[arg(long, value_name = "NAME", default_value = "csv")]
     format: Format,
@@ -90,16 +97,18 @@ fn generate(args: &Args, placed: Placed, recorder: &Recorder) -> Result<Exit, Fa
     let all = args.all();
     let count = placed.shard.items(all);
     if count == 0 && all > 0 {
-        note(&format!("no case in shard {placed}: nothing is written"));
-        return Ok(Exit::Done);
+        note(&format!("no case in shard {placed}"));
     }
-    if count == 0 {
+    if all == 0 {
         return Err(Failure::bad_input(
             "these arguments select no case; give --level 1 or 2, or a --count",
         ));
     }
     if let Some(file) = &args.coverage {
         return args.report_coverage(file.clone(), count, placed, recorder);
+    }
+    if let Some(block) = args.stage {
+        return args.stage(block, count, placed, recorder);
     }
     let header = args.header(count, placed);
     let bar = args.progress(count);
@@ -140,6 +149,29 @@ impl Args {
     fn cases(&self, Placed { shard, .. }: Placed) -> impl Iterator<Item = Case> {
         let numbered = (0..).zip(self.selection().cases());
         numbered.filter(move |(i, _)| shard.has(*i)).map(|(_, case)| case)
+    }
+
+    /// Writes the vectors of one stage.
+    fn stage(
+        &self,
+        block: Block,
+        count: u64,
+        placed: Placed,
+        recorder: &Recorder,
+    ) -> Result<Exit, Failure> {
+        let write = match self.format {
+            Format::Csv => stage_vectors::write_csv,
+            Format::Readmemh => stage_vectors::write_memh,
+            Format::Listing => {
+                return Err(Failure::bad_input("a stage has no listing: --format csv or readmemh"));
+            }
+        };
+        let bar = self.progress(count);
+        let rows = stage_vectors::rows(block, bar.wrap_iter(self.cases(placed)));
+        bar.finish_and_clear();
+        self.output.stream(|out| write(out, block, &rows))?;
+        recorder.update(|report| report.add_parts([part(count)]));
+        Ok(Exit::Done)
     }
 
     /// Reports the coverage of the cases, added to what a file holds if one is given.

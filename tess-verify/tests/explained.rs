@@ -1,0 +1,109 @@
+//! What a report says of many differences: what explains all of them, where the model's elements come from, and how
+//! many there are of each kind.
+
+use tess_core::{Domain, DomainPoint, Tessellation};
+use tess_verify::case::Case;
+use tess_verify::checker::{Report, check_device};
+use tess_verify::compare::Stage;
+use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
+use tess_verify::ways::Way;
+
+const ANY: Strength = Strength {
+    order: Order::Any,
+    elements: Elements::Primitives,
+    conversion: Conversion::Exact,
+    denormals: Denormals::Keep,
+};
+const CULLED: &str = "case tri integer triangle_cw ruler 00000001 40400000 40400000 40400000";
+/// A factor of 3 + 2^-17: 0x30000 to the nearest, ties to even, or 0x30001.
+const TIE: &str = "case tri fractional_odd line center 40a00000 40400020 40200000 40900000";
+
+fn case(line: &str) -> Case {
+    line.parse().unwrap_or_else(|error| panic!("{line}: {error}"))
+}
+
+/// A device that flushes denormals.
+fn flushed() -> (Case, Tessellation) {
+    (case(CULLED), Tessellation::default())
+}
+
+/// A device that rounds a tie up: the model's result for the next number.
+fn rounded_up() -> (Case, Tessellation) {
+    let other = case(&TIE.replace("40400020", "40400040"));
+    (case(TIE), other.patch().tessellate())
+}
+
+fn moved(line: &str) -> (Case, Tessellation) {
+    let case = case(line);
+    let mut output = case.patch().tessellate();
+    output.points[4] = DomainPoint::from_bits(0x1234, 0x4321);
+    (case, output)
+}
+
+fn freedom(answers: &[(Case, Tessellation)]) -> Option<&'static str> {
+    let report = check_device(answers.iter().cloned(), ANY);
+    assert_eq!(report.mismatches, answers.len() as u64, "{report}");
+    report.freedom().map(Way::options)
+}
+
+#[test]
+fn a_freedom_that_explains_all() {
+    let wrong = moved("case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000");
+    assert_eq!(freedom(&[flushed()]), Some("--denormals flush"), "a culled patch");
+    assert_eq!(freedom(&[rounded_up()]), Some("--conversion 0.6ulp"), "a tie");
+    let both = "--denormals flush --conversion 0.6ulp";
+    assert_eq!(freedom(&[rounded_up(), flushed()]), Some(both), "one of each");
+    assert_eq!(freedom(&[flushed(), wrong]), None, "and one that nothing explains");
+    assert_eq!(check_device([], ANY).freedom(), None, "nothing to explain");
+}
+
+fn origin(report: &Report) -> Option<String> {
+    report.differences[0].origin()
+}
+
+#[test]
+fn elements_in_any_order_come_from_somewhere() {
+    let line = "case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000";
+    let (case, mut output) = (case(line), case(line).patch().tessellate());
+    output.indices.truncate(output.indices.len() - 3);
+    let report = check_device([(case, output.clone())], ANY);
+    let last = output.indices.len() / 3;
+    let shown = origin(&report).expect("a triangle of the model");
+    assert!(shown.starts_with(&format!("primitive {last}: ")), "{shown}");
+
+    let points = "case tri integer point ruler 40400000 40400000 40400000 40400000";
+    let (case, mut output) = (self::case(points), self::case(points).patch().tessellate());
+    output.indices.pop();
+    let shown = origin(&check_device([(case, output)], ANY)).expect("a point of the model");
+    assert!(shown.starts_with("point "), "{shown}");
+
+    let stray = moved(line);
+    let report = check_device([stray], ANY);
+    let found = report.differences[0].mismatch.to_string();
+    assert!(found.contains("12"), "an element of the device: {found}");
+}
+
+#[test]
+fn differences_are_counted_by_stage_and_configuration() {
+    let [small, large, quad] = [
+        "case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000",
+        "case tri integer triangle_cw ruler 40e00000 40e00000 40e00000 40e00000",
+        "case quad integer line ruler 40400000 40400000 40400000 40400000 40400000 40400000",
+    ];
+    let mut answers = vec![moved(quad), flushed(), moved(large)];
+    answers.extend((0..30).map(|_| moved(small)));
+    let report = check_device(answers, ANY);
+    let groups = report.groups();
+    let counts: Vec<_> = groups.iter().map(|group| (group.stage, group.mismatches)).collect();
+    let [lines, culled, tri] = &groups[..] else { panic!("{counts:?}") };
+    assert_eq!(counts, [(Stage::Location, 1), (Stage::Factors, 1), (Stage::Location, 31)]);
+    let stages: Vec<_> = report.stages().into_iter().collect();
+    assert_eq!(stages, [(Stage::Factors, 1), (Stage::Location, 32)], "the sums of the groups");
+    assert_eq!((lines.smallest.number, culled.smallest.number), (1, 2), "by size");
+    assert_eq!(
+        tri.smallest.number, 4,
+        "the first of the small ones, though a large one comes before"
+    );
+    assert_eq!(lines.config.map(|(domain, _)| domain), Some(Domain::Quad), "{lines}");
+    assert_eq!(tri.to_string(), "      31  location     tri integer triangle_cw ruler");
+}
