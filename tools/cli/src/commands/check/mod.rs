@@ -114,6 +114,8 @@ pub(crate) struct Args {
 /// Malformed, short or empty input; a backend that is not available.
 pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     refuse_shared(&args.roles()?)?;
+    // Before stdin is read: the GPU backend may start the program anew.
+    let backends = backends(args);
     let read = if args.empty { VectorFile::maybe_empty } else { VectorFile::new };
     let file = read(args.name(), open(&args.file)?).map_err(|e| failure(e.into()))?;
     let asked = args.asked(file.header().kind)?;
@@ -129,7 +131,9 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
             stop_when_reader_leaves();
             rules::run(file, specification, &recorder)
         }
-        None => compare(args, file, asked, &known, &recorder),
+        None => {
+            backends.and_then(|backends| compare(args, file, asked, &known, backends, &recorder))
+        }
     };
     conclude(&known, &recorder);
     recorder.finish(ended)
@@ -144,9 +148,9 @@ fn compare(
     file: VectorFile<Reader>,
     mut asked: Option<Cases<Reader>>,
     known: &Known,
+    mut backends: Vec<Box<dyn Backend>>,
     recorder: &Recorder,
 ) -> Result<Exit, Failure> {
-    let mut backends = backends(args)?;
     let tested = args.strength.tested(file.header().kind, args.backend)?;
     let coverage = args.coverage(file.header().kind)?;
     let failures = args.failures.as_deref().map(|path| Failures::new(path, file.header()));
