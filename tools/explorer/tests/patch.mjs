@@ -218,8 +218,9 @@ for (const words of [
 ]) {
   test(`a link with an unknown value is shown: ${words}`, async () => {
     const page = await open(`#${words}`);
-    await enter(page, lineOf(records[0]));
+    // A link may have opened the surfaces, where no patch can be entered.
     await page.click("#tab-patch");
+    await enter(page, lineOf(records[0]));
     await page.click("#tab-share");
     assert.equal(await copied(page, "Listing of the whole patch"), records[0]);
     await close(page);
