@@ -64,7 +64,7 @@ const fn minimum(domain: Domain) -> (u32, u32) {
 
 /// Points and triangles of a triangle patch.
 fn triangle(factors: &TriangleFactors<ProcessedFactor>) -> (u32, u32) {
-    let boundary = factors.outer().iter().map(|factor| factor.context.points - 1).sum();
+    let boundary = factors.outer_contexts().iter().map(|context| context.points - 1).sum();
     let half = factors.inside.context.points / 2;
     let interior = match factors.inside.context.parity {
         Parity::Odd => 3 * (half - 1) * (half - 1),
@@ -75,7 +75,7 @@ fn triangle(factors: &TriangleFactors<ProcessedFactor>) -> (u32, u32) {
 
 /// Points and triangles of a quad patch.
 fn quad(factors: &QuadFactors<ProcessedFactor>) -> (u32, u32) {
-    let boundary = factors.outer().iter().map(|factor| factor.context.points - 1).sum();
+    let boundary = factors.outer_contexts().iter().map(|context| context.points - 1).sum();
     let [u, v] = factors.inside().map(|factor| factor.context.points);
     points_and_triangles(boundary, (u - 2) * (v - 2))
 }

@@ -48,6 +48,20 @@ impl ProcessedPatch {
     }
 }
 
+impl TriangleFactors<ProcessedFactor> {
+    /// The contexts of the outer factors in edge order: u = 0, v = 0, w = 0.
+    pub(crate) const fn outer_contexts(&self) -> [&FactorContext; 3] {
+        [&self.u0.context, &self.v0.context, &self.w0.context]
+    }
+}
+
+impl QuadFactors<ProcessedFactor> {
+    /// The contexts of the outer factors in edge order: u = 0, v = 0, u = 1, v = 1.
+    pub(crate) const fn outer_contexts(&self) -> [&FactorContext; 4] {
+        [&self.u0.context, &self.v0.context, &self.u1.context, &self.v1.context]
+    }
+}
+
 /// Processes the raw factors of one patch. Total: every bit pattern is valid.
 ///
 /// Spec section 3, whose steps the functions below are named after.

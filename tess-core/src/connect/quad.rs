@@ -9,11 +9,11 @@ use crate::state::Parity;
 use crate::stitch::{Diagonals, Stitch, StitchKind};
 
 /// The rings of a quad patch: edges u = 0 and u = 1 run along v, the others along u.
-pub(crate) fn rings(factors: &QuadFactors<ProcessedFactor>) -> Rings<4> {
+pub(crate) fn rings(factors: &QuadFactors<ProcessedFactor>) -> Rings<'_, 4> {
     let Inside { u, v } = Inside::new(factors);
-    let (row_along_v, row_along_u) = (row_ring(&u), row_ring(&v));
+    let (row_along_v, row_along_u) = (row_ring(u), row_ring(v));
     Rings {
-        outer: factors.outer().map(|factor| factor.context),
+        outer: factors.outer_contexts(),
         along: [v, u, v, u],
         row_at: [row_along_v, row_along_u, row_along_v, row_along_u],
     }
@@ -29,7 +29,7 @@ pub(crate) fn emit(factors: &QuadFactors<ProcessedFactor>, mut emit: impl FnMut(
 
 /// The strip of quads between the two long sides of an innermost ring, if the shorter axis is odd;
 /// `innermost` is the ring's first index. Spec section 7.4.
-fn centre_strip(inside: &Inside, innermost: u32) -> Option<Stitch> {
+fn centre_strip(inside: &Inside<'_>, innermost: u32) -> Option<Stitch> {
     let (u, v) = (inside.u, inside.v);
     let along_u = u.points > v.points;
     let (long, short) = if along_u { (u, v) } else { (v, u) };

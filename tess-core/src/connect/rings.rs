@@ -8,20 +8,20 @@ use crate::stitch::{Stitch, StitchKind};
 
 /// What the rings of a patch with `EDGES` edges depend on.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Rings<const EDGES: usize> {
+pub(crate) struct Rings<'a, const EDGES: usize> {
     /// Contexts of the outer edges.
-    pub(crate) outer: [FactorContext; EDGES],
+    pub(crate) outer: [&'a FactorContext; EDGES],
     /// For each edge, the inside context of the axis that it runs along.
-    pub(crate) along: [FactorContext; EDGES],
+    pub(crate) along: [&'a FactorContext; EDGES],
     /// For each edge, whether the rings end in a row of points that lies along it: the inside
     /// context of the other axis is even, and its last ring has this number.
     pub(crate) row_at: [Option<u32>; EDGES],
 }
 
-impl<const EDGES: usize> Rings<EDGES> {
+impl<const EDGES: usize> Rings<'_, EDGES> {
     /// One more than the number of rings that are stitched to the ring outside of them.
     pub(crate) fn end(&self) -> u32 {
-        self.along.iter().map(ring_end).min().unwrap_or(0)
+        self.along.iter().copied().map(ring_end).min().unwrap_or(0)
     }
 
     /// Points on the outer ring.

@@ -8,10 +8,10 @@ use crate::stitch::{Stitch, Triangle};
 
 /// The rings of a triangle patch. None of them is a row of points: the innermost ring of an even
 /// inside factor is a single point.
-pub(crate) fn rings(factors: &TriangleFactors<ProcessedFactor>) -> Rings<3> {
+pub(crate) fn rings(factors: &TriangleFactors<ProcessedFactor>) -> Rings<'_, 3> {
     Rings {
-        outer: factors.outer().map(|factor| factor.context),
-        along: [factors.inside.context; 3],
+        outer: factors.outer_contexts(),
+        along: [&factors.inside.context; 3],
         row_at: [None; 3],
     }
 }

@@ -47,7 +47,7 @@ use crate::stitch::Triangle;
 ///
 /// The ring's points are numbered from 0 around it, so the two long sides are runs of those
 /// numbers, one up and one down, that close up modulo the ring's size.
-pub(crate) fn triangle(inside: &Inside, innermost: u32, t: u32) -> Option<Triangle> {
+pub(crate) fn triangle(inside: &Inside<'_>, innermost: u32, t: u32) -> Option<Triangle> {
     let (u, v) = (inside.u, inside.v);
     let along_u = u.points > v.points;
     let short_parity = if along_u { v.parity } else { u.parity };

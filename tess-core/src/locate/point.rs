@@ -93,7 +93,7 @@ fn locate_in_quad(factors: &QuadFactors<ProcessedFactor>, i: u32) -> PointOrigin
     PointOrigin::Ring { ring, edge, p }
 }
 
-fn locate_on_outer_edge<const EDGES: usize>(rings: &Rings<EDGES>, i: u32) -> PointOrigin {
+fn locate_on_outer_edge<const EDGES: usize>(rings: &Rings<'_, EDGES>, i: u32) -> PointOrigin {
     let (edge, p) = slot_of(i, rings.outer.map(|context| context.points - 1));
     PointOrigin::OuterEdge { edge, p }
 }
@@ -104,7 +104,7 @@ pub(crate) const fn triangle_points_before(inside: &FactorContext, ring: u32) ->
 }
 
 /// Interior points on the rings `1..ring`: the sum of 2 (nU - 1 - 2 k) + 2 (nV - 1 - 2 k).
-pub(crate) const fn quad_points_before(inside: &Inside, ring: u32) -> u32 {
+pub(crate) const fn quad_points_before(inside: &Inside<'_>, ring: u32) -> u32 {
     2 * (ring - 1) * (inside.u.points + inside.v.points - 2 - 2 * ring)
 }
 
@@ -151,8 +151,8 @@ fn triangle_point(
 ) -> Option<DomainPoint> {
     match location {
         PointOrigin::OuterEdge { edge, p } => {
-            let factor = factors.outer().get(edge as usize).copied()?;
-            Some(triangle::outer_point(&factor.context, edge, p))
+            let context = factors.outer_contexts().get(edge as usize).copied()?;
+            Some(triangle::outer_point(context, edge, p))
         }
         PointOrigin::Ring { ring, edge, p } => {
             Some(triangle::ring_point(&factors.inside.context, ring, edge, p))
@@ -169,8 +169,8 @@ fn quad_point(
     let inside = Inside::new(factors);
     match location {
         PointOrigin::OuterEdge { edge, p } => {
-            let factor = factors.outer().get(edge as usize).copied()?;
-            Some(quad::outer_point(&factor.context, edge, p))
+            let context = factors.outer_contexts().get(edge as usize).copied()?;
+            Some(quad::outer_point(context, edge, p))
         }
         PointOrigin::Ring { ring, edge, p } => Some(inside.ring_point(ring, edge, p)),
         PointOrigin::Centre { p } => Some(inside.centre_row_point(inside.centre_row()?, p)),

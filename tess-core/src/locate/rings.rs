@@ -50,7 +50,7 @@ use crate::stitch::Triangle;
 
 /// The closed forms of a patch with `EDGES` edges.
 pub(crate) trait ClosedForms<const EDGES: usize> {
-    fn rings(&self) -> Rings<EDGES>;
+    fn rings(&self) -> Rings<'_, EDGES>;
     /// Interior points on the rings `1..ring`.
     fn points_before(&self, ring: u32) -> u32;
     /// Triangles of the ring stitches `2..ring`.
@@ -60,7 +60,7 @@ pub(crate) trait ClosedForms<const EDGES: usize> {
 }
 
 impl ClosedForms<3> for TriangleFactors<ProcessedFactor> {
-    fn rings(&self) -> Rings<3> {
+    fn rings(&self) -> Rings<'_, 3> {
         triangle::rings(self)
     }
 
@@ -80,7 +80,7 @@ impl ClosedForms<3> for TriangleFactors<ProcessedFactor> {
 }
 
 impl ClosedForms<4> for QuadFactors<ProcessedFactor> {
-    fn rings(&self) -> Rings<4> {
+    fn rings(&self) -> Rings<'_, 4> {
         quad::rings(self)
     }
 
@@ -155,7 +155,7 @@ pub(crate) fn triangle<const EDGES: usize>(
 /// The two rows of the stitch along `edge` between rings `ring - 1` and `ring`.
 fn rows<const EDGES: usize>(
     patch: &impl ClosedForms<EDGES>,
-    rings: &Rings<EDGES>,
+    rings: &Rings<'_, EDGES>,
     ring: u32,
     edge: usize,
 ) -> (Row, Row) {
@@ -174,7 +174,7 @@ fn rows<const EDGES: usize>(
 /// The first index of a ring; ring 0 is the outer one.
 fn first_of_ring<const EDGES: usize>(
     patch: &impl ClosedForms<EDGES>,
-    rings: &Rings<EDGES>,
+    rings: &Rings<'_, EDGES>,
     ring: u32,
 ) -> u32 {
     if ring == 0 { 0 } else { rings.outer_points() + patch.points_before(ring) }

@@ -13,9 +13,9 @@ use fixed::types::U16F16;
 
 /// The contexts of the two inside factors.
 #[derive(Clone, Copy)]
-pub(crate) struct Inside {
-    pub(crate) u: FactorContext,
-    pub(crate) v: FactorContext,
+pub(crate) struct Inside<'a> {
+    pub(crate) u: &'a FactorContext,
+    pub(crate) v: &'a FactorContext,
 }
 
 /// The innermost ring where it is a single row of points.
@@ -27,9 +27,9 @@ pub(crate) enum CentreRow {
     AlongV,
 }
 
-impl Inside {
-    pub(crate) const fn new(factors: &QuadFactors<ProcessedFactor>) -> Self {
-        Self { u: factors.inside_u.context, v: factors.inside_v.context }
+impl<'a> Inside<'a> {
+    pub(crate) const fn new(factors: &'a QuadFactors<ProcessedFactor>) -> Self {
+        Self { u: &factors.inside_u.context, v: &factors.inside_v.context }
     }
 
     /// One more than the number of interior rings that go round.
@@ -66,10 +66,10 @@ impl Inside {
         let end_u = self.u.points - 1 - ring;
         let end_v = self.v.points - 1 - ring;
         match edge {
-            0 => DomainPoint { u: place(&self.u, ring), v: place(&self.v, end_v - p) },
-            1 => DomainPoint { u: place(&self.u, ring + p), v: place(&self.v, ring) },
-            2 => DomainPoint { u: place(&self.u, end_u), v: place(&self.v, ring + p) },
-            _ => DomainPoint { u: place(&self.u, end_u - p), v: place(&self.v, end_v) },
+            0 => DomainPoint { u: place(self.u, ring), v: place(self.v, end_v - p) },
+            1 => DomainPoint { u: place(self.u, ring + p), v: place(self.v, ring) },
+            2 => DomainPoint { u: place(self.u, end_u), v: place(self.v, ring + p) },
+            _ => DomainPoint { u: place(self.u, end_u - p), v: place(self.v, end_v) },
         }
     }
 
@@ -78,18 +78,18 @@ impl Inside {
         const MIDDLE: U16F16 = U16F16::from_bits(HALF);
         let ring = self.ring_end();
         match row {
-            CentreRow::AlongU => DomainPoint { u: place(&self.u, ring + p), v: MIDDLE },
+            CentreRow::AlongU => DomainPoint { u: place(self.u, ring + p), v: MIDDLE },
             CentreRow::AlongV => {
-                DomainPoint { u: MIDDLE, v: place(&self.v, self.v.points - 1 - ring - p) }
+                DomainPoint { u: MIDDLE, v: place(self.v, self.v.points - 1 - ring - p) }
             }
         }
     }
 }
 
 pub(crate) fn emit(factors: &QuadFactors<ProcessedFactor>, sink: &mut impl Sink) {
-    for (edge, factor) in (0..).zip(factors.outer()) {
-        for p in 0..factor.context.points - 1 {
-            sink.point(outer_point(&factor.context, edge, p));
+    for (edge, context) in (0..).zip(factors.outer_contexts()) {
+        for p in 0..context.points - 1 {
+            sink.point(outer_point(context, edge, p));
         }
     }
     let inside = Inside::new(factors);

@@ -13,16 +13,16 @@ use crate::state::Parity;
 pub(crate) const CENTRE: DomainPoint = DomainPoint::from_bits(ONE_THIRD, ONE_THIRD);
 
 pub(crate) fn emit(factors: &TriangleFactors<ProcessedFactor>, sink: &mut impl Sink) {
-    for (edge, factor) in (0..).zip(factors.outer()) {
-        for p in 0..factor.context.points - 1 {
-            sink.point(outer_point(&factor.context, edge, p));
+    for (edge, context) in (0..).zip(factors.outer_contexts()) {
+        for p in 0..context.points - 1 {
+            sink.point(outer_point(context, edge, p));
         }
     }
-    let inside = factors.inside.context;
+    let inside = &factors.inside.context;
     for ring in 1..inside.points / 2 {
         for edge in 0..3 {
-            for p in 0..ring_edge_points(&inside, ring) {
-                sink.point(ring_point(&inside, ring, edge, p));
+            for p in 0..ring_edge_points(inside, ring) {
+                sink.point(ring_point(inside, ring, edge, p));
             }
         }
     }
