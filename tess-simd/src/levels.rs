@@ -12,9 +12,9 @@ use crate::kernels;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
 use crate::stages::counts::PartCounts;
-use crate::stages::packet::Packet;
 #[cfg(target_arch = "x86_64")]
 use crate::stages::packet::PacketPatch;
+use crate::stages::packet::{OnePatch, Packet};
 use crate::stages::points::Lookup;
 #[cfg(target_arch = "x86_64")]
 use crate::stages::points::{Code, permute, permute::Permutes};
@@ -46,7 +46,7 @@ at_each_level! {
 
 at_each_level! {
     /// [`kernels::front_end::process_one`] at a level.
-    fn process_one(config: Config, factors: PatchFactors, packet: &mut Packet) -> Counts
+    fn process_one(config: Config, factors: PatchFactors, one: &mut OnePatch) -> Counts
         = kernels::front_end::process_one;
 }
 

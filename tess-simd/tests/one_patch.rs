@@ -9,8 +9,8 @@ use allocation_counter::measure;
 use levels::levels;
 use patches::{Bits, Patches, compare as batches, configs, patch};
 use tess_core::{
-    Config, Counts, Domain, DomainPoint, MAX_INDICES, OutputPrimitive, Partitioning, Patch,
-    PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
+    Config, Counts, Domain, DomainPoint, IsolineFactors, MAX_INDICES, OutputPrimitive,
+    Partitioning, Patch, PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
 use tess_simd::{
     Batch, Buffer, Buffers, Error, IndexFormat, Level, Numbering, Order, OutputPoint, Tessellator,
@@ -113,6 +113,48 @@ fn a_few_patches() {
                     batches::<DomainPoint, u32>(t, (&all, batch), &expected, numbering, same);
                 }
             }
+        }
+    }
+}
+
+/// Patches that differ from the one before in one bit of one factor or in their domain alone, some patches twice.
+fn nearly_the_same() -> Vec<PatchFactors> {
+    let quad = [3.0f32, 4.5, 5.0, 6.0, 4.0, 7.0];
+    let mut all = Vec::new();
+    for factor in 0..quad.len() {
+        let mut changed = quad;
+        changed[factor] = f32::from_bits(quad[factor].to_bits() + (1 << 12));
+        all.extend(
+            [quad, quad, changed].map(|factors| PatchFactors::from(QuadFactors::from(factors))),
+        );
+    }
+    let triangle: PatchFactors = TriangleFactors::from([3.0, 2.0, 4.0, 5.0]).into();
+    let line: PatchFactors = IsolineFactors::from([3.0, 2.0]).into();
+    all.extend([triangle, QuadFactors::from([3.0, 2.0, 4.0, 5.0, 0.0, 0.0]).into(), triangle]);
+    all.extend([line, TriangleFactors::from([3.0, 2.0, 0.0, 0.0]).into(), line, line]);
+    all
+}
+
+/// A patch is not taken for the one before it, nor a batch that came between for either.
+#[test]
+fn neighbours_that_are_nearly_the_same() {
+    for (config, level) in configs().flat_map(|c| levels().into_iter().map(move |l| (c, l))) {
+        let expected = |f| (f, Patch::new(config, f).tessellate());
+        let all: Vec<_> = nearly_the_same().into_iter().map(expected).collect();
+        compare(level, config, Order::Specification, &all);
+
+        let tessellator = Tessellator::with_level(config, level);
+        let mut tessellator = tessellator.unwrap_or_else(|error| panic!("{error}"));
+        let between = Patches::random(3, Domain::Quad, 40);
+        let batch_expected = between.expected(config);
+        for &(factors, ref expected) in &all {
+            let (t, numbering, same) = (&mut tessellator, Numbering::PerPatch, |point| point);
+            let found = difference::<_, u32>(t, factors, expected, (1, 100), (FIXED, same));
+            assert_eq!(found, None, "{level} {config:?} {factors:?}");
+            let batch = between.structures(Domain::Quad);
+            batches::<DomainPoint, u32>(t, (&between, batch), &batch_expected, numbering, same);
+            let found = difference::<_, u32>(t, factors, expected, (1, 0), (FIXED, same));
+            assert_eq!(found, None, "{level} {config:?} {factors:?}, after a batch");
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! Such a call goes through no chunk, no slices and no pool: the front end takes the one patch ([`Packet`]'s
 //! `one`), and the kernel of batches writes it as the only patch of a packet, from the same templates. So
-//! whatever one of the two ways has learned of a topology, the other knows.
+//! whatever one of the two ways has learned of a topology, the other knows. A patch with the factors of the one
+//! before skips the front end.
 //!
 //! [`Packet`]: crate::stages::packet::Packet
 

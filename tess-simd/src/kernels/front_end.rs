@@ -4,7 +4,7 @@ use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
 use crate::data::lanes::LANES;
 use crate::stages::counts::{PacketCounts, PartCounts};
-use crate::stages::packet::{Packet, packet_counts};
+use crate::stages::packet::{OnePatch, Packet, packet_counts};
 use tess_core::{Config, Counts, PatchFactors};
 
 /// Takes up to a chunk of patches through the front end. Lanes past the end count as culled; packets past the end
@@ -74,10 +74,10 @@ fn count_and_keep_few(config: Config, batch: &Batch<'_>, kept: &mut Packet) -> P
     total
 }
 
-/// Takes one patch through the front end, as the first of a packet, and returns its output sizes.
+/// Takes one patch through the front end and returns its output sizes.
 #[inline(always)]
-pub(crate) fn process_one(config: Config, factors: PatchFactors, packet: &mut Packet) -> Counts {
-    packet.process_one(config, 0, factors)
+pub(crate) fn process_one(config: Config, factors: PatchFactors, one: &mut OnePatch) -> Counts {
+    one.process(config, factors)
 }
 
 /// Sums lane by lane.

@@ -60,6 +60,8 @@
 
 mod one;
 
+pub(crate) use one::OnePatch;
+
 use crate::data::lanes::{Column, EdgePoints, LANES, Lanes, MAX_FACTORS, is_odd};
 use crate::stages::counts::{PacketCounts, counts};
 use crate::stages::factor_context::{Context, point_counts};

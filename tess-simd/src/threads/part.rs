@@ -9,7 +9,7 @@ use crate::data::target::Target;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
-use crate::stages::packet::Packet;
+use crate::stages::packet::{OnePatch, Packet};
 use crate::stages::points::Lookup;
 use crate::stages::settings::Settings;
 use alloc::boxed::Box;
@@ -45,8 +45,8 @@ pub(crate) struct Workspace(Option<Box<Memory>>);
 #[derive(Clone, Debug)]
 #[repr(align(128))]
 struct Memory {
-    /// The first lane has the patch that comes alone.
-    one: Packet,
+    /// The patch that comes alone.
+    one: OnePatch,
     lookup: Lookup,
     caches: Caches,
     /// Made by the first batch.
@@ -113,7 +113,7 @@ impl Memory {
     #[cold]
     fn new() -> Box<Self> {
         Box::new(Self {
-            one: Packet::EMPTY,
+            one: OnePatch::CULLED,
             lookup: Lookup::new(),
             caches: Caches::new(),
             chunk: None,
@@ -128,15 +128,16 @@ impl Memory {
         indices: &mut [I],
     ) {
         let Self { one, lookup, caches, .. } = self;
-        let patch = one.patch(0);
+        let packet = one.packet();
+        let patch = packet.patch(0);
         if patch.points() == 0 {
             return;
         }
         if patch.is_compact() {
-            return levels::emit_one(level, settings, one, (points, indices), caches, lookup);
+            return levels::emit_one(level, settings, packet, (points, indices), caches, lookup);
         }
         let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
-        let packets = Packets { packets: from_ref(one), first, numbering };
+        let packets = Packets { packets: from_ref(packet), first, numbering };
         let ranges = &mut [PatchRange::default()];
         levels::emit(level, settings, packets, Room { points, indices, ranges }, caches, lookup);
     }

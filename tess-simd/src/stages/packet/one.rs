@@ -12,6 +12,67 @@ use crate::stages::factors::{FACTORS_AT_ONCE, OneProcessed, process_one, process
 use crate::stages::place::Spacing;
 use tess_core::{Config, Counts, Domain, PatchFactors};
 
+/// A patch that came alone, and a packet that has it in its first lane.
+#[derive(Clone, Debug)]
+pub(crate) struct OnePatch {
+    /// As the patch that was processed last made it; nothing else writes to it.
+    packet: Packet,
+    raw: RawFactors,
+    domain: Domain,
+    counts: Counts,
+}
+
+/// The raw factors of a patch side by side; zeros follow those that its domain has.
+type RawFactors = [u32; FACTORS_AT_ONCE];
+
+impl OnePatch {
+    /// A patch that is culled, as all its factors are 0.
+    pub(crate) const CULLED: Self = Self {
+        packet: Packet::EMPTY,
+        raw: [0; FACTORS_AT_ONCE],
+        domain: Domain::Quad,
+        counts: Counts { points: 0, primitives: 0, indices: 0 },
+    };
+
+    /// The packet with the patch.
+    pub(crate) const fn packet(&self) -> &Packet {
+        &self.packet
+    }
+
+    /// Processes the raw factors of one patch, unless they are those of the patch before. Returns its output
+    /// sizes, zeros if it is culled. The configuration is the same in each call.
+    #[inline(always)]
+    pub(crate) fn process(&mut self, config: Config, factors: PatchFactors) -> Counts {
+        let (raw, domain) = (side_by_side(factors), factors.domain());
+        // All factors in one comparison: which is the first to differ is hard to predict.
+        let differences = (0..FACTORS_AT_ONCE).fold(0, |any, i| any | (raw[i] ^ self.raw[i]));
+        if differences != 0 || domain != self.domain {
+            (self.raw, self.domain) = (raw, domain);
+            self.counts = self.packet.process_raw(config, 0, domain, &raw);
+        }
+        self.counts
+    }
+}
+
+#[inline(always)]
+fn side_by_side(factors: PatchFactors) -> RawFactors {
+    let raw = match factors {
+        PatchFactors::Isoline(factors) => {
+            let [density, detail] = factors.into();
+            [density, detail, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+        }
+        PatchFactors::Triangle(factors) => {
+            let [u0, v0, w0, inside] = factors.into();
+            [u0, v0, w0, inside, 0.0, 0.0, 0.0, 0.0]
+        }
+        PatchFactors::Quad(factors) => {
+            let [u0, v0, u1, v1, inside_u, inside_v] = factors.into();
+            [u0, v0, u1, v1, inside_u, inside_v, 0.0, 0.0]
+        }
+    };
+    raw.map(f32::to_bits)
+}
+
 impl Packet {
     /// Processes the raw factors of one patch; the other lanes stay as they are. Returns its output sizes,
     /// zeros if it is culled.
@@ -22,25 +83,25 @@ impl Packet {
         lane: usize,
         factors: PatchFactors,
     ) -> Counts {
+        self.process_raw(config, lane, factors.domain(), &side_by_side(factors))
+    }
+
+    #[inline(always)]
+    fn process_raw(
+        &mut self,
+        config: Config,
+        lane: usize,
+        domain: Domain,
+        raw: &RawFactors,
+    ) -> Counts {
         let partitioning = config.partitioning;
-        let processed = match factors {
-            PatchFactors::Isoline(factors) => {
-                let [density, detail] = factors.into();
-                let raw = [density, detail, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-                process_one_isoline(partitioning, &raw)
-            }
-            PatchFactors::Triangle(factors) => {
-                let [u0, v0, w0, inside] = factors.into();
-                let raw = [u0, v0, w0, inside, 0.0, 0.0, 0.0, 0.0];
-                process_one::<3, 4>(partitioning, &raw)
-            }
-            PatchFactors::Quad(factors) => {
-                let [u0, v0, u1, v1, inside_u, inside_v] = factors.into();
-                let raw = [u0, v0, u1, v1, inside_u, inside_v, 0.0, 0.0];
-                process_one::<4, 6>(partitioning, &raw)
-            }
+        let raw = &raw.map(f32::from_bits);
+        let processed = match domain {
+            Domain::Isoline => process_one_isoline(partitioning, raw),
+            Domain::Triangle => process_one::<3, 4>(partitioning, raw),
+            Domain::Quad => process_one::<4, 6>(partitioning, raw),
         };
-        self.keep_one(config, lane, factors.domain(), &processed)
+        self.keep_one(config, lane, domain, &processed)
     }
 
     /// Makes the lane from processed factors.
