@@ -1,13 +1,18 @@
 //! Functional coverage: which of the specification's cases a set of vectors hits.
 //!
 //! The bins are described in `docs/verification.md`. All of them are declared beforehand, so what
-//! was not hit can be named; none of them can be out of reach, as level 1 hits every one.
+//! was not hit can be named; none of them can be out of reach, as level 1 hits every one. A device
+//! that lacks configurations cannot hit all of them: [`Exclusions`] names those.
 
 mod bins;
+mod exclusions;
+mod html;
 mod observe;
+mod report;
 mod ucis;
 
 use crate::case::Case;
+pub use exclusions::{Exclusions, UnknownBin};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
@@ -39,10 +44,14 @@ pub fn bins_hit(case: &Case) -> Vec<usize> {
 pub struct Group {
     /// Name of the group.
     pub name: String,
-    /// Bins hit at least once.
+    /// The stage of the specification that its bins tell of, such as `context`.
+    pub stage: &'static str,
+    /// Bins hit at least once, of those that are not excluded.
     pub hit: usize,
     /// Bins there are.
     pub bins: usize,
+    /// Bins that are excluded.
+    pub excluded: usize,
 }
 
 impl Default for Coverage {
@@ -63,10 +72,18 @@ impl Coverage {
     /// # Panics
     /// In debug builds, if a case hits a bin that was not declared: a fault of this module.
     pub fn record(&mut self, case: &Case) {
+        self.record_new(case);
+    }
+
+    /// As [`Coverage::record`]; gives how many of the bins were hit for the first time.
+    pub fn record_new(&mut self, case: &Case) -> usize {
+        let mut fresh = 0;
         observe::observe(case, |bin| {
+            fresh += usize::from(self.hits(&bin) == Some(0));
             let declared = self.add(&bin, 1);
             debug_assert!(declared, "bin {bin} is not declared ({case})");
         });
+        fresh
     }
 
     /// Counts the bins that one factor's context hits, for the bench of a stage that sees no patch:
@@ -87,6 +104,16 @@ impl Coverage {
         let found = hits.is_some();
         hits.into_iter().for_each(|hits| *hits = hits.saturating_add(more));
         found
+    }
+
+    /// Coverage with these hits, a number for each bin in the order of [`Coverage::bins`]; `None` if there
+    /// are more or fewer bins.
+    #[must_use]
+    pub fn from_hits(hits: &[u64]) -> Option<Self> {
+        let mut coverage = Self::new();
+        let is_whole = coverage.hits.len() == hits.len();
+        coverage.hits.values_mut().zip(hits).for_each(|(own, hits)| *own = *hits);
+        is_whole.then_some(coverage)
     }
 
     /// Adds the hits of other vectors, such as another shard's.
@@ -133,34 +160,63 @@ impl Coverage {
         self.hits.iter().map(|(bin, hits)| (bin.as_str(), *hits))
     }
 
+    /// The bins that were never hit and are not excluded, in alphabetical order.
+    pub fn holes<'a>(&'a self, exclusions: &'a Exclusions) -> impl Iterator<Item = &'a str> {
+        self.missed().filter(|bin| !exclusions.has(bin))
+    }
+
+    /// The bins that are excluded and were hit all the same, in alphabetical order: wrong exclusions.
+    pub fn hit_though_excluded<'a>(
+        &'a self,
+        exclusions: &'a Exclusions,
+    ) -> impl Iterator<Item = &'a str> {
+        exclusions.bins().filter(|bin| self.hits(bin).is_some_and(|hits| hits > 0))
+    }
+
     /// The groups, in alphabetical order.
     #[must_use]
     pub fn groups(&self) -> Vec<Group> {
+        self.groups_without(&Exclusions::default())
+    }
+
+    /// The groups, in alphabetical order, with the bins that are excluded.
+    #[must_use]
+    pub fn groups_without(&self, exclusions: &Exclusions) -> Vec<Group> {
         let mut groups: BTreeMap<&str, Group> = BTreeMap::new();
         for (bin, hits) in self.bins() {
             let name = bin.split('/').next().unwrap_or(bin);
             let group = groups.entry(name).or_insert_with(|| Group {
                 name: name.to_owned(),
+                stage: report::stage(name),
                 hit: 0,
                 bins: 0,
+                excluded: 0,
             });
+            let is_excluded = exclusions.has(bin);
             group.bins += 1;
-            group.hit += usize::from(hits > 0);
+            group.excluded += usize::from(is_excluded);
+            group.hit += usize::from(hits > 0 && !is_excluded);
         }
         groups.into_values().collect()
     }
+
+    /// The report as text: a line for each group by stage, with sums, then every bin that was missed and
+    /// is not excluded.
+    #[must_use]
+    pub fn report(&self, exclusions: &Exclusions) -> String {
+        report::text(self, exclusions)
+    }
+
+    /// The report as one HTML file, which says that the hits are those of `sources`.
+    #[must_use]
+    pub fn to_html(&self, exclusions: &Exclusions, sources: &[String]) -> String {
+        html::document(self, exclusions, sources)
+    }
 }
 
-/// The report: a line for each group and for all, then every bin that was missed.
+/// The report without exclusions.
 impl fmt::Display for Coverage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let groups = self.groups();
-        for group in &groups {
-            writeln!(f, "{:<16} {:>5} of {:>5}", group.name, group.hit, group.bins)?;
-        }
-        let (hit, bins) =
-            groups.iter().fold((0, 0), |(h, b), group| (h + group.hit, b + group.bins));
-        writeln!(f, "{:<16} {hit:>5} of {bins:>5}", "all")?;
-        self.missed().try_for_each(|bin| writeln!(f, "missed {bin}"))
+        f.write_str(&self.report(&Exclusions::default()))
     }
 }

@@ -10,7 +10,7 @@ mod text;
 
 use crate::case::Case;
 use crate::names::Named;
-use factors::FactorReport;
+pub use factors::FactorReport;
 pub use point::PointReport;
 pub use primitive::PrimitiveReport;
 #[cfg(feature = "serde")]

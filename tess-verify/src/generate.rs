@@ -185,11 +185,20 @@ impl Selection {
         })
     }
 
+    /// The configurations that are selected, in the order of spec section 1.
+    pub fn configurations(&self) -> impl Iterator<Item = (Domain, Config)> {
+        configurations().filter(|(domain, config)| self.has(*domain, *config))
+    }
+
     fn selects(&self, case: &Case) -> bool {
-        self.domain.is_none_or(|domain| domain == case.factors.domain())
-            && self.partitioning.is_none_or(|p| p == case.config.partitioning)
-            && self.output.is_none_or(|output| output == case.config.output)
-            && self.split.is_none_or(|split| split == case.config.split)
+        self.has(case.domain(), case.config)
+    }
+
+    fn has(&self, domain: Domain, config: Config) -> bool {
+        self.domain.is_none_or(|own| own == domain)
+            && self.partitioning.is_none_or(|own| own == config.partitioning)
+            && self.output.is_none_or(|own| own == config.output)
+            && self.split.is_none_or(|own| own == config.split)
     }
 }
 
@@ -200,6 +209,24 @@ pub fn configurations() -> impl Iterator<Item = (Domain, Config)> {
         SplitOrder::ALL.map(|split| Config { partitioning: p, output, split })
     });
     Domain::ALL.into_iter().flat_map(move |domain| configs.clone().map(move |c| (domain, c)))
+}
+
+/// The configurations of which each part is one of these, in the same order; an empty list stands for all.
+pub fn configurations_among<'a>(
+    domains: &'a [Domain],
+    partitionings: &'a [Partitioning],
+    outputs: &'a [OutputPrimitive],
+    splits: &'a [SplitOrder],
+) -> impl Iterator<Item = (Domain, Config)> + 'a {
+    fn has<T: PartialEq>(some: &[T], one: &T) -> bool {
+        some.is_empty() || some.contains(one)
+    }
+    configurations().filter(move |(domain, config)| {
+        has(domains, domain)
+            && has(partitionings, &config.partitioning)
+            && has(outputs, &config.output)
+            && has(splits, &config.split)
+    })
 }
 
 pub(crate) fn pick<T: Copy>(random: &mut impl Draw, from: &[T]) -> T {

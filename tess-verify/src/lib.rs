@@ -5,6 +5,7 @@ mod arbitrary;
 pub mod backend;
 pub mod case;
 pub mod checker;
+pub mod circuit;
 pub mod compare;
 pub mod coordinate;
 pub mod core_backend;

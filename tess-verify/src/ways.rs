@@ -2,7 +2,7 @@
 //! mistakes that turn a whole output round.
 
 use crate::case::Case;
-use crate::strength::{Conversion, Denormals, Strength};
+use crate::strength::{Conversion, Denormals, Order, Strength};
 use std::collections::BTreeSet;
 use tess_core::fixed_point::ONE;
 use tess_core::{Config, DomainPoint, OutputPrimitive, Tessellation};
@@ -15,6 +15,8 @@ const LARGEST: u32 = 64;
 #[cfg_attr(feature = "serde", derive(serde::Serialize), serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Way {
+    /// Primitives and points come in another order.
+    Order,
     /// Positive denormal outer factors are flushed to zero, which culls.
     Flush,
     /// Factors are converted to fixed point within 0.6 units in the last place.
@@ -36,7 +38,7 @@ pub enum Way {
 }
 
 impl Way {
-    /// All, those that the specification allows first.
+    /// What may explain what a device gives in any order, those that the specification allows first.
     pub const ALL: [Self; 9] = [
         Self::Flush,
         Self::Conversion,
@@ -51,7 +53,8 @@ impl Way {
 
     /// What may explain every difference of a file: the freedoms of `tess check`'s options first, then what turns a
     /// whole output round.
-    pub const OF_FILES: [Self; 8] = [
+    pub const OF_FILES: [Self; 9] = [
+        Self::Order,
         Self::Flush,
         Self::Conversion,
         Self::FlushAndConversion,
@@ -65,13 +68,21 @@ impl Way {
     /// Whether the specification leaves this to a device.
     #[must_use]
     pub const fn is_allowed(self) -> bool {
-        matches!(self, Self::Flush | Self::Conversion | Self::FlushAndConversion | Self::Clamping)
+        matches!(
+            self,
+            Self::Order
+                | Self::Flush
+                | Self::Conversion
+                | Self::FlushAndConversion
+                | Self::Clamping
+        )
     }
 
     /// The options of `tess check` under which this counts as equal; empty if there are none.
     #[must_use]
     pub const fn options(self) -> &'static str {
         match self {
+            Self::Order => "--order any",
             Self::Flush => "--denormals flush",
             Self::Conversion => "--conversion 0.6ulp",
             Self::FlushAndConversion => "--denormals flush --conversion 0.6ulp",
@@ -83,6 +94,7 @@ impl Way {
     #[must_use]
     pub const fn words(self) -> &'static str {
         match self {
+            Self::Order => "primitives or points come in another order, and are the model's",
             Self::Flush => "positive denormal outer factors are flushed to zero, which culls",
             Self::Conversion => "factors are converted to fixed point within 0.6 ulp",
             Self::FlushAndConversion => {
@@ -114,6 +126,7 @@ impl Way {
             !observed.points.is_empty() && strength.accepts(&case, &turn_round(observed, turn))
         };
         match self {
+            Self::Order => Strength { order: Order::Any, ..strength }.accepts(case, observed),
             Self::Flush => flush.accepts(case, observed),
             Self::Conversion => convert(strength).accepts(case, observed),
             Self::FlushAndConversion => convert(flush).accepts(case, observed),

@@ -57,6 +57,27 @@ fn a_freedom_that_explains_all() {
     assert_eq!(check_device([], ANY).freedom(), None, "nothing to explain");
 }
 
+/// A device whose triangles come from the last to the first.
+fn reversed(line: &str) -> (Case, Tessellation) {
+    let case = case(line);
+    let mut output = case.patch().tessellate();
+    output.indices = output.indices.chunks(3).rev().flatten().copied().collect();
+    (case, output)
+}
+
+#[test]
+fn another_order_explains_all() {
+    let line = "case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000";
+    let freedom = |answers: &[(Case, Tessellation)]| {
+        let report = check_device(answers.iter().cloned(), Strength::default());
+        assert_eq!(report.mismatches, answers.len() as u64, "{report}");
+        report.freedom().map(Way::options)
+    };
+    assert_eq!(freedom(&[reversed(line)]), Some("--order any"), "in order only");
+    assert_eq!(freedom(&[reversed(line), moved(line)]), None, "and a point elsewhere");
+    assert_eq!(freedom(&[reversed(line), flushed()]), None, "and a patch that is culled");
+}
+
 fn origin(report: &Report) -> Option<String> {
     report.differences[0].origin()
 }

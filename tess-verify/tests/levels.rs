@@ -17,6 +17,33 @@ fn level_1_hits_every_bin() {
     assert!(missed.is_empty(), "{} bins missed: {missed:#?}", missed.len());
 }
 
+/// Each factor alone makes a patch that is no minimum patch: a device that decides it by the others is seen.
+#[test]
+fn level_2_has_patches_beside_minimum_ones() {
+    use tess_core::{Domain, Partitioning};
+
+    let cases = level(GenLevel::Two);
+    for domain in Domain::ALL {
+        for partitioning in Partitioning::ALL {
+            for position in 0..domain.factors() {
+                let is_there = cases.iter().any(|case| {
+                    let mut others =
+                        case.factors.iter().enumerate().filter(|&(p, _)| p != position);
+                    case.domain() == domain
+                        && case.config.partitioning == partitioning
+                        && case.factors.iter().nth(position).is_some_and(|factor| factor > 2.0)
+                        && others.all(|(_, factor)| factor.to_bits() == 1f32.to_bits())
+                });
+                let name = domain.factor_names()[position];
+                assert!(
+                    is_there,
+                    "{domain:?} {partitioning:?}: no patch with {name} alone above 1"
+                );
+            }
+        }
+    }
+}
+
 /// Random patches reach every bin too, but for some of the transitions; and they stay small.
 #[test]
 fn random_patches_reach_what_there_is() {

@@ -8,7 +8,7 @@ use tess_surface::factors::{
     inside_triangle, quotient, root_quotient,
 };
 use tess_surface::pn::edge_points;
-use tess_surface::{BezierPatch, Curve, Edge, FactorRule, Model, PnCorner};
+use tess_surface::{Bend, BezierPatch, Curve, Edge, FactorRule, Model, PnCorner, Surface};
 
 const X_AXIS: Curve = Curve::Line([Vec3::ZERO, Vec3::new(2.0, 0.0, 0.0)]);
 
@@ -163,6 +163,21 @@ fn flatness_follows_each_axis() {
     // Second differences of 0.5, times 6, over 4 tolerances: 75 squared segments.
     assert_eq!(factors(along_u), [1.0, 16.0, 1.0, 16.0, 16.0, 1.0], "bent along u");
     assert_eq!(factors(along_v), [16.0, 1.0, 16.0, 1.0, 1.0, 16.0], "bent along v");
+}
+
+/// The control points of u v h over the unit square: no line of them bends, and the mixed derivative is h.
+#[test]
+fn a_twist_alone_bends() {
+    let points = |h: f32| {
+        let at = |i: usize, j: usize| (i as f32 / 3.0, j as f32 / 3.0);
+        let point = |(u, v): (f32, f32)| Vec3::new(u, v, u * v * h);
+        std::array::from_fn(|j| std::array::from_fn(|i| point(at(i, j))))
+    };
+    for h in [1.0, 5.0] {
+        let patch = BezierPatch::polynomial(points(h));
+        let Bend { u, v } = Bend::of(&Surface::Bezier(patch));
+        assert!((u - h).abs() < 1e-4 && (v - h).abs() < 1e-4, "{u} and {v} for {h}");
+    }
 }
 
 #[test]

@@ -1,118 +1,227 @@
-//! Every bin there is.
+//! Every bin there is, and which of them a configuration can hit.
 
+use crate::generate::configurations;
 use crate::names::Named;
-use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
+use tess_core::{Config, Domain, Parity, Partitioning};
 
-/// Domains with an inside.
-const FILLED: [Domain; 2] = [Domain::Triangle, Domain::Quad];
-const PARITIES: [Parity; 2] = [Parity::Even, Parity::Odd];
-
-/// The paths of all bins.
+/// The paths of all bins; some come more than once.
 pub(super) fn all() -> Vec<String> {
+    configurations().flat_map(|(domain, config)| of(domain, config)).collect()
+}
+
+/// The paths of the bins that the patches of one configuration can hit: each of them, and no other.
+pub(super) fn of(domain: Domain, config: Config) -> Vec<String> {
     let mut bins = Vec::new();
-    configuration(&mut bins);
-    cull(&mut bins);
-    factors(&mut bins);
-    contexts(&mut bins);
-    stitches(&mut bins);
-    centres(&mut bins);
+    configuration(&mut bins, domain, config);
+    cull(&mut bins, domain);
+    for (role, partitioning) in roles(domain, config.partitioning) {
+        factors(&mut bins, role, partitioning);
+        contexts(&mut bins, config, partitioning);
+    }
+    if domain != Domain::Isoline {
+        stitches(&mut bins, domain.name(), config.partitioning);
+        centres(&mut bins, domain, parities(config.partitioning));
+    }
     bins
 }
 
-fn configuration(bins: &mut Vec<String>) {
-    for domain in Domain::ALL.map(Named::name) {
-        for partitioning in Partitioning::ALL.map(Named::name) {
-            for output in OutputPrimitive::ALL.map(Named::name) {
-                for split in SplitOrder::ALL.map(Named::name) {
-                    bins.push(format!("configuration/{domain}/{partitioning}/{output}/{split}"));
+/// The roles that factors have, each with the partitioning that it is processed by: an isoline's density is an
+/// integer.
+fn roles(domain: Domain, partitioning: Partitioning) -> [(&'static str, Partitioning); 2] {
+    match domain {
+        Domain::Isoline => [("outer", Partitioning::Integer), ("outer", partitioning)],
+        Domain::Triangle | Domain::Quad => [("outer", partitioning), ("inside", partitioning)],
+    }
+}
+
+/// The parities that a partitioning can give a factor.
+fn parities(partitioning: Partitioning) -> &'static [Parity] {
+    match partitioning {
+        Partitioning::Integer | Partitioning::Pow2 => &[Parity::Even, Parity::Odd],
+        Partitioning::FractionalOdd => &[Parity::Odd],
+        Partitioning::FractionalEven => &[Parity::Even],
+    }
+}
+
+/// Every pair of an outer and an inside parity.
+fn pairs(of: &[Parity]) -> impl Iterator<Item = (Parity, Parity)> {
+    of.iter().flat_map(|&outer| of.iter().map(move |&inside| (outer, inside)))
+}
+
+fn configuration(bins: &mut Vec<String>, domain: Domain, config: Config) {
+    let [output, split] = [config.output.name(), config.split.name()];
+    let [domain_name, partitioning] = [domain.name(), config.partitioning.name()];
+    bins.push(format!("configuration/{domain_name}/{partitioning}/{output}/{split}"));
+    // Factors of fractional_even are at least 2.
+    if domain != Domain::Isoline && config.partitioning != Partitioning::FractionalEven {
+        bins.push(format!("minimum/{domain_name}/{partitioning}/{output}"));
+    }
+    if domain != Domain::Isoline && config.partitioning == Partitioning::FractionalOdd {
+        let how = ["raised", "all_one", "already_above"];
+        bins.extend(how.map(|how| format!("picture_frame/{how}")));
+    }
+}
+
+fn cull(bins: &mut Vec<String>, domain: Domain) {
+    for factor in &domain.factor_names()[..domain.outer_factors()] {
+        for why in ["zero", "negative", "nan"] {
+            bins.push(format!("cull/{}/{factor}/{why}", domain.name()));
+        }
+        bins.push(format!("denormal/{}/{factor}", domain.name()));
+    }
+}
+
+fn factors(bins: &mut Vec<String>, role: &str, partitioning: Partitioning) {
+    let name = partitioning.name();
+    let clamps = ["below", "within", "above"];
+    bins.extend(clamps.map(|clamp| format!("clamp/{name}/{role}/{clamp}")));
+    if role == "inside" {
+        bins.push(format!("clamp/{name}/inside/nan"));
+    }
+    bins.push(format!("conversion/{role}/exact"));
+    if partitioning.has_integer_factors() {
+        bins.extend(["exact", "up"].map(|how| format!("round/{name}/{role}/{how}")));
+    } else {
+        let inexact = ["down", "up", "tie_down", "tie_up"];
+        bins.extend(inexact.map(|how| format!("conversion/{role}/{how}")));
+    }
+}
+
+/// The contexts of factors that are processed by this partitioning.
+fn contexts(bins: &mut Vec<String>, config: Config, partitioning: Partitioning) {
+    let split = config.split.name();
+    let has_fractions = !partitioning.has_integer_factors();
+    for parity in parities(partitioning) {
+        let name = parity.name();
+        for half_points in 1..=32 {
+            bins.push(format!("context/{split}/{name}/{half_points}/whole"));
+            if has_fractions && half_points > 1 {
+                bins.push(format!("context/{split}/{name}/{half_points}/split"));
+            }
+        }
+        if has_fractions {
+            bins.push(format!("exceptional/{split}/{name}/equal_neighbours"));
+        }
+        if has_fractions && *parity == Parity::Even {
+            bins.push(format!("exceptional/{split}/even/backwards"));
+        }
+    }
+}
+
+fn stitches(bins: &mut Vec<String>, domain: &str, partitioning: Partitioning) {
+    for (outer, inside) in pairs(parities(partitioning)) {
+        let parities = format!("{}x{}", outer.name(), inside.name());
+        bins.push(format!("parities/{domain}/{}/{parities}", partitioning.name()));
+        bins.push(format!("middle/{parities}"));
+        for outer in points(outer) {
+            // An inside row has a picture frame, so at least three points.
+            let inside = points(inside).filter(|inside| *inside >= 3);
+            bins.extend(inside.map(|inside| format!("transition/{outer}x{inside}")));
+        }
+    }
+    for inside in parities(partitioning).iter().flat_map(|parity| points(*parity)) {
+        let rings = u32::div_ceil(inside, 2) - 1;
+        bins.extend((rings > 0).then(|| format!("rings/{domain}/{rings}")));
+    }
+}
+
+/// The numbers of points that an edge can have: an edge of even parity has a point in its middle.
+fn points(parity: Parity) -> impl Iterator<Item = u32> {
+    let first = if parity == Parity::Even { 3 } else { 2 };
+    (first..=65).step_by(2)
+}
+
+fn centres(bins: &mut Vec<String>, domain: Domain, parities: &[Parity]) {
+    let is_quad = domain == Domain::Quad;
+    for parity in parities {
+        match (domain, parity) {
+            (Domain::Quad, Parity::Even) => bins.push("centre/quad/point".to_owned()),
+            (Domain::Quad, Parity::Odd) => bins.push("centre/quad/strip_of_one".to_owned()),
+            (_, Parity::Even) => bins.push("centre/tri/point".to_owned()),
+            (_, Parity::Odd) => bins.push("centre/tri/triangle".to_owned()),
+        }
+    }
+    for (short, long) in pairs(parities).filter(|_| is_quad) {
+        let shape = if short == Parity::Even { "row" } else { "strip" };
+        let along = |axis| format!("centre/quad/{shape}_along_{axis}/{}", long.name());
+        bins.extend(["u", "v"].map(along));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::coverage::observe::observe;
+    use crate::generate::{
+        GenLevel, Selection, boundary_factors, exceptional_factors, special_factors,
+    };
+    use std::collections::BTreeSet;
+    use tess_core::{OutputPrimitive, PatchFactors, SplitOrder};
+
+    /// Factors that hit what a domain's patches can hit: each boundary in each position, every pair of an outer
+    /// and an inside number of points, and the interiors of level 1.
+    fn witnesses(domain: Domain) -> Vec<PatchFactors> {
+        let mut all = Vec::new();
+        let values = [boundary_factors(), exceptional_factors(), special_factors()].concat();
+        for value in values {
+            all.push(PatchFactors::uniform(domain, value));
+            for at in 0..domain.factors() {
+                let others = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0];
+                all.push(PatchFactors::from_fn(
+                    domain,
+                    |i| if i == at { value } else { others[i] },
+                ));
+            }
+        }
+        for inside in (1..=64u8).map(f32::from) {
+            for group in 0..16u8 {
+                let outer = |i| f32::from(group * 4 + [0, 1, 2, 3][i % 4] + 1);
+                let is_outer = |i| i < domain.outer_factors();
+                let pairs = |turn: usize| {
+                    let at = |i: usize| if is_outer(i) { outer(i + turn) } else { inside };
+                    PatchFactors::from_fn(domain, at)
+                };
+                all.extend([pairs(0), pairs(1)]);
+            }
+        }
+        let level = Selection { random: Some(0), ..Selection::level(GenLevel::One, 1) };
+        let of_domain = level.cases().filter(|case| case.domain() == domain);
+        all.extend(of_domain.step_by(7).map(|case| case.factors));
+        all
+    }
+
+    /// What a bin says beside its path is of no use if a patch hits more, or nothing hits it.
+    #[test]
+    fn configurations_hit_these_bins_and_no_others() {
+        for domain in Domain::ALL {
+            let witnesses = witnesses(domain);
+            for (partitioning, split) in
+                Partitioning::ALL.into_iter().flat_map(|p| SplitOrder::ALL.map(|split| (p, split)))
+            {
+                let config = Config { partitioning, output: OutputPrimitive::Line, split };
+                let mut hit = BTreeSet::new();
+                for &factors in &witnesses {
+                    observe(&Case { config, factors }, |bin| _ = hit.insert(bin));
                 }
+                let declared: BTreeSet<String> = of(domain, config).into_iter().collect();
+                let beyond: Vec<_> = hit.difference(&declared).collect();
+                let never: Vec<_> = declared.difference(&hit).collect();
+                assert!(beyond.is_empty(), "{domain:?} {config:?} also hit {beyond:?}");
+                assert!(never.is_empty(), "{domain:?} {config:?} never hit {never:?}");
             }
         }
     }
-    for domain in FILLED.map(Named::name) {
-        for partitioning in ["integer", "pow2", "fractional_odd"] {
-            for output in OutputPrimitive::ALL.map(Named::name) {
-                bins.push(format!("minimum/{domain}/{partitioning}/{output}"));
-            }
-        }
-    }
-}
 
-fn cull(bins: &mut Vec<String>) {
-    for domain in Domain::ALL {
-        for factor in &domain.factor_names()[..domain.outer_factors()] {
-            for why in ["zero", "negative", "nan"] {
-                bins.push(format!("cull/{}/{factor}/{why}", domain.name()));
-            }
-            bins.push(format!("denormal/{}/{factor}", domain.name()));
+    /// The output decides nothing but the bins that name it.
+    #[test]
+    fn outputs_differ_in_their_own_bins_alone() {
+        for (domain, config) in configurations() {
+            let line = Config { output: OutputPrimitive::Line, ..config };
+            let renamed = of(domain, line)
+                .into_iter()
+                .map(|bin| bin.replace("/line", &format!("/{}", config.output.name())));
+            assert_eq!(of(domain, config), renamed.collect::<Vec<_>>(), "{domain:?} {config:?}");
         }
     }
-}
-
-fn factors(bins: &mut Vec<String>) {
-    for role in ["outer", "inside"] {
-        for partitioning in Partitioning::ALL.map(Named::name) {
-            for clamp in ["below", "within", "above"] {
-                bins.push(format!("clamp/{partitioning}/{role}/{clamp}"));
-            }
-        }
-        for partitioning in ["integer", "pow2"] {
-            bins.extend(["exact", "up"].map(|how| format!("round/{partitioning}/{role}/{how}")));
-        }
-        for how in ["exact", "down", "up", "tie_down", "tie_up"] {
-            bins.push(format!("conversion/{role}/{how}"));
-        }
-    }
-    for partitioning in Partitioning::ALL.map(Named::name) {
-        bins.push(format!("clamp/{partitioning}/inside/nan"));
-    }
-    bins.extend(["raised", "all_one", "already_above"].map(|how| format!("picture_frame/{how}")));
-}
-
-fn contexts(bins: &mut Vec<String>) {
-    for split in SplitOrder::ALL.map(Named::name) {
-        for parity in PARITIES.map(Named::name) {
-            for half_points in 1..=32 {
-                bins.push(format!("context/{split}/{parity}/{half_points}/whole"));
-                if half_points > 1 {
-                    bins.push(format!("context/{split}/{parity}/{half_points}/split"));
-                }
-            }
-            bins.push(format!("exceptional/{split}/{parity}/equal_neighbours"));
-        }
-        bins.push(format!("exceptional/{split}/even/backwards"));
-    }
-}
-
-fn stitches(bins: &mut Vec<String>) {
-    for domain in FILLED.map(Named::name) {
-        for partitioning in ["integer", "pow2"] {
-            for (outer, inside) in parity_pairs() {
-                bins.push(format!("parities/{domain}/{partitioning}/{outer}x{inside}"));
-            }
-        }
-        bins.push(format!("parities/{domain}/fractional_odd/oddxodd"));
-        bins.push(format!("parities/{domain}/fractional_even/evenxeven"));
-        bins.extend((1..=32).map(|rings| format!("rings/{domain}/{rings}")));
-    }
-    bins.extend(parity_pairs().map(|(outer, inside)| format!("middle/{outer}x{inside}")));
-    for outer in 2..=65 {
-        bins.extend((3..=65).map(|inside| format!("transition/{outer}x{inside}")));
-    }
-}
-
-fn parity_pairs() -> impl Iterator<Item = (&'static str, &'static str)> {
-    PARITIES.into_iter().flat_map(|a| PARITIES.map(|b| (a.name(), b.name())))
-}
-
-fn centres(bins: &mut Vec<String>) {
-    bins.extend(["point", "triangle"].map(|what| format!("centre/tri/{what}")));
-    bins.push("centre/quad/point".to_owned());
-    for axis in ["u", "v"] {
-        for other in PARITIES.map(Named::name) {
-            bins.push(format!("centre/quad/row_along_{axis}/{other}"));
-            bins.push(format!("centre/quad/strip_along_{axis}/{other}"));
-        }
-    }
-    bins.push("centre/quad/strip_of_one".to_owned());
 }

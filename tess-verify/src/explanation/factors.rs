@@ -1,8 +1,10 @@
 //! Each factor after each step of factor processing (spec sections 2 to 4).
 
 use super::Fixed;
+use crate::case::Case;
 #[cfg(feature = "serde")]
 use serde::Serialize;
+use std::fmt;
 use tess_core::{FactorContext, Parity, Patch, PatchFactors, ProcessedFactor};
 
 /// A binary32 number; NaN and infinities have no `value` in JSON.
@@ -22,11 +24,40 @@ impl Float {
 /// One factor on its way. A culled patch has raw factors alone.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(Serialize))]
-pub(super) struct FactorReport {
+pub struct FactorReport {
     pub(super) name: &'static str,
     pub(super) raw: Float,
     #[cfg_attr(feature = "serde", serde(flatten))]
     pub(super) processed: Option<Processed>,
+}
+
+impl FactorReport {
+    /// Explains factor `k`; `None` if the patch has no such factor.
+    #[must_use]
+    pub fn new(case: &Case, k: u32) -> Option<Self> {
+        let number = usize::try_from(k).ok()?;
+        reports(&case.patch(), &case.factors).get(number).copied()
+    }
+}
+
+impl fmt::Display for FactorReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { name, raw, processed } = self;
+        writeln!(f, "factor {name}: {:08x} ({})", raw.bits, raw.value)?;
+        let Some(Processed { clamped, rounded, fixed, parity, context: c }) = processed else {
+            return writeln!(f, "  the patch is culled");
+        };
+        writeln!(
+            f,
+            "  clamped {:08x} ({}), rounded {:08x} ({}), fixed = {:05x} ({}), {parity}",
+            clamped.bits, clamped.value, rounded.bits, rounded.value, fixed.bits, fixed.value
+        )?;
+        writeln!(
+            f,
+            "  points = {}, half_points = {}, split = {}, fraction = {:04x}, inv_floor = {:05x}, inv_ceil = {:05x}",
+            c.points, c.half_points, c.split, c.fraction, c.inv_floor, c.inv_ceil
+        )
+    }
 }
 
 #[derive(Clone, Copy, Debug)]

@@ -30,7 +30,7 @@ pub(super) fn one() -> Vec<Case> {
     cases
 }
 
-/// Every boundary in every position and both split orders, and every interior there is.
+/// Every boundary in every position and both split orders, every interior there is, and patches beside minimum ones.
 pub(super) fn two() -> Vec<Case> {
     let mut cases = one();
     for (domain, partitioning) in combinations() {
@@ -44,6 +44,7 @@ pub(super) fn two() -> Vec<Case> {
         }
     }
     interiors(&mut cases, |_, _| true);
+    beside_minimum(&mut cases);
     cases
 }
 
@@ -153,4 +154,15 @@ fn every_configuration(cases: &mut Vec<Case>) {
         let factors = PatchFactors::from_fn(domain, |p| PLAIN[p]);
         Case { config, factors }
     }));
+}
+
+/// All factors 1 but one: a patch that is no minimum patch because of that factor alone.
+fn beside_minimum(cases: &mut Vec<Case>) {
+    for (domain, partitioning) in combinations() {
+        for position in 0..domain.factors() {
+            let factor = |p| if p == position { 2.5 } else { 1.0 };
+            let factors = PatchFactors::from_fn(domain, factor);
+            cases.push(Case { config: config(partitioning, position), factors });
+        }
+    }
 }

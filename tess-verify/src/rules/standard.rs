@@ -165,16 +165,9 @@ const fn vulkan(rule: Rule) -> &'static str {
     }
 }
 
+/// Its list of invariance has the title and the numbers of Vulkan's.
 const fn opengl(rule: Rule) -> &'static str {
     match rule {
-        Rule::Same => "Tessellation Invariance, rule 1",
-        Rule::EdgeLevel => "Tessellation Invariance, rule 2",
-        Rule::Symmetric => "Tessellation Invariance, rule 3",
-        Rule::EveryEdge => "Tessellation Invariance, rule 4",
-        Rule::Winding => "Tessellation Invariance, rule 5",
-        Rule::Interior => "Tessellation Invariance, rule 6",
-        Rule::Transition => "Tessellation Invariance, rule 7",
-        Rule::Range => "Tessellation Invariance, rule 8",
         Rule::Discard
         | Rule::Segments
         | Rule::Spacing
@@ -184,7 +177,15 @@ const fn opengl(rule: Rule) -> &'static str {
         | Rule::Isolines
         | Rule::PointsOnce
         | Rule::PointsSame => "11.2.2 Tessellation Primitive Generation",
-        Rule::Counts => "",
+        Rule::Same
+        | Rule::EdgeLevel
+        | Rule::Symmetric
+        | Rule::EveryEdge
+        | Rule::Winding
+        | Rule::Interior
+        | Rule::Transition
+        | Rule::Range
+        | Rule::Counts => vulkan(rule),
     }
 }
 

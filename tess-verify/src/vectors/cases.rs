@@ -13,6 +13,8 @@ use std::io::{BufRead, Chain, Cursor, Read};
 #[derive(Debug)]
 pub struct Cases<R> {
     source: Source<R>,
+    /// Whether a text without a case is right, if it says so by a header or a remark.
+    may_be_empty: bool,
     found: bool,
     ended: bool,
 }
@@ -53,8 +55,8 @@ impl<R: BufRead> Cases<R> {
         Self::open(name.as_ref(), reader, Emptiness::Refused)
     }
 
-    /// [`Self::new`], for a text that may be a vector file without records, as an empty shard has. Case lines alone
-    /// still must be some.
+    /// [`Self::new`], for a text that may be a vector file without records, as an empty shard has, or have remarks
+    /// alone. An empty text is still an error.
     ///
     /// # Errors
     /// As for [`Self::new`].
@@ -77,7 +79,8 @@ impl<R: BufRead> Cases<R> {
         } else {
             Source::Lines(Lines::new(name, reader))
         };
-        Ok(Self { source, found: false, ended: false })
+        let may_be_empty = emptiness == Emptiness::Accepted;
+        Ok(Self { source, may_be_empty, found: false, ended: false })
     }
 
     /// The first line of a vector file; `None` of case lines alone.
@@ -93,7 +96,9 @@ impl<R: BufRead> Cases<R> {
             Source::File(file) => Ok(file.next().transpose()?.and_then(|record| record.case())),
             Source::Lines(lines) => {
                 while let Some(line) = lines.next()? {
-                    if !line.text.is_empty() && !line.text.starts_with('#') {
+                    if line.text.starts_with('#') {
+                        self.found |= self.may_be_empty;
+                    } else if !line.text.is_empty() {
                         let case = line.text.parse::<Case>();
                         return case.map(Some).map_err(|e| line.error(e.field, e.message));
                     }
@@ -124,6 +129,26 @@ mod tests {
     use std::io::BufReader;
 
     const LINE: &str = "case isoline integer line ruler 40000000 40400000\n";
+
+    /// Only what says that it is empty may be.
+    #[test]
+    fn texts_without_a_case() {
+        let header = format!("{MAGIC} 1 kind=listings count=0 source=a\n");
+        let count = |cases: Result<Cases<&[u8]>, VectorError>| -> Option<usize> {
+            cases.and_then(Iterator::collect::<Result<Vec<_>, _>>).ok().map(|cases| cases.len())
+        };
+        for (text, found) in [
+            (header.as_str(), Some(0)),
+            ("# none\n", Some(0)),
+            ("", None),
+            ("\n \n", None),
+            (LINE, Some(1)),
+        ] {
+            assert_eq!(count(Cases::maybe_empty("a", text.as_bytes())), found, "{text:?}");
+            let demanded = found.filter(|cases| *cases > 0);
+            assert_eq!(count(Cases::new("a", text.as_bytes())), demanded, "{text:?}");
+        }
+    }
 
     /// A pipe may give few bytes at a time.
     #[test]

@@ -1,0 +1,158 @@
+//! Bins that a device cannot hit, so that they are no holes.
+
+use super::{Coverage, bins};
+use crate::quote::quoted;
+use std::collections::BTreeSet;
+use std::fmt;
+use tess_core::{Config, Domain};
+
+/// Bins that are left out of what a device has to hit. The default has none.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Exclusions {
+    bins: BTreeSet<String>,
+}
+
+impl Exclusions {
+    /// Every bin that no patch of these configurations can hit, as those of a device that has no others.
+    #[must_use]
+    pub fn outside(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Self {
+        let all: BTreeSet<String> = bins::all().into_iter().collect();
+        let within: BTreeSet<String> = configurations
+            .into_iter()
+            .flat_map(|(domain, config)| bins::of(domain, config))
+            .collect();
+        Self { bins: all.difference(&within).cloned().collect() }
+    }
+
+    /// Adds the bins of a pattern: a bin's path, or its first parts, of which each may be `*` for any. So
+    /// `transition` is a group, and `configuration/*/pow2` all of its bins with that partitioning.
+    ///
+    /// # Errors
+    /// No bin begins with it.
+    pub fn add(&mut self, pattern: &str) -> Result<(), UnknownBin> {
+        let parts: Vec<&str> = pattern.split('/').collect();
+        let fits = |bin: &&str| {
+            let mut found = bin.split('/');
+            parts.iter().all(|part| found.next().is_some_and(|own| *part == "*" || own == *part))
+        };
+        let all = Coverage::new();
+        let fitting: Vec<&str> = all.bins().map(|(bin, _)| bin).filter(fits).collect();
+        if fitting.is_empty() {
+            return Err(UnknownBin { line: None, pattern: pattern.to_owned() });
+        }
+        self.bins.extend(fitting.into_iter().map(str::to_owned));
+        Ok(())
+    }
+
+    /// Reads patterns as [`Self::add`] takes them, one a line. Empty lines and what follows a `#` are left out.
+    ///
+    /// # Errors
+    /// A pattern of no bin, with its line.
+    pub fn read(text: &str) -> Result<Self, UnknownBin> {
+        let mut exclusions = Self::default();
+        for (number, line) in (1..).zip(text.lines()) {
+            let pattern = line.split('#').next().unwrap_or_default().trim();
+            if !pattern.is_empty() {
+                let added = exclusions.add(pattern);
+                added.map_err(|error| UnknownBin { line: Some(number), ..error })?;
+            }
+        }
+        Ok(exclusions)
+    }
+
+    /// Adds what others exclude.
+    pub fn merge(&mut self, other: &Self) {
+        self.bins.extend(other.bins.iter().cloned());
+    }
+
+    /// The exclusions without the bins that were hit: for vectors beside those of other configurations.
+    #[must_use]
+    pub fn not_hit(&self, coverage: &Coverage) -> Self {
+        let is_hit = |bin: &&String| coverage.hits(bin).is_some_and(|hits| hits > 0);
+        Self { bins: self.bins.iter().filter(|bin| !is_hit(bin)).cloned().collect() }
+    }
+
+    /// Whether a bin is excluded.
+    #[must_use]
+    pub fn has(&self, bin: &str) -> bool {
+        self.bins.contains(bin)
+    }
+
+    /// The bins that are excluded, in alphabetical order.
+    pub fn bins(&self) -> impl Iterator<Item = &str> {
+        self.bins.iter().map(String::as_str)
+    }
+}
+
+/// A pattern of no bin.
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct UnknownBin {
+    /// Line of the text, from 1, if it was read from one.
+    pub line: Option<usize>,
+    /// The pattern.
+    pub pattern: String,
+}
+
+impl fmt::Display for UnknownBin {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(line) = self.line {
+            write!(f, "line {line}: ")?;
+        }
+        let pattern = quoted(&self.pattern);
+        write!(
+            f,
+            "no bin begins with {pattern}; a bin is a path such as middle/oddxeven, and * is any part of one"
+        )
+    }
+}
+
+impl std::error::Error for UnknownBin {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::{GenLevel, Selection, configurations};
+    use tess_core::{OutputPrimitive, Partitioning, SplitOrder};
+
+    /// The device that the issue of 1789 bins was about: quads, integer, clockwise, ruler.
+    #[test]
+    fn a_device_with_one_configuration_has_no_holes() {
+        let one = Selection {
+            domain: Some(Domain::Quad),
+            partitioning: Some(Partitioning::Integer),
+            output: Some(OutputPrimitive::TriangleCw),
+            split: Some(SplitOrder::Ruler),
+            ..Selection::level(GenLevel::One, 1)
+        };
+        let mut coverage = Coverage::new();
+        one.cases().for_each(|case| coverage.record(&case));
+        let exclusions = Exclusions::outside(one.configurations());
+        for (bin, hits) in coverage.bins().filter(|(bin, _)| exclusions.has(bin)) {
+            assert_eq!(hits, 0, "{bin} is excluded");
+        }
+        assert!(exclusions.bins().count() > 300, "{exclusions:?}");
+    }
+
+    #[test]
+    fn all_configurations_exclude_nothing_and_none_exclude_all() {
+        assert_eq!(Exclusions::outside(configurations()), Exclusions::default());
+        let all = Exclusions::outside([]);
+        assert_eq!(all.bins().count(), Coverage::new().bins().count());
+    }
+
+    #[test]
+    fn patterns() {
+        let count = |text: &str| Exclusions::read(text).map(|found| found.bins().count());
+        assert_eq!(count(""), Ok(0), "nothing");
+        assert_eq!(count("# all\n\n  middle # a group\nmiddle/oddxodd\n"), Ok(4), "each once");
+        assert_eq!(count("configuration/*/pow2"), Ok(24), "the first parts");
+        assert_eq!(count("*"), Ok(Coverage::new().bins().count()), "every group");
+        for (text, line) in
+            [("middle\nmidle", 2), ("middle/", 1), ("middle/oddxodd/x", 1), ("mid", 1)]
+        {
+            let error = Exclusions::read(text).expect_err(text);
+            assert_eq!(error.line, Some(line), "{error}");
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Coverage as text: a table by stage of the specification, then the holes.
+
+use super::{Coverage, Exclusions, Group};
+use std::fmt::Write;
+
+/// The stages on a patch's way with their sections of the specification, and the groups of each.
+pub(super) const STAGES: [(&str, &str, &[&str]); 5] = [
+    ("configuration", "1", &["configuration"]),
+    (
+        "factors",
+        "2 and 3",
+        &["cull", "denormal", "clamp", "round", "conversion", "picture_frame", "minimum"],
+    ),
+    ("context", "4", &["context"]),
+    ("location", "5", &["exceptional"]),
+    ("stitch", "7", &["parities", "middle", "transition", "rings", "centre"]),
+];
+
+/// The stage that a group's bins tell of.
+pub(super) fn stage(group: &str) -> &'static str {
+    let found = STAGES.iter().find(|(_, _, groups)| groups.contains(&group));
+    found.map_or("", |(stage, _, _)| stage)
+}
+
+/// The groups of each stage, in the order of a patch's way, with their sum.
+pub(super) fn by_stage(
+    coverage: &Coverage,
+    exclusions: &Exclusions,
+) -> Vec<(Vec<Group>, Group, &'static str)> {
+    let groups = coverage.groups_without(exclusions);
+    let of_stage = |&(stage, section, names): &(&'static str, &'static str, &[&str])| {
+        let own = names.iter().filter_map(|name| groups.iter().find(|group| group.name == **name));
+        let own: Vec<Group> = own.cloned().collect();
+        let sum = Group { stage, ..sum(&own) };
+        (own, sum, section)
+    };
+    STAGES.iter().map(of_stage).collect()
+}
+
+/// All groups as one, `all`.
+pub(super) fn sum(groups: &[Group]) -> Group {
+    let mut sum = Group { name: "all".to_owned(), stage: "", hit: 0, bins: 0, excluded: 0 };
+    for group in groups {
+        sum.hit += group.hit;
+        sum.bins += group.bins;
+        sum.excluded += group.excluded;
+    }
+    sum
+}
+
+/// How much of what is not excluded was hit, in percent with one digit behind the point; `-` if nothing is left.
+/// It is rounded down, so 100.0 is all of it.
+pub(super) fn percent(group: &Group) -> String {
+    match (1000 * group.hit).checked_div(group.bins - group.excluded) {
+        Some(tenths) => format!("{}.{}", tenths / 10, tenths % 10),
+        None => "-".to_owned(),
+    }
+}
+
+/// The report.
+pub(super) fn text(coverage: &Coverage, exclusions: &Exclusions) -> String {
+    let mut text = format!(
+        "{:<14} {:<14} {:>5} {:>5} {:>8} {:>7}\n",
+        "stage", "group", "bins", "hit", "excluded", "percent"
+    );
+    // Writing to a String does not fail.
+    let mut row = |stage: &str, group: &Group| {
+        let Group { name, bins, hit, excluded, .. } = group;
+        let percent = percent(group);
+        _ = writeln!(text, "{stage:<14} {name:<14} {bins:>5} {hit:>5} {excluded:>8} {percent:>7}");
+    };
+    for (groups, sum, _) in by_stage(coverage, exclusions) {
+        groups.iter().for_each(|group| row(group.stage, group));
+        if groups.len() > 1 {
+            row(sum.stage, &sum);
+        }
+    }
+    row("all", &sum(&coverage.groups_without(exclusions)));
+    coverage
+        .hit_though_excluded(exclusions)
+        .for_each(|bin| _ = writeln!(text, "excluded, but hit {bin}"));
+    coverage.holes(exclusions).for_each(|bin| _ = writeln!(text, "missed {bin}"));
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+
+    /// A quad of three by five, whose every other configuration is excluded.
+    fn example() -> (Coverage, Exclusions) {
+        let line =
+            "case quad integer line ruler 40400000 40400000 40400000 40400000 40a00000 40400000";
+        let case: Case = line.parse().expect("a case");
+        let mut coverage = Coverage::new();
+        coverage.record(&case);
+        (coverage, Exclusions::outside([(case.domain(), case.config)]))
+    }
+
+    #[test]
+    fn every_group_has_one_stage() {
+        for group in Coverage::new().groups() {
+            let stages = STAGES.iter().filter(|(_, _, groups)| groups.contains(&&*group.name));
+            assert_eq!(stages.count(), 1, "{}", group.name);
+        }
+        let named: usize = STAGES.iter().map(|(_, _, groups)| groups.len()).sum();
+        assert_eq!(named, Coverage::new().groups().len(), "and there is no other name");
+    }
+
+    #[test]
+    fn numbers_of_a_table() {
+        let (coverage, mut exclusions) = example();
+        let text = coverage.report(&exclusions);
+        let row = |name: &str| {
+            let row = text.lines().find(|line| line.split_whitespace().nth(1) == Some(name));
+            row.unwrap_or_default().split_whitespace().skip(2).collect::<Vec<_>>()
+        };
+        assert_eq!(row("configuration"), ["96", "1", "95", "100.0"], "{text}");
+        assert_eq!(row("middle"), ["4", "1", "0", "25.0"], "{text}");
+        assert_eq!(row("exceptional"), ["6", "0", "6", "-"], "{text}");
+        assert!(text.contains("\nmissed middle/evenxodd\n"), "{text}");
+        assert!(!text.contains("missed exceptional") && !text.contains("but hit"), "{text}");
+        exclusions.add("middle/oddxodd").expect("a bin");
+        let text = coverage.report(&exclusions);
+        assert!(text.contains("excluded, but hit middle/oddxodd\n"), "{text}");
+    }
+
+    #[test]
+    fn percents_are_rounded_down() {
+        let of = |hit, bins, excluded| {
+            percent(&Group { name: String::new(), stage: "", hit, bins, excluded })
+        };
+        assert_eq!([of(2999, 3000, 0), of(1, 3, 1), of(4, 4, 0)], ["99.9", "50.0", "100.0"]);
+    }
+}
