@@ -45,7 +45,7 @@ impl CoverageFile {
         let mut sum = read(path, File::open(path))?;
         sum.merge(&self.coverage);
         report(&sum)?;
-        OutputArgs { file: path.clone() }.write(sum.to_ucis().as_bytes())
+        write(path, &sum)
     }
 }
 
@@ -62,6 +62,31 @@ pub(crate) fn role(path: &Path) -> Result<Role<'_>, Failure> {
         )));
     }
     Ok(Role::output("--coverage", path))
+}
+
+/// Writes a coverage file.
+///
+/// # Errors
+/// The place cannot be written; a file that was there is then as it was.
+pub(crate) fn write(path: &Path, coverage: &Coverage) -> Result<(), Failure> {
+    OutputArgs { file: path.to_owned() }.write(coverage.to_ucis().as_bytes())
+}
+
+/// Reads a coverage file; `-` is stdin.
+///
+/// # Errors
+/// It cannot be read, or holds no coverage of this version's bins.
+pub(crate) fn read_from(path: &Path) -> Result<Coverage, Failure> {
+    if path.as_os_str() == "-" {
+        return Coverage::read_ucis(io::stdin().lock())
+            .map_err(|error| Failure::bad_input(format!("stdin: {error}")));
+    }
+    read(path, File::open(path))
+}
+
+/// The hits as a report has them: a number for each bin.
+pub(crate) fn hits(coverage: &Coverage) -> Vec<u64> {
+    coverage.bins().map(|(_, hits)| hits).collect()
 }
 
 fn read(path: &Path, file: io::Result<File>) -> Result<Coverage, Failure> {

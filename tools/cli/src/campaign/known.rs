@@ -13,7 +13,8 @@ use tess_verify::known::Known;
 pub(crate) struct KnownArgs {
     /// Cases that may differ: lines that begin with `case`, or a vector file such as --failures writes
     ///
-    /// Their differences are counted as known and are no mismatches. What no longer differs is named on stderr.
+    /// Their differences are counted as known and are no mismatches. What no longer differs is named on stderr. A
+    /// header without records, or remarks alone, are a baseline of no cases; an empty file is refused.
     #[arg(long, value_name = "FILE")]
     known: Option<PathBuf>,
 }
@@ -27,7 +28,7 @@ impl KnownArgs {
     /// The cases, none without the option.
     ///
     /// # Errors
-    /// What `read` says; a file without a case.
+    /// What `read` says.
     pub(crate) fn read<I, E>(
         &self,
         read: impl FnOnce(&Path) -> Result<I, Failure>,

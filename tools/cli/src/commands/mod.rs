@@ -2,6 +2,7 @@
 
 mod bench;
 mod check;
+mod coverage;
 mod draw;
 mod explain;
 mod r#gen;
@@ -29,6 +30,7 @@ pub(crate) enum Command {
     Explain(explain::Args),
     Draw(draw::Args),
     Check(check::Args),
+    Coverage(coverage::Args),
     Bench(bench::Args),
     Mesh(mesh::Args),
     Gen(r#gen::Args),
@@ -50,6 +52,7 @@ pub(crate) fn run(command: &Command, invocation: &Invocation) -> Result<Exit, Fa
         Command::Explain(args) => explain::run(args),
         Command::Draw(args) => draw::run(args),
         Command::Check(args) => check::run(args, invocation),
+        Command::Coverage(args) => coverage::run(args),
         Command::Bench(args) => bench::run(args),
         Command::Mesh(args) => mesh::run(args),
         Command::Gen(args) => r#gen::run(args, invocation),

@@ -406,3 +406,24 @@ fn known_differences() {
     assert_eq!(run.code, Some(2), "no case: {}", run.stdout);
     assert!(run.stderr.contains("there is no case"), "{}", run.stderr);
 }
+
+/// When the device is mended, the baseline that is written anew has no record; it excuses nothing and is no error.
+#[test]
+fn baselines_that_became_empty() {
+    let folder = directory("baselines_that_became_empty");
+    let (faulty, _) = faulty_listing();
+    fs::write(folder.join("device.txt"), &faulty).expect("written");
+    let made = "gen --level 3 --count 5 --format listing -o right.txt";
+    assert_eq!(tess_in(&folder, made).code, Some(0), "a device that is mended");
+    let run = tess_in(&folder, "check right.txt --failures known.txt");
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    fs::write(folder.join("remarks.txt"), "# all mended\n").expect("written");
+    for baseline in ["known.txt", "remarks.txt"] {
+        let run = tess_in(&folder, &format!("check right.txt --known {baseline}"));
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{baseline}: {}", run.stdout);
+        let run = tess_in(&folder, &format!("check device.txt --known {baseline}"));
+        assert_eq!(run.code, Some(1), "it excuses nothing: {}{}", run.stdout, run.stderr);
+        let run = tess_in(&folder, &format!("verify --backend simd --random 2 --known {baseline}"));
+        assert_eq!(run.code, Some(0), "{baseline}: {}", run.stderr);
+    }
+}

@@ -1,4 +1,5 @@
-//! Coverage files: added to by several processes at a time, and nothing but regular files.
+//! Coverage files: added to by several processes at a time, and nothing but regular files; and what
+//! `tess coverage` makes of them.
 
 use crate::support::{command, directory, shell, tess};
 use std::fs;
@@ -47,4 +48,101 @@ fn other_than_coverage_files() {
         assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{file}: {}", run.stderr);
         assert!(run.stderr.contains(why) && run.stderr.len() < 500, "{file}: {}", run.stderr);
     }
+}
+
+/// The columns of a table's line, found by its group.
+fn row(report: &str, group: &str) -> Vec<String> {
+    let is_it = |line: &&str| line.split_whitespace().nth(1) == Some(group);
+    let row = report.lines().find(is_it).unwrap_or_default();
+    row.split_whitespace().skip(2).map(str::to_owned).collect()
+}
+
+/// A device that has quads in one configuration alone: level 1 of it leaves bins that it could hit, and no other.
+#[test]
+fn what_a_device_cannot_hit_is_excluded() {
+    let folder = directory("what_a_device_cannot_hit_is_excluded");
+    let of = "--domain quad --partitioning integer --output triangle_cw";
+    let run = shell(&format!("$TESS gen --level 1 {of} --coverage one.xml"), &folder);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(row(&run.stdout, "configuration"), ["96", "2", "94", "100.0"], "{}", run.stdout);
+    assert_eq!(row(&run.stdout, "transition"), ["4032", "4032", "0", "100.0"], "{}", run.stdout);
+    assert_eq!(row(&run.stdout, "exceptional"), ["6", "0", "6", "-"], "{}", run.stdout);
+    let again = shell(&format!("$TESS coverage one.xml {of}"), &folder);
+    assert_eq!((again.code, &again.stdout), (Some(0), &run.stdout), "{}", again.stderr);
+    let two = shell(&format!("$TESS coverage one.xml {of},line"), &folder);
+    assert_eq!(row(&two.stdout, "configuration"), ["96", "2", "92", "50.0"], "{}", two.stdout);
+    let all = shell("$TESS coverage one.xml", &folder);
+    assert_eq!(row(&all.stdout, "configuration"), ["96", "2", "0", "2.0"], "{}", all.stdout);
+    let other = shell("$TESS gen --level 3 --count 1 --domain tri --coverage one.xml", &folder);
+    assert_eq!(row(&other.stdout, "transition")[1], "4032", "hits of before are no exclusions");
+}
+
+#[test]
+fn files_are_added_up_and_reported() {
+    let folder = directory("files_are_added_up_and_reported");
+    let run = shell(
+        "for i in 1 2; do
+             $TESS gen --level 1 --shard $i/2 --coverage $i.xml > /dev/null
+             $TESS gen --level 1 --shard $i/2 --coverage both.xml > whole.txt
+         done
+         $TESS coverage 1.xml - --merged sum.xml --html page.html -o sum.txt --complete < 2.xml &&
+             cmp sum.xml both.xml && cmp sum.txt whole.txt && tail -n 1 sum.txt",
+        &folder,
+    );
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    assert!(run.stdout.starts_with("all") && run.stdout.ends_with(" 100.0\n"), "{}", run.stdout);
+    let page = fs::read_to_string(folder.join("page.html")).expect("a page");
+    assert!(page.contains("Hits of 1.xml, stdin.") && page.contains("<p>None.</p>"), "{page}");
+}
+
+/// `--complete` is for batches: holes and wrong exclusions are exit code 1, and so is nothing else.
+#[test]
+fn completeness() {
+    let folder = directory("completeness");
+    let made = shell(
+        "$TESS gen --level 1 --domain tri --coverage tri.xml; printf 'middle # all\n*/quad' > no.txt",
+        &folder,
+    );
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    for (words, code, why) in [
+        ("", 0, ""),
+        ("--complete", 1, ""),
+        ("--domain quad", 0, "hit though excluded"),
+        ("--exclude no.txt", 0, "4 bins hit though excluded"),
+        ("--exclude no.txt --complete", 1, "4 bins hit though excluded"),
+    ] {
+        let run = shell(&format!("$TESS coverage tri.xml {words}"), &folder);
+        assert_eq!(run.code, Some(code), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+        assert!(run.stdout.contains("\nmissed "), "{words}: {}", run.stdout);
+    }
+    let run = shell("$TESS coverage tri.xml --exclude no.txt | grep ^missed.*/quad", &folder);
+    assert_eq!(run.stdout, "", "quads are excluded by name");
+}
+
+#[test]
+fn bad_coverage_files_are_refused() {
+    let folder = directory("bad_coverage_files_are_refused");
+    let made = shell(
+        "$TESS gen --level 3 --count 1 --coverage a.xml; ln a.xml b.xml; echo midle > no.txt",
+        &folder,
+    );
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    for (words, why) in [
+        ("", "required"),
+        ("c.xml", "cannot read c.xml"),
+        ("no.txt", "no.txt: line 1: no coverage file"),
+        ("a.xml a.xml", "a.xml is given twice"),
+        ("a.xml b.xml", "b.xml is given twice"),
+        ("a.xml --exclude no.txt", "--exclude no.txt: line 1: no bin begins with `midle`"),
+        ("a.xml --merged a.xml", "are the same file"),
+        ("a.xml --merged c.xml --html c.xml", "are the same file"),
+        ("a.xml --html /nowhere/a.html", "cannot write /nowhere/a.html"),
+        ("a.xml --domain cube", "cube"),
+    ] {
+        let run = shell(&format!("$TESS coverage {words}"), &folder);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
+        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+    }
+    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 3, "nothing is written");
 }

@@ -64,3 +64,63 @@ fn elements_are_explained() {
         assert_eq!(tess(&format!("{patch} {element}")).code, Some(2), "{element}");
     }
 }
+
+/// What a circuit gave is compared: each signal that differs has its stage and module, and the run ends with 1.
+#[test]
+fn mismatches_of_a_circuit_are_named() {
+    let patch = "explain quad --outer 3,4,5,6 --inner 4,7";
+    let cases = [
+        ("--observed points=36,primitives=52", None),
+        (
+            "--observed points=36,primitives=51",
+            Some("primitives of stage counts (module tess_factors)"),
+        ),
+        (
+            "--factor 4 --observed fixed=0x40000,half_points=3",
+            Some("half_points of stage factor_context (module tess_factor_context)"),
+        ),
+        ("--factor 0 --observed odd=1,fixed=0x30000", None),
+        (
+            "--point 20 --observed u=1",
+            Some("u of stage points (module tess_points): observed 0x1, expected 0x"),
+        ),
+        (
+            "--primitive 0 --observed size=3,i0=0,i1=2",
+            Some("i1 of stage connect (module tess_connect): observed 0x2, expected 0x1"),
+        ),
+    ];
+    for (element, difference) in cases {
+        let run = tess(&format!("{patch} {element}"));
+        assert_eq!(run.code, Some(i32::from(difference.is_some())), "{element}: {}", run.stderr);
+        let expected =
+            difference.map_or("observed: equal".into(), |text| format!("differs: {text}"));
+        assert!(run.stdout.contains(&expected), "{element} says {expected}:\n{}", run.stdout);
+        assert_eq!(
+            run.stdout.matches("differs: ").count(),
+            usize::from(difference.is_some()),
+            "{}",
+            run.stdout
+        );
+    }
+    let json = tess(&format!("{patch} --factor 5 --observed points=1 --json")).stdout;
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(json["differences"][0]["module"], "tess_factor_context", "{json}");
+    assert_eq!(json["fixed"]["bits"], 0x70000, "the factor itself: {json}");
+}
+
+#[test]
+fn observations_are_checked() {
+    let cases = [
+        ("--observed u=1", "expected one of: points, primitives"),
+        ("--point 3 --observed i0=1", "expected one of: valid, u, v, last"),
+        ("--factor 6", "there is no factor 6: the patch has 6 factors, from 0"),
+        ("--observed points", "expected SIGNAL=N"),
+        ("--observed points=0x1FFFFFFFF", "is no number of 32 bits"),
+        ("--point 1 --factor 1", "cannot be used with"),
+    ];
+    for (element, message) in cases {
+        let run = tess(&format!("explain quad --outer 3,4,5,6 --inner 4,7 {element}"));
+        assert_eq!(run.code, Some(2), "{element}");
+        assert!(run.stderr.contains(message), "{element} says {message}:\n{}", run.stderr);
+    }
+}

@@ -18,11 +18,28 @@ fn a_capture_is_judged() {
     let run = tess_with_input("check - --rules d3d11", &listings);
     assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
     assert!(run.stdout.contains(" 0 broken, "), "{}", run.stdout);
+    let equal = "patches beside the model: 2 equal, 0 in another order, 0 different\n";
+    assert!(run.stdout.ends_with(equal), "{}", run.stdout);
     let faulty = listings.replacen("\n00000 04000\n", "\n00000 04001\n", 1);
     assert_ne!(faulty, listings, "a fault is planted");
     let run = tess_with_input("check - --rules d3d11", &faulty);
     assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
     assert!(run.stdout.contains("symmetric    broken"), "{}", run.stdout);
+    let different = "patches beside the model: 1 equal, 0 in another order, 1 different\n";
+    assert!(run.stdout.ends_with(different), "{}", run.stdout);
+}
+
+/// One command says that a device conforms to Vulkan and has another order than Direct3D's.
+#[test]
+fn another_order_is_told_from_other_output() {
+    let line = "case tri integer triangle_cw ruler 40000000 40000000 40000000 40000000\n";
+    let listing = tess_with_input("patch --cases -", line).stdout;
+    let reordered = listing.replacen("\n0 1 6\n", "\n1 6 0\n", 1);
+    assert_ne!(reordered, listing, "a triangle begins elsewhere");
+    let run = tess_with_input("check - --rules vulkan", &reordered);
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    let expected = "patches beside the model: 0 equal, 1 in another order, 0 different\n";
+    assert!(run.stdout.ends_with(expected), "{}", run.stdout);
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use crate::campaign::report::{First, Part, Report};
 use crate::campaign::{Placed, ShardArgs, shard};
+use crate::coverage_file;
 use crate::failure::Failure;
 use tess_verify::case::Case;
 use tess_verify::checker::{self, Checked, Difference};
@@ -59,7 +60,7 @@ fn first(difference: &Difference) -> First {
 
 /// Adds the bins that the file hits.
 pub(super) fn add_coverage(report: &mut Report, coverage: &Coverage) {
-    report.coverage = Some(coverage.bins().map(|(_, hits)| hits).collect());
+    report.coverage = Some(coverage_file::hits(coverage));
 }
 
 /// Adds how the cases were made, which shards of one campaign have in common.

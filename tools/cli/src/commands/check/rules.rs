@@ -5,10 +5,14 @@ use crate::campaign::report::{First, Part};
 use crate::failure::{Exit, Failure};
 use crate::output::{progress, stdout};
 use indicatif::ProgressBar;
+use std::fmt::{self, Display, Formatter};
 use std::io::{BufRead, Write};
 use std::path::Path;
+use tess_core::Tessellation;
+use tess_verify::case::Case;
 use tess_verify::names::Named;
 use tess_verify::rules::{Checker, Row, RulesReport, Specification, Verdict};
+use tess_verify::strength::{Order, Strength};
 use tess_verify::vectors::{Kind, Record, VectorError, VectorFile};
 
 /// Judges every listing of a file and prints the verdicts.
@@ -28,11 +32,15 @@ pub(super) fn run<R: BufRead>(
         )));
     }
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
-    let mut checker = Checker::new(specification);
+    let (mut checker, mut beside) = (Checker::new(specification), BesideModel::default());
+    let mut judge = |case: &Case, output: &Tessellation| {
+        checker.add(case, output);
+        beside.add(case, output);
+    };
     for record in file {
         match record.map_err(|error: VectorError| Failure::bad_input(error.to_string()))? {
-            Record::Listing(listing) => checker.add(&listing.case, &listing.output),
-            Record::Coordinates(vertices) => checker.add(&vertices.case, &vertices.output()),
+            Record::Listing(listing) => judge(&listing.case, &listing.output),
+            Record::Coordinates(vertices) => judge(&vertices.case, &vertices.output()),
             _ => {}
         }
         bar.inc(1);
@@ -40,7 +48,41 @@ pub(super) fn run<R: BufRead>(
     bar.finish_and_clear();
     let report = checker.report();
     recorder.update(|record| record.add_parts(parts("listings", &report)));
-    show(&report)
+    let ended = show(&report)?;
+    print(&beside)?;
+    Ok(ended)
+}
+
+/// How patches compare with the model, vertex by vertex. No standard but Direct3D's asks for its order.
+#[derive(Default)]
+struct BesideModel {
+    equal: u64,
+    reordered: u64,
+    different: u64,
+}
+
+impl BesideModel {
+    fn add(&mut self, case: &Case, observed: &Tessellation) {
+        let expected = case.patch().tessellate();
+        let is_equal =
+            |order| Strength { order, ..Strength::default() }.equal(case, observed, &expected);
+        let count = match () {
+            () if is_equal(Order::Sequence) => &mut self.equal,
+            () if is_equal(Order::Any) => &mut self.reordered,
+            () => &mut self.different,
+        };
+        *count += 1;
+    }
+}
+
+impl Display for BesideModel {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let Self { equal, reordered, different } = self;
+        writeln!(
+            f,
+            "patches beside the model: {equal} equal, {reordered} in another order, {different} different"
+        )
+    }
 }
 
 /// The rules of a report as parts of a run: how many patches each judged and how many of them break it.
@@ -61,11 +103,15 @@ pub(crate) fn parts(tested: &str, report: &RulesReport) -> Vec<Part> {
 /// # Errors
 /// It cannot be written.
 pub(crate) fn show(report: &RulesReport) -> Result<Exit, Failure> {
-    let written = stdout().and_then(|mut out| {
-        write!(out, "{report}")?;
-        out.flush()
-    });
-    written.map_err(|error| Failure::write(Path::new("-"), error))?;
+    print(report)?;
     let is_broken = report.count(Verdict::Broken) > 0;
     Ok(if is_broken { Exit::Different } else { Exit::Done })
+}
+
+fn print(what: &impl Display) -> Result<(), Failure> {
+    let written = stdout().and_then(|mut out| {
+        write!(out, "{what}")?;
+        out.flush()
+    });
+    written.map_err(|error| Failure::write(Path::new("-"), error))
 }

@@ -6,7 +6,16 @@ use crate::output::{self, OutputArgs};
 use serde::Serialize;
 use std::fmt::{self, Display};
 use tess_core::Patch;
-use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
+use tess_verify::Case;
+use tess_verify::circuit::{self, Part};
+use tess_verify::explanation::{Explanation, FactorReport, PointReport, PrimitiveReport};
+
+const OBSERVED: &str = "\
+Compare what a circuit gave there, name the stage, module and signal that differ, and end with 1 if any does
+
+Signals of the patch: points, primitives. Of a point: valid, u, v, last. Of a primitive: valid, size, i0, i1, i2, last. Of a \
+factor: culled, fixed, odd, fraction, half_points, points, split, inv_floor, inv_ceil. Values are decimal or, with 0x, hex; \
+coordinates and factors are fixed-point numbers.";
 
 /// Show every stage of one patch: factors, contexts, counts, rings, stitches
 #[derive(Debug, clap::Args)]
@@ -14,16 +23,24 @@ use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
 Examples:
   tess explain quad --outer 3,4,5,6 --inner 4,7
   tess explain tri --outer 2.5,3,1 --inner 3.25 --partitioning fractional_odd --point 7
-  tess explain quad --outer 3,4,5,6 --inner 4,7 --primitive 12 --json")]
+  tess explain quad --outer 3,4,5,6 --inner 4,7 --primitive 12 --json
+  tess explain quad --outer 3,4,5,6 --inner 4,7 --point 20 --observed u=0x4000,v=0x924a")]
 pub(crate) struct Args {
     #[command(flatten)]
     patch: PatchArgs,
     /// Explain only where this domain point comes from
-    #[arg(long, value_name = "I", conflicts_with = "primitive")]
+    #[arg(long, value_name = "I", group = "part")]
     point: Option<u32>,
     /// Explain only where this primitive comes from
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", group = "part")]
     primitive: Option<u32>,
+    /// Explain only what becomes of this factor: 0 is the first outer one
+    #[arg(long, value_name = "K", group = "part")]
+    factor: Option<u32>,
+    /// Compare what a circuit gave there, name the stage, module and signal that differ, and end with 1 if any does
+    #[arg(long, value_name = "SIGNAL=N,..", value_delimiter = ',', value_parser = observation)]
+    #[arg(long_help = OBSERVED)]
+    observed: Vec<(String, u32)>,
     /// Print JSON
     #[arg(long)]
     json: bool,
@@ -31,23 +48,87 @@ pub(crate) struct Args {
     output: OutputArgs,
 }
 
+/// `SIGNAL=N`.
+fn observation(text: &str) -> Result<(String, u32), String> {
+    let (signal, value) = text.split_once('=').ok_or("expected SIGNAL=N, such as u=0x4000")?;
+    let number = match value.strip_prefix("0x") {
+        Some(digits) => u32::from_str_radix(digits, 16),
+        None => value.parse(),
+    };
+    let number = number
+        .map_err(|_| format!("`{value}` is no number of 32 bits, such as 16384 or 0x4000"))?;
+    Ok((signal.to_owned(), number))
+}
+
 /// Runs the command.
 ///
 /// # Errors
-/// Wrong number of factors, no such point or primitive, an output that cannot be written.
+/// Wrong number of factors, no such factor, point, primitive or signal, an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
+    let part = args.part();
+    let explained = Explained { report: report(&case, part)?, circuit: args.circuit(&case, part)? };
+    let text = if args.json { output::json(&explained) } else { explained.to_string() };
+    args.output.write(text.as_bytes())?;
+    let differs = explained.circuit.is_some_and(|circuit| !circuit.is_empty());
+    Ok(if differs { Exit::Different } else { Exit::Done })
+}
+
+impl Args {
+    fn part(&self) -> Part {
+        let point = self.point.map(Part::Point).or(self.primitive.map(Part::Primitive));
+        point.or(self.factor.map(Part::Factor)).unwrap_or(Part::Patch)
+    }
+
+    /// What differs from what was observed, if something was.
+    fn circuit(
+        &self,
+        case: &Case,
+        part: Part,
+    ) -> Result<Option<Vec<circuit::Difference>>, Failure> {
+        if self.observed.is_empty() {
+            return Ok(None);
+        }
+        let observed: Vec<(&str, u32)> =
+            self.observed.iter().map(|(signal, value)| (signal.as_str(), *value)).collect();
+        let differences = circuit::compare(case, part, &observed);
+        differences.map(Some).map_err(|error| Failure::bad_input(format!("--observed: {error}")))
+    }
+}
+
+fn report(case: &Case, part: Part) -> Result<Report, Failure> {
     let patch = case.patch();
-    let report = match (args.point, args.primitive) {
-        (Some(i), _) => Report::Point(found(PointReport::new(&patch, i), &patch, "point", i)?),
-        (_, Some(t)) => {
+    Ok(match part {
+        Part::Point(i) => Report::Point(found(PointReport::new(&patch, i), &patch, "point", i)?),
+        Part::Primitive(t) => {
             Report::Primitive(found(PrimitiveReport::new(&patch, t), &patch, "primitive", t)?)
         }
-        (None, None) => Report::Patch(Explanation::new(&case)),
-    };
-    let text = if args.json { output::json(&report) } else { report.to_string() };
-    args.output.write(text.as_bytes())?;
-    Ok(Exit::Done)
+        Part::Factor(k) => Report::Factor(FactorReport::new(case, k).ok_or_else(|| {
+            let factors = output::counted(case.domain().factors() as u64, "factor");
+            Failure::bad_input(format!("there is no factor {k}: the patch has {factors}, from 0"))
+        })?),
+        _ => Report::Patch(Explanation::new(case)),
+    })
+}
+
+/// A report, and what a circuit gave beside it.
+#[derive(Serialize)]
+struct Explained {
+    #[serde(flatten)]
+    report: Report,
+    #[serde(rename = "differences", skip_serializing_if = "Option::is_none")]
+    circuit: Option<Vec<circuit::Difference>>,
+}
+
+impl Display for Explained {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.report.fmt(f)?;
+        match self.circuit.as_deref() {
+            None => Ok(()),
+            Some([]) => writeln!(f, "observed: equal"),
+            Some(all) => all.iter().try_for_each(|one| writeln!(f, "differs: {one}")),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -56,6 +137,7 @@ enum Report {
     Patch(Explanation),
     Point(PointReport),
     Primitive(PrimitiveReport),
+    Factor(FactorReport),
 }
 
 impl Display for Report {
@@ -64,6 +146,7 @@ impl Display for Report {
             Self::Patch(report) => report.fmt(f),
             Self::Point(report) => report.fmt(f),
             Self::Primitive(report) => report.fmt(f),
+            Self::Factor(report) => report.fmt(f),
         }
     }
 }

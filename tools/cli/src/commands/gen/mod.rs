@@ -16,7 +16,7 @@ use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use tess_core::SplitOrder;
 use tess_verify::case::Case;
-use tess_verify::coverage::Coverage;
+use tess_verify::coverage::{Coverage, Exclusions};
 use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::names::Named;
 use tess_verify::readmemh;
@@ -61,7 +61,7 @@ pub(crate) struct Args {
     format: Format,
     /// Instead of vectors, report which coverage bins they hit
     ///
-    /// With a FILE, add the hits to what that file holds, as UCIS XML, and report the sum. Shards may
+    /// Bins that no selected configuration can hit are excluded. With a FILE, add the hits to what that file holds, as UCIS XML, and report the sum. Shards may
     /// add to one file, at the same time too.
     #[arg(long, value_name = "FILE", num_args = 0..=1, conflicts_with = "format")]
     coverage: Option<Option<PathBuf>>,
@@ -190,9 +190,12 @@ impl Args {
         bar.finish_and_clear();
         recorder.update(|report| {
             report.add_parts([part(count)]);
-            report.coverage = Some(coverage.bins().map(|(_, hits)| hits).collect());
+            report.coverage = Some(coverage_file::hits(coverage));
         });
-        let report = |sum: &Coverage| self.output.write(sum.to_string().as_bytes());
+        // The file may have hits of other configurations too.
+        let outside = Exclusions::outside(self.selection().configurations());
+        let report =
+            |sum: &Coverage| self.output.write(sum.report(&outside.not_hit(sum)).as_bytes());
         match file {
             Some(file) => file.add(report)?,
             None => report(&alone)?,

@@ -191,18 +191,17 @@ impl Campaign {
     /// A report without hits, or with those of other bins.
     pub(super) fn coverage(&self) -> Result<Coverage, Failure> {
         let mut sum = Coverage::new();
-        let bins: Vec<String> = sum.bins().map(|(bin, _)| bin.to_owned()).collect();
         for Found { place, report } in self.done() {
-            let hits = report.coverage.as_ref().filter(|hits| hits.len() == bins.len());
-            let hits = hits.ok_or_else(|| {
-                let has = report.coverage.as_ref().map_or(0, Vec::len);
+            let hits = report.coverage.as_deref().unwrap_or_default();
+            let coverage = Coverage::from_hits(hits).ok_or_else(|| {
                 Failure::bad_input(format!(
-                    "{place}: it has the hits of {has} coverage bins, not of {}; run the shards with \
+                    "{place}: it has the hits of {} coverage bins, not of {}; run the shards with \
                      --coverage FILE",
-                    bins.len()
+                    hits.len(),
+                    sum.bins().count()
                 ))
             })?;
-            bins.iter().zip(hits).for_each(|(bin, hits)| _ = sum.add(bin, *hits));
+            sum.merge(&coverage);
         }
         Ok(sum)
     }

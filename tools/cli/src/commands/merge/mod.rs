@@ -5,6 +5,7 @@ mod campaign;
 mod read;
 mod show;
 
+use crate::coverage_file;
 use crate::failure::{Exit, Failure};
 use crate::output::{OutputArgs, Role, note, refuse_shared};
 use campaign::Campaign;
@@ -53,14 +54,16 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     read.absent.iter().for_each(|path| note(&format!("there is no {}", path.display())));
     let campaign = Campaign::of(read.reports)?;
     let is_complete = campaign.is_complete() && read.absent.is_empty();
-    let write = |path: &Option<PathBuf>, text: &dyn Fn() -> Result<String, Failure>| match path {
-        Some(path) => OutputArgs { file: path.clone() }.write(text()?.as_bytes()),
+    let write = |path: &Option<PathBuf>, text: fn(&Campaign) -> String| match path {
+        Some(path) => OutputArgs { file: path.clone() }.write(text(&campaign).as_bytes()),
         None => Ok(()),
     };
-    write(&args.csv, &|| Ok(show::csv(&campaign)))?;
-    write(&args.junit, &|| Ok(show::junit(&campaign)))?;
+    write(&args.csv, show::csv)?;
+    write(&args.junit, show::junit)?;
     if is_complete {
-        write(&args.coverage, &|| campaign.coverage().map(|sum| sum.to_ucis()))?;
+        if let Some(path) = &args.coverage {
+            coverage_file::write(path, &campaign.coverage()?)?;
+        }
     } else if args.coverage.is_some() {
         note("no coverage is written: the campaign is not complete");
     }

@@ -3,7 +3,7 @@
 #[cfg(feature = "shaders")]
 mod bench;
 
-use super::check::{ConversionName, DenormalsName, read_cases, rules};
+use super::check::{ConversionName, DenormalsName, read_known, rules};
 use crate::args::{SelectionArgs, name_of};
 use crate::backends::quiet;
 use crate::campaign::report::{First as FirstOf, Part, Report as Record};
@@ -129,7 +129,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
         Some(_) => args.selection.shard.whole("probe --rules")?,
         None => args.selection.shard.place()?,
     };
-    let known = args.known.read(read_cases)?;
+    let known = args.known.read(read_known)?;
     args.output.require_writable()?;
     let picture = args.picture.as_deref().map(Picture::prepare).transpose()?;
     let drawn = picture.iter().map(|picture| Role::output("--picture", &picture.output.file));

@@ -1,6 +1,6 @@
 //! `tess verify`: every backend against the model.
 
-use super::check::{read_cases, rules};
+use super::check::{read_known, rules};
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
 use crate::campaign::report::{First, Part, Report};
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     };
     let roles = args.known.role().into_iter().chain([Role::stdout()]).chain(args.report.roles());
     refuse_shared(&roles.collect::<Vec<_>>())?;
-    let known = args.known.read(read_cases)?;
+    let known = args.known.read(read_known)?;
     let workers = args.workers()?;
     let recorder = args.report.begin(invocation, placed)?;
     let ended = match args.rules {

@@ -1,0 +1,146 @@
+//! `tess coverage`: adds coverage files up and reports what is missing.
+
+use crate::args::name_of;
+use crate::coverage_file;
+use crate::failure::{Exit, Failure};
+use crate::output::{OutputArgs, Role, counted, note, refuse_shared};
+use std::path::{Path, PathBuf};
+use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_verify::coverage::{Coverage, Exclusions};
+use tess_verify::generate::configurations_among;
+
+/// Add coverage files up and report what is missing
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+The files are those that `--coverage FILE` of `tess gen` and `check`, `tess merge --coverage` and tess_model write.
+The report has a line for each group of bins by stage of the specification, then every hole: a bin that was never
+hit. The groups are described in docs/verification.md.
+
+A device that lacks configurations cannot hit every bin. Say what it has, in the words of `tess gen`, several
+with commas between them: the bins that no such patch can hit are excluded. --exclude names further bins in a
+file, one a line: a bin's path or its first parts, of which each may be * for any.
+  transition               # a group
+  configuration/*/pow2     # all of its bins with this partitioning
+An excluded bin that was hit all the same is named: the exclusions are wrong.
+
+Exit code 0: done; 1: with --complete, a hole or a wrong exclusion; 2: malformed or missing files.
+
+Examples:
+  tess coverage coverage.xml
+  tess coverage shard-*.xml --merged coverage.xml --html coverage.html
+  tess coverage coverage.xml --domain tri,quad --partitioning integer --split ruler
+  tess coverage coverage.xml --exclude device.txt --complete")]
+pub(crate) struct Args {
+    /// Coverage files; - is stdin
+    #[arg(value_name = "FILE", required = true)]
+    files: Vec<PathBuf>,
+    /// Domains that the device has [default: all]
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',', value_parser = name_of::<Domain>())]
+    domain: Vec<Domain>,
+    /// Partitionings that it has [default: all]
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
+    #[arg(value_parser = name_of::<Partitioning>())]
+    partitioning: Vec<Partitioning>,
+    /// Output primitives that it has [default: all]
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',')]
+    #[arg(value_parser = name_of::<OutputPrimitive>())]
+    output: Vec<OutputPrimitive>,
+    /// Split orders that it has [default: all]
+    #[arg(long, value_name = "NAME,..", value_delimiter = ',', value_parser = name_of::<SplitOrder>())]
+    split: Vec<SplitOrder>,
+    /// Exclude the bins that this file names
+    #[arg(long, value_name = "FILE")]
+    exclude: Option<PathBuf>,
+    /// End with exit code 1 if a bin is missed that is not excluded, or one is hit that is
+    #[arg(long)]
+    complete: bool,
+    /// Write the sum of the files to this file, as UCIS XML
+    #[arg(long, value_name = "FILE")]
+    merged: Option<PathBuf>,
+    /// Write the report to this file too, as one page of HTML
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    #[command(flatten)]
+    report: OutputArgs,
+}
+
+/// Runs the command.
+///
+/// # Errors
+/// Files that are no coverage files, or given twice; patterns of no bin; places that cannot be written.
+pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    refuse_shared(&args.roles())?;
+    args.refuse_double()?;
+    let outputs = [&args.merged, &args.html].into_iter().flatten().chain([&args.report.file]);
+    outputs.cloned().try_for_each(|file| OutputArgs { file }.require_writable())?;
+    let exclusions = args.exclusions()?;
+    let mut sum = Coverage::new();
+    for file in &args.files {
+        sum.merge(&coverage_file::read_from(file)?);
+    }
+    if let Some(path) = &args.merged {
+        coverage_file::write(path, &sum)?;
+    }
+    if let Some(path) = &args.html {
+        let sources: Vec<String> = args.files.iter().map(|file| name(file)).collect();
+        let page = sum.to_html(&exclusions, &sources);
+        OutputArgs { file: path.clone() }.write(page.as_bytes())?;
+    }
+    args.report.write(sum.report(&exclusions).as_bytes())?;
+    Ok(args.judge(&sum, &exclusions))
+}
+
+/// What messages call a file.
+fn name(file: &Path) -> String {
+    if file.as_os_str() == "-" { "stdin".to_owned() } else { file.display().to_string() }
+}
+
+impl Args {
+    fn roles(&self) -> Vec<Role<'_>> {
+        let read = self.files.iter().map(|file| Role::input("FILE", file));
+        let exclude = self.exclude.iter().map(|file| Role::input("--exclude", file));
+        let merged = self.merged.iter().map(|file| Role::output("--merged", file));
+        let html = self.html.iter().map(|file| Role::output("--html", file));
+        read.chain(exclude).chain(merged).chain(html).chain([self.report.role()]).collect()
+    }
+
+    /// Refuses a file that would count twice.
+    fn refuse_double(&self) -> Result<(), Failure> {
+        let roles: Vec<Role<'_>> =
+            self.files.iter().map(|file| Role::input("FILE", file)).collect();
+        for (number, role) in roles.iter().enumerate() {
+            if roles[..number].iter().any(|other| other.is_same_file(role)) {
+                let file = name(&self.files[number]);
+                return Err(Failure::bad_input(format!(
+                    "{file} is given twice; its hits count once"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// What the device cannot hit.
+    fn exclusions(&self) -> Result<Exclusions, Failure> {
+        let Self { domain, partitioning, output, split, .. } = self;
+        let has = configurations_among(domain, partitioning, output, split);
+        let mut exclusions = Exclusions::outside(has);
+        if let Some(path) = &self.exclude {
+            let text = std::fs::read_to_string(path);
+            let text = text.map_err(|error| Failure::file("read", path, &error))?;
+            let read = Exclusions::read(&text);
+            exclusions.merge(&read.map_err(|error| {
+                Failure::bad_input(format!("--exclude {}: {error}", path.display()))
+            })?);
+        }
+        Ok(exclusions)
+    }
+
+    fn judge(&self, sum: &Coverage, exclusions: &Exclusions) -> Exit {
+        let holes = sum.holes(exclusions).count() as u64;
+        let wrong = sum.hit_though_excluded(exclusions).count() as u64;
+        if wrong > 0 {
+            note(&format!("{} hit though excluded", counted(wrong, "bin")));
+        }
+        if self.complete && holes + wrong > 0 { Exit::Different } else { Exit::Done }
+    }
+}
