@@ -55,9 +55,7 @@ struct pipe_tessellator {
    TessConfig config;
    size_t factors_per_patch;
    TessBatch *batch;
-   struct room points;  /* float[2]: both coordinates of each point, as the library writes them */
-   struct room u;       /* float: as Mesa's shaders read them */
-   struct room v;       /* float */
+   struct room points;  /* float[2]: u of as many points as there is room for, then v of them */
    struct room indices; /* uint32_t */
    struct room factors; /* float: those of the taken patches, as the library reads them */
    unsigned taken;      /* patches of the last part */
@@ -91,8 +89,6 @@ free_tessellator(struct pipe_tessellator *ts)
       return;
    tess_batch_free(ts->batch);
    free(ts->points.data);
-   free(ts->u.data);
-   free(ts->v.data);
    free(ts->indices.data);
    free(ts->factors.data);
    free(ts->ranges.data);
@@ -199,21 +195,17 @@ pack(uint32_t domain, const struct pipe_tessellation_factors *from, float *to)
    memcpy(to + OUTER[domain], from->inner_tf, INNER[domain] * sizeof(float));
 }
 
-/* Pairs of coordinates as one array of each. */
-static void
-take_apart(const float (*restrict points)[2], size_t count, float *restrict u, float *restrict v)
+/* The points that there is room for: v of the first lies as many floats behind its u. */
+static size_t
+point_capacity(const struct pipe_tessellator *ts)
 {
-   for (size_t i = 0; i < count; i++) {
-      u[i] = points[i][0];
-      v[i] = points[i][1];
-   }
+   return ts->points.bytes / (2 * sizeof(float));
 }
 
 static bool
 reserve_points(struct pipe_tessellator *ts, size_t count)
 {
-   return reserve(&ts->points, count, 2 * sizeof(float)) && reserve(&ts->u, count, sizeof(float)) &&
-          reserve(&ts->v, count, sizeof(float));
+   return reserve(&ts->points, count, 2 * sizeof(float));
 }
 
 static TessStatus
@@ -221,10 +213,10 @@ run_patch(struct pipe_tessellator *ts, const float *factors, TessCounts *counts)
 {
    TessBatchOutput output = {0};
    output.points = ts->points.data;
-   output.point_capacity = ts->points.bytes / (2 * sizeof(float));
+   output.point_capacity = point_capacity(ts);
    output.indices = ts->indices.data;
    output.index_capacity = ts->indices.bytes / sizeof(uint32_t);
-   output.point_format = TESS_POINT_F32;
+   output.point_format = TESS_POINT_F32_APART;
    output.index_type = TESS_INDEX_U32;
    return tess_batch_patch(ts->batch, factors, &output, counts);
 }
@@ -255,12 +247,11 @@ p_tessellate(struct pipe_tessellator *pipe_ts, const struct pipe_tessellation_fa
    pack(pipe_ts->config.domain, tess_factors, factors);
    if (!tessellate(pipe_ts, factors, &counts))
       return;
-   take_apart(pipe_ts->points.data, counts.points, pipe_ts->u.data, pipe_ts->v.data);
    tess_data->num_indices = counts.indices;
    tess_data->num_domain_points = counts.points;
    tess_data->indices = pipe_ts->indices.data;
-   tess_data->domain_points_u = pipe_ts->u.data;
-   tess_data->domain_points_v = pipe_ts->v.data;
+   tess_data->domain_points_u = pipe_ts->points.data;
+   tess_data->domain_points_v = (float *)pipe_ts->points.data + point_capacity(pipe_ts);
 }
 
 /* ---- all patches of a draw ---- */
@@ -322,19 +313,18 @@ p_tess_batch_write(struct pipe_tessellator *ts, struct tess_mesa_batch *batch, u
    if (!reserve_points(ts, batch->num_points) || !reserve(&ts->ranges, batch->num_patches, sizeof(TessRange)))
       return false;
    output.points = ts->points.data;
-   output.point_capacity = batch->num_points;
+   output.point_capacity = point_capacity(ts);
    output.indices = elts;
    output.index_capacity = batch->num_indices;
    output.ranges = ts->ranges.data;
    output.range_capacity = batch->num_patches;
-   output.point_format = TESS_POINT_F32;
+   output.point_format = TESS_POINT_F32_APART;
    output.index_type = TESS_INDEX_U16;
    output.numbering = TESS_NUMBERING_PER_BATCH;
    if (tess_batch_run(ts->batch, ts->factors.data, ts->taken * ts->factors_per_patch, &output, &counts) != TESS_OK)
       return false;
-   take_apart(ts->points.data, batch->num_points, ts->u.data, ts->v.data);
-   batch->points_u = ts->u.data;
-   batch->points_v = ts->v.data;
+   batch->points_u = ts->points.data;
+   batch->points_v = (float *)ts->points.data + point_capacity(ts);
    batch->ranges = ts->ranges.data;
    return true;
 }

@@ -245,6 +245,12 @@
 #define TESS_POINT_F32 1
 
 /**
+ * Point format: as `TESS_POINT_F32`, but u and v apart. `points` is `2 * point_capacity` floats: u of each point
+ * from the first float on, v of each from number `point_capacity` on.
+ */
+#define TESS_POINT_F32_APART 2
+
+/**
  * Index type: `uint32_t`.
  */
 #define TESS_INDEX_U32 0
@@ -621,7 +627,7 @@ typedef struct TessBatchOutput {
    */
   size_t range_capacity;
   /**
-   * `TESS_POINT_FIXED` or `TESS_POINT_F32`
+   * `TESS_POINT_FIXED`, `TESS_POINT_F32` or `TESS_POINT_F32_APART`
    */
   uint32_t point_format;
   /**
@@ -987,7 +993,8 @@ TessStatus tess_batch_create(const struct TessConfig *config,
 void tess_batch_free(struct TessBatch *batch);
 
 /**
- * Takes all the memory that a batch may ever need, 1.1 MB, so that no later call with it allocates.
+ * Takes all the memory that a batch may ever need, so that no later call with it allocates: 1.1 MB, and 2.2 MB that
+ * are touched with `TESS_POINT_F32_APART` alone.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.

@@ -144,10 +144,8 @@ pub unsafe extern "C" fn tess_dpi_count(
     answer(|| {
         let config = TessConfig { domain, partitioning, output, split: split_order };
         let counts = TessCounts::from(patch(config, [f0, f1, f2, f3, f4, f5])?.counts());
-        let outputs =
-            [(points, counts.points), (primitives, counts.primitives), (indices, counts.indices)];
         // SAFETY: every pointer is writable, as the caller promises.
-        unsafe { write_each(outputs) }
+        unsafe { write_counts(counts, points, primitives, indices) }
     })
 }
 
@@ -257,6 +255,22 @@ fn patch(config: TessConfig, factors: [u32; 6]) -> Result<Patch, TessStatus> {
     let (config, domain) = config.decode()?;
     let factors = PatchFactors::from_fn(domain, |i| f32::from_bits(factors[i]));
     Ok(Patch::new(config, factors))
+}
+
+/// Writes the sizes of a patch, or none if any pointer is null or misaligned.
+///
+/// # Safety
+/// - Every pointer, if not null and aligned, must be valid for writing one number.
+unsafe fn write_counts(
+    counts: TessCounts,
+    points: *mut u32,
+    primitives: *mut u32,
+    indices: *mut u32,
+) -> Result<(), TessStatus> {
+    let outputs =
+        [(points, counts.points), (primitives, counts.primitives), (indices, counts.indices)];
+    // SAFETY: every pointer is writable, as the caller promises.
+    unsafe { write_each(outputs) }
 }
 
 /// Writes all numbers, or none if any pointer is null or misaligned.

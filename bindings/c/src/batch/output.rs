@@ -10,6 +10,10 @@ pub const TESS_POINT_FIXED: u32 = 0;
 /// Point format: two floats, which have the values of the 16.16 numbers exactly.
 pub const TESS_POINT_F32: u32 = 1;
 
+/// Point format: as `TESS_POINT_F32`, but u and v apart. `points` is `2 * point_capacity` floats: u of each point
+/// from the first float on, v of each from number `point_capacity` on.
+pub const TESS_POINT_F32_APART: u32 = 2;
+
 /// Index type: `uint32_t`.
 pub const TESS_INDEX_U32: u32 = 0;
 /// Index type: `uint16_t`, which is always enough with `TESS_NUMBERING_PER_PATCH`.
@@ -64,7 +68,7 @@ pub struct TessBatchOutput {
     pub ranges: *mut TessRange,
     /// The elements that `ranges` has room for.
     pub range_capacity: usize,
-    /// `TESS_POINT_FIXED` or `TESS_POINT_F32`
+    /// `TESS_POINT_FIXED`, `TESS_POINT_F32` or `TESS_POINT_F32_APART`
     pub point_format: u32,
     /// `TESS_INDEX_U32` or `TESS_INDEX_U16`
     pub index_type: u32,
@@ -77,12 +81,16 @@ pub struct TessBatchOutput {
 /// The instance of a function for the formats of an output; `TESS_UNKNOWN_VALUE` if it names none.
 macro_rules! in_formats {
     ($output:expr, $function:ident) => {{
-        use crate::batch::{TESS_INDEX_U16, TESS_INDEX_U32, TESS_POINT_F32, TESS_POINT_FIXED};
+        use crate::batch::points::{Apart, Together};
+        use crate::batch::{TESS_INDEX_U16, TESS_INDEX_U32};
+        use crate::batch::{TESS_POINT_F32, TESS_POINT_F32_APART, TESS_POINT_FIXED};
         match ($output.point_format, $output.index_type) {
-            (TESS_POINT_FIXED, TESS_INDEX_U32) => $function::<tess_core::DomainPoint, u32>,
-            (TESS_POINT_FIXED, TESS_INDEX_U16) => $function::<tess_core::DomainPoint, u16>,
-            (TESS_POINT_F32, TESS_INDEX_U32) => $function::<[f32; 2], u32>,
-            (TESS_POINT_F32, TESS_INDEX_U16) => $function::<[f32; 2], u16>,
+            (TESS_POINT_FIXED, TESS_INDEX_U32) => $function::<Together<'_, DomainPoint>, u32>,
+            (TESS_POINT_FIXED, TESS_INDEX_U16) => $function::<Together<'_, DomainPoint>, u16>,
+            (TESS_POINT_F32, TESS_INDEX_U32) => $function::<Together<'_, [f32; 2]>, u32>,
+            (TESS_POINT_F32, TESS_INDEX_U16) => $function::<Together<'_, [f32; 2]>, u16>,
+            (TESS_POINT_F32_APART, TESS_INDEX_U32) => $function::<Apart<'_>, u32>,
+            (TESS_POINT_F32_APART, TESS_INDEX_U16) => $function::<Apart<'_>, u16>,
             _ => return Err(crate::status::TESS_UNKNOWN_VALUE),
         }
     }};

@@ -1,6 +1,7 @@
 //! A batch into the caller's buffers, in the formats that the caller chose.
 
 use super::input::Patches;
+use super::points::{Pairs, PointRoom};
 use super::{
     TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH, TessBatch, TessBatchCounts,
     TessBatchOutput, status_of,
@@ -8,14 +9,12 @@ use super::{
 use crate::boundary;
 use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus};
 use std::mem::{MaybeUninit, size_of};
-use tess_simd::{
-    BatchCounts, Buffers, IndexFormat, Numbering, OutputPoint, PatchRange, Tessellator,
-};
+use tess_simd::{BatchCounts, Buffers, IndexFormat, Numbering, PatchRange, Tessellator};
 
 /// The caller's buffers, which need not be initialised.
 #[derive(Debug)]
 struct Room<'a, P, I> {
-    points: &'a mut [MaybeUninit<P>],
+    points: P,
     indices: &'a mut [MaybeUninit<I>],
     ranges: &'a mut [MaybeUninit<PatchRange>],
 }
@@ -23,8 +22,8 @@ struct Room<'a, P, I> {
 /// Tessellates a batch in one pair of formats.
 ///
 /// # Safety
-/// - As for [`super::tess_batch_run`], the buffers' elements being `P` and `I`.
-pub(super) unsafe fn run<P: OutputPoint, I: IndexFormat>(
+/// - As for [`super::tess_batch_run`], the buffers' elements being `P`'s and `I`.
+pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     batch: &mut TessBatch,
     (factors, factor_count): (*const f32, usize),
     output: &TessBatchOutput,
@@ -35,7 +34,7 @@ pub(super) unsafe fn run<P: OutputPoint, I: IndexFormat>(
         TESS_NUMBERING_PER_BATCH => Numbering::PerBatch { base_vertex: output.base_vertex },
         _ => return Err(TESS_UNKNOWN_VALUE),
     };
-    let points = (output.points.cast::<P>(), output.point_capacity);
+    let points = (output.points.cast::<P::Point>(), output.point_capacity);
     let indices = (output.indices.cast::<I>(), output.index_capacity);
     let ranges = (output.ranges.cast::<PatchRange>(), output.range_capacity);
     boundary::check_all_apart(&[
@@ -49,19 +48,20 @@ pub(super) unsafe fn run<P: OutputPoint, I: IndexFormat>(
     let patches = unsafe { Patches::new(batch.domain, factors, factor_count) }?;
     let room = Room {
         // SAFETY: writable, as the caller promises, and apart from all else, as was just checked.
-        points: unsafe { boundary::room(points.0, points.1) }?,
+        points: unsafe { P::new(output.points, points.1) }?,
         // SAFETY: as above.
         indices: unsafe { boundary::room(indices.0, indices.1) }?,
         // SAFETY: as above; the two structures of ranges have the same layout.
         ranges: unsafe { boundary::room(ranges.0, ranges.1) }?,
     };
-    let counted = batch.tessellator.count(patches.batch()).map_err(|error| status_of(&error))?;
+    let TessBatch { tessellator, pairs, .. } = batch;
+    let counted = tessellator.count(patches.batch()).map_err(|error| status_of(&error))?;
     let needed = counted.counts();
     if counted.largest_index(numbering).is_some_and(|largest| largest > I::LARGEST) {
         return Err(TESS_INDEX_TOO_LARGE);
     }
     let written = match room.of_sizes(needed) {
-        Some(room) => write(&mut batch.tessellator, patches, numbering, room, needed),
+        Some(room) => write((tessellator, pairs), patches, numbering, room, needed),
         None => Err(TESS_BUFFER_TOO_SMALL),
     };
     if matches!(written, Ok(()) | Err(TESS_BUFFER_TOO_SMALL)) {
@@ -75,20 +75,20 @@ pub(super) unsafe fn run<P: OutputPoint, I: IndexFormat>(
 const PART_BYTES: usize = 1 << 18;
 
 /// The patches of a part at most: as many as the batch backend keeps from counting to writing.
-const PART_PATCHES: usize = 64;
+pub(super) const PART_PATCHES: usize = 64;
 
 /// Writes a batch into room of exactly its sizes.
 ///
 /// The batch backend takes initialised slices. So that initialising the room does not send it
 /// through memory twice, that is done part by part, each just before its output is written.
-fn write<P: OutputPoint, I: IndexFormat>(
-    tessellator: &mut Tessellator,
+fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
+    (tessellator, pairs): (&mut Tessellator, &mut Pairs),
     patches: Patches<'_>,
     numbering: Numbering,
-    mut room: Room<'_, P, I>,
+    mut room: Room<'a, P, I>,
     needed: BatchCounts,
 ) -> Result<(), TessStatus> {
-    let bytes = needed.points * size_of::<P>() + needed.indices * size_of::<I>();
+    let bytes = needed.points * size_of::<P::Point>() + needed.indices * size_of::<I>();
     let per_patch = bytes.div_ceil(needed.patches.max(1)).max(1);
     let mut first = PatchRange::default();
     for part in patches.parts((PART_BYTES / per_patch).clamp(1, PART_PATCHES)) {
@@ -96,18 +96,17 @@ fn write<P: OutputPoint, I: IndexFormat>(
         let counts = counted.counts();
         let (now, later) = room.split_at(counts).ok_or(crate::status::TESS_INTERNAL)?;
         let ranges = boundary::initialised(now.ranges, PatchRange::default());
-        let buffers = Buffers::new(
-            boundary::initialised(now.points, P::default()),
-            boundary::initialised(now.indices, I::default()),
-        );
+        let indices = boundary::initialised(now.indices, I::default());
         let numbering = match numbering {
             Numbering::PerBatch { base_vertex } => {
                 Numbering::PerBatch { base_vertex: base_vertex.wrapping_add(first.first_point) }
             }
             Numbering::PerPatch => numbering,
         };
-        let buffers = buffers.with_ranges(&mut *ranges);
-        counted.write(numbering, buffers).map_err(|error| status_of(&error))?;
+        let written = now.points.write(counts.points, 0, pairs, |points| {
+            counted.write(numbering, Buffers::new(points, indices).with_ranges(&mut *ranges))
+        });
+        written.map_err(|error| status_of(&error))?;
         first = shift(ranges, first);
         room = later;
     }
@@ -126,7 +125,7 @@ fn shift(ranges: &mut [PatchRange], first: PatchRange) -> PatchRange {
     end
 }
 
-impl<'a, P, I> Room<'a, P, I> {
+impl<'a, P: PointRoom<'a>, I> Room<'a, P, I> {
     /// Its beginning; `None` if it is smaller.
     fn of_sizes(self, counts: BatchCounts) -> Option<Self> {
         self.split_at(counts).map(|(first, _)| first)
@@ -134,7 +133,7 @@ impl<'a, P, I> Room<'a, P, I> {
 
     /// Its beginning and the rest; `None` if it is smaller.
     fn split_at(self, counts: BatchCounts) -> Option<(Self, Self)> {
-        let (points, more_points) = self.points.split_at_mut_checked(counts.points)?;
+        let (points, more_points) = self.points.split_at(counts.points)?;
         let (indices, more_indices) = self.indices.split_at_mut_checked(counts.indices)?;
         let (ranges, more_ranges) = self.ranges.split_at_mut_checked(counts.patches)?;
         Some((

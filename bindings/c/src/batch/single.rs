@@ -1,12 +1,13 @@
 //! One patch into the caller's buffers.
 
 use super::output::in_formats;
+use super::points::PointRoom;
 use super::{TessBatch, TessBatchOutput, status_of};
 use crate::boundary;
 use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INTERNAL, TessStatus, answer};
 use crate::types::TessCounts;
-use tess_core::PatchFactors;
-use tess_simd::{CountedPatch, IndexFormat, OutputPoint};
+use tess_core::{DomainPoint, PatchFactors};
+use tess_simd::{CountedPatch, IndexFormat};
 
 /// Tessellates one patch into the caller's buffers: `tess_batch_run` for those who have one patch at a time,
 /// as drivers, emulators and test benches do.
@@ -57,15 +58,15 @@ pub unsafe extern "C" fn tess_batch_patch(
 /// Tessellates a patch in one pair of formats.
 ///
 /// # Safety
-/// - As for [`tess_batch_patch`], the buffers' elements being `P` and `I`.
-unsafe fn run<P: OutputPoint, I: IndexFormat>(
+/// - As for [`tess_batch_patch`], the buffers' elements being `P`'s and `I`.
+unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     batch: &mut TessBatch,
     factors: *const f32,
     output: &TessBatchOutput,
     counts: *mut TessCounts,
 ) -> Result<(), TessStatus> {
     let number = batch.domain.factors();
-    let points = (output.points.cast::<P>(), output.point_capacity);
+    let points = (output.points.cast::<P::Point>(), output.point_capacity);
     let indices = (output.indices.cast::<I>(), output.index_capacity);
     boundary::check_all_apart(&[
         boundary::bytes(factors, number)?,
@@ -77,20 +78,21 @@ unsafe fn run<P: OutputPoint, I: IndexFormat>(
     let factors = unsafe { boundary::list(factors, number) }?;
     let factors = PatchFactors::from_slice(batch.domain, factors).ok_or(TESS_INTERNAL)?;
     // SAFETY: writable, as the caller promises, and apart from all else, as was just checked.
-    let points = unsafe { boundary::room(points.0, points.1) }?;
+    let points = unsafe { P::new(output.points, points.1) }?;
     // SAFETY: as above.
     let indices = unsafe { boundary::room(indices.0, indices.1) }?;
-    let mut counted = batch.tessellator.count_patch(factors);
+    let TessBatch { tessellator, pairs, .. } = batch;
+    let mut counted = tessellator.count_patch(factors);
     let needed = counted.counts();
     // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
     unsafe { boundary::write(counts, needed.into()) }?;
     if points.len() < needed.points as usize || indices.len() < needed.indices as usize {
         return Err(TESS_BUFFER_TOO_SMALL);
     }
-    let end = |needed: u32, room: usize| room.min(needed as usize + CountedPatch::OVERRUN);
-    let (end_of_points, end_of_indices) =
-        (end(needed.points, points.len()), end(needed.indices, indices.len()));
-    let points = boundary::initialised(&mut points[..end_of_points], P::default());
-    let indices = boundary::initialised(&mut indices[..end_of_indices], I::default());
-    counted.write(points, indices).map(|_| ()).map_err(|error| status_of(&error))
+    let end = indices.len().min(needed.indices as usize + CountedPatch::OVERRUN);
+    let indices = boundary::initialised(&mut indices[..end], I::default());
+    let written = points.write(needed.points as usize, CountedPatch::OVERRUN, pairs, |points| {
+        counted.write(points, indices)
+    });
+    written.map(|_| ()).map_err(|error| status_of(&error))
 }

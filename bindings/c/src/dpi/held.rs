@@ -4,7 +4,7 @@
 //! patches opens a configuration once, gives it one patch after another, and reads points and indices
 //! from memory. The patches go the way of [`tess_batch_patch`](crate::batch::tess_batch_patch).
 
-use super::write_each;
+use super::{write_counts, write_each};
 use crate::boundary;
 use crate::status::{TESS_INTERNAL, TESS_OUT_OF_RANGE, TessStatus, answer};
 use crate::types::{TessConfig, TessCounts, TessPoint};
@@ -91,10 +91,8 @@ pub unsafe extern "C" fn tess_dpi_patch(
         let written = held.tessellator.patch(factors, &mut held.points, &mut held.indices);
         held.counts = written.map_err(|_| TESS_INTERNAL)?; // no patch is larger than the room
         let counts = TessCounts::from(held.counts);
-        let outputs =
-            [(points, counts.points), (primitives, counts.primitives), (indices, counts.indices)];
         // SAFETY: every pointer is writable, as the caller promises.
-        unsafe { write_each(outputs) }
+        unsafe { write_counts(counts, points, primitives, indices) }
     })
 }
 

@@ -5,9 +5,9 @@ use std::ffi::c_void;
 use std::ptr::{null, null_mut};
 use tess_capi::batch::{
     TESS_INDEX_U16, TESS_INDEX_U32, TESS_LEVEL_AVX512, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_BATCH,
-    TESS_NUMBERING_PER_PATCH, TESS_POINT_F32, TESS_POINT_FIXED, TessBatch, TessBatchCounts,
-    TessBatchOutput, TessRange, tess_batch_count, tess_batch_create, tess_batch_free,
-    tess_batch_groups, tess_batch_level, tess_batch_patch, tess_batch_run,
+    TESS_NUMBERING_PER_PATCH, TESS_POINT_F32, TESS_POINT_F32_APART, TESS_POINT_FIXED, TessBatch,
+    TessBatchCounts, TessBatchOutput, TessRange, tess_batch_count, tess_batch_create,
+    tess_batch_free, tess_batch_groups, tess_batch_level, tess_batch_patch, tess_batch_run,
 };
 use tess_capi::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_LEVEL_UNAVAILABLE, TESS_MISALIGNED,
@@ -110,7 +110,7 @@ fn every_level_and_format() {
             let mut counts = TessBatchCounts::default();
             let status = unsafe { tess_batch_count(fixture.batch, f, n, &mut counts) };
             assert_eq!((status, counts), (TESS_OK, fixture.needed()), "{config:?}");
-            for point_format in [TESS_POINT_FIXED, TESS_POINT_F32] {
+            for point_format in [TESS_POINT_FIXED, TESS_POINT_F32, TESS_POINT_F32_APART] {
                 for index_type in [TESS_INDEX_U32, TESS_INDEX_U16] {
                     let formats = TessBatchOutput { point_format, index_type, ..fixture.output() };
                     assert_eq!(fixture.run(&formats), (TESS_OK, fixture.needed()), "{config:?}");
@@ -153,6 +153,15 @@ fn memory_need_not_be_initialised() {
     check(&fixture, &output);
 }
 
+/// A point, as the words that a format has for it.
+fn point_at(points: &[[u32; 2]], number: usize, format: u32) -> [u32; 2] {
+    let words = points.as_flattened();
+    match format {
+        TESS_POINT_F32_APART => [words[number], words[points.len() + number]],
+        _ => points[number],
+    }
+}
+
 /// Compares what was written with the model.
 fn check(fixture: &Fixture, output: &TessBatchOutput) {
     let (mut first_point, mut first_index) = (0, 0);
@@ -166,7 +175,7 @@ fn check(fixture: &Fixture, output: &TessBatchOutput) {
         };
         assert_eq!(*range, expected, "range");
         for (i, point) in patch.points.iter().enumerate() {
-            let observed = fixture.points[first_point + i];
+            let observed = point_at(&fixture.points, first_point + i, output.point_format);
             let expected = match output.point_format {
                 TESS_POINT_FIXED => [point.u.to_bits(), point.v.to_bits()],
                 _ => point.to_f32().map(f32::to_bits),
@@ -214,7 +223,7 @@ fn bad_outputs_write_nothing() {
         (TessBatchOutput { range_capacity: too_many, ..good }, TESS_TOO_LARGE),
         (TessBatchOutput { points: good.indices, ..good }, TESS_OVERLAP),
         (TessBatchOutput { points: fixture.factors.as_mut_ptr().cast(), ..good }, TESS_OVERLAP),
-        (TessBatchOutput { point_format: 2, ..good }, TESS_UNKNOWN_VALUE),
+        (TessBatchOutput { point_format: 3, ..good }, TESS_UNKNOWN_VALUE),
         (TessBatchOutput { index_type: 2, ..good }, TESS_UNKNOWN_VALUE),
         (TessBatchOutput { numbering: 2, ..good }, TESS_UNKNOWN_VALUE),
         (
@@ -341,6 +350,16 @@ fn one_patch_a_call() {
             let floats = |point: &tess_core::DomainPoint| point.to_f32().map(f32::to_bits);
             let same = points.iter().zip(&expected.points).all(|(a, b)| *a == floats(b));
             assert!(same, "patch {number} in floats, room {room}");
+
+            points.fill([FILL; 2]);
+            let output = room_for(&mut points, &mut indices);
+            let output = TessBatchOutput { point_format: TESS_POINT_F32_APART, ..output };
+            assert_eq!(one(&fixture, number, &output).0, TESS_OK, "patch {number}");
+            let at = |i| point_at(&points, i, TESS_POINT_F32_APART);
+            let same = expected.points.iter().enumerate().all(|(i, p)| at(i) == floats(p));
+            assert!(same && indices.starts_with(&expected.indices), "patch {number} apart");
+            let behind = (found.0 + 64..points.len()).all(|i| at(i) == [FILL; 2]);
+            assert!(behind, "patch {number}: far behind the coordinates");
         }
     }
 }

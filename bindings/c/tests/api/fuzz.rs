@@ -1,5 +1,6 @@
 //! `tess_fuzz`: devices that are right, wrong, and beyond all bounds; arguments that are refused.
 
+use super::samples::answer;
 use std::ffi::{CStr, c_char, c_void};
 use std::ptr::{null, null_mut};
 use tess_capi::device::{TESS_DEVICE_UNSUPPORTED, TessDevice};
@@ -7,13 +8,12 @@ use tess_capi::fuzz::{
     TESS_CONVERSION_WITHIN_0_6_ULP, TESS_DENORMALS_FLUSH, TESS_ORDER_ANY, TESS_ORDER_EXACT,
     TessFuzzOptions, tess_fuzz,
 };
-use tess_capi::patch::tess_patch;
 use tess_capi::status::{
     TESS_DIFFERENT, TESS_LEFT_OUT, TESS_NULL_POINTER, TESS_OK, TESS_UNKNOWN_VALUE,
 };
 use tess_capi::types::{
-    TESS_DOMAIN_QUAD, TESS_MAX_INDICES, TESS_MAX_POINTS, TESS_OUTPUT_LINE,
-    TESS_PARTITIONING_FRACTIONAL_EVEN, TESS_SPLIT_CENTER, TessConfig, TessCounts, TessPoint,
+    TESS_DOMAIN_QUAD, TESS_OUTPUT_LINE, TESS_PARTITIONING_FRACTIONAL_EVEN, TESS_SPLIT_CENTER,
+    TessConfig, TessCounts, TessPoint,
 };
 
 /// What is done to the model's answer.
@@ -34,23 +34,11 @@ unsafe extern "C" fn device(
     indices: *mut u32,
     counts: *mut TessCounts,
 ) -> i32 {
-    let (most_points, most_indices) = (TESS_MAX_POINTS as usize, TESS_MAX_INDICES as usize);
-    // SAFETY: what `tess_fuzz` gives a device is what `tess_patch` asks for.
-    let status = unsafe {
-        tess_patch(
-            config,
-            factors,
-            factor_count,
-            points,
-            most_points,
-            indices,
-            most_indices,
-            counts,
-        )
+    // SAFETY: the device is called as its type says; `user` is the fault that the test gave, `counts` ours to write.
+    let (fault, counts) = unsafe {
+        answer(config, factors, factor_count, points, indices, counts);
+        (*user.cast::<Fault>(), &mut *counts)
     };
-    assert_eq!(status, TESS_OK, "a patch");
-    // SAFETY: `user` is the fault that the test gave, `counts` ours to write.
-    let (fault, counts) = unsafe { (*user.cast::<Fault>(), &mut *counts) };
     fault(counts, indices)
 }
 
@@ -171,7 +159,7 @@ fn configurations_are_filtered() {
 
 /// Gives the model's output for other factors: what a device does that has one of the freedoms.
 unsafe extern "C" fn free_device(
-    user: *mut c_void,
+    _: *mut c_void,
     config: *const TessConfig,
     factors: *const f32,
     factor_count: usize,
@@ -189,13 +177,9 @@ unsafe extern "C" fn free_device(
         _ => factor,
     };
     let changed: Vec<f32> = factors.iter().copied().map(change).collect();
-    let mut none: Fault = |_, _| 0;
-    let _ = user;
-    // SAFETY: as `device` asks for.
-    unsafe {
-        let user = (&raw mut none).cast();
-        device(user, config, changed.as_ptr(), factor_count, points, indices, counts)
-    }
+    // SAFETY: the device is called as its type says, and there are as many factors as before.
+    unsafe { answer(config, changed.as_ptr(), factor_count, points, indices, counts) };
+    0
 }
 
 /// Pseudo-random bytes find the freedoms of a device, and none where they are granted.

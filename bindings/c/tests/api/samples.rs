@@ -1,6 +1,10 @@
 //! Patches to compare with: every configuration, factors of every kind.
 
-use tess_capi::types::{TessConfig, TessContext, TessCounts, TessPoint};
+use tess_capi::patch::tess_patch;
+use tess_capi::status::TESS_OK;
+use tess_capi::types::{
+    TESS_MAX_INDICES, TESS_MAX_POINTS, TessConfig, TessContext, TessCounts, TessPoint,
+};
 use tess_core::{
     Config, Counts, Domain, DomainPoint, FactorContext, OutputPrimitive, Parity, Partitioning,
     Patch, PatchFactors, SplitOrder,
@@ -11,6 +15,35 @@ pub(super) struct Sample {
     pub(super) config: TessConfig,
     pub(super) factors: Vec<f32>,
     pub(super) patch: Patch,
+}
+
+/// The model's own answer, as a device gives it.
+///
+/// # Safety
+/// As for a `TessDevice`.
+pub(super) unsafe fn answer(
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    points: *mut TessPoint,
+    indices: *mut u32,
+    counts: *mut TessCounts,
+) {
+    let (most_points, most_indices) = (TESS_MAX_POINTS as usize, TESS_MAX_INDICES as usize);
+    // SAFETY: what a device is given is what `tess_patch` asks for.
+    let status = unsafe {
+        tess_patch(
+            config,
+            factors,
+            factor_count,
+            points,
+            most_points,
+            indices,
+            most_indices,
+            counts,
+        )
+    };
+    assert_eq!(status, TESS_OK, "a patch");
 }
 
 /// Factors that go different ways through the stages: ends, exact and nearly exact integers,

@@ -2,7 +2,9 @@
 
 use super::tools::{build_folder, crate_folder, libraries, output, run, text};
 use libtest_mimic::Failed;
-use std::process::Command;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
 use tess_verify::case::Case;
 
 /// The planted differences, and what the scoreboard says of each.
@@ -41,5 +43,38 @@ pub(crate) fn compiles_and_runs() -> Result<(), Failed> {
             return Err(format!("fault {fault} was not reported as `{report}`:\n{said}").into());
         }
     }
+    sequences(&folder)
+}
+
+/// The patches of files, as the sequence sends them; lines that are no case, and what it says of them.
+fn sequences(folder: &Path) -> Result<(), Failed> {
+    let rows = "# tess-vectors 1 kind=patches\ndomain,partitioning,output,split,factors_f32_hex,points\n\n\
+                quad,fractional_odd,line,center,421b9633 3e052e37 419b19de 4200aeb2 3ffd6ee9 3f800040,98\n\
+                case tri pow2 triangle_ccw ruler 4168d620 42140004 41989173 40ef271c\r\n\
+                isoline,integer,point,ruler,7fc00000 80000000,0,0";
+    let sent = "case quad fractional_odd line center 421b9633 3e052e37 419b19de 4200aeb2 3ffd6ee9 3f800040\n\
+                case tri pow2 triangle_ccw ruler 4168d620 42140004 41989173 40ef271c\n\
+                case isoline integer point ruler 7fc00000 80000000\n3 sent\n";
+    for (text, said) in [
+        (rows, sent),
+        ("# none\n", "there is no case in "),
+        ("case cube integer point ruler 40000000 40000000\n", ":1: no case: case cube"),
+        ("\ncase quad integer point ruler 40000000 40000000\n", ":2: no case: case quad"),
+        ("case isoline integer point ruler 4000000 40000000\n", ":1: no case: case isoline"),
+        ("case isoline integer point ruler 4000000g 40000000\n", ":1: no case: case isoline"),
+    ] {
+        let file = folder.join("cases.txt");
+        fs::write(&file, text).map_err(|error| error.to_string())?;
+        let mut bench = Command::new(folder.join("Vtb_uvm"));
+        let output = output(bench.arg(format!("+tess_cases={}", file.display())))?;
+        let out = text_of(&output);
+        if output.status.success() != (text == rows) || !out.contains(said) {
+            return Err(format!("{text}\ngave\n{out}").into());
+        }
+    }
     Ok(())
+}
+
+fn text_of(output: &Output) -> String {
+    text(&output.stdout) + &text(&output.stderr)
 }
