@@ -1,7 +1,7 @@
 //! Functional coverage as an object.
 
 use crate::errors::{argument, file_format};
-use crate::names::whole;
+use crate::names::{named, whole};
 use crate::patch::Patch;
 use crate::{stages, values};
 use pyo3::prelude::*;
@@ -10,6 +10,9 @@ use std::io::ErrorKind;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tess_verify::case::Case;
+use tess_verify::coverage::Exclusions;
+use tess_verify::generate::configurations_among;
+use tess_verify::names::Named;
 
 /// How many patches are taken from the interpreter before they are counted.
 const RECORDED_TOGETHER: usize = 4096;
@@ -35,12 +38,13 @@ impl Coverage {
         Self::default()
     }
 
-    /// Counts the bins that one patch or several patches hit.
-    fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<()> {
+    /// Counts the bins that one patch or several patches hit; gives how many bins were hit for the first
+    /// time, so that a bench can choose the patches that are worth their clocks.
+    fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<usize> {
         if let Ok(patch) = patches.cast::<Patch>() {
-            self.lock().record(&patch.get().case);
-            return Ok(());
+            return Ok(self.lock().record_new(&patch.get().case));
         }
+        let mut fresh = 0;
         let mut patches = patches.try_iter()?;
         loop {
             let some = patches.by_ref().take(RECORDED_TOGETHER);
@@ -48,12 +52,12 @@ impl Coverage {
                 .map(|patch| Ok(patch?.cast::<Patch>()?.get().case))
                 .collect::<PyResult<_>>()?;
             if cases.is_empty() {
-                return Ok(());
+                return Ok(fresh);
             }
             py.check_signals()?;
-            py.detach(|| {
+            fresh += py.detach(|| {
                 let mut coverage = self.lock();
-                cases.iter().for_each(|case| coverage.record(case));
+                cases.iter().map(|case| coverage.record_new(case)).sum::<usize>()
             });
         }
     }
@@ -109,9 +113,30 @@ impl Coverage {
         self.lock().missed().map(str::to_owned).collect()
     }
 
-    /// The text report of ``tess gen --coverage``: a line for each group, then every missed bin.
-    fn report(&self) -> String {
-        self.lock().to_string()
+    /// The bins that were never hit and are not excluded, in alphabetical order.
+    ///
+    /// Args:
+    ///     exclude: Patterns of bins that cannot be hit, such as :func:`exclusions` gives: a bin's path or its
+    ///         first parts, of which each may be ``*``. A file's lines will do: what follows a ``#`` is left out.
+    #[pyo3(signature = (exclude = None))]
+    fn holes(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<String>> {
+        let exclusions = patterns(exclude)?;
+        Ok(self.lock().holes(&exclusions).map(str::to_owned).collect())
+    }
+
+    /// The text report of ``tess coverage``: a line for each group, by stage of the specification, then every
+    /// hole. ``exclude`` is as in :meth:`holes`.
+    #[pyo3(signature = (exclude = None))]
+    fn report(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
+        let exclusions = patterns(exclude)?;
+        Ok(self.lock().report(&exclusions))
+    }
+
+    /// The report as one page of HTML. ``exclude`` is as in :meth:`holes`.
+    #[pyo3(signature = (exclude = None))]
+    fn html(&self, exclude: Option<&Bound<'_, PyAny>>) -> PyResult<String> {
+        let exclusions = patterns(exclude)?;
+        Ok(self.lock().to_html(&exclusions, &[]))
     }
 
     /// The coverage as UCIS XML. Equal coverage gives equal text.
@@ -153,6 +178,50 @@ impl Coverage {
         let (hit, bins) = groups.iter().fold((0, 0), |(h, b), g| (h + g.hit, b + g.bins));
         format!("<Coverage: {hit} of {bins} bins hit>")
     }
+}
+
+/// The bins that no patch of a device's configurations can hit, for ``exclude`` of :meth:`Coverage.report`.
+///
+/// Args:
+///     domain, partitioning, output, split: What the device has, a name or several; ``None``: all.
+///
+/// >>> import tess_model
+/// >>> bins = tess_model.exclusions(domain=["tri", "quad"], partitioning="integer")
+/// >>> "configuration/isoline/pow2/line/ruler" in bins, "middle/oddxeven" in bins
+/// (True, False)
+#[pyfunction]
+#[pyo3(signature = (*, domain = None, partitioning = None, output = None, split = None))]
+pub(crate) fn exclusions(
+    domain: Option<&Bound<'_, PyAny>>,
+    partitioning: Option<&Bound<'_, PyAny>>,
+    output: Option<&Bound<'_, PyAny>>,
+    split: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Vec<String>> {
+    let (domains, partitionings) = (names(domain)?, names(partitioning)?);
+    let (outputs, splits) = (names(output)?, names(split)?);
+    let has = configurations_among(&domains, &partitionings, &outputs, &splits);
+    Ok(Exclusions::outside(has).bins().map(str::to_owned).collect())
+}
+
+/// The values of a name or of several; none for `None`.
+fn names<T: Named>(argument: Option<&Bound<'_, PyAny>>) -> PyResult<Vec<T>> {
+    let Some(argument) = argument else { return Ok(Vec::new()) };
+    strings(argument)?.iter().map(|name| named(name)).collect()
+}
+
+/// A text, or the texts of an iterable.
+fn strings(argument: &Bound<'_, PyAny>) -> PyResult<Vec<String>> {
+    if let Ok(one) = argument.extract::<String>() {
+        return Ok(vec![one]);
+    }
+    argument.try_iter()?.map(|one| one?.extract()).collect()
+}
+
+/// The bins of patterns.
+fn patterns(exclude: Option<&Bound<'_, PyAny>>) -> PyResult<Exclusions> {
+    let Some(exclude) = exclude else { return Ok(Exclusions::default()) };
+    let lines: Vec<String> = strings(exclude)?;
+    Exclusions::read(&lines.join("\n")).map_err(argument)
 }
 
 impl Coverage {

@@ -36,6 +36,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(stages::context, module)?)?;
     module.add_function(wrap_pyfunction!(stages::place, module)?)?;
     module.add_function(wrap_pyfunction!(stages::process_factor, module)?)?;
+    module.add_function(wrap_pyfunction!(coverage::exclusions, module)?)?;
     module.add_function(wrap_pyfunction!(rules::check_rules, module)?)?;
     module.add_function(wrap_pyfunction!(vectors::generate, module)?)?;
     module.add_function(wrap_pyfunction!(vectors::write_vectors, module)?)?;

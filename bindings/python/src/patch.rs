@@ -7,10 +7,12 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 use serde_json::Value;
+use std::collections::BTreeMap;
 use tess_core::{Config, Domain, DomainPoint, ProcessedPatch, Tessellation};
 use tess_verify::case::Case;
+use tess_verify::circuit::{self, CompareError, Part};
 use tess_verify::drawing::{Colours, DrawOptions, draw, has_rings};
-use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
+use tess_verify::explanation::{Explanation, FactorReport, PointReport, PrimitiveReport};
 use tess_verify::names::Named;
 use tess_verify::vectors::Listing;
 
@@ -193,7 +195,7 @@ impl Patch {
 
     /// Point ``i`` as (u, v), 16.16 integers, in constant time.
     fn point(&self, #[pyo3(from_py_with = whole)] i: u32) -> PyResult<(u32, u32)> {
-        let point = self.case.patch().point(i).ok_or_else(|| self.missing("point", i))?;
+        let point = self.case.patch().point(i).ok_or_else(|| self.missing(Part::Point(i)))?;
         Ok((point.u.to_bits(), point.v.to_bits()))
     }
 
@@ -203,7 +205,8 @@ impl Patch {
         py: Python<'py>,
         #[pyo3(from_py_with = whole)] t: u32,
     ) -> PyResult<Bound<'py, PyTuple>> {
-        let found = self.case.patch().primitive(t).ok_or_else(|| self.missing("primitive", t))?;
+        let found =
+            self.case.patch().primitive(t).ok_or_else(|| self.missing(Part::Primitive(t)))?;
         PyTuple::new(py, found.indices())
     }
 
@@ -213,7 +216,8 @@ impl Patch {
         py: Python<'py>,
         #[pyo3(from_py_with = whole)] i: u32,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let origin = self.case.patch().locate_point(i).ok_or_else(|| self.missing("point", i))?;
+        let origin =
+            self.case.patch().locate_point(i).ok_or_else(|| self.missing(Part::Point(i)))?;
         values::point_origin(py, origin)
     }
 
@@ -224,7 +228,7 @@ impl Patch {
         #[pyo3(from_py_with = whole)] t: u32,
     ) -> PyResult<Bound<'py, PyAny>> {
         let patch = self.case.patch();
-        let origin = patch.locate_primitive(t).ok_or_else(|| self.missing("primitive", t))?;
+        let origin = patch.locate_primitive(t).ok_or_else(|| self.missing(Part::Primitive(t)))?;
         values::primitive_origin(py, origin)
     }
 
@@ -248,15 +252,46 @@ impl Patch {
         values::placement(py, &stages::placed(&processed.context, p)?)
     }
 
-    /// Every stage of the patch as text, or where one point or one primitive comes from: what
-    /// ``tess explain`` prints.
-    #[pyo3(signature = (*, point = None, primitive = None))]
+    /// Every stage of the patch as text, or where one point or one primitive comes from, or what becomes
+    /// of one factor: what ``tess explain`` prints.
+    #[pyo3(signature = (*, point = None, primitive = None, factor = None))]
     fn explain(
         &self,
         #[pyo3(from_py_with = whole_or_none)] point: Option<u32>,
         #[pyo3(from_py_with = whole_or_none)] primitive: Option<u32>,
+        #[pyo3(from_py_with = whole_or_none)] factor: Option<u32>,
     ) -> PyResult<String> {
-        Ok(self.report(point, primitive)?.0)
+        Ok(self.report(part(point, primitive, factor)?)?.0)
+    }
+
+    /// What a circuit gave for a point, a primitive, a factor or (without either) the patch's counts, compared
+    /// with the model: a :class:`SignalDifference` for each signal that differs, in the order in which each
+    /// feeds the next. ``observed`` has the signals' names, which ``tess explain --help`` lists, and values.
+    ///
+    /// >>> from tess_model import Patch
+    /// >>> patch = Patch("tri", outer=[2, 2, 2], inner=2)
+    /// >>> for difference in patch.differences({"u": 0, "v": 0x8001, "last": False}, point=1):
+    /// ...     print(difference)
+    /// v of stage points (module tess_points): observed 0x8001, expected 0x8000
+    #[pyo3(signature = (observed, *, point = None, primitive = None, factor = None))]
+    fn differences<'py>(
+        &self,
+        py: Python<'py>,
+        observed: BTreeMap<String, u32>,
+        #[pyo3(from_py_with = whole_or_none)] point: Option<u32>,
+        #[pyo3(from_py_with = whole_or_none)] primitive: Option<u32>,
+        #[pyo3(from_py_with = whole_or_none)] factor: Option<u32>,
+    ) -> PyResult<Bound<'py, PyTuple>> {
+        let observed: Vec<(&str, u32)> =
+            observed.iter().map(|(signal, value)| (signal.as_str(), *value)).collect();
+        let part = part(point, primitive, factor)?;
+        let differences =
+            circuit::compare(&self.case, part, &observed).map_err(|error| match error {
+                CompareError::NoSuchPart(_) => self.missing(part),
+                other => argument(other),
+            })?;
+        let values = differences.iter().map(|one| values::signal_difference(py, one));
+        PyTuple::new(py, values.collect::<PyResult<Vec<_>>>()?)
     }
 
     /// The same as values: what ``tess explain --json`` prints, as dictionaries and lists.
@@ -267,14 +302,15 @@ impl Patch {
     /// 'OO'
     /// >>> patch.explanation(point=6)["location"]
     /// 'centre, point 0'
-    #[pyo3(signature = (*, point = None, primitive = None))]
+    #[pyo3(signature = (*, point = None, primitive = None, factor = None))]
     fn explanation<'py>(
         &self,
         py: Python<'py>,
         #[pyo3(from_py_with = whole_or_none)] point: Option<u32>,
         #[pyo3(from_py_with = whole_or_none)] primitive: Option<u32>,
+        #[pyo3(from_py_with = whole_or_none)] factor: Option<u32>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let json = self.report(point, primitive)?.1.to_string();
+        let json = self.report(part(point, primitive, factor)?)?.1.to_string();
         py.import("json")?.getattr("loads")?.call1((json,))
     }
 
@@ -362,8 +398,14 @@ impl Patch {
         draw(&listing, options).picture.to_svg()
     }
 
-    fn missing(&self, what: &str, number: u32) -> PyErr {
+    fn missing(&self, part: Part) -> PyErr {
         let counts = self.case.patch().counts();
+        let (what, number) = match part {
+            Part::Point(i) => ("point", i),
+            Part::Primitive(t) => ("primitive", t),
+            Part::Factor(k) => ("factor", k),
+            _ => ("patch", 0),
+        };
         no_such_element(format!(
             "there is no {what} {number}: the patch has {} points and {} primitives, from 0",
             counts.points, counts.primitives
@@ -371,25 +413,38 @@ impl Patch {
     }
 
     /// An explanation as text and as JSON.
-    fn report(&self, point: Option<u32>, primitive: Option<u32>) -> PyResult<(String, Value)> {
+    fn report(&self, part: Part) -> PyResult<(String, Value)> {
         let patch = self.case.patch();
-        let (text, json) = match (point, primitive) {
-            (Some(_), Some(_)) => return Err(argument("give a point or a primitive, not both")),
-            (Some(i), None) => {
-                let report = PointReport::new(&patch, i).ok_or_else(|| self.missing("point", i))?;
+        let (text, json) = match part {
+            Part::Point(i) => {
+                let report = PointReport::new(&patch, i).ok_or_else(|| self.missing(part))?;
                 (report.to_string(), serde_json::to_value(report))
             }
-            (None, Some(t)) => {
-                let report =
-                    PrimitiveReport::new(&patch, t).ok_or_else(|| self.missing("primitive", t))?;
+            Part::Primitive(t) => {
+                let report = PrimitiveReport::new(&patch, t).ok_or_else(|| self.missing(part))?;
                 (report.to_string(), serde_json::to_value(report))
             }
-            (None, None) => {
+            Part::Factor(k) => {
+                let report = FactorReport::new(&self.case, k).ok_or_else(|| self.missing(part))?;
+                (report.to_string(), serde_json::to_value(report))
+            }
+            _ => {
                 let report = Explanation::new(&self.case);
                 (report.to_string(), serde_json::to_value(report))
             }
         };
         Ok((text, json.map_err(argument)?))
+    }
+}
+
+/// What is asked for.
+fn part(point: Option<u32>, primitive: Option<u32>, factor: Option<u32>) -> PyResult<Part> {
+    match (point, primitive, factor) {
+        (None, None, None) => Ok(Part::Patch),
+        (Some(i), None, None) => Ok(Part::Point(i)),
+        (None, Some(t), None) => Ok(Part::Primitive(t)),
+        (None, None, Some(k)) => Ok(Part::Factor(k)),
+        _ => Err(argument("give a point, a primitive or a factor, one of them")),
     }
 }
 

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 use tess_core::place::Placement;
 use tess_core::{FactorContext, PointOrigin, PrimitiveOrigin, ProcessedFactor};
 use tess_verify::checker::{Difference, Report};
+use tess_verify::circuit;
 use tess_verify::names::Named;
 
 /// A named tuple with these elements.
@@ -68,6 +69,15 @@ pub(crate) fn primitive_origin(
         Origin::Centre { step } => ("centre", none, none, none, step),
     };
     value(py, "PrimitiveOrigin", elements)
+}
+
+pub(crate) fn signal_difference<'py>(
+    py: Python<'py>,
+    found: &circuit::Difference,
+) -> PyResult<Bound<'py, PyAny>> {
+    let signal = found.signal;
+    let elements = (signal.stage, signal.module, signal.name, found.observed, found.expected);
+    value(py, "SignalDifference", elements)
 }
 
 pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'py, PyAny>> {

@@ -90,6 +90,8 @@ def test_numbering_through_the_batch() -> None:
     for first_point, _, first_index, indices in batch.ranges.astype(int):
         here = slice(first_index, first_index + indices)
         np.testing.assert_array_equal(batch.indices[here], per_patch.indices[here] + first_point + 7)
+    from_0 = tessellate("quad", factors, base_vertex=0)
+    np.testing.assert_array_equal(from_0.indices + np.uint32(7), batch.indices)
     with pytest.raises(ArgumentError, match="indices end at 65535"):
         tessellate("quad", factors, base_vertex=65535, indices="uint16")
 
@@ -264,7 +266,7 @@ def test_the_interpreter_goes_on_meanwhile() -> None:
     tessellator = Tessellator()
     counts = tessellator.count("quad", factors)
     out = (np.zeros((counts.points, 2), np.float32), np.zeros(counts.indices, np.uint16))
-    running, seen = threading.Event(), 0
+    running, seen, longest = threading.Event(), 0, 0.0
     interval = sys.getswitchinterval()
     sys.setswitchinterval(1000)  # no thread gives the lock away by itself
 
@@ -277,11 +279,16 @@ def test_the_interpreter_goes_on_meanwhile() -> None:
     try:
         thread.start()
         running.wait()
+        began = last = time.perf_counter()
         while running.is_set():
             seen += 1
             if seen % 1000 == 0:
                 time.sleep(0)  # gives it away here
+            last, before = time.perf_counter(), last
+            longest = max(longest, last - before)
     finally:
         sys.setswitchinterval(interval)
+    ended = time.perf_counter()
     thread.join()
-    assert seen > 1000, f"{seen} rounds while the batch was written"
+    longest, whole = max(longest, ended - last), ended - began
+    assert longest < whole / 2, f"{seen} rounds; nothing ran for {longest:.3f} of {whole:.3f} s"

@@ -5,12 +5,14 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Optional
 
 import pytest
 
+import tess_model.examples.cocotb
 from tess_model import Coverage
 
-RUN = Path(__file__).resolve().parents[1] / "examples" / "cocotb" / "run.py"
+EXAMPLE = Path(tess_model.examples.cocotb.__file__).parent
 BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb"))
 FAULTS = {
     1: "stage=factor_context signal=fraction",
@@ -19,14 +21,18 @@ FAULTS = {
 }
 
 
-def bench(tmp_path: Path, sim: str, *options: str, script: Path = RUN) -> "subprocess.CompletedProcess[str]":
+def bench(
+    tmp_path: Path, sim: str, *options: str, script: Optional[Path] = None
+) -> "subprocess.CompletedProcess[str]":
+    """Runs the example as it is installed, or a copy of its script."""
     arguments = ["--sim", sim, "--random", "50", "--build", str(BUILD), *options]
     # A simulator of another interpreter's cocotb would not find this one's packages.
     environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
     # By it cocotb's runner knows pytest, and would end `run.py` before its last line.
     environment.pop("PYTEST_CURRENT_TEST", None)
+    program = [str(script)] if script else ["-m", "tess_model.examples.cocotb"]
     return subprocess.run(
-        [sys.executable, str(script), *arguments, "--coverage", str(tmp_path / "coverage.xml")],
+        [sys.executable, *program, *arguments, "--coverage", str(tmp_path / "coverage.xml")],
         capture_output=True,
         text=True,
         env=environment,
@@ -58,12 +64,23 @@ def test_planted_faults_are_found(tmp_path: Path, fault: int) -> None:
     assert coverage.groups["context"].hit > 0, "what a failing run drove counts"
 
 
-def test_a_copy_outside_the_repository(tmp_path: Path) -> None:
+def test_the_wheel_has_the_example() -> None:
+    """What runs is what was installed, not what lies in the repository."""
+    repository = Path(__file__).resolve().parents[1] / "python" / "tess_model" / "examples" / "cocotb"
+    assert EXAMPLE != repository
+    for file in sorted(repository.rglob("*.*")):
+        if file.is_file() and "__pycache__" not in file.parts:
+            assert (EXAMPLE / file.relative_to(repository)).read_bytes() == file.read_bytes(), file
+
+
+def test_a_copy_elsewhere(tmp_path: Path) -> None:
     copy = tmp_path / "copy"
-    shutil.copytree(RUN.parent, copy, ignore=shutil.ignore_patterns("__pycache__", "sim_build"))
+    shutil.copytree(EXAMPLE, copy, ignore=shutil.ignore_patterns("__pycache__", "sim_build"))
     options = ("--testcase", "random_stimuli")
     run = bench(tmp_path, "icarus", *options, script=copy / "run.py")
-    assert run.returncode == 2 and "--rtl names the folder" in run.stderr, run.stdout + run.stderr
-    rtl = str(RUN.parents[4] / "rtl")
-    run = bench(tmp_path, "icarus", *options, "--rtl", rtl, script=copy / "run.py")
+    assert run.returncode == 0 and "1 tests, 0 failed" in run.stdout, run.stdout + run.stderr
+    design = (copy / "design").rename(tmp_path / "moved")
+    run = bench(tmp_path, "icarus", *options, script=copy / "run.py")
+    assert run.returncode == 2 and "--rtl names its folder" in run.stderr, run.stdout + run.stderr
+    run = bench(tmp_path, "icarus", *options, "--rtl", str(design), script=copy / "run.py")
     assert run.returncode == 0 and "1 tests, 0 failed" in run.stdout, run.stdout + run.stderr

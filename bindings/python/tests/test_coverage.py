@@ -41,8 +41,28 @@ def test_the_report_names_what_was_missed() -> None:
     lines = coverage.report().splitlines()
     assert [line[7:] for line in lines if line.startswith("missed ")] == coverage.missed
     hit, bins = (sum(group[i] for group in coverage.groups.values()) for i in (0, 1))
-    assert lines[len(coverage.groups)].split() == ["all", str(hit), "of", str(bins)]
+    (row,) = [line.split() for line in lines if line.startswith("all ")]
+    assert row[2:5] == [str(bins), str(hit), "0"]
     assert hit + len(coverage.missed) == bins == len(coverage.bins)
+
+
+def test_what_a_device_cannot_hit_is_excluded() -> None:
+    coverage = Coverage()
+    coverage.record(tess_model.generate(1, domain="quad", partitioning="integer"))
+    excluded = tess_model.exclusions(domain="quad", partitioning="integer")
+    assert len(excluded) > 300 and set(excluded) <= set(coverage.missed)
+    assert set(coverage.holes(excluded)) == set(coverage.missed) - set(excluded)
+    report = coverage.report(exclude=excluded)
+    assert f" {len(excluded)} " in report and "missed cull/tri" not in report
+    assert f"{len(excluded)} more are excluded" in coverage.html(excluded)
+    assert tess_model.exclusions(domain=["isoline", "tri", "quad"]) == []
+    file = ["# a device's notes", "", "transition  # too slow", "centre/*/point"]
+    assert len(coverage.bins) - len(Coverage().holes(file)) == 4032 + 2
+    for wrong in (["midle"], "midle"):
+        with pytest.raises(ValueError, match="no bin begins with"):
+            coverage.holes(wrong)
+    with pytest.raises(ValueError, match="unknown domain"):
+        tess_model.exclusions(domain="cube")
 
 
 def test_contexts_alone() -> None:

@@ -70,6 +70,7 @@ def test_missing_elements(call, message) -> None:  # type: ignore[no-untyped-def
     [
         (lambda: Patch("square", [1], 1), "unknown domain `square`, expected one of: isoline, tri"),
         (lambda: Patch("quad", [1, 2, 3], [1, 1]), r"4 outer factors \(u0, v0, u1, v1\) .* not 3"),
+        (lambda: Patch("quad", [1, 2, 3], [4, 1, 1]), "not 3 and 3"),
         (lambda: Patch("quad", [1, 2, 3, 4]), "2 inside factors"),
         (lambda: Patch("isoline", [1, 2], 3), "0 inside factors .* and 1"),
         (lambda: Patch("tri", [1] * 10**6, 1), "not 1000000 and 1"),

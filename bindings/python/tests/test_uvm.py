@@ -1,37 +1,67 @@
-"""bindings/uvm in slang, which knows the covergroups that Verilator does not."""
+"""bindings/uvm in slang, which knows the covergroups, classes and interfaces that Verilator 5.006 does not."""
 
 import shutil
 from pathlib import Path
 
 import pyslang
+import pytest
 
-BINDINGS = Path(__file__).resolve().parents[2]
-UVM = BINDINGS / "uvm"
+UVM = Path(__file__).resolve().parents[2] / "uvm"
+TREE = UVM.parents[1]
 
 
-def errors(sources: Path) -> int:
-    """The errors of the package in this folder, with the stub of UVM."""
-    files = [
-        UVM / "tests" / "stub" / "uvm_pkg.sv",
-        BINDINGS / "c" / "verilog" / "tess_dpi.sv",
-        sources / "tess_uvm.sv",
-        UVM / "tests" / "tb_uvm.sv",
-    ]
+def errors(tree: Path, top: str, *further: str) -> int:
+    """The errors of the package and further files or options in a tree, with the stub of UVM."""
+    uvm = tree / "bindings" / "uvm"
+    stub = UVM / "tests" / "stub"
+    files = [stub / "uvm_pkg.sv", UVM.parent / "c" / "verilog" / "tess_dpi.sv", uvm / "src" / "tess_uvm.sv"]
     driver = pyslang.driver.Driver()
     driver.addStandardArgs()
-    folders = f"-I {sources} -I {UVM / 'tests' / 'stub'}"
-    words = ["slang", "--single-unit", "--top tb_uvm", folders, *map(str, files)]
-    assert driver.parseCommandLine(" ".join(words))
+    words = ["slang", "--single-unit", "--timescale", "1ns/1ps", "--top", top, "-I", str(uvm / "src"), "-I", str(stub)]
+    assert driver.parseCommandLine(" ".join([*words, *map(str, files), *further]))
     assert driver.processOptions() and driver.parseAllSources()
     diagnostics = driver.createCompilation().getAllDiagnostics()
     return sum(diagnostic.isError() for diagnostic in diagnostics)
 
 
+def example(tree: Path) -> int:
+    """The errors of the example around the circuit."""
+    return errors(tree, "tb_example", "-F", str(tree / "bindings/uvm/example/files.f"))
+
+
+def faulty(tmp_path: Path, name: str, right: str, wrong: str) -> Path:
+    """A tree with a planted fault in a file of bindings/uvm."""
+    copy = tmp_path / "bindings" / "uvm"
+    for folder in ("src", "example"):
+        shutil.copytree(UVM / folder, copy / folder)
+    (tmp_path / "rtl").symlink_to(TREE / "rtl")
+    text = (copy / name).read_text()
+    assert right in text, f"{name} has {right}"
+    (copy / name).write_text(text.replace(right, wrong, 1))
+    return tmp_path
+
+
 def test_the_package_elaborates_with_its_covergroups(tmp_path: Path) -> None:
-    assert errors(UVM / "src") == 0
-    faulty = tmp_path / "src"
-    shutil.copytree(UVM / "src", faulty)
-    covergroups = faulty / "tess_covergroups.svh"
-    text = covergroups.read_text()
-    covergroups.write_text(text.replace("coverpoint bin ", "coverpoint other ", 1))
-    assert errors(faulty) > 0, "an unknown name in a covergroup is seen"
+    bench = str(UVM / "tests" / "tb_uvm.sv")
+    assert errors(TREE, "tb_uvm", bench) == 0
+    tree = faulty(tmp_path, "src/tess_covergroups.svh", "coverpoint bin ", "coverpoint other ")
+    assert errors(tree, "tb_uvm", bench) > 0, "an unknown name in a covergroup is seen"
+
+
+def test_the_example_elaborates_around_the_circuit() -> None:
+    assert example(TREE) == 0
+
+
+@pytest.mark.parametrize(
+    "name, right, wrong",
+    [
+        ("example/tb_example.sv", ".point_last ", ".points_last "),
+        ("example/tess_if.sv", "primitive_i2;", "primitive_i3;"),
+        ("example/tess_env.svh", "scoreboard.observed.analysis_export", "scoreboard.seen.analysis_export"),
+        ("example/tess_env.svh", "agent.monitor.results", "agent.monitor.patches"),
+        ("example/tess_agent.svh", "driver.seq_item_port", "driver.item_port"),
+        ("example/files.f", "../../../rtl/tess_stitch.sv\n", ""),
+    ],
+)
+def test_faults_of_the_example_are_seen(tmp_path: Path, name: str, right: str, wrong: str) -> None:
+    assert example(faulty(tmp_path, name, right, wrong)) > 0, f"{wrong} in {name}"

@@ -28,6 +28,7 @@ from ._native import (
     check_device,
     check_rules,
     context,
+    exclusions,
     generate,
     place,
     process_factor,
@@ -40,6 +41,7 @@ from .errors import (
     OutputError,
     TessError,
 )
+from .scoreboard import Scoreboard
 from .values import (
     Batch,
     BatchCounts,
@@ -56,6 +58,7 @@ from .values import (
     RuleExample,
     RuleRow,
     RulesReport,
+    SignalDifference,
 )
 
 __all__ = [
@@ -82,6 +85,8 @@ __all__ = [
     "RuleExample",
     "RuleRow",
     "RulesReport",
+    "Scoreboard",
+    "SignalDifference",
     "TessError",
     "Tessellator",
     "VectorFile",
@@ -90,6 +95,7 @@ __all__ = [
     "check_device",
     "check_rules",
     "context",
+    "exclusions",
     "generate",
     "place",
     "process_factor",

@@ -172,6 +172,27 @@ class Difference(NamedTuple):
     """All of this as ``tess check`` prints it."""
 
 
+class SignalDifference(NamedTuple):
+    """A signal of a circuit that differs from the model."""
+
+    stage: str
+    """The stage of the specification."""
+    module: str
+    """The module of ``rtl/`` that makes the signal."""
+    signal: str
+    """Its name."""
+    observed: int
+    """What the circuit gave."""
+    expected: int
+    """What the model gives."""
+
+    def __str__(self) -> str:
+        return (
+            f"{self.signal} of stage {self.stage} (module {self.module}): "
+            f"observed {self.observed:#x}, expected {self.expected:#x}"
+        )
+
+
 class RuleExample(NamedTuple):
     """The smallest patches that break a rule."""
 

@@ -1,26 +1,26 @@
 """Runs the placer's bench in a simulator.
 
-    python run.py [--sim verilator|icarus] [--fault N] [--random N] [--seed N] [--coverage FILE]
+    python -m tess_model.examples.cocotb, or in a copy of this folder python run.py
+                  [--sim verilator|icarus] [--fault N] [--random N] [--seed N] [--coverage FILE]
                   [--testcase level_1_stimuli|random_stimuli] [--rtl FOLDER]
 
-The design is rtl/ of the repository; a copy of this folder outside the repository needs `--rtl`. Exit status: 0
+The design is that of the folder `design`, or of `--rtl`; what is built goes to ./sim_build. Exit status: 0
 equal, 1 different, 2 no design. `--fault` takes a design with a planted fault: 1 factor context, 2 flip, 3 rounding; the run then fails.
 """
 
 import argparse
-import os
 import sys
 from pathlib import Path
 
 from cocotb.runner import get_results, get_runner
 
 HERE = Path(__file__).resolve().parent
-RTL = Path(*HERE.parts[:-4], "rtl")
+RTL = HERE / "design"
 PLACER = ["factor_context", "place_blend", "place_position", "placer", "reciprocal"]
 
 
 def arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser()
+    parser = argparse.ArgumentParser(description="Runs the placer's bench in a simulator.")
     parser.add_argument("--sim", choices=["verilator", "icarus"], default="verilator")
     parser.add_argument("--fault", type=int, choices=range(4), default=0)
     parser.add_argument("--random", type=int, default=500, help="random factors, every point of each")
@@ -32,7 +32,7 @@ def arguments() -> argparse.Namespace:
     options = parser.parse_args()
     missing = [name for name in sources(options.rtl) if not name.is_file()]
     if missing:
-        parser.error(f"no design: {missing[0]} is no file; --rtl names the folder rtl of the repository")
+        parser.error(f"no design: {missing[0]} is no file; --rtl names its folder")
     return options
 
 
@@ -42,6 +42,7 @@ def sources(rtl: Path) -> "list[Path]":
 
 def main() -> int:
     options = arguments()
+    sys.path.insert(0, str(HERE))  # the simulator's interpreter gets this path, and looks for the bench
     build = (options.build / f"{options.sim}-{options.fault}").resolve()
     runner = get_runner(options.sim)
     runner.build(
@@ -59,7 +60,6 @@ def main() -> int:
         test_dir=build,
         timescale=("1ns", "1ps"),
         extra_env={
-            "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
             "TESS_COVERAGE": str(options.coverage.resolve()),
             "TESS_RANDOM": str(options.random),
             "TESS_SEED": str(options.seed),

@@ -1,0 +1,1 @@
+../../../../../../../rtl/tess_factor_context.sv

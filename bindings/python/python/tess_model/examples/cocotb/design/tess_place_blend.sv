@@ -1,0 +1,1 @@
+../../../../../../../rtl/tess_place_blend.sv

@@ -1,0 +1,1 @@
+../../../../../../../rtl/tess_reciprocal.sv

@@ -1,0 +1,90 @@
+"""The circuit's cocotb bench, in rtl/cocotb: it passes in both simulators, finds faults and holes in its coverage."""
+
+import importlib.util
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+BENCH = Path(__file__).resolve().parents[3] / "rtl" / "cocotb"
+BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb")) / "top"
+FAULTS = {
+    "5": "stage=points module=tess_points signal=v point ",
+    "9": "stage=connect module=tess_connect signal=i1 primitive ",
+    "10": "stage=points module=tess_points signal=u point ",
+}
+
+
+def bench(tmp_path: Path, *options: str) -> "subprocess.CompletedProcess[str]":
+    # A simulator of another interpreter's cocotb would not find this one's packages.
+    environment = {**os.environ, "PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
+    # By it cocotb's runner knows pytest, and would end `run_top.py` before its last line.
+    environment.pop("PYTEST_CURRENT_TEST", None)
+    files = ["--build", str(BUILD), "--coverage", str(tmp_path / "coverage.xml")]
+    command = [sys.executable, str(BENCH / "run_top.py"), *files, *options]
+    return subprocess.run(command, capture_output=True, text=True, env=environment)
+
+
+def test_verilator_with_code_coverage(tmp_path: Path) -> None:
+    run = bench(tmp_path)
+    assert run.returncode == 0 and "3 tests, 0 failed" in run.stdout, run.stdout + run.stderr
+    assert run.stdout.count(" 0 mismatches") == 3 and "every hole has its name: " in run.stdout, run.stdout
+
+
+def test_icarus(tmp_path: Path) -> None:
+    run = bench(tmp_path, "--sim", "icarus", "--elements", "500", "--random", "30", "--testcase", "random_patches")
+    assert run.returncode == 0 and "1 tests, 0 failed" in run.stdout, run.stdout + run.stderr
+    assert "30 counts, " in run.stdout and ", 0 mismatches" in run.stdout, run.stdout
+
+
+@pytest.mark.parametrize("fault", sorted(FAULTS))
+def test_planted_faults_are_named(tmp_path: Path, fault: str) -> None:
+    options = ("--sim", "icarus", "--fault", fault, "--random", "200", "--testcase", "random_patches")
+    run = bench(tmp_path, *options)
+    assert run.returncode == 1 and "1 tests, 1 failed" in run.stdout, run.stdout + run.stderr
+    assert f"MISMATCH {FAULTS[fault]}" in run.stdout and "tess explain " in run.stdout, run.stdout
+
+
+# ---- what is not reached ----------------------------------------------------------------------------
+
+
+def judge(tmp_path: Path, holes: str, capsys: Any) -> "tuple[bool, str]":
+    """The verdict on a file of two reached bits, one bit that is not, and a branch that is not."""
+    source = tmp_path / "x.sv"
+    source.write_text("if (a) b = 1; // never\n")
+    lines = [(f"toggle/x\x01o\x02d[{bit}]", hits) for bit, hits in ((0, 3), (1, 1), (2, 0))]
+    lines.append(("branch/x\x01o\x02if", 0))
+    data = [f"C '\x01f\x02{source}\x01l\x021\x01page\x02v_{line}' {hits}\n" for line, hits in lines]
+    # A second instance of the module.
+    data.append(f"C '\x01f\x02{source}\x01l\x021\x01page\x02v_toggle/x\x01o\x02d[1]\x01h\x02other' 0\n")
+    (tmp_path / "coverage.dat").write_text("# SystemC::Coverage-3\n" + "".join(data))
+    (tmp_path / "holes.txt").write_text(holes)
+    spec = importlib.util.spec_from_file_location("code_coverage", BENCH / "code_coverage.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    verdict = module.judge(tmp_path / "coverage.dat", tmp_path / "holes.txt")
+    return verdict, capsys.readouterr().out
+
+
+BRANCH = "x: if if (a) b = 1; # a is 0\n"
+BIT = "x: toggle d[2] # padding\n"
+
+
+@pytest.mark.parametrize(
+    "holes, expected",
+    [
+        (BRANCH + BIT, "every hole has its name: 2"),
+        (BRANCH, "not reached, without a name: x: toggle d[2]"),
+        (BIT, "not reached, without a name: x: if if (a) b = 1;"),
+        (BRANCH + BIT.replace("[2]", "[2:1]"), "named, but reached: x: toggle d[1]"),
+        (BRANCH + BIT.replace("[2]", "[3:2]"), "named, but not there: x: toggle d[3]"),
+        (BRANCH + BIT + "x: toggle e\n", "holes.txt:3: not `MODULE: WHAT # reason`"),
+    ],
+)
+def test_holes_have_names(tmp_path: Path, capsys: Any, holes: str, expected: str) -> None:
+    verdict, said = judge(tmp_path, holes, capsys)
+    assert verdict == (holes == BRANCH + BIT) and expected in said, said
