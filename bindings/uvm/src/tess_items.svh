@@ -45,6 +45,82 @@ class tess_patch_item extends uvm_sequence_item;
         return words;
     endfunction
 
+    // Whether a line of a file is to be read: no remark, no heading, not empty.
+    static function bit is_case(string line);
+        string word;
+        if ($sscanf(line, "%s", word) < 1) return 0;
+        if (word.substr(0, 0) == "#") return 0;
+        return word.len() < 7 || word.substr(0, 6) != "domain,";
+    endfunction
+
+    // Takes what `convert2string` gives, or a row of `tess gen`; 0 if it is neither, and then nothing is taken.
+    virtual function bit from_case(string line);
+        string          words[10];
+        int             given;
+        domain_e        d;
+        partitioning_e  p;
+        output_e        o;
+        split_order_e   s;
+        bit [31:0]      x[6];
+        string          blanks = line;
+        for (int i = 0; i < blanks.len(); i++) if (blanks.getc(i) == ",") blanks.putc(i, " ");
+        if (blanks.len() > 5 && blanks.substr(0, 4) == "case ") blanks = blanks.substr(5, blanks.len() - 1);
+        given = $sscanf(blanks, "%s %s %s %s %s %s %s %s %s %s", words[0], words[1], words[2], words[3], words[4],
+            words[5], words[6], words[7], words[8], words[9]);
+        if (given < 4 || !named(words, d, p, o, s)) return 0;
+        if (given < 6 + 2 * int'(d)) return 0;
+        for (int unsigned i = 0; i < 2 + 2 * int'(d); i++) begin
+            if (!is_hex(words[4 + i]) || $sscanf(words[4 + i], "%h", x[i]) != 1) return 0;
+        end
+        domain       = d;
+        partitioning = p;
+        out          = o;
+        split_order  = s;
+        factors      = x;
+        return 1;
+    endfunction
+
+    // Whether a word is eight digits, as the bits of a factor are.
+    protected static function bit is_hex(string word);
+        if (word.len() != 8) return 0;
+        for (int i = 0; i < 8; i++) begin
+            byte digit = word.getc(i);
+            if (!((digit >= "0" && digit <= "9") || (digit >= "a" && digit <= "f"))) return 0;
+        end
+        return 1;
+    endfunction
+
+    // The values of the first four words; 0 if one is no name.
+    protected static function bit named(input string words[10], output domain_e d, output partitioning_e p,
+            output output_e o, output split_order_e s);
+        case (words[0])
+            "isoline": d = ISOLINE;
+            "tri":     d = TRIANGLE;
+            "quad":    d = QUAD;
+            default:   return 0;
+        endcase
+        case (words[1])
+            "integer":         p = INTEGER;
+            "pow2":            p = POW2;
+            "fractional_odd":  p = FRACTIONAL_ODD;
+            "fractional_even": p = FRACTIONAL_EVEN;
+            default:           return 0;
+        endcase
+        case (words[2])
+            "point":        o = POINT;
+            "line":         o = LINE;
+            "triangle_cw":  o = TRIANGLE_CW;
+            "triangle_ccw": o = TRIANGLE_CCW;
+            default:        return 0;
+        endcase
+        case (words[3])
+            "ruler":  s = RULER;
+            "center": s = CENTER;
+            default:  return 0;
+        endcase
+        return 1;
+    endfunction
+
     protected function string domain_name();
         case (domain)
             ISOLINE:  return "isoline";

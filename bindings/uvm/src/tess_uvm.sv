@@ -1,7 +1,8 @@
-// UVM components around the golden tessellator: a predictor, a scoreboard and covergroups.
+// UVM components around the golden tessellator: a sequence, a predictor, a scoreboard and covergroups.
 //
 //   tess_patch_item    a patch: configuration and the bits of its factors; can be randomised
 //   tess_result_item   its points and indices
+//   tess_file_sequence the patches of a file, such as level 1 of `tess gen`
 //   tess_predictor     patch items in, what the model gives out
 //   tess_scoreboard    compares a device's results with the predictor's, in order
 //   tess_coverage      samples the covergroups of the specification's cases
@@ -14,6 +15,7 @@ package tess_uvm;
     `include "uvm_macros.svh"
 
     `include "tess_items.svh"
+    `include "tess_sequence.svh"
     `include "tess_predictor.svh"
     `include "tess_scoreboard.svh"
 `ifndef TESS_NO_COVERGROUPS

@@ -1,7 +1,8 @@
 // Runs predictor and scoreboard: equal results pass, each planted difference is found. With the stub
 // of UVM; `+fault=N` takes a difference: 1 point, 2 index, 3 number of points, 4 a result too few,
 // 5 a v too few, 6 the result of another patch. Everything goes through clones, as in environments that keep
-// what they are given. `+unordered` gives the results from the last to the first.
+// what they are given. `+unordered` gives the results from the last to the first. `+tess_cases=FILE` sends the patches of a
+// file through a sequencer and prints them, and nothing else.
 module tb_uvm;
     import uvm_pkg::*;
     import tess_dpi::*;
@@ -51,7 +52,36 @@ module tb_uvm;
         return p;
     endfunction
 
-    initial begin
+    tess_file_sequence     sequence_of_file;
+    uvm_sequencer_base     sequencer;
+    uvm_seq_item_pull_port port;
+    bit                    is_sent = 1'b0;
+
+    // Takes as a driver does what the sequence sends.
+    task automatic print_sequence();
+        uvm_sequence_item next;
+        sequence_of_file = new("cases");
+        sequencer = new("sequencer", top);
+        port = new();
+        port.connect(sequencer.seq_item_export);
+        fork
+            begin
+                sequence_of_file.start(sequencer);
+                is_sent = 1'b1;
+                $display("%0d sent", sequence_of_file.sent);
+                $finish;
+            end
+        join_none
+        while (!is_sent) begin
+            port.get_next_item(next);
+            $display("%s", next.convert2string());
+            #1 port.item_done();
+        end
+    endtask
+
+    initial if ($test$plusargs("tess_cases=") != 0) print_sequence();
+
+    initial if ($test$plusargs("tess_cases=") == 0) begin
         if ($value$plusargs("fault=%d", fault)) $display("planted fault %0d", fault);
         predictor  = new("predictor", top);
         scoreboard = new("scoreboard", top);

@@ -1,0 +1,48 @@
+// rtl/tess_top under the environment of tess_example. +UVM_TESTNAME=tess_file_test +tess_cases=FILE
+module tb_example;
+    import uvm_pkg::*;
+    import tess_example::*;
+
+    logic clk = 1'b0;
+    always #5 clk = ~clk;
+
+    tess_if ports (.clk);
+
+    tess_top dut (
+        .clk,
+        .rst               (ports.rst),
+        .patch_valid       (ports.patch_valid),
+        .patch_ready       (ports.patch_ready),
+        .patch_domain      (ports.patch_domain),
+        .patch_partitioning(ports.patch_partitioning),
+        .patch_out         (ports.patch_out),
+        .patch_center      (ports.patch_center),
+        .patch_factors     (ports.patch_factors),
+        .counts_valid      (ports.counts_valid),
+        .counts_ready      (ports.counts_ready),
+        .counts_points     (ports.counts_points),
+        .counts_primitives (ports.counts_primitives),
+        .point_valid       (ports.point_valid),
+        .point_ready       (ports.point_ready),
+        .point_u           (ports.point_u),
+        .point_v           (ports.point_v),
+        .point_last        (ports.point_last),
+        .primitive_valid   (ports.primitive_valid),
+        .primitive_ready   (ports.primitive_ready),
+        .primitive_size    (ports.primitive_size),
+        .primitive_i0      (ports.primitive_i0),
+        .primitive_i1      (ports.primitive_i1),
+        .primitive_i2      (ports.primitive_i2),
+        .primitive_last    (ports.primitive_last)
+    );
+
+    initial begin
+        repeat (3) @(negedge clk);
+        ports.rst = 1'b0;
+    end
+
+    initial begin
+        uvm_config_db#(virtual tess_if)::set(null, "*", "ports", ports);
+        run_test("tess_file_test");
+    end
+endmodule

@@ -1,0 +1,45 @@
+// Sends the patches of a file: case lines, as messages of the scoreboard and `tess check` have them, or the rows of `tess gen`.
+// So level 1, every boundary once, is the file of `tess gen --level 1 -o level-1.csv`.
+//
+// The file is that of `file`, or of +tess_cases=FILE. Lines that begin with # and headings are left out, and so are
+// words behind the factors. A line that is no case, a file without any and one that cannot be read end the simulation.
+class tess_file_sequence extends uvm_sequence #(tess_patch_item);
+    string       file;
+    int unsigned most = 0; // patches to send; 0 is all
+    int unsigned sent = 0;
+
+    `uvm_object_utils(tess_file_sequence)
+
+    function new(string name = "tess_file_sequence");
+        super.new(name);
+    endfunction
+
+    virtual task body();
+        string line;
+        int    handle;
+        int    number = 0;
+        if (file == "") void'($value$plusargs("tess_cases=%s", file));
+        handle = $fopen(file, "r");
+        if (handle == 0) `uvm_fatal("TESS", $sformatf("cannot read the cases of '%s'; +tess_cases=FILE names them", file))
+        while ((most == 0 || sent < most) && $fgets(line, handle) != 0) begin
+            number++;
+            send(line, number);
+        end
+        $fclose(handle);
+        if (sent == 0) `uvm_fatal("TESS", {"there is no case in ", file})
+    endtask
+
+    // Sends the patch of a line, if it has one.
+    protected task send(string line, int number);
+        tess_patch_item   item;
+        uvm_sequence_item next; // of the argument's very type, which Verilator 5.006 asks for
+        if (!tess_patch_item::is_case(line)) return;
+        item = tess_patch_item::type_id::create("patch");
+        next = item;
+        start_item(next);
+        if (!item.from_case(line))
+            `uvm_fatal("TESS", $sformatf("%s:%0d: no case: %s", file, number, line))
+        finish_item(next);
+        sent++;
+    endtask
+endclass
