@@ -130,6 +130,27 @@ module tess_connect (
         .inner_next    (inner_next)
     );
 
+    // ---- the masks -----------------------------------------------------------------------------
+
+    // The edge behind this one, whose masks are looked up while this one ends.
+    logic [1:0] side_next;
+    assign side_next = is_last_side ? 2'd0 : side + 2'd1;
+    logic       starts, begins_center, start_is_quad;
+    logic [6:0] begins_outside, begins_inside;
+    assign starts         = start_valid && start_ready;
+    assign start_is_quad  = start_patch.domain == tess_pkg::QUAD;
+    assign begins_center  = starts ? start_patch.center : patch.center;
+    assign begins_outside = starts ? outside_of(start_counts, 2'd0) : outside_of(counts, side_next);
+    assign begins_inside  = starts ? inside_of(start_counts, start_is_quad, 1'b0)
+                                   : inside_of(counts, is_quad, side_next[0]);
+
+    // The masks of this edge, and those of the edge that begins behind this clock.
+    logic [31:0] outer_all, inner_all, outer_begins, inner_begins;
+    tess_mask outer_mask (.points(n_outside), .center(patch.center), .mask(outer_all));
+    tess_mask inner_mask (.points(n_inside), .center(patch.center), .mask(inner_all));
+    tess_mask outer_begins_mask (.points(begins_outside), .center(begins_center), .mask(outer_begins));
+    tess_mask inner_begins_mask (.points(begins_inside), .center(begins_center), .mask(inner_begins));
+
     // ---- the step ------------------------------------------------------------------------------
 
     logic [1:0]  kind;
@@ -160,13 +181,6 @@ module tess_connect (
         .done_next      (done_next)
     );
 
-    // The masks of this edge, and those of the edge that begins behind this clock.
-    logic [31:0] outer_all, inner_all, outer_begins, inner_begins;
-    tess_mask outer_mask (.points(n_outside), .center(patch.center), .mask(outer_all));
-    tess_mask inner_mask (.points(n_inside), .center(patch.center), .mask(inner_all));
-    tess_mask outer_begins_mask (.points(begins_outside), .center(begins_center), .mask(outer_begins));
-    tess_mask inner_begins_mask (.points(begins_inside), .center(begins_center), .mask(inner_begins));
-
     logic [7:0] steps, step_next;
     logic       ends_edge, is_last;
     assign steps     = {1'b0, outer_points} + {1'b0, inner_points} - 8'd2;
@@ -180,18 +194,6 @@ module tess_connect (
     logic [12:0] outer_after, inner_after;
     assign outer_after = outer_base + {6'd0, outer_points} - 13'd1;
     assign inner_after = inner_base + {6'd0, inner_points} - 13'd1;
-
-    // The edge behind this one, whose masks are looked up while this one ends.
-    logic [1:0] side_next;
-    assign side_next = is_last_side ? 2'd0 : side + 2'd1;
-    logic       starts, begins_center, start_is_quad;
-    logic [6:0] begins_outside, begins_inside;
-    assign starts         = start_valid && start_ready;
-    assign start_is_quad  = start_patch.domain == tess_pkg::QUAD;
-    assign begins_center  = starts ? start_patch.center : patch.center;
-    assign begins_outside = starts ? outside_of(start_counts, 2'd0) : outside_of(counts, side_next);
-    assign begins_inside  = starts ? inside_of(start_counts, start_is_quad, 1'b0)
-                                   : inside_of(counts, is_quad, side_next[0]);
 
     always_ff @(posedge clk) begin
         if (rst) begin

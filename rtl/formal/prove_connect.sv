@@ -8,22 +8,22 @@ module prove_connect (
     input logic        out_valid, out_last, out_ready
 );
     logic        has_begun = 1'b0, stalled;
-    logic [15:0] accepted, left;
-    logic [7:0]  accepted_patches, left_patches;
+    logic [15:0] held;
+    logic [7:0]  held_patches;
+    ledger #(.WIDTH(14)) ledger (
+        .clk(clk), .rst(rst), .starts(starts), .elements(start_primitives), .leaves(out_valid && out_ready),
+        .leaves_last(out_last), .held(held), .held_patches(held_patches)
+    );
     always_ff @(posedge clk) begin
         has_begun <= 1'b1;
         stalled   <= !rst && out_valid && !out_ready;
-        accepted  <= rst ? 16'd0 : accepted + (starts ? {2'd0, start_primitives} : 16'd0);
-        left      <= rst ? 16'd0 : left + 16'(out_valid && out_ready);
-        accepted_patches <= rst ? 8'd0 : accepted_patches + 8'(starts && start_primitives != 14'd0);
-        left_patches     <= rst ? 8'd0 : left_patches + 8'(out_valid && out_ready && out_last);
     end
     always_comb begin
         if (!has_begun) assume (rst);
         if (has_begun && !rst) begin
             assert (!active || number < patch_primitives);
-            assert (16'(accepted - left) == (active ? 16'(patch_primitives - number) : 16'd0) + 16'(out_valid));
-            assert (8'(accepted_patches - left_patches) == 8'(active) + 8'(out_valid && out_last));
+            assert (held == (active ? 16'(patch_primitives - number) : 16'd0) + 16'(out_valid));
+            assert (held_patches == 8'(active) + 8'(out_valid && out_last));
             if (stalled) assert (out_valid);
         end
     end

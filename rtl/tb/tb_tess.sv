@@ -107,10 +107,12 @@ module tb_tess;
         return text;
     endfunction
 
+    // Stages, signals and modules by number.
+    `include "tess_names.svh"
+
     // What differs in this clock. Printed at one place, as Verilator copies a function to each of its calls.
     typedef struct packed {
-        bit [31:0] stage;
-        bit [31:0] signal;
+        bit [31:0] signal; // of tess_names.svh
         bit [31:0] element;
         bit [31:0] observed;
         bit [31:0] expected;
@@ -118,19 +120,13 @@ module tb_tess;
     } difference_t;
     difference_t differences[$];
 
-    localparam int unsigned AT_FACTORS = 0, AT_CONTEXT = 1, AT_COUNTS = 2, AT_POINTS = 3, AT_CONNECT = 4;
-    string MODULES[5] = '{"tess_factor", "tess_factor_context", "tess_factors", "tess_points", "tess_connect"};
-    string STAGES[5] = '{"factors", "factor_context", "counts", "points", "connect"};
-    string SIGNALS[18] = '{"culled", "fixed", "odd", "fraction", "half_points", "points", "split", "inv_floor", "inv_ceil",
-        "primitives", "u", "v", "last", "size", "i0", "i1", "i2", "valid"};
-
     function automatic void compare(
-            input stimulus_t s, input int unsigned stage, input int unsigned signal, input int unsigned element,
+            input stimulus_t s, input int unsigned signal, input int unsigned element,
             input int unsigned observed, input int unsigned expected);
-        if (observed != expected) differences.push_back({stage, signal, element, observed, expected, s});
+        if (observed != expected) differences.push_back({signal, element, observed, expected, s});
     endfunction
 
-    // The command that explains the patch, or the element that differs.
+    // The command that explains what differs, and says so.
     function automatic string explain(input difference_t d);
         int unsigned outer = (d.s.domain == 2'(TRIANGLE)) ? 3 : (d.s.domain == 2'(QUAD)) ? 4 : 2;
         string text = {"tess explain ", DOMAINS[d.s.domain]};
@@ -138,9 +134,8 @@ module tb_tess;
             text = {text, (i == 0) ? " --outer " : (i == outer) ? " --inner " : ",", $sformatf("0x%08x", d.s.x[i])};
         text = {text, " --partitioning ", PARTITIONINGS[d.s.partitioning], " --output ", OUTPUTS[d.s.out],
             " --split ", SPLITS[d.s.split]};
-        if (d.stage == AT_POINTS)  text = {text, $sformatf(" --point %0d", d.element)};
-        if (d.stage == AT_CONNECT) text = {text, $sformatf(" --primitive %0d", d.element)};
-        return text;
+        if (OPTIONS[d.signal] != "") text = {text, " --", OPTIONS[d.signal], $sformatf(" %0d", d.element)};
+        return {text, " --observed ", SIGNALS[d.signal], $sformatf("=0x%0x", d.observed)};
     endfunction
 
     function automatic void show();
@@ -149,9 +144,9 @@ module tb_tess;
             mismatches++;
             if (mismatches <= MAX_SHOWN) begin
                 $display("MISMATCH stage=%s signal=%s element=%0d observed=0x%05x expected=0x%05x",
-                    STAGES[d.stage], SIGNALS[d.signal], d.element, d.observed, d.expected);
+                    STAGES[d.signal], SIGNALS[d.signal], d.element, d.observed, d.expected);
                 $display("    case %s", line_of(d.s));
-                $display("    module %s; %s", MODULES[d.stage], explain(d));
+                $display("    module %s; %s", MODULES[d.signal], explain(d));
             end
         end
     endfunction
@@ -162,18 +157,19 @@ module tb_tess;
     function automatic void check_factor();
         stimulus_t s = of_factors[0];
         int unsigned k = 32'(axis.top.stage_factors.context_k);
-        if (!axis.top.stage_factors.context_culled) begin
-            processed_t p = model_process(config_of(s), s.x, k);
+        processed_t p = model_process(config_of(s), s.x, k);
+        bit is_culled = axis.top.stage_factors.context_culled;
+        compare(s, FACTORS_CULLED, k, 32'(is_culled), 32'(p.outcome == CULLED));
+        if (!is_culled && p.outcome != CULLED) begin
             context_t c = model_context(p.fixed, p.parity, split_order_e'(s.split));
-            if (p.outcome == CULLED) compare(s, AT_FACTORS, 0, k, 0, 1);
-            compare(s, AT_FACTORS, 1, k, 32'(axis.top.stage_factors.fixed), p.fixed);
-            compare(s, AT_FACTORS, 2, k, 32'(axis.top.stage_factors.odd), int'(p.parity));
-            compare(s, AT_CONTEXT, 3, k, 32'(axis.top.stage_factors.made.fraction), c.fraction);
-            compare(s, AT_CONTEXT, 4, k, 32'(axis.top.stage_factors.made.half_points), c.half_points);
-            compare(s, AT_CONTEXT, 5, k, 32'(axis.top.stage_factors.made.points), c.points);
-            compare(s, AT_CONTEXT, 6, k, 32'(axis.top.stage_factors.made.split), c.split);
-            compare(s, AT_CONTEXT, 7, k, 32'(axis.top.stage_factors.made.inv_floor), c.inv_floor);
-            compare(s, AT_CONTEXT, 8, k, 32'(axis.top.stage_factors.made.inv_ceil), c.inv_ceil);
+            compare(s, FACTORS_FIXED, k, 32'(axis.top.stage_factors.fixed), p.fixed);
+            compare(s, FACTORS_ODD, k, 32'(axis.top.stage_factors.odd), int'(p.parity));
+            compare(s, FACTOR_CONTEXT_FRACTION, k, 32'(axis.top.stage_factors.made.fraction), c.fraction);
+            compare(s, FACTOR_CONTEXT_HALF_POINTS, k, 32'(axis.top.stage_factors.made.half_points), c.half_points);
+            compare(s, FACTOR_CONTEXT_POINTS, k, 32'(axis.top.stage_factors.made.points), c.points);
+            compare(s, FACTOR_CONTEXT_SPLIT, k, 32'(axis.top.stage_factors.made.split), c.split);
+            compare(s, FACTOR_CONTEXT_INV_FLOOR, k, 32'(axis.top.stage_factors.made.inv_floor), c.inv_floor);
+            compare(s, FACTOR_CONTEXT_INV_CEIL, k, 32'(axis.top.stage_factors.made.inv_ceil), c.inv_ceil);
         end
         if (axis.top.stage_factors.context_last) void'(of_factors.pop_front());
     endfunction
@@ -182,8 +178,8 @@ module tb_tess;
         stimulus_t s;
         if (of_counts.size() == 0) $fatal(1, "counts came that no patch has");
         s = of_counts.pop_front();
-        compare(s, AT_COUNTS, 5, 0, 32'(counts_points), s.points);
-        compare(s, AT_COUNTS, 9, 0, 32'(counts_primitives), s.primitives);
+        compare(s, COUNTS_POINTS, 0, 32'(counts_points), s.points);
+        compare(s, COUNTS_PRIMITIVES, 0, 32'(counts_primitives), s.primitives);
         patches_checked++;
         idle = 0;
     endfunction
@@ -196,10 +192,10 @@ module tb_tess;
         if (of_points.size() == 0) $fatal(1, "a point came that no patch has");
         s = of_points[0];
         p = model_point(config_of(s), s.x, next_point);
-        compare(s, AT_POINTS, 10, next_point, 32'(point_u), p.u);
-        compare(s, AT_POINTS, 11, next_point, 32'(point_v), p.v);
+        compare(s, POINTS_U, next_point, 32'(point_u), p.u);
+        compare(s, POINTS_V, next_point, 32'(point_v), p.v);
         next_point++;
-        compare(s, AT_POINTS, 12, next_point - 1, 32'(point_last), 32'(next_point == s.points));
+        compare(s, POINTS_LAST, next_point - 1, 32'(point_last), 32'(next_point == s.points));
         points_checked++;
         idle = 0;
         if (next_point == s.points) begin
@@ -215,12 +211,12 @@ module tb_tess;
         if (of_primitives.size() == 0) $fatal(1, "a primitive came that no patch has");
         s = of_primitives[0];
         p = model_primitive(config_of(s), s.x, next_primitive);
-        compare(s, AT_CONNECT, 13, next_primitive, 32'(primitive_size), p.size);
-        compare(s, AT_CONNECT, 14, next_primitive, 32'(primitive_i0), p.i0);
-        compare(s, AT_CONNECT, 15, next_primitive, 32'(primitive_i1), p.i1);
-        compare(s, AT_CONNECT, 16, next_primitive, 32'(primitive_i2), p.i2);
+        compare(s, CONNECT_SIZE, next_primitive, 32'(primitive_size), p.size);
+        compare(s, CONNECT_I0, next_primitive, 32'(primitive_i0), p.i0);
+        compare(s, CONNECT_I1, next_primitive, 32'(primitive_i1), p.i1);
+        compare(s, CONNECT_I2, next_primitive, 32'(primitive_i2), p.i2);
         next_primitive++;
-        compare(s, AT_CONNECT, 12, next_primitive - 1, 32'(primitive_last),
+        compare(s, CONNECT_LAST, next_primitive - 1, 32'(primitive_last),
             32'(next_primitive == s.primitives));
         primitives_checked++;
         idle = 0;
@@ -345,8 +341,9 @@ module tb_tess;
             if (differences.size() != 0) show();
             count_clocks();
             if (idle > 20000) begin
-                if (of_points.size() != 0) $display("MISMATCH stage=points signal=valid element=%0d observed=0x0 expected=0x1",
-                    next_point);
+                if (of_points.size() != 0) compare(of_points[0], POINTS_VALID, next_point, 0, 1);
+                if (of_primitives.size() != 0) compare(of_primitives[0], CONNECT_VALID, next_primitive, 0, 1);
+                show();
                 $fatal(1, "FAIL: nothing passes any more");
             end
         end

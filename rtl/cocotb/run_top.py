@@ -1,0 +1,91 @@
+"""Runs the circuit's cocotb bench in a simulator, and judges its coverage.
+
+    python run_top.py [--sim verilator|icarus] [--fault N] [--elements N] [--random N] [--seed N]
+                      [--testcase NAME] [--build FOLDER] [--coverage FILE]
+
+Exit status: 0 equal, and every hole in the code coverage is named in holes.txt; 1 otherwise. `--fault` takes a design
+with a planted fault of rtl/tb/faults.txt. `--elements` bounds the systematic part, 0 leaves it out: 10 million have all
+of it, and then the functional coverage must be whole. Code is covered in Verilator alone.
+"""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from cocotb.runner import get_results, get_runner
+
+import code_coverage  # beside this file
+from tess_model import Coverage
+
+HERE = Path(__file__).resolve().parent
+RTL = HERE.parent
+WHOLE = 10_000_000
+LEFT_OUT = ("tess_pkg.sv", "tess_placer.sv")  # the first stands first; the other is a design of its own
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--sim", choices=["verilator", "icarus"], default="verilator")
+    parser.add_argument("--fault", type=int, default=0)
+    parser.add_argument("--elements", type=int, default=20_000, help="of the systematic patches")
+    parser.add_argument("--random", type=int, default=60, help="random patches")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--testcase", help="one test alone")
+    parser.add_argument("--build", type=Path, default=Path("sim_build"), help="folder to build in")
+    parser.add_argument("--coverage", type=Path, default=Path("coverage.xml"), help="functional coverage, written anew")
+    return parser.parse_args()
+
+
+def simulate(options: argparse.Namespace, build: Path) -> bool:
+    """Whether all tests pass."""
+    is_verilator = options.sim == "verilator"
+    runner = get_runner(options.sim)
+    runner.build(
+        verilog_sources=[RTL / "tess_pkg.sv"]
+        + sorted(file for file in RTL.glob("tess_*.sv") if file.name not in LEFT_OUT),
+        includes=[RTL],
+        defines={"TESS_PROOF_FAULT": options.fault} if options.fault else {},
+        build_args=["--coverage-line", "--coverage-toggle", "-Wno-fatal"] if is_verilator else [],
+        hdl_toplevel="tess_axis",
+        build_dir=build,
+        timescale=("1ns", "1ps"),
+    )
+    results = runner.test(
+        test_module="top_bench",
+        testcase=options.testcase,
+        hdl_toplevel="tess_axis",
+        build_dir=build,
+        test_dir=build,
+        timescale=("1ns", "1ps"),
+        extra_env={
+            "PYTHONPATH": os.pathsep.join([str(HERE), *sys.path]),
+            "TESS_COVERAGE": str(options.coverage.resolve()),
+            "TESS_ELEMENTS": str(options.elements),
+            "TESS_RANDOM": str(options.random),
+            "TESS_SEED": str(options.seed),
+        },
+    )
+    tests, failed = get_results(results)
+    print(f"{tests} tests, {failed} failed")
+    return bool(failed == 0 and tests == (1 if options.testcase else 3))
+
+
+def main() -> int:
+    options = arguments()
+    build = (options.build / f"{options.sim}-{options.fault}").resolve()
+    options.coverage.unlink(missing_ok=True)
+    if not simulate(options, build):
+        return 1
+    functional = Coverage.read(options.coverage)
+    print("\nfunctional coverage, by the model:")
+    print("\n".join(line for line in functional.report().splitlines() if not line.startswith("missed ")))
+    is_covered = not (options.elements >= WHOLE and functional.missed)
+    if options.sim == "verilator" and not options.testcase:
+        print("\ncode coverage, by Verilator:")
+        is_covered &= code_coverage.judge(build / "coverage.dat", HERE / "holes.txt")
+    return 0 if is_covered else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
