@@ -171,8 +171,9 @@ impl TessellationStage {
     /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or `draw`
     /// on.
     ///
-    /// A group other than the present one is tried first, in an encoder that is dropped. For groups that are replaced
-    /// each frame, [`Self::set_bind_group_unchecked`] saves the trial.
+    /// A group other than the present one is tried first, in an encoder that is dropped, which takes most of the time
+    /// that recording a frame does. For groups that are replaced each frame, [`Self::set_bind_group_unchecked`] saves
+    /// the trial.
     ///
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]; [`StageError::BadBindGroup`] for a group that does not go with its layout.

@@ -4,11 +4,13 @@ mod common;
 
 use common::device::{Machine, POISON};
 use common::expected::Expected;
+use std::iter;
 use tess_core::{
-    Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, ProcessedPatch,
+    Config, Domain, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, Patch,
+    PatchFactors, ProcessedPatch, SplitOrder,
 };
 use tess_gpu::layout::{Topology, unpack_context};
-use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
+use tess_gpu::{IndexType, Numbering, PointFormat, Setup, Tap};
 use tess_verify::random::SplitMix64;
 use tess_wgpu::Outputs;
 
@@ -151,6 +153,16 @@ fn counting_2_pow_20_patches() {
     assert_eq!(status.primitives(), 8192 << 20, "triangles");
 }
 
+/// Output of more than 2^32 points, of which the low word alone would fit.
+#[test]
+fn overflow_beyond_32_bits() {
+    let mut machine = Machine::open();
+    let patches = uniform(64.0, 1_016_561);
+    let written = machine.write(quads(Partitioning::Integer), &patches, 2 * 4096, 3);
+    assert_eq!(written.status.points(), (1 << 32) + 2929, "points");
+    assert!(written.status.points_overflow(), "they do not fit 4096");
+}
+
 /// More patches than one portion has with default limits.
 #[test]
 fn counting_in_several_portions() {
@@ -168,6 +180,37 @@ fn counting_in_several_portions() {
     assert_eq!(status.primitives(), 8 << 22, "triangles");
 }
 
+/// No batch stores contexts of integer factors. The tap computes them, that of a factor 1 which counts as even too.
+#[test]
+fn contexts_of_integers() {
+    let mut machine = Machine::open();
+    let mut factors: Vec<(u32, Parity)> = vec![(1, Parity::Even)];
+    factors.extend((1..=64).map(|n| (n, if n % 2 == 0 { Parity::Even } else { Parity::Odd })));
+    let input: Vec<u32> =
+        factors.iter().flat_map(|&(factor, parity)| [factor << 16, parity.odd()]).collect();
+    for split in SplitOrder::ALL {
+        let mut setup = quads(Partitioning::Integer);
+        setup.config.split = split;
+        let found = machine.tessellator.tap(&machine.gpu, Tap::Contexts, setup, &input);
+        let (found, _) = found.as_deref().expect("the device answers").as_chunks();
+        let expected = factors.iter().map(|&(factor, parity)| {
+            FactorContext::new(FixedFactor::from_bits(factor << 16), parity, split)
+        });
+        assert!(found.iter().map(|&words| unpack_context(words)).eq(expected), "{split:?}");
+    }
+}
+
+/// A quad whose factors lie half way between two 15.16 numbers, up to factors of 64.
+fn of_ties(random: &mut SplitMix64) -> PatchFactors {
+    PatchFactors::from_fn(Domain::Quad, |_| {
+        let exponent = 127 + random.below(6);
+        // So many bits of the mantissa lie below 2^-16.
+        let below = 134 - exponent;
+        let mantissa = random.below(1 << 23) >> below << below | 1 << (below - 1);
+        f32::from_bits(exponent << 23 | mantissa)
+    })
+}
+
 /// Every stage's intermediate values: topologies, contexts and counts of each patch.
 #[test]
 fn intermediate_buffers() {
@@ -175,11 +218,12 @@ fn intermediate_buffers() {
     let mut random = SplitMix64::new(4);
     for partitioning in Partitioning::ALL {
         let setup = quads(partitioning);
-        let patches = common::patches::random(Domain::Quad, 1000, &mut random);
+        let mut patches = common::patches::random(Domain::Quad, 1000, &mut random);
+        patches.extend(iter::repeat_with(|| of_ties(&mut random)).take(200));
         let factors = machine.factors(&patches);
         let batch = machine
             .tessellator
-            .batch(setup, 1000, &factors, Outputs::CountOnly)
+            .batch(setup, 1200, &factors, Outputs::CountOnly)
             .expect("the factors are there");
         machine.run(&batch);
         let contexts = machine.words(batch.contexts());

@@ -5,23 +5,38 @@ mod common;
 use common::device::{Machine, Written};
 use common::expected::{Expected, by_simd};
 use common::patches::random;
-use tess_core::PatchFactors;
+use tess_core::{Domain, PatchFactors};
 use tess_gpu::Setup;
-use tess_verify::generate::configurations;
+use tess_verify::case::Case;
+use tess_verify::generate::{GenLevel, Selection, configurations};
 use tess_verify::random::SplitMix64;
 
-/// Random patches of each configuration, through the whole pipeline.
+/// Random patches of each configuration, every boundary once and what lies beside minimum patches, through the whole
+/// pipeline.
 #[test]
-fn random_patches_in_every_configuration() {
+fn boundaries_and_random_patches_in_every_configuration() {
     let mut machine = Machine::open();
     let mut numbers = SplitMix64::new(1);
+    let level = Selection { random: Some(0), ..Selection::level(GenLevel::One, 1) };
+    let boundaries: Vec<Case> = level.cases().collect();
     for (domain, config) in configurations() {
-        assert_both_equal(
-            &mut machine,
-            Setup::new(domain, config),
-            &random(domain, 300, &mut numbers),
-        );
+        let setup = Setup::new(domain, config);
+        assert_both_equal(&mut machine, setup, &random(domain, 300, &mut numbers));
+        let own = boundaries.iter().filter(|case| (case.domain(), case.config) == (domain, config));
+        let mut own: Vec<PatchFactors> = own.map(|case| case.factors).collect();
+        assert!(!own.is_empty(), "{setup:?} has no boundary");
+        own.extend(beside_minimum(domain));
+        assert_both_equal(&mut machine, setup, &own);
     }
+}
+
+/// Patches whose factors are 1 but for one of them.
+fn beside_minimum(domain: Domain) -> impl Iterator<Item = PatchFactors> {
+    let others = [f32::NAN, f32::NEG_INFINITY, -1.0, 0.0, 0.5, 1.000_02, 2.0, 3.0];
+    let with = move |position| {
+        move |other| PatchFactors::from_fn(domain, |i| if i == position { other } else { 1.0 })
+    };
+    (0..domain.factors()).flat_map(move |position| others.map(with(position)))
 }
 
 /// Compares with the golden model and, on its own, with the CPU backend.
