@@ -52,6 +52,8 @@ usage: cargo xtask <command>
           ways to tessellate; `ci` leaves it out, as Bevy takes long to build
   rtl     lint the circuit and compare it with the model in Verilator: level 1, random patches under back-pressure,
           single stages; plant its faults; print clocks for the workloads of `tess bench`
+  rtl --names
+          write the names of signals, stages and modules that the bench prints anew
   rtl --long | --prove | --synth
           compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
           where it stopped; prove handshakes and placement; print what the circuit costs
@@ -59,9 +61,10 @@ usage: cargo xtask <command>
           build the C library and install its header, both libraries and `tess.pc` there, so that
           `cc program.c $(pkg-config --cflags --libs tess)` works
   mesa [build | compare | test]
-          get Mesa's sources from Debian, build its Vulkan driver lavapipe as it is and with this library as
-          its tessellator (in target/mesa, never installed), and compare them: docs/hosts/mesa.md. Takes an
-          hour on two cores, minutes when built before. `test` runs the tests of Vulkan on the patched driver
+          get Mesa's sources from Debian, build its drivers lavapipe (Vulkan) and llvmpipe (OpenGL) as they are
+          and with this library as their tessellator (in target/mesa, never installed), and compare them:
+          docs/hosts/mesa.md. Takes an hour on two cores, minutes when built before. `test` runs the tests of
+          Vulkan and OpenGL on the patched drivers
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
   circles [FOLDER...]
@@ -74,8 +77,8 @@ usage: cargo xtask <command>
   fuzz [SECONDS]
           build every fuzz target and run each, for 10 seconds by default
   mutants PACKAGE [OPTION...]
-          plant faults in tess-core, tess-simd, tess-surface or tess-verify; fails if one survives the tests and
-          docs/mutants.md does not list it (needs cargo-mutants; takes an hour)
+          plant faults in tess-core, tess-simd, tess-gpu, tess-wgpu, tess-surface or tess-verify; fails if one survives
+          the tests and docs/mutants.md does not list it (needs cargo-mutants; takes an hour)
   mutants planted [WORD...]
           plant the faults of dev/xtask/faults, or those with one of these words, in a copy of the tree; fails
           if the test beside one does not see it (each compiles a crate again: hours for all)
@@ -135,6 +138,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["rtl", "--long"] => rtl::long(),
         ["rtl", "--prove"] => rtl::prove(),
         ["rtl", "--synth"] => rtl::synthesize(),
+        ["rtl", "--names"] => rtl::write_names(),
         ["install", "--prefix", folder] => install::run(folder),
         ["mesa"] => mesa::run(),
         ["mesa", "build"] => mesa::build(),

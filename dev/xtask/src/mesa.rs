@@ -1,7 +1,10 @@
-//! Mesa's lavapipe with this library as its tessellator: gets Mesa's sources from Debian, builds the driver as it is and
-//! with the patches of `integrations/mesa`, all below target/mesa, and compares what they draw.
+//! Mesa's lavapipe and llvmpipe with this library as their tessellator: gets Mesa's sources from Debian, builds the
+//! drivers as they are and with the patches of `integrations/mesa`, all below target/mesa, and compares what they draw.
 
 mod build;
+mod debian;
+mod piglit;
+mod probe;
 mod proof;
 mod source;
 
@@ -37,7 +40,7 @@ const NEEDS: &[Need] = &[
         },
     },
     Need {
-        what: "the libraries that lavapipe is built on (LLVM, libdrm, expat, zlib, elf, udev)",
+        what: "the libraries that the drivers are built on (LLVM, libdrm, expat, zlib, elf, udev, glvnd)",
         packages: &[
             "llvm-dev",
             "libdrm-dev",
@@ -45,9 +48,11 @@ const NEEDS: &[Need] = &[
             "zlib1g-dev",
             "libelf-dev",
             "libudev-dev",
+            "libglvnd-dev",
         ],
         is_there: || {
-            let headers = ["libdrm/drm.h", "expat.h", "zlib.h", "libelf.h", "libudev.h"];
+            let headers =
+                ["libdrm/drm.h", "expat.h", "zlib.h", "libelf.h", "libudev.h", "glvnd/libeglabi.h"];
             let is_there = |header: &&str| Path::new("/usr/include").join(header).exists();
             headers.iter().all(is_there)
                 && (has_program("llvm-config") || has_program("llvm-config-14"))
@@ -104,6 +109,22 @@ impl Place {
         self.driver(variant).join("lvp_icd.json")
     }
 
+    /// The manifest by which EGL finds a variant's OpenGL.
+    fn egl_manifest(&self, variant: Variant) -> PathBuf {
+        self.driver(variant).join("50_mesa.json")
+    }
+
+    /// The environment in which Vulkan is a variant's lavapipe, and OpenGL its llvmpipe.
+    pub(super) fn environment(&self, variant: Variant) -> [(&'static str, PathBuf); 3] {
+        let mut llvmpipe = self.driver(variant).join(build::LLVMPIPE);
+        llvmpipe.pop();
+        [
+            ("VK_DRIVER_FILES", self.manifest(variant)),
+            ("__EGL_VENDOR_LIBRARY_FILENAMES", self.egl_manifest(variant)),
+            ("LIBGL_DRIVERS_PATH", llvmpipe),
+        ]
+    }
+
     fn open() -> Result<Self, String> {
         // Meson and the loader are given absolute paths.
         let target = command::target();
@@ -139,7 +160,7 @@ pub(crate) fn compare() -> Result<(), String> {
     proof::run(&Place::open()?)
 }
 
-/// Runs this project's tests of Vulkan on the driver with all patches.
+/// Runs this project's tests of Vulkan and OpenGL on the drivers with all patches.
 ///
 /// # Errors
 /// A test fails, or the driver is not built.
@@ -153,7 +174,10 @@ fn build_all() -> Result<Place, String> {
     source::provide(&place)?;
     build::all(&place)?;
     for variant in Variant::ALL {
-        println!("{}: VK_DRIVER_FILES={}", variant.name(), place.manifest(variant).display());
+        println!("\n{}:", variant.name());
+        for (name, value) in place.environment(variant) {
+            println!("  {name}={}", value.display());
+        }
     }
     Ok(place)
 }

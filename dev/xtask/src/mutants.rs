@@ -26,7 +26,11 @@ const SUBJECTS: &[Subject] = &[
         package: "tess-core",
         passes: &[
             Pass { tests: "-C=--lib -C=--test=golden", files: &[] },
-            Pass { tests: "-C=--lib -C=--test=output", files: &[] },
+            Pass {
+                tests: "-C=--lib -C=--test=output -C=--test=factors -C=--test=stitches -C=--test=cache_order \
+                        -C=--test=random_access",
+                files: &[],
+            },
         ],
     },
     Subject {
@@ -47,6 +51,32 @@ const SUBJECTS: &[Subject] = &[
                     "threads/slices",
                 ],
             },
+        ],
+    },
+    Subject {
+        package: "tess-gpu",
+        passes: &[
+            Pass {
+                tests: "-C=--all-features -C=--lib -C=--test=plan -C=--test=shaders",
+                files: &[],
+            },
+            // The host of the shaders, on a device.
+            Pass {
+                tests: "--test-package=tess-wgpu -C=--all-features -C=--test=cut -C=--test=short -C=--test=groups \
+                        -C=--test=contract -C=--test=pull",
+                files: &[],
+            },
+        ],
+    },
+    Subject {
+        package: "tess-wgpu",
+        passes: &[
+            Pass {
+                tests: "-C=--all-features -C=--lib -C=--test=contract -C=--test=groups -C=--test=short \
+                        -C=--test=pull",
+                files: &[],
+            },
+            Pass { tests: "-C=--all-features -C=--test=stage", files: &[] },
         ],
     },
     Subject {
@@ -161,15 +191,18 @@ mod tests {
     #[test]
     fn passes_name_files_and_tests_that_exist() {
         for Subject { package, passes } in SUBJECTS {
-            let has = |path: &str| workspace().join(package).join(path).exists();
             for pass in *passes {
+                let other =
+                    pass.tests.split(' ').find_map(|word| word.strip_prefix("--test-package="));
+                let tested = other.unwrap_or(package);
+                let has = |path: &str| workspace().join(tested).join(path).exists();
                 let files = pass.files.iter().map(|file| format!("src/{file}.rs"));
                 let tests = pass
                     .tests
                     .split_whitespace()
                     .filter_map(|word| Some(format!("tests/{}", word.strip_prefix("-C=--test=")?)));
                 for path in files.chain(tests) {
-                    assert!(has(&path) || has(&format!("{path}.rs")), "{package} has no {path}");
+                    assert!(has(&path) || has(&format!("{path}.rs")), "{tested} has no {path}");
                 }
             }
         }

@@ -2,7 +2,8 @@
 
 use crate::command::{self, cargo, in_file, workspace};
 use crate::setup::{self, ICARUS, PYTHON};
-use crate::tally;
+use crate::tally::{self, Job};
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -32,6 +33,40 @@ pub(crate) fn tests(program: &Path) -> Result<Command, String> {
     let mut tests = environment.python(&["-m", "pytest", "-q", "-p", "no:cacheprovider"]);
     tests.env("TESS_PROGRAM", program).env("TESS_COCOTB_BUILD", target().join("cocotb"));
     Ok(tests)
+}
+
+/// What the tests import that see planted faults.
+const FOR_FAULTS: &[&str] = &["numpy>=1.21", "hypothesis>=6", "pytest>=7"];
+
+/// Builds the package of the tree at `root` as `cargo build` does, which takes less time than a wheel, and gives the
+/// command that runs the tests in `file` on it. Everything that is made goes to `target`.
+///
+/// # Errors
+/// It does not compile, or a package of the environment cannot be had.
+pub(crate) fn of_tree(root: &Path, target: &Path, file: &str) -> Result<Job, String> {
+    let environment = Environment(target.join("venv"));
+    if !environment.0.exists() {
+        setup::provide(&[PYTHON])?;
+        command::run(command::python().args(["-m", "venv"]).arg(&environment.0))?;
+        environment.install(FOR_FAULTS)?;
+    }
+    let sources = root.join("bindings/python");
+    let mut build = cargo("build --locked");
+    command::quiet_output(build.current_dir(&sources).env("CARGO_TARGET_DIR", target))?;
+    let built = target.join("package/tess_model");
+    fs::create_dir_all(&built).map_err(|error| in_file(&built, &error))?;
+    let own = sources.join("python/tess_model");
+    for entry in fs::read_dir(&own).map_err(|error| in_file(&own, &error))?.flatten() {
+        copy(&entry.path(), &built.join(entry.file_name()))?;
+    }
+    copy(&target.join("debug/libtess_native.so"), &built.join("_native.abi3.so"))?;
+    let mut tests = environment.python(&["-m", "pytest", "-q", "-x", "-p", "no:cacheprovider"]);
+    tests.arg(root.join(file)).current_dir(&sources).env("PYTHONPATH", target.join("package"));
+    Ok(Job { name: file.to_owned(), command: tests })
+}
+
+fn copy(from: &Path, to: &Path) -> Result<(), String> {
+    fs::copy(from, to).map(drop).map_err(|error| in_file(from, &error))
 }
 
 /// The folder of the package.
@@ -82,11 +117,11 @@ impl Environment {
     fn wheel(&self) -> Result<PathBuf, String> {
         let folder = target().join("wheels");
         if folder.exists() {
-            std::fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))?;
+            fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))?;
         }
         let mut build = self.python(&["-m", "maturin", "build", "--release", "--locked", "--out"]);
         command::run(build.arg(&folder))?;
-        let entries = std::fs::read_dir(&folder).map_err(|error| in_file(&folder, &error))?;
+        let entries = fs::read_dir(&folder).map_err(|error| in_file(&folder, &error))?;
         let files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
         match &files[..] {
             [wheel] => Ok(wheel.clone()),
@@ -96,7 +131,20 @@ impl Environment {
 
     /// The stubs are those of the module, and the tests and examples keep to them.
     fn check_types(&self) -> Result<(), String> {
-        command::run(&mut self.python(&["-m", "mypy.stubtest", "tess_model"]))?;
-        command::run(&mut self.python(&["-m", "mypy", "tests", "examples/cocotb", "benches"]))
+        command::run(&mut self.python(&[
+            "-m",
+            "mypy.stubtest",
+            "--mypy-config-file",
+            "pyproject.toml",
+            "tess_model",
+        ]))?;
+        command::run(&mut self.python(&[
+            "-m",
+            "mypy",
+            "tests",
+            "python/tess_model/examples",
+            "benches",
+            "../../rtl/cocotb",
+        ]))
     }
 }

@@ -6,6 +6,7 @@ mod clocks;
 mod cost;
 mod faults;
 mod long;
+mod names;
 mod proofs;
 mod stages;
 
@@ -59,6 +60,14 @@ pub(crate) fn prove() -> Result<(), String> {
 /// A tool is missing or fails.
 pub(crate) fn synthesize() -> Result<(), String> {
     cost::run()
+}
+
+/// Writes the names that the bench prints anew.
+///
+/// # Errors
+/// The file cannot be written.
+pub(crate) fn write_names() -> Result<(), String> {
+    names::write()
 }
 
 /// The folder of the circuit.

@@ -6,6 +6,7 @@
 use crate::command::{self, cargo, workspace};
 use crate::levels;
 use crate::packages::{self, Target};
+use crate::python;
 use crate::tally::Job;
 use serde::Deserialize;
 use std::path::{Path, PathBuf};
@@ -89,11 +90,14 @@ pub(crate) fn jobs(extent: Extent, paths: &[&str]) -> Result<Vec<Job>, String> {
     Ok(jobs)
 }
 
-/// Builds the test programs of `path` in another tree and gives their jobs.
+/// Builds the test programs of `path` in another tree and gives their jobs; for tests in Python, the package.
 ///
 /// # Errors
 /// They do not compile, or there are none.
 pub(crate) fn programs(tree: &Tree, path: &str) -> Result<Vec<Job>, String> {
+    if path.ends_with(".py") {
+        return Ok(vec![python::of_tree(&tree.root, &tree.target.join("python"), path)?]);
+    }
     let mut build = cargo(ALL);
     build.current_dir(&tree.root).env("CARGO_TARGET_DIR", &tree.target);
     build.arg("--no-run").args(selection(&[path])?);
@@ -109,21 +113,24 @@ fn jobs_of(messages: &str, root: &Path, extent: Extent, paths: &[&str]) -> Vec<J
 
 /// Arguments of cargo that select the targets below these paths.
 fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
-    let mut arguments = Vec::new();
+    let mut arguments: Vec<Vec<String>> = Vec::new();
     let packages = packages::all()?;
     for path in paths {
         let targets = packages.iter().flat_map(|package| &package.targets);
         let prefix = workspace().join(path);
         let found = targets.filter(|target| target.test && target.src_path.starts_with(&prefix));
-        let before = arguments.len();
-        arguments.extend(found.flat_map(Target::selection));
-        if arguments.len() == before {
+        let found: Vec<_> = found.map(Target::selection).collect();
+        if found.is_empty() {
             return Err(format!(
                 "there are no tests in `{path}`; try `tess-core` or `tess-core/tests/golden.rs`"
             ));
         }
+        arguments.extend(found);
     }
-    Ok(arguments)
+    // Cargo takes `--lib` once.
+    arguments.sort();
+    arguments.dedup();
+    Ok(arguments.concat())
 }
 
 /// The command of a program that is to run.
@@ -180,8 +187,9 @@ mod tests {
 
     #[test]
     fn parts_are_selected_by_their_targets() {
-        let selected = selection(&["tess-core/tests/golden.rs", "tess-surface/src"]).expect("some");
-        assert_eq!(selected, ["--test", "golden", "--lib"], "targets");
+        let paths = ["tess-core/tests/golden.rs", "tess-surface/src", "tess-core/src"];
+        let selected = selection(&paths).expect("some");
+        assert_eq!(selected, ["--lib", "--test", "golden"], "targets, each once");
         assert!(selection(&["tess-core/nope"]).is_err(), "no such test");
     }
 }

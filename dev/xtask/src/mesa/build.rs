@@ -1,4 +1,4 @@
-//! Builds lavapipe, once for each variant, in one folder: a variant compiles again what its patches change.
+//! Builds lavapipe and llvmpipe, once for each variant, in one folder: a variant compiles again what its patches change.
 
 use super::{Place, Variant, source};
 use crate::command::{self, in_file};
@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// lavapipe and what it needs, and nothing else.
+/// lavapipe, llvmpipe behind EGL without a window system, and what they need.
 const OPTIONS: &[&str] = &[
     "-Dbuildtype=release",
     "-Dplatforms=",
@@ -15,12 +15,14 @@ const OPTIONS: &[&str] = &[
     "-Dvulkan-drivers=swrast",
     "-Dllvm=enabled",
     "-Dshared-llvm=enabled",
-    "-Dopengl=false",
-    "-Degl=disabled",
+    "-Dopengl=true",
+    "-Dshared-glapi=enabled",
+    "-Dglvnd=true",
+    "-Degl=enabled",
     "-Dglx=disabled",
     "-Dgbm=disabled",
     "-Dgles1=disabled",
-    "-Dgles2=disabled",
+    "-Dgles2=enabled",
     "-Dgallium-vdpau=disabled",
     "-Dgallium-va=disabled",
     "-Dgallium-omx=disabled",
@@ -35,8 +37,17 @@ const OPTIONS: &[&str] = &[
     "-Dshader-cache=disabled",
 ];
 
-/// The driver, in the folder of the build.
-const DRIVER: &str = "src/gallium/targets/lavapipe/libvulkan_lvp.so";
+/// What is built, in the folder of the build, and what a variant's folder has it as: at the same place, since Mesa's
+/// libraries find each other by paths from their own.
+const LIBRARIES: &[(&str, &str)] = &[
+    (LAVAPIPE, LAVAPIPE),
+    ("src/gallium/targets/dri/libgallium_dri.so", LLVMPIPE),
+    ("src/egl/libEGL_mesa.so.0.0.0", EGL),
+    ("src/mapi/shared-glapi/libglapi.so.0.0.0", "src/mapi/shared-glapi/libglapi.so.0"),
+];
+const LAVAPIPE: &str = "src/gallium/targets/lavapipe/libvulkan_lvp.so";
+pub(super) const LLVMPIPE: &str = "src/gallium/targets/dri/swrast_dri.so";
+const EGL: &str = "src/egl/libEGL_mesa.so.0";
 
 /// Builds every variant whose driver is missing or older than what it is made of.
 pub(super) fn all(place: &Place) -> Result<(), String> {
@@ -78,8 +89,9 @@ fn build(place: &Place, variant: Variant, prefix: &Path) -> Result<(), String> {
         setup.arg("-Dtessellator=tess");
     }
     command::run(setup.arg(&folder).arg(place.source()))?;
-    command::run(tool("ninja").arg("-C").arg(&folder).arg(DRIVER))?;
-    keep(place, variant, &folder.join(DRIVER))
+    let built = LIBRARIES.iter().map(|(built, _)| built);
+    command::run(tool("ninja").arg("-C").arg(&folder).args(built))?;
+    keep(place, variant, &folder)
 }
 
 /// A program of the build. The system's Python has Mako, so its folder comes first.
@@ -90,14 +102,21 @@ fn tool(name: &str) -> Command {
     command
 }
 
-/// Puts a driver in its variant's folder, with the manifest that the Vulkan loader wants, which is written last.
+/// Puts the libraries in their variant's folder, with the manifests that EGL and the Vulkan loader want; Vulkan's is
+/// written last.
 fn keep(place: &Place, variant: Variant, built: &Path) -> Result<(), String> {
     let folder = place.driver(variant);
-    fs::create_dir_all(&folder).map_err(|error| in_file(&folder, &error))?;
-    let driver = folder.join("libvulkan_lvp.so");
-    fs::copy(built, &driver).map_err(|error| in_file(built, &error))?;
-    let icd = serde_json::json!({ "library_path": driver, "api_version": "1.3.230" });
+    for (from, to) in LIBRARIES {
+        source::copy(&built.join(from), &folder.join(to))?;
+    }
+    let egl = serde_json::json!({ "library_path": folder.join(EGL) });
+    write_manifest(&place.egl_manifest(variant), &egl)?;
+    let lavapipe =
+        serde_json::json!({ "library_path": folder.join(LAVAPIPE), "api_version": "1.3.230" });
+    write_manifest(&place.manifest(variant), &lavapipe)
+}
+
+fn write_manifest(path: &Path, icd: &serde_json::Value) -> Result<(), String> {
     let manifest = serde_json::json!({ "file_format_version": "1.0.0", "ICD": icd });
-    let path = place.manifest(variant);
-    fs::write(&path, format!("{manifest:#}\n")).map_err(|error| in_file(&path, &error))
+    fs::write(path, format!("{manifest:#}\n")).map_err(|error| in_file(path, &error))
 }

@@ -1,13 +1,13 @@
 //! Mesa's sources: from Debian, with Debian's patches, and with some of ours.
 
+use super::debian::{self, RELEASE};
 use super::{Place, Variant};
 use crate::command::{self, in_file};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The release of Debian whose Mesa the patches are for, and the version there.
-const RELEASE: &str = "bookworm";
+/// The version of Mesa that the patches are for.
 pub(super) const VERSION: &str = "22.3.6";
 
 impl Place {
@@ -42,7 +42,7 @@ pub(super) fn provide(place: &Place) -> Result<(), String> {
     if source.exists() {
         return Ok(());
     }
-    download(place)?;
+    debian::source(place, "mesa")?;
     let unpacked = place.root.join(format!("mesa-{VERSION}"));
     if !unpacked.exists() {
         return Err(in_file(
@@ -61,41 +61,6 @@ pub(super) fn provide(place: &Place) -> Result<(), String> {
         copy(&unpacked.join(&path), &place.original().join(&path))?;
     }
     fs::rename(&unpacked, &source).map_err(|error| in_file(&source, &error))
-}
-
-/// Downloads and unpacks the source package with lists of its own: the system's stay as they are.
-fn download(place: &Place) -> Result<(), String> {
-    let list = place.root.join("sources.list");
-    let keys = "/usr/share/keyrings/debian-archive-keyring.gpg";
-    let line = format!("deb-src [signed-by={keys}] {} {RELEASE} main\n", mirror()?);
-    fs::write(&list, line).map_err(|error| in_file(&list, &error))?;
-    let lists = place.root.join("lists");
-    fs::create_dir_all(lists.join("partial")).map_err(|error| in_file(&lists, &error))?;
-    let apt = || {
-        let mut apt = Command::new("apt-get");
-        apt.arg("-q").arg(format!("-oDir::Etc::SourceList={}", list.display()));
-        apt.arg("-oDir::Etc::SourceParts=/dev/null");
-        apt.arg(format!("-oDir::State::Lists={}", lists.display())).current_dir(&place.root);
-        apt
-    };
-    command::run(apt().arg("update"))?;
-    command::run(apt().args(["source", "mesa"]))
-}
-
-/// Where this system gets Debian's packages.
-fn mirror() -> Result<String, String> {
-    let mut apt = Command::new("apt-get");
-    apt.args(["indextargets", "--format", "$(REPO_URI) $(CODENAME)"]);
-    let known = command::output(apt.args(["Created-By: Packages", "Origin: Debian"]))?;
-    let own = known.lines().find_map(|line| {
-        let (mirror, codename) = line.split_once(' ')?;
-        // Others are of security updates and the like.
-        (!codename.contains('-')).then_some(mirror)
-    });
-    own.map(str::to_owned).ok_or_else(|| {
-        "no list of packages of Debian is known here; on Debian, `apt-get update` gets it"
-            .to_owned()
-    })
 }
 
 /// Makes the sources those of a variant. Files that stay the same are not touched, so that little is built again.
@@ -138,7 +103,7 @@ fn apply(folder: &Path, patch: &Path) -> Result<(), String> {
     command::run(&mut command)
 }
 
-fn copy(from: &Path, to: &Path) -> Result<(), String> {
+pub(super) fn copy(from: &Path, to: &Path) -> Result<(), String> {
     if let Some(folder) = to.parent() {
         fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))?;
     }

@@ -13,7 +13,7 @@ pub(super) struct Fault {
     pub(super) folder: PathBuf,
     /// The sources of the test programs, as `cargo xtask test` takes them.
     pub(super) tests: String,
-    /// Words that select tests of these programs; none are all.
+    /// Words that select tests of these programs, for Python `-k` and a word; none are all.
     pub(super) filters: Vec<String>,
     /// Why no test can see it.
     pub(super) equivalent: Option<String>,

@@ -158,7 +158,7 @@ fn fate_of<'a>(
     for (Job { command, .. }, program) in programs {
         // A fault can make a loop endless.
         let mut limited = Command::new("timeout");
-        limited.arg(PATIENCE).arg(program).args(&fault.filters);
+        limited.arg(PATIENCE).arg(program).args(command.get_args()).args(&fault.filters);
         if let Some(folder) = command.get_current_dir() {
             limited.current_dir(folder);
         }
@@ -188,6 +188,9 @@ fn files() -> Result<Vec<PathBuf>, String> {
 fn copy(files: &[PathBuf]) -> Result<Tree, String> {
     let folder = command::target().join("planted");
     let tree = Tree { root: folder.join("tree"), target: folder.join("target") };
+    if !tree.target.exists() {
+        take_builds(&tree.target)?;
+    }
     let known = list(&tree.root);
     for file in known.iter().filter(|file| !files.contains(file)) {
         fs::remove_file(tree.root.join(file)).map_err(|error| in_file(file, &error))?;
@@ -203,6 +206,18 @@ fn copy(files: &[PathBuf]) -> Result<Tree, String> {
         fs::write(&to, new).map_err(|error| in_file(&to, &error))?;
     }
     Ok(tree)
+}
+
+/// Copies the workspace's builds to `target`. The crates of other people then need not be compiled again; our own do, as
+/// their sources have another place and are newer.
+fn take_builds(target: &Path) -> Result<(), String> {
+    let builds = command::target().join("debug");
+    fs::create_dir_all(target).map_err(|error| in_file(target, &error))?;
+    if !builds.is_dir() {
+        return Ok(());
+    }
+    // It keeps the files' times, which cargo compares.
+    command::run(Command::new("cp").arg("-a").args([&builds, target]))
 }
 
 /// The files below a folder, their paths from there on; none if it does not exist.
