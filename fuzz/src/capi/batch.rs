@@ -88,7 +88,7 @@ fn output(
         [TESS_POINT_FIXED, TESS_INDEX_U32, TESS_NUMBERING_PER_PATCH].map(|good| {
             let wrong = bytes.byte() == 255;
             wrongs.add_if(wrong, TESS_UNKNOWN_VALUE);
-            if wrong { 2 } else { good }
+            if wrong { 3 } else { good } // no format, type or numbering is 3
         });
     let output = TessBatchOutput {
         points: points.cast(),
