@@ -16,7 +16,6 @@ pub use exclusions::{Exclusions, UnknownBin};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
-use std::sync::LazyLock;
 use tess_core::{FactorContext, SplitOrder};
 pub use ucis::UcisError;
 
@@ -31,10 +30,8 @@ pub struct Coverage {
 /// is hit. For benches whose own covergroups count, which are generated in that order.
 #[must_use]
 pub fn bins_hit(case: &Case) -> Vec<usize> {
-    static BINS: LazyLock<Vec<String>> =
-        LazyLock::new(|| Coverage::new().hits.into_keys().collect());
     let mut numbers = Vec::new();
-    observe::observe(case, |bin| numbers.extend(BINS.binary_search(&bin)));
+    observe::observe(case, |bin| numbers.extend(bins::all().binary_search(&bin)));
     numbers
 }
 
@@ -64,7 +61,7 @@ impl Coverage {
     /// All bins, none of them hit.
     #[must_use]
     pub fn new() -> Self {
-        Self { hits: bins::all().into_iter().map(|bin| (bin, 0)).collect() }
+        Self { hits: bins::all().iter().map(|bin| (bin.clone(), 0)).collect() }
     }
 
     /// Counts the bins that a case hits.
@@ -79,9 +76,9 @@ impl Coverage {
     pub fn record_new(&mut self, case: &Case) -> usize {
         let mut fresh = 0;
         observe::observe(case, |bin| {
-            fresh += usize::from(self.hits(&bin) == Some(0));
-            let declared = self.add(&bin, 1);
-            debug_assert!(declared, "bin {bin} is not declared ({case})");
+            let before = self.count(&bin, 1);
+            debug_assert!(before.is_some(), "bin {bin} is not declared ({case})");
+            fresh += usize::from(before == Some(0));
         });
         fresh
     }
@@ -100,10 +97,15 @@ impl Coverage {
 
     /// Adds to the hits of a bin, up to the largest `u64`; whether there is such a bin.
     pub fn add(&mut self, bin: &str, more: u64) -> bool {
-        let hits = self.hits.get_mut(bin);
-        let found = hits.is_some();
-        hits.into_iter().for_each(|hits| *hits = hits.saturating_add(more));
-        found
+        self.count(bin, more).is_some()
+    }
+
+    /// As [`Self::add`]; gives the hits before.
+    fn count(&mut self, bin: &str, more: u64) -> Option<u64> {
+        let hits = self.hits.get_mut(bin)?;
+        let before = *hits;
+        *hits = before.saturating_add(more);
+        Some(before)
     }
 
     /// Coverage with these hits, a number for each bin in the order of [`Coverage::bins`]; `None` if there

@@ -82,7 +82,7 @@ def test_missing_elements(call, message) -> None:  # type: ignore[no-untyped-def
         (lambda: QUAD.to_svg(size=10), "64 to 8192"),
         (lambda: QUAD.to_svg(colours="red"), "plain, order or rings"),
         (lambda: Patch("isoline", [1, 2]).to_svg(colours="rings"), "rings"),
-        (lambda: QUAD.explain(point=1, primitive=1), "not both"),
+        (lambda: QUAD.explain(point=1, primitive=1), "one of them"),
         (lambda: tess_model.context(0x8000, "odd"), "0x010000..0x3f0000"),
         (lambda: tess_model.context(0x18000, "even"), "0x020000"),
         (lambda: tess_model.context(0x10000, "none"), "unknown parity"),

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tess_model import Coverage, Patch, generate
+from tess_model import Coverage, Patch, exclusions, generate
 
 PATCHES = [
     Patch("quad", [3, 4, 5, 6], [4, 7]),
@@ -87,7 +87,9 @@ def test_generated_patches_and_coverage(program: Path, tmp_path: Path) -> None:
     report = tess(program, "gen", *selection, "--shard", "2/3", "--coverage", str(file))
     coverage = Coverage()
     coverage.record(patches)
-    assert coverage == Coverage.read(file) and coverage.report() == report
+    assert coverage == Coverage.read(file)
+    outside = exclusions(domain="tri", partitioning="fractional_odd")
+    assert coverage.report(outside) == report
     assert coverage.to_ucis() == file.read_text()
 
 

@@ -2,15 +2,31 @@
 
 use crate::generate::configurations;
 use crate::names::Named;
+use std::sync::LazyLock;
 use tess_core::{Config, Domain, Parity, Partitioning};
 
-/// The paths of all bins; some come more than once.
-pub(super) fn all() -> Vec<String> {
-    configurations().flat_map(|(domain, config)| of(domain, config)).collect()
+/// The paths of all bins, in alphabetical order.
+pub(super) fn all() -> &'static [String] {
+    static ALL: LazyLock<Vec<String>> = LazyLock::new(|| {
+        let of_settings = configurations().flat_map(|(domain, config)| of_settings(domain, config));
+        let of_stitches = Domain::ALL.into_iter().flat_map(|domain| {
+            Partitioning::ALL.into_iter().flat_map(move |how| of_stitches(domain, how))
+        });
+        let mut bins: Vec<String> = of_settings.chain(of_stitches).collect();
+        bins.sort_unstable();
+        bins.dedup();
+        bins
+    });
+    &ALL
 }
 
 /// The paths of the bins that the patches of one configuration can hit: each of them, and no other.
 pub(super) fn of(domain: Domain, config: Config) -> Vec<String> {
+    [of_settings(domain, config), of_stitches(domain, config.partitioning)].concat()
+}
+
+/// Those of a patch's settings and of single factors.
+fn of_settings(domain: Domain, config: Config) -> Vec<String> {
     let mut bins = Vec::new();
     configuration(&mut bins, domain, config);
     cull(&mut bins, domain);
@@ -18,9 +34,15 @@ pub(super) fn of(domain: Domain, config: Config) -> Vec<String> {
         factors(&mut bins, role, partitioning);
         contexts(&mut bins, config, partitioning);
     }
+    bins
+}
+
+/// Those of rings, transitions and centres, by far the most, which neither output nor split order changes.
+fn of_stitches(domain: Domain, partitioning: Partitioning) -> Vec<String> {
+    let mut bins = Vec::new();
     if domain != Domain::Isoline {
-        stitches(&mut bins, domain.name(), config.partitioning);
-        centres(&mut bins, domain, parities(config.partitioning));
+        stitches(&mut bins, domain.name(), partitioning);
+        centres(&mut bins, domain, parities(partitioning));
     }
     bins
 }

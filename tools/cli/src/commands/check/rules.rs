@@ -66,12 +66,13 @@ impl BesideModel {
         let expected = case.patch().tessellate();
         let is_equal =
             |order| Strength { order, ..Strength::default() }.equal(case, observed, &expected);
-        let count = match () {
-            () if is_equal(Order::Sequence) => &mut self.equal,
-            () if is_equal(Order::Any) => &mut self.reordered,
-            () => &mut self.different,
-        };
-        *count += 1;
+        if is_equal(Order::Sequence) {
+            self.equal += 1;
+        } else if is_equal(Order::Any) {
+            self.reordered += 1;
+        } else {
+            self.different += 1;
+        }
     }
 }
 
