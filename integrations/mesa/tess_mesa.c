@@ -218,6 +218,7 @@ run_patch(struct pipe_tessellator *ts, const float *factors, TessCounts *counts)
    output.index_capacity = ts->indices.bytes / sizeof(uint32_t);
    output.point_format = TESS_POINT_F32_APART;
    output.index_type = TESS_INDEX_U32;
+   output.memory = TESS_MEMORY_INITIALISED; /* by calloc */
    return tess_batch_patch(ts->batch, factors, &output, counts);
 }
 

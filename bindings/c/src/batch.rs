@@ -7,9 +7,9 @@ mod run;
 mod single;
 
 pub use output::{
-    TESS_INDEX_U16, TESS_INDEX_U32, TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH,
-    TESS_POINT_F32, TESS_POINT_F32_APART, TESS_POINT_FIXED, TessBatchCounts, TessBatchOutput,
-    TessRange,
+    TESS_INDEX_U16, TESS_INDEX_U32, TESS_MEMORY_ANY, TESS_MEMORY_INITIALISED,
+    TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH, TESS_POINT_F32, TESS_POINT_F32_APART,
+    TESS_POINT_FIXED, TessBatchCounts, TessBatchOutput, TessRange,
 };
 pub use single::tess_batch_patch;
 
@@ -174,7 +174,8 @@ pub unsafe extern "C" fn tess_batch_count(
 /// Other pointers that are not null and aligned must be valid:
 /// - `factors` for reading `factor_count` floats,
 /// - `output` for reading one structure,
-/// - the buffers that it names for writing as many elements of their formats as it says,
+/// - the buffers that it names for writing as many elements of their formats as it says, and with
+///   `TESS_MEMORY_INITIALISED` for reading them,
 /// - `counts` for writing one structure,
 ///
 /// and no other thread may use any of them at the same time.

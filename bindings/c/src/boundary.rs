@@ -103,10 +103,41 @@ pub(crate) unsafe fn room<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), len) })
 }
 
-/// Writes `value` to every element of an array, which is initialised then.
-pub(crate) fn initialised<T: Copy>(room: &mut [MaybeUninit<T>], value: T) -> &mut [T] {
-    room.fill(MaybeUninit::new(value));
-    // SAFETY: every element was just written; `MaybeUninit<T>` has the layout of `T`.
+/// What is known of a caller's output arrays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Memory {
+    is_initialised: bool,
+}
+
+impl Memory {
+    /// Nothing is known.
+    pub(crate) const ANY: Self = Self { is_initialised: false };
+
+    /// All of it holds values.
+    ///
+    /// # Safety
+    /// - Every array that [`initialised`] gets together with this is initialised.
+    pub(crate) const unsafe fn initialised() -> Self {
+        Self { is_initialised: true }
+    }
+
+    /// Whether all of it holds values.
+    pub(crate) const fn is_initialised(self) -> bool {
+        self.is_initialised
+    }
+}
+
+/// An initialised array: unless the caller's memory is, `value` is written to every element.
+pub(crate) fn initialised<T: Copy>(
+    room: &mut [MaybeUninit<T>],
+    memory: Memory,
+    value: T,
+) -> &mut [T] {
+    if !memory.is_initialised {
+        room.fill(MaybeUninit::new(value));
+    }
+    // SAFETY: every element was just written, or is initialised as whoever made `memory` promised;
+    // `MaybeUninit<T>` has the layout of `T`.
     unsafe { &mut *(std::ptr::from_mut(room) as *mut [T]) }
 }
 

@@ -9,9 +9,9 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::ptr::null_mut;
 use tess_capi::batch::{
-    TESS_INDEX_U32, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_PATCH, TESS_POINT_FIXED, TessBatch,
-    TessBatchCounts, TessBatchOutput, TessRange, tess_batch_create, tess_batch_free,
-    tess_batch_run,
+    TESS_INDEX_U32, TESS_LEVEL_DETECT, TESS_MEMORY_ANY, TESS_MEMORY_INITIALISED,
+    TESS_NUMBERING_PER_PATCH, TESS_POINT_FIXED, TessBatch, TessBatchCounts, TessBatchOutput,
+    TessRange, tess_batch_create, tess_batch_free, tess_batch_run,
 };
 use tess_capi::status::{TESS_BUFFER_TOO_SMALL, TESS_OK, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE};
 use tess_capi::types::{TessConfig, TessPoint};
@@ -101,6 +101,7 @@ fn output(
         index_type,
         numbering,
         base_vertex: 0,
+        memory: if bytes.byte() % 2 == 0 { TESS_MEMORY_ANY } else { TESS_MEMORY_INITIALISED },
     };
     (output, memory)
 }

@@ -1,5 +1,7 @@
 //! The buffers and formats that the output of a batch is written in.
 
+use crate::boundary::Memory;
+use crate::status::{TESS_UNKNOWN_VALUE, TessStatus};
 use std::ffi::c_void;
 use std::mem::{align_of, offset_of, size_of};
 use tess_core::DomainPoint;
@@ -23,6 +25,12 @@ pub const TESS_INDEX_U16: u32 = 1;
 pub const TESS_NUMBERING_PER_PATCH: u32 = 0;
 /// Numbering: indices count from the first point of the batch, whose number is `base_vertex`.
 pub const TESS_NUMBERING_PER_BATCH: u32 = 1;
+
+/// Memory: the buffers may hold anything, also nothing yet.
+pub const TESS_MEMORY_ANY: u32 = 0;
+/// Memory: every byte of the buffers was written once, by `calloc`, `memset`, an earlier call or the caller. This is
+/// faster, as nothing is cleared before it is written.
+pub const TESS_MEMORY_INITIALISED: u32 = 1;
 
 /// Sizes of a batch's output.
 #[repr(C)]
@@ -76,6 +84,23 @@ pub struct TessBatchOutput {
     pub numbering: u32,
     /// The number of the batch's first point under `TESS_NUMBERING_PER_BATCH`, else ignored.
     pub base_vertex: u32,
+    /// `TESS_MEMORY_ANY` or `TESS_MEMORY_INITIALISED`, which is a promise about all three buffers.
+    pub memory: u32,
+}
+
+impl TessBatchOutput {
+    /// What the caller says of the buffers' memory.
+    ///
+    /// # Safety
+    /// - With `TESS_MEMORY_INITIALISED` the buffers are initialised, up to their capacities.
+    pub(super) const unsafe fn memory(&self) -> Result<Memory, TessStatus> {
+        match self.memory {
+            TESS_MEMORY_ANY => Ok(Memory::ANY),
+            // SAFETY: as the caller promises.
+            TESS_MEMORY_INITIALISED => Ok(unsafe { Memory::initialised() }),
+            _ => Err(TESS_UNKNOWN_VALUE),
+        }
+    }
 }
 
 /// The instance of a function for the formats of an output; `TESS_UNKNOWN_VALUE` if it names none.

@@ -1,6 +1,6 @@
 //! How points lie in a caller's buffer: in pairs of coordinates, or with all u before all v.
 
-use crate::boundary;
+use crate::boundary::{self, Memory};
 use crate::status::{TESS_TOO_LARGE, TessStatus};
 use std::ffi::c_void;
 use std::fmt::Debug;
@@ -11,12 +11,18 @@ use tess_simd::{Level, OutputPoint, at_each_level};
 pub(super) trait PointRoom<'a>: Debug + Sized {
     /// What the batch backend writes.
     type Point: OutputPoint;
+    /// Whether it writes them to the caller's memory itself.
+    const IS_DIRECT: bool;
 
     /// Memory for `capacity` points.
     ///
     /// # Safety
     /// - As for [`boundary::room`], with the bytes of `capacity` points.
-    unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus>;
+    unsafe fn new(
+        pointer: *mut c_void,
+        capacity: usize,
+        memory: Memory,
+    ) -> Result<Self, TessStatus>;
 
     /// The points that it has room for.
     fn len(&self) -> usize;
@@ -37,22 +43,33 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
 
 /// Points in pairs of coordinates.
 #[derive(Debug)]
-pub(super) struct Together<'a, P>(&'a mut [MaybeUninit<P>]);
+pub(super) struct Together<'a, P> {
+    points: &'a mut [MaybeUninit<P>],
+    memory: Memory,
+}
 
 impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
     type Point = P;
+    const IS_DIRECT: bool = true;
 
-    unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus> {
+    unsafe fn new(
+        pointer: *mut c_void,
+        capacity: usize,
+        memory: Memory,
+    ) -> Result<Self, TessStatus> {
         // SAFETY: as the caller promises.
-        unsafe { boundary::room(pointer.cast(), capacity) }.map(Self)
+        let points = unsafe { boundary::room(pointer.cast(), capacity) }?;
+        Ok(Self { points, memory })
     }
 
     fn len(&self) -> usize {
-        self.0.len()
+        self.points.len()
     }
 
     fn split_at(self, points: usize) -> Option<(Self, Self)> {
-        self.0.split_at_mut_checked(points).map(|(first, rest)| (Self(first), Self(rest)))
+        let Self { points: all, memory } = self;
+        let (first, rest) = all.split_at_mut_checked(points)?;
+        Some((Self { points: first, memory }, Self { points: rest, memory }))
     }
 
     fn write<R>(
@@ -62,8 +79,8 @@ impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
         _: &mut Pairs,
         write: impl FnOnce(&mut [P]) -> R,
     ) -> R {
-        let end = self.0.len().min(points + overrun);
-        write(boundary::initialised(&mut self.0[..end], P::default()))
+        let end = self.points.len().min(points + overrun);
+        write(boundary::initialised(&mut self.points[..end], self.memory, P::default()))
     }
 }
 
@@ -76,8 +93,9 @@ pub(super) struct Apart<'a> {
 
 impl<'a> PointRoom<'a> for Apart<'a> {
     type Point = [f32; 2];
+    const IS_DIRECT: bool = false;
 
-    unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus> {
+    unsafe fn new(pointer: *mut c_void, capacity: usize, _: Memory) -> Result<Self, TessStatus> {
         let floats = capacity.checked_mul(2).ok_or(TESS_TOO_LARGE)?;
         // SAFETY: a point is two floats; the rest as the caller promises.
         let (u, v) = unsafe { boundary::room(pointer.cast(), floats) }?.split_at_mut(capacity);

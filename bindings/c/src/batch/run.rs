@@ -6,10 +6,10 @@ use super::{
     TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH, TessBatch, TessBatchCounts,
     TessBatchOutput, status_of,
 };
-use crate::boundary;
+use crate::boundary::{self, Memory};
 use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus};
 use std::mem::{MaybeUninit, size_of};
-use tess_simd::{BatchCounts, Buffers, IndexFormat, Numbering, PatchRange, Tessellator};
+use tess_simd::{BatchCounts, Buffers, Counted, IndexFormat, Numbering, PatchRange, Tessellator};
 
 /// The caller's buffers, which need not be initialised.
 #[derive(Debug)]
@@ -17,6 +17,7 @@ struct Room<'a, P, I> {
     points: P,
     indices: &'a mut [MaybeUninit<I>],
     ranges: &'a mut [MaybeUninit<PatchRange>],
+    memory: Memory,
 }
 
 /// Tessellates a batch in one pair of formats.
@@ -46,21 +47,27 @@ pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     ])?;
     // SAFETY: `factor_count` readable floats, as the caller promises.
     let patches = unsafe { Patches::new(batch.domain, factors, factor_count) }?;
+    // SAFETY: the buffers are as the caller promises.
+    let memory = unsafe { output.memory() }?;
     let room = Room {
         // SAFETY: writable, as the caller promises, and apart from all else, as was just checked.
-        points: unsafe { P::new(output.points, points.1) }?,
+        points: unsafe { P::new(output.points, points.1, memory) }?,
         // SAFETY: as above.
         indices: unsafe { boundary::room(indices.0, indices.1) }?,
         // SAFETY: as above; the two structures of ranges have the same layout.
         ranges: unsafe { boundary::room(ranges.0, ranges.1) }?,
+        memory,
     };
     let TessBatch { tessellator, pairs, .. } = batch;
-    let counted = tessellator.count(patches.batch()).map_err(|error| status_of(&error))?;
+    let mut counted = tessellator.count(patches.batch()).map_err(|error| status_of(&error))?;
     let needed = counted.counts();
     if counted.largest_index(numbering).is_some_and(|largest| largest > I::LARGEST) {
         return Err(TESS_INDEX_TOO_LARGE);
     }
     let written = match room.of_sizes(needed) {
+        Some(room) if P::IS_DIRECT && memory.is_initialised() => {
+            room.receive(&mut counted, numbering, pairs).map(drop)
+        }
         Some(room) => write((tessellator, pairs), patches, numbering, room, needed),
         None => Err(TESS_BUFFER_TOO_SMALL),
     };
@@ -79,8 +86,8 @@ pub(super) const PART_PATCHES: usize = 64;
 
 /// Writes a batch into room of exactly its sizes.
 ///
-/// The batch backend takes initialised slices. So that initialising the room does not send it
-/// through memory twice, that is done part by part, each just before its output is written.
+/// The batch backend takes initialised slices of pairs. So that what has to be initialised or taken apart does not
+/// go through memory twice, that is done part by part, each just before or after its output is written.
 fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
     (tessellator, pairs): (&mut Tessellator, &mut Pairs),
     patches: Patches<'_>,
@@ -95,18 +102,13 @@ fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
         let mut counted = tessellator.count(part.batch()).map_err(|error| status_of(&error))?;
         let counts = counted.counts();
         let (now, later) = room.split_at(counts).ok_or(crate::status::TESS_INTERNAL)?;
-        let ranges = boundary::initialised(now.ranges, PatchRange::default());
-        let indices = boundary::initialised(now.indices, I::default());
         let numbering = match numbering {
             Numbering::PerBatch { base_vertex } => {
                 Numbering::PerBatch { base_vertex: base_vertex.wrapping_add(first.first_point) }
             }
             Numbering::PerPatch => numbering,
         };
-        let written = now.points.write(counts.points, 0, pairs, |points| {
-            counted.write(numbering, Buffers::new(points, indices).with_ranges(&mut *ranges))
-        });
-        written.map_err(|error| status_of(&error))?;
+        let ranges = now.receive(&mut counted, numbering, pairs)?;
         first = shift(ranges, first);
         room = later;
     }
@@ -125,7 +127,22 @@ fn shift(ranges: &mut [PatchRange], first: PatchRange) -> PatchRange {
     end
 }
 
-impl<'a, P: PointRoom<'a>, I> Room<'a, P, I> {
+impl<'a, P: PointRoom<'a>, I: IndexFormat> Room<'a, P, I> {
+    /// Has a counted batch written into room of exactly its sizes. Gives the ranges.
+    fn receive(
+        self,
+        counted: &mut Counted<'_>,
+        numbering: Numbering,
+        pairs: &mut Pairs,
+    ) -> Result<&'a mut [PatchRange], TessStatus> {
+        let ranges = boundary::initialised(self.ranges, self.memory, PatchRange::default());
+        let indices = boundary::initialised(self.indices, self.memory, I::default());
+        let written = self.points.write(counted.counts().points, 0, pairs, |points| {
+            counted.write(numbering, Buffers::new(points, indices).with_ranges(&mut *ranges))
+        });
+        written.map(|_| ranges).map_err(|error| status_of(&error))
+    }
+
     /// Its beginning; `None` if it is smaller.
     fn of_sizes(self, counts: BatchCounts) -> Option<Self> {
         self.split_at(counts).map(|(first, _)| first)
@@ -133,12 +150,13 @@ impl<'a, P: PointRoom<'a>, I> Room<'a, P, I> {
 
     /// Its beginning and the rest; `None` if it is smaller.
     fn split_at(self, counts: BatchCounts) -> Option<(Self, Self)> {
+        let memory = self.memory;
         let (points, more_points) = self.points.split_at(counts.points)?;
         let (indices, more_indices) = self.indices.split_at_mut_checked(counts.indices)?;
         let (ranges, more_ranges) = self.ranges.split_at_mut_checked(counts.patches)?;
         Some((
-            Self { points, indices, ranges },
-            Self { points: more_points, indices: more_indices, ranges: more_ranges },
+            Self { points, indices, ranges, memory },
+            Self { points: more_points, indices: more_indices, ranges: more_ranges, memory },
         ))
     }
 }

@@ -4,10 +4,11 @@ use super::samples::{self, patch_factors, samples};
 use std::ffi::c_void;
 use std::ptr::{null, null_mut};
 use tess_capi::batch::{
-    TESS_INDEX_U16, TESS_INDEX_U32, TESS_LEVEL_AVX512, TESS_LEVEL_DETECT, TESS_NUMBERING_PER_BATCH,
-    TESS_NUMBERING_PER_PATCH, TESS_POINT_F32, TESS_POINT_F32_APART, TESS_POINT_FIXED, TessBatch,
-    TessBatchCounts, TessBatchOutput, TessRange, tess_batch_count, tess_batch_create,
-    tess_batch_free, tess_batch_groups, tess_batch_level, tess_batch_patch, tess_batch_run,
+    TESS_INDEX_U16, TESS_INDEX_U32, TESS_LEVEL_AVX512, TESS_LEVEL_DETECT, TESS_MEMORY_ANY,
+    TESS_MEMORY_INITIALISED, TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH, TESS_POINT_F32,
+    TESS_POINT_F32_APART, TESS_POINT_FIXED, TessBatch, TessBatchCounts, TessBatchOutput, TessRange,
+    tess_batch_count, tess_batch_create, tess_batch_free, tess_batch_groups, tess_batch_level,
+    tess_batch_patch, tess_batch_run,
 };
 use tess_capi::status::{
     TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_LEVEL_UNAVAILABLE, TESS_MISALIGNED,
@@ -65,7 +66,16 @@ impl Fixture {
             index_type: TESS_INDEX_U32,
             numbering: TESS_NUMBERING_PER_PATCH,
             base_vertex: 0,
+            memory: TESS_MEMORY_ANY,
         }
+    }
+
+    /// The output, filled anew.
+    fn fresh(&mut self) -> TessBatchOutput {
+        self.points.fill([FILL; 2]);
+        self.indices.fill(FILL);
+        self.ranges.fill(FILLED_RANGE);
+        self.output()
     }
 
     fn run(&self, output: &TessBatchOutput) -> (TessStatus, TessBatchCounts) {
@@ -112,9 +122,13 @@ fn every_level_and_format() {
             assert_eq!((status, counts), (TESS_OK, fixture.needed()), "{config:?}");
             for point_format in [TESS_POINT_FIXED, TESS_POINT_F32, TESS_POINT_F32_APART] {
                 for index_type in [TESS_INDEX_U32, TESS_INDEX_U16] {
-                    let formats = TessBatchOutput { point_format, index_type, ..fixture.output() };
-                    assert_eq!(fixture.run(&formats), (TESS_OK, fixture.needed()), "{config:?}");
-                    check(&fixture, &formats);
+                    for memory in [TESS_MEMORY_ANY, TESS_MEMORY_INITIALISED] {
+                        let formats =
+                            TessBatchOutput { point_format, index_type, memory, ..fixture.fresh() };
+                        let ran = fixture.run(&formats);
+                        assert_eq!(ran, (TESS_OK, fixture.needed()), "{config:?} {formats:?}");
+                        check(&fixture, &formats);
+                    }
                 }
             }
             let numbered = TessBatchOutput {
@@ -122,8 +136,11 @@ fn every_level_and_format() {
                 base_vertex: 1000,
                 ..fixture.output()
             };
-            assert_eq!(fixture.run(&numbered), (TESS_OK, fixture.needed()), "{config:?}");
-            check(&fixture, &numbered);
+            for memory in [TESS_MEMORY_ANY, TESS_MEMORY_INITIALISED] {
+                let numbered = TessBatchOutput { memory, ..numbered };
+                assert_eq!(fixture.run(&numbered), (TESS_OK, fixture.needed()), "{config:?}");
+                check(&fixture, &numbered);
+            }
         }
     }
     assert!(levels_run >= 6, "the detected level and the baseline run everywhere");
@@ -226,6 +243,7 @@ fn bad_outputs_write_nothing() {
         (TessBatchOutput { point_format: 3, ..good }, TESS_UNKNOWN_VALUE),
         (TessBatchOutput { index_type: 2, ..good }, TESS_UNKNOWN_VALUE),
         (TessBatchOutput { numbering: 2, ..good }, TESS_UNKNOWN_VALUE),
+        (TessBatchOutput { memory: 2, ..good }, TESS_UNKNOWN_VALUE),
         (
             TessBatchOutput {
                 numbering: TESS_NUMBERING_PER_BATCH,
@@ -346,6 +364,7 @@ fn one_patch_a_call() {
             assert!(behind, "patch {number}: far behind the output");
 
             (output.point_format, output.index_type) = (TESS_POINT_F32, TESS_INDEX_U16);
+            output.memory = TESS_MEMORY_INITIALISED;
             assert_eq!(one(&fixture, number, &output).0, TESS_OK, "patch {number}");
             let floats = |point: &tess_core::DomainPoint| point.to_f32().map(f32::to_bits);
             let same = points.iter().zip(&expected.points).all(|(a, b)| *a == floats(b));
@@ -380,6 +399,8 @@ fn one_patch_is_refused() {
     assert_eq!(indices, vec![FILL; indices.len()], "indices of a buffer that is too small");
     let unknown = TessBatchOutput { point_format: 9, ..small };
     assert_eq!(one(&fixture, number, &unknown).0, TESS_UNKNOWN_VALUE, "a format");
+    let unknown = TessBatchOutput { memory: 2, ..small };
+    assert_eq!(one(&fixture, number, &unknown).0, TESS_UNKNOWN_VALUE, "memory");
     let both = TessBatchOutput { indices: small.points, index_capacity: 1, ..small };
     assert_eq!(one(&fixture, number, &both).0, TESS_OVERLAP, "points and indices");
     let (b, f) = (fixture.batch, fixture.factors.as_ptr());
@@ -404,6 +425,7 @@ fn room_for(points: &mut [[u32; 2]], indices: &mut [u32]) -> TessBatchOutput {
         index_type: TESS_INDEX_U32,
         numbering: TESS_NUMBERING_PER_PATCH,
         base_vertex: 0,
+        memory: TESS_MEMORY_ANY,
     }
 }
 
