@@ -3,7 +3,7 @@
 use super::ending::{self, Guard};
 use super::stdout::stdout;
 use crate::failure::Failure;
-use std::fs::{self, File, Metadata, Permissions};
+use std::fs::{self, File, Metadata};
 use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
@@ -79,7 +79,7 @@ pub(super) fn temporary<'a, 'b>() -> Builder<'a, 'b> {
 
 /// The permissions of a new file or folder; the user's mask takes away from them.
 #[cfg(unix)]
-pub(super) fn permissions(mode: u32) -> Permissions {
+pub(super) fn permissions(mode: u32) -> fs::Permissions {
     std::os::unix::fs::PermissionsExt::from_mode(mode)
 }
 
@@ -111,6 +111,7 @@ impl Partial {
         if !folder.metadata()?.is_dir() {
             return Err(io::ErrorKind::NotADirectory.into());
         }
+        #[cfg_attr(not(unix), expect(unused_mut, reason = "only Unix gives permissions"))]
         let mut builder = temporary();
         let old = replaced.map(Metadata::permissions);
         #[cfg(unix)]

@@ -40,6 +40,7 @@ impl NewFolder {
             ));
         }
         let (folder, guard) = ending::guarded(|| {
+            #[cfg_attr(not(unix), expect(unused_mut, reason = "only Unix gives permissions"))]
             let mut builder = temporary();
             #[cfg(unix)]
             builder.permissions(super::file::permissions(0o777));

@@ -1,7 +1,6 @@
 //! Stdout: closed, left by its reader, or a terminal.
 
-use super::ending;
-use crate::failure::{Exit, Failure};
+use crate::failure::Failure;
 use std::io::{self, BufWriter, IsTerminal, StdoutLock};
 
 /// Stdout, buffered. It must be flushed, or errors are lost.
@@ -31,6 +30,8 @@ pub(super) fn refuse_terminal(what: &str) -> Result<(), Failure> {
 /// For commands that work for a long time between two lines: a write would notice only then.
 #[cfg(unix)]
 pub(crate) fn stop_when_reader_leaves() {
+    use super::ending;
+    use crate::failure::Exit;
     use rustix::event::{PollFd, PollFlags, poll};
     let wait = || {
         let stdout = io::stdout();
