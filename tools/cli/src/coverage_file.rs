@@ -2,7 +2,6 @@
 
 use crate::failure::Failure;
 use crate::output::{OutputArgs, Role, create_unless_there};
-use same_file::Handle;
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -95,23 +94,61 @@ fn read(path: &Path, file: io::Result<File>) -> Result<Coverage, Failure> {
         .map_err(|error| Failure::bad_input(format!("{}: {error}", path.display())))
 }
 
-/// Locks the file, made empty if it is not there. The lock ends when the handle is dropped.
+/// Locks the file, made empty if it is not there. The lock ends when what is returned is dropped.
 ///
 /// Who had the lock before has replaced the file, so that it may be another one after the wait.
-fn locked(path: &Path) -> io::Result<Handle> {
+#[cfg(not(windows))]
+fn locked(path: &Path) -> io::Result<impl Sized> {
     loop {
         match File::options().read(true).write(true).open(path) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                create_unless_there(path, Coverage::new().to_ucis().as_bytes())?;
-            }
+            Err(error) if error.kind() == io::ErrorKind::NotFound => create(path)?,
             Err(error) => return Err(error),
             Ok(file) => {
                 file.lock()?;
-                let locked = Handle::from_file(file)?;
-                if Handle::from_path(path).is_ok_and(|now| now == locked) {
+                let locked = same_file::Handle::from_file(file)?;
+                if same_file::Handle::from_path(path).is_ok_and(|now| now == locked) {
                     return Ok(locked);
                 }
             }
         }
     }
+}
+
+/// Windows neither reads a file that another handle has locked nor replaces one that is open. So a file beside it is
+/// the lock: it is there, and open, as long as the lock is.
+#[cfg(windows)]
+fn locked(path: &Path) -> io::Result<impl Sized> {
+    use std::os::windows::fs::OpenOptionsExt;
+    use std::time::Duration;
+    const FILE_FLAG_DELETE_ON_CLOSE: u32 = 0x0400_0000;
+    const ERROR_ACCESS_DENIED: i32 = 5;
+    const ERROR_SHARING_VIOLATION: i32 = 32;
+    /// How often a file that is just being deleted may be refused.
+    const DENIED: u32 = 500;
+    let mut name = path.as_os_str().to_owned();
+    name.push(".lock");
+    let mut options = File::options();
+    options.write(true).create(true).share_mode(0).custom_flags(FILE_FLAG_DELETE_ON_CLOSE);
+    let mut denied = 0;
+    loop {
+        match options.open(&name) {
+            Ok(lock) => {
+                if !path.exists() {
+                    create(path)?;
+                }
+                return Ok(lock);
+            }
+            Err(error) => match error.raw_os_error() {
+                Some(ERROR_SHARING_VIOLATION) => {}
+                Some(ERROR_ACCESS_DENIED) if denied < DENIED => denied += 1,
+                _ => return Err(error),
+            },
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+}
+
+/// Makes an empty file, unless it is there by now.
+fn create(path: &Path) -> io::Result<()> {
+    create_unless_there(path, Coverage::new().to_ucis().as_bytes())
 }

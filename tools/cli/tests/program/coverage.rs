@@ -1,32 +1,7 @@
-//! Coverage files: added to by several processes at a time, and nothing but regular files; and what
-//! `tess coverage` makes of them.
+//! Coverage files are nothing but regular files; and what `tess coverage` makes of them.
 
-use crate::support::{command, directory, shell, tess};
+use crate::support::{directory, shell, tess};
 use std::fs;
-
-/// Each of the processes adds its hits to what the others added.
-#[test]
-fn no_hit_is_lost() {
-    let folder = directory("no_hit_is_lost");
-    let file = |name: &str| folder.join(name).display().to_string();
-    let words = |seed: u32, file: &str| {
-        format!("gen --level 3 --domain tri --count 40 --seed {seed} --coverage {file}")
-    };
-    for seed in 1..=12 {
-        let run = tess(&words(seed, &file("one.xml")));
-        assert_eq!(run.code, Some(0), "{}", run.stderr);
-    }
-    let together = (1..=12).map(|seed| {
-        let mut tess = command(&words(seed, &file("all.xml")));
-        tess.stdout(std::process::Stdio::null()).spawn().expect("tess starts")
-    });
-    for mut process in together.collect::<Vec<_>>() {
-        assert!(process.wait().expect("it ends").success(), "every one adds");
-    }
-    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a coverage file");
-    assert!(read("one.xml") == read("all.xml"), "the same hits as one after another");
-    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 2, "nothing else is left");
-}
 
 /// What could fill the memory, or wait for ever, is refused.
 #[test]

@@ -1,6 +1,6 @@
 //! `tess gen`: its formats are what `tess check` and Verilog read, its shards the whole.
 
-use crate::support::{directory, tess, tess_with_input};
+use crate::support::{command, directory, tess, tess_with_input};
 use std::fs;
 
 const PLACE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../golden/place.csv");
@@ -98,6 +98,30 @@ fn coverage_files_merge() {
     let run = tess(&format!("check {} --coverage {}", PLACE, file("x.xml")));
     assert_eq!(run.code, Some(2), "no patches");
     assert!(run.stderr.contains("this file's kind is locations"), "{}", run.stderr);
+}
+
+/// Each of the processes adds its hits to what the others added.
+#[test]
+fn no_hit_is_lost() {
+    let folder = directory("no_hit_is_lost");
+    let file = |name: &str| folder.join(name).display().to_string();
+    let words = |seed: u32, file: &str| {
+        format!("gen --level 3 --domain tri --count 40 --seed {seed} --coverage {file}")
+    };
+    for seed in 1..=12 {
+        let run = tess(&words(seed, &file("one.xml")));
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    let together = (1..=12).map(|seed| {
+        let mut tess = command(&words(seed, &file("all.xml")));
+        tess.stdout(std::process::Stdio::null()).spawn().expect("tess starts")
+    });
+    for mut process in together.collect::<Vec<_>>() {
+        assert!(process.wait().expect("it ends").success(), "every one adds");
+    }
+    let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a coverage file");
+    assert!(read("one.xml") == read("all.xml"), "the same hits as one after another");
+    assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 2, "nothing else is left");
 }
 
 /// The first line notes every option that the cases depend on, so that it makes the file again.

@@ -298,6 +298,7 @@ fn buffers_stay_in_the_folder() {
         assert_eq!(counts(&run), [1, 3, 1], "{uri}");
     }
     let outside = parent.join("outside.bin");
+    #[cfg_attr(not(unix), expect(unused_mut, reason = "links are Unix's"))]
     let mut cases = vec![
         (outside.to_str().expect("UTF-8"), "is not a file in the model's folder or below it"),
         (
