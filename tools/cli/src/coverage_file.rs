@@ -23,6 +23,8 @@ impl CoverageFile {
     /// version's bins.
     pub(crate) fn open(path: PathBuf) -> Result<Self, Failure> {
         OutputArgs { file: path.clone() }.require_writable()?;
+        #[cfg(windows)]
+        let _lock = locked_beside(&path).map_err(|error| Failure::file("lock", &path, &error))?;
         match File::open(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             found => drop(read(&path, found)?),
@@ -114,37 +116,30 @@ fn locked(path: &Path) -> io::Result<impl Sized> {
     }
 }
 
-/// Windows neither reads a file that another handle has locked nor replaces one that is open. So a file beside it is
-/// the lock: it is there, and open, as long as the lock is.
 #[cfg(windows)]
 fn locked(path: &Path) -> io::Result<impl Sized> {
+    let lock = locked_beside(path)?;
+    if !path.exists() {
+        create(path)?;
+    }
+    Ok(lock)
+}
+
+/// Windows neither reads a file that another handle has locked nor replaces one that is open. So the lock is a file
+/// beside it, which is in use as long as the lock is held. It stays: one that is being deleted cannot be opened.
+#[cfg(windows)]
+fn locked_beside(path: &Path) -> io::Result<File> {
     use std::os::windows::fs::OpenOptionsExt;
-    use std::time::Duration;
-    const FILE_FLAG_DELETE_ON_CLOSE: u32 = 0x0400_0000;
-    const ERROR_ACCESS_DENIED: i32 = 5;
     const ERROR_SHARING_VIOLATION: i32 = 32;
-    /// How often a file that is just being deleted may be refused.
-    const DENIED: u32 = 500;
     let mut name = path.as_os_str().to_owned();
     name.push(".lock");
-    let mut options = File::options();
-    options.write(true).create(true).share_mode(0).custom_flags(FILE_FLAG_DELETE_ON_CLOSE);
-    let mut denied = 0;
     loop {
-        match options.open(&name) {
-            Ok(lock) => {
-                if !path.exists() {
-                    create(path)?;
-                }
-                return Ok(lock);
+        match File::options().append(true).create(true).share_mode(0).open(&name) {
+            Err(error) if error.raw_os_error() == Some(ERROR_SHARING_VIOLATION) => {
+                std::thread::sleep(std::time::Duration::from_millis(10));
             }
-            Err(error) => match error.raw_os_error() {
-                Some(ERROR_SHARING_VIOLATION) => {}
-                Some(ERROR_ACCESS_DENIED) if denied < DENIED => denied += 1,
-                _ => return Err(error),
-            },
+            opened => return opened,
         }
-        std::thread::sleep(Duration::from_millis(10));
     }
 }
 

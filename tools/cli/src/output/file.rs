@@ -129,7 +129,21 @@ impl Partial {
     /// # Errors
     /// It cannot be put there; then it is removed.
     pub(super) fn persist(self) -> io::Result<()> {
-        self.file.persist(&self.path).map(drop).map_err(|error| error.error)
+        let mut file = self.file;
+        // Windows replaces no file that another program looks at in this moment.
+        let mut tries_left = if cfg!(windows) { 100 } else { 0 };
+        loop {
+            match file.persist(&self.path) {
+                Err(denied)
+                    if denied.error.kind() == io::ErrorKind::PermissionDenied && tries_left > 0 =>
+                {
+                    file = denied.file;
+                    tries_left -= 1;
+                    std::thread::sleep(std::time::Duration::from_millis(10));
+                }
+                persisted => return persisted.map(drop).map_err(|error| error.error),
+            }
+        }
     }
 }
 
