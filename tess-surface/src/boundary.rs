@@ -67,7 +67,7 @@
 //!
 //! Point by point, as `Patch::sample`: then the inside ran in lanes and every point of an edge alone. At factor 8, where
 //! 32 of 81 points are on the boundary, that took 27 ns a vertex on bicubic patches and 29 on PN triangles; with edges in
-//! lanes it takes 17 and 12 (docs/performance.md, "Meshes"). Corners are still one by one: a patch has three or four.
+//! lanes it takes 17 and 12 (docs/experiments.md, "Evaluation in lanes"). Corners are still one by one: a patch has three or four.
 
 use crate::curve::{Curve, Direction, Edge};
 use crate::lanes::{LANES, Lanes, Vertices};

@@ -26,7 +26,7 @@
 //
 // The long form takes four dispatches, of 9 to 10 microseconds for each two on an H200. 256 patches of `character`
 // took 17 microseconds when each tile searched for its patch and totals were read back, and take 15 now
-// (docs/performance.md, "From which batch size on").
+// (docs/experiments.md, "Small batches").
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> raw_factors: array<vec2<u32>>;

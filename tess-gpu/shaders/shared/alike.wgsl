@@ -24,7 +24,7 @@
 // - A culled block has no elements to copy.
 //
 // The simpler form expands each patch. On an H200 it takes 571 microseconds for `uniform-16` instead of 445, and
-// halves the rate of `uniform-1` (docs/performance.md, variant `no copies` and the table without copies).
+// halves the rate of `uniform-1` (docs/experiments.md, variant `no copies` and the table without copies).
 
 struct Repeat {
     topology: vec2<u32>,

@@ -33,7 +33,7 @@
 //   none. A patch without a slot is computed, so a full table costs speed but never a bit.
 //
 // The simpler form computes every patch of such a tile. On an H200 it takes 1047 microseconds for `character`
-// instead of 653, and 656 instead of 552 for `terrain` (docs/performance.md, variant `no catalogue`).
+// instead of 653, and 656 instead of 552 for `terrain` (docs/experiments.md, variant `no catalogue`).
 
 // A key has the points along each edge and inside axis, less 2, in 5 bits each, and the state in bits 30..31.
 fn key_of(topology: vec2<u32>) -> u32 {

@@ -28,7 +28,7 @@
 // - is_listed is the same for all threads, so that a round is looked up or computed as a whole.
 //
 // The simpler form is a loop. naga adds a counter to every loop, which costs more than the steps of a binary search
-// (docs/performance.md), so the steps are written out. Rounds of 256 patches would need more workgroup memory, so
+// (docs/experiments.md), so the steps are written out. Rounds of 256 patches would need more workgroup memory, so
 // fewer tiles would run at once: 658 microseconds for `terrain` instead of 552, 784 for `character` instead of 653.
 
 // Patches of the tile that are expanded together: `count` of them from `first`, and the elements

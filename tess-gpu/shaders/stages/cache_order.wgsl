@@ -29,7 +29,7 @@
 //
 // The specification's order is simpler. Drawn by an H200 it makes 1.504 thousand million triangles a second at
 // factor 64; columns of four make 1.634. Columns of two, three, five or more and strips make less
-// (docs/performance.md, table orders-h200).
+// (docs/experiments.md, table orders-h200).
 
 // The stitches along one outer edge.
 struct Sector {

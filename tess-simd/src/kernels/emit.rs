@@ -44,7 +44,7 @@
 //!
 //! A packet of compact patches alone goes stage by stage: all look-ups, then all points, then all indices. Patch by
 //! patch, a branch that is predicted wrongly in one stage also discards the begun work of the next. Together with
-//! permutes this took `meshes/quads` from 0.16 to 0.25 of a fill (`docs/performance.md`).
+//! permutes this took `meshes/quads` from 0.16 to 0.25 of a fill (`docs/experiments.md`).
 
 use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::lanes::LANES;

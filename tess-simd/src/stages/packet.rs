@@ -55,7 +55,7 @@
 //!
 //! Eight patches a packet were slower: half of the vector loads waited for two narrower stores. The vector
 //! types of the crate `wide` take two to three times as long, because they choose their instructions when they
-//! are compiled (`docs/performance.md`). So lanes are plain arrays, and the compiler makes vectors of each
+//! are compiled (`docs/experiments.md`). So lanes are plain arrays, and the compiler makes vectors of each
 //! level's width.
 
 mod one;

@@ -54,7 +54,7 @@
 //!
 //! Copying runs of locations, as larger patches do, begins and ends a loop for each edge of each ring, and each
 //! end is a branch that is predicted wrongly. With AVX2, codes took `mosaic-even` from 114 to 67 ns a patch and
-//! `character` from 74 to 59 ns (`docs/performance.md`).
+//! `character` from 74 to 59 ns (`docs/experiments.md`).
 
 use super::quad::{self, AxisPoint, Coordinate, QuadWalker};
 use super::triangle::{self, TriangleWalker};

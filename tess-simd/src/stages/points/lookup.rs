@@ -44,7 +44,7 @@
 //! # The simpler form
 //!
 //! Copying runs of points: 129 ns a patch of `character` at the baseline, 94 with look-ups; 74 and 59 with AVX2
-//! (`docs/performance.md`).
+//! (`docs/experiments.md`).
 
 use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, MINUS, RINGS, TERMS, Term};
 use super::triangle::Inset;

@@ -46,7 +46,7 @@
 //!
 //! Gathers from memory take 1.4 to 1.6 times as long for triangles. Copies of runs, as larger patches have them:
 //! `character` wrote at 0.17 of a fill, and writes at 0.24 with permutes and the stages' order of `kernels/emit`
-//! (`docs/performance.md`).
+//! (`docs/experiments.md`).
 
 use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Term};
 use super::{CompactPoints, POINTS_AT_ONCE};

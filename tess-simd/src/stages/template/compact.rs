@@ -53,7 +53,7 @@
 //! The templates of larger patches (`template.rs`) have 1024 slots, a 16-bit index and one way. `mosaic` has 4096
 //! topologies, which then replace each other. A triangle's inside is compact up to 13 points only, so that its
 //! codes have room for all rings. With AVX2, templates whose points are still copied in runs were slower than
-//! none: `character` took 1.4 times as long (`docs/performance.md`).
+//! none: `character` took 1.4 times as long (`docs/experiments.md`).
 
 use super::room::Room;
 use super::write_minimum;
