@@ -134,11 +134,10 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
                 for (ring, first) in (1..sector.end).zip(first) {
                     let begin = sector.border(ring, column);
                     let end = sector.border(ring, column + 1);
-                    if begin < end {
-                        emit(first + begin..first + end);
-                    } else if ring > 1 {
+                    if begin == end {
                         break; // the rings further in have nothing in this column either
                     }
+                    emit(first + begin..first + end);
                 }
             }
         }

@@ -28,7 +28,10 @@ fn drawn(patch: &Patch) -> Vec<u32> {
 /// The same by runs, with what is inside the innermost ring behind them.
 fn run_by_run(patch: &Patch) -> Vec<u32> {
     let mut drawn = Vec::new();
-    let add = |range: std::ops::Range<u32>| drawn.extend(range);
+    let add = |range: std::ops::Range<u32>| {
+        assert!(!range.is_empty(), "{range:?} is a run");
+        drawn.extend(range);
+    };
     match patch.processed() {
         ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => {
             let outer = factors.outer().map(|factor| factor.context.points);

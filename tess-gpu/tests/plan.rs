@@ -2,10 +2,12 @@
 
 mod common;
 
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::layout::Job;
 use tess_gpu::sizes::ALIGNMENT;
-use tess_gpu::{Capacity, Dispatch, Limits, Plan, Resource, Setup, Span, Stage, Workgroups};
+use tess_gpu::{
+    Capacity, Dispatch, Limits, Plan, Resource, Setup, Span, Stage, Workgroups, Written, tables,
+};
 
 /// Limits that cut batches often.
 const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 5 };
@@ -192,4 +194,135 @@ fn the_output_of_a_short_batch_is_bound_at_once() {
         let plan = Plan::new(setup, 1, Capacity { points: 100, primitives }, Limits::WEBGPU);
         assert!(plan.is_short(), "{primitives} triangles with WebGPU's limits");
     }
+}
+
+/// Quads with fractional factors, of which 4 MiB of contexts are one section and a third.
+fn quads() -> Setup {
+    Setup::new(Domain::Quad, Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw))
+}
+
+/// Two portions of 65536 patches, two windows of 256 tiles of points and three of 170 tiles of triangles: 12 jobs.
+#[test]
+fn buffers_have_the_bytes_of_their_layouts() {
+    let room = Capacity { points: 600_000, primitives: 1_000_001 };
+    let plan = Plan::new(quads(), 70_000, room, LOW).with_groups(3);
+    assert_eq!((plan.portions(), plan.groups()), (2, 3), "{plan:?}");
+    assert_eq!((plan.point_windows(), plan.primitive_windows()), (2, 3), "{plan:?}");
+    for (resource, bytes) in [
+        (Resource::Job, 12 * 256),
+        (Resource::Factors, 70_000 * 24),
+        (Resource::Tables, 4 * tables(SplitOrder::Ruler).len() as u64),
+        (Resource::Topologies, 2 * 65_536 * 8),
+        (Resource::Contexts, 2 * 65_536 * 48),
+        // 65536 patches, 256 blocks twice and a section, the first portion's rounded up to 256 bytes.
+        (Resource::Offsets, 528_640 + 528_392),
+        (Resource::Status, 32 + 2 * 16),
+        // 293 tiles of points, 489 of triangles, two entries more for each.
+        (Resource::Tiles, 4 * (295 + 491)),
+        (Resource::Arguments, 32 + 12 * 12),
+        (Resource::Catalogue, 4 * 548_866),
+        (Resource::Groups, 3 * 4),
+        (Resource::Draws, 3 * 20),
+        (Resource::Points, 600_000 * 8),
+        (Resource::Indices, 1_000_001 * 12 + 4),
+    ] {
+        assert_eq!(plan.buffer_size(resource), bytes, "{resource:?}");
+    }
+}
+
+/// The same batch, of which a part is written alone.
+#[test]
+fn what_is_not_written_has_no_windows() {
+    let room = Capacity { points: 600_000, primitives: 1_000_001 };
+    for (written, windows, has_catalogue) in [
+        (Written::Everything, [2, 3], true),
+        (Written::Indices, [0, 3], true),
+        (Written::Arguments, [0, 0], false),
+    ] {
+        let plan = Plan::writing(written, quads(), 70_000, room, LOW);
+        assert_eq!([plan.point_windows(), plan.primitive_windows()], windows, "{written:?}");
+        assert_eq!(plan.has_catalogue(), has_catalogue, "{written:?}");
+        let bytes = [Resource::Points, Resource::Indices].map(|output| plan.buffer_size(output));
+        let all = [600_000 * 8, 1_000_001 * 12 + 4];
+        let expected = [0, 1].map(|output| if windows[output] == 0 { 0 } else { all[output] });
+        assert_eq!(bytes, expected, "{written:?}");
+    }
+}
+
+#[test]
+fn a_patch_finds_its_offsets() {
+    let plan = Plan::new(quads(), 70_000, Capacity::default(), LOW);
+    // The second portion begins after 528640 bytes.
+    let first = 528_640 / 8;
+    let in_second = [300, 65_536 + 1, 65_536 + 512].map(|entry| first + entry);
+    assert_eq!(plan.offset_entries(65_836), in_second, "patch 300 of the second portion");
+    assert_eq!(plan.alike_entry(65_836), first + 65_536 + 256 + 1, "its block's topology");
+    let plan = Plan::new(quads(), 10_000_000, Capacity::default(), Limits::WEBGPU);
+    let in_first = [100_000, 2_752_512 + 390, 2_752_512 + 2 * 10_752 + 1];
+    assert_eq!(plan.offset_entries(100_000), in_first, "42 sections in the first portion");
+    assert_eq!(plan.alike_entry(100_000), 2_752_512 + 10_752 + 390, "its block's topology");
+}
+
+/// From 16384 patches on, if they give triangles.
+#[test]
+fn large_batches_of_triangles_have_a_catalogue() {
+    let lines = Config::new(Partitioning::Integer, OutputPrimitive::Line);
+    for (setup, patches, expected) in [
+        (quads(), 16_383, false),
+        (quads(), 16_384, true),
+        (Setup::new(Domain::Quad, lines), 16_384, false),
+    ] {
+        let plan = Plan::new(setup, patches, Capacity::default(), Limits::WEBGPU);
+        assert_eq!(plan.has_catalogue(), expected, "{patches} {:?}", setup.config.output);
+        let without = plan.buffer_size(Resource::Catalogue) == ALIGNMENT;
+        assert_eq!(without, !expected, "what is bound");
+    }
+}
+
+/// 1024 patches and 524288 elements are the most.
+#[test]
+fn short_batches_have_little_of_everything() {
+    let room = |points, primitives| Capacity { points, primitives };
+    for (patches, room, expected) in [
+        (0, room(1, 1), false),
+        (1, Capacity::default(), true),
+        (1024, room(1, 524_287), true),
+        (1025, room(1, 1), false),
+        (1, room(2, 524_287), false),
+        (1, room(0, 1), false),
+        (1, room(1, 0), false),
+    ] {
+        let plan = Plan::new(quads(), patches, room, Limits::WEBGPU);
+        assert_eq!(plan.is_short(), expected, "{patches} patches, {room:?}");
+        let long = Plan::in_long_stages(quads(), patches, room, Limits::WEBGPU);
+        assert!(!long.is_short() && long.tile() == 2048, "{patches} patches, {room:?}");
+    }
+}
+
+/// A tile is a power of two: the least of which 2048 hold the output.
+#[test]
+fn tiles_of_short_batches_grow_with_their_room() {
+    for (primitives, tile) in [(1, 128), (262_143, 128), (262_144, 256), (524_287, 256)] {
+        let plan = Plan::new(quads(), 1, Capacity { points: 1, primitives }, Limits::WEBGPU);
+        assert_eq!(plan.tile(), tile, "{primitives} triangles");
+    }
+}
+
+/// Less than 4 MiB is not asked of a plan.
+#[test]
+fn the_least_binding_is_4_mib() {
+    let least = Limits { storage_binding: 1, workgroups: 0 };
+    let plan = Plan::new(quads(), 70_000, ALL, least);
+    let same = Plan::new(quads(), 70_000, ALL, Limits { storage_binding: 4 << 20, workgroups: 1 });
+    assert_eq!(plan, same, "4 MiB and a workgroup");
+    assert_eq!(plan.portion_patches(), 65_536, "a whole section");
+}
+
+/// A patch of factor 64 has 65 by 65 points; the sum ends at what 32 bits hold.
+#[test]
+fn the_worst_case_is_that_of_factor_64() {
+    let room = |points, primitives| Capacity { points, primitives };
+    assert_eq!(Capacity::worst_case(quads(), 10), room(42_250, 81_920), "ten quads");
+    assert_eq!(Capacity::uniform(quads(), 10, 2.0), room(90, 80), "of factor 2");
+    assert_eq!(Capacity::worst_case(quads(), u32::MAX), ALL, "as much as there is");
 }
