@@ -128,6 +128,7 @@ fn locked(path: &Path) -> io::Result<impl Sized> {
 /// Windows neither reads a file that another handle has locked nor replaces one that is open. So the lock is a file
 /// beside it, which is in use as long as the lock is held. It stays: one that is being deleted cannot be opened.
 #[cfg(windows)]
+#[expect(clippy::disallowed_methods, reason = "nothing tells when the other program is done")]
 fn locked_beside(path: &Path) -> io::Result<File> {
     use std::os::windows::fs::OpenOptionsExt;
     const ERROR_SHARING_VIOLATION: i32 = 32;

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use std::fs::{self, File, Metadata};
 use std::io::{self, BufReader, Read, Seek, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{Builder, NamedTempFile};
+use tempfile::{Builder, NamedTempFile, PersistError};
 
 /// What a path given to `-o` stands for.
 #[derive(Debug)]
@@ -129,22 +129,29 @@ impl Partial {
     /// # Errors
     /// It cannot be put there; then it is removed.
     pub(super) fn persist(self) -> io::Result<()> {
-        let mut file = self.file;
-        // Windows replaces no file that another program looks at in this moment.
-        let mut tries_left = if cfg!(windows) { 100 } else { 0 };
-        loop {
-            match file.persist(&self.path) {
-                Err(denied)
-                    if denied.error.kind() == io::ErrorKind::PermissionDenied && tries_left > 0 =>
-                {
-                    file = denied.file;
-                    tries_left -= 1;
-                    std::thread::sleep(std::time::Duration::from_millis(10));
-                }
-                persisted => return persisted.map(drop).map_err(|error| error.error),
-            }
-        }
+        persist(self.file, &self.path).map_err(|error| error.error)
     }
+}
+
+#[cfg(not(windows))]
+fn persist(file: NamedTempFile, path: &Path) -> Result<(), PersistError> {
+    file.persist(path).map(drop)
+}
+
+/// Windows replaces no file that another program looks at: that takes a moment, and may happen again.
+#[cfg(windows)]
+#[expect(clippy::disallowed_methods, reason = "nothing tells when the other program is done")]
+fn persist(mut file: NamedTempFile, path: &Path) -> Result<(), PersistError> {
+    for _ in 0..100 {
+        match file.persist(path) {
+            Err(denied) if denied.error.kind() == io::ErrorKind::PermissionDenied => {
+                file = denied.file
+            }
+            persisted => return persisted.map(drop),
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    file.persist(path).map(drop)
 }
 
 impl Write for Partial {

@@ -1,6 +1,6 @@
 //! Coverage files are nothing but regular files; and what `tess coverage` makes of them.
 
-use crate::support::{directory, shell, tess};
+use crate::support::{directory, shell};
 use std::fs;
 
 /// What could fill the memory, or wait for ever, is refused.
