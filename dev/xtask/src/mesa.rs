@@ -58,6 +58,43 @@ const NEEDS: &[Need] = &[
                 && (has_program("llvm-config") || has_program("llvm-config-14"))
         },
     },
+    Need {
+        what: "the libraries of the window systems X11 and Wayland",
+        packages: &[
+            "libx11-dev",
+            "libx11-xcb-dev",
+            "libxcb-dri2-0-dev",
+            "libxcb-dri3-dev",
+            "libxcb-present-dev",
+            "libxcb-randr0-dev",
+            "libxcb-shm0-dev",
+            "libxcb-sync-dev",
+            "libxcb-xfixes0-dev",
+            "libxrandr-dev",
+            "libxshmfence-dev",
+            "libwayland-dev",
+            "libwayland-egl-backend-dev",
+            "wayland-protocols",
+        ],
+        is_there: || {
+            let headers = [
+                "X11/Xlib-xcb.h",
+                "X11/xshmfence.h",
+                "X11/extensions/Xrandr.h",
+                "xcb/dri2.h",
+                "xcb/dri3.h",
+                "xcb/present.h",
+                "xcb/randr.h",
+                "xcb/shm.h",
+                "xcb/sync.h",
+                "xcb/xfixes.h",
+                "wayland-client.h",
+                "wayland-egl-backend.h",
+            ];
+            headers.iter().all(|header| Path::new("/usr/include").join(header).exists())
+                && Path::new("/usr/share/wayland-protocols").exists()
+        },
+    },
 ];
 
 /// Mesa's sources with some of the patches, built.

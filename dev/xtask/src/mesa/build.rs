@@ -7,10 +7,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// lavapipe, llvmpipe behind EGL without a window system, and what they need.
+/// lavapipe and llvmpipe behind EGL, both with windows of X11 and Wayland, and what they need.
 const OPTIONS: &[&str] = &[
     "-Dbuildtype=release",
-    "-Dplatforms=",
+    "-Dplatforms=x11,wayland",
     "-Dgallium-drivers=swrast",
     "-Dvulkan-drivers=swrast",
     "-Dllvm=enabled",

@@ -19,8 +19,18 @@ pub(super) const LONG: usize = 2;
 /// What `tess probe` says of a driver that mixes the vertices of different patches, as one does whose numbers wrap.
 const NO_SENSE: &str = "the capture makes no sense";
 
-/// The workloads whose frames are timed, of triangles and quads.
-const WORKLOADS: &[&str] = &["uniform-8", "terrain", "character"];
+/// The workloads whose frames are timed: those of `tess bench` whose frames an unpatched driver draws in seconds.
+const WORKLOADS: &[&str] = &[
+    "uniform-1",
+    "uniform-2",
+    "uniform-4",
+    "uniform-8",
+    "uniform-16",
+    "terrain",
+    "character",
+    "mosaic",
+    "mosaic-even",
+];
 
 /// How often each driver draws them, in turn; a run's time is that of its fastest frame.
 const ROUNDS: usize = 2;
