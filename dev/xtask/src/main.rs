@@ -63,7 +63,7 @@ usage: cargo xtask <command>
   mesa [build | compare | test]
           get Mesa's sources from Debian, build its drivers lavapipe (Vulkan) and llvmpipe (OpenGL) as they are
           and with this library as their tessellator (in target/mesa, never installed), and compare them:
-          docs/hosts/mesa.md. Takes an hour on two cores, minutes when built before. `test` runs the tests of
+          docs/hosts/mesa.md. Takes half an hour on two cores, most of it to compare. `test` runs the tests of
           Vulkan and OpenGL on the patched drivers
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
