@@ -230,6 +230,34 @@ fn buffers_have_the_bytes_of_their_layouts() {
     }
 }
 
+/// The second portion has 4464 patches; the last window of each output ends with it.
+#[test]
+fn dispatches_bind_their_portion_and_window() {
+    let room = Capacity { points: 600_000, primitives: 1_000_001 };
+    let plan = Plan::new(quads(), 70_000, room, LOW);
+    let spans = |stage, resource| -> Vec<(u64, u64)> {
+        let own = plan.dispatches().filter(|dispatch| dispatch.stage() == stage);
+        own.map(|dispatch| span(&dispatch, resource)).map(|span| (span.offset, span.size)).collect()
+    };
+    for (resource, first, second) in [
+        (Resource::Factors, (0, 65_536 * 24), (65_536 * 24, 4464 * 24)),
+        (Resource::Topologies, (0, 65_536 * 8), (65_536 * 8, 65_536 * 8)),
+        (Resource::Contexts, (0, 65_536 * 48), (65_536 * 48, 65_536 * 48)),
+        (Resource::Offsets, (0, 528_392), (528_640, 528_392)),
+    ] {
+        assert_eq!(spans(Stage::Factors, resource), [first, second], "{resource:?}");
+    }
+    let tiles = 256 * 2048 * 8;
+    let windows = [(0, tiles), (tiles, 600_000 * 8 - tiles)];
+    assert_eq!(spans(Stage::ExpandPoints, Resource::Points), windows.repeat(2), "points");
+    let tiles = 170 * 2048 * 12;
+    let windows = [(0, tiles), (tiles, tiles), (2 * tiles, 1_000_001 * 12 + 4 - 2 * tiles)];
+    assert_eq!(spans(Stage::ExpandPrimitives, Resource::Indices), windows.repeat(2), "indices");
+    let jobs = plan.jobs();
+    let patches = [0, 6].map(|job| bytemuck::pod_read_unaligned::<u32>(&jobs[256 * job..][..4]));
+    assert_eq!(patches, [65_536, 4464], "the first word of a job");
+}
+
 /// The same batch, of which a part is written alone.
 #[test]
 fn what_is_not_written_has_no_windows() {

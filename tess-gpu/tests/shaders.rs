@@ -5,7 +5,7 @@ mod common;
 use common::evaluate::{self, Argument};
 use common::{COUNTING, DRAWING, PULLING, all_setups, parse};
 use naga::{AddressSpace, Module, ScalarKind, TypeInner};
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::{Access, Binding, Counting, Fault, Pull, Resource, Setup, Stage, Tap, layout};
 
 #[test]
@@ -228,6 +228,50 @@ fn packed_words_are_read_alike() {
             ("odd_of", context.parity.odd()),
         ] {
             assert_eq!(shaders(name), expected, "{name} of {words:x?}");
+        }
+    }
+}
+
+/// Two numbers of 64 bits, low word first, then a bit for each output that does not fit.
+#[test]
+fn a_status_is_read_from_its_words() {
+    let status: layout::Status = bytemuck::cast([1, 2, 3, 4, 0, 0, 0, 0_u32]);
+    assert_eq!([status.points(), status.primitives()], [0x2_0000_0001, 0x4_0000_0003]);
+    for (overflow, points, indices) in
+        [(0, false, false), (1, true, false), (2, false, true), (3, true, true)]
+    {
+        let status: layout::Status = bytemuck::cast([0, 0, 0, 0, overflow, 0, 0, 0_u32]);
+        assert_eq!([status.points_overflow(), status.indices_overflow()], [points, indices]);
+        assert_eq!(status.fits(), overflow == 0, "overflow {overflow}");
+    }
+}
+
+/// u in bits 0 to 16, v in bits 17 to 33, the patch in the rest.
+#[test]
+fn points_are_packed_into_64_bits() {
+    for (u, v, patch) in
+        [(0x10000, 0, 0), (0, 0x10000, 0), (0, 0x8000, 5), (0x5555, 0xaaaa, (1 << 30) - 1)]
+    {
+        let packed = layout::PackedPoint::new(DomainPoint::from_bits(u, v), patch);
+        let [low, high] = packed.0.map(u64::from);
+        let expected = u64::from(u) | u64::from(v) << 17 | u64::from(patch) << 34;
+        assert_eq!(low | high << 32, expected, "{u:x} {v:x} {patch}");
+        let point = packed.point();
+        assert_eq!([point.u.to_bits(), point.v.to_bits(), packed.patch()], [u, v, patch]);
+    }
+}
+
+#[test]
+fn contexts_keep_their_bits_when_packed() {
+    for partitioning in [Partitioning::FractionalOdd, Partitioning::FractionalEven] {
+        let config = Config::new(partitioning, OutputPrimitive::Point);
+        for eighths in 8..=512_u16 {
+            let raw = PatchFactors::uniform(Domain::Quad, f32::from(eighths) / 8.0);
+            let patch = Patch::new(config, raw);
+            let Some(PatchFactors::Quad(factors)) = patch.processed().factors() else { continue };
+            let context = factors.inside_u.context;
+            let packed = layout::pack_context(&context);
+            assert_eq!(layout::unpack_context(packed), context, "{partitioning:?} {eighths}/8");
         }
     }
 }
