@@ -307,6 +307,20 @@ fn large_batches_of_triangles_have_a_catalogue() {
     }
 }
 
+#[test]
+fn the_stages_of_a_batch_follow_its_size() {
+    use Stage::{
+        ExpandPoints, ExpandPrimitives, ExpandShort, Factors, Partition, Scan, Short, Totals,
+    };
+    let long: &[Stage] = &[Factors, Scan, Totals, Partition, ExpandPoints, ExpandPrimitives];
+    let room = Capacity { points: 100, primitives: 100 };
+    for (patches, expected) in [(0, &[Totals][..]), (1, &[Short, ExpandShort]), (2000, long)] {
+        let plan = Plan::new(quads(), patches, room, Limits::WEBGPU);
+        let stages: Vec<Stage> = plan.dispatches().map(|dispatch| dispatch.stage()).collect();
+        assert_eq!(stages, expected, "{patches} patches");
+    }
+}
+
 /// 1024 patches and 524288 elements are the most.
 #[test]
 fn short_batches_have_little_of_everything() {
