@@ -159,3 +159,27 @@ pub(crate) fn fixed_factors(
     let [observed, expected] = [observed, expected].map(|factors| factors[at][which].to_bits());
     Some(Mismatch::hex(element, 6, observed, expected, Stage::Factors))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_wrong_index_names_its_primitive_and_its_position() {
+        for (line, size) in [
+            ("case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000", 3),
+            ("case isoline integer line ruler 40000000 40800000", 2),
+        ] {
+            let case: Case = line.parse().expect("a case");
+            let expected = case.patch().tessellate();
+            for at in 0..expected.indices.len() {
+                let mut observed = expected.clone();
+                observed.indices[at] += 1;
+                let found = tessellations(&case, &observed, &expected).map(|found| found.element);
+                let element =
+                    Element::Index { primitive: at / size, position: at - at / size * size };
+                assert_eq!(found, Some(element), "index {at} of {line}");
+            }
+        }
+    }
+}

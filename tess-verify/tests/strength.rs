@@ -128,6 +128,27 @@ fn both_neighbours_of_a_tie_are_legal_where_asked() {
     assert!(!Strength::default().accepts(&tie, &output(&upper)), "the exact model rounds down");
     let beyond = case(&QUAD.replace("40600000", "40400400"));
     assert!(!lenient.accepts(&tie, &output(&beyond)), "sixteen units away");
+    let nearer_the_upper = case(&QUAD.replace("40600000", "40400023"));
+    let lower = case(&QUAD.replace("40600000", "40400000"));
+    assert!(lenient.accepts(&nearer_the_upper, &output(&lower)), "0.547 of a unit away");
+}
+
+/// Of two values that lie between numbers, either may take the neighbour without the other.
+#[test]
+fn each_value_has_a_neighbour_of_its_own() {
+    let with = |u0: &str, v0: &str| case(&QUAD.replace("40600000", u0).replace("40200000", v0));
+    let [lower, tie, upper] = ["40400000", "40400020", "40400040"];
+    let [other_lower, other_tie, other_upper] = ["40a00000", "40a00010", "40a00020"];
+    let lenient = Strength { conversion: Conversion::Within06Ulp, ..Strength::default() };
+    let mut seen = Vec::new();
+    for u0 in [lower, upper] {
+        for v0 in [other_lower, other_upper] {
+            let output = output(&with(u0, v0));
+            assert!(lenient.accepts(&with(tie, other_tie), &output), "{u0} {v0}");
+            assert!(!seen.contains(&output), "{u0} {v0} place points differently");
+            seen.push(output);
+        }
+    }
 }
 
 /// Whatever the model's sequence accepts, any order accepts: points that the model lacks, points of a

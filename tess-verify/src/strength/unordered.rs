@@ -279,6 +279,52 @@ mod tests {
         assert_eq!(first.instead.map(|other| other.vertices), Some(vec![[0x101, 0]]), "beside it");
     }
 
+    /// Each index of a patch in turn names another point: what is missing and what is there instead are the two
+    /// primitives, by the places of their vertices.
+    #[test]
+    fn primitives_that_differ_are_shown_by_their_vertices() {
+        let of = "40000000 40000000 40000000 40000000 40000000 40000000";
+        for (line, size) in [
+            (format!("case quad integer triangle_cw ruler {of}"), 3),
+            ("case isoline integer line ruler 40000000 40800000".to_owned(), 2),
+        ] {
+            let case: Case = line.parse().expect("a case");
+            let expected = case.patch().tessellate();
+            let last = expected.points.len() as u32 - 1;
+            for at in 0..expected.indices.len() {
+                let of_primitive = at / size * size..at / size * size + size;
+                let mut observed = expected.clone();
+                let unused =
+                    (0..=last).find(|i| !expected.indices[of_primitive.clone()].contains(i));
+                observed.indices[at] = unused.expect("patches have more points than a primitive");
+                let mut shown = [&observed, &expected].map(|output| {
+                    let places = output.indices[of_primitive.clone()].iter().map(|&index| {
+                        let point = output.points[index as usize];
+                        [point.u.to_bits(), point.v.to_bits()]
+                    });
+                    least_turned(places.collect())
+                });
+                shown.sort();
+                let first = first_difference(Elements::Primitives, &case, &observed, &expected);
+                let first = first.unwrap_or_else(|| panic!("index {at} of {line}"));
+                let instead =
+                    first.instead.unwrap_or_else(|| panic!("index {at}: nothing instead"));
+                let mut found = [first.vertices, instead.vertices];
+                found.sort();
+                assert_eq!(found, shown, "index {at} of {line}");
+            }
+        }
+    }
+
+    /// The vertices of a triangle from the smallest on; a line's as they are.
+    fn least_turned(mut vertices: Vec<[u32; 2]>) -> Vec<[u32; 2]> {
+        if let [a, b, c] = vertices[..] {
+            let turns = [[a, b, c], [b, c, a], [c, a, b]];
+            vertices = turns.into_iter().min().map_or(vertices, Vec::from);
+        }
+        vertices
+    }
+
     /// The triangle in the head of this file.
     #[test]
     fn keys_of_one_triangle() {
