@@ -131,7 +131,9 @@ def test_filters_of_generated_patches() -> None:
 
 def interrupted(script: str, path: "Path | str" = "") -> float:
     """Seconds from the signal to the end of a script, which must end by KeyboardInterrupt."""
-    program = "import sys, tess_model as t\nprint(flush=True)\n" + script
+    # A shell that starts the tests in its background has them ignore the signal.
+    heed = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    program = heed + "import sys, tess_model as t\nprint(flush=True)\n" + script
     process = subprocess.Popen(
         [sys.executable, "-c", program, str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE
     )
