@@ -7,22 +7,25 @@ use tess_core::{Config, Domain, Parity, Partitioning};
 
 /// The paths of all bins, in alphabetical order.
 pub(super) fn all() -> &'static [String] {
-    static ALL: LazyLock<Vec<String>> = LazyLock::new(|| {
-        let of_settings = configurations().flat_map(|(domain, config)| of_settings(domain, config));
-        let of_stitches = Domain::ALL.into_iter().flat_map(|domain| {
-            Partitioning::ALL.into_iter().flat_map(move |how| of_stitches(domain, how))
-        });
-        let mut bins: Vec<String> = of_settings.chain(of_stitches).collect();
-        bins.sort_unstable();
-        bins.dedup();
-        bins
-    });
+    static ALL: LazyLock<Vec<String>> = LazyLock::new(|| of(configurations()));
     &ALL
 }
 
-/// The paths of the bins that the patches of one configuration can hit: each of them, and no other.
-pub(super) fn of(domain: Domain, config: Config) -> Vec<String> {
-    [of_settings(domain, config), of_stitches(domain, config.partitioning)].concat()
+/// The paths of the bins that the patches of configurations can hit: each of them and no other, in alphabetical order.
+pub(super) fn of(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Vec<String> {
+    let mut bins = Vec::new();
+    let mut stitched = Vec::new();
+    for (domain, config) in configurations {
+        bins.extend(of_settings(domain, config));
+        let of = (domain, config.partitioning);
+        if !stitched.contains(&of) {
+            stitched.push(of);
+            bins.extend(of_stitches(domain, config.partitioning));
+        }
+    }
+    bins.sort_unstable();
+    bins.dedup();
+    bins
 }
 
 /// Those of a patch's settings and of single factors.
@@ -226,7 +229,7 @@ mod tests {
                 for &factors in &witnesses {
                     observe(&Case { config, factors }, |bin| _ = hit.insert(bin));
                 }
-                let declared: BTreeSet<String> = of(domain, config).into_iter().collect();
+                let declared: BTreeSet<String> = of([(domain, config)]).into_iter().collect();
                 let beyond: Vec<_> = hit.difference(&declared).collect();
                 let never: Vec<_> = declared.difference(&hit).collect();
                 assert!(beyond.is_empty(), "{domain:?} {config:?} also hit {beyond:?}");
@@ -240,10 +243,14 @@ mod tests {
     fn outputs_differ_in_their_own_bins_alone() {
         for (domain, config) in configurations() {
             let line = Config { output: OutputPrimitive::Line, ..config };
-            let renamed = of(domain, line)
+            let renamed = of([(domain, line)])
                 .into_iter()
                 .map(|bin| bin.replace("/line", &format!("/{}", config.output.name())));
-            assert_eq!(of(domain, config), renamed.collect::<Vec<_>>(), "{domain:?} {config:?}");
+            assert_eq!(
+                of([(domain, config)]),
+                renamed.collect::<Vec<_>>(),
+                "{domain:?} {config:?}"
+            );
         }
     }
 }

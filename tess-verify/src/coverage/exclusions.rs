@@ -16,11 +16,9 @@ impl Exclusions {
     /// Every bin that no patch of these configurations can hit, as those of a device that has no others.
     #[must_use]
     pub fn outside(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Self {
-        let within: BTreeSet<String> = configurations
-            .into_iter()
-            .flat_map(|(domain, config)| bins::of(domain, config))
-            .collect();
-        Self { bins: bins::all().iter().filter(|bin| !within.contains(*bin)).cloned().collect() }
+        let within = bins::of(configurations);
+        let is_outside = |bin: &&String| within.binary_search(bin).is_err();
+        Self { bins: bins::all().iter().filter(is_outside).cloned().collect() }
     }
 
     /// Adds the bins of a pattern: a bin's path, or its first parts, of which each may be `*` for any. So
