@@ -18,11 +18,7 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
     ///
     /// # Safety
     /// - As for [`boundary::room`], with the bytes of `capacity` points.
-    unsafe fn new(
-        pointer: *mut c_void,
-        capacity: usize,
-        memory: Memory,
-    ) -> Result<Self, TessStatus>;
+    unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus>;
 
     /// The points that it has room for.
     fn len(&self) -> usize;
@@ -36,6 +32,7 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
         self,
         points: usize,
         overrun: usize,
+        memory: Memory,
         pairs: &mut Pairs,
         write: impl FnOnce(&mut [Self::Point]) -> R,
     ) -> R;
@@ -43,44 +40,35 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
 
 /// Points in pairs of coordinates.
 #[derive(Debug)]
-pub(super) struct Together<'a, P> {
-    points: &'a mut [MaybeUninit<P>],
-    memory: Memory,
-}
+pub(super) struct Together<'a, P>(&'a mut [MaybeUninit<P>]);
 
 impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
     type Point = P;
     const IS_DIRECT: bool = true;
 
-    unsafe fn new(
-        pointer: *mut c_void,
-        capacity: usize,
-        memory: Memory,
-    ) -> Result<Self, TessStatus> {
+    unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus> {
         // SAFETY: as the caller promises.
-        let points = unsafe { boundary::room(pointer.cast(), capacity) }?;
-        Ok(Self { points, memory })
+        unsafe { boundary::room(pointer.cast(), capacity) }.map(Self)
     }
 
     fn len(&self) -> usize {
-        self.points.len()
+        self.0.len()
     }
 
     fn split_at(self, points: usize) -> Option<(Self, Self)> {
-        let Self { points: all, memory } = self;
-        let (first, rest) = all.split_at_mut_checked(points)?;
-        Some((Self { points: first, memory }, Self { points: rest, memory }))
+        self.0.split_at_mut_checked(points).map(|(first, rest)| (Self(first), Self(rest)))
     }
 
     fn write<R>(
         self,
         points: usize,
         overrun: usize,
+        memory: Memory,
         _: &mut Pairs,
         write: impl FnOnce(&mut [P]) -> R,
     ) -> R {
-        let end = self.points.len().min(points + overrun);
-        write(boundary::initialised(&mut self.points[..end], self.memory, P::default()))
+        let end = self.0.len().min(points + overrun);
+        write(boundary::initialised(&mut self.0[..end], memory, P::default()))
     }
 }
 
@@ -95,7 +83,7 @@ impl<'a> PointRoom<'a> for Apart<'a> {
     type Point = [f32; 2];
     const IS_DIRECT: bool = false;
 
-    unsafe fn new(pointer: *mut c_void, capacity: usize, _: Memory) -> Result<Self, TessStatus> {
+    unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus> {
         let floats = capacity.checked_mul(2).ok_or(TESS_TOO_LARGE)?;
         // SAFETY: a point is two floats; the rest as the caller promises.
         let (u, v) = unsafe { boundary::room(pointer.cast(), floats) }?.split_at_mut(capacity);
@@ -116,6 +104,7 @@ impl<'a> PointRoom<'a> for Apart<'a> {
         self,
         points: usize,
         overrun: usize,
+        _: Memory,
         pairs: &mut Pairs,
         write: impl FnOnce(&mut [[f32; 2]]) -> R,
     ) -> R {

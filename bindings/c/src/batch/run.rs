@@ -51,7 +51,7 @@ pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     let memory = unsafe { output.memory() }?;
     let room = Room {
         // SAFETY: writable, as the caller promises, and apart from all else, as was just checked.
-        points: unsafe { P::new(output.points, points.1, memory) }?,
+        points: unsafe { P::new(output.points, points.1) }?,
         // SAFETY: as above.
         indices: unsafe { boundary::room(indices.0, indices.1) }?,
         // SAFETY: as above; the two structures of ranges have the same layout.
@@ -137,7 +137,7 @@ impl<'a, P: PointRoom<'a>, I: IndexFormat> Room<'a, P, I> {
     ) -> Result<&'a mut [PatchRange], TessStatus> {
         let ranges = boundary::initialised(self.ranges, self.memory, PatchRange::default());
         let indices = boundary::initialised(self.indices, self.memory, I::default());
-        let written = self.points.write(counted.counts().points, 0, pairs, |points| {
+        let written = self.points.write(counted.counts().points, 0, self.memory, pairs, |points| {
             counted.write(numbering, Buffers::new(points, indices).with_ranges(&mut *ranges))
         });
         written.map(|_| ranges).map_err(|error| status_of(&error))

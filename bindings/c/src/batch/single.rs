@@ -82,7 +82,7 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     // SAFETY: the buffers are as the caller promises.
     let memory = unsafe { output.memory() }?;
     // SAFETY: writable, as the caller promises, and apart from all else, as was just checked.
-    let points = unsafe { P::new(output.points, points.1, memory) }?;
+    let points = unsafe { P::new(output.points, points.1) }?;
     // SAFETY: as above.
     let indices = unsafe { boundary::room(indices.0, indices.1) }?;
     let TessBatch { tessellator, pairs, .. } = batch;
@@ -95,8 +95,9 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     }
     let end = indices.len().min(needed.indices as usize + CountedPatch::OVERRUN);
     let indices = boundary::initialised(&mut indices[..end], memory, I::default());
-    let written = points.write(needed.points as usize, CountedPatch::OVERRUN, pairs, |points| {
-        counted.write(points, indices)
-    });
+    let written =
+        points.write(needed.points as usize, CountedPatch::OVERRUN, memory, pairs, |points| {
+            counted.write(points, indices)
+        });
     written.map(|_| ()).map_err(|error| status_of(&error))
 }
