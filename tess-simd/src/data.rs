@@ -7,5 +7,6 @@ pub(crate) mod format;
 pub(crate) mod lanes;
 pub(crate) mod level;
 pub(crate) mod output;
+pub(crate) mod point_writer;
 pub(crate) mod target;
 pub(crate) mod writer;

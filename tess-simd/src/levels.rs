@@ -3,11 +3,10 @@
 use crate::at_each_level;
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
-use crate::data::format::{IndexFormat, OutputPoint};
+use crate::data::format::IndexFormat;
 #[cfg(target_arch = "x86_64")]
 use crate::data::level::with_avx512;
-#[cfg(target_arch = "x86_64")]
-use crate::data::writer::Writer;
+use crate::data::point_writer::PointWriter;
 use crate::kernels;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
@@ -53,10 +52,10 @@ at_each_level! {
 at_each_level! {
     /// [`kernels::emit::emit`] at a level: points of compact patches by permutes where the level has
     /// them, otherwise by look-up.
-    fn emit<P: OutputPoint, I: IndexFormat>(
+    fn emit<W: PointWriter, I: IndexFormat>(
         settings: &Settings,
         packets: Packets<'_>,
-        room: Room<'_, P, I>,
+        room: Room<'_, W, I>,
         caches: &mut Caches,
         lookup: &mut Lookup,
     ) -> Offsets = emit_by_lookup, avx512 = emit_by_permutes;
@@ -64,20 +63,20 @@ at_each_level! {
 
 at_each_level! {
     /// [`kernels::emit::emit_one`] at a level, points as in [`emit`].
-    fn emit_one<P: OutputPoint, I: IndexFormat>(
+    fn emit_one<W: PointWriter, I: IndexFormat>(
         settings: &Settings,
         packet: &Packet,
-        out: (&mut [P], &mut [I]),
+        out: (W, &mut [I]),
         caches: &mut Caches,
         lookup: &mut Lookup,
     ) = kernels::emit::emit_one, avx512 = emit_one_by_permutes;
 }
 
 #[inline(always)]
-fn emit_by_lookup<P: OutputPoint, I: IndexFormat>(
+fn emit_by_lookup<W: PointWriter, I: IndexFormat>(
     settings: &Settings,
     packets: Packets<'_>,
-    room: Room<'_, P, I>,
+    room: Room<'_, W, I>,
     caches: &mut Caches,
     lookup: &mut Lookup,
 ) -> Offsets {
@@ -86,28 +85,28 @@ fn emit_by_lookup<P: OutputPoint, I: IndexFormat>(
 
 #[cfg(target_arch = "x86_64")]
 with_avx512! {
-    fn emit_by_permutes<P: OutputPoint, I: IndexFormat>(
+    fn emit_by_permutes<W: PointWriter, I: IndexFormat>(
         settings: &Settings,
         packets: Packets<'_>,
-        room: Room<'_, P, I>,
+        room: Room<'_, W, I>,
         caches: &mut Caches,
         _: &mut Lookup,
     ) -> Offsets {
         // A closure has the instructions of the function around it; a method of a trait cannot.
-        let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {
+        let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut W| {
             permute::emit(patch, codes, out);
         };
         kernels::emit::emit(settings, packets, room, caches, &mut Permutes(permute))
     }
 
-    fn emit_one_by_permutes<P: OutputPoint, I: IndexFormat>(
+    fn emit_one_by_permutes<W: PointWriter, I: IndexFormat>(
         settings: &Settings,
         packet: &Packet,
-        out: (&mut [P], &mut [I]),
+        out: (W, &mut [I]),
         caches: &mut Caches,
         _: &mut Lookup,
     ) {
-        let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>| {
+        let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut W| {
             permute::emit(patch, codes, out);
         };
         kernels::emit::emit_one(settings, packet, out, caches, &mut Permutes(permute));
@@ -116,9 +115,9 @@ with_avx512! {
 
 at_each_level! {
     /// [`kernels::repeat::repeat`] at a level.
-    fn repeat<P: OutputPoint, I: IndexFormat>(
+    fn repeat<W: PointWriter, I: IndexFormat>(
         repeat: Repeat,
-        room: Room<'_, P, I>,
+        room: Room<'_, W, I>,
     ) -> Offsets = kernels::repeat::repeat;
 }
 

@@ -17,6 +17,8 @@ pub use data::batch::Batch;
 pub use data::error::{Buffer, Error};
 pub use data::format::{IndexFormat, OutputPoint};
 pub use data::level::{Level, LevelUnavailable};
+#[cfg(feature = "apart")]
+pub use data::output::ApartBuffers;
 pub use data::output::{BatchCounts, Buffers, ExactOutput, Numbering, Output, PatchRange};
 pub use interface::counted::Counted;
 pub use interface::groups::{BadGroup, group_ranges};

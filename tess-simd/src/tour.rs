@@ -1,6 +1,7 @@
 //! The patch of `docs/tour-cpu.md`, and a test that computes every number in that document.
 
 use crate::data::lanes::{Column, LANES, MAX_FACTORS};
+use crate::data::writer::Writer;
 use crate::stages::packet::{Packet, PacketPatch};
 use crate::stages::points::{Code, CompactPoints, Lookup, codes};
 use alloc::format;
@@ -174,7 +175,7 @@ fn code_lines() -> String {
 }
 
 fn entries() -> String {
-    let kept = |code| <Lookup as CompactPoints<[f32; 2]>>::kept(Domain::Quad, code);
+    let kept = |code| <Lookup as CompactPoints<Writer<'_, [f32; 2]>>>::kept(Domain::Quad, code);
     numbered(&all_codes(), 8, |&[u, v]| format!("{:>2},{:>2}", kept(u), kept(v)))
 }
 

@@ -1008,8 +1008,7 @@ TessStatus tess_batch_create(const struct TessConfig *config,
 void tess_batch_free(struct TessBatch *batch);
 
 /**
- * Takes all the memory that a batch may ever need, so that no later call with it allocates: 1.1 MB, and 2.2 MB that
- * are touched with `TESS_POINT_F32_APART` alone.
+ * Takes all the memory that a batch may ever need, so that no later call with it allocates: 1.1 MB.
  *
  * The caller must ensure:
  * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.

@@ -21,9 +21,8 @@ use crate::status::{
 use crate::types::{TessConfig, listed};
 use input::Patches;
 use output::in_formats;
-use points::Pairs;
-use run::{PART_PATCHES, run};
-use tess_core::{Domain, DomainPoint, MAX_POINTS};
+use run::run;
+use tess_core::{Domain, DomainPoint};
 use tess_simd::{Error, Level, PatchRange, Tessellator, group_ranges};
 
 /// CPU level: the most capable one of this machine.
@@ -40,8 +39,6 @@ pub const TESS_LEVEL_AVX512: u32 = 3;
 pub struct TessBatch {
     tessellator: Tessellator,
     domain: Domain,
-    /// Where the points of `TESS_POINT_F32_APART` are made.
-    pairs: Pairs,
 }
 
 /// Makes a tessellator for batches of one domain in one configuration.
@@ -71,8 +68,7 @@ pub unsafe extern "C" fn tess_batch_create(
             Some(number) => Tessellator::with_level(config, listed(&Level::ALL, number)?)
                 .map_err(|_| TESS_LEVEL_UNAVAILABLE)?,
         };
-        let pairs = Pairs::new(tessellator.level());
-        let made = Box::into_raw(Box::new(TessBatch { tessellator, domain, pairs }));
+        let made = Box::into_raw(Box::new(TessBatch { tessellator, domain }));
         // SAFETY: `batch` is writable, as the caller promises; it was checked above, so that
         // nothing is lost here.
         unsafe { boundary::write(batch, made) }
@@ -91,8 +87,7 @@ pub unsafe extern "C" fn tess_batch_free(batch: *mut TessBatch) {
     }
 }
 
-/// Takes all the memory that a batch may ever need, so that no later call with it allocates: 1.1 MB, and 2.2 MB that
-/// are touched with `TESS_POINT_F32_APART` alone.
+/// Takes all the memory that a batch may ever need, so that no later call with it allocates: 1.1 MB.
 ///
 /// # Safety
 /// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
@@ -103,7 +98,6 @@ pub unsafe extern "C" fn tess_batch_reserve(batch: *mut TessBatch) -> TessStatus
         // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
         let batch = unsafe { &mut *batch };
         batch.tessellator.reserve();
-        batch.pairs.reserve(PART_PATCHES * MAX_POINTS);
         Ok(())
     })
 }

@@ -63,6 +63,9 @@ mod sealed {
     pub enum AnyPoints<'a> {
         F32(&'a mut [[f32; 2]]),
         Fixed(&'a mut [DomainPoint]),
+        /// Arrays of u and of v, of one length.
+        #[cfg(feature = "apart")]
+        F32Apart([&'a mut [f32]; 2]),
     }
 
     /// Indices of a format that is known at run time.

@@ -81,6 +81,39 @@ impl<'a, P: OutputPoint, I: IndexFormat> Buffers<'a, P, I> {
     }
 }
 
+/// [`Buffers`] whose points are in two arrays: u of each, and v of each, as binary32. Points are those of
+/// [`Buffers`] with `[f32; 2]`.
+///
+/// C calls the format `TESS_POINT_F32_APART`. It needs the feature `apart`.
+#[cfg(feature = "apart")]
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct ApartBuffers<'a, I = u32> {
+    /// Receives u of the points of all patches, one patch after another.
+    pub u: &'a mut [f32],
+    /// Receives v of the same points.
+    pub v: &'a mut [f32],
+    /// Receives the indices of all patches, one patch after another.
+    pub indices: &'a mut [I],
+    /// Receives one range for each patch, if ranges are wanted.
+    pub ranges: Option<&'a mut [PatchRange]>,
+}
+
+#[cfg(feature = "apart")]
+impl<'a, I: IndexFormat> ApartBuffers<'a, I> {
+    /// Buffers for points and indices; ranges are not written.
+    #[must_use]
+    pub const fn new(u: &'a mut [f32], v: &'a mut [f32], indices: &'a mut [I]) -> Self {
+        Self { u, v, indices, ranges: None }
+    }
+
+    /// The same buffers and one for ranges.
+    #[must_use]
+    pub const fn with_ranges(self, ranges: &'a mut [PatchRange]) -> Self {
+        Self { ranges: Some(ranges), ..self }
+    }
+}
+
 /// Buffers that grow as needed and keep their memory. After the largest batch nothing is allocated.
 #[derive(Clone, Debug)]
 pub struct Output<P = [f32; 2], I = u32> {

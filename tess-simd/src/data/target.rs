@@ -4,6 +4,8 @@
 //! once, in this crate, for each pair of formats.
 
 use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
+#[cfg(feature = "apart")]
+use crate::data::output::ApartBuffers;
 use crate::data::output::{Buffers, PatchRange};
 
 /// Buffers for exactly one part of a batch.
@@ -21,6 +23,14 @@ impl<'a, P: OutputPoint, I: IndexFormat> From<Buffers<'a, P, I>> for Target<'a> 
     }
 }
 
+#[cfg(feature = "apart")]
+impl<'a, I: IndexFormat> From<ApartBuffers<'a, I>> for Target<'a> {
+    fn from(buffers: ApartBuffers<'a, I>) -> Self {
+        let ApartBuffers { u, v, indices, ranges } = buffers;
+        Self { points: AnyPoints::F32Apart([u, v]), indices: I::any(indices), ranges }
+    }
+}
+
 #[cfg(feature = "rayon")]
 impl Target<'_> {
     /// Splits the buffers behind the output of the first patches, which has these sizes.
@@ -28,6 +38,11 @@ impl Target<'_> {
         let (points, more_points) = match self.points {
             AnyPoints::F32(all) => both(all.split_at_mut(sizes.points), AnyPoints::F32),
             AnyPoints::Fixed(all) => both(all.split_at_mut(sizes.points), AnyPoints::Fixed),
+            #[cfg(feature = "apart")]
+            AnyPoints::F32Apart(arrays) => {
+                let [(u, more_u), (v, more_v)] = arrays.map(|all| all.split_at_mut(sizes.points));
+                both(([u, v], [more_u, more_v]), AnyPoints::F32Apart)
+            }
         };
         let (indices, more_indices) = match self.indices {
             AnyIndices::U16(all) => both(all.split_at_mut(sizes.indices), AnyIndices::U16),

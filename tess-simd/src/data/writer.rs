@@ -7,6 +7,9 @@
 
 use core::sync::atomic::{Ordering, compiler_fence};
 
+/// Bytes that are copied at a time: so few that they are read from the first cache.
+const COPIED: usize = 4096;
+
 /// A slice that is written from front to back.
 #[derive(Debug)]
 pub(crate) struct Writer<'a, T> {
@@ -138,6 +141,25 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
     }
 }
 
+/// Methods that need no default.
+impl<'a, T: Copy> Writer<'a, T> {
+    /// What is left of the slice, of which the next `length` elements count as written.
+    #[cfg(feature = "apart")]
+    #[inline(always)]
+    pub(crate) fn take(&mut self, length: usize) -> &mut [T] {
+        let room = self.out.get_mut(self.at..).unwrap_or_default();
+        self.at += length;
+        room
+    }
+
+    /// Fills `times` times `period` elements of the slice from the first `period` of them. `moved` makes an
+    /// element from the one that stands this many periods before it.
+    #[inline(always)]
+    pub(crate) fn repeat(self, period: usize, times: usize, moved: impl Fn(T, u32) -> T) {
+        fill(self.out, period, times, moved);
+    }
+}
+
 /// A block made from another, element by element.
 #[inline(always)]
 fn make<S: Copy, T: Copy + Default, const N: usize>(
@@ -174,9 +196,27 @@ fn write_cut_blocks<S: Copy, T: Copy, const N: usize>(
     }
 }
 
+/// [`Writer::repeat`].
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
+fn fill<T: Copy>(all: &mut [T], period: usize, times: usize, moved: impl Fn(T, u32) -> T) {
+    let Some(all) = all.get_mut(..period * times) else { return };
+    let most = (COPIED / size_of::<T>()).max(period);
+    let mut made = period;
+    while made < all.len() {
+        let (source, rest) = all.split_at_mut(made);
+        let periods = made.min(most) / period;
+        let patches = (made / period) as u32;
+        for (to, &from) in rest.iter_mut().zip(&source[..periods * period]) {
+            *to = moved(from, patches);
+        }
+        made += rest.len().min(periods * period);
+    }
+}
+
 /// Keeps the compiler from turning the loop over blocks, instead of each block, into vectors: it
 /// does not vectorise loops that have a fence in them. There is no instruction behind it.
 #[inline(always)]
-fn separate_blocks() {
+pub(crate) fn separate_blocks() {
     compiler_fence(Ordering::AcqRel);
 }

@@ -5,7 +5,9 @@ use crate::data::chunk::Chunk;
 use crate::data::error::{Buffer, Error};
 use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::level::Level;
-use crate::data::output::{BatchCounts, Buffers, Numbering, Output};
+#[cfg(feature = "apart")]
+use crate::data::output::ApartBuffers;
+use crate::data::output::{BatchCounts, Buffers, Numbering, Output, PatchRange};
 use crate::data::target::Target;
 use crate::kernels::emit::Offsets;
 use crate::stages::counts::PartCounts;
@@ -96,12 +98,32 @@ impl<'a> Counted<'a> {
     ) -> Result<BatchCounts, Error> {
         self.check_indices::<I>(numbering)?;
         let counts = self.counts();
-        let ranges = match buffers.ranges {
-            Some(ranges) => Some(prefix(ranges, counts.patches, Buffer::Ranges)?),
-            None => None,
-        };
+        let ranges = prefix_of_ranges(buffers.ranges, counts)?;
         let buffers = Buffers {
             points: prefix(buffers.points, counts.points, Buffer::Points)?,
+            indices: prefix(buffers.indices, counts.indices, Buffer::Indices)?,
+            ranges,
+        };
+        self.emit(numbering, buffers.into());
+        Ok(counts)
+    }
+
+    /// [`Counted::write`] with points in two arrays.
+    ///
+    /// # Errors
+    /// As for [`Counted::write`].
+    #[cfg(feature = "apart")]
+    pub fn write_apart<I: IndexFormat>(
+        &mut self,
+        numbering: Numbering,
+        buffers: ApartBuffers<'_, I>,
+    ) -> Result<BatchCounts, Error> {
+        self.check_indices::<I>(numbering)?;
+        let counts = self.counts();
+        let ranges = prefix_of_ranges(buffers.ranges, counts)?;
+        let buffers = ApartBuffers {
+            u: prefix(buffers.u, counts.points, Buffer::Points)?,
+            v: prefix(buffers.v, counts.points, Buffer::Points)?,
             indices: prefix(buffers.indices, counts.indices, Buffer::Indices)?,
             ranges,
         };
@@ -142,6 +164,14 @@ impl<'a> Counted<'a> {
             _ => Ok(()),
         }
     }
+}
+
+/// The ranges of all patches, if the caller wants them.
+fn prefix_of_ranges(
+    ranges: Option<&mut [PatchRange]>,
+    counts: BatchCounts,
+) -> Result<Option<&mut [PatchRange]>, Error> {
+    ranges.map(|ranges| prefix(ranges, counts.patches, Buffer::Ranges)).transpose()
 }
 
 /// The first `needed` elements of a caller's buffer.

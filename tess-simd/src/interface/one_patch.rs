@@ -9,6 +9,8 @@
 
 use crate::data::error::{Buffer, Error};
 use crate::data::format::{IndexFormat, OutputPoint};
+#[cfg(feature = "apart")]
+use crate::data::output::ApartBuffers;
 use crate::data::output::Buffers;
 use crate::interface::counted::prefix;
 use crate::interface::tessellator::Tessellator;
@@ -92,6 +94,27 @@ impl CountedPatch<'_> {
         let points = with_overrun(points, self.counts.points);
         let indices = with_overrun(indices, self.counts.indices);
         workspaces.one().emit(*level, settings, Buffers::new(points, indices).into());
+        Ok(self.counts)
+    }
+
+    /// [`CountedPatch::write`] with points in two arrays, all u and all v.
+    ///
+    /// # Errors
+    /// As for [`CountedPatch::write`].
+    #[cfg(feature = "apart")]
+    pub fn write_apart<I: IndexFormat>(
+        &mut self,
+        u: &mut [f32],
+        v: &mut [f32],
+        indices: &mut [I],
+    ) -> Result<Counts, Error> {
+        let Tessellator { level, settings, workspaces, .. } = &mut *self.tessellator;
+        prefix(u, self.counts.points as usize, Buffer::Points)?;
+        prefix(v, self.counts.points as usize, Buffer::Points)?;
+        prefix(indices, self.counts.indices as usize, Buffer::Indices)?;
+        let [u, v] = [u, v].map(|all| with_overrun(all, self.counts.points));
+        let indices = with_overrun(indices, self.counts.indices);
+        workspaces.one().emit(*level, settings, ApartBuffers::new(u, v, indices).into());
         Ok(self.counts)
     }
 }

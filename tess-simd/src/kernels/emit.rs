@@ -49,6 +49,7 @@
 use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::lanes::LANES;
 use crate::data::output::{Numbering, PatchRange};
+use crate::data::point_writer::PointWriter;
 use crate::data::writer::Writer;
 use crate::stages::connect::{self, cache_order};
 use crate::stages::packet::{Packet, PacketPatch};
@@ -67,10 +68,10 @@ pub(crate) struct Packets<'a> {
 
 /// Where packets are written.
 #[derive(Debug)]
-pub(crate) struct Room<'a, P, I> {
-    /// At least as long as the packets' output. What follows that may be overwritten.
-    pub(crate) points: &'a mut [P],
-    /// As `points`.
+pub(crate) struct Room<'a, W, I> {
+    /// Writes the points from the packets' first one on.
+    pub(crate) points: W,
+    /// At least as long as the packets' output, as what `points` writes to. What follows that may be overwritten.
     pub(crate) indices: &'a mut [I],
     /// As long as there are patches; the packets may have more lanes than that.
     pub(crate) ranges: &'a mut [PatchRange],
@@ -116,22 +117,22 @@ impl Caches {
 }
 
 /// Writers of both kinds of output.
-struct Writers<'a, P, I> {
-    points: Writer<'a, P>,
+struct Writers<'a, W, I> {
+    points: W,
     indices: Writer<'a, I>,
 }
 
 /// Writes packets; returns where their output ends in the batch.
 #[inline(always)]
-pub(crate) fn emit<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
+pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,
     packets: Packets<'_>,
-    room: Room<'_, P, I>,
+    room: Room<'_, W, I>,
     caches: &mut Caches,
     compact_points: &mut M,
 ) -> Offsets {
     let Packets { packets, mut first, numbering } = packets;
-    let mut out = Writers { points: Writer::new(room.points), indices: Writer::new(room.indices) };
+    let mut out = Writers { points: room.points, indices: Writer::new(room.indices) };
     for (packet, ranges) in packets.iter().zip(room.ranges.chunks_mut(LANES)) {
         for (lane, range) in ranges.iter_mut().enumerate() {
             let patch = packet.patch(lane);
@@ -171,10 +172,10 @@ pub(crate) fn emit<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
 ///
 /// [`emit`] could do it, but first loads what the loops of large patches take.
 #[inline(always)]
-pub(crate) fn emit_one<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
+pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,
     packet: &Packet,
-    (points, indices): (&mut [P], &mut [I]),
+    (mut points, indices): (W, &mut [I]),
     caches: &mut Caches,
     compact_points: &mut M,
 ) {
@@ -183,19 +184,19 @@ pub(crate) fn emit_one<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
     compact.make_room();
     let template = compact.find(settings, patch, tables, M::kept);
     let template = compact.get(template);
-    points_of(patch, template, &mut Writer::new(points), compact_points);
+    points_of(patch, template, &mut points, compact_points);
     indices_of(patch, template, 0, &mut Writer::new(indices));
 }
 
 /// Writes a packet of compact patches, stage by stage, so that a wrongly predicted branch in one stage discards no
 /// work of another.
 #[inline(always)]
-fn emit_compact<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
+fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,
     (packet, ranges): (&Packet, &[PatchRange]),
     numbering: Numbering,
     caches: &mut Caches,
-    out: &mut Writers<'_, P, I>,
+    out: &mut Writers<'_, W, I>,
     compact_points: &mut M,
 ) {
     let Caches { compact, tables, .. } = caches;
@@ -216,11 +217,11 @@ fn emit_compact<P: OutputPoint, I: IndexFormat, M: CompactPoints<P>>(
 
 /// Writes the points of a compact patch.
 #[inline(always)]
-fn points_of<P: OutputPoint>(
+fn points_of<W: PointWriter>(
     patch: PacketPatch<'_>,
     CompactTemplate { points, .. }: CompactTemplate<'_>,
-    out: &mut Writer<'_, P>,
-    compact_points: &mut impl CompactPoints<P>,
+    out: &mut W,
+    compact_points: &mut impl CompactPoints<W>,
 ) {
     if patch.integer() {
         out.map_least::<_, 8, 24>(patch.points() as usize, points, long);
@@ -245,12 +246,12 @@ fn indices_of<I: IndexFormat>(
 
 /// Writes any other patch that is not culled and whose first point is number `base`.
 #[inline(always)]
-fn emit_patch<P: OutputPoint, I: IndexFormat>(
+fn emit_patch<W: PointWriter, I: IndexFormat>(
     settings: &Settings,
     patch: PacketPatch<'_>,
     base: u32,
     caches: &mut Caches,
-    out: &mut Writers<'_, P, I>,
+    out: &mut Writers<'_, W, I>,
 ) {
     let Caches { tables, templates, .. } = caches;
     let add = I::wrapping_from(base);
@@ -272,7 +273,7 @@ fn emit_patch<P: OutputPoint, I: IndexFormat>(
     };
     if let Some(template) = template.points {
         out.points.map::<_, 8>(patch.points() as usize, template, |point: DomainPoint| {
-            P::from_bits(point.u.to_bits(), point.v.to_bits())
+            W::Point::from_bits(point.u.to_bits(), point.v.to_bits())
         });
     } else {
         points::emit(patch, tables, &mut out.points);

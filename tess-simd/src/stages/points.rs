@@ -17,8 +17,7 @@ pub(crate) use coordinate_code::{Code, codes, corner};
 pub(crate) use lookup::Lookup;
 pub(crate) use tables::LocationTables;
 
-use crate::data::format::OutputPoint;
-use crate::data::writer::Writer;
+use crate::data::point_writer::PointWriter;
 use crate::stages::packet::PacketPatch;
 use tess_core::Domain;
 
@@ -27,10 +26,10 @@ const POINTS_AT_ONCE: usize = 8;
 
 /// Emits the points of a regular patch.
 #[inline(always)]
-pub(crate) fn emit<P: OutputPoint>(
+pub(crate) fn emit(
     patch: PacketPatch<'_>,
     tables: &mut LocationTables,
-    out: &mut Writer<'_, P>,
+    out: &mut impl PointWriter,
 ) {
     let (edges, locations) = (&patch.edges(), tables.of(patch));
     match patch.domain() {
@@ -43,10 +42,10 @@ pub(crate) fn emit<P: OutputPoint>(
 /// How the points of compact patches of fractional factors are made.
 ///
 /// One type decides what a template keeps of a code and who reads it, so that the two go together.
-pub(crate) trait CompactPoints<P> {
+pub(crate) trait CompactPoints<W> {
     /// What a template keeps of the code of a coordinate.
     fn kept(domain: Domain, code: u16) -> u16;
 
     /// Writes the points of a patch from what its template keeps.
-    fn emit(&mut self, patch: PacketPatch<'_>, kept: &[Code], out: &mut Writer<'_, P>);
+    fn emit(&mut self, patch: PacketPatch<'_>, kept: &[Code], out: &mut W);
 }

@@ -2,9 +2,10 @@
 
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
-use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
+use crate::data::format::{AnyIndices, AnyPoints, IndexFormat};
 use crate::data::level::Level;
-use crate::data::output::{Buffers, Numbering, PatchRange};
+use crate::data::output::{Numbering, PatchRange};
+use crate::data::point_writer::{PointRoom, PointWriter};
 use crate::data::target::Target;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
@@ -100,11 +101,9 @@ impl Workspace {
     pub(crate) fn emit(&mut self, level: Level, settings: &Settings, target: Target<'_>) {
         let Target { points, indices, .. } = target;
         let memory = self.memory();
-        match (points, indices) {
-            (AnyPoints::F32(p), AnyIndices::U16(i)) => memory.emit_one(level, settings, p, i),
-            (AnyPoints::F32(p), AnyIndices::U32(i)) => memory.emit_one(level, settings, p, i),
-            (AnyPoints::Fixed(p), AnyIndices::U16(i)) => memory.emit_one(level, settings, p, i),
-            (AnyPoints::Fixed(p), AnyIndices::U32(i)) => memory.emit_one(level, settings, p, i),
+        match indices {
+            AnyIndices::U16(indices) => memory.emit_any(level, settings, points, indices),
+            AnyIndices::U32(indices) => memory.emit_any(level, settings, points, indices),
         }
     }
 }
@@ -120,11 +119,26 @@ impl Memory {
         })
     }
 
-    fn emit_one<P: OutputPoint, I: IndexFormat>(
+    fn emit_any<I: IndexFormat>(
         &mut self,
         level: Level,
         settings: &Settings,
-        points: &mut [P],
+        points: AnyPoints<'_>,
+        indices: &mut [I],
+    ) {
+        match points {
+            AnyPoints::F32(mut all) => self.emit_one(level, settings, all.writer(), indices),
+            AnyPoints::Fixed(mut all) => self.emit_one(level, settings, all.writer(), indices),
+            #[cfg(feature = "apart")]
+            AnyPoints::F32Apart(mut all) => self.emit_one(level, settings, all.writer(), indices),
+        }
+    }
+
+    fn emit_one<I: IndexFormat>(
+        &mut self,
+        level: Level,
+        settings: &Settings,
+        points: impl PointWriter,
         indices: &mut [I],
     ) {
         let Self { one, lookup, caches, .. } = self;
@@ -153,34 +167,48 @@ impl ChunkMemory {
 /// Writes a part.
 pub(crate) fn emit(job: Job<'_>, part: Part<'_>, workspace: &mut Workspace) {
     let Part { batch, target: Target { points, indices, ranges }, first } = part;
-    match (points, indices) {
-        (AnyPoints::F32(points), AnyIndices::U16(indices)) => {
-            emit_as(job, &batch, Buffers { points, indices, ranges }, first, workspace);
+    match indices {
+        AnyIndices::U16(indices) => {
+            emit_any(job, &batch, points, (indices, ranges), first, workspace);
         }
-        (AnyPoints::F32(points), AnyIndices::U32(indices)) => {
-            emit_as(job, &batch, Buffers { points, indices, ranges }, first, workspace);
-        }
-        (AnyPoints::Fixed(points), AnyIndices::U16(indices)) => {
-            emit_as(job, &batch, Buffers { points, indices, ranges }, first, workspace);
-        }
-        (AnyPoints::Fixed(points), AnyIndices::U32(indices)) => {
-            emit_as(job, &batch, Buffers { points, indices, ranges }, first, workspace);
+        AnyIndices::U32(indices) => {
+            emit_any(job, &batch, points, (indices, ranges), first, workspace);
         }
     }
 }
 
-/// Writes a part in one pair of formats, a chunk at a time.
-fn emit_as<P: OutputPoint, I: IndexFormat>(
+/// Indices and ranges, as in [`Target`].
+type Rest<'a, I> = (&'a mut [I], Option<&'a mut [PatchRange]>);
+
+/// Writes a part in one format of indices.
+fn emit_any<I: IndexFormat>(
     job: Job<'_>,
     batch: &Batch<'_>,
-    buffers: Buffers<'_, P, I>,
+    points: AnyPoints<'_>,
+    rest: Rest<'_, I>,
+    first: Offsets,
+    workspace: &mut Workspace,
+) {
+    match points {
+        AnyPoints::F32(points) => emit_as(job, batch, points, rest, first, workspace),
+        AnyPoints::Fixed(points) => emit_as(job, batch, points, rest, first, workspace),
+        #[cfg(feature = "apart")]
+        AnyPoints::F32Apart(points) => emit_as(job, batch, points, rest, first, workspace),
+    }
+}
+
+/// Writes a part in one pair of formats, a chunk at a time.
+fn emit_as<I: IndexFormat>(
+    job: Job<'_>,
+    batch: &Batch<'_>,
+    mut points: impl PointRoom,
+    (mut indices, mut ranges): Rest<'_, I>,
     mut first: Offsets,
     workspace: &mut Workspace,
 ) {
     let Memory { lookup, caches, chunk, .. } = workspace.memory();
     let own = &mut **chunk.get_or_insert_with(ChunkMemory::new);
     let Job { level, settings, numbering, kept } = job;
-    let Buffers { mut points, mut indices, mut ranges } = buffers;
     let (mut start, all) = (0, batch.len());
     while start < all {
         let (Stretch { patches, times }, packets) = if let Some(kept) = kept {
@@ -195,7 +223,7 @@ fn emit_as<P: OutputPoint, I: IndexFormat>(
         let ranges_here =
             ranges.as_mut().map_or(own_ranges, |all| &mut all[start..start + patches]);
         let packets = Packets { packets, first, numbering };
-        let room = Room { points: &mut *points, indices: &mut *indices, ranges: ranges_here };
+        let room = Room { points: points.writer(), indices: &mut *indices, ranges: ranges_here };
         let mut end = levels::emit(level, settings, packets, room, caches, lookup);
         if times > 1 {
             let range = PatchRange {
@@ -205,11 +233,11 @@ fn emit_as<P: OutputPoint, I: IndexFormat>(
                 indices: end.indices - first.indices,
             };
             let ranges = ranges.as_mut().map_or(&mut [][..], |all| &mut all[start..start + times]);
-            let room = Room { points: &mut *points, indices: &mut *indices, ranges };
+            let room = Room { points: points.writer(), indices: &mut *indices, ranges };
             end = levels::repeat(level, Repeat { range, times, numbering }, room);
         }
         start += patches * times;
-        points = points.split_at_mut((end.points - first.points) as usize).1;
+        points.skip((end.points - first.points) as usize);
         indices = indices.split_at_mut((end.indices - first.indices) as usize).1;
         first = end;
     }

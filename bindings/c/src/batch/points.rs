@@ -5,14 +5,16 @@ use crate::status::{TESS_TOO_LARGE, TessStatus};
 use std::ffi::c_void;
 use std::fmt::Debug;
 use std::mem::MaybeUninit;
-use tess_simd::{Level, OutputPoint, at_each_level};
+use tess_core::Counts;
+use tess_simd::{
+    ApartBuffers, BatchCounts, Buffers, Counted, CountedPatch, Error, IndexFormat, Numbering,
+    OutputPoint, PatchRange,
+};
 
 /// A caller's memory for points, which need not be initialised.
 pub(super) trait PointRoom<'a>: Debug + Sized {
-    /// What the batch backend writes.
-    type Point: OutputPoint;
-    /// Whether it writes them to the caller's memory itself.
-    const IS_DIRECT: bool;
+    /// A point's coordinates, wherever each of them lies.
+    type Point;
 
     /// Memory for `capacity` points.
     ///
@@ -26,16 +28,34 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
     /// The room of the first points and the rest; `None` if it is smaller.
     fn split_at(self, points: usize) -> Option<(Self, Self)>;
 
-    /// Has `write` write `points` points, and gives what it gives. It gets up to `overrun` more, which it may
-    /// overwrite. A room of fewer points gets as many as it has.
-    fn write<R>(
+    /// Has a counted batch written.
+    ///
+    /// # Errors
+    /// Those of [`Counted::write`].
+    fn batch<I: IndexFormat>(
         self,
-        points: usize,
-        overrun: usize,
         memory: Memory,
-        pairs: &mut Pairs,
-        write: impl FnOnce(&mut [Self::Point]) -> R,
-    ) -> R;
+        counted: &mut Counted<'_>,
+        numbering: Numbering,
+        rest: (&mut [I], &mut [PatchRange]),
+    ) -> Result<BatchCounts, Error>;
+
+    /// Has a counted patch written.
+    ///
+    /// # Errors
+    /// Those of [`CountedPatch::write`].
+    fn patch<I: IndexFormat>(
+        self,
+        memory: Memory,
+        counted: &mut CountedPatch<'_>,
+        indices: &mut [I],
+    ) -> Result<Counts, Error>;
+}
+
+/// What a patch may write of a room in which its output has this length.
+pub(super) fn with_overrun<T>(room: &mut [T], length: u32) -> &mut [T] {
+    let end = room.len().min(length as usize + CountedPatch::OVERRUN);
+    &mut room[..end]
 }
 
 /// Points in pairs of coordinates.
@@ -44,7 +64,6 @@ pub(super) struct Together<'a, P>(&'a mut [MaybeUninit<P>]);
 
 impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
     type Point = P;
-    const IS_DIRECT: bool = true;
 
     unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus> {
         // SAFETY: as the caller promises.
@@ -59,16 +78,25 @@ impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
         self.0.split_at_mut_checked(points).map(|(first, rest)| (Self(first), Self(rest)))
     }
 
-    fn write<R>(
+    fn batch<I: IndexFormat>(
         self,
-        points: usize,
-        overrun: usize,
         memory: Memory,
-        _: &mut Pairs,
-        write: impl FnOnce(&mut [P]) -> R,
-    ) -> R {
-        let end = self.0.len().min(points + overrun);
-        write(boundary::initialised(&mut self.0[..end], memory, P::default()))
+        counted: &mut Counted<'_>,
+        numbering: Numbering,
+        (indices, ranges): (&mut [I], &mut [PatchRange]),
+    ) -> Result<BatchCounts, Error> {
+        let points = boundary::initialised(self.0, memory, P::default());
+        counted.write(numbering, Buffers::new(points, indices).with_ranges(ranges))
+    }
+
+    fn patch<I: IndexFormat>(
+        self,
+        memory: Memory,
+        counted: &mut CountedPatch<'_>,
+        indices: &mut [I],
+    ) -> Result<Counts, Error> {
+        let points = with_overrun(self.0, counted.counts().points);
+        counted.write(boundary::initialised(points, memory, P::default()), indices)
     }
 }
 
@@ -81,7 +109,6 @@ pub(super) struct Apart<'a> {
 
 impl<'a> PointRoom<'a> for Apart<'a> {
     type Point = [f32; 2];
-    const IS_DIRECT: bool = false;
 
     unsafe fn new(pointer: *mut c_void, capacity: usize) -> Result<Self, TessStatus> {
         let floats = capacity.checked_mul(2).ok_or(TESS_TOO_LARGE)?;
@@ -100,70 +127,26 @@ impl<'a> PointRoom<'a> for Apart<'a> {
         Some((Self { u, v }, Self { u: rest_u, v: rest_v }))
     }
 
-    fn write<R>(
+    fn batch<I: IndexFormat>(
         self,
-        points: usize,
-        overrun: usize,
-        _: Memory,
-        pairs: &mut Pairs,
-        write: impl FnOnce(&mut [[f32; 2]]) -> R,
-    ) -> R {
-        let written = write(pairs.room(points + overrun));
-        let end = self.u.len().min(points.next_multiple_of(BLOCK).min(points + overrun));
-        take_apart(pairs.level, pairs.room(end), &mut self.u[..end], &mut self.v[..end]);
-        written
-    }
-}
-
-/// Memory for points that are then taken apart. It grows to the most points that were asked for.
-#[derive(Debug)]
-pub(super) struct Pairs {
-    level: Level,
-    memory: Vec<[f32; 2]>,
-}
-
-impl Pairs {
-    /// None yet; they are taken apart at a CPU level that this machine can run.
-    pub(super) const fn new(level: Level) -> Self {
-        Self { level, memory: Vec::new() }
+        memory: Memory,
+        counted: &mut Counted<'_>,
+        numbering: Numbering,
+        (indices, ranges): (&mut [I], &mut [PatchRange]),
+    ) -> Result<BatchCounts, Error> {
+        let [u, v] = [self.u, self.v].map(|array| boundary::initialised(array, memory, 0.0));
+        counted.write_apart(numbering, ApartBuffers::new(u, v, indices).with_ranges(ranges))
     }
 
-    /// Takes memory for as many, which is not touched before it is used.
-    pub(super) fn reserve(&mut self, points: usize) {
-        self.memory.reserve(points.saturating_sub(self.memory.len()));
-    }
-
-    fn room(&mut self, points: usize) -> &mut [[f32; 2]] {
-        if self.memory.len() < points {
-            self.memory.resize(points, [0.0; 2]);
-        }
-        &mut self.memory[..points]
-    }
-}
-
-/// Points that are taken apart at once.
-const BLOCK: usize = 16;
-
-at_each_level! {
-    /// Writes the coordinates of points, as many as all three have, to two arrays.
-    fn take_apart(
-        pairs: &[[f32; 2]],
-        u: &mut [MaybeUninit<f32>],
-        v: &mut [MaybeUninit<f32>],
-    ) = blocks_apart;
-}
-
-#[inline(always)]
-fn blocks_apart(pairs: &[[f32; 2]], u: &mut [MaybeUninit<f32>], v: &mut [MaybeUninit<f32>]) {
-    let (blocks, rest) = pairs.as_chunks::<BLOCK>();
-    let (u_blocks, u_rest) = u.as_chunks_mut::<BLOCK>();
-    let (v_blocks, v_rest) = v.as_chunks_mut::<BLOCK>();
-    for ((block, u), v) in blocks.iter().zip(u_blocks).zip(v_blocks) {
-        *u = block.map(|[u, _]| MaybeUninit::new(u));
-        *v = block.map(|[_, v]| MaybeUninit::new(v));
-    }
-    for ((&[from_u, from_v], u), v) in rest.iter().zip(u_rest).zip(v_rest) {
-        u.write(from_u);
-        v.write(from_v);
+    fn patch<I: IndexFormat>(
+        self,
+        memory: Memory,
+        counted: &mut CountedPatch<'_>,
+        indices: &mut [I],
+    ) -> Result<Counts, Error> {
+        let points = counted.counts().points;
+        let [u, v] = [self.u, self.v]
+            .map(|array| boundary::initialised(with_overrun(array, points), memory, 0.0));
+        counted.write_apart(u, v, indices)
     }
 }

@@ -1,7 +1,7 @@
 //! A batch into the caller's buffers, in the formats that the caller chose.
 
 use super::input::Patches;
-use super::points::{Pairs, PointRoom};
+use super::points::PointRoom;
 use super::{
     TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH, TessBatch, TessBatchCounts,
     TessBatchOutput, status_of,
@@ -9,7 +9,7 @@ use super::{
 use crate::boundary::{self, Memory};
 use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus};
 use std::mem::{MaybeUninit, size_of};
-use tess_simd::{BatchCounts, Buffers, Counted, IndexFormat, Numbering, PatchRange, Tessellator};
+use tess_simd::{BatchCounts, Counted, IndexFormat, Numbering, PatchRange, Tessellator};
 
 /// The caller's buffers, which need not be initialised.
 #[derive(Debug)]
@@ -58,17 +58,15 @@ pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
         ranges: unsafe { boundary::room(ranges.0, ranges.1) }?,
         memory,
     };
-    let TessBatch { tessellator, pairs, .. } = batch;
+    let tessellator = &mut batch.tessellator;
     let mut counted = tessellator.count(patches.batch()).map_err(|error| status_of(&error))?;
     let needed = counted.counts();
     if counted.largest_index(numbering).is_some_and(|largest| largest > I::LARGEST) {
         return Err(TESS_INDEX_TOO_LARGE);
     }
     let written = match room.of_sizes(needed) {
-        Some(room) if P::IS_DIRECT && memory.is_initialised() => {
-            room.receive(&mut counted, numbering, pairs).map(drop)
-        }
-        Some(room) => write((tessellator, pairs), patches, numbering, room, needed),
+        Some(room) if memory.is_initialised() => room.receive(&mut counted, numbering).map(drop),
+        Some(room) => write(tessellator, patches, numbering, room, needed),
         None => Err(TESS_BUFFER_TOO_SMALL),
     };
     if matches!(written, Ok(()) | Err(TESS_BUFFER_TOO_SMALL)) {
@@ -82,14 +80,14 @@ pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
 const PART_BYTES: usize = 1 << 18;
 
 /// The patches of a part at most: as many as the batch backend keeps from counting to writing.
-pub(super) const PART_PATCHES: usize = 64;
+const PART_PATCHES: usize = 64;
 
 /// Writes a batch into room of exactly its sizes.
 ///
-/// The batch backend takes initialised slices of pairs. So that what has to be initialised or taken apart does not
-/// go through memory twice, that is done part by part, each just before or after its output is written.
+/// The batch backend takes initialised slices. So that what has to be initialised does not go through memory twice,
+/// that is done part by part, each just before its output is written.
 fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
-    (tessellator, pairs): (&mut Tessellator, &mut Pairs),
+    tessellator: &mut Tessellator,
     patches: Patches<'_>,
     numbering: Numbering,
     mut room: Room<'a, P, I>,
@@ -108,7 +106,7 @@ fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
             }
             Numbering::PerPatch => numbering,
         };
-        let ranges = now.receive(&mut counted, numbering, pairs)?;
+        let ranges = now.receive(&mut counted, numbering)?;
         first = shift(ranges, first);
         room = later;
     }
@@ -133,13 +131,10 @@ impl<'a, P: PointRoom<'a>, I: IndexFormat> Room<'a, P, I> {
         self,
         counted: &mut Counted<'_>,
         numbering: Numbering,
-        pairs: &mut Pairs,
     ) -> Result<&'a mut [PatchRange], TessStatus> {
         let ranges = boundary::initialised(self.ranges, self.memory, PatchRange::default());
         let indices = boundary::initialised(self.indices, self.memory, I::default());
-        let written = self.points.write(counted.counts().points, 0, self.memory, pairs, |points| {
-            counted.write(numbering, Buffers::new(points, indices).with_ranges(&mut *ranges))
-        });
+        let written = self.points.batch(self.memory, counted, numbering, (indices, &mut *ranges));
         written.map(|_| ranges).map_err(|error| status_of(&error))
     }
 

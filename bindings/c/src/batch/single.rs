@@ -1,13 +1,13 @@
 //! One patch into the caller's buffers.
 
 use super::output::in_formats;
-use super::points::PointRoom;
+use super::points::{PointRoom, with_overrun};
 use super::{TessBatch, TessBatchOutput, status_of};
 use crate::boundary;
 use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INTERNAL, TessStatus, answer};
 use crate::types::TessCounts;
 use tess_core::{DomainPoint, PatchFactors};
-use tess_simd::{CountedPatch, IndexFormat};
+use tess_simd::IndexFormat;
 
 /// Tessellates one patch into the caller's buffers: `tess_batch_run` for those who have one patch at a time,
 /// as drivers, emulators and test benches do.
@@ -85,19 +85,15 @@ unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     let points = unsafe { P::new(output.points, points.1) }?;
     // SAFETY: as above.
     let indices = unsafe { boundary::room(indices.0, indices.1) }?;
-    let TessBatch { tessellator, pairs, .. } = batch;
-    let mut counted = tessellator.count_patch(factors);
+    let mut counted = batch.tessellator.count_patch(factors);
     let needed = counted.counts();
     // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
     unsafe { boundary::write(counts, needed.into()) }?;
     if points.len() < needed.points as usize || indices.len() < needed.indices as usize {
         return Err(TESS_BUFFER_TOO_SMALL);
     }
-    let end = indices.len().min(needed.indices as usize + CountedPatch::OVERRUN);
-    let indices = boundary::initialised(&mut indices[..end], memory, I::default());
-    let written =
-        points.write(needed.points as usize, CountedPatch::OVERRUN, memory, pairs, |points| {
-            counted.write(points, indices)
-        });
-    written.map(|_| ()).map_err(|error| status_of(&error))
+    let indices =
+        boundary::initialised(with_overrun(indices, needed.indices), memory, I::default());
+    let written = points.patch(memory, &mut counted, indices);
+    written.map(drop).map_err(|error| status_of(&error))
 }

@@ -50,7 +50,7 @@ use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, MINUS, RINGS, TE
 use super::triangle::Inset;
 use super::{CompactPoints, POINTS_AT_ONCE};
 use crate::data::format::OutputPoint;
-use crate::data::writer::Writer;
+use crate::data::point_writer::PointWriter;
 use crate::stages::packet::PacketPatch;
 use crate::stages::place::place_in_half;
 use core::hint::black_box;
@@ -114,7 +114,7 @@ fn triangle_entry(number: usize, factor: usize, position: usize) -> (usize, usiz
     }
 }
 
-impl<P: OutputPoint> CompactPoints<P> for Lookup {
+impl<W: PointWriter> CompactPoints<W> for Lookup {
     fn kept(domain: Domain, code: u16) -> u16 {
         entry_of(domain, code)
     }
@@ -122,19 +122,19 @@ impl<P: OutputPoint> CompactPoints<P> for Lookup {
     // Only what is inlined has a level's instructions. WebAssembly has one level, and a page to load.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
-    fn emit(&mut self, patch: PacketPatch<'_>, entries: &[Code], out: &mut Writer<'_, P>) {
+    fn emit(&mut self, patch: PacketPatch<'_>, entries: &[Code], out: &mut W) {
         if patch.domain() == Domain::Triangle {
-            self.fill_edges::<P, TRIANGLE_OUTER>(patch);
-            self.fill_rings::<P>(patch);
+            self.fill_edges::<W::Point, TRIANGLE_OUTER>(patch);
+            self.fill_rings::<W::Point>(patch);
         } else {
-            self.fill_edges::<P, QUAD_FACTORS>(patch);
+            self.fill_edges::<W::Point, QUAD_FACTORS>(patch);
         }
         let [coordinates] = self.rows.as_flattened().as_chunks::<ENTRIES>().0 else {
             return debug_assert!(false, "an entry's number is a byte");
         };
         out.map::<_, POINTS_AT_ONCE>(patch.points() as usize, entries, |[u, v]: Code| {
             let [u, v] = [usize::from(u) % ENTRIES, usize::from(v) % ENTRIES];
-            P::from_coordinates([coordinates[u], coordinates[v]])
+            point([coordinates[u], coordinates[v]])
         });
     }
 }
@@ -198,9 +198,15 @@ fn row<P: OutputPoint>(mut row: Row, coordinate: impl Fn(u32) -> u32) -> Row {
     row
 }
 
+#[inline(always)]
+fn point<P: OutputPoint>(coordinates: [u32; 2]) -> P {
+    P::from_coordinates(coordinates)
+}
+
 #[cfg(all(test, feature = "std"))]
 mod tests {
     use super::*;
+    use crate::data::writer::Writer;
     use crate::tour;
     use alloc::vec::Vec;
     use tess_core::{DomainPoint, Patch};
@@ -209,7 +215,8 @@ mod tests {
     #[test]
     fn the_worked_patch() {
         let packet = tour::packet();
-        let kept = |code| <Lookup as CompactPoints<DomainPoint>>::kept(Domain::Quad, code);
+        let kept =
+            |code| <Lookup as CompactPoints<Writer<'_, DomainPoint>>>::kept(Domain::Quad, code);
         let entries: Vec<Code> = tour::all_codes().into_iter().map(|code| code.map(kept)).collect();
         assert_eq!([entries[0], entries[1], entries[5]], [[0, 48], [0, 49], [9, 0]], "entries");
         let mut table = Lookup::new();

@@ -52,7 +52,7 @@ use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Te
 use super::{CompactPoints, POINTS_AT_ONCE};
 use crate::data::format::OutputPoint;
 use crate::data::level::with_avx512;
-use crate::data::writer::Writer;
+use crate::data::point_writer::PointWriter;
 use crate::stages::packet::PacketPatch;
 use bytemuck::must_cast;
 use core::arch::x86_64::{
@@ -79,14 +79,14 @@ const INSIDE: i32 = (Domain::Quad.outer_factors() * HALF_EDGE) as i32 * (1 << LO
 /// Takes [`emit`] to where it is needed: a closure that calls it.
 pub(crate) struct Permutes<F>(pub(crate) F);
 
-impl<P, F: Fn(PacketPatch<'_>, &[Code], &mut Writer<'_, P>)> CompactPoints<P> for Permutes<F> {
+impl<W, F: Fn(PacketPatch<'_>, &[Code], &mut W)> CompactPoints<W> for Permutes<F> {
     /// The code itself.
     fn kept(_: Domain, code: u16) -> u16 {
         code
     }
 
     #[inline(always)]
-    fn emit(&mut self, patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>) {
+    fn emit(&mut self, patch: PacketPatch<'_>, codes: &[Code], out: &mut W) {
         self.0(patch, codes, out);
     }
 }
@@ -138,7 +138,7 @@ const RECIPES: [Recipe; 2] = {
 
 with_avx512! {
     /// Writes the points of a compact patch of fractional factors.
-    pub(crate) fn emit<P: OutputPoint>(patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, P>) {
+    pub(crate) fn emit(patch: PacketPatch<'_>, codes: &[Code], out: &mut impl PointWriter) {
         let points = patch.points() as usize;
         let [a, b] = [locations(patch, 0), locations(patch, 2)];
         if patch.domain() == Domain::Triangle {

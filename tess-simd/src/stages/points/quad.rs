@@ -5,7 +5,7 @@ use super::POINTS_AT_ONCE;
 use super::tables::FactorLocations;
 use crate::data::format::OutputPoint;
 use crate::data::lanes::{EdgePoints, is_odd};
-use crate::data::writer::Writer;
+use crate::data::point_writer::PointWriter;
 use tess_core::fixed_point::ONE;
 
 /// The inside factors, by number.
@@ -91,21 +91,17 @@ const fn middle(factor: usize, points: u32) -> AxisPoint {
 }
 
 #[inline(always)]
-pub(super) fn emit<P: OutputPoint>(
-    edges: &EdgePoints,
-    locations: FactorLocations<'_>,
-    out: &mut Writer<'_, P>,
-) {
+pub(super) fn emit(edges: &EdgePoints, locations: FactorLocations<'_>, out: &mut impl PointWriter) {
     walk(edges, &mut Runs { locations, out });
 }
 
 /// Writes the points of each run.
-struct Runs<'a, 'o, P> {
+struct Runs<'a, W> {
     locations: FactorLocations<'a>,
-    out: &'a mut Writer<'o, P>,
+    out: &'a mut W,
 }
 
-impl<P: OutputPoint> QuadWalker for Runs<'_, '_, P> {
+impl<W: PointWriter> QuadWalker for Runs<'_, W> {
     type Held = u32;
 
     #[inline(always)]
@@ -124,13 +120,13 @@ impl<P: OutputPoint> QuadWalker for Runs<'_, '_, P> {
             (Coordinate::Held(u), Coordinate::Along(AxisPoint { factor, point, mirrored })) => {
                 let locations = self.locations[factor].from(point);
                 self.out.map::<_, POINTS_AT_ONCE>(length as usize, locations, |x| {
-                    P::from_bits(u, seen(x, mirrored))
+                    W::Point::from_bits(u, seen(x, mirrored))
                 });
             }
             (Coordinate::Along(AxisPoint { factor, point, mirrored }), Coordinate::Held(v)) => {
                 let locations = self.locations[factor].from(point);
                 self.out.map::<_, POINTS_AT_ONCE>(length as usize, locations, |x| {
-                    P::from_bits(seen(x, mirrored), v)
+                    W::Point::from_bits(seen(x, mirrored), v)
                 });
             }
             _ => debug_assert!(false, "one coordinate of a run is held"),

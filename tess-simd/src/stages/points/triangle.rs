@@ -4,7 +4,7 @@ use super::POINTS_AT_ONCE;
 use super::tables::FactorLocations;
 use crate::data::format::OutputPoint;
 use crate::data::lanes::{EdgePoints, is_odd};
-use crate::data::writer::Writer;
+use crate::data::point_writer::PointWriter;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
 
 /// The points of one edge of a ring: all but its last.
@@ -61,21 +61,17 @@ pub(super) fn walk(&[u0, v0, w0, inside, ..]: &EdgePoints, walker: &mut impl Tri
 }
 
 #[inline(always)]
-pub(super) fn emit<P: OutputPoint>(
-    edges: &EdgePoints,
-    locations: FactorLocations<'_>,
-    out: &mut Writer<'_, P>,
-) {
+pub(super) fn emit(edges: &EdgePoints, locations: FactorLocations<'_>, out: &mut impl PointWriter) {
     walk(edges, &mut Runs { locations, out });
 }
 
 /// Writes the points of each run.
-struct Runs<'a, 'o, P> {
+struct Runs<'a, W> {
     locations: FactorLocations<'a>,
-    out: &'a mut Writer<'o, P>,
+    out: &'a mut W,
 }
 
-impl<P: OutputPoint> TriangleWalker for Runs<'_, '_, P> {
+impl<W: PointWriter> TriangleWalker for Runs<'_, W> {
     #[inline(always)]
     fn run(&mut self, Run { edge, ring, factor, length }: Run) {
         let Self { locations, out } = self;
@@ -86,20 +82,20 @@ impl<P: OutputPoint> TriangleWalker for Runs<'_, '_, P> {
         let (last, rest) = (ONE - shift, ONE - perpendicular);
         match edge {
             0 => out.map::<_, POINTS_AT_ONCE>(length as usize, locations, |x| {
-                P::from_bits(perpendicular, last.wrapping_sub(x))
+                W::Point::from_bits(perpendicular, last.wrapping_sub(x))
             }),
             1 => out.map::<_, POINTS_AT_ONCE>(length as usize, locations, |x| {
-                P::from_bits(x.wrapping_sub(shift), perpendicular)
+                W::Point::from_bits(x.wrapping_sub(shift), perpendicular)
             }),
             _ => out.map::<_, POINTS_AT_ONCE>(length as usize, locations, |x| {
                 let q = last.wrapping_sub(x);
-                P::from_bits(q, rest.wrapping_sub(q))
+                W::Point::from_bits(q, rest.wrapping_sub(q))
             }),
         }
     }
 
     #[inline(always)]
     fn centre(&mut self) {
-        self.out.put([P::from_bits(ONE_THIRD, ONE_THIRD)]);
+        self.out.put([W::Point::from_bits(ONE_THIRD, ONE_THIRD)]);
     }
 }

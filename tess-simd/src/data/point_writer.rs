@@ -1,0 +1,131 @@
+//! How the points of a format come to memory.
+//!
+//! The kernels write points without knowing where a format has them: in pairs of coordinates, or with all u before
+//! all v.
+//!
+//! ```text
+//! pairs    [ u0 v0 | u1 v1 | u2 v2 | ...          Writer
+//! apart    [ u0 | u1 | u2 | ...  [ v0 | v1 | v2   ApartWriter, two writers of numbers
+//! ```
+
+#[cfg(feature = "apart")]
+mod apart;
+
+use crate::data::format::OutputPoint;
+use crate::data::writer::Writer;
+use core::mem::take;
+
+/// Memory for the points of patches, one after another.
+pub(crate) trait PointRoom {
+    type Writer<'a>: PointWriter
+    where
+        Self: 'a;
+
+    /// Writes from the start.
+    fn writer(&mut self) -> Self::Writer<'_>;
+
+    /// Goes on behind the first points, which it has.
+    fn skip(&mut self, points: usize);
+
+    fn is_empty(&self) -> bool;
+}
+
+impl<P: OutputPoint> PointRoom for &mut [P] {
+    type Writer<'a>
+        = Writer<'a, P>
+    where
+        Self: 'a;
+
+    fn writer(&mut self) -> Writer<'_, P> {
+        Writer::new(self)
+    }
+
+    fn skip(&mut self, points: usize) {
+        *self = take(self).split_at_mut(points).1;
+    }
+
+    fn is_empty(&self) -> bool {
+        (**self).is_empty()
+    }
+}
+
+/// Memory for points that is written from front to back. Its methods are those of [`Writer`].
+pub(crate) trait PointWriter {
+    type Point: OutputPoint;
+
+    /// [`Writer::map`]; `point` may be asked twice for the same element.
+    fn map<S: Copy, const N: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        point: impl Fn(S) -> Self::Point,
+    );
+
+    /// [`Writer::map_least`]; `point` may be asked twice for the same element.
+    fn map_least<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        point: impl Fn(S) -> Self::Point,
+    );
+
+    /// [`Writer::blocks`].
+    #[cfg(target_arch = "x86_64")]
+    fn blocks<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        make: impl Fn(&[S; N]) -> [Self::Point; N],
+    );
+
+    /// [`Writer::put`].
+    fn put<const N: usize>(&mut self, points: [Self::Point; N]);
+
+    /// Fills `times` times `period` points from the first `period` of them, whatever was written.
+    fn repeat(self, period: usize, times: usize);
+}
+
+impl<P: OutputPoint> PointWriter for Writer<'_, P> {
+    type Point = P;
+
+    #[inline(always)]
+    fn map<S: Copy, const N: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        point: impl Fn(S) -> P,
+    ) {
+        Writer::map::<_, N>(self, length, source, point);
+    }
+
+    #[inline(always)]
+    fn map_least<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        point: impl Fn(S) -> P,
+    ) {
+        Writer::map_least::<_, N, LEAST>(self, length, source, point);
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[inline(always)]
+    fn blocks<S: Copy, const N: usize, const LEAST: usize>(
+        &mut self,
+        length: usize,
+        source: &[S],
+        make: impl Fn(&[S; N]) -> [P; N],
+    ) {
+        Writer::blocks::<_, N, LEAST>(self, length, source, make);
+    }
+
+    #[inline(always)]
+    fn put<const N: usize>(&mut self, points: [P; N]) {
+        Writer::put(self, points);
+    }
+
+    #[inline(always)]
+    fn repeat(self, period: usize, times: usize) {
+        Writer::repeat(self, period, times, |point, _| point);
+    }
+}
