@@ -3,99 +3,19 @@
 
 mod build;
 mod debian;
+mod meson;
+mod needs;
 mod piglit;
 mod probe;
 mod proof;
+mod release;
 mod source;
 
 use crate::command::{self, in_file};
-use crate::setup::{self, Need, has_program};
+use crate::setup;
+use release::Release;
 use std::fs;
-use std::path::{Path, PathBuf};
-
-const NEEDS: &[Need] = &[
-    Need {
-        what: "Debian's tools for source packages",
-        packages: &["dpkg-dev", "patch", "debian-archive-keyring"],
-        is_there: || ["dpkg-source", "patch"].into_iter().all(has_program),
-    },
-    Need {
-        what: "what Mesa's build runs (meson, ninja, bison, flex, glslangValidator, pkg-config, Mako)",
-        packages: &[
-            "meson",
-            "ninja-build",
-            "bison",
-            "flex",
-            "glslang-tools",
-            "pkg-config",
-            "python3-mako",
-            "gcc",
-            "g++",
-        ],
-        is_there: || {
-            let programs =
-                ["meson", "ninja", "bison", "flex", "glslangValidator", "pkg-config", "c++"];
-            programs.into_iter().all(has_program)
-                && Path::new("/usr/lib/python3/dist-packages/mako").exists()
-        },
-    },
-    Need {
-        what: "the libraries that the drivers are built on (LLVM, libdrm, expat, zlib, elf, udev, glvnd)",
-        packages: &[
-            "llvm-dev",
-            "libdrm-dev",
-            "libexpat1-dev",
-            "zlib1g-dev",
-            "libelf-dev",
-            "libudev-dev",
-            "libglvnd-dev",
-        ],
-        is_there: || {
-            let headers =
-                ["libdrm/drm.h", "expat.h", "zlib.h", "libelf.h", "libudev.h", "glvnd/libeglabi.h"];
-            let is_there = |header: &&str| Path::new("/usr/include").join(header).exists();
-            headers.iter().all(is_there)
-                && (has_program("llvm-config") || has_program("llvm-config-14"))
-        },
-    },
-    Need {
-        what: "the libraries of the window systems X11 and Wayland",
-        packages: &[
-            "libx11-dev",
-            "libx11-xcb-dev",
-            "libxcb-dri2-0-dev",
-            "libxcb-dri3-dev",
-            "libxcb-present-dev",
-            "libxcb-randr0-dev",
-            "libxcb-shm0-dev",
-            "libxcb-sync-dev",
-            "libxcb-xfixes0-dev",
-            "libxrandr-dev",
-            "libxshmfence-dev",
-            "libwayland-dev",
-            "libwayland-egl-backend-dev",
-            "wayland-protocols",
-        ],
-        is_there: || {
-            let headers = [
-                "X11/Xlib-xcb.h",
-                "X11/xshmfence.h",
-                "X11/extensions/Xrandr.h",
-                "xcb/dri2.h",
-                "xcb/dri3.h",
-                "xcb/present.h",
-                "xcb/randr.h",
-                "xcb/shm.h",
-                "xcb/sync.h",
-                "xcb/xfixes.h",
-                "wayland-client.h",
-                "wayland-egl-backend.h",
-            ];
-            headers.iter().all(|header| Path::new("/usr/include").join(header).exists())
-                && Path::new("/usr/share/wayland-protocols").exists()
-        },
-    },
-];
+use std::path::PathBuf;
 
 /// Mesa's sources with some of the patches, built.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,7 +31,7 @@ pub(super) enum Variant {
 impl Variant {
     pub(super) const ALL: [Self; 3] = [Self::Unpatched, Self::OnePatch, Self::WholeDraws];
 
-    /// The first patches of `integrations/mesa/patches`, by name.
+    /// How many of the release's patches it has: the first ones, by name.
     pub(super) const fn patches(self) -> usize {
         self as usize
     }
@@ -126,11 +46,14 @@ impl Variant {
     }
 }
 
-/// Where everything lies.
+/// Where everything of one release lies.
 #[derive(Debug)]
 pub(super) struct Place {
-    /// `target/mesa`
+    release: &'static Release,
+    /// `target/mesa`: what all releases share.
     pub(super) root: PathBuf,
+    /// `target/mesa/VERSION`
+    pub(super) folder: PathBuf,
     /// `integrations/mesa`
     pub(super) integration: PathBuf,
 }
@@ -138,7 +61,7 @@ pub(super) struct Place {
 impl Place {
     /// The folder of a variant's driver.
     pub(super) fn driver(&self, variant: Variant) -> PathBuf {
-        self.root.join(variant.name())
+        self.folder.join(variant.name())
     }
 
     /// The manifest by which the Vulkan loader finds a variant's driver.
@@ -152,69 +75,114 @@ impl Place {
     }
 
     /// The environment in which Vulkan is a variant's lavapipe, and OpenGL its llvmpipe.
-    pub(super) fn environment(&self, variant: Variant) -> [(&'static str, PathBuf); 3] {
-        let mut llvmpipe = self.driver(variant).join(build::LLVMPIPE);
-        llvmpipe.pop();
-        [
+    pub(super) fn environment(&self, variant: Variant) -> Vec<(&'static str, PathBuf)> {
+        let mut variables = vec![
             ("VK_DRIVER_FILES", self.manifest(variant)),
             ("__EGL_VENDOR_LIBRARY_FILENAMES", self.egl_manifest(variant)),
-            ("LIBGL_DRIVERS_PATH", llvmpipe),
-        ]
+        ];
+        if let Some(drivers) = self.release.drivers_path {
+            variables.push(("LIBGL_DRIVERS_PATH", self.driver(variant).join(drivers)));
+        }
+        variables
     }
 
-    fn open() -> Result<Self, String> {
+    fn open(release: &'static Release) -> Result<Self, String> {
         // Meson and the loader are given absolute paths.
         let target = command::target();
         let root = std::path::absolute(&target).map_err(|error| in_file(&target, &error))?;
         let root = root.join("mesa");
-        fs::create_dir_all(&root).map_err(|error| in_file(&root, &error))?;
-        Ok(Self { root, integration: command::workspace().join("integrations/mesa") })
+        let folder = root.join(release.version);
+        fs::create_dir_all(&folder).map_err(|error| in_file(&folder, &error))?;
+        Ok(Self {
+            release,
+            root,
+            folder,
+            integration: command::workspace().join("integrations/mesa"),
+        })
     }
 }
 
-/// Builds the drivers, says where they are, and prints the table of what each does.
-///
-/// # Errors
-/// A step fails; or a patched driver is less exact than the unpatched one.
-pub(crate) fn run() -> Result<(), String> {
-    let place = build_all()?;
-    proof::run(&place)
+/// Which part of the work is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    /// Builds the drivers and compares them.
+    All,
+    /// Builds the drivers and says where they are.
+    Build,
+    /// Prints the table of drivers that are built.
+    Compare,
+    /// Runs this project's tests of Vulkan and OpenGL on the drivers with all patches.
+    Test,
 }
 
-/// Builds the drivers and says where they are.
+/// Runs `cargo xtask mesa WORDS`: a part of the work and a version, either of which may be missing. The version is
+/// then that of this machine's Debian.
 ///
 /// # Errors
-/// A step fails.
-pub(crate) fn build() -> Result<(), String> {
-    build_all().map(drop)
+/// A word is unknown, or this machine's release is; a step fails; or a patched driver is less exact than the
+/// unpatched one.
+pub(crate) fn run(words: &[&str]) -> Result<(), String> {
+    let (part, release) = parse(words)?;
+    let release = release.map_or_else(Release::of_machine, Ok)?;
+    println!("Mesa {}, of Debian's {}", release.version, release.codename);
+    let place = Place::open(release)?;
+    if matches!(part, Part::All | Part::Build) {
+        build_all(&place)?;
+    }
+    match part {
+        Part::All | Part::Compare => proof::run(&place),
+        Part::Build => Ok(()),
+        Part::Test => proof::test(&place),
+    }
 }
 
-/// Prints the table of drivers that are built.
-///
-/// # Errors
-/// As for [`run`]; or a driver is not built.
-pub(crate) fn compare() -> Result<(), String> {
-    proof::run(&Place::open()?)
+/// What to do, and with which release where the words name one.
+fn parse(words: &[&str]) -> Result<(Part, Option<&'static Release>), String> {
+    let (part, rest) = match words {
+        ["build", rest @ ..] => (Part::Build, rest),
+        ["compare", rest @ ..] => (Part::Compare, rest),
+        ["test", rest @ ..] => (Part::Test, rest),
+        rest => (Part::All, rest),
+    };
+    let release = match *rest {
+        [] => Some(None),
+        [version] => Release::of_version(version).map(Some),
+        _ => None,
+    };
+    let wrong = || {
+        format!("mesa [build | compare | test] [VERSION]; the versions are {}", release::known())
+    };
+    release.map(|release| (part, release)).ok_or_else(wrong)
 }
 
-/// Runs this project's tests of Vulkan and OpenGL on the drivers with all patches.
-///
-/// # Errors
-/// A test fails, or the driver is not built.
-pub(crate) fn test() -> Result<(), String> {
-    proof::test(&Place::open()?)
-}
-
-fn build_all() -> Result<Place, String> {
-    setup::provide(NEEDS)?;
-    let place = Place::open()?;
-    source::provide(&place)?;
-    build::all(&place)?;
+fn build_all(place: &Place) -> Result<(), String> {
+    setup::provide(needs::NEEDS)?;
+    source::provide(place)?;
+    build::all(place)?;
     for variant in Variant::ALL {
         println!("\n{}:", variant.name());
         for (name, value) in place.environment(variant) {
             println!("  {name}={}", value.display());
         }
     }
-    Ok(place)
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_part_and_a_version_may_be_named() {
+        let trixie = Release::of_version("25.0.7");
+        assert!(trixie.is_some(), "a version");
+        assert_eq!(parse(&[]), Ok((Part::All, None)), "neither");
+        assert_eq!(parse(&["compare"]), Ok((Part::Compare, None)), "a part");
+        assert_eq!(parse(&["25.0.7"]), Ok((Part::All, trixie)), "a version");
+        assert_eq!(parse(&["test", "25.0.7"]), Ok((Part::Test, trixie)), "both");
+        for wrong in [&["24.0"][..], &["25.0.7", "build"], &["build", "25.0.7", "22.3.6"]] {
+            let message = parse(wrong).expect_err("the words make no sense");
+            assert!(message.contains("22.3.6 of Debian's bookworm and 25.0.7"), "{message}");
+        }
+    }
 }

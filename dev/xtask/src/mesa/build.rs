@@ -1,53 +1,12 @@
 //! Builds lavapipe and llvmpipe, once for each variant, in one folder: a variant compiles again what its patches change.
 
-use super::{Place, Variant, source};
+use super::release::{EGL, LAVAPIPE};
+use super::{Place, Variant, meson, source};
 use crate::command::{self, in_file};
 use crate::install;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-
-/// lavapipe and llvmpipe behind EGL, both with windows of X11 and Wayland, and what they need.
-const OPTIONS: &[&str] = &[
-    "-Dbuildtype=release",
-    "-Dplatforms=x11,wayland",
-    "-Dgallium-drivers=swrast",
-    "-Dvulkan-drivers=swrast",
-    "-Dllvm=enabled",
-    "-Dshared-llvm=enabled",
-    "-Dopengl=true",
-    "-Dshared-glapi=enabled",
-    "-Dglvnd=true",
-    "-Degl=enabled",
-    "-Dglx=disabled",
-    "-Dgbm=disabled",
-    "-Dgles1=disabled",
-    "-Dgles2=enabled",
-    "-Dgallium-vdpau=disabled",
-    "-Dgallium-va=disabled",
-    "-Dgallium-omx=disabled",
-    "-Dgallium-xa=disabled",
-    "-Dvalgrind=disabled",
-    "-Dlibunwind=disabled",
-    "-Dlmsensors=disabled",
-    "-Dbuild-tests=false",
-    "-Dmicrosoft-clc=disabled",
-    "-Dvideo-codecs=",
-    "-Dzstd=disabled",
-    "-Dshader-cache=disabled",
-];
-
-/// What is built, in the folder of the build, and what a variant's folder has it as: at the same place, since Mesa's
-/// libraries find each other by paths from their own.
-const LIBRARIES: &[(&str, &str)] = &[
-    (LAVAPIPE, LAVAPIPE),
-    ("src/gallium/targets/dri/libgallium_dri.so", LLVMPIPE),
-    ("src/egl/libEGL_mesa.so.0.0.0", EGL),
-    ("src/mapi/shared-glapi/libglapi.so.0.0.0", "src/mapi/shared-glapi/libglapi.so.0"),
-];
-const LAVAPIPE: &str = "src/gallium/targets/lavapipe/libvulkan_lvp.so";
-pub(super) const LLVMPIPE: &str = "src/gallium/targets/dri/swrast_dri.so";
-const EGL: &str = "src/egl/libEGL_mesa.so.0";
 
 /// Builds every variant whose driver is missing or older than what it is made of.
 pub(super) fn all(place: &Place) -> Result<(), String> {
@@ -75,27 +34,28 @@ fn is_current(place: &Place, variant: Variant, prefix: &Path) -> Result<bool, St
 }
 
 fn build(place: &Place, variant: Variant, prefix: &Path) -> Result<(), String> {
-    let folder = place.root.join("build");
+    let folder = place.folder.join("build");
     source::become_variant(place, variant)?;
-    let mut setup = tool("meson");
+    let mut setup = tool(&meson::provide(place)?);
     setup.arg("setup");
     if folder.join("build.ninja").exists() {
         setup.arg("--reconfigure");
     }
     // The environment's variable counts in the first set-up of a folder alone.
     setup.arg(format!("-Dpkg_config_path={}", prefix.join("lib/pkgconfig").display()));
-    setup.args(OPTIONS).arg(format!("--prefix={}", place.root.join("install").display()));
+    setup.args(place.release.options());
+    setup.arg(format!("--prefix={}", place.folder.join("install").display()));
     if variant != Variant::Unpatched {
         setup.arg("-Dtessellator=tess");
     }
     command::run(setup.arg(&folder).arg(place.source()))?;
-    let built = LIBRARIES.iter().map(|(built, _)| built);
-    command::run(tool("ninja").arg("-C").arg(&folder).args(built))?;
+    let built = place.release.libraries.iter().map(|library| library.built);
+    command::run(tool(Path::new("ninja")).arg("-C").arg(&folder).args(built))?;
     keep(place, variant, &folder)
 }
 
 /// A program of the build. The system's Python has Mako, so its folder comes first.
-fn tool(name: &str) -> Command {
+fn tool(name: &Path) -> Command {
     let mut command = Command::new(name);
     let path = std::env::var("PATH").unwrap_or_default();
     command.env("PATH", format!("/usr/bin:{path}"));
@@ -106,13 +66,14 @@ fn tool(name: &str) -> Command {
 /// written last.
 fn keep(place: &Place, variant: Variant, built: &Path) -> Result<(), String> {
     let folder = place.driver(variant);
-    for (from, to) in LIBRARIES {
-        source::copy(&built.join(from), &folder.join(to))?;
+    for library in place.release.libraries {
+        source::copy(&built.join(library.built), &folder.join(library.kept))?;
     }
     let egl = serde_json::json!({ "library_path": folder.join(EGL) });
     write_manifest(&place.egl_manifest(variant), &egl)?;
+    let version = place.release.vulkan;
     let lavapipe =
-        serde_json::json!({ "library_path": folder.join(LAVAPIPE), "api_version": "1.3.230" });
+        serde_json::json!({ "library_path": folder.join(LAVAPIPE), "api_version": version });
     write_manifest(&place.manifest(variant), &lavapipe)
 }
 

@@ -1,24 +1,21 @@
 //! Debian's packages, sources and programs, by lists of this command's own: the system's stay as they are.
 
-use super::Place;
+use super::{Place, release};
 use crate::command::{self, in_file};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The release of Debian whose Mesa the patches are for.
-pub(super) const RELEASE: &str = "bookworm";
-
-/// Downloads and unpacks the sources of a package in `target/mesa`.
+/// Downloads and unpacks the sources that a release has of a package, in the release's folder.
 pub(super) fn source(place: &Place, package: &str) -> Result<(), String> {
-    update(place)?;
-    command::run(apt(place).args(["source", package]))
+    let lists = Lists::update(place, place.release.codename)?;
+    command::run(lists.apt().args(["source", package]).current_dir(&place.folder))
 }
 
-/// Downloads packages and unpacks them, without installing them, to `folder`, which does not exist before: nor after,
-/// if something fails.
+/// Downloads packages of this machine's release and unpacks them, without installing them, to `folder`, which does
+/// not exist before: nor after, if something fails.
 pub(super) fn unpack(place: &Place, packages: &[&str], folder: &Path) -> Result<(), String> {
-    update(place)?;
+    let lists = Lists::update(place, &release::codename()?)?;
     let archives = place.root.join("archives");
     let unpacked = place.root.join("unpacked");
     for folder in [&archives, &unpacked] {
@@ -27,7 +24,7 @@ pub(super) fn unpack(place: &Place, packages: &[&str], folder: &Path) -> Result<
         }
         fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))?;
     }
-    command::run(apt(place).arg("download").args(packages).current_dir(&archives))?;
+    command::run(lists.apt().arg("download").args(packages).current_dir(&archives))?;
     for entry in fs::read_dir(&archives).map_err(|error| in_file(&archives, &error))? {
         let entry = entry.map_err(|error| in_file(&archives, &error))?;
         command::run(Command::new("dpkg").arg("-x").arg(entry.path()).arg(&unpacked))?;
@@ -35,27 +32,37 @@ pub(super) fn unpack(place: &Place, packages: &[&str], folder: &Path) -> Result<
     fs::rename(&unpacked, folder).map_err(|error| in_file(folder, &error))
 }
 
-/// Gets the lists.
-fn update(place: &Place) -> Result<(), String> {
-    let keys = "/usr/share/keyrings/debian-archive-keyring.gpg";
-    let of = format!("[signed-by={keys}] {} {RELEASE} main\n", mirror()?);
-    let list = place.root.join("sources.list");
-    fs::write(&list, format!("deb {of}deb-src {of}")).map_err(|error| in_file(&list, &error))?;
-    let partial = place.root.join("lists/partial");
-    fs::create_dir_all(&partial).map_err(|error| in_file(&partial, &error))?;
-    command::run(apt(place).arg("update"))
+/// The lists of one release of Debian, in a folder of their own.
+struct Lists {
+    folder: PathBuf,
 }
 
-/// `apt-get` with the lists of this command.
-fn apt(place: &Place) -> Command {
-    let mut apt = Command::new("apt-get");
-    let in_place = |name: &str| place.root.join(name).display().to_string();
-    apt.arg("-q").arg(format!("-oDir::Etc::SourceList={}", in_place("sources.list")));
-    apt.arg("-oDir::Etc::SourceParts=/dev/null");
-    apt.arg(format!("-oDir::State::Lists={}", in_place("lists"))).current_dir(&place.root);
-    // What is cached of the system's lists is of others.
-    apt.args(["-oDir::Cache::pkgcache=", "-oDir::Cache::srcpkgcache="]);
-    apt
+impl Lists {
+    /// Gets the lists.
+    fn update(place: &Place, codename: &str) -> Result<Self, String> {
+        let lists = Self { folder: place.root.join("debian").join(codename) };
+        let partial = lists.folder.join("lists/partial");
+        fs::create_dir_all(&partial).map_err(|error| in_file(&partial, &error))?;
+        let keys = "/usr/share/keyrings/debian-archive-keyring.gpg";
+        let of = format!("[signed-by={keys}] {} {codename} main\n", mirror()?);
+        let list = lists.folder.join("sources.list");
+        fs::write(&list, format!("deb {of}deb-src {of}"))
+            .map_err(|error| in_file(&list, &error))?;
+        command::run(lists.apt().arg("update"))?;
+        Ok(lists)
+    }
+
+    /// `apt-get` with these lists.
+    fn apt(&self) -> Command {
+        let mut apt = Command::new("apt-get");
+        let own = |name: &str| self.folder.join(name).display().to_string();
+        apt.arg("-q").arg(format!("-oDir::Etc::SourceList={}", own("sources.list")));
+        apt.arg("-oDir::Etc::SourceParts=/dev/null");
+        apt.arg(format!("-oDir::State::Lists={}", own("lists"))).current_dir(&self.folder);
+        // What is cached of the system's lists is of others.
+        apt.args(["-oDir::Cache::pkgcache=", "-oDir::Cache::srcpkgcache="]);
+        apt
+    }
 }
 
 /// Where this system gets Debian's packages.

@@ -60,7 +60,7 @@ pub(super) fn run(place: &Place, variant: Variant) -> Result<Results, String> {
     if !root.exists() {
         debian::unpack(place, PACKAGES, &root)?;
     }
-    let given = place.root.join("piglit-results").join(variant.name());
+    let given = place.folder.join("piglit-results").join(variant.name());
     let libraries = LIBRARIES.map(|folder| root.join(folder).display().to_string()).join(":");
     // The system's interpreter has Mako, which Mesa's build needs too.
     let mut piglit = Command::new("/usr/bin/python3");

@@ -2,8 +2,10 @@
 
 use super::piglit::{self, Results};
 use super::probe::{self, LONG, QUESTIONS, Row, Times};
-use super::{Place, Variant, source};
+use super::release::Release;
+use super::{Place, Variant};
 use crate::command::{self, cargo};
+use crate::setup;
 
 /// What was found of one driver.
 struct Found {
@@ -22,8 +24,9 @@ pub(super) fn run(place: &Place) -> Result<(), String> {
     for variant in Variant::ALL {
         let manifest = place.manifest(variant);
         if !manifest.exists() {
-            let manifest = manifest.display();
-            return Err(format!("{manifest} is missing: `cargo xtask mesa build` makes it"));
+            let (manifest, version) = (manifest.display(), place.release.version);
+            let build = format!("cargo xtask mesa build {version}");
+            return Err(format!("{manifest} is missing: `{build}` makes it"));
         }
     }
     let program = command::program()?;
@@ -34,7 +37,7 @@ pub(super) fn run(place: &Place) -> Result<(), String> {
         let piglit = piglit::run(place, variant)?;
         found.push(Found { variant, answers, piglit, times });
     }
-    println!("\n{}", table(&found));
+    println!("\n{}", table(place.release, &found));
     judge(&found)
 }
 
@@ -43,15 +46,17 @@ pub(super) fn run(place: &Place) -> Result<(), String> {
 /// # Errors
 /// A test fails.
 pub(super) fn test(place: &Place) -> Result<(), String> {
+    // The test of a window needs more than a test that is named sets up.
+    setup::run()?;
     let mut tests = cargo("xtask test tess-wgpu/tests tools/probe/tests");
     tests.envs(place.environment(Variant::WholeDraws));
     command::run(&mut tests)
 }
 
 /// The table, in Markdown: three parts, each with a row for each driver.
-fn table(found: &[Found]) -> String {
+fn table(release: &Release, found: &[Found]) -> String {
     let mut lines = vec![
-        format!("Mesa {}; patches by how they compare with the model:", source::VERSION),
+        format!("Mesa {}; patches by how they compare with the model:", release.version),
         "| driver | asked | patches | in order | leading | reorder | connected | points | culling |".into(),
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |".into(),
     ];

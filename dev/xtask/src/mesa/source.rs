@@ -1,29 +1,27 @@
 //! Mesa's sources: from Debian, with Debian's patches, and with some of ours.
 
-use super::debian::{self, RELEASE};
+use super::debian;
+use super::release::Release;
 use super::{Place, Variant};
 use crate::command::{self, in_file};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// The version of Mesa that the patches are for.
-pub(super) const VERSION: &str = "22.3.6";
-
 impl Place {
     /// Mesa's sources.
     pub(super) fn source(&self) -> PathBuf {
-        self.root.join("source")
+        self.folder.join("source")
     }
 
     /// The files that our patches change, as they were before.
     fn original(&self) -> PathBuf {
-        self.root.join("original")
+        self.folder.join("original")
     }
 
     /// The first `count` patches, in order.
     pub(super) fn patches(&self, count: usize) -> Result<Vec<PathBuf>, String> {
-        let folder = self.integration.join("patches");
+        let folder = self.integration.join(self.release.patches);
         let entries = fs::read_dir(&folder).map_err(|error| in_file(&folder, &error))?;
         let mut files: Vec<PathBuf> =
             entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
@@ -43,19 +41,15 @@ pub(super) fn provide(place: &Place) -> Result<(), String> {
         return Ok(());
     }
     debian::source(place, "mesa")?;
-    let unpacked = place.root.join(format!("mesa-{VERSION}"));
+    let Release { version, codename, .. } = place.release;
+    let unpacked = place.folder.join(format!("mesa-{version}"));
     if !unpacked.exists() {
-        return Err(in_file(
-            &place.root,
-            &format!(
-                "Debian's {RELEASE} has another version of Mesa than {VERSION}, which the patches are for"
-            ),
-        ));
+        let other = format!("Debian's {codename} has another version of Mesa than {version}");
+        return Err(in_file(&place.folder, &other));
     }
-    let series = unpacked.join("debian/patches/series");
-    let names = fs::read_to_string(&series).map_err(|error| in_file(&series, &error))?;
-    for name in names.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        apply(&unpacked, &unpacked.join("debian/patches").join(name))?;
+    // Sources of the newer format come with the patches applied, and say so.
+    if !unpacked.join(".pc/applied-patches").exists() {
+        apply_series(&unpacked)?;
     }
     for path in changed(&place.patches(Variant::ALL.len() - 1)?)? {
         copy(&unpacked.join(&path), &place.original().join(&path))?;
@@ -63,10 +57,20 @@ pub(super) fn provide(place: &Place) -> Result<(), String> {
     fs::rename(&unpacked, &source).map_err(|error| in_file(&source, &error))
 }
 
+/// Applies Debian's patches.
+fn apply_series(unpacked: &Path) -> Result<(), String> {
+    let series = unpacked.join("debian/patches/series");
+    let names = fs::read_to_string(&series).map_err(|error| in_file(&series, &error))?;
+    for name in names.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        apply(unpacked, &unpacked.join("debian/patches").join(name))?;
+    }
+    Ok(())
+}
+
 /// Makes the sources those of a variant. Files that stay the same are not touched, so that little is built again.
 pub(super) fn become_variant(place: &Place, variant: Variant) -> Result<(), String> {
     let patches = place.patches(variant.patches())?;
-    let scratch = place.root.join("scratch");
+    let scratch = place.folder.join("scratch");
     let all = changed(&place.patches(Variant::ALL.len() - 1)?)?;
     for path in &all {
         copy(&place.original().join(path), &scratch.join(path))?;
