@@ -1,6 +1,6 @@
 //! Displacement by a height image.
 
-use crate::models::cube;
+use crate::models::{cube, mesh};
 use glam::{Vec2, Vec3};
 use tess_surface::{
     Address, DisplacedModel, Displacement, HeightError, HeightMap, MAX_COORDINATE, Model, Sample,
@@ -45,6 +45,7 @@ fn heights_are_interpolated_and_repeat() {
     ] {
         assert_eq!(map.sample(Vec2::from(at)).0, expected, "height at {at:?}");
     }
+    assert_eq!(map.texels(), [0.0, 1.0, 2.0, 3.0], "from left to right, row by row from above");
     let (_, slope) = map.sample(Vec2::new(0.5, 0.5));
     assert_eq!(slope, Vec2::new(2.0, -4.0), "1 per half a width, -2 per half a height");
 }
@@ -104,4 +105,53 @@ fn slopes_tilt_normals() {
     let normal = patch.sample([0.5, 0.5]).normal;
     // The face is 2 wide and rises by 2.
     assert!(normal.distance(Vec3::new(-1.0, 0.0, 1.0).normalize()) < 1e-5, "{normal}");
+}
+
+/// One flat face with texture coordinates.
+fn textured(positions: &[[f32; 3]], texcoords: &[[f32; 2]]) -> Model {
+    let numbers: Vec<u32> = (0..).zip(positions).map(|(number, _)| number).collect();
+    let mut mesh = mesh(positions, &[&numbers]);
+    mesh.texcoords = texcoords.iter().copied().map(Vec2::from).collect();
+    mesh.faces[0].texcoords = Some(mesh.faces[0].positions);
+    Model::polygons(mesh, Style::Flat).unwrap()
+}
+
+/// Texture coordinates beyond a clamped image have the heights of its border, in lanes as one by one.
+#[test]
+fn clamped_heights_move_points() {
+    let map = HeightMap::new(2, 2, vec![0.0, 1.0, 2.0, 3.0]).unwrap().with_address(Address::Clamp);
+    let displacement = Displacement::new(map.clone(), 0.25).unwrap();
+    let model = textured(
+        &[[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        &[[-1.5, -0.5], [1.75, -0.5], [1.75, 2.0], [-1.5, 2.0]],
+    );
+    let patch = DisplacedModel::new(&model, &displacement).patch(0);
+    for at in [[0.125, 0.25], [0.5, 0.5], [0.75, 0.875]] {
+        let sample = patch.sample(at);
+        assert_eq!(sample.position.z, map.sample(sample.texcoord).0 * 0.25, "{at:?}");
+    }
+}
+
+/// A flat patch over an image that rises evenly: its normals are those of the moved points' differences, however the
+/// texture coordinates run and whatever the unit of length is.
+#[test]
+fn normals_are_those_of_the_displaced_surface() {
+    let texels = (0..16 * 16).map(|i| (i % 16) as f32 * 0.05 + (i / 16) as f32 * 0.03).collect();
+    let map = HeightMap::new(16, 16, texels).unwrap();
+    let quad = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.5], [2.5, 1.0, 0.5], [0.5, 1.0, 0.0]];
+    let texcoords = [[0.2, 0.3], [0.8, 0.25], [0.6, 0.7], [0.25, 0.6]];
+    for (corners, unit) in
+        [3, 4].into_iter().flat_map(|n| [1.0, 4096.0, 1.0 / 4096.0].map(|unit| (n, unit)))
+    {
+        let displacement = Displacement::new(map.clone(), 1.5 * unit).unwrap();
+        let positions = quad.map(|position| position.map(|coordinate: f32| coordinate * unit));
+        let model = textured(&positions[..corners], &texcoords[..corners]);
+        let patch = DisplacedModel::new(&model, &displacement).patch(0);
+        for [u, v] in [[0.25, 0.25], [0.5, 0.3], [0.2, 0.6]] {
+            let at = |du: f32, dv: f32| patch.sample([u + du / 16.0, v + dv / 16.0]).position;
+            let expected = (at(1.0, 0.0) - at(-1.0, 0.0)).cross(at(0.0, 1.0) - at(0.0, -1.0));
+            let error = patch.sample([u, v]).normal.distance(expected.normalize());
+            assert!(error < 1e-4, "{corners} corners, ({u}, {v}), unit {unit}: {error}");
+        }
+    }
 }

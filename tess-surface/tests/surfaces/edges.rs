@@ -18,6 +18,33 @@ fn places() -> Vec<[f32; 2]> {
     (0..=1000u16).map(|i| f32::from(i) * 65.0 / 65536.0).map(|t| [t, 1.0 - t]).collect()
 }
 
+/// So close to a corner that the distance from the other one rounds to 1: the corner itself, whatever its weight.
+#[test]
+fn ends_of_weighted_edges_are_their_corners() {
+    let points: [[Vec3; 4]; 4] = std::array::from_fn(|j| {
+        std::array::from_fn(|i| Vec3::new(i as f32 + 1.0, j as f32 * 2.0 - 5.0, (i * j) as f32))
+    });
+    let weights = std::array::from_fn(|j| std::array::from_fn(|i| 2.0 + ((i + 2 * j) % 3) as f32));
+    let patch = Patch::new(Surface::Bezier(BezierPatch::rational(points, weights)));
+    let mirrored = Patch::new(Surface::Bezier(BezierPatch::rational(
+        points.map(|[a, b, c, d]| [d, c, b, a]),
+        weights.map(|[a, b, c, d]| [d, c, b, a]),
+    )));
+    const NEAR: f32 = 1e-9;
+    for (patch, [left, right]) in [(&patch, [0, 3]), (&mirrored, [3, 0])] {
+        let places = [[NEAR, 0.0], [NEAR, 1.0], [0.0, NEAR], [1.0, NEAR], [0.5, 0.0], [1.0, 0.25]];
+        let mut samples = [Sample::default(); 6];
+        patch.samples(&places, &mut samples);
+        for (at, sample) in places.into_iter().zip(samples) {
+            assert_eq!(bits(sample.position), bits(patch.sample(at).position), "{at:?}, in lanes");
+        }
+        let corners = [points[0][left], points[3][left], points[0][left], points[0][right]];
+        for ((sample, corner), at) in samples.iter().zip(corners).zip(places) {
+            assert!(sample.position.distance(corner) < 1e-6, "{at:?}: {sample:?} for {corner}");
+        }
+    }
+}
+
 /// Such a curve has no canonical direction, so neighbours may walk it either way. It is folded in its middle.
 #[test]
 fn palindromic_curves_are_folded() {

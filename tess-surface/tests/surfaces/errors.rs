@@ -4,7 +4,7 @@ use crate::models::{cube, mesh};
 use glam::{Vec2, Vec3};
 use tess_core::Domain;
 use tess_surface::{BezierPatch, Fault, HalfEdge, MeshError, Model, Patch, PolygonMesh, Sides};
-use tess_surface::{Style, Surface, WrongDomain, teapot};
+use tess_surface::{PnCorner, PnTriangle, Style, Surface, WrongDomain, teapot};
 
 fn refused(mesh: PolygonMesh) -> MeshError {
     Model::polygons(mesh, Style::PointNormal).expect_err("it is refused")
@@ -141,4 +141,55 @@ fn messages() {
     assert_eq!(error.to_string(), "face 3: it has zero area", "which and what");
     let fault = Fault::OutOfRange { what: "normal", count: 5 };
     assert_eq!(fault.to_string(), "a normal index is out of range: there are 5", "what and why");
+}
+
+/// Whether a face has an area does not depend on its size.
+#[test]
+fn thin_faces_are_told_by_their_angle() {
+    for size in [1.0, 1000.0, 0.001] {
+        // The sines of both angles are some 2^-23 and 2^-21.
+        for (height, is_thin) in [(1.2e-7f32, true), (4.8e-7, false)] {
+            let model = Model::polygons(
+                mesh(&[[0.0; 3], [size, 0.0, 0.0], [size, height * size, 0.0]], &[&[0, 1, 2]]),
+                Style::Flat,
+            );
+            assert_eq!(model.is_err(), is_thin, "size {size}, height {height}: {:?}", model.err());
+        }
+    }
+}
+
+/// Tangents are differences of positions times a quotient of weights, so the quotient counts.
+#[test]
+fn positions_times_the_quotient_of_weights_stay_in_range() {
+    let points = |far: f32| {
+        let grid = |j: usize| std::array::from_fn(|i| Vec3::new(i as f32, j as f32, 0.0) * far);
+        std::array::from_fn(grid)
+    };
+    let mut weights = [[1.0; 4]; 4];
+    weights[0][0] = 1e4;
+    for (far, is_refused) in [(1e11, false), (1e13, true)] {
+        let model = Model::bezier(vec![BezierPatch::rational(points(far), weights)]);
+        assert_eq!(model.is_err(), is_refused, "{far}: {:?}", model.err());
+    }
+}
+
+/// Two faces whose shared corners differ in the sign of their zeros.
+#[test]
+fn zeros_of_either_sign_are_one_place() {
+    let positions = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [-0.0, -0.0, 0.0],
+        [1.0, -0.0, -0.0],
+        [0.0, -1.0, 0.0],
+    ];
+    let model = Model::polygons(mesh(&positions, &[&[0, 1, 2], &[4, 3, 5]]), Style::Flat).unwrap();
+    let twins = (0..3).filter(|&edge| model.twin(HalfEdge { patch: 0, edge }).is_some()).count();
+    assert_eq!(twins, 1, "they share an edge");
+    let corners = [-Vec3::ONE, -Vec3::ONE - Vec3::X, -Vec3::ZERO];
+    let corners = corners.map(|position| PnCorner { position, normal: Vec3::Z });
+    let surface = Surface::PnTriangle(PnTriangle::new(corners, [[-Vec3::ONE; 2]; 3]));
+    let position = Patch::new(surface).frame(0.0, 0.0).position;
+    assert_eq!(position.to_array().map(f32::to_bits), [0; 3], "no negative zeros: {position:?}");
 }

@@ -6,7 +6,9 @@
     reason = "tests compute in floats, and compare bits"
 )]
 
+mod bends;
 mod cracks;
+mod culling;
 mod displacement;
 mod edges;
 mod errors;

@@ -3,7 +3,8 @@
 
 use crate::models::{models, rational_ball};
 use glam::{DVec3, Vec3, Vec4};
-use tess_surface::{BezierPatch, Patch, Surface, teapot};
+use tess_surface::{BezierPatch, Patch, Surface, Tangents, teapot};
+use tess_verify::random::SplitMix64;
 
 fn bernstein(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
@@ -92,6 +93,102 @@ fn normals_at_poles_are_limits() {
     }
 }
 
+/// The normal of a patch, not of unit length, at a place that is moved inwards by `by` from each border that it is on.
+fn nearby(patch: &BezierPatch, [u, v]: [f32; 2], by: f64) -> DVec3 {
+    let inwards = |x: f32| f64::from(x).clamp(by, 1.0 - by);
+    let [du, dv] = differences(patch, inwards(u), inwards(v));
+    du.cross(dv)
+}
+
+/// A rational patch whose control points and weights are small integers.
+fn integers(random: &mut SplitMix64) -> ([[Vec3; 4]; 4], [[f32; 4]; 4]) {
+    let mut integer = |low: f32, count| low + random.below(count) as f32;
+    let mut row = || std::array::from_fn(|_| Vec3::from_array([(); 3].map(|()| integer(-8.0, 17))));
+    let points = std::array::from_fn(|_| row());
+    let mut row = || std::array::from_fn(|_| integer(1.0, 3));
+    (points, std::array::from_fn(|_| row()))
+}
+
+/// Corners whose two edges leave in one direction: the first derivatives span no plane, and the second ones decide.
+#[test]
+fn normals_at_cusps_are_limits() {
+    let mut random = SplitMix64::new(7);
+    let mut compared = 0;
+    for round in 0..400 {
+        let (mut points, mut weights) = integers(&mut random);
+        let (last_u, last_v) = (round % 2 == 1, round / 2 % 2 == 1);
+        let (i, near_i) = if last_u { (3, 2) } else { (0, 1) };
+        let (j, near_j) = if last_v { (3, 2) } else { (0, 1) };
+        let way = Vec3::new(1.0 + random.below(3) as f32, 2.0, -1.0);
+        points[j][near_i] = points[j][i] + way;
+        points[near_j][i] = points[j][i] + way * 2.0;
+        // Powers of two, so that both edges leave in exactly one direction.
+        weights[j][i] = if round % 8 < 4 { 1.0 } else { 2.0 };
+        let patch = BezierPatch::rational(points, weights);
+        let at = [f32::from(u8::from(last_u)), f32::from(u8::from(last_v))];
+        let [near, nearer] = [2e-4, 1e-4].map(|by| nearby(&patch, at, by).normalize().as_vec3());
+        if near.distance(nearer) > 1e-2 {
+            continue; // it turns too quickly to be told from outside
+        }
+        let error = patch.normal(at[0], at[1]).distance(nearer);
+        assert!(error < 3e-2, "{error} from the limit at {at:?}: {patch:?}");
+        compared += 1;
+    }
+    assert!(compared > 100, "{compared} were compared");
+}
+
+/// Whole edges collapsed, with weights: the normal there is the limit along the way inwards.
+#[test]
+fn normals_at_collapsed_edges_are_limits() {
+    let mut random = SplitMix64::new(8);
+    let mut compared = 0;
+    for round in 0..200 {
+        let (mut points, weights) = integers(&mut random);
+        let edge = round % 4;
+        for k in 0..4 {
+            let [j, i] = [[0, k], [3, k], [k, 0], [k, 3]][edge];
+            points[j][i] = Vec3::new(1.0, -2.0, 3.0);
+        }
+        let patch = BezierPatch::rational(points, weights);
+        let place = 0.25 + f32::from(u8::from(round % 8 < 4)) / 2.0;
+        let [u, v] = [[place, 0.0], [place, 1.0], [0.0, place], [1.0, place]][edge];
+        let expected = nearby(&patch, [u, v], 1e-4);
+        if expected.length() < 1e-2 {
+            continue; // too close to a second collapse
+        }
+        let error = expected.normalize().as_vec3().distance(patch.normal(u, v));
+        assert!(error < 3e-2, "{error} from the limit at ({u}, {v}): {patch:?}");
+        compared += 1;
+    }
+    assert!(compared > 100, "{compared} were compared");
+}
+
+/// A tip so flat that the second derivatives vanish too: its normal is that of a place a little further inside.
+#[test]
+fn normals_at_flat_tips_are_those_nearby() {
+    let tip = [Vec3::ZERO; 4];
+    // Two arcs around the axis, clockwise as seen from above, the outer one far below.
+    let arc = |radius: f32, z: f32| {
+        [[1.0, 0.0], [1.0, 0.6], [0.6, 1.0], [0.0, 1.0]]
+            .map(|[x, y]: [f32; 2]| Vec3::new(y * radius, x * radius, z))
+    };
+    let rows = [tip, tip, arc(1.0, 0.0), arc(2.0, -6.0)];
+    let [a, b, c, d] = rows;
+    let columns =
+        |rows: [[Vec3; 4]; 4]| std::array::from_fn(|j| std::array::from_fn(|i| rows[i][j]));
+    for (points, [u, v], up) in [
+        (rows, [0.5, 0.0], 1.0),
+        ([d, c, b, a], [0.5, 1.0], -1.0),
+        (columns(rows), [0.0, 0.5], -1.0),
+        (columns([d, c, b, a]), [1.0, 0.5], 1.0),
+    ] {
+        let patch = BezierPatch::polynomial(points);
+        let (tip, middle) = (patch.normal(u, v), patch.normal(0.5, 0.5));
+        assert!(tip.distance(Vec3::Z * up) < 0.2, "at ({u}, {v}): {tip}");
+        assert!(middle.distance(Vec3::Z * up) > 0.5, "elsewhere it is another: {middle}");
+    }
+}
+
 #[test]
 fn rational_quarters_make_a_ball() {
     for patch in rational_ball() {
@@ -144,4 +241,12 @@ fn normals_are_unit_vectors_everywhere() {
     }
     let flat = Patch::new(Surface::FlatTriangle([Vec3::X, Vec3::Y, Vec3::ZERO]));
     assert_eq!(flat.sample([0.25, 0.5]).normal, Vec3::Z, "counter-clockwise is up");
+}
+
+#[test]
+fn nearly_parallel_tangents_have_no_normal() {
+    for (rise, expected) in [(0.0, None), (0.5, None), (1.0, None), (2.0, Some(Vec3::Z))] {
+        let tangents = Tangents { du: Vec3::X, dv: Vec3::new(3.0, 3.0 * rise / 32768.0, 0.0) };
+        assert_eq!(tangents.normal(), expected, "a sine of {rise} times 2^-15");
+    }
 }
