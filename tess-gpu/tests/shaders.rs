@@ -5,6 +5,8 @@ mod common;
 use common::evaluate::{self, Argument};
 use common::{COUNTING, DRAWING, PULLING, all_setups, parse};
 use naga::{AddressSpace, Module, ScalarKind, TypeInner};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::LazyLock;
 use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::{Access, Binding, Counting, Fault, Pull, Resource, Setup, Stage, Tap, layout};
 
@@ -16,18 +18,36 @@ fn every_shader_is_valid_in_every_setup() {
         96 * (2 * 2 + 1),
         "domains x partitionings x outputs x splits, formats x numberings and 16-bit indices"
     );
-    for setup in setups {
-        for stage in Stage::ALL {
-            common::validated(&stage.source(setup));
-        }
-        for tap in Tap::ALL {
-            common::validated(&tap.source(setup));
-        }
-        let pull = Pull { group: 0, first_binding: 0 };
-        common::validated(&(pull.source(setup) + PULLING));
-        common::validated(&(pull.source_for_drawing(setup) + DRAWING));
-        common::validated(&(Counting { group: 0, binding: 0 }.source(setup) + COUNTING));
+    for (_, source, module) in stages() {
+        common::validate(source, module);
     }
+    let pull = Pull { group: 0, first_binding: 0 };
+    let others = setups.into_iter().flat_map(|setup| {
+        let library = [
+            pull.source(setup) + PULLING,
+            pull.source_for_drawing(setup) + DRAWING,
+            Counting { group: 0, binding: 0 }.source(setup) + COUNTING,
+        ];
+        Tap::ALL.map(|tap| tap.source(setup)).into_iter().chain(library)
+    });
+    for source in others.collect::<BTreeSet<_>>() {
+        common::validate(&source, &parse(&source));
+    }
+}
+
+/// The sources of all stages in all setups, equal ones once, and their modules.
+fn stages() -> &'static [(Stage, String, Module)] {
+    static STAGES: LazyLock<Vec<(Stage, String, Module)>> = LazyLock::new(|| {
+        let setups = all_setups();
+        let of_stage = |stage: Stage| setups.iter().map(move |&setup| (stage.source(setup), stage));
+        let distinct: BTreeMap<String, Stage> = Stage::ALL.into_iter().flat_map(of_stage).collect();
+        let with_module = |(source, stage): (String, Stage)| {
+            let module = parse(&source);
+            (stage, source, module)
+        };
+        distinct.into_iter().map(with_module).collect()
+    });
+    &STAGES
 }
 
 /// A planted fault changes a shader, and is no error in it: the comparison has to notice it, not the compiler.
@@ -38,18 +58,17 @@ fn every_fault_can_be_planted() {
         let with_fault = setups.iter().step_by(7).find_map(|&setup| {
             Stage::ALL.iter().find_map(|stage| fault.planted(&stage.source(setup)))
         });
-        common::validated(&with_fault.unwrap_or_else(|| panic!("{fault:?} is in no shader")));
+        let with_fault = with_fault.unwrap_or_else(|| panic!("{fault:?} is in no shader"));
+        common::validate(&with_fault, &parse(&with_fault));
     }
 }
 
 /// The house rule: no float arithmetic. There is not even a float type.
 #[test]
 fn no_stage_knows_floats() {
-    for setup in all_setups() {
-        for stage in Stage::ALL {
-            let found = float_types(&parse(&stage.source(setup)));
-            assert!(found.is_empty(), "{}: {found:?}", stage.entry_point());
-        }
+    for (stage, _, module) in stages() {
+        let found = float_types(module);
+        assert!(found.is_empty(), "{}: {found:?}", stage.entry_point());
     }
 }
 
@@ -95,38 +114,33 @@ fn float_types(module: &Module) -> Vec<String> {
 
 #[test]
 fn bindings_are_those_of_the_shaders() {
-    for setup in all_setups() {
-        for stage in Stage::ALL {
-            let module = parse(&stage.source(setup));
-            let mut found: Vec<(u32, Access, bool)> = module
-                .global_variables
-                .iter()
-                .filter_map(|(_, variable)| {
-                    let binding = variable.binding?;
-                    assert_eq!(binding.group, 0, "{variable:?}");
-                    let (access, is_uniform) = match variable.space {
-                        AddressSpace::Uniform => (Access::Read, true),
-                        AddressSpace::Storage { access }
-                            if access.contains(naga::StorageAccess::STORE) =>
-                        {
-                            (Access::ReadWrite, false)
-                        }
-                        _ => (Access::Read, false),
-                    };
-                    Some((binding.binding, access, is_uniform))
-                })
-                .collect();
-            found.sort_by_key(|&(number, ..)| number);
-            let expected: Vec<_> = (0..)
-                .zip(stage.bindings())
-                .map(|(number, &Binding(resource, access))| {
-                    (number, access, resource == Resource::Job)
-                })
-                .collect();
-            assert_eq!(found, expected, "{}", stage.entry_point());
-            let storage = expected.iter().filter(|(.., is_uniform)| !is_uniform).count();
-            assert!(storage <= 8, "{}: {storage} storage buffers", stage.entry_point());
-        }
+    for (stage, _, module) in stages() {
+        let mut found: Vec<(u32, Access, bool)> = module
+            .global_variables
+            .iter()
+            .filter_map(|(_, variable)| {
+                let binding = variable.binding?;
+                assert_eq!(binding.group, 0, "{variable:?}");
+                let (access, is_uniform) = match variable.space {
+                    AddressSpace::Uniform => (Access::Read, true),
+                    AddressSpace::Storage { access }
+                        if access.contains(naga::StorageAccess::STORE) =>
+                    {
+                        (Access::ReadWrite, false)
+                    }
+                    _ => (Access::Read, false),
+                };
+                Some((binding.binding, access, is_uniform))
+            })
+            .collect();
+        found.sort_by_key(|&(number, ..)| number);
+        let expected: Vec<_> = (0..)
+            .zip(stage.bindings())
+            .map(|(number, &Binding(resource, access))| (number, access, resource == Resource::Job))
+            .collect();
+        assert_eq!(found, expected, "{}", stage.entry_point());
+        let storage = expected.iter().filter(|(.., is_uniform)| !is_uniform).count();
+        assert!(storage <= 8, "{}: {storage} storage buffers", stage.entry_point());
     }
 }
 
@@ -299,22 +313,19 @@ fn structure<'a>(module: &'a Module, name: &str) -> &'a TypeInner {
 /// WebGPU guarantees 16 KiB of workgroup memory and 256 invocations.
 #[test]
 fn workgroups_keep_to_the_default_limits() {
-    for setup in all_setups() {
-        for stage in Stage::ALL {
-            let module = parse(&stage.source(setup));
-            let mut layouter = naga::proc::Layouter::default();
-            layouter.update(module.to_ctx()).expect("types have layouts");
-            let shared: u32 = module
-                .global_variables
-                .iter()
-                .filter(|(_, variable)| variable.space == AddressSpace::WorkGroup)
-                .map(|(_, variable)| layouter[variable.ty].size)
-                .sum();
-            assert!(shared <= 16384, "{}: {shared} bytes", stage.entry_point());
-            for entry in &module.entry_points {
-                let threads: u32 = entry.workgroup_size.iter().product();
-                assert!(threads <= 256, "{}: {threads} threads", entry.name);
-            }
+    for (stage, _, module) in stages() {
+        let mut layouter = naga::proc::Layouter::default();
+        layouter.update(module.to_ctx()).expect("types have layouts");
+        let shared: u32 = module
+            .global_variables
+            .iter()
+            .filter(|(_, variable)| variable.space == AddressSpace::WorkGroup)
+            .map(|(_, variable)| layouter[variable.ty].size)
+            .sum();
+        assert!(shared <= 16384, "{}: {shared} bytes", stage.entry_point());
+        for entry in &module.entry_points {
+            let threads: u32 = entry.workgroup_size.iter().product();
+            assert!(threads <= 256, "{}: {threads} threads", entry.name);
         }
     }
 }

@@ -49,6 +49,8 @@ async fn of(
 ) -> Result<Opened, String> {
     let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
     descriptor.backends = backends;
+    // WGPU_DEBUG=0 leaves out of shaders what debuggers want, which takes drivers long to read.
+    descriptor.flags = descriptor.flags.with_env();
     // The shaders write no dispatch sizes beyond the limits; checking costs dispatches more.
     descriptor.flags.remove(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL);
     let instance = wgpu::Instance::new(descriptor);

@@ -9,31 +9,13 @@ pub(crate) fn of_stage(device: &wgpu::Device, stage: Stage, source: &str) -> wgp
     compute_pipeline(device, label, source, &entries)
 }
 
-/// The pipeline of a tap's source, and its buffers bound.
+/// The pipeline of a tap's source: it binds the input, the output and the tables.
 #[cfg(feature = "measure")]
-pub(crate) fn of_tap(
-    device: &wgpu::Device,
-    source: &str,
-    buffers: &[wgpu::Buffer; 3],
-) -> (wgpu::ComputePipeline, wgpu::BindGroup) {
-    let label = Some("taps");
+pub(crate) fn of_tap(device: &wgpu::Device, source: &str) -> wgpu::ComputePipeline {
     let accesses = [Access::Read, Access::ReadWrite, Access::Read];
     let bindings = accesses.map(|access| Binding(Resource::Tables, access));
     let entries: Vec<_> = (0..).zip(&bindings).map(layout_entry).collect();
-    let pipeline = compute_pipeline(device, label, source, &entries);
-    let entries: Vec<_> = (0..)
-        .zip(buffers)
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label,
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &entries,
-    });
-    (pipeline, group)
+    compute_pipeline(device, Some("taps"), source, &entries)
 }
 
 fn compute_pipeline(

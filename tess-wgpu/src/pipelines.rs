@@ -5,17 +5,21 @@ use crate::{gpu, limits, pipeline};
 use std::collections::HashMap;
 use std::fmt;
 use tess_core::SplitOrder;
+#[cfg(feature = "measure")]
+use tess_gpu::Tap;
 use tess_gpu::{Limits, Setup, Stage, tables};
 
 /// What changes a shader's source before it is compiled.
 pub(crate) type Edit = Box<dyn Fn(Stage, String) -> String + Send + Sync>;
 
-/// Pipelines by stage and by the part of the setup that the stage depends on; tables by split order.
+/// Pipelines by stage and by the part of the setup that the stage depends on; those of taps; tables by split order.
 pub(crate) struct Pipelines {
     device: wgpu::Device,
     limits: Limits,
     edit: Option<Edit>,
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
+    #[cfg(feature = "measure")]
+    taps: HashMap<(Tap, Setup), wgpu::ComputePipeline>,
     tables: HashMap<SplitOrder, wgpu::Buffer>,
 }
 
@@ -26,8 +30,15 @@ impl Pipelines {
             storage_binding: device.limits().max_storage_buffer_binding_size,
             workgroups: device.limits().max_compute_workgroups_per_dimension,
         };
-        let (pipelines, tables) = (HashMap::new(), HashMap::new());
-        Self { device: device.clone(), limits, edit, pipelines, tables }
+        Self {
+            device: device.clone(),
+            limits,
+            edit,
+            pipelines: HashMap::new(),
+            #[cfg(feature = "measure")]
+            taps: HashMap::new(),
+            tables: HashMap::new(),
+        }
     }
 
     /// Keeps to these limits instead of the device's.
@@ -59,6 +70,18 @@ impl Pipelines {
         }
         let pipeline = checked(&self.device, || pipeline::of_stage(&self.device, stage, &source))?;
         self.pipelines.insert(key, pipeline.clone());
+        Ok(pipeline)
+    }
+
+    /// The pipeline of a tap, made when it is first asked for.
+    #[cfg(feature = "measure")]
+    pub(crate) fn tap(&mut self, tap: Tap, setup: Setup) -> Result<wgpu::ComputePipeline, Error> {
+        if let Some(pipeline) = self.taps.get(&(tap, setup)) {
+            return Ok(pipeline.clone());
+        }
+        let source = tap.source(setup);
+        let pipeline = checked(&self.device, || pipeline::of_tap(&self.device, &source))?;
+        self.taps.insert((tap, setup), pipeline.clone());
         Ok(pipeline)
     }
 

@@ -1,7 +1,7 @@
 //! Stage taps: the value of one stage of the shaders, read for comparison with the golden model's.
 
 use crate::error::{Error, checked};
-use crate::{Gpu, Tessellator, pipeline};
+use crate::{Gpu, Tessellator};
 use tess_gpu::sizes::WORKGROUP;
 use tess_gpu::{Setup, Tap};
 
@@ -30,9 +30,21 @@ impl Tessellator {
             output.clone(),
             self.pipelines.tables(setup.config.split)?,
         ];
-        let source = tap.source(setup);
-        let (pipeline, group) =
-            checked(&gpu.device, || pipeline::of_tap(&gpu.device, &source, &buffers))?;
+        let pipeline = self.pipelines.tap(tap, setup)?;
+        let entries: Vec<_> = (0..)
+            .zip(&buffers)
+            .map(|(binding, buffer)| wgpu::BindGroupEntry {
+                binding,
+                resource: buffer.as_entire_binding(),
+            })
+            .collect();
+        let group = checked(&gpu.device, || {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("taps"),
+                layout: &pipeline.get_bind_group_layout(0),
+                entries: &entries,
+            })
+        })?;
         let most = self.pipelines.limits().workgroups;
         // A buffer of more input would be too large.
         let workgroups = u32::try_from(count.div_ceil(u64::from(WORKGROUP))).unwrap_or(u32::MAX);

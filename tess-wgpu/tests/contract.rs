@@ -38,6 +38,32 @@ fn formats_and_numberings() {
     }
 }
 
+/// What [`tess_wgpu::Tessellator::tessellate`] brings back: outputs of patches, and where each begins.
+#[test]
+fn whole_outputs_say_where_each_patch_begins() {
+    let mut machine = Machine::open();
+    let mut random = SplitMix64::new(9);
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    for (count, index_type) in [(1, IndexType::U16), (300, IndexType::U32), (3000, IndexType::U16)]
+    {
+        let patches = common::patches::random(Domain::Triangle, count, &mut random);
+        let numbering = Numbering::PerPatch;
+        let setup = Setup { numbering, index_type, ..Setup::new(Domain::Triangle, config) };
+        let output =
+            machine.tessellator.tessellate(&machine.gpu, setup, &patches).expect("it fits");
+        let (mut begins, mut indices) = (Vec::new(), Vec::new());
+        let mut points = 0;
+        for &factors in &patches {
+            begins.push([points, u32::try_from(indices.len() / 3).expect("few")]);
+            let patch = Patch::new(config, factors).tessellate();
+            points += u32::try_from(patch.points.len()).expect("few");
+            indices.extend(patch.indices);
+        }
+        assert!(output.begins == begins, "{count} patches: where they begin");
+        assert!(output.indices == indices, "{count} patches: {index_type:?} widened");
+    }
+}
+
 /// Two indices share a word, also where one patch ends and the next begins.
 #[test]
 fn indices_of_16_bits() {

@@ -68,6 +68,22 @@ fn buffers_that_do_not_do_are_refused() {
     assert_eq!(batch.err(), Some(expected), "more patches than points can name");
 }
 
+/// What a person reads, beside what a program can match.
+#[test]
+fn errors_name_what_is_wrong() {
+    for (buffer, name) in [
+        (Resource::Factors, "of factors lacks"),
+        (Resource::Points, "of points lacks"),
+        (Resource::Indices, "of indices lacks"),
+        (Resource::Status, "of the batch lacks"),
+    ] {
+        let text = Error::NotStorage { buffer }.to_string();
+        assert!(text.contains(name), "{text}");
+    }
+    let text = Error::NoDevice { reason: "none here".into() }.to_string();
+    assert!(text.contains("(none here); install a"), "the next step: {text}");
+}
+
 #[test]
 fn patches_of_another_domain_are_refused() {
     let mut machine = Machine::open();

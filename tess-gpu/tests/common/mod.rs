@@ -60,12 +60,10 @@ pub(crate) fn parse(source: &str) -> Module {
         .unwrap_or_else(|error| panic!("{}", error.emit_to_string(source)))
 }
 
-/// The module of a shader that passes every check without any optional capability.
-pub(crate) fn validated(source: &str) -> Module {
-    let module = parse(source);
+/// Demands that the module of a shader passes every check without any optional capability.
+pub(crate) fn validate(source: &str, module: &Module) {
     let mut validator = Validator::new(ValidationFlags::all(), Capabilities::empty());
-    if let Err(error) = validator.validate(&module) {
+    if let Err(error) = validator.validate(module) {
         panic!("{}", error.emit_to_string(source));
     }
-    module
 }

@@ -67,3 +67,15 @@ fn headline(report: &str) -> String {
     let reasons = lines.filter_map(|line| line.strip_prefix("= "));
     [first].into_iter().chain(reasons).collect::<Vec<_>>().join(": ")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::headline;
+
+    #[test]
+    fn reports_are_shortened() {
+        let report = "in your shader: error: no such name\n  --> wgsl:3:4\n   |\n   = it is `x`\n";
+        assert_eq!(headline(report), "no such name: it is `x`");
+        assert_eq!(headline("no more than this"), "no more than this");
+    }
+}

@@ -206,6 +206,18 @@ mod tests {
     }
 
     #[test]
+    fn a_budget_is_used_when_less_is_left_than_a_point_and_a_primitive() {
+        let form = form(Points::Stored);
+        for (left, expected) in [(19, None), (20, Some(Capacity { points: 251, primitives: 320 }))]
+        {
+            let room = Room::Automatic { most_bytes: 5840 + left };
+            let first = form.initial(room);
+            assert_eq!(first, Capacity { points: 250, primitives: 320 }, "5840 bytes");
+            assert_eq!(form.grown(room, first, [300, 320]), expected, "{left} bytes are left");
+        }
+    }
+
+    #[test]
     fn room_that_uses_its_budget_stays() {
         for points in [Points::Stored, Points::Pull] {
             let form = form(points);

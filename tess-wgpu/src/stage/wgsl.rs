@@ -156,6 +156,9 @@ mod tests {
             declarations(text).into_iter().filter(|one| one.is_fragment).collect();
         assert_eq!(fragments.len(), 1, "{fragments:?}");
         assert_eq!(declarations("/* fn a() {} "), [], "a comment without an end");
+        let apart = declarations("/* a */ fn /* ! */ a() {} /* b */ const c = fragment; fn b() {}");
+        let found: Vec<_> = apart.iter().map(|one| (one.name, one.is_fragment)).collect();
+        assert_eq!(found, [("a", false), ("c", false), ("b", false)], "between comments");
     }
 
     #[test]

@@ -66,6 +66,9 @@ fn factors_come_from_the_host_or_a_buffer_too() {
     let mut stage = scene.build(scene.builder().factors(given));
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
     assert_eq!(compare(&observed, &expected), Ok(()), "from a buffer");
+    let fewer = scene.pixels(&scene.patches[..3]);
+    let observed = scene.frame(&mut stage, 3.into()).expect("it draws");
+    assert_eq!(compare(&observed, &fewer), Ok(()), "three patches from a buffer");
     let mut stage = scene.build(scene.builder().factors(Factors::Host));
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
     assert_eq!(drawn(&observed), 0, "before there are factors");
@@ -74,6 +77,8 @@ fn factors_come_from_the_host_or_a_buffer_too() {
     scene.gpu.run(encoder).expect("the device finishes");
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
     assert_eq!(compare(&observed, &expected), Ok(()), "from the host");
+    let observed = scene.frame(&mut stage, 3.into()).expect("it draws");
+    assert_eq!(compare(&observed, &fewer), Ok(()), "three patches from the host");
 }
 
 #[test]

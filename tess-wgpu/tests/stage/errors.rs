@@ -179,6 +179,15 @@ fn an_unclear_fragment_shader_is_refused() {
     assert_eq!(build(&two, Some("other")), None, "this one");
     assert_eq!(build(&two, Some("third")), unclear(Some("third"), &["identify", "other"]), "no");
     assert_eq!(build(&none, None), unclear(None, &[]), "there is none");
+    for (asked, found, says) in [
+        (None, &[][..], "no function with the attribute @fragment"),
+        (None, &["a", "b"], "choose one of a, b"),
+        (Some("c"), &[], "no fragment shader `c`, nor any other"),
+        (Some("c"), &["a", "b"], "no fragment shader `c`; it has a, b"),
+    ] {
+        let text = unclear(asked, found).expect("an error").to_string();
+        assert!(text.contains(says), "{text}");
+    }
 }
 
 #[test]
@@ -276,10 +285,11 @@ fn low_limits_are_named() {
 fn what_cannot_be_made_is_refused() {
     let scene = quads();
     let device = &scene.gpu.device;
-    let short = scene.gpu.buffer("short", 24, Usage::STORAGE).expect("there is room");
-    let built = scene.builder().factors(Factors::Buffer(&short)).build(device);
     let needed = u64::from(24 * PATCHES);
-    assert_eq!(built.err(), Some(Error::FactorsTooShort { needed, got: 24 }), "one patch's");
+    let got = needed - 4;
+    let short = scene.gpu.buffer("short", got, Usage::STORAGE).expect("there is room");
+    let built = scene.builder().factors(Factors::Buffer(&short)).build(device);
+    assert_eq!(built.err(), Some(Error::FactorsTooShort { needed, got }), "a word is missing");
     let built = scene.builder().bind_group(&scene.layout, &scene.group);
     let built = built.bind_group(&scene.layout, &scene.group);
     let built = built.bind_group(&scene.layout, &scene.group).build(device);

@@ -14,7 +14,9 @@ mod frames;
 #[cfg(target_os = "linux")]
 mod lost;
 mod model;
+mod one_patch;
 mod porting;
 mod room;
 mod scene;
+mod topology;
 mod winding;

@@ -5,8 +5,9 @@ use crate::model::{compare, drawn};
 use crate::scene::{PATCHES, Scene};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::Capacity;
-use tess_wgpu::TessellationStage;
+use tess_gpu::layout::factor_words;
 use tess_wgpu::stage::{Feedback, Overflow, Points, Room};
+use tess_wgpu::{Gpu, TessellationStage};
 
 /// What the patches give.
 fn needed(scene: &Scene) -> Capacity {
@@ -39,6 +40,13 @@ fn scaled(patches: &[PatchFactors], domain: Domain, scale: f32) -> Vec<PatchFact
         PatchFactors::from_fn(domain, |_| one(factors.next().expect("as many")))
     };
     patches.iter().map(of).collect()
+}
+
+/// The factors that a stage's last frame had, as words.
+fn factors_of(scene: &Scene, stage: &TessellationStage) -> Vec<u32> {
+    let buffer = stage.factors();
+    let bytes = scene.gpu.read(buffer, buffer.size()).expect("they are there");
+    bytemuck::pod_collect_to_vec(&bytes)
 }
 
 /// Rooms that lack one triangle, one point, or both.
@@ -100,8 +108,10 @@ fn the_scale_is_the_greatest_of_the_ladder_that_fits() {
             assert!(fits(at(scale)), "1/{part}: {scale}");
             // A step of the ladder is 1.6 percent.
             assert!(!fits(at(scale * 1.017)), "1/{part}: {scale} could be more");
-            let expected = scene.pixels(&scaled(&scene.patches, scene.domain, scale));
+            let patches = scaled(&scene.patches, scene.domain, scale);
+            let expected = scene.pixels(&patches);
             assert_eq!(compare(&observed, &expected), Ok(()), "1/{part}");
+            assert_eq!(factors_of(&scene, &stage), factor_words(&patches), "1/{part}: at least 1");
         } else {
             assert_eq!(drawn(&observed), 0, "1/{part}: nothing fits");
         }
@@ -143,6 +153,7 @@ fn not_even_the_coarsest_frame_fits() {
     let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
     let patches = scaled(&scene.patches, scene.domain, 1.0 / 64.0);
     assert_eq!(compare(&observed, &scene.pixels(&patches)), Ok(()), "they just fit");
+    assert_eq!(factors_of(&scene, &stage), factor_words(&patches), "every factor is 1 or culls");
 }
 
 #[test]
@@ -206,17 +217,13 @@ fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {
     }
 }
 
-/// 2^19 quads of factor 64 give 2^32 triangles, of which the low word alone would fit anywhere. The device takes 2048
-/// workgroups in a row, so every pass has several rows.
-#[test]
-fn sums_beyond_32_bits_are_seen() {
-    let limits = wgpu::Limits { max_compute_workgroups_per_dimension: 2048, ..Default::default() };
-    let gpu = crate::errors::limited(limits);
+/// A stage that draws nothing but depth. It stores neither points nor indices, so there can be any room.
+fn large(gpu: &Gpu, domain: Domain, hull: &str, patches: u32, room: Capacity) -> TessellationStage {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-    let source = "struct Vertex { @builtin(position) position: vec4f }\n\
-                  fn hull(number: u32) -> QuadFactors { return tess_quad_factors(vec4f(64.0)); }\n\
-                  fn domain(number: u32, uv: vec2f) -> Vertex { return Vertex(vec4f(uv, 0.0, 1.0)); }";
-    let patches = 1 << 19;
+    let source = format!(
+        "struct Vertex {{ @builtin(position) position: vec4f }}\n{hull}\n\
+         fn domain(number: u32, uv: vec2f) -> Vertex {{ return Vertex(vec4f(uv, 0.0, 1.0)); }}"
+    );
     let depth = wgpu::DepthStencilState {
         format: wgpu::TextureFormat::Depth32Float,
         depth_write_enabled: Some(true),
@@ -224,16 +231,43 @@ fn sums_beyond_32_bits_are_seen() {
         stencil: wgpu::StencilState::default(),
         bias: wgpu::DepthBiasState::default(),
     };
-    let room = Capacity { points: u32::MAX, primitives: 5_000_000 };
-    let mut stage = TessellationStage::builder(source, Domain::Quad, config, patches)
+    TessellationStage::builder(&source, domain, config, patches)
         .depth(depth)
         .points(Points::PullWithoutIndices)
         .room(Room::Exactly(room))
         .build(&gpu.device)
-        .unwrap_or_else(|error| panic!("{error}"));
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// 2^19 quads of factor 64 give 2^32 triangles, of which the low word alone would fit anywhere. The device takes 2048
+/// workgroups in a row, so every pass has several rows.
+#[test]
+fn sums_beyond_32_bits_are_seen() {
+    let limits = wgpu::Limits { max_compute_workgroups_per_dimension: 2048, ..Default::default() };
+    let gpu = crate::errors::limited(limits);
+    let hull = "fn hull(number: u32) -> QuadFactors { return tess_quad_factors(vec4f(64.0)); }";
+    let patches = 1 << 19;
+    let room = Capacity { points: u32::MAX, primitives: 5_000_000 };
+    let mut stage = large(&gpu, Domain::Quad, hull, patches, room);
     let found = stage.make_room(&gpu.queue, patches).expect("the device answers");
     assert_eq!([found.points, found.primitives], [4225 << 19, 1 << 32], "{found:?}");
     // Factor 2 gives 8 triangles for each patch, factor 3 would give 18.
     assert_eq!(found.drawn, 8 << 19, "{found:?}");
     assert!((2.0..3.0).contains(&(64.0 * found.scale).ceil()), "{found:?}");
+}
+
+/// An isoline patch of factors 64 has 64 lines of 65 points and 64 segments, so points can exceed 32 bits where
+/// primitives do not.
+#[test]
+fn points_beyond_32_bits_are_seen_where_primitives_are_fewer() {
+    let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+    let hull = "fn hull(number: u32) -> IsolineFactors { return IsolineFactors(64.0, 64.0); }";
+    let patches = 1_040_000;
+    let room = Capacity { points: u32::MAX, primitives: u32::MAX };
+    let mut stage = large(&gpu, Domain::Isoline, hull, patches, room);
+    let found = pollster::block_on(stage.make_room_async(&gpu.queue, patches));
+    let found = found.expect("the device answers");
+    let all = u64::from(patches);
+    assert_eq!([found.points, found.primitives], [all * 64 * 65, all * 64 * 64], "{found:?}");
+    assert_eq!(found.drawn, all * 63 * 63, "the next scale gives factor 63: {found:?}");
 }
