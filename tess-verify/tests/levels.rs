@@ -1,12 +1,80 @@
 //! The generated levels: what they hit, and that they are reproducible.
 
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
-use tess_verify::generate::{GenLevel, Selection, Shard, configurations, random_patch};
+use tess_verify::digest::Fnv1a;
+use tess_verify::generate::{
+    GenLevel, Selection, Shard, configurations, configurations_among, random_patch,
+};
 use tess_verify::random::SplitMix64;
 
 fn level(level: GenLevel) -> Vec<Case> {
     Selection::level(level, 1).cases().collect()
+}
+
+/// A digest of cases: configurations by their places in `ALL`, factors by their bits.
+fn digest(cases: impl IntoIterator<Item = Case>) -> String {
+    fn place<T: PartialEq>(all: &[T], of: &T) -> u32 {
+        (0..).zip(all).find(|(_, one)| *one == of).expect("one of them").0
+    }
+    let mut digest = Fnv1a::new();
+    for Case { config, factors } in cases {
+        digest.words([
+            place(&Domain::ALL, &factors.domain()),
+            place(&Partitioning::ALL, &config.partitioning),
+            place(&OutputPrimitive::ALL, &config.output),
+            place(&SplitOrder::ALL, &config.split),
+        ]);
+        digest.words(factors.iter().map(f32::to_bits));
+    }
+    format!("{:016x}", digest.finish())
+}
+
+/// Whoever names a level, a seed and a number means the same case on every machine and in every release that does not
+/// say otherwise.
+#[test]
+fn cases_are_the_recorded_ones() {
+    let some = |level, seed| Selection { random: Some(2000), ..Selection::level(level, seed) };
+    let domain = Some(Domain::Triangle);
+    for (name, selection, expected) in [
+        ("level 1", Selection::level(GenLevel::One, 1), "a8a097f083a9fbef"),
+        ("level 2", Selection::level(GenLevel::Two, 1), "3a851bff278dae84"),
+        ("level 3", some(GenLevel::Three, 7), "32301befa6bbcd9e"),
+        ("rules", some(GenLevel::Rules, 7), "b6d012fdfc716b58"),
+        (
+            "triangles of level 3",
+            Selection { domain, ..some(GenLevel::Three, 7) },
+            "b1b4b09582477d74",
+        ),
+    ] {
+        assert_eq!(digest(selection.cases()), expected, "{name}");
+    }
+}
+
+/// A case of another domain keeps its factors in turn; what is not selected stays.
+#[test]
+fn cases_fit_a_selection() {
+    let case: Case = "case isoline integer line ruler 40400000 40a00000".parse().expect("a case");
+    let split = Some(SplitOrder::ALL[1]);
+    let (domain, partitioning) = (Some(Domain::Triangle), Some(Partitioning::Pow2));
+    let selection = Selection { domain, partitioning, split, ..Selection::level(GenLevel::One, 1) };
+    let fitting = selection.fit(&case);
+    assert_eq!(fitting.factors.iter().collect::<Vec<_>>(), [3.0, 5.0, 3.0, 5.0]);
+    let kept =
+        Config { partitioning: Partitioning::Pow2, split: SplitOrder::ALL[1], ..case.config };
+    assert_eq!((fitting.domain(), fitting.config), (Domain::Triangle, kept));
+    let unchanged = Selection::level(GenLevel::One, 1).fit(&case);
+    assert_eq!((unchanged.factors, unchanged.config), (case.factors, case.config));
+}
+
+#[test]
+fn configurations_can_be_some() {
+    let (quad, point) = ([Domain::Quad], [OutputPrimitive::Point]);
+    let some: Vec<_> = configurations_among(&quad, &[], &point, &[]).collect();
+    assert_eq!(some.len(), 4 * 2, "of each partitioning and split order");
+    assert!(some.iter().all(|(domain, config)| (*domain, config.output) == (quad[0], point[0])));
+    assert!(configurations_among(&[], &[], &[], &[]).eq(configurations()), "no list is all");
 }
 
 #[test]
@@ -19,10 +87,8 @@ fn level_1_hits_every_bin() {
 
 /// Each factor alone makes a patch that is no minimum patch: a device that decides it by the others is seen.
 #[test]
-fn level_2_has_patches_beside_minimum_ones() {
-    use tess_core::{Domain, Partitioning};
-
-    let cases = level(GenLevel::Two);
+fn level_1_has_patches_beside_minimum_ones() {
+    let cases = level(GenLevel::One);
     for domain in Domain::ALL {
         for partitioning in Partitioning::ALL {
             for position in 0..domain.factors() {
@@ -69,7 +135,6 @@ fn random_patches_reach_what_there_is() {
 #[test]
 fn level_2_has_both_split_orders_everywhere() {
     use std::collections::HashSet;
-    use tess_core::{Domain, Partitioning, SplitOrder};
     use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
 
     let mut seen = HashSet::new();

@@ -10,7 +10,7 @@ use tess_core::{
 const PLAIN: [f32; 8] = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0, 1.5, 6.0];
 
 /// Every boundary once: special and boundary factors in rotating positions, special factors in
-/// every position, every transition, and small and large interiors.
+/// every position, every transition, small and large interiors, and patches beside minimum ones.
 pub(super) fn one() -> Vec<Case> {
     let mut cases = Vec::new();
     for (domain, partitioning) in combinations() {
@@ -27,10 +27,11 @@ pub(super) fn one() -> Vec<Case> {
     transitions(&mut cases);
     interiors(&mut cases, |u, v| u == v || u.max(v) <= 9 || (u % 15 < 3 && v % 15 < 3));
     every_configuration(&mut cases);
+    beside_minimum(&mut cases);
     cases
 }
 
-/// Every boundary in every position and both split orders, every interior there is, and patches beside minimum ones.
+/// Every boundary in every position and both split orders, every interior there is.
 pub(super) fn two() -> Vec<Case> {
     let mut cases = one();
     for (domain, partitioning) in combinations() {
@@ -44,7 +45,6 @@ pub(super) fn two() -> Vec<Case> {
         }
     }
     interiors(&mut cases, |_, _| true);
-    beside_minimum(&mut cases);
     cases
 }
 

@@ -79,3 +79,59 @@ fn paint(Colour(red, green, blue): Colour) -> Paint<'static> {
 const fn single(pixels: f64) -> f32 {
     pixels as f32
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RED: Colour = Colour(200, 0, 0);
+    const BLUE: Colour = Colour(0, 0, 200);
+
+    /// The pixel at a place of a decoded picture.
+    fn pixel(pixels: &Pixmap, [x, y]: [u32; 2]) -> Colour {
+        let pixel = pixels.pixel(x, y).expect("within the picture").demultiply();
+        Colour(pixel.red(), pixel.green(), pixel.blue())
+    }
+
+    #[test]
+    fn shapes_are_where_they_are_said_to_be() {
+        let shapes = vec![
+            Shape::Polygon { corners: vec![[0.0, 0.0], [20.0, 0.0], [0.0, 20.0]], fill: RED },
+            Shape::Line {
+                points: vec![[30.5, 10.0], [30.5, 40.0], [50.0, 40.0]],
+                width: 5.0,
+                stroke: BLUE,
+            },
+            Shape::Disc { centre: [16.0, 48.0], radius: 10.0, fill: RED, rim: BLUE },
+            Shape::Polygon { corners: vec![[60.0, 60.0]], fill: BLUE },
+        ];
+        let picture = Picture { size: 64, title: String::new(), shapes };
+        let png = picture.to_png().expect("a picture");
+        let pixels = Pixmap::decode_png(&png).expect("PNG");
+        assert_eq!((pixels.width(), pixels.height()), (64, 64));
+        let white = Colour(255, 255, 255);
+        for (at, expected) in [
+            ([5, 5], RED),
+            ([15, 15], white),
+            // The line is as wide as it should be, its ends and its bend are round.
+            ([28, 20], BLUE),
+            ([32, 20], BLUE),
+            ([27, 20], white),
+            ([34, 20], white),
+            ([30, 8], BLUE),
+            ([30, 6], white),
+            ([28, 42], white),
+            ([16, 48], RED),
+            ([16, 56], RED),
+            ([2, 48], white),
+            ([60, 60], white),
+        ] {
+            assert_eq!(pixel(&pixels, at), expected, "{at:?}");
+        }
+        assert_ne!(pixel(&pixels, [26, 48]), white, "the rim");
+        let edge = pixel(&pixels, [10, 9]);
+        assert!(edge != RED && edge != white, "edges are smooth: {edge:?}");
+        let error = Picture { size: 0, ..picture }.to_png().expect_err("no picture");
+        assert!(error.to_string().contains("0 x 0 pixels"), "{error}");
+    }
+}

@@ -26,6 +26,11 @@ fn sizes() {
         let totals = workload.totals();
         let sizes = (totals.patches, totals.points, totals.primitives);
         assert_eq!(sizes, (patches, points, primitives), "{name}");
+        let corners = if name.ends_with("isolines") { 2 } else { 3 };
+        assert_eq!(totals.indices, corners * primitives, "{name}");
+        let bytes = [IndexType::U16, IndexType::U32].map(|index| totals.bytes(index));
+        let all = [2, 4].map(|index| 8 * points + index * corners * primitives);
+        assert_eq!(bytes, all, "{name}");
     }
 }
 
@@ -130,16 +135,15 @@ fn character_is_log_uniform() {
 #[test]
 fn cache_batches_cover_every_patch_once() {
     for workload in all() {
+        let empty = Workload { patches: Vec::new(), ..workload.clone() };
         for index_type in [IndexType::U16, IndexType::U32] {
             let batches = workload.cache_batches(index_type);
             let mut next = 0;
             for batch in &batches {
                 assert_eq!(batch.start, next, "{}: batches follow each other", workload.name);
                 next = batch.end;
-                let part = Workload {
-                    patches: workload.patches[batch.clone()].to_vec(),
-                    ..workload.clone()
-                };
+                let part =
+                    Workload { patches: workload.patches[batch.clone()].to_vec(), ..empty.clone() };
                 let bytes = part.totals().bytes(index_type);
                 let expected = match workload.calls {
                     Calls::SinglePatch => batch.len() == 1,

@@ -50,6 +50,8 @@ fn what_a_device_cannot_hit_is_excluded() {
     assert_eq!(row(&all.stdout, "configuration"), ["96", "2", "0", "2.0"], "{}", all.stdout);
     let other = shell("$TESS gen --level 3 --count 1 --domain tri --coverage one.xml", &folder);
     assert_eq!(row(&other.stdout, "transition")[1], "4032", "hits of before are no exclusions");
+    let configurations = row(&other.stdout, "configuration");
+    assert_eq!(configurations, ["96", "3", "62", "8.8"], "two of before, one of 32");
 }
 
 #[test]

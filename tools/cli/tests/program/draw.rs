@@ -1,6 +1,6 @@
 //! `tess draw`: pictures of the right form, and overlays that tell differences.
 
-use crate::support::{directory, tess};
+use crate::support::{digest, directory, tess};
 use std::fs;
 
 const PATCH: &str = "quad --outer 3,4,5,6 --inner 4,7";
@@ -15,6 +15,59 @@ fn svg_has_every_triangle_and_point() {
     assert_eq!(run.stdout, tess(&format!("draw {PATCH}")).stdout, "the same again");
     assert_eq!(run.stdout, tess(&format!("patch {PATCH} --format svg")).stdout, "by tess patch");
 }
+
+/// Every number, colour and place: whoever changes how pictures look says so here, after a look at them.
+#[test]
+fn pictures_are_the_recorded_ones() {
+    let patches = [
+        "tri --outer 3,4.5,7 --inner 5.5 --partitioning fractional_odd",
+        "quad --outer 3,4,5,6 --inner 4,7",
+        "isoline --outer 3,4",
+        "quad --outer 2,3,4,5 --inner 3,2 --output point",
+    ];
+    let options =
+        ["", "--indices", "--order", "--rings", "--indices --rings", "--indices --size 200"];
+    let found = patches.map(|patch| {
+        options.map(|options| digest(&tess(&format!("draw {patch} {options}")).stdout))
+    });
+    assert_eq!(found, RECORDED, "patches with {options:?}");
+}
+
+/// Digests of the pictures of [`pictures_are_the_recorded_ones`]; what is refused draws nothing.
+const RECORDED: [[&str; 6]; 4] = [
+    [
+        "0460f3fa92fd612e",
+        "62c0d2924182e4a1",
+        "d030bf38c952e289",
+        "44a103a451b6cb6d",
+        "ef6b81f9c5981a92",
+        "07a33c176a65f0f2",
+    ],
+    [
+        "fbd3666c7ce0a9f6",
+        "cf1774140484cc76",
+        "bcac5cf49565c815",
+        "402bb7d66b865e36",
+        "08de08df3268cfb6",
+        "b2451ae32f50147a",
+    ],
+    [
+        "4097785e48c665b7",
+        "047049e1c71d82f5",
+        "b54cd48613cac8c9",
+        "cbf29ce484222325",
+        "cbf29ce484222325",
+        "08f59d97fe67e169",
+    ],
+    [
+        "c47546fd71474ff6",
+        "70f4e9fa88f5af69",
+        "7a336d9a48b29e55",
+        "cbf29ce484222325",
+        "cbf29ce484222325",
+        "4ce6203575053c03",
+    ],
+];
 
 #[test]
 fn png_is_chosen_by_name_and_has_the_size() {
@@ -54,6 +107,7 @@ fn overlays_show_differences() {
     assert_eq!(different.code, Some(1), "{}", different.stderr);
     assert!(different.stderr.contains(": 1 point and 1 primitive\n"), "{}", different.stderr);
     assert!(different.stdout.contains("#d51f1f"), "something is red");
+    assert_eq!(digest(&different.stdout), "9c9ee765ecd04b29", "{}", different.stdout);
 
     let other = tess(&draw.replace("3,4,5,6", "3,4,5,7"));
     assert_eq!(other.code, Some(2), "no listing of that patch: {}", other.stderr);

@@ -1,6 +1,6 @@
 //! `tess explain`: the decisions it names, and that its parts fit the patch.
 
-use crate::support::tess;
+use crate::support::{digest, tess};
 use serde_json::Value;
 
 #[test]
@@ -20,6 +20,40 @@ fn decisions_are_named() {
         let run = tess(&format!("explain {patch}"));
         assert_eq!(run.code, Some(0), "{patch}: {}", run.stderr);
         assert!(run.stdout.contains(sentence), "{patch} says {sentence}:\n{}", run.stdout);
+    }
+}
+
+/// Every word and number: whoever changes what is said does so here too, after reading it.
+#[test]
+fn explanations_are_the_recorded_ones() {
+    let parts = [
+        "",
+        "--json",
+        "--point 0",
+        "--point 3",
+        "--point 17",
+        "--point 29",
+        "--primitive 0",
+        "--primitive 5",
+        "--primitive 23",
+        "--primitive 40",
+        "--factor 0",
+        "--factor 2 --json",
+    ];
+    for (patch, expected) in [
+        ("quad --outer 3,4,5,6 --inner 4,7", "6fd1a74ecdd20c81"),
+        ("tri --outer 17,5.5,9 --inner 3.25 --partitioning fractional_odd", "aef6fc49b691fff0"),
+        (
+            "quad --outer 2.5,1,64,7 --inner 1,30 --partitioning fractional_even --split center",
+            "f2c0b2e9b9bd5842",
+        ),
+        ("isoline --outer 3,4 --output line", "545dab3d028ef80e"),
+        ("tri --outer 1,nan,1 --inner 1", "e31042cea959491e"),
+        ("tri --outer 1,1,1 --inner 1", "15d3e47c218cdbe5"),
+    ] {
+        // What a patch does not have is refused, and says nothing here.
+        let said = parts.map(|part| tess(&format!("explain {patch} {part}")).stdout).concat();
+        assert_eq!(digest(&said), expected, "{patch}:\n{said}");
     }
 }
 

@@ -5,6 +5,7 @@ use std::ops::Deref;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
+use tess_verify::digest::words_digest;
 
 /// What a run of the program left.
 pub(crate) struct Run {
@@ -26,6 +27,12 @@ impl From<Output> for Run {
 /// Runs `tess` with these words.
 pub(crate) fn tess(words: &str) -> Run {
     tess_with_input(words, "")
+}
+
+/// A digest of what was printed.
+pub(crate) fn digest(text: &str) -> String {
+    let bytes: Vec<u32> = text.bytes().map(u32::from).collect();
+    format!("{:016x}", words_digest(&bytes))
 }
 
 /// The command of `tess` with these words.
