@@ -10,6 +10,8 @@ module tb_stages;
     import tess_dpi::*;
 
     localparam int unsigned MAX_SHOWN = 20;
+    // Points that are placed in one clock: a clock of the simulator costs more than a placement.
+    localparam int unsigned LANES = 16;
     int unsigned     mismatches = 0;
     longint unsigned contexts_checked = 0, places_checked = 0, factors_checked = 0;
 
@@ -30,8 +32,8 @@ module tb_stages;
     logic          center;
     tess_context_t made;
     logic          odd;
-    logic [6:0]    p;
-    logic [16:0]   location; // of the point of the clock before
+    logic [6:0]    p [LANES];        // of as many points at a time
+    logic [16:0]   location [LANES]; // of the points of the clock before
     assign made.odd = odd;
     tess_factor_context factor_context (
         .factor, .odd, .center,
@@ -42,7 +44,9 @@ module tb_stages;
         .split      (made.split),
         .points     (made.points)
     );
-    tess_place place (.clk, .advance(1'b1), .in_context(made), .in_p(p), .location);
+    for (genvar lane = 0; lane < LANES; lane++) begin : lanes
+        tess_place place (.clk, .advance(1'b1), .in_context(made), .in_p(p[lane]), .location(location[lane]));
+    end
 
     task automatic check_context(input int unsigned fixed, input bit is_odd, input bit is_center);
         context_t c;
@@ -67,20 +71,24 @@ module tb_stages;
         check_places(fixed, c.points);
     endtask
 
-    // Two stages: behind the edge for point k the location of point k - 1 is there.
+    // Two stages: behind the edge for some points the locations of those before are there.
     task automatic check_places(input int unsigned fixed, input int unsigned points);
-        for (int unsigned k = 0; k <= points; k++) begin
-            p = (k < points) ? 7'(k) : 7'd0;
+        for (int unsigned next = 0; next < points + LANES; next += LANES) begin
+            for (int unsigned lane = 0; lane < LANES; lane++) p[lane] = (next + lane < points) ? 7'(next + lane) : 7'd0;
             #1 clk = 1'b1;
             #1 clk = 1'b0;
-            if (k != 0) begin
-                placement_t s = model_place(fixed, parity_e'(odd), split_order_e'(center), k - 1);
-                if (32'(location) != s.location)
-                    differs("place", "location", fixed, k - 1, 32'(location), s.location);
-                places_checked++;
-            end
+            if (next != 0) for (int unsigned lane = 0; lane < LANES; lane++) check_place(fixed, points, next - LANES + lane, location[lane]);
         end
     endtask
+
+    function automatic void check_place(
+            input int unsigned fixed, input int unsigned points, input int unsigned k, input logic [16:0] observed);
+        placement_t s;
+        if (k >= points) return;
+        s = model_place(fixed, parity_e'(odd), split_order_e'(center), k);
+        if (32'(observed) != s.location) differs("place", "location", fixed, k, 32'(observed), s.location);
+        places_checked++;
+    endfunction
 
     // ---- factor processing ---------------------------------------------------------------------
 
