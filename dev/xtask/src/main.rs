@@ -5,12 +5,13 @@ mod ci;
 mod circles;
 mod command;
 mod coverage;
-mod covergroups;
 mod explorer;
 mod features;
 mod fuzz;
 mod install;
 mod integrations;
+#[cfg(feature = "kit")]
+mod kit;
 mod levels;
 mod mesa;
 mod mutants;
@@ -19,7 +20,6 @@ mod ports;
 mod publish;
 mod python;
 mod records;
-mod rtl;
 mod setup;
 mod suite;
 mod tally;
@@ -42,8 +42,10 @@ usage: cargo xtask <command>
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
           Icarus Verilog, Python
-  python  build the Python package's wheel, install it in a fresh virtual environment, check its
-          types and run its tests; `test all` includes it. PYTHON names another interpreter
+  python [--program PROGRAM]
+          build the Python package's wheel, install it in a fresh virtual environment, check its
+          types and run its tests, which compare it with `tess` or with PROGRAM; `test all` includes it.
+          PYTHON names another interpreter
   explorer [--serve | --test]
           build the explorer's page in target/explorer; serve it on this machine and say where; or
           test it in Chromium. `test all` includes it where Node.js and Chromium are to be had
@@ -60,11 +62,12 @@ usage: cargo xtask <command>
   install --prefix FOLDER
           build the C library and install its header, both libraries and `tess.pc` there, so that
           `cc program.c $(pkg-config --cflags --libs tess)` works
-  mesa [build | compare | test]
+  mesa [build | compare | test] [22.3.6 | 25.0.7]
           get Mesa's sources from Debian, build its drivers lavapipe (Vulkan) and llvmpipe (OpenGL) as they are
           and with this library as their tessellator (in target/mesa, never installed), and compare them:
           docs/hosts/mesa.md. Takes half an hour on two cores, most of it to compare. `test` runs the tests of
-          Vulkan and OpenGL on the patched drivers
+          Vulkan and OpenGL on the patched drivers. The version is that of this machine's Debian: 22.3.6 on 12
+          (bookworm), 25.0.7 on 13 (trixie); the other one may be asked for
   covergroups
           write the covergroups of tess_uvm anew from the coverage bins
   circles [FOLDER...]
@@ -130,21 +133,14 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["coverage"] => coverage::run(),
         ["publish"] => publish::dry_run(),
         ["python"] => after_setup(&python::run),
+        ["python", "--program", program] => python::run_with(program.as_ref()),
         ["explorer"] => explorer::build(),
         ["explorer", "--serve"] => explorer::serve(),
         ["explorer", "--test"] => explorer::test(),
         ["integrations"] => after_setup(&integrations::run),
-        ["rtl"] => rtl::run(),
-        ["rtl", "--long"] => rtl::long(),
-        ["rtl", "--prove"] => rtl::prove(),
-        ["rtl", "--synth"] => rtl::synthesize(),
-        ["rtl", "--names"] => rtl::write_names(),
+        ["rtl" | "covergroups", ..] => return with_kit(words),
         ["install", "--prefix", folder] => install::run(folder),
-        ["mesa"] => mesa::run(),
-        ["mesa", "build"] => mesa::build(),
-        ["mesa", "compare"] => mesa::compare(),
-        ["mesa", "test"] => mesa::test(),
-        ["covergroups"] => covergroups::write(),
+        ["mesa", ref words @ ..] => mesa::run(words),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),
         ["semver", baseline] => publish::semver(baseline),
@@ -156,4 +152,12 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         }
         _ => return None,
     })
+}
+
+/// Runs a command that needs the kit, in a process that has it.
+fn with_kit(words: &[&str]) -> Option<Result<(), String>> {
+    #[cfg(feature = "kit")]
+    return kit::run(words);
+    #[cfg(not(feature = "kit"))]
+    Some(command::run(command::cargo("run --quiet --package xtask --features kit --").args(words)))
 }

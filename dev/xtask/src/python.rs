@@ -15,14 +15,30 @@ const TOOLS: &[&str] = &["maturin>=1.9,<2"];
 /// # Errors
 /// A lint, a type or a test fails, or a package of the environment cannot be had.
 pub(crate) fn run() -> Result<(), String> {
-    tally::run([tests(&command::program()?)?])
+    run_with(&command::program()?)
+}
+
+/// The same, compared with this program `tess`.
+///
+/// # Errors
+/// As for [`run`].
+pub(crate) fn run_with(program: &Path) -> Result<(), String> {
+    tally::run([tests(program)?])
+}
+
+/// The command that does [`run_with`] in a process of its own, so that other tests can run meanwhile.
+///
+/// # Errors
+/// This program has no path.
+pub(crate) fn in_a_process(program: &Path) -> Result<Command, String> {
+    let own = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
+    let mut command = Command::new(own);
+    command.args(["python", "--program"]).arg(program).current_dir(workspace());
+    Ok(command)
 }
 
 /// Makes everything ready, and gives the command that runs the tests, which compare with this program `tess`.
-///
-/// # Errors
-/// As for [`run`], but for the tests.
-pub(crate) fn tests(program: &Path) -> Result<Command, String> {
+fn tests(program: &Path) -> Result<Command, String> {
     setup::provide(&[PYTHON, ICARUS])?;
     lint()?;
     let environment = Environment::fresh()?;

@@ -3,7 +3,9 @@
 mod needs;
 
 use crate::command;
-pub(crate) use needs::{ICARUS, PYTHON, SOLVER, VERILATOR, YOSYS};
+pub(crate) use needs::{ICARUS, PYTHON};
+#[cfg(feature = "kit")]
+pub(crate) use needs::{SOLVER, VERILATOR, YOSYS};
 use std::path::Path;
 use std::process::{Command, Stdio};
 

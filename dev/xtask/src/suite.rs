@@ -5,10 +5,11 @@
 
 use crate::command::{self, cargo, workspace};
 use crate::levels;
-use crate::packages::{self, Target};
+use crate::packages::{self, Package, Target};
 use crate::python;
 use crate::tally::Job;
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -76,7 +77,12 @@ pub(crate) fn jobs(extent: Extent, paths: &[&str]) -> Result<Vec<Job>, String> {
     let mut build = cargo(ALL);
     println!("\n$ {}", command::shown(build.arg("--no-run")));
     let root = workspace();
-    let messages = command::output(build.arg(MESSAGES).args(selection(paths)?))?;
+    let selected = match (extent, paths) {
+        // Not the examples either, of which each links a window system.
+        (Extent::Comparisons, []) => arguments(packages::all()?.iter().flat_map(comparisons)),
+        _ => selection(paths)?,
+    };
+    let messages = command::output(build.arg(MESSAGES).args(selected))?;
     let mut jobs = jobs_of(&messages, &root, extent, paths);
     let place = |job: &Job| LONG.iter().position(|long| *long == job.name).unwrap_or(LONG.len());
     jobs.sort_by_key(place);
@@ -113,24 +119,40 @@ fn jobs_of(messages: &str, root: &Path, extent: Extent, paths: &[&str]) -> Vec<J
 
 /// Arguments of cargo that select the targets below these paths.
 fn selection(paths: &[&str]) -> Result<Vec<String>, String> {
-    let mut arguments: Vec<Vec<String>> = Vec::new();
+    let mut chosen = Vec::new();
     let packages = packages::all()?;
     for path in paths {
         let targets = packages.iter().flat_map(|package| &package.targets);
         let prefix = workspace().join(path);
-        let found = targets.filter(|target| target.test && target.src_path.starts_with(&prefix));
-        let found: Vec<_> = found.map(Target::selection).collect();
-        if found.is_empty() {
+        let before = chosen.len();
+        chosen.extend(targets.filter(|target| target.test && target.src_path.starts_with(&prefix)));
+        if chosen.len() == before {
             return Err(format!(
                 "there are no tests in `{path}`; try `tess-core` or `tess-core/tests/golden.rs`"
             ));
         }
-        arguments.extend(found);
     }
+    Ok(arguments(chosen))
+}
+
+/// Arguments of cargo that select these targets.
+fn arguments<'a>(targets: impl IntoIterator<Item = &'a Target>) -> Vec<String> {
     // Cargo takes `--lib` once.
-    arguments.sort();
-    arguments.dedup();
-    Ok(arguments.concat())
+    let selections: BTreeSet<_> = targets.into_iter().map(Target::selection).collect();
+    selections.into_iter().flatten().collect()
+}
+
+/// The targets of a package that have tests of [`Extent::Comparisons`].
+fn comparisons(package: &Package) -> impl Iterator<Item = &Target> {
+    package
+        .targets
+        .iter()
+        .filter(|target| target.test && tests_beyond(&target.src_path) != Some(&[]))
+}
+
+/// The tests of a program that need more than [`Extent::Comparisons`] has, from [`BEYOND`].
+fn tests_beyond(source: &Path) -> Option<&'static [&'static str]> {
+    BEYOND.iter().find(|(file, _)| source.ends_with(file)).map(|&(_, names)| names)
 }
 
 /// The command of a program that is to run.
@@ -140,7 +162,7 @@ fn job(program: Program, root: &Path, extent: Extent, paths: &[&str]) -> Option<
     let is_chosen = paths.is_empty() || paths.iter().any(|path| source.starts_with(path));
     let mut command = Command::new(executable.filter(|_| profile.test && is_chosen)?);
     if extent == Extent::Comparisons
-        && let Some((_, left_out)) = BEYOND.iter().find(|(file, _)| source == Path::new(file))
+        && let Some(left_out) = tests_beyond(source)
     {
         if left_out.is_empty() {
             return None;
@@ -162,6 +184,8 @@ fn prepare(tests: &mut Command) {
     // The C interface's libraries are those of this build.
     tests.env("TESS_CAPI_BUILD", ALL);
     tests.env(levels::VARIABLE, levels::required().join(","));
+    // Shaders without what debuggers want: a tenth less for the driver to compile.
+    tests.env("WGPU_DEBUG", "0");
     // Without it drivers complain on the standard error, once for each device that is opened.
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         tests.env("XDG_RUNTIME_DIR", std::env::temp_dir());

@@ -41,17 +41,21 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     // Compiled once, so that nothing else of the suite builds the program with other features.
     let mut jobs = suite::jobs(Extent::All, &[])?;
     let program = command::built_program();
-    jobs.insert(0, Job::new(python::tests(&program)?));
-    let explorer = match explorer::lacking() {
-        None => Some(explorer::tests(&program)?),
-        Some(lacking) if browser == Browser::Demanded => return Err(lacking),
-        Some(lacking) => {
-            println!("\nNOT RUN: the tests of the explorer in a browser. {lacking}");
-            None
+    jobs.insert(0, Job::new(python::in_a_process(&program)?));
+    let lacking = explorer::lacking();
+    if let Some(lacking) = &lacking {
+        if browser == Browser::Demanded {
+            return Err(lacking.clone());
         }
-    };
+        println!("\nNOT RUN: the tests of the explorer in a browser. {lacking}");
+    }
     let mut report = Report::default();
-    report.beside_each_other(jobs)?;
+    let explorer = std::thread::scope(|scope| {
+        // The page is compiled on one processor for the most part, so that tests fill the others.
+        let page = scope.spawn(|| lacking.is_none().then(|| explorer::tests(&program)).transpose());
+        report.beside_each_other(jobs)?;
+        page.join().map_err(|_| "building the explorer panicked".to_owned())?
+    })?;
     // Alone, as a page waits for a picture only so long.
     report.one_by_one(explorer)?;
     report.finish()

@@ -64,6 +64,7 @@ pub(crate) const VERILATOR: Need = Need {
 };
 
 /// Synthesis of the circuit, and what proofs are made of.
+#[cfg(feature = "kit")]
 pub(crate) const YOSYS: Need = Need {
     what: "Yosys (synthesis and proofs of the circuit)",
     packages: &["yosys"],
@@ -71,6 +72,7 @@ pub(crate) const YOSYS: Need = Need {
 };
 
 /// The solver of proofs.
+#[cfg(feature = "kit")]
 pub(crate) const SOLVER: Need =
     Need { what: "Z3 (proofs of the circuit)", packages: &["z3"], is_there: || has_program("z3") };
 
