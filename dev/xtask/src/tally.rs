@@ -4,7 +4,7 @@ use crate::command::shown;
 use std::collections::VecDeque;
 use std::fmt;
 use std::io::{BufRead, BufReader, Read};
-use std::process::{Command, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::sync::Mutex;
 use std::sync::mpsc::{self, Receiver};
 use std::time::Instant;
@@ -118,13 +118,15 @@ impl Report {
     fn receive(&mut self, names: Vec<String>, ended: Receiver<Ended>) -> Result<(), String> {
         let total = names.len();
         for (number, (name, output)) in (1..).zip(ended) {
-            let Output { text, succeeded, seconds } = output.map_err(|e| format!("{name}: {e}"))?;
+            let Output { text, status, seconds } = output.map_err(|e| format!("{name}: {e}"))?;
             println!("\n[{number} of {total}] {name}, {seconds} s\n{}", text.trim_end());
             let results = text.lines().filter(|line| self.all.add_line(line)).count();
-            if !succeeded {
-                self.broken.push(name);
-            } else if results == 0 {
-                self.broken.push(format!("{name} (no result)"));
+            match (status.success(), results) {
+                (true, 1..) => {}
+                (true, 0) => self.broken.push(format!("{name} (no result)")),
+                // A program that crashes has no result either: nothing else says why it failed.
+                (false, 0) => self.broken.push(format!("{name} (no result; {status})")),
+                (false, _) => self.broken.push(name),
             }
         }
         Ok(())
@@ -159,7 +161,7 @@ type Ended = (String, Result<Output, String>);
 /// What a command printed on both of its outputs.
 struct Output {
     text: String,
-    succeeded: bool,
+    status: ExitStatus,
     seconds: u64,
 }
 
@@ -184,7 +186,7 @@ fn captured(mut command: Command) -> Result<Output, String> {
     if !status.success() {
         text += &format!("\nended with {status}");
     }
-    Ok(Output { text, succeeded: status.success(), seconds: began.elapsed().as_secs() })
+    Ok(Output { text, status, seconds: began.elapsed().as_secs() })
 }
 
 /// Runs a command and passes its output on; whether it succeeded.
@@ -249,6 +251,7 @@ mod tests {
         for (faulty, said) in [
             ("echo 'test result: FAILED. 0 passed; 1 failed'; exit 101", "exit 101"),
             ("exit 0", "no result"),
+            ("kill -9 $$", "no result; signal: 9"),
             ("echo 'test result: ok. 1 passed; 0 failed' >&2; kill -9 $$", "kill"),
         ] {
             let result = beside_each_other(&[ONE, faulty, ONE]);

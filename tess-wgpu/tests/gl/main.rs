@@ -53,7 +53,9 @@ fn main() {
     });
     let lacking = lacking.clone().or((!is_mesa).then(|| "the driver is not Mesa".to_owned()));
     let of_mesa = OF_MESA.iter().map(|&(name, test)| trial(name, lacking.clone(), test));
-    libtest_mimic::run(&Arguments::from_args(), all.chain(of_mesa).collect()).exit();
+    // One after the other: Mesa does not promise that contexts in several threads are safe.
+    let arguments = Arguments { test_threads: Some(1), ..Arguments::from_args() };
+    libtest_mimic::run(&arguments, all.chain(of_mesa).collect()).exit();
 }
 
 /// A test, or the report that something is lacking for it.
