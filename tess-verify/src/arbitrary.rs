@@ -111,4 +111,12 @@ mod tests {
         let taken = 200 - bytes.len();
         assert!(most.is_some_and(|most| taken <= most), "{taken} bytes were taken");
     }
+
+    /// Raw bits are among the factors: each sign with each exponent.
+    #[test]
+    fn any_bits_come() {
+        let factors = cases(200_000).flat_map(|case| case.factors.iter().collect::<Vec<_>>());
+        let high: BTreeSet<u32> = factors.map(|factor| factor.to_bits() >> 23).collect();
+        assert_eq!(high.len(), 512, "signs and exponents");
+    }
 }

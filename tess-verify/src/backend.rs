@@ -146,3 +146,49 @@ pub(crate) fn all_answered<T>(
     let (name, got) = (backend.name(), answers.len());
     Err(BackendError::new(format!("{name} answered with {got} {what}, {asked} were asked for")))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Whole;
+
+    impl Backend for Whole {
+        fn name(&self) -> &'static str {
+            "whole"
+        }
+
+        fn device(&self) -> String {
+            String::new()
+        }
+
+        fn tessellate(
+            &mut self,
+            _: Config,
+            _: &[PatchFactors],
+        ) -> Result<Vec<Tessellation>, BackendError> {
+            Ok(Vec::new())
+        }
+    }
+
+    #[test]
+    fn stages_that_there_are_not_are_errors() {
+        let messages = [
+            Whole.fixed_factors(Partitioning::Integer, &[]).expect_err("no stage").to_string(),
+            Whole.contexts(SplitOrder::Ruler, Parity::Odd, &[]).expect_err("no stage").to_string(),
+            Whole.locations(&[]).expect_err("no stage").to_string(),
+        ];
+        assert_eq!(messages, ["whole gives whole patches alone, no stages"; 3]);
+    }
+
+    #[test]
+    fn what_is_not_supported_has_a_source() {
+        let error = BackendError::unsupported("no isolines");
+        assert!(error.is_unsupported() && error.to_string() == "no isolines", "{error}");
+        let source = error.source().expect("a source").to_string();
+        assert_eq!(source, "the configuration is not supported");
+        let other =
+            BackendError { source: Some(Box::new(fmt::Error)), ..BackendError::new("lost") };
+        assert!(!other.is_unsupported(), "another source");
+    }
+}

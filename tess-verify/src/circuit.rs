@@ -251,5 +251,20 @@ mod tests {
         let culled = self::case("case isoline integer line ruler 00000000 3f800000");
         assert_eq!(compare(&culled, Part::Factor(1), &[("culled", 1)]), Ok(vec![]), "culled");
         assert!(compare(&culled, Part::Factor(1), &[("fixed", 0)]).is_err(), "has nothing else");
+        let part = Part::Factor(2);
+        assert_eq!(compare(&culled, part, &[("culled", 1)]), Err(CompareError::NoSuchPart(part)));
+    }
+
+    #[test]
+    fn the_last_point_and_primitive_are_marked() {
+        let case = case("case tri integer line ruler 40400000 40400000 40400000 40400000");
+        let counts = case.patch().counts();
+        let last = |part| compare(&case, part, &[("last", 2)]).expect("the part")[0].expected;
+        for i in 0..counts.points {
+            assert_eq!(last(Part::Point(i)), u32::from(i == counts.points - 1), "point {i}");
+        }
+        for t in 0..counts.primitives {
+            assert_eq!(last(Part::Primitive(t)), u32::from(t == counts.primitives - 1), "{t}");
+        }
     }
 }

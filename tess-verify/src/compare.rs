@@ -163,6 +163,7 @@ pub(crate) fn fixed_factors(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tess_core::{Parity, SplitOrder};
 
     #[test]
     fn a_wrong_index_names_its_primitive_and_its_position() {
@@ -181,5 +182,27 @@ mod tests {
                 assert_eq!(found, Some(element), "index {at} of {line}");
             }
         }
+    }
+
+    /// Each location belongs to the context in which it lies, the first and the last of each included.
+    #[test]
+    fn a_wrong_location_names_its_factor() {
+        let factors = [0x2_0000, 0x3_8000, 0x4_0000].map(FixedFactor::from_bits);
+        let contexts =
+            factors.map(|fixed| FactorContext::new(fixed, Parity::Even, SplitOrder::Ruler));
+        let all = contexts.iter().map(|context| context.points).sum();
+        let expected: Vec<u32> = (0..all).collect();
+        let mut at = 0;
+        for (factor, context) in factors.into_iter().zip(&contexts) {
+            for p in 0..context.points as usize {
+                let mut observed = expected.clone();
+                observed[at] ^= 1;
+                let found = locations(&factors, &contexts, &observed, &expected);
+                let element = Element::Location { factor, p };
+                assert_eq!(found.map(|found| found.element), Some(element), "location {at}");
+                at += 1;
+            }
+        }
+        assert_eq!(at, expected.len(), "all locations");
     }
 }

@@ -78,3 +78,13 @@ fn processed(
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_says_what_it_is() {
+        assert_eq!((CoreBackend.name(), &*CoreBackend.device()), ("core", "portable"));
+    }
+}

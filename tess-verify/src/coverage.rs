@@ -222,3 +222,41 @@ impl fmt::Display for Coverage {
         f.write_str(&self.report(&Exclusions::default()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tess_core::{FixedFactor, Parity};
+
+    fn case() -> Case {
+        "case quad integer line ruler 40400000 40400000 40400000 40400000 40a00000 40400000"
+            .parse()
+            .expect("a case")
+    }
+
+    /// The bins of a case, counted in three ways; once all are hit, no more are new.
+    #[test]
+    fn a_case_hits_its_bins() {
+        let mut coverage = Coverage::new();
+        let fresh = coverage.record_new(&case());
+        assert_eq!(coverage.missed().count() + fresh, coverage.bins().count(), "{coverage}");
+        assert_eq!(coverage.record_new(&case()), 0, "the second time");
+        let bins: Vec<&str> = coverage.bins().map(|(bin, _)| bin).collect();
+        let mut hits = vec![0; bins.len()];
+        bins_hit(&case()).into_iter().for_each(|number| hits[number] += 2);
+        assert_eq!(Coverage::from_hits(&hits), Some(coverage.clone()), "by number");
+        assert_eq!(coverage.hits("middle/oddxodd"), Some(8), "four edges, twice");
+        assert_eq!(Coverage::from_ucis(&coverage.to_ucis()), Ok(coverage.clone()), "by file");
+        assert_eq!(coverage.to_string(), coverage.report(&Exclusions::default()));
+    }
+
+    #[test]
+    fn a_context_hits_the_bins_of_contexts() {
+        let mut coverage = Coverage::new();
+        let factor = FixedFactor::from_bits(0x3_8000);
+        let context = FactorContext::new(factor, Parity::Odd, SplitOrder::Ruler);
+        coverage.record_context(SplitOrder::Ruler, &context);
+        let hit: Vec<_> = coverage.groups().into_iter().filter(|group| group.hit > 0).collect();
+        assert_eq!(hit.iter().map(|group| &*group.name).collect::<Vec<_>>(), ["context"]);
+    }
+}

@@ -198,3 +198,23 @@ pub fn fills(patch: &Listing, colours: Colours) -> Vec<Colour> {
 fn corners(primitive: &[u32], points: &[Position]) -> Option<Vec<Position>> {
     primitive.iter().map(|&index| points.get(index as usize).copied()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Triangles without room for their numbers are counted.
+    #[test]
+    fn numbers_without_room_are_counted() {
+        let left_out = |factor: f32, colours| {
+            let bits = format!(" {:08x}", factor.to_bits()).repeat(6);
+            let case: crate::case::Case =
+                format!("case quad integer triangle_cw ruler{bits}").parse().expect("a case");
+            let patch = Listing { line: 0, case, output: case.patch().tessellate() };
+            draw(&patch, &DrawOptions { colours, ..DrawOptions::default() }).labels_left_out
+        };
+        assert_eq!(left_out(4.0, Colours::Order), 0, "room for all");
+        assert_eq!(left_out(64.0, Colours::Plain), 0, "none are asked for");
+        assert_eq!(left_out(64.0, Colours::Order), 8192 - 10, "room for single digits");
+    }
+}

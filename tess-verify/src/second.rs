@@ -135,3 +135,42 @@ fn location(context: &FactorContext, p: u32) -> u32 {
     let x = (mean + 0.5).floor() as u32;
     if p < mirrored { x } else { ONE - x }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::core_backend::CoreBackend;
+
+    /// Values at, between and beyond the ends of the ranges.
+    #[test]
+    fn factors_are_those_of_the_model() {
+        let values = [
+            f32::NAN,
+            -1.0,
+            0.0,
+            1e-40,
+            0.5,
+            1.0,
+            1.25,
+            2.0,
+            62.5,
+            63.0,
+            63.5,
+            64.0,
+            100.0,
+            f32::INFINITY,
+        ];
+        for partitioning in Partitioning::ALL {
+            let model = CoreBackend.fixed_factors(partitioning, &values).expect("it answers");
+            let second =
+                SecondFormulation.fixed_factors(partitioning, &values).expect("it answers");
+            assert_eq!(second, model, "{partitioning:?}");
+        }
+    }
+
+    #[test]
+    fn it_says_what_it_is() {
+        let device = "random access; factors and locations in binary64";
+        assert_eq!((SecondFormulation.name(), &*SecondFormulation.device()), ("core", device));
+    }
+}

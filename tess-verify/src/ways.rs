@@ -173,3 +173,38 @@ fn turn_round(output: &Tessellation, turn: fn([u32; 2]) -> [u32; 2]) -> Tessella
         indices: output.indices.clone(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tess_core::{Domain, Partitioning, PatchFactors};
+
+    /// A device that takes larger factors: its output for 64 stands for 128, the model's for 32 for 64.
+    #[test]
+    fn larger_factors_explain_more_points() {
+        let case = |factor: f32| {
+            let config = Config::new(Partitioning::Integer, OutputPrimitive::Point);
+            Case { config, factors: PatchFactors::uniform(Domain::Isoline, factor) }
+        };
+        let model = case(100.0).patch().tessellate();
+        let finer = {
+            let mut output = model.clone();
+            output.points.push(DomainPoint::from_bits(0x123, 0x456));
+            output
+        };
+        let strength = Strength::default();
+        let explains = |factor: f32, output: &Tessellation, max_level: u32| {
+            Way::Clamping.explains(&case(factor), output, strength, max_level)
+        };
+        assert!(explains(100.0, &finer, 128), "one place more");
+        assert!(!explains(100.0, &model, 128), "as many places");
+        assert!(!explains(64.0, &finer, 128), "no factor above 64");
+        assert!(!explains(100.0, &finer, 64), "a device that takes 64 at most");
+        let repeated = {
+            let mut output = model.clone();
+            output.points.push(model.points[0]);
+            output
+        };
+        assert!(!explains(100.0, &repeated, 128), "a place twice");
+    }
+}

@@ -69,6 +69,20 @@ fn number_bits(number: u32) -> u32 {
     tess_core::fixed_point::coordinate_to_f32(DomainPoint::from_bits(number, 0).u).to_bits()
 }
 
+/// A capture that is right tells of a backend: one changed coordinate is one difference.
+#[test]
+fn captures_test_a_backend() {
+    let check_backend = |records: &str| {
+        let text = format!("{HEADER}{records}# end\n");
+        let file = VectorFile::new("capture", text.as_bytes()).expect("a header");
+        check(file, &mut [Box::new(CoreBackend)], Tested::Backend, &|_| ()).expect("a verdict")
+    };
+    let right = record(TRI, "hex", hex);
+    assert_eq!(check_backend(&right).mismatches, 0, "the model's");
+    let report = check_backend(&right.replacen("10000", "10001", 1));
+    assert_eq!((report.cases, report.mismatches), (1, 1), "{report}");
+}
+
 #[test]
 fn each_notation_is_the_models_sequence() {
     for line in

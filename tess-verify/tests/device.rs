@@ -4,7 +4,7 @@ use tess_core::{DomainPoint, Tessellation};
 use tess_verify::backend::Backend;
 use tess_verify::case::Case;
 use tess_verify::checker::{CheckError, Report, Tested, check};
-use tess_verify::compare::Stage;
+use tess_verify::compare::{Element, Stage};
 use tess_verify::core_backend::CoreBackend;
 use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
 use tess_verify::vectors::{Listing, VectorFile};
@@ -386,6 +386,24 @@ fn a_value_has_one_conversion_in_a_patch() {
     assert_eq!(observe(case(&both), one, WITHIN_06_ULP).mismatches, 1, "two ways");
     let all = right(&both.replace("40400020", "40400040"));
     assert_eq!(observe(case(&both), all, WITHIN_06_ULP).mismatches, 0, "one way");
+}
+
+/// In any order too: the first difference is the moved point alone, not those that the other conversion moves.
+#[test]
+fn differences_beside_a_legal_conversion_in_any_order() {
+    for (factor, number) in [("40400000", 0), ("40400040", 1)] {
+        let right = right(&TIE.replace("40400020", factor));
+        let mut wrong = right.clone();
+        let last = wrong.points.len() - 1;
+        wrong.points[last] = DomainPoint::from_bits(3, 4);
+        let report = observe(case(TIE), wrong, WITHIN_06_ULP);
+        let element = &report.differences[0].mismatch.element;
+        let Element::Vertices(vertices) = element else { panic!("{element:?}") };
+        let point = right.points[last];
+        let moved = [[3, 4], [point.u.to_bits(), point.v.to_bits()]];
+        let is_moved = vertices.iter().any(|place| moved.contains(place));
+        assert!(is_moved, "number {number}: {report:?}");
+    }
 }
 
 /// What is wrong is told by comparison with the conversion that the device uses.

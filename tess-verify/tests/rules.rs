@@ -317,3 +317,71 @@ fn one_minus_a_coordinate_cannot_fail() {
     let beyond = f32::from_bits(0x4B80_0001);
     assert_ne!(beyond + (1.0 - beyond), 1.0, "{beyond}");
 }
+
+/// What is said of one output that breaks a rule.
+fn said(line: &str, rule: Rule, fault: Fault) -> Option<String> {
+    let (case, mut output) = model(case(line));
+    fault(&mut output);
+    let report = judge(VULKAN, [(case, output)]);
+    row(&report, rule).smallest.as_ref().map(|example| example.what.clone())
+}
+
+/// Each coordinate alone, and the sum on triangles; the domain's corners belong to it.
+#[test]
+fn where_the_domain_ends() {
+    let outside = |place: &str| Some(format!("vertex ({place}) lies outside the domain"));
+    let moved: [(&str, Fault, Option<String>); 5] = [
+        (
+            QUAD,
+            |output| output.points[0] = DomainPoint::from_bits(ONE + 1, 0),
+            outside("10001, 00000"),
+        ),
+        (
+            QUAD,
+            |output| output.points[0] = DomainPoint::from_bits(0, ONE + 1),
+            outside("00000, 10001"),
+        ),
+        (QUAD, |output| output.points[0] = DomainPoint::from_bits(ONE, ONE), None),
+        (
+            TRI,
+            |output| output.points[0] = DomainPoint::from_bits(0x8001, 0x8000),
+            outside("08001, 08000"),
+        ),
+        (TRI, |output| output.points[0] = DomainPoint::from_bits(0x8000, 0x8000), None),
+    ];
+    for (line, fault, expected) in moved {
+        assert_eq!(said(line, Rule::Range, fault), expected, "{line}");
+    }
+}
+
+/// A denormal level may discard or not; with a level that discards beside it, it may not.
+#[test]
+fn denormals_beside_levels_that_discard() {
+    let judged = |first: &str| {
+        let line = LINES.replace("40400000", first).replace("40800000", "00000001");
+        let whole = case(LINES).patch().tessellate();
+        let reports =
+            [Tessellation::default(), whole].map(|output| judge(VULKAN, [(case(&line), output)]));
+        reports.map(|report| row(&report, Rule::Discard).verdict())
+    };
+    assert_eq!(judged("40400000"), [Verdict::NotExercised; 2], "either");
+    assert_eq!(judged("80000000"), [Verdict::Held, Verdict::Broken], "no primitive");
+}
+
+/// The words for what a level counts.
+#[test]
+fn lines_and_segments_are_called_so() {
+    let four_lines: Fault =
+        |output| *output = case(&LINES.replace("40400000", "40800000")).patch().tessellate();
+    let said_of = |line, fault| said(line, Rule::Segments, fault);
+    let isolines = "the patch has 4 isolines, its level 3 asks for 3";
+    assert_eq!(said_of(LINES, four_lines).as_deref(), Some(isolines));
+    let five_segments: Fault =
+        |output| *output = case(&LINES.replace("40800000", "40a00000")).patch().tessellate();
+    let segments = "line 0 has 5 segments, its level 4 asks for 4";
+    assert_eq!(said_of(LINES, five_segments).as_deref(), Some(segments));
+    let edge = said_of(QUAD, |output| {
+        *output = case(&QUAD.replace("40800000", "40c00000")).patch().tessellate();
+    });
+    assert_eq!(edge.as_deref(), Some("edge u0 has 6 segments, its level 4 asks for 4"));
+}

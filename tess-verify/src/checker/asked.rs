@@ -113,3 +113,27 @@ fn other_answer(observed: Option<Case>, expected: Option<Case>) -> Mismatch {
     let (observed, expected) = (show(observed), show(expected));
     Mismatch { element: Element::Case, observed, expected, stage: Stage::Answer }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Answers that name no case stand in the places of the first two.
+    #[test]
+    fn the_case_that_is_due_is_expected() {
+        let case = |detail: u32| -> Case {
+            format!("case isoline integer point ruler 3f800000 {detail:08x}")
+                .parse()
+                .expect("a case")
+        };
+        let cases = [case(0x3F80_0000), case(0x4000_0000)];
+        let mut asked = cases.into_iter().map(Ok);
+        let mut expected = Expected::new(&mut asked);
+        for case in cases {
+            let wrong = expected.answer(None).expect("cases").expect("no case was named");
+            assert_eq!((wrong.observed, wrong.expected), ("none".to_owned(), case.to_string()));
+        }
+        let wrong = expected.answer(Some(cases[1])).expect("cases");
+        assert!(wrong.is_none(), "the second after all: {wrong:?}");
+    }
+}

@@ -72,3 +72,58 @@ fn mismatch(value: Ambiguous, number: usize, record: u64) -> Mismatch {
         stage: Stage::Factors,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ambiguous(value: u32) -> Ambiguous {
+        Ambiguous { value, numbers: [2 * value, 2 * value + 1] }
+    }
+
+    /// A record that shows values, and the choices that explain it.
+    fn shows(number: u64, values: &[u32], choices: &[u64]) -> Use {
+        let case = "case isoline integer line ruler 3f800000 3f800000".parse().expect("a case");
+        let values = values.iter().map(|&value| ambiguous(value)).collect();
+        let accepted = choices.iter().map(|choice| 1 << choice).sum();
+        Use { number, line: None, case, conversions: Conversions { values, accepted } }
+    }
+
+    /// Of two values in a record, the second one is known by its own bit, whichever the first has.
+    #[test]
+    fn each_value_has_a_bit() {
+        for choice in 0..4 {
+            let first = || shows(1, &[10, 20], &[choice]);
+            for other in 0..4 {
+                let report = conflicts(vec![shows(2, &[10, 20], &[other]), first()]);
+                assert_eq!(report.mismatches, u64::from(other != choice), "{choice}, {other}");
+                let Some(found) = report.differences.first() else { continue };
+                let value: u32 = if (other ^ choice) & 1 == 1 { 10 } else { 20 };
+                let known = u32::from(choice >> (value / 20) & 1 == 1);
+                let expected = format!("0x{:06x}, as in record 1", 2 * value + known);
+                assert_eq!(found.mismatch.expected, expected, "{choice}, {other}");
+                assert_eq!(found.mismatch.element, Element::Conversion(value));
+            }
+            let alone = |bit: u64| conflicts(vec![first(), shows(2, &[20], &[bit])]).mismatches;
+            assert_eq!([alone(choice >> 1), alone(choice >> 1 ^ 1)], [0, 1], "{choice}");
+        }
+    }
+
+    /// A value that may be either in a record stays open; the choices that contradict others are left out.
+    #[test]
+    fn what_does_not_show_stays_open() {
+        let open = || shows(1, &[10, 20], &[0, 2]);
+        for bit in 0..2 {
+            let uses = vec![open(), shows(2, &[20], &[bit]), shows(3, &[10], &[0])];
+            assert_eq!(conflicts(uses).mismatches, 0, "20 became number {bit}");
+        }
+        assert_eq!(conflicts(vec![open(), shows(2, &[10], &[1])]).mismatches, 1, "10 shows");
+        // 10 became the second number in record 1, so record 2 shows that 20 did as well.
+        let with = |bit: u64| {
+            let uses =
+                [shows(1, &[10], &[1]), shows(2, &[10, 20], &[0, 3]), shows(3, &[20], &[bit])];
+            conflicts(uses.into())
+        };
+        assert_eq!([with(0).mismatches, with(1).mismatches], [1, 0]);
+    }
+}

@@ -147,4 +147,44 @@ mod tests {
         assert_eq!(items.len(), 1 + left - 1, "each hole once, and the wrong exclusion");
         assert!(!page.contains("href") && !page.contains("src="), "it needs no other file");
     }
+
+    /// The rows of a stage with several groups, of which only the first names the stage and only the last is a sum.
+    #[test]
+    fn rows_of_the_table() {
+        let mut coverage = Coverage::new();
+        let mut exclusions = Exclusions::default();
+        exclusions.add("rings").expect("a group");
+        assert!(coverage.add("rings/tri/1", 1) && coverage.add("middle/oddxodd", 1), "bins");
+        let page = coverage.to_html(&exclusions, &[]);
+        let numbers = |numbers: [&str; 4]| -> String {
+            numbers.iter().map(|number| format!("<td class=\"number\">{number}</td>")).collect()
+        };
+        let middle = "<tr><td></td><td>middle</td>".to_owned()
+            + &numbers(["4", "1", "0", "25.0"])
+            + "<td><div class=\"bar\"><i style=\"width: 25.0%\"></i></div></td></tr>\n";
+        let rings = "<tr><td></td><td>rings</td>".to_owned()
+            + &numbers(["64", "0", "64", "-"])
+            + "<td><div class=\"bar nothing\"></div></td></tr>\n";
+        assert!(page.contains(&middle) && page.contains(&rings), "{page}");
+        assert!(page.contains("<tr><td>stitch (7)</td><td>parities</td>"), "{page}");
+        assert_eq!(page.matches("<tr class=\"sum\">").count(), 3, "factors, stitch and all");
+        assert!(page.contains("<tr class=\"sum\"><td>all</td><td></td>"), "{page}");
+        assert!(!page.contains("<summary>rings"), "no holes are excluded: {page}");
+    }
+
+    /// A group of 96 bins, of which some are hit: up to 60 holes are listed without a click.
+    #[test]
+    fn long_lists_are_folded() {
+        for (hit, head) in [(36, "<details open>"), (35, "<details>")] {
+            let mut coverage = Coverage::new();
+            let bins: Vec<String> = coverage.bins().map(|(bin, _)| bin.to_owned()).collect();
+            let own = bins.iter().filter(|bin| bin.starts_with("configuration/"));
+            own.take(hit).for_each(|bin| assert!(coverage.add(bin, 1), "{bin}"));
+            let page = coverage.to_html(&Exclusions::default(), &[]);
+            let missed = 96 - hit;
+            let summary =
+                format!("{head}\n<summary>configuration: {missed} of 96 missed</summary>");
+            assert!(page.contains(&summary), "{summary}: {page}");
+        }
+    }
 }

@@ -133,4 +133,19 @@ mod tests {
         };
         assert_eq!([of(2999, 3000, 0), of(1, 3, 1), of(4, 4, 0)], ["99.9", "50.0", "100.0"]);
     }
+
+    /// One row a group, one more for each stage with several groups, and one for all.
+    #[test]
+    fn stages_with_several_groups_have_a_sum() {
+        let text = Coverage::new().report(&Exclusions::default());
+        let rows = text.lines().skip(1).take_while(|line| !line.starts_with("missed "));
+        let stages: Vec<&str> = rows
+            .filter(|row| row.split_whitespace().nth(1) == Some("all"))
+            .filter_map(|row| row.split_whitespace().next())
+            .collect();
+        assert_eq!(stages, ["factors", "stitch", "all"], "{text}");
+        let table = text.lines().take_while(|line| !line.starts_with("missed ")).count();
+        let groups = Coverage::new().groups().len();
+        assert_eq!(table, 1 + groups + stages.len(), "{text}");
+    }
 }

@@ -203,4 +203,24 @@ mod tests {
             assert!(refused(&text).contains("centre/quad/point"), "{hits}");
         }
     }
+
+    /// The bins of a coverpoint are numbered from 0, and each group is one coverpoint.
+    #[test]
+    fn bins_are_numbered_within_their_coverpoint() {
+        let text = write(&Coverage::new());
+        let (mut next, mut coverpoints) = (0, 0);
+        for line in text.lines() {
+            if line.starts_with("<coverpoint ") {
+                (next, coverpoints) = (0, coverpoints + 1);
+            } else if line.starts_with("<coverpointBin ") {
+                let range = format!("<range from=\"{next}\" to=\"{next}\">");
+                assert!(line.contains(&range), "{line}");
+                next += 1;
+            }
+        }
+        assert_eq!(coverpoints, Coverage::new().groups().len());
+        assert_eq!(text.matches("</coverpoint>").count(), coverpoints, "each ends");
+        let error = read(&format!("{text}x")).expect_err("a tail");
+        assert_eq!(error.line, text.lines().count() + 1, "{error}");
+    }
 }

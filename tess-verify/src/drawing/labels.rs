@@ -73,3 +73,35 @@ fn incircle(a: Position, b: Position, c: Position) -> Option<(Position, f64)> {
         |axis: usize| (sides[0] * a[axis] + sides[1] * b[axis] + sides[2] * c[axis]) / perimeter;
     Some(([coordinate(0), coordinate(1)], 2.0 * area / perimeter))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn near(found: f64, expected: f64) -> bool {
+        (found - expected).abs() < 1e-9
+    }
+
+    /// Points that coincide have one disc; others have the room to their neighbours, 15 pixels at most.
+    #[test]
+    fn discs_have_room() {
+        let points = [[0.0, 0.0], [1.0, 0.0], [40.0, 0.0], [50.0, 0.0], [52.0, 0.0]];
+        let expected = [15.0, 0.0, 4.4, 0.88, 0.88];
+        let radii = disc_radii(&points);
+        assert_eq!(radii.len(), expected.len());
+        let all = radii.iter().zip(expected).all(|(found, expected)| near(*found, expected));
+        assert!(all, "{radii:?}");
+    }
+
+    /// The incircle of a triangle of 30, 40 and 50 pixels has a radius of 10 and its centre 10 from both legs.
+    #[test]
+    fn numbers_stand_in_the_middle() {
+        let (centre, radius) = incircle([0.0, 0.0], [40.0, 0.0], [0.0, 30.0]).expect("an inside");
+        assert!(near(centre[0], 10.0) && near(centre[1], 10.0) && near(radius, 10.0), "{centre:?}");
+        assert!(incircle([0.0, 0.0], [40.0, 0.0], [20.0, 0.0]).is_none(), "no inside");
+        let (centre, height) = in_primitive(7, &[[0.0, 4.0], [20.0, 8.0]]).expect("room");
+        assert!(near(centre[0], 10.0) && near(centre[1], 6.0) && height > 10.0, "{height}");
+        assert!(in_primitive(7, &[[0.0, 0.0], [5.0, 0.0]]).is_none(), "a segment of five pixels");
+        assert!(in_primitive(7, &[[0.0, 0.0]]).is_none(), "a point");
+    }
+}

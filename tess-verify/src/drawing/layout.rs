@@ -74,3 +74,19 @@ pub(super) fn dot_radius(points: usize) -> f64 {
 pub(super) fn mark_radius(points: usize) -> f64 {
     dot_radius(points) + 2.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Between the smallest and the largest, sizes fall with the root of the number of points.
+    #[test]
+    fn finer_meshes_are_drawn_finer() {
+        let all = [4, 400, 10_000].map(|points| [edge_width(points), dot_radius(points)]);
+        let expected = [[1.5, 4.0], [0.9, 1.5], [0.4, 0.8]];
+        let near = |(found, expected): (&[f64; 2], &[f64; 2])| {
+            found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-9)
+        };
+        assert!(all.iter().zip(&expected).all(near), "{all:?}");
+    }
+}

@@ -138,3 +138,26 @@ fn red(mut corners: Vec<Position>, fill: Option<Colour>, points: usize) -> Vec<S
     shapes.push(Shape::Line { points: corners, width: 2.0, stroke: DIFFERENT });
     shapes
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A primitive that is a point is marked by a disc, which a line of one point would not show.
+    #[test]
+    fn points_are_marked_by_discs() {
+        let line = "case tri integer point ruler 40000000 40000000 40000000 40000000";
+        let case: crate::case::Case = line.parse().expect("a case");
+        let expected = Listing { line: 0, case, output: case.patch().tessellate() };
+        let mut observed = expected.clone();
+        observed.output.indices[2] = 0;
+        let (drawing, differences) = overlay(&expected, &observed, &DrawOptions::default());
+        assert_eq!((differences.points, differences.primitives), (0, 1), "{differences:?}");
+        let shapes = &drawing.picture.shapes;
+        let is_mark = |shape: &&Shape| matches!(shape, Shape::Disc { rim: DIFFERENT, .. });
+        assert_eq!(shapes.iter().filter(is_mark).count(), 1, "{shapes:?}");
+        let is_dot =
+            |shape: &Shape| matches!(shape, Shape::Line { points, .. } if points.len() == 1);
+        assert!(!shapes.iter().any(is_dot), "{shapes:?}");
+    }
+}

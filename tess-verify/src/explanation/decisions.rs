@@ -101,3 +101,23 @@ fn minimum(patch: &Patch, processed: &PatchFactors<ProcessedFactor>) -> Option<S
         ),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+
+    /// The threshold itself is no picture frame; the next float is.
+    #[test]
+    fn a_picture_frame_begins_above_its_threshold() {
+        for (inside, expected) in [("3f800040", "no picture frame"), ("3f800041", "picture frame")]
+        {
+            let line =
+                format!("case tri fractional_odd line ruler{} {inside}", " 3f800040".repeat(3));
+            let case: Case = line.parse().expect("a case");
+            let all = decisions(&case.patch(), &case.factors);
+            let says = |words: &str| all.iter().any(|sentence| sentence.starts_with(words));
+            assert!(says(&format!("{expected}: ")), "{line}: {all:?}");
+        }
+    }
+}

@@ -137,3 +137,15 @@ fn run_length(indices: &[u32]) -> usize {
     };
     length(1).max(length(-1))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ten characters fit the column.
+    #[test]
+    fn long_floats_are_shortened() {
+        let all = [0.123_456_78, 0.012_345_678, 1.5, 16_777_216.0, 1.0e-40].map(shorten);
+        assert_eq!(all, ["0.12345678", "1.235e-2", "1.5", "16777216", "1.000e-40"]);
+    }
+}

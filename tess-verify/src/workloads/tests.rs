@@ -161,6 +161,26 @@ fn cache_batches_cover_every_patch_once() {
     }
 }
 
+/// 8 patches of factor 64 have 1 MiB, 125 of factor 16, and more than there are of factor 1.
+#[test]
+fn cache_batches_are_no_larger_than_they_must_be() {
+    let batches = |factor| uniform(factor).cache_batches(IndexType::U32).len();
+    assert_eq!([64, 16, 1].map(batches), [4096 / 8, 4096 / 125, 1]);
+}
+
+/// The digest is that of the model's output, patch by patch; another order has another.
+#[test]
+fn digests_are_those_of_the_output() {
+    let workload = &named("seed-table/quad-48")[0];
+    let mut digest = Fnv1a::new();
+    for &factors in &workload.patches {
+        digest.patch(&Patch::new(workload.config, factors).tessellate());
+    }
+    assert_eq!(workload.digest(), digest.finish());
+    assert_eq!(workload.digest_in(Order::Specification), workload.digest());
+    assert_ne!(workload.digest_in(Order::VertexCache), workload.digest());
+}
+
 #[test]
 fn streams_reach_a_gibibyte() {
     let workload = uniform(64);
