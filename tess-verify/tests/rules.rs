@@ -62,7 +62,46 @@ fn the_model_and_the_standards() {
         "points-once",
     ];
     assert_eq!(rules(&reports[1], Verdict::Broken), broken, "{}", reports[1]);
+    for (report, expected) in reports.iter().zip([D3D11_JUDGED, VULKAN_JUDGED]) {
+        let found = report.rows.iter().map(|row| (row.rule.name(), row.judged, row.broken));
+        assert_eq!(found.collect::<Vec<_>>(), expected, "{report}");
+        assert_eq!(report.patches, 12_150, "{report}");
+    }
 }
+
+/// Of the population's 12 150 patches, how many each rule judges, alone or beside an earlier one, and how many break it.
+const D3D11_JUDGED: &[(&str, u64, u64)] = &[
+    ("same", 2424, 0),
+    ("edge-level", 23_522, 0),
+    ("symmetric", 9045, 0),
+    ("every-edge", 105_710, 0),
+    ("winding", 540, 0),
+    ("range", 9720, 0),
+    ("discard", 12_150, 0),
+    ("cover", 6480, 0),
+    ("isolines", 1890, 0),
+    ("points-same", 2430, 0),
+    ("counts", 9720, 0),
+];
+const VULKAN_JUDGED: &[(&str, u64, u64)] = &[
+    ("same", 2424, 0),
+    ("edge-level", 23_810, 142),
+    ("symmetric", 9127, 11),
+    ("every-edge", 59_942, 261),
+    ("winding", 540, 0),
+    ("interior", 5071, 0),
+    ("transition", 13_864, 274),
+    ("range", 9720, 0),
+    ("discard", 12_150, 0),
+    ("segments", 9127, 1029),
+    ("spacing", 8758, 0),
+    ("monotone", 24_296, 0),
+    ("cover", 6480, 0),
+    ("orientation", 6480, 169),
+    ("isolines", 1890, 18),
+    ("points-once", 783, 58),
+    ("points-same", 2430, 0),
+];
 
 /// A patch's output after a fault.
 type Fault = fn(&mut Tessellation);
@@ -384,4 +423,77 @@ fn lines_and_segments_are_called_so() {
         *output = case(&QUAD.replace("40800000", "40c00000")).patch().tessellate();
     });
     assert_eq!(edge.as_deref(), Some("edge u0 has 6 segments, its level 4 asks for 4"));
+}
+
+/// What is said of a mesh, its lines and its points.
+#[test]
+fn faults_of_primitives_in_words() {
+    let said = |line, rule, fault| said(line, rule, fault).unwrap_or_default();
+    let ones = "case quad integer triangle_cw ruler".to_owned() + &" 3f800000".repeat(6);
+    let turned = said(&ones, Rule::Orientation, |output| output.indices[3..6].reverse());
+    assert_eq!(
+        turned,
+        "triangle 1 turns the other way: (00000, 10000) (10000, 10000) (10000, 00000)"
+    );
+    let hole = said(&ones, Rule::Cover, |output| output.indices.truncate(3));
+    assert_eq!(
+        hole,
+        "the edge (00000, 10000) (10000, 00000) within the domain is not shared by two"
+    );
+    let twice = said(&ones, Rule::Cover, |output| output.indices.extend_from_within(..));
+    assert_eq!(twice, "outer edge u0 is not walked once");
+    let line = "case isoline integer line ruler 40000000 40000000";
+    let across = said(line, Rule::Isolines, |output| output.indices[1] = 4);
+    assert_eq!(across, "the segment (00000, 00000) (08000, 08000) changes v");
+    let gap = said(line, Rule::Isolines, |output| output.indices.truncate(6));
+    assert_eq!(gap, "the line at v = 08000 is not walked once from 0 to 1");
+    let moved = said(line, Rule::Isolines, |output| {
+        output.points[3..].iter_mut().for_each(|p| *p = DomainPoint::from_bits(p.u.to_bits(), 0x8011));
+    });
+    assert_eq!(moved, "line 1 of 2 lies at v = 08011");
+    let near = said(line, Rule::Isolines, |output| {
+        output.points[3..].iter_mut().for_each(|p| *p = DomainPoint::from_bits(p.u.to_bits(), 0x8010));
+    });
+    assert_eq!(near, "", "16 units are rounding");
+    let point = ones.replace("triangle_cw", "point");
+    let repeated = said(&point, Rule::PointsOnce, |output| output.indices.push(2));
+    assert_eq!(repeated, "(10000, 10000) is a point twice");
+}
+
+/// What is said of an edge whose vertices are not where its level puts them: equal lengths, and two shorter ones.
+#[test]
+fn faults_of_edges_in_words() {
+    let said = |line: &str, rule, fault| said(line, rule, fault).unwrap_or_default();
+    let equal = "case isoline integer line ruler 3f800000 40800000";
+    let at = |output: &mut Tessellation, k: usize, u: u32| {
+        output.points[k] = DomainPoint::from_bits(u, output.points[k].v.to_bits());
+    };
+    let moved = said(equal, Rule::Spacing, |output| {
+        output.points[1] = DomainPoint::from_bits(0x4011, 0);
+    });
+    assert_eq!(moved, "line 0: vertex 1 of 4 lies at 04011, more than 16 units from 1/4");
+    let near = said(equal, Rule::Spacing, |output| {
+        output.points[1] = DomainPoint::from_bits(0x3FF0, 0);
+    });
+    assert_eq!(near, "", "16 units are rounding");
+    // Five segments; two shorter ones must lie symmetrically. 32 units are rounding.
+    let fractional = "case isoline fractional_odd line ruler 3f800000 40800000";
+    let unpaired = |a, b| format!("line 0: segments {a} and {b} are shorter, and are no mirrored pair");
+    let number = |n| format!("line 0: {n} of 5 segments are shorter, not two");
+    for (moved, expected) in [
+        ([0x2000, 0x6000, 0xA000, 0xE000], String::new()),
+        ([0x4000, 0x6000, 0xA000, 0xBFE0], String::new()),
+        ([0x3FF5, 0x6016, 0xA00B, 0xC00B], unpaired(1, 3)),
+        ([0x4000, 0x6000, 0xA000, 0xE000], unpaired(1, 4)),
+        ([0x4000, 0x8000, 0xC000, 0xE000], unpaired(3, 4)),
+        ([0x3800, 0x7000, 0x9000, 0xC800], number(1)),
+        ([0x2000, 0x7000, 0x9000, 0xE000], number(3)),
+        ([0x1000, 0x2000, 0x3000, 0x4000], number(4)),
+    ] {
+        let mut output = case(fractional).patch().tessellate();
+        moved.into_iter().enumerate().for_each(|(k, u)| at(&mut output, k + 1, u));
+        let report = judge(VULKAN, [(case(fractional), output)]);
+        let what = row(&report, Rule::Spacing).smallest.as_ref().map(|example| &*example.what);
+        assert_eq!(what.unwrap_or_default(), expected, "{moved:04x?}");
+    }
 }
