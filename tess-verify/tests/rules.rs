@@ -425,6 +425,13 @@ fn lines_and_segments_are_called_so() {
     assert_eq!(edge.as_deref(), Some("edge u0 has 6 segments, its level 4 asks for 4"));
 }
 
+/// Moves the points of a line, which begin with `first`, to another v.
+fn move_line(output: &mut Tessellation, first: usize, v: u32) {
+    for point in &mut output.points[first..] {
+        *point = DomainPoint::from_bits(point.u.to_bits(), v);
+    }
+}
+
 /// What is said of a mesh, its lines and its points.
 #[test]
 fn faults_of_primitives_in_words() {
@@ -447,13 +454,9 @@ fn faults_of_primitives_in_words() {
     assert_eq!(across, "the segment (00000, 00000) (08000, 08000) changes v");
     let gap = said(line, Rule::Isolines, |output| output.indices.truncate(6));
     assert_eq!(gap, "the line at v = 08000 is not walked once from 0 to 1");
-    let moved = said(line, Rule::Isolines, |output| {
-        output.points[3..].iter_mut().for_each(|p| *p = DomainPoint::from_bits(p.u.to_bits(), 0x8011));
-    });
+    let moved = said(line, Rule::Isolines, |output| move_line(output, 3, 0x8011));
     assert_eq!(moved, "line 1 of 2 lies at v = 08011");
-    let near = said(line, Rule::Isolines, |output| {
-        output.points[3..].iter_mut().for_each(|p| *p = DomainPoint::from_bits(p.u.to_bits(), 0x8010));
-    });
+    let near = said(line, Rule::Isolines, |output| move_line(output, 3, 0x8010));
     assert_eq!(near, "", "16 units are rounding");
     let point = ones.replace("triangle_cw", "point");
     let repeated = said(&point, Rule::PointsOnce, |output| output.indices.push(2));
@@ -478,7 +481,8 @@ fn faults_of_edges_in_words() {
     assert_eq!(near, "", "16 units are rounding");
     // Five segments; two shorter ones must lie symmetrically. 32 units are rounding.
     let fractional = "case isoline fractional_odd line ruler 3f800000 40800000";
-    let unpaired = |a, b| format!("line 0: segments {a} and {b} are shorter, and are no mirrored pair");
+    let unpaired =
+        |a, b| format!("line 0: segments {a} and {b} are shorter, and are no mirrored pair");
     let number = |n| format!("line 0: {n} of 5 segments are shorter, not two");
     for (moved, expected) in [
         ([0x2000, 0x6000, 0xA000, 0xE000], String::new()),

@@ -72,9 +72,7 @@ pub(crate) fn of_tree(root: &Path, target: &Path, file: &str) -> Result<Job, Str
     let built = target.join("package/tess_model");
     fs::create_dir_all(&built).map_err(|error| in_file(&built, &error))?;
     let own = sources.join("python/tess_model");
-    for entry in fs::read_dir(&own).map_err(|error| in_file(&own, &error))?.flatten() {
-        copy(&entry.path(), &built.join(entry.file_name()))?;
-    }
+    command::quiet_output(Command::new("cp").arg("-rL").args([own.join("."), built.clone()]))?;
     copy(&target.join("debug/libtess_native.so"), &built.join("_native.abi3.so"))?;
     let mut tests = environment.python(&["-m", "pytest", "-q", "-x", "-p", "no:cacheprovider"]);
     tests.arg(root.join(file)).current_dir(&sources).env("PYTHONPATH", target.join("package"));
