@@ -328,4 +328,26 @@ mod tests {
         let word = 1u64 << 47 | 0x28000 << 24 | 1 << 17 | 0x4000;
         assert!(text(write_memh).ends_with(&format!("\n{word:013x}\n")), "{}", text(write_memh));
     }
+
+    /// The heads of files give the numbers that the rows have, in the order of the names.
+    #[test]
+    fn heads_name_the_numbers() {
+        fn numbered<T: Named>() -> String {
+            let numbers = T::NAMES.iter().map(|&(name, _)| name).enumerate();
+            numbers.map(|(number, name)| format!("{number} {name}")).collect::<Vec<_>>().join(", ")
+        }
+        let split = format!("split_order {}", numbered::<SplitOrder>());
+        let domain = format!("domain {}", numbered::<Domain>());
+        let partitioning = format!("partitioning {}", numbered::<Partitioning>());
+        for &(name, block) in Block::NAMES {
+            for write in [write_csv, write_memh] {
+                let mut text = Vec::new();
+                write(&mut text, block, &BTreeSet::new()).expect("vectors grow");
+                let text = String::from_utf8(text).expect("ASCII");
+                let heads = [&split, &domain, &partitioning].map(|head| text.contains(head));
+                let is_factors = block == Block::Factors;
+                assert_eq!(heads, [!is_factors, is_factors, is_factors], "{name}: {text}");
+            }
+        }
+    }
 }

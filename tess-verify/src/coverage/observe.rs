@@ -178,3 +178,171 @@ fn quad_centre(factors: &QuadFactors<ProcessedFactor>, hit: &mut impl FnMut(Stri
         hit("centre/quad/strip_of_one".to_owned());
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    /// The bins that a case hits, in alphabetical order, each with how often.
+    fn bins(line: &str) -> Vec<String> {
+        let case: Case = line.parse().expect("a case");
+        let mut hits: BTreeMap<String, u32> = BTreeMap::new();
+        observe(&case, |bin| *hits.entry(bin).or_default() += 1);
+        hits.into_iter().map(|(bin, hits)| format!("{bin} {hits}")).collect()
+    }
+
+    /// Every bin of a case, and no other.
+    fn expect(line: &str, expected: &str) {
+        let expected: Vec<&str> = expected.lines().map(str::trim).collect();
+        assert_eq!(bins(line), expected, "{line}");
+    }
+
+    #[test]
+    fn culled_patches() {
+        expect(
+            "case tri integer line ruler 00000000 40400000 bf800000 40400000",
+            "configuration/tri/integer/line/ruler 1
+             cull/tri/u0/zero 1
+             cull/tri/w0/negative 1",
+        );
+        expect(
+            "case quad pow2 point center 3f800000 7fc00000 80000000 40400000 40400000 40400000",
+            "configuration/quad/pow2/point/center 1
+             cull/quad/u1/zero 1
+             cull/quad/v0/nan 1",
+        );
+    }
+
+    /// Outer factors 64, 2.5, 65 and 0.5; inside factors NaN and 64.
+    #[test]
+    fn ends_of_the_range() {
+        let line =
+            "case quad integer point ruler 42800000 40200000 42820000 3f000000 7fc00000 42800000";
+        let all = bins(line);
+        let of = |group: &str| -> Vec<&str> {
+            all.iter().filter_map(|bin| bin.strip_prefix(group)).collect()
+        };
+        let clamp =
+            ["inside/nan 1", "inside/within 1", "outer/above 1", "outer/below 1", "outer/within 2"];
+        assert_eq!(of("clamp/integer/"), clamp, "{all:?}");
+        assert_eq!(
+            of("round/integer/"),
+            ["inside/exact 2", "outer/exact 3", "outer/up 1"],
+            "{all:?}"
+        );
+    }
+
+    /// Equal inside factors, odd and even; a denormal; factors that do not round.
+    #[test]
+    fn regular_quads() {
+        expect(
+            "case quad integer triangle_cw ruler 40400000 40400000 40400000 40400000 40400000 40400000",
+            "centre/quad/strip_along_v/odd 1
+             centre/quad/strip_of_one 1
+             clamp/integer/inside/within 2
+             clamp/integer/outer/within 4
+             configuration/quad/integer/triangle_cw/ruler 1
+             context/ruler/odd/2/whole 6
+             conversion/inside/exact 2
+             conversion/outer/exact 4
+             middle/oddxodd 4
+             parities/quad/integer/oddxodd 4
+             rings/quad/1 1
+             round/integer/inside/exact 2
+             round/integer/outer/exact 4
+             transition/4x4 4",
+        );
+        expect(
+            "case quad fractional_even line ruler 40000000 40000000 40000000 00000001 40800000 40800000",
+            "centre/quad/point 1
+             clamp/fractional_even/inside/within 2
+             clamp/fractional_even/outer/below 1
+             clamp/fractional_even/outer/within 3
+             configuration/quad/fractional_even/line/ruler 1
+             context/ruler/even/1/whole 4
+             context/ruler/even/2/whole 2
+             conversion/inside/exact 2
+             conversion/outer/exact 4
+             denormal/quad/v1 1
+             middle/evenxeven 4
+             parities/quad/fractional_even/evenxeven 4
+             rings/quad/2 1
+             transition/3x5 4",
+        );
+    }
+
+    /// Inside factors whose shorter axis is odd or even, along either axis.
+    #[test]
+    fn centres_of_quads() {
+        for (inside, expected) in [
+            ("40400000 40a00000", "strip_along_v/odd 1"),
+            ("40a00000 40400000", "strip_along_u/odd 1"),
+            ("40400000 40c00000", "strip_along_v/even 1"),
+            ("40800000 40c00000", "row_along_v/even 1"),
+            ("40e00000 40800000", "row_along_u/odd 1"),
+            ("40800000 40800000", "point 1"),
+        ] {
+            let line = format!("case quad integer line ruler{} {inside}", " 40400000".repeat(4));
+            let all = bins(&line);
+            let centres: Vec<&str> =
+                all.iter().filter_map(|bin| bin.strip_prefix("centre/quad/")).collect();
+            assert_eq!(centres, [expected], "{inside}");
+        }
+    }
+
+    /// 3 + 2^-17 and 3 + 3 * 2^-17 lie in the middle between two numbers; the inside of a picture frame is raised.
+    #[test]
+    fn fractional_triangles() {
+        expect(
+            "case tri fractional_odd line ruler 3f800000 40400020 40400060 3f800000",
+            "centre/tri/triangle 1
+             clamp/fractional_odd/inside/within 1
+             clamp/fractional_odd/outer/within 3
+             configuration/tri/fractional_odd/line/ruler 1
+             context/ruler/odd/1/whole 1
+             context/ruler/odd/2/split 1
+             context/ruler/odd/2/whole 1
+             context/ruler/odd/3/split 1
+             conversion/inside/exact 1
+             conversion/outer/exact 1
+             conversion/outer/tie_down 1
+             conversion/outer/tie_up 1
+             exceptional/ruler/odd/equal_neighbours 2
+             middle/oddxodd 3
+             parities/tri/fractional_odd/oddxodd 3
+             picture_frame/raised 1
+             rings/tri/1 1
+             transition/2x4 1
+             transition/4x4 1
+             transition/6x4 1",
+        );
+        expect(
+            "case tri fractional_odd line ruler 3f800000 3f800000 3f800000 3f800000",
+            "clamp/fractional_odd/inside/within 1
+             clamp/fractional_odd/outer/within 3
+             configuration/tri/fractional_odd/line/ruler 1
+             context/ruler/odd/1/whole 4
+             conversion/inside/exact 1
+             conversion/outer/exact 3
+             minimum/tri/fractional_odd/line 1
+             picture_frame/all_one 1",
+        );
+    }
+
+    /// The density is processed as integer whatever the partitioning.
+    #[test]
+    fn isolines() {
+        expect(
+            "case isoline fractional_odd line ruler 40200000 40200001",
+            "clamp/fractional_odd/outer/within 1
+             clamp/integer/outer/within 1
+             configuration/isoline/fractional_odd/line/ruler 1
+             context/ruler/odd/2/split 1
+             context/ruler/odd/2/whole 1
+             conversion/outer/down 1
+             conversion/outer/exact 1
+             round/integer/outer/up 1",
+        );
+    }
+}

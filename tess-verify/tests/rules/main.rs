@@ -1,0 +1,255 @@
+//! The rules of the standards: what the model holds and breaks, and the fault that each rule alone finds.
+
+mod faults;
+mod words;
+
+use tess_core::fixed_point::ONE;
+use tess_core::{DomainPoint, Tessellation};
+use tess_verify::rules::{Checker, Row, Rule, RulesReport, Specification, Verdict};
+use tess_verify::{Case, GenLevel, Named, Selection};
+
+const VULKAN: Specification = Specification::Vulkan;
+/// Outer levels 4, 5, 3 and inner level 5; outer levels 4, 6, 7 and inner level 6; 4, 4, 3; 5.
+const TRI: &str = "case tri integer triangle_cw ruler 40800000 40a00000 40400000 40a00000";
+const OTHER_TRI: &str = "case tri integer triangle_cw ruler 40800000 40c00000 40e00000 40c00000";
+const EQUAL_TRI: &str = "case tri integer triangle_cw ruler 40800000 40800000 40400000 40a00000";
+/// Outer levels 4, 5, 3, 2 or 4, 6, 7, 1 and inner levels 5, 6.
+const QUAD: &str =
+    "case quad integer triangle_cw ruler 40800000 40a00000 40400000 40000000 40a00000 40c00000";
+const OTHER_QUAD: &str =
+    "case quad integer triangle_cw ruler 40800000 40c00000 40e00000 3f800000 40a00000 40c00000";
+const POINTS: &str = "case tri integer point ruler 40800000 40a00000 40400000 40a00000";
+/// 3 lines of 4 segments, and none.
+const LINES: &str = "case isoline integer line ruler 40400000 40800000";
+
+fn case(line: &str) -> Case {
+    line.parse().unwrap_or_else(|error| panic!("{line}: {error}"))
+}
+
+fn judge(
+    specification: Specification,
+    answers: impl IntoIterator<Item = (Case, Tessellation)>,
+) -> RulesReport {
+    let mut checker = Checker::new(specification);
+    for (case, output) in answers {
+        checker.add(&case, &output);
+    }
+    checker.report()
+}
+
+fn model(case: Case) -> (Case, Tessellation) {
+    (case, case.patch().tessellate())
+}
+
+/// The names of the rules with a verdict.
+fn rules(report: &RulesReport, verdict: Verdict) -> Vec<&'static str> {
+    let rows = report.rows.iter().filter(|row| row.verdict() == verdict);
+    rows.map(|row| row.rule.name()).collect()
+}
+
+fn row(report: &RulesReport, rule: Rule) -> &Row {
+    report.rows.iter().find(|row| row.rule == rule).expect("a rule of the standard")
+}
+
+/// The systematic families with the standard split order.
+fn population() -> impl Iterator<Item = Case> {
+    let split = Some(tess_core::SplitOrder::Ruler);
+    Selection { split, ..Selection::level(GenLevel::Rules, 1) }.cases()
+}
+
+/// A patch's output after a fault.
+type Fault = fn(&mut Tessellation);
+
+/// Moves every point at a place.
+fn move_point(output: &mut Tessellation, from: [u32; 2], to: [u32; 2]) {
+    let [from, to] = [from, to].map(|[u, v]| DomainPoint::from_bits(u, v));
+    output.points.iter_mut().filter(|point| **point == from).for_each(|point| *point = to);
+}
+
+fn is_on_outline(point: DomainPoint) -> bool {
+    let [u, v] = [point.u.to_bits(), point.v.to_bits()];
+    u == 0 || v == 0 || u == ONE || v == ONE
+}
+
+/// The population exercises every rule. The model holds all of Direct3D's, and of Vulkan's all but those that
+/// docs/rules.md names.
+#[test]
+fn the_model_and_the_standards() {
+    let answers: Vec<_> = population().map(model).collect();
+    let reports = [Specification::D3d11, Specification::Vulkan]
+        .map(|specification| judge(specification, answers.iter().cloned()));
+    for report in &reports {
+        assert_eq!(rules(report, Verdict::NotExercised), [""; 0], "{report}");
+    }
+    assert_eq!(rules(&reports[0], Verdict::Broken), [""; 0], "{}", reports[0]);
+    let broken = [
+        "edge-level",
+        "symmetric",
+        "every-edge",
+        "transition",
+        "segments",
+        "orientation",
+        "isolines",
+        "points-once",
+    ];
+    assert_eq!(rules(&reports[1], Verdict::Broken), broken, "{}", reports[1]);
+    for (report, expected) in reports.iter().zip([D3D11_JUDGED, VULKAN_JUDGED]) {
+        let found = report.rows.iter().map(|row| (row.rule.name(), row.judged, row.broken));
+        assert_eq!(found.collect::<Vec<_>>(), expected, "{report}");
+        assert_eq!(report.patches, 12_150, "{report}");
+    }
+}
+
+/// Of the population's 12 150 patches, how many each rule judges, alone or beside an earlier one, and how many break it.
+const D3D11_JUDGED: &[(&str, u64, u64)] = &[
+    ("same", 2424, 0),
+    ("edge-level", 23_522, 0),
+    ("symmetric", 9045, 0),
+    ("every-edge", 105_710, 0),
+    ("winding", 540, 0),
+    ("range", 9720, 0),
+    ("discard", 12_150, 0),
+    ("cover", 6480, 0),
+    ("isolines", 1890, 0),
+    ("points-same", 2430, 0),
+    ("counts", 9720, 0),
+];
+const VULKAN_JUDGED: &[(&str, u64, u64)] = &[
+    ("same", 2424, 0),
+    ("edge-level", 23_810, 142),
+    ("symmetric", 9127, 11),
+    ("every-edge", 59_942, 261),
+    ("winding", 540, 0),
+    ("interior", 5071, 0),
+    ("transition", 13_864, 274),
+    ("range", 9720, 0),
+    ("discard", 12_150, 0),
+    ("segments", 9127, 1029),
+    ("spacing", 8758, 0),
+    ("monotone", 24_296, 0),
+    ("cover", 6480, 0),
+    ("orientation", 6480, 169),
+    ("isolines", 1890, 18),
+    ("points-once", 783, 58),
+    ("points-same", 2430, 0),
+];
+
+/// Direct3D's rules are sections of the specification, by number and title; OpenGL's list of invariance has Vulkan's numbers.
+#[test]
+fn sources_are_where_rules_stand() {
+    let specification = include_str!("../../../docs/specification.md");
+    for rule in Specification::D3d11.rules() {
+        let source = Specification::D3d11.source(*rule);
+        let (number, title) = source.split_once(' ').expect("a number and a title");
+        let last = number.split('.').next_back().expect("a number");
+        let title = title.split(&[':', ','][..]).next().expect("a title");
+        let heads = [format!("\n## {last}. {title}"), format!("\n{last}. *{title}*")];
+        assert!(
+            heads.iter().any(|head| specification.contains(head)),
+            "{}: {heads:?}",
+            rule.name()
+        );
+    }
+    for rule in Specification::OpenGl.rules() {
+        let [gl, vulkan] = [Specification::OpenGl, VULKAN].map(|standard| standard.source(*rule));
+        let is_invariance = vulkan.starts_with("Tessellation Invariance, rule ");
+        let generation = "11.2.2 Tessellation Primitive Generation";
+        assert_eq!(gl, if is_invariance { vulkan } else { generation }, "{}", rule.name());
+    }
+}
+
+/// What is known of the model, each by the rule that shows it (specification, sections 11 and 12).
+#[test]
+fn findings_about_the_model() {
+    let broken = |lines: &[&str]| {
+        let report = judge(VULKAN, lines.iter().map(|line| model(case(line))));
+        rules(&report, Verdict::Broken)
+    };
+    // The conversion to 16 fraction bits comes before the ceiling: 3.00000024 has 3 segments, not 5.
+    let above_3 = "case isoline fractional_odd line ruler 3f800000 40400001";
+    assert_eq!(broken(&[above_3]), ["segments"], "just above 3");
+    // Ring corner (0, 1): an inner level of 1 + 3/65536 puts vertices of the inside on the outline.
+    let [inner, plain] = ["3f800180", "40400000"].map(|inner| {
+        format!("case tri fractional_odd triangle_cw ruler 40a00000 40a00000 40a00000 {inner}")
+    });
+    assert_eq!(broken(&[&plain]), [""; 0], "an inner level of 3");
+    let outline = broken(&[&plain, &inner]);
+    assert!(outline.contains(&"edge-level"), "{outline:?}");
+    // Level 1 + 2/65536: the new points of the edge lie on its corners. From 1 + 3/65536 on they do not.
+    let corner = "case quad fractional_odd triangle_cw ruler 3f800100 40a00000 40a00000 40a00000 40a00000 40a00000";
+    assert_eq!(broken(&[corner]), ["segments"], "just above 1");
+    let beyond = corner.replace("3f800100", "3f800180");
+    assert_eq!(broken(&[&beyond]), [""; 0], "far enough above 1");
+    // Locations that go backwards.
+    let backwards = format!("case quad fractional_even triangle_cw ruler{}", " 41f00238".repeat(6));
+    assert!(broken(&[&backwards]).contains(&"orientation"), "30.0010834");
+    // Equal spacing: 12.26 units at n = 53 are within the tolerance.
+    let equal = "case isoline integer line ruler 3f800000 42540000";
+    assert_eq!(broken(&[equal]), [""; 0], "53");
+}
+
+/// Just above 1: how far the inside reaches the outline, and an edge's points its corners (specification,
+/// section 11).
+#[test]
+fn where_rounding_ends() {
+    let odd = |domain: &str, levels: &str| {
+        let line = format!("case {domain} fractional_odd triangle_cw ruler {levels}");
+        case(&line).patch().tessellate().points
+    };
+    let above_1 =
+        |k: u32| format!("{:08x}", tess_verify::generate::from_fixed(0x1_0000 + k).to_bits());
+    let is_on_tri = |point: &DomainPoint| {
+        let [u, v] = [point.u.to_bits(), point.v.to_bits()];
+        u == 0 || v == 0 || u + v == ONE
+    };
+    let fives = |n: usize| " 40a00000".repeat(n);
+    for k in 1..=12 {
+        let level = above_1(k);
+        let tri = odd("tri", &format!("{} {level}", fives(3)));
+        assert_eq!(tri[15..].iter().any(is_on_tri), k <= 8, "tri, 1 + {k}/65536");
+        let quad = odd("quad", &format!("{} {level} 40a00000", fives(4)));
+        let touches = quad[20..].iter().any(|point| is_on_outline(*point));
+        assert_eq!(touches, k <= 2, "quad, 1 + {k}/65536");
+        let edge = odd("quad", &format!("{level}{}", fives(5)));
+        let on_corners = edge[..3].windows(2).any(|pair| pair[0] == pair[1]);
+        assert_eq!(on_corners, k <= 2, "outer, 1 + {k}/65536");
+    }
+    let corner = &odd("tri", &format!("{} 3f800180", fives(3)))[15..];
+    assert!(corner.contains(&DomainPoint::from_bits(0, 1)), "{corner:?}");
+}
+
+/// The largest distance of a point from k/n under equal spacing: 12.26 units, at n = 53.
+#[test]
+fn equal_spacing_is_rounded() {
+    let hundredths = |n: u16| {
+        let detail = f32::from(n).to_bits();
+        let line = format!("case isoline integer point ruler 3f800000 {detail:08x}");
+        let points = case(&line).patch().tessellate().points;
+        let off = |(k, point): (u64, &DomainPoint)| {
+            (u64::from(point.u.to_bits()) * u64::from(n)).abs_diff(k * u64::from(ONE))
+        };
+        (0..).zip(&points).map(off).max().unwrap_or_default() * 100 / u64::from(n)
+    };
+    let largest = (1..=64).max_by_key(|n| hundredths(*n)).expect("levels");
+    assert_eq!((largest, hundredths(largest)), (53, 1226), "n, and hundredths of a unit");
+}
+
+/// What dEQP demands of 1 - c holds of every binary32 c from 0 to 1: it is no rule of tessellators. Every exponent,
+/// with both ends, the middle and random ones between.
+#[test]
+#[expect(clippy::float_cmp, reason = "exactly 1")]
+fn one_minus_a_coordinate_cannot_fail() {
+    let mut random = tess_verify::random::SplitMix64::new(1);
+    for exponent in 0..127u32 {
+        let some = (0..1000).map(|_| random.next_u32() & 0x7F_FFFF);
+        for mantissa in
+            [0, 1, 0x3F_FFFF, 0x40_0000, 0x40_0001, 0x7F_FFFE, 0x7F_FFFF].into_iter().chain(some)
+        {
+            let c = f32::from_bits(exponent << 23 | mantissa);
+            assert_eq!(c + (1.0 - c), 1.0, "{c}");
+        }
+    }
+    // Beyond 1 it can: the range is what the rule stands on.
+    let beyond = f32::from_bits(0x4B80_0001);
+    assert_ne!(beyond + (1.0 - beyond), 1.0, "{beyond}");
+}

@@ -1,0 +1,240 @@
+//! Where each rule's limits lie, and what is said beyond them.
+
+use super::*;
+
+/// What is said of one output that breaks a rule.
+fn said(line: &str, rule: Rule, fault: Fault) -> Option<String> {
+    let (case, mut output) = model(case(line));
+    fault(&mut output);
+    let report = judge(VULKAN, [(case, output)]);
+    row(&report, rule).smallest.as_ref().map(|example| example.what.clone())
+}
+
+/// Moves the points of a line, which begin with `first`, to another v.
+fn move_line(output: &mut Tessellation, first: usize, v: u32) {
+    for point in &mut output.points[first..] {
+        *point = DomainPoint::from_bits(point.u.to_bits(), v);
+    }
+}
+
+/// Each coordinate alone, and the sum on triangles; the domain's corners belong to it.
+#[test]
+fn where_the_domain_ends() {
+    let outside = |place: &str| Some(format!("vertex ({place}) lies outside the domain"));
+    let moved: [(&str, Fault, Option<String>); 5] = [
+        (
+            QUAD,
+            |output| output.points[0] = DomainPoint::from_bits(ONE + 1, 0),
+            outside("10001, 00000"),
+        ),
+        (
+            QUAD,
+            |output| output.points[0] = DomainPoint::from_bits(0, ONE + 1),
+            outside("00000, 10001"),
+        ),
+        (QUAD, |output| output.points[0] = DomainPoint::from_bits(ONE, ONE), None),
+        (
+            TRI,
+            |output| output.points[0] = DomainPoint::from_bits(0x8001, 0x8000),
+            outside("08001, 08000"),
+        ),
+        (TRI, |output| output.points[0] = DomainPoint::from_bits(0x8000, 0x8000), None),
+    ];
+    for (line, fault, expected) in moved {
+        assert_eq!(said(line, Rule::Range, fault), expected, "{line}");
+    }
+}
+
+/// A denormal level may discard or not; with a level that discards beside it, it may not.
+#[test]
+fn denormals_beside_levels_that_discard() {
+    let judged = |first: &str| {
+        let line = LINES.replace("40400000", first).replace("40800000", "00000001");
+        let whole = case(LINES).patch().tessellate();
+        let reports =
+            [Tessellation::default(), whole].map(|output| judge(VULKAN, [(case(&line), output)]));
+        reports.map(|report| row(&report, Rule::Discard).verdict())
+    };
+    assert_eq!(judged("40400000"), [Verdict::NotExercised; 2], "either");
+    assert_eq!(judged("80000000"), [Verdict::Held, Verdict::Broken], "no primitive");
+}
+
+/// The words for what a level counts.
+#[test]
+fn lines_and_segments_are_called_so() {
+    let four_lines: Fault =
+        |output| *output = case(&LINES.replace("40400000", "40800000")).patch().tessellate();
+    let said_of = |line, fault| said(line, Rule::Segments, fault);
+    let isolines = "the patch has 4 isolines, its level 3 asks for 3";
+    assert_eq!(said_of(LINES, four_lines).as_deref(), Some(isolines));
+    let five_segments: Fault =
+        |output| *output = case(&LINES.replace("40800000", "40a00000")).patch().tessellate();
+    let segments = "line 0 has 5 segments, its level 4 asks for 4";
+    assert_eq!(said_of(LINES, five_segments).as_deref(), Some(segments));
+    let edge = said_of(QUAD, |output| {
+        *output = case(&QUAD.replace("40800000", "40c00000")).patch().tessellate();
+    });
+    assert_eq!(edge.as_deref(), Some("edge u0 has 6 segments, its level 4 asks for 4"));
+}
+
+/// What is said of a mesh, its lines and its points.
+#[test]
+fn faults_of_primitives_in_words() {
+    let said = |line, rule, fault| said(line, rule, fault).unwrap_or_default();
+    let ones = "case quad integer triangle_cw ruler".to_owned() + &" 3f800000".repeat(6);
+    let turned = said(&ones, Rule::Orientation, |output| output.indices[3..6].reverse());
+    assert_eq!(
+        turned,
+        "triangle 1 turns the other way: (00000, 10000) (10000, 10000) (10000, 00000)"
+    );
+    let hole = said(&ones, Rule::Cover, |output| output.indices.truncate(3));
+    assert_eq!(
+        hole,
+        "the edge (00000, 10000) (10000, 00000) within the domain is not shared by two"
+    );
+    let twice = said(&ones, Rule::Cover, |output| output.indices.extend_from_within(..));
+    assert_eq!(twice, "outer edge u0 is not walked once");
+    let line = "case isoline integer line ruler 40000000 40000000";
+    let across = said(line, Rule::Isolines, |output| output.indices[1] = 4);
+    assert_eq!(across, "the segment (00000, 00000) (08000, 08000) changes v");
+    let gap = said(line, Rule::Isolines, |output| output.indices.truncate(6));
+    assert_eq!(gap, "the line at v = 08000 is not walked once from 0 to 1");
+    let moved = said(line, Rule::Isolines, |output| move_line(output, 3, 0x8011));
+    assert_eq!(moved, "line 1 of 2 lies at v = 08011");
+    let near = said(line, Rule::Isolines, |output| move_line(output, 3, 0x8010));
+    assert_eq!(near, "", "16 units are rounding");
+    let point = ones.replace("triangle_cw", "point");
+    let repeated = said(&point, Rule::PointsOnce, |output| output.indices.push(2));
+    assert_eq!(repeated, "(10000, 10000) is a point twice");
+}
+
+/// What is said of an edge whose vertices are not where its level puts them: equal lengths, and two shorter ones.
+#[test]
+fn faults_of_edges_in_words() {
+    let said = |line: &str, rule, fault| said(line, rule, fault).unwrap_or_default();
+    let equal = "case isoline integer line ruler 3f800000 40800000";
+    let at = |output: &mut Tessellation, k: usize, u: u32| {
+        output.points[k] = DomainPoint::from_bits(u, output.points[k].v.to_bits());
+    };
+    let moved = said(equal, Rule::Spacing, |output| {
+        output.points[1] = DomainPoint::from_bits(0x4011, 0);
+    });
+    assert_eq!(moved, "line 0: vertex 1 of 4 lies at 04011, more than 16 units from 1/4");
+    let near = said(equal, Rule::Spacing, |output| {
+        output.points[1] = DomainPoint::from_bits(0x3FF0, 0);
+    });
+    assert_eq!(near, "", "16 units are rounding");
+    // Five segments; two shorter ones must lie symmetrically. 32 units are rounding.
+    let fractional = "case isoline fractional_odd line ruler 3f800000 40800000";
+    let unpaired =
+        |a, b| format!("line 0: segments {a} and {b} are shorter, and are no mirrored pair");
+    let number = |n| format!("line 0: {n} of 5 segments are shorter, not two");
+    for (moved, expected) in [
+        ([0x2000, 0x6000, 0xA000, 0xE000], String::new()),
+        ([0x4000, 0x6000, 0xA000, 0xBFE0], String::new()),
+        ([0x3FF5, 0x6016, 0xA00B, 0xC00B], unpaired(1, 3)),
+        ([0x4000, 0x6000, 0xA000, 0xE000], unpaired(1, 4)),
+        ([0x4000, 0x8000, 0xC000, 0xE000], unpaired(3, 4)),
+        ([0x3800, 0x7000, 0x9000, 0xC800], number(1)),
+        ([0x2000, 0x7000, 0x9000, 0xE000], number(3)),
+        ([0x1000, 0x2000, 0x3000, 0x4000], number(4)),
+    ] {
+        let mut output = case(fractional).patch().tessellate();
+        moved.into_iter().enumerate().for_each(|(k, u)| at(&mut output, k + 1, u));
+        let report = judge(VULKAN, [(case(fractional), output)]);
+        let what = row(&report, Rule::Spacing).smallest.as_ref().map(|example| &*example.what);
+        assert_eq!(what.unwrap_or_default(), expected, "{moved:04x?}");
+    }
+}
+
+/// Each end alone, and a vertex without its mirror image, on every edge of a quad; of isolines on that of the lines.
+#[test]
+fn edges_are_symmetric_about_their_middles() {
+    let ends = [[0, ONE], [0, 0], [ONE, 0], [ONE, ONE]];
+    for (edge, name) in ["u0", "v0", "u1", "v1"].into_iter().enumerate() {
+        let [from, to] = [ends[edge], ends[(edge + 1) % 4]];
+        let along = |x: u32| {
+            let at = |axis: usize| if to[axis] > from[axis] { x } else { ONE - x };
+            [0, 1].map(|axis| if from[axis] == to[axis] { from[axis] } else { at(axis) })
+        };
+        let line = QUAD.split(' ').take(5).collect::<Vec<_>>().join(" ") + &" 40800000".repeat(6);
+        let what = |from: u32, to: u32| {
+            let mut output = case(&line).patch().tessellate();
+            move_point(&mut output, along(from), along(to));
+            let report = judge(VULKAN, [(case(&line), output)]);
+            row(&report, Rule::Symmetric).smallest.as_ref().map(|example| example.what.clone())
+        };
+        let lonely = format!("edge {name} has a vertex at 04004 and none at 0bffc");
+        assert_eq!(what(0x4000, 0x4004), Some(lonely), "edge {name}");
+        assert_eq!(what(0x8000, 0x8000), None, "the model's edge {name}");
+    }
+    let first = |output: &mut Tessellation| output.points[0] = DomainPoint::from_bits(1, ONE);
+    let lacks = said(QUAD, Rule::Symmetric, first);
+    assert_eq!(lacks.as_deref(), Some("edge u0 lacks an end"));
+    let spread = "case isoline integer line ruler 40800000 40400000";
+    let moved = said(spread, Rule::Symmetric, |output| move_line(output, 12, 0xC004));
+    let other = "edge density has a vertex at 03ffc and none at 0c004";
+    assert_eq!(moved.as_deref(), Some(other), "the last of four lines");
+}
+
+/// An edge may have the vertices of another one of its level in either direction.
+#[test]
+fn edges_may_be_mirrored() {
+    let line = QUAD.split(' ').take(5).collect::<Vec<_>>().join(" ") + &" 40800000".repeat(6);
+    let verdict = |edges: &[[u32; 2]]| {
+        let mut output = case(&line).patch().tessellate();
+        for &[axis, across] in edges {
+            let at = |x: u32| if axis == 0 { [x, across] } else { [across, x] };
+            move_point(&mut output, at(0x4000), at(0x4004));
+        }
+        row(&judge(VULKAN, [(case(&line), output)]), Rule::EveryEdge).verdict()
+    };
+    // A clockwise walk goes along two edges the way their coordinate grows, and along two the other way.
+    assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0], [1, ONE]]), Verdict::Held, "mirrored");
+    assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0]]), Verdict::Broken, "one is another");
+}
+
+/// From level to level the shorter segments shrink by at most 2 units.
+#[test]
+fn shorter_segments_may_shrink_by_rounding() {
+    let line =
+        |level: &str| case(&format!("case isoline fractional_odd line ruler 3f800000 {level}"));
+    let (low, high) = (line("40800000"), line("40900000"));
+    let judged = |shorter: u32| {
+        let mut output = high.patch().tessellate();
+        let long = (ONE - 2 * shorter) / 3;
+        for (k, u) in
+            [long, long + shorter, ONE - long - shorter, ONE - long].into_iter().enumerate()
+        {
+            output.points[k + 1] = DomainPoint::from_bits(u, 0);
+        }
+        let report = judge(VULKAN, [model(low), (high, output)]);
+        let row = row(&report, Rule::Monotone).clone();
+        (row.judged, row.smallest.map(|example| example.what))
+    };
+    let places = low.patch().tessellate().points;
+    let length = places[2].u.to_bits() - places[1].u.to_bits();
+    assert_eq!(judged(length - 2), (1, None), "rounding");
+    let what = format!("the shorter segments shrink from {length:05x} to {:05x}", length - 3);
+    assert_eq!(judged(length - 3), (1, Some(what)));
+}
+
+/// Of examples of one size the first is kept; a smaller one takes its place.
+#[test]
+fn the_smallest_example_is_kept() {
+    let broken = |line: &str| {
+        let (case, mut output) = model(case(line));
+        output.points[0] = DomainPoint::from_bits(ONE + 1, 0);
+        (case, output)
+    };
+    let other = QUAD.replace("40a00000 40c00000", "40c00000 40a00000");
+    let kept = |lines: &[&str]| {
+        let report = judge(VULKAN, lines.iter().map(|line| broken(line)));
+        row(&report, Rule::Range).smallest.as_ref().map(|example| example.cases.clone())
+    };
+    let size = |line: &str| case(line).patch().counts().indices;
+    assert_eq!(size(QUAD), size(&other), "as many vertices");
+    assert_eq!(kept(&[QUAD, &other]), Some(vec![case(QUAD)]), "the first");
+    assert!(size(LINES) < size(QUAD), "fewer vertices");
+    assert_eq!(kept(&[QUAD, LINES, &other]), Some(vec![case(LINES)]), "the smallest");
+}
