@@ -141,7 +141,10 @@ mod tests {
 
     #[test]
     fn other_numbers_are_none() {
-        for float in [-0.0, -1.0, 1.000_001, 0.5 + 1e-7, 1e-6, f32::NAN, f32::INFINITY, 2.0] {
+        let denormal = f32::from_bits(1);
+        for float in
+            [-0.0, -1.0, 1.000_001, 0.5 + 1e-7, 1e-6, f32::NAN, f32::INFINITY, 2.0, denormal]
+        {
             assert_eq!(fixed(float.to_bits()), None, "{float}");
         }
     }

@@ -61,3 +61,27 @@ pub(crate) fn bucket(parity: Parity, bucket: u32) -> impl Iterator<Item = FixedF
     let fractions = if bucket == highest { 1 } else { 1 << 16 };
     (0..fractions).map(move |fraction| FixedFactor::from_bits((bucket << 16) | fraction))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Patches 1 of row 3: only fractional triangles and quads lie below the integers.
+    #[test]
+    fn sweeps_are_as_described() {
+        let first = |domain, partitioning| -> Vec<f32> {
+            sweep(domain, partitioning, 3)[0].iter().collect()
+        };
+        for (domain, integers, below) in [
+            (Domain::Isoline, &[3.0, 1.0][..], 0.0),
+            (Domain::Triangle, &[3.0, 4.0, 22.0, 1.0], 0.25),
+            (Domain::Quad, &[1.0, 4.0, 6.0, 34.0, 3.0, 1.0], 0.625),
+        ] {
+            let fractional: Vec<f32> = integers.iter().map(|x| x - below).collect();
+            assert_eq!(first(domain, Partitioning::Pow2), integers, "{domain:?}");
+            assert_eq!(first(domain, Partitioning::Integer), integers, "{domain:?}");
+            assert_eq!(first(domain, Partitioning::FractionalOdd), fractional, "{domain:?}");
+            assert_eq!(first(domain, Partitioning::FractionalEven), fractional, "{domain:?}");
+        }
+    }
+}

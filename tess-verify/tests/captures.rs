@@ -69,6 +69,26 @@ fn number_bits(number: u32) -> u32 {
     tess_core::fixed_point::coordinate_to_f32(DomainPoint::from_bits(number, 0).u).to_bits()
 }
 
+/// A record reads back as it is written, with third coordinates or without.
+#[test]
+fn records_are_written_as_they_are_read() {
+    let right = record(TRI, "hex", hex);
+    let is_vertex = |line: &str| line.len() == "00000 00000".len();
+    let third = |line: &str| if is_vertex(line) { " 10000\n" } else { "\n" };
+    let with_third: String = right.lines().map(|line| line.to_owned() + third(line)).collect();
+    let read = |text: &str| -> Record {
+        let text = format!("{HEADER}{text}# end\n");
+        let mut file = VectorFile::new("capture", text.as_bytes()).expect("a header");
+        file.next().expect("a record").expect("a right file")
+    };
+    for text in [right, with_third] {
+        let vertices = text.lines().count() - 3;
+        let Record::Coordinates(coordinates) = read(&text) else { panic!("{text}") };
+        let announced = format!("coordinates hex {vertices}\n");
+        assert_eq!(coordinates.to_string(), text.replace("coordinates hex\n", &announced));
+    }
+}
+
 /// A capture that is right tells of a backend: one changed coordinate is one difference.
 #[test]
 fn captures_test_a_backend() {
@@ -215,6 +235,13 @@ fn numbers_that_mean_something_else_are_refused() {
         ("coordinates", "", "unknown notation ``, expected one of: hex, decimal, float"),
         ("coordinates hex 2 3", "", "`3` is one word too many"),
         ("coordinates hex 99999", "", "99999 is too many: a patch has at most 24576"),
+        ("coordinates hex 24577", "", "24577 is too many: a patch has at most 24576"),
+        ("coordinates hex 24576", "", "24576 vertices are announced, these are 0"),
+        (
+            "coordinates hex",
+            &"00000 00000\n".repeat(24_577),
+            "24577 is too many: a patch has at most 24576",
+        ),
         (
             "coordinates hex 4",
             "00000 00000\n00000 00000\n00000 00000\n",

@@ -35,6 +35,24 @@ fn both_formulations_agree_on_any_number_of_threads() {
     assert_eq!(one, two, "threads change nothing");
 }
 
+/// The units of a shard are counted from 1 to all of them, subject by subject.
+#[test]
+fn progress_ends_with_the_last_unit() {
+    let plan = Plan { subjects: vec![Subject::Locations, Subject::Transitions], ..small_plan() };
+    let calls = std::sync::Mutex::new(Vec::new());
+    let note = |subject, done, all| calls.lock().expect("no panic").push((subject, done, all));
+    verify(&mut [vec![Box::new(SecondFormulation)]], &plan, &note).expect("it runs");
+    let mut calls = calls.into_inner().expect("no panic").into_iter();
+    for subject in plan.subjects {
+        let all = plan.shard.items(Units::of(subject).count());
+        assert!(all > 1, "{subject:?}: {all} units");
+        for done in 1..=all {
+            assert_eq!(calls.next(), Some((subject, done, all)));
+        }
+    }
+    assert_eq!(calls.next(), None, "no more");
+}
+
 /// The 2^20 numbers from 1 on, in every partitioning.
 #[test]
 fn factors_agree_with_binary64() {

@@ -119,3 +119,25 @@ impl<R: BufRead> Lines<R> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The longest line, whole in the reader's buffer or not, ended in either way; and one byte more.
+    #[test]
+    fn the_longest_line_is_taken() {
+        for end in ["\n", "\r\n"] {
+            for (length, is_taken) in [(MAX_LINE, true), (MAX_LINE + 1, false)] {
+                let text = "a".repeat(length) + end + "b\n";
+                for room in [16, 2 * MAX_LINE] {
+                    let reader = std::io::BufReader::with_capacity(room, text.as_bytes());
+                    let mut lines = Lines::new("f", reader);
+                    let found = lines.next().map(|line| line.map(|line| line.text.len()));
+                    let expected = is_taken.then_some(Some(length));
+                    assert_eq!(found.ok(), expected, "{length} bytes and {end:?}, room for {room}");
+                }
+            }
+        }
+    }
+}

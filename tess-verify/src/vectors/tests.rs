@@ -179,6 +179,8 @@ fn wrong_listings() {
         ("0 1 2", "0 1 2 3", "f:8: indices: `0 1 2 3` is not a primitive"),
         ("0 1 2", "0 1 +2", "f:8: indices: `0 1 +2` is not a primitive"),
         ("0 1 2", "0 1 -2", "f:8: indices: `0 1 -2` is not a primitive"),
+        ("0 1 2", "0 1 :", "f:8: indices: `0 1 :` is not a primitive"),
+        ("0 1 2", "0 1 /", "f:8: indices: `0 1 /` is not a primitive"),
     ];
     for (from, to, expected) in cases {
         let error = error(LISTING, from, to);

@@ -38,3 +38,23 @@ pub fn write_listings(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is written decides the kind, whatever the header says.
+    #[test]
+    fn files_are_of_the_kind_that_is_written() {
+        let line = "case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000";
+        let case: Case = line.parse().expect("a case");
+        for kind in [Kind::Patches, Kind::Listings] {
+            let header = Header { kind, count: Some(1), source: "test".into(), notes: Vec::new() };
+            let [mut rows, mut listings] = [Vec::new(), Vec::new()];
+            write_patches(&mut rows, &header, [case].into_iter()).expect("vectors grow");
+            write_listings(&mut listings, &header, [case].into_iter()).expect("vectors grow");
+            assert!(rows.starts_with(b"# tess-vectors 1 kind=patches count=1 "), "{kind:?}");
+            assert!(listings.starts_with(b"# tess-vectors 1 kind=listings count=1 "), "{kind:?}");
+        }
+    }
+}

@@ -42,3 +42,26 @@ fn integer(domain: Domain, split: SplitOrder, factors: &[u8]) -> Option<Case> {
     let factors = PatchFactors::from_slice(domain, factors)?.map(f32::from);
     Some(Case { config, factors })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The pairs of outer factors 7 and 64 with inside factor 5: behind 64 comes 1.
+    #[test]
+    fn pairs_come_in_both_axes_and_on_triangles() {
+        let all: Vec<Case> = transitions().collect();
+        assert_eq!(all.len(), 2 * 64 * 64 * 3, "split orders, pairs, patches");
+        for (outer, expected) in [
+            (7, [&[7, 2, 8, 1, 3, 5][..], &[1, 7, 3, 8, 5, 4], &[7, 8, 58, 5]]),
+            (64, [&[64, 2, 1, 1, 3, 5], &[1, 64, 3, 1, 5, 4], &[64, 1, 1, 5]]),
+        ] {
+            let first = 3 * (64 * (5 - 1) + outer - 1);
+            let domains = [Domain::Quad, Domain::Quad, Domain::Triangle];
+            let expected = domains.into_iter().zip(expected).map(|(domain, factors)| {
+                integer(domain, SplitOrder::Ruler, factors).expect("as many factors")
+            });
+            assert_eq!(all[first..first + 3], expected.collect::<Vec<_>>(), "outer {outer}");
+        }
+    }
+}

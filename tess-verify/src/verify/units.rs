@@ -174,3 +174,24 @@ fn buckets() -> impl Iterator<Item = (SplitOrder, Parity, u32)> {
         integers.map(move |bucket| (split, parity, bucket))
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The units of factors follow each other and reach all bits, one partitioning after another.
+    #[test]
+    fn factors_are_all_there() {
+        let all = Units::of(Subject::Factors);
+        let mut units = all.iter();
+        for expected in Partitioning::ALL {
+            for number in 0..1u64 << 12 {
+                let Some(Unit::Values { partitioning, first }) = units.next() else {
+                    panic!("unit {number} of {expected:?}")
+                };
+                assert_eq!((partitioning, u64::from(first)), (expected, number << 20));
+            }
+        }
+        assert!(units.next().is_none(), "no more");
+    }
+}
