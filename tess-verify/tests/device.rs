@@ -63,6 +63,9 @@ fn stages_of_a_device_are_told_apart() {
     assert_eq!(stage(TRIANGLE, truncated), Stage::Factors, "converted by truncation");
     let center = right(&TRIANGLE.replace("ruler", "center"));
     assert_eq!(stage(TRIANGLE, center), Stage::Context, "split in another order");
+    let mut reordered = right(&TRIANGLE.replace("ruler", "center"));
+    reordered.indices.rotate_left(3);
+    assert_eq!(stage(TRIANGLE, reordered), Stage::Context, "and triangles in another order");
     let mut moved = right(TRIANGLE);
     moved.points[3] = DomainPoint::from_bits(0, 1);
     assert_eq!(stage(TRIANGLE, moved), Stage::Location, "a point in the wrong place");

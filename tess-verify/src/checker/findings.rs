@@ -100,3 +100,36 @@ impl Findings {
         self.report
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::MAX_DIFFERENCES;
+    use super::*;
+    use crate::compare::Stage;
+
+    /// A record is kept as a file for the first differences, and for one that is the smallest so far.
+    #[test]
+    fn files_are_made_for_what_is_shown() {
+        let mut findings = Findings::default();
+        let mut made = Vec::new();
+        let first = u64::try_from(MAX_DIFFERENCES).expect("few");
+        // Factor 2 and up, then 1.
+        for number in 1..=first + 5 {
+            let detail = if number == first + 3 { 1.0 } else { 1.0 + number as f32 };
+            let line = format!("case isoline integer line ruler 3f800000 {:08x}", detail.to_bits());
+            let mismatch = Mismatch::count("points", 1, 2).expect("they differ");
+            assert_eq!(mismatch.stage, Stage::Counts);
+            let found = Found::Different(mismatch, Some(line.parse().expect("a case")));
+            findings.add(number, None, found, || {
+                made.push(number);
+                Some(format!("file {number}"))
+            });
+        }
+        let expected: Vec<u64> = (1..=first).chain([first + 3]).collect();
+        assert_eq!(made, expected, "the first, and the smallest");
+        let report = findings.report();
+        assert_eq!((report.differences.len(), report.mismatches), (MAX_DIFFERENCES, first + 5));
+        let smallest = &report.groups()[0].smallest;
+        assert_eq!(smallest.file, Some(format!("file {}", first + 3)), "{smallest}");
+    }
+}

@@ -144,6 +144,12 @@ mod tests {
             .filter_map(|row| row.split_whitespace().next())
             .collect();
         assert_eq!(stages, ["factors", "stitch", "all"], "{text}");
+        for (stage, _, groups) in STAGES {
+            for group in groups {
+                let row = text.lines().find(|line| line.split_whitespace().nth(1) == Some(group));
+                assert!(row.is_some_and(|row| row.starts_with(stage)), "{group}: {text}");
+            }
+        }
         let table = text.lines().take_while(|line| !line.starts_with("missed ")).count();
         let groups = Coverage::new().groups().len();
         assert_eq!(table, 1 + groups + stages.len(), "{text}");
