@@ -94,14 +94,27 @@ fn elements_in_any_order_come_from_somewhere() {
 
     let points = "case tri integer point ruler 40400000 40400000 40400000 40400000";
     let (case, mut output) = (self::case(points), self::case(points).patch().tessellate());
-    output.indices.pop();
+    let last = output.indices.pop().expect("points");
     let shown = origin(&check_device([(case, output)], ANY)).expect("a point of the model");
-    assert!(shown.starts_with("point "), "{shown}");
+    assert!(shown.starts_with(&format!("point {last}: ")), "{shown}");
 
     let stray = moved(line);
     let report = check_device([stray], ANY);
     let found = report.differences[0].mismatch.to_string();
     assert!(found.contains("12"), "an element of the device: {found}");
+}
+
+/// In the exact order elements have numbers, which the model's have too.
+#[test]
+fn elements_come_from_their_numbers() {
+    let line = "case tri integer triangle_cw ruler 40400000 40400000 40400000 40400000";
+    let report = check_device([moved(line)], Strength::default());
+    let shown = origin(&report).expect("a point of the model");
+    assert!(shown.starts_with("point 4: "), "{shown}");
+    let (case, mut output) = (case(line), case(line).patch().tessellate());
+    output.indices[7] = 0;
+    let shown = origin(&check_device([(case, output)], Strength::default()));
+    assert!(shown.is_some_and(|shown| shown.starts_with("primitive 2: ")), "index 7");
 }
 
 #[test]

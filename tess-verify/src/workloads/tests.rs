@@ -1,6 +1,7 @@
 //! The workloads are what their descriptions say, and the same everywhere.
 
 use super::*;
+use std::collections::BTreeSet;
 use tess_core::QuadFactors;
 
 fn quads(workload: &Workload) -> Vec<QuadFactors> {
@@ -200,4 +201,6 @@ fn families_and_unknown_names() {
     assert_eq!(named("mosaic").len(), 1, "mosaic is a workload and no family");
     assert_eq!(named("meshes").len(), 4, "meshes is a family");
     assert_eq!(all().len(), 31, "all");
+    let names: BTreeSet<String> = all().into_iter().map(|workload| workload.name).collect();
+    assert_eq!(names.len(), 31, "each has a name of its own");
 }
