@@ -154,14 +154,15 @@ mod tests {
         let mut coverage = Coverage::new();
         let mut exclusions = Exclusions::default();
         exclusions.add("rings").expect("a group");
+        exclusions.add("middle/evenxodd").expect("a bin");
         assert!(coverage.add("rings/tri/1", 1) && coverage.add("middle/oddxodd", 1), "bins");
         let page = coverage.to_html(&exclusions, &[]);
         let numbers = |numbers: [&str; 4]| -> String {
             numbers.iter().map(|number| format!("<td class=\"number\">{number}</td>")).collect()
         };
         let middle = "<tr><td></td><td>middle</td>".to_owned()
-            + &numbers(["4", "1", "0", "25.0"])
-            + "<td><div class=\"bar\"><i style=\"width: 25.0%\"></i></div></td></tr>\n";
+            + &numbers(["4", "1", "1", "33.3"])
+            + "<td><div class=\"bar\"><i style=\"width: 33.3%\"></i></div></td></tr>\n";
         let rings = "<tr><td></td><td>rings</td>".to_owned()
             + &numbers(["64", "0", "64", "-"])
             + "<td><div class=\"bar nothing\"></div></td></tr>\n";
@@ -169,6 +170,7 @@ mod tests {
         assert!(page.contains("<tr><td>stitch (7)</td><td>parities</td>"), "{page}");
         assert_eq!(page.matches("<tr class=\"sum\">").count(), 3, "factors, stitch and all");
         assert!(page.contains("<tr class=\"sum\"><td>all</td><td></td>"), "{page}");
+        assert!(page.contains("<summary>middle: 2 of 3 missed</summary>"), "{page}");
         assert!(!page.contains("<summary>rings"), "no holes are excluded: {page}");
     }
 

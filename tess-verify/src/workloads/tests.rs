@@ -195,7 +195,8 @@ fn families_and_unknown_names() {
     assert_eq!(named("uniform").len(), 7, "uniform is a family");
     assert_eq!(named("seed-table").len(), 7, "seed-table is a family");
     assert_eq!(named("single").len(), 8, "single is a family");
-    assert!(single().iter().all(|one| one.calls == Calls::SinglePatch), "a patch a call");
+    let in_turn = [single(), seed_table()].concat();
+    assert!(in_turn.iter().all(|one| one.calls == Calls::SinglePatch), "a patch a call");
     assert_eq!(named("uniform-6").len(), 0, "not a prefix of uniform-64");
     assert_eq!(named("nothing").len(), 0, "unknown");
     assert_eq!(named("mosaic").len(), 1, "mosaic is a workload and no family");
