@@ -59,6 +59,31 @@ fn rows_of_sections() {
     machine.assert_equal(setup, &patches);
 }
 
+/// Batches that write no points are not cut up; and a packed point has 30 bits for its patch's number.
+#[test]
+fn batches_too_large_for_their_outputs() {
+    let mut machine = Machine::open();
+    machine.limit(LOW);
+    let setup = setup(Domain::Triangle);
+    let most = Plan::new(setup, u32::MAX, Capacity::default(), LOW).portion_patches();
+    let factors = machine.factors(&small(Domain::Triangle, most + 1));
+    let indices = machine.upload(&[0; 64], BufferUsages::STORAGE);
+    let mut refused = |patches: u32, outputs: Outputs<'_>| {
+        let batch = machine.tessellator.batch(setup, patches, &factors, outputs);
+        batch.err().map(|error| error.to_string())
+    };
+    let alone = Outputs::Indices { indices: &indices, points: 64 };
+    assert_eq!(refused(most, alone), None, "as many as a binding holds");
+    let error = refused(most + 1, alone).expect("not all in one binding");
+    let words = "patches without a point buffer are more than one binding holds";
+    assert!(error.starts_with(&format!("{} {words}, {most};", most + 1)), "{error}");
+    assert_eq!(refused(most + 1, Outputs::CountOnly), None, "cut up");
+    let too_short = refused(1 << 30, Outputs::CountOnly).expect("there are not as many factors");
+    assert!(too_short.contains("bytes of factors"), "{too_short}");
+    let too_many = refused((1 << 30) + 1, Outputs::CountOnly).expect("too many");
+    assert!(too_many.starts_with("1073741825 patches"), "{too_many}");
+}
+
 /// A window that begins at another tile and workgroups that take each row for the first are noticed.
 #[test]
 fn wrong_windows_and_rows_are_seen() {
