@@ -208,9 +208,8 @@ mod tests {
     fn numbers_without_room_are_counted() {
         let left_out = |factor: f32, colours| {
             let bits = format!(" {:08x}", factor.to_bits()).repeat(6);
-            let case: crate::case::Case =
-                format!("case quad integer triangle_cw ruler{bits}").parse().expect("a case");
-            let patch = Listing { line: 0, case, output: case.patch().tessellate() };
+            let line = format!("case quad integer triangle_cw ruler{bits}");
+            let patch = Listing::of_model(line.parse().expect("a case"));
             draw(&patch, &DrawOptions { colours, ..DrawOptions::default() }).labels_left_out
         };
         assert_eq!(left_out(4.0, Colours::Order), 0, "room for all");

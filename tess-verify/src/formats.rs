@@ -48,11 +48,10 @@ mod tests {
     #[test]
     fn a_patch_as_obj() {
         let line = "case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000";
-        let case: crate::case::Case = line.parse().expect("a case");
-        let patch = Listing { line: 0, case, output: case.patch().tessellate() };
+        let patch = Listing::of_model(line.parse().expect("a case"));
         let text = obj(&patch);
         let (comment, rest) = text.split_once('\n').expect("lines");
-        assert_eq!(comment, format!("# {}", case.command()));
+        assert_eq!(comment, format!("# {}", patch.case.command()));
         assert_eq!(rest, "v 0 1 0\nv 0 0 0\nv 1 0 0\nf 1 2 3\n");
     }
 }

@@ -179,7 +179,7 @@ mod tests {
     use super::*;
     use tess_core::{Domain, Partitioning, PatchFactors};
 
-    /// A device that takes larger factors: its output for 64 stands for 128, the model's for 32 for 64.
+    /// The outputs are the model's for factor 100, which it clamps to 64, with a point more or none.
     #[test]
     fn larger_factors_explain_more_points() {
         let case = |factor: f32| {
@@ -187,11 +187,12 @@ mod tests {
             Case { config, factors: PatchFactors::uniform(Domain::Isoline, factor) }
         };
         let model = case(100.0).patch().tessellate();
-        let finer = {
+        let with = |point| {
             let mut output = model.clone();
-            output.points.push(DomainPoint::from_bits(0x123, 0x456));
+            output.points.push(point);
             output
         };
+        let finer = with(DomainPoint::from_bits(0x123, 0x456));
         let strength = Strength::default();
         let explains = |factor: f32, output: &Tessellation, max_level: u32| {
             Way::Clamping.explains(&case(factor), output, strength, max_level)
@@ -200,11 +201,7 @@ mod tests {
         assert!(!explains(100.0, &model, 128), "as many places");
         assert!(!explains(64.0, &finer, 128), "no factor above 64");
         assert!(!explains(100.0, &finer, 64), "a device that takes 64 at most");
-        let repeated = {
-            let mut output = model.clone();
-            output.points.push(model.points[0]);
-            output
-        };
+        let repeated = with(model.points[0]);
         assert!(!explains(100.0, &repeated, 128), "a place twice");
     }
 }

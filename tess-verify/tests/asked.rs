@@ -20,9 +20,7 @@ fn cases(count: usize) -> Vec<Case> {
 
 /// Checks right answers for some cases against what was asked.
 fn check(asked: &[Case], answered: &[Case]) -> Report {
-    let listing = |case: &Case| {
-        Listing { line: 0, case: *case, output: case.patch().tessellate() }.to_string()
-    };
+    let listing = |case: &Case| Listing::of_model(*case).to_string();
     let listings: String = answered.iter().map(listing).collect();
     let text = format!("# tess-vectors 1 kind=listings source=device\n{listings}# end\n");
     let file = VectorFile::new("device", text.as_bytes()).expect("a header");

@@ -28,8 +28,12 @@ const fn strength(order: Order) -> Strength {
 }
 
 fn run(text: &str, strength: Strength) -> Result<Report, CheckError> {
+    run_tested(text, Tested::Listings(strength))
+}
+
+fn run_tested(text: &str, tested: Tested) -> Result<Report, CheckError> {
     let file = VectorFile::new("capture", text.as_bytes())?;
-    check(file, &mut [Box::new(CoreBackend)], Tested::Listings(strength), &|_| ())
+    check(file, &mut [Box::new(CoreBackend)], tested, &|_| ())
 }
 
 /// The verdict on records, in a file that marks its end.
@@ -94,8 +98,7 @@ fn records_are_written_as_they_are_read() {
 fn captures_test_a_backend() {
     let check_backend = |records: &str| {
         let text = format!("{HEADER}{records}# end\n");
-        let file = VectorFile::new("capture", text.as_bytes()).expect("a header");
-        check(file, &mut [Box::new(CoreBackend)], Tested::Backend, &|_| ()).expect("a verdict")
+        run_tested(&text, Tested::Backend).expect("a verdict")
     };
     let right = record(TRI, "hex", hex);
     assert_eq!(check_backend(&right).mismatches, 0, "the model's");

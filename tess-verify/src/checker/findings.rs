@@ -103,8 +103,8 @@ impl Findings {
 
 #[cfg(test)]
 mod tests {
-    use super::super::MAX_DIFFERENCES;
     use super::*;
+    use crate::checker::MAX_DIFFERENCES;
     use crate::compare::Stage;
 
     /// A record is kept as a file for the first differences, and for one that is the smallest so far.

@@ -129,12 +129,17 @@ fn list(page: &mut String, bins: &[&str]) {
 mod tests {
     use super::*;
 
-    #[test]
-    fn the_page_says_what_the_text_says() {
-        let mut coverage = Coverage::new();
-        let mut exclusions = Exclusions::default();
+    /// Two hits, one of them in an excluded group.
+    fn example() -> (Coverage, Exclusions) {
+        let (mut coverage, mut exclusions) = (Coverage::new(), Exclusions::default());
         exclusions.add("rings").expect("a group");
         assert!(coverage.add("rings/tri/1", 1) && coverage.add("middle/oddxodd", 1), "bins");
+        (coverage, exclusions)
+    }
+
+    #[test]
+    fn the_page_says_what_the_text_says() {
+        let (coverage, exclusions) = example();
         let page = coverage.to_html(&exclusions, &["a<b>.xml".to_owned()]);
         let left = coverage.bins().count() - 64;
         assert!(page.contains(&format!("1 of {left} bins were hit: 0.0 %. 64 more")), "{page}");
@@ -151,11 +156,8 @@ mod tests {
     /// The rows of a stage with several groups, of which only the first names the stage and only the last is a sum.
     #[test]
     fn rows_of_the_table() {
-        let mut coverage = Coverage::new();
-        let mut exclusions = Exclusions::default();
-        exclusions.add("rings").expect("a group");
+        let (coverage, mut exclusions) = example();
         exclusions.add("middle/evenxodd").expect("a bin");
-        assert!(coverage.add("rings/tri/1", 1) && coverage.add("middle/oddxodd", 1), "bins");
         let page = coverage.to_html(&exclusions, &[]);
         let numbers = |numbers: [&str; 4]| -> String {
             numbers.iter().map(|number| format!("<td class=\"number\">{number}</td>")).collect()

@@ -147,8 +147,7 @@ mod tests {
     #[test]
     fn points_are_marked_by_discs() {
         let line = "case tri integer point ruler 40000000 40000000 40000000 40000000";
-        let case: crate::case::Case = line.parse().expect("a case");
-        let expected = Listing { line: 0, case, output: case.patch().tessellate() };
+        let expected = Listing::of_model(line.parse().expect("a case"));
         let mut observed = expected.clone();
         observed.output.indices[2] = 0;
         let (drawing, differences) = overlay(&expected, &observed, &DrawOptions::default());

@@ -24,6 +24,12 @@ pub struct Listing {
 }
 
 impl Listing {
+    /// What the model gives for a case; the record stands in no file, so its line is 0.
+    #[must_use]
+    pub fn of_model(case: Case) -> Self {
+        Self { line: 0, case, output: case.patch().tessellate() }
+    }
+
     /// The index list, primitive by primitive.
     pub fn primitives(&self) -> impl Iterator<Item = &[u32]> {
         self.output.indices.chunks(self.case.primitive_size())

@@ -34,7 +34,7 @@ pub fn write_listings(
     let header = Header { kind: Kind::Listings, ..header.clone() };
     writeln!(out, "{header}")?;
     for case in cases {
-        write!(out, "{}", Listing { line: 0, case, output: case.patch().tessellate() })?;
+        write!(out, "{}", Listing::of_model(case))?;
     }
     Ok(())
 }

@@ -2,8 +2,12 @@
 
 use super::*;
 
+/// All levels 4.
+const FOURS: &str =
+    "case quad integer triangle_cw ruler 40800000 40800000 40800000 40800000 40800000 40800000";
+
 /// What is said of one output that breaks a rule.
-fn said(line: &str, rule: Rule, fault: Fault) -> Option<String> {
+fn said(line: &str, rule: Rule, fault: impl FnOnce(&mut Tessellation)) -> Option<String> {
     let (case, mut output) = model(case(line));
     fault(&mut output);
     let report = judge(VULKAN, [(case, output)]);
@@ -64,7 +68,7 @@ fn denormals_beside_levels_that_discard() {
 fn lines_and_segments_are_called_so() {
     let four_lines: Fault =
         |output| *output = case(&LINES.replace("40400000", "40800000")).patch().tessellate();
-    let said_of = |line, fault| said(line, Rule::Segments, fault);
+    let said_of = |line, fault: Fault| said(line, Rule::Segments, fault);
     let isolines = "the patch has 4 isolines, its level 3 asks for 3";
     assert_eq!(said_of(LINES, four_lines).as_deref(), Some(isolines));
     let five_segments: Fault =
@@ -80,7 +84,7 @@ fn lines_and_segments_are_called_so() {
 /// What is said of a mesh, its lines and its points.
 #[test]
 fn faults_of_primitives_in_words() {
-    let said = |line, rule, fault| said(line, rule, fault).unwrap_or_default();
+    let said = |line: &str, rule, fault: Fault| said(line, rule, fault).unwrap_or_default();
     let ones = "case quad integer triangle_cw ruler".to_owned() + &" 3f800000".repeat(6);
     let turned = said(&ones, Rule::Orientation, |output| output.indices[3..6].reverse());
     assert_eq!(
@@ -111,19 +115,19 @@ fn faults_of_primitives_in_words() {
 /// What is said of an edge whose vertices are not where its level puts them: equal lengths, and two shorter ones.
 #[test]
 fn faults_of_edges_in_words() {
-    let said = |line: &str, rule, fault| said(line, rule, fault).unwrap_or_default();
-    let equal = "case isoline integer line ruler 3f800000 40800000";
-    let at = |output: &mut Tessellation, k: usize, u: u32| {
-        output.points[k] = DomainPoint::from_bits(u, output.points[k].v.to_bits());
+    // The points from the second on lie at these places.
+    let said_of = |line: &str, places: &[u32]| {
+        let moved = said(line, Rule::Spacing, |output| {
+            for (point, &u) in output.points[1..].iter_mut().zip(places) {
+                *point = DomainPoint::from_bits(u, 0);
+            }
+        });
+        moved.unwrap_or_default()
     };
-    let moved = said(equal, Rule::Spacing, |output| {
-        output.points[1] = DomainPoint::from_bits(0x4011, 0);
-    });
+    let equal = "case isoline integer line ruler 3f800000 40800000";
+    let moved = said_of(equal, &[0x4011]);
     assert_eq!(moved, "line 0: vertex 1 of 4 lies at 04011, more than 16 units from 1/4");
-    let near = said(equal, Rule::Spacing, |output| {
-        output.points[1] = DomainPoint::from_bits(0x3FF0, 0);
-    });
-    assert_eq!(near, "", "16 units are rounding");
+    assert_eq!(said_of(equal, &[0x3FF0]), "", "16 units are rounding");
     // Five segments; two shorter ones must lie symmetrically. 32 units are rounding.
     let fractional = "case isoline fractional_odd line ruler 3f800000 40800000";
     let unpaired =
@@ -139,11 +143,7 @@ fn faults_of_edges_in_words() {
         ([0x2000, 0x7000, 0x9000, 0xE000], number(3)),
         ([0x1000, 0x2000, 0x3000, 0x4000], number(4)),
     ] {
-        let mut output = case(fractional).patch().tessellate();
-        moved.into_iter().enumerate().for_each(|(k, u)| at(&mut output, k + 1, u));
-        let report = judge(VULKAN, [(case(fractional), output)]);
-        let what = row(&report, Rule::Spacing).smallest.as_ref().map(|example| &*example.what);
-        assert_eq!(what.unwrap_or_default(), expected, "{moved:04x?}");
+        assert_eq!(said_of(fractional, &moved), expected, "{moved:04x?}");
     }
 }
 
@@ -157,12 +157,8 @@ fn edges_are_symmetric_about_their_middles() {
             let at = |axis: usize| if to[axis] > from[axis] { x } else { ONE - x };
             [0, 1].map(|axis| if from[axis] == to[axis] { from[axis] } else { at(axis) })
         };
-        let line = QUAD.split(' ').take(5).collect::<Vec<_>>().join(" ") + &" 40800000".repeat(6);
         let what = |from: u32, to: u32| {
-            let mut output = case(&line).patch().tessellate();
-            move_point(&mut output, along(from), along(to));
-            let report = judge(VULKAN, [(case(&line), output)]);
-            row(&report, Rule::Symmetric).smallest.as_ref().map(|example| example.what.clone())
+            said(FOURS, Rule::Symmetric, |output| move_point(output, along(from), along(to)))
         };
         let lonely = format!("edge {name} has a vertex at 04004 and none at 0bffc");
         assert_eq!(what(0x4000, 0x4004), Some(lonely), "edge {name}");
@@ -180,14 +176,13 @@ fn edges_are_symmetric_about_their_middles() {
 /// An edge may have the vertices of another one of its level in either direction.
 #[test]
 fn edges_may_be_mirrored() {
-    let line = QUAD.split(' ').take(5).collect::<Vec<_>>().join(" ") + &" 40800000".repeat(6);
     let verdict = |edges: &[[u32; 2]]| {
-        let mut output = case(&line).patch().tessellate();
+        let (case, mut output) = model(case(FOURS));
         for &[axis, across] in edges {
             let at = |x: u32| if axis == 0 { [x, across] } else { [across, x] };
             move_point(&mut output, at(0x4000), at(0x4004));
         }
-        row(&judge(VULKAN, [(case(&line), output)]), Rule::EveryEdge).verdict()
+        row(&judge(VULKAN, [(case, output)]), Rule::EveryEdge).verdict()
     };
     // A clockwise walk goes along two edges the way their coordinate grows, and along two the other way.
     assert_eq!(verdict(&[[0, 0], [0, ONE], [1, 0], [1, ONE]]), Verdict::Held, "mirrored");

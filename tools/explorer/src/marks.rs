@@ -57,13 +57,11 @@ fn edge(patch: &Patch, i: u32) -> Option<(FactorContext, u32)> {
 mod tests {
     use super::*;
     use tess_core::fixed_point::ONE;
-    use tess_verify::case::Case;
 
     fn listing(factor: &str, output: &str) -> Listing {
         let line =
             format!("case quad fractional_even {output} ruler{}", format!(" {factor}").repeat(6));
-        let case: Case = line.parse().expect("a case");
-        Listing { line: 0, case, output: case.patch().tessellate() }
+        Listing::of_model(line.parse().expect("a case"))
     }
 
     #[test]
