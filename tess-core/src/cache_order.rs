@@ -56,9 +56,9 @@
 //! A cache of 32 vertices misses 0.64 to 0.67 times a triangle with columns of four, and 0.9 to 1.0 times
 //! with the specification's order.
 
-use crate::factors::ProcessedPatch;
-use crate::locate::origin::PrimitiveOrigin;
-use crate::patch_factors::PatchFactors;
+use crate::closed_form::locate::origin::PrimitiveOrigin;
+use crate::model::factors::ProcessedPatch;
+use crate::model::patch_factors::PatchFactors;
 use core::ops::Range;
 
 /// An order in which a patch's triangles are written.

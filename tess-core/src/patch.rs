@@ -1,19 +1,21 @@
 //! One patch: the model's front door.
 
+use crate::cache_order;
 #[cfg(feature = "alloc")]
 use crate::cache_order::Order;
-use crate::counts::{Counts, counts};
+use crate::closed_form::counts::{Counts, counts};
+use crate::closed_form::locate;
+use crate::closed_form::locate::origin::PointOrigin;
+use crate::closed_form::locate::origin::PrimitiveOrigin;
 use crate::error::{Buffer, BufferTooSmall};
-use crate::factors::{ProcessedPatch, process};
-use crate::locate::origin::PointOrigin;
-use crate::locate::origin::PrimitiveOrigin;
-use crate::output::DomainPoint;
-use crate::output::Primitive;
-use crate::patch_factors::PatchFactors;
-use crate::sink::{Sink, Slices};
-use crate::state::Config;
-use crate::stitch::Stitch;
-use crate::{cache_order, connect, locate, points};
+use crate::model::factors::{ProcessedPatch, process};
+use crate::model::output::DomainPoint;
+use crate::model::output::Primitive;
+use crate::model::patch_factors::PatchFactors;
+use crate::model::sink::{Sink, Slices};
+use crate::model::state::Config;
+use crate::model::stitch::Stitch;
+use crate::model::{connect, points};
 
 /// A patch whose factors have been processed, ready to be tessellated or probed.
 ///
@@ -55,14 +57,15 @@ impl Patch {
     /// Walks the patch in the specification's order: all points, then all primitives.
     pub fn emit(&self, sink: &mut impl Sink) {
         points::emit(&self.processed, sink);
-        connect::emit(self.config, &self.processed, sink);
+        connect::emit(self.config, &self.processed, self.counts.points, sink);
     }
 
     /// Sends the stitches of a triangle or quad patch to `emit`, in order: the two rows of each, and
-    /// the rule of its steps. A minimum patch and an isoline patch have none; neither is the single
-    /// triangle inside a triangle patch's innermost ring one.
+    /// the rule of its steps. A minimum patch and an isoline patch have none.
     pub fn stitches(&self, emit: impl FnMut(Stitch)) {
-        connect::stitches(&self.processed, emit);
+        if let ProcessedPatch::Regular(factors) = &self.processed {
+            connect::stitches(factors, emit);
+        }
     }
 
     /// Writes points and indices to the start of the caller's buffers.

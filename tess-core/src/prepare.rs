@@ -8,9 +8,9 @@
     reason = "the one stage that the specification defines in floats"
 )]
 
-use crate::d3d_float::{ceil, clamp, is_culled, next_power_of_two};
-use crate::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
-use crate::state::{Domain, Partitioning};
+use crate::model::d3d_float::{ceil, clamp, is_culled, next_power_of_two};
+use crate::model::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
+use crate::model::state::{Domain, Partitioning};
 
 /// How several outer factors become one inside factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

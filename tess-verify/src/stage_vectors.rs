@@ -201,6 +201,7 @@ fn stitches(case: &Case, rows: &mut BTreeSet<Vec<u32>>) {
             StitchKind::Ring { .. } => (1, 0),
             StitchKind::Centre(Diagonals::Forward) => (2, 0),
             StitchKind::Centre(Diagonals::ForwardExceptMiddle) => (2, 1),
+            StitchKind::CentreTriangle => return, // the circuit's stitcher is not asked for it
         };
         let mut steps: Vec<Step> = Vec::new();
         stitch.steps(split, |step| steps.push(step));

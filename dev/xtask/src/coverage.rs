@@ -75,8 +75,8 @@ mod tests {
 
     #[test]
     fn lines_are_added_up_by_crate() {
-        let lcov = "SF:/home/me/tess/tess-core/src/place.rs\nDA:3,1\nLF:10\nLH:9\nend_of_record\n\
-                    SF:/home/me/tess/tess-core/src/row.rs\nLF:5\nLH:5\nend_of_record\n\
+        let lcov = "SF:/home/me/tess/tess-core/src/model/place.rs\nDA:3,1\nLF:10\nLH:9\nend_of_record\n\
+                    SF:/home/me/tess/tess-core/src/model/row.rs\nLF:5\nLH:5\nend_of_record\n\
                     SF:/home/me/tess/tess-core/tests/output.rs\nLF:50\nLH:1\nend_of_record\n\
                     SF:/home/me/tess/tools/cli/src/output.rs\nLF:4\nLH:1\nend_of_record\n";
         let crates = tally(lcov);

@@ -1,14 +1,14 @@
 //! Quad points: the outer ring, the interior rings, then a row of points if one inside factor
 //! is even (spec section 6).
 
-use crate::factor_context::FactorContext;
-use crate::factors::ProcessedFactor;
-use crate::fixed_point::{HALF, ONE};
-use crate::output::DomainPoint;
-use crate::patch_factors::QuadFactors;
-use crate::place::place;
-use crate::sink::Sink;
-use crate::state::Parity;
+use crate::model::factor_context::FactorContext;
+use crate::model::factors::ProcessedFactor;
+use crate::model::fixed_point::{HALF, ONE};
+use crate::model::output::DomainPoint;
+use crate::model::patch_factors::QuadFactors;
+use crate::model::place::place;
+use crate::model::sink::Sink;
+use crate::model::state::Parity;
 use fixed::types::U16F16;
 
 /// The contexts of the two inside factors.

@@ -4,12 +4,12 @@ pub(crate) mod isoline;
 pub(crate) mod quad;
 pub(crate) mod triangle;
 
-use crate::factors::ProcessedPatch;
-use crate::fixed_point::ONE;
-use crate::output::DomainPoint;
-use crate::patch_factors::PatchFactors;
-use crate::sink::Sink;
-use crate::state::Domain;
+use crate::model::factors::ProcessedPatch;
+use crate::model::fixed_point::ONE;
+use crate::model::output::DomainPoint;
+use crate::model::patch_factors::PatchFactors;
+use crate::model::sink::Sink;
+use crate::model::state::Domain;
 
 /// Sends all points of a patch to `sink`.
 pub(crate) fn emit(patch: &ProcessedPatch, sink: &mut impl Sink) {

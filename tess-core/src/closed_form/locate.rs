@@ -2,7 +2,7 @@
 //!
 //! Parallel hardware and shaders make element `i` without making those before it. `Patch::locate_point`,
 //! `point`, `locate_primitive` and `primitive` call this module, and `tess-gpu`'s shaders have the same
-//! stages. It is written from closed forms, not from the sequential walks of `points` and `connect`, and a
+//! stages. It is written from closed forms, not from the sequential walks of `model::points` and `model::connect`, and a
 //! test compares the two on every topology.
 //!
 //! # The data

@@ -1,13 +1,13 @@
 //! Triangle points: the outer ring, then the interior rings, then the centre (spec section 6).
 
-use crate::factor_context::FactorContext;
-use crate::factors::ProcessedFactor;
-use crate::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
-use crate::output::DomainPoint;
-use crate::patch_factors::TriangleFactors;
-use crate::place::place;
-use crate::sink::Sink;
-use crate::state::Parity;
+use crate::model::factor_context::FactorContext;
+use crate::model::factors::ProcessedFactor;
+use crate::model::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS};
+use crate::model::output::DomainPoint;
+use crate::model::patch_factors::TriangleFactors;
+use crate::model::place::place;
+use crate::model::sink::Sink;
+use crate::model::state::Parity;
 
 /// The point that ends an interior of even parity.
 pub(crate) const CENTRE: DomainPoint = DomainPoint::from_bits(ONE_THIRD, ONE_THIRD);

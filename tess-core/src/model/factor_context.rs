@@ -1,8 +1,8 @@
 //! The six numbers that all of point placement uses (spec section 4).
 
-use crate::fixed_point::{FixedFactor, HALF, ONE, ceil, floor};
-use crate::reciprocal::reciprocal;
-use crate::state::{Parity, SplitOrder};
+use crate::model::fixed_point::{FixedFactor, HALF, ONE, ceil, floor};
+use crate::model::reciprocal::reciprocal;
+use crate::model::state::{Parity, SplitOrder};
 
 /// What is derived once from a factor and its parity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -1,6 +1,6 @@
 //! Where the sequential formulation puts its output.
 
-use crate::output::{DomainPoint, Primitive};
+use crate::model::output::{DomainPoint, Primitive};
 
 /// Receives a patch: every domain point in order, then every primitive in order.
 pub trait Sink {

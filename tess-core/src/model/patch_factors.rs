@@ -1,6 +1,6 @@
 //! The raw factors of a patch: which there are, and in which order (spec section 1).
 
-use crate::state::Domain;
+use crate::model::state::Domain;
 
 /// The factors of an isoline patch, one `T` each; `f32` for raw factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

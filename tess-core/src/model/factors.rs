@@ -1,10 +1,10 @@
 //! Factor processing: from raw binary32 factors to contexts (spec section 3).
 
-use crate::d3d_float::{ceil, clamp, is_culled, is_greater};
-use crate::factor_context::FactorContext;
-use crate::fixed_point::FixedFactor;
-use crate::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
-use crate::state::{Config, Parity, Partitioning};
+use crate::model::d3d_float::{ceil, clamp, is_culled, is_greater};
+use crate::model::factor_context::FactorContext;
+use crate::model::fixed_point::FixedFactor;
+use crate::model::patch_factors::{IsolineFactors, PatchFactors, QuadFactors, TriangleFactors};
+use crate::model::state::{Config, Parity, Partitioning};
 
 /// One factor after each step of spec section 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

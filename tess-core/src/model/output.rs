@@ -1,6 +1,6 @@
 //! What a patch consists of: domain points and primitives (spec section 1).
 
-use crate::fixed_point::coordinate_to_f32;
+use crate::model::fixed_point::coordinate_to_f32;
 use fixed::types::U16F16;
 
 /// A point of a patch's domain, each coordinate in 0..=1. On triangles w = 1 - u - v.

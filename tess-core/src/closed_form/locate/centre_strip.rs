@@ -34,13 +34,13 @@
 //!
 //! # Why not simpler
 //!
-//! The sequential form (`connect/quad.rs`) walks both rows and reverses one that runs the other way. Here a vertex is one
+//! The sequential form (`model/connect/quad.rs`) walks both rows and reverses one that runs the other way. Here a vertex is one
 //! addition, and at most one remainder.
 
-use crate::locate::point::quad_points_before;
-use crate::points::quad::Inside;
-use crate::state::Parity;
-use crate::stitch::Triangle;
+use crate::closed_form::locate::point::quad_points_before;
+use crate::model::points::quad::Inside;
+use crate::model::state::Parity;
+use crate::model::stitch::Triangle;
 
 /// Triangle `t` of the strip (spec section 7.4); `None` if there is no strip. `innermost` is the
 /// first index of the ring around it.

@@ -1,7 +1,7 @@
 //! Where a point lies along one dimension (spec section 5).
 
-use crate::factor_context::FactorContext;
-use crate::fixed_point::{HALF, ONE};
+use crate::model::factor_context::FactorContext;
+use crate::model::fixed_point::{HALF, ONE};
 use fixed::types::U16F16;
 
 /// A location and the values that lead to it, in the order in which hardware computes them.

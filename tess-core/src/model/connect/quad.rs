@@ -1,12 +1,12 @@
 //! The triangles of a quad patch (spec section 7).
 
-use crate::connect::rings::{Rings, row_ring};
-use crate::factors::ProcessedFactor;
-use crate::patch_factors::QuadFactors;
-use crate::points::quad::Inside;
-use crate::row::Row;
-use crate::state::Parity;
-use crate::stitch::{Diagonals, Stitch, StitchKind};
+use crate::model::connect::rings::{Rings, row_ring};
+use crate::model::factors::ProcessedFactor;
+use crate::model::patch_factors::QuadFactors;
+use crate::model::points::quad::Inside;
+use crate::model::row::Row;
+use crate::model::state::Parity;
+use crate::model::stitch::{Diagonals, Stitch, StitchKind};
 
 /// The rings of a quad patch: edges u = 0 and u = 1 run along v, the others along u.
 pub(crate) fn rings(factors: &QuadFactors<ProcessedFactor>) -> Rings<'_, 4> {

@@ -1,6 +1,6 @@
 //! The order in which points join a half edge (spec sections 7.2 and 10).
 
-use crate::state::SplitOrder;
+use crate::model::state::SplitOrder;
 
 /// Ruler order: a half edge of `h` points has those positions `k` with `RULER[k] < h`.
 const RULER: [u8; 33] = [

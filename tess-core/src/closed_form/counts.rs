@@ -1,10 +1,10 @@
 //! How many points, primitives and indices a patch has, by formula (spec section 12.6).
 
-use crate::factors::{ProcessedFactor, ProcessedPatch};
-use crate::patch_factors::{IsolineFactors, PatchFactors};
-use crate::patch_factors::{QuadFactors, TriangleFactors};
-use crate::points::isoline::line_count;
-use crate::state::{Config, Domain, OutputPrimitive, Parity};
+use crate::model::factors::{ProcessedFactor, ProcessedPatch};
+use crate::model::patch_factors::{IsolineFactors, PatchFactors};
+use crate::model::patch_factors::{QuadFactors, TriangleFactors};
+use crate::model::points::isoline::line_count;
+use crate::model::state::{Config, Domain, OutputPrimitive, Parity};
 
 /// The most points that one patch has: a 64 x 64 quad.
 pub const MAX_POINTS: usize = 65 * 65;

@@ -3,9 +3,9 @@
 //! A stitch is a sequence of steps. Each step is one triangle, clockwise, and moves on by one entry
 //! of one of the two rows; it depends on point counts alone, never on what the rows hold.
 
-use crate::row::Row;
-use crate::ruler::{has_point, positions};
-use crate::state::SplitOrder;
+use crate::model::row::Row;
+use crate::model::ruler::{has_point, positions};
+use crate::model::state::SplitOrder;
 
 /// A triangle's indices, clockwise.
 pub(crate) type Triangle = [u32; 3];
@@ -110,6 +110,8 @@ pub enum StitchKind {
     },
     /// Between the two long sides of a quad's innermost ring: [`strip`].
     Centre(Diagonals),
+    /// Between an edge and the opposite corner of a triangle patch's innermost ring: one step.
+    CentreTriangle,
 }
 
 impl Stitch {
@@ -122,6 +124,7 @@ impl Stitch {
             }
             StitchKind::Ring { .. } => ring(self.inner_points, to),
             StitchKind::Centre(diagonals) => strip(self.outer_points - 1, diagonals, to),
+            StitchKind::CentreTriangle => Walk::new(to).advance_outer(Side::Outer),
         }
     }
 

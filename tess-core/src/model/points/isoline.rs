@@ -1,10 +1,10 @@
 //! Isoline points: line by line, from v = 0 (spec section 6).
 
-use crate::factors::ProcessedFactor;
-use crate::output::DomainPoint;
-use crate::patch_factors::IsolineFactors;
-use crate::place::place;
-use crate::sink::Sink;
+use crate::model::factors::ProcessedFactor;
+use crate::model::output::DomainPoint;
+use crate::model::patch_factors::IsolineFactors;
+use crate::model::place::place;
+use crate::model::sink::Sink;
 
 pub(crate) fn emit(factors: &IsolineFactors<ProcessedFactor>, sink: &mut impl Sink) {
     for line in 0..line_count(factors) {

@@ -33,18 +33,18 @@
 //! A walk that subtracts ring after ring takes up to 31 steps, and threads of a workgroup would wait for the longest.
 //! The search takes five for every point.
 
-use crate::connect::rings::Rings;
-use crate::connect::{quad as quad_rings, triangle as triangle_rings};
-use crate::factor_context::FactorContext;
-use crate::factors::{ProcessedFactor, ProcessedPatch};
-use crate::fixed_point::ONE;
-use crate::locate::origin::PointOrigin;
-use crate::locate::{last_ring_at_or_before, slot_of};
-use crate::output::DomainPoint;
-use crate::patch_factors::{PatchFactors, QuadFactors, TriangleFactors};
-use crate::points::quad::Inside;
-use crate::points::{isoline, quad, triangle};
-use crate::state::Domain;
+use crate::closed_form::locate::origin::PointOrigin;
+use crate::closed_form::locate::{last_ring_at_or_before, slot_of};
+use crate::model::connect::rings::Rings;
+use crate::model::connect::{quad as quad_rings, triangle as triangle_rings};
+use crate::model::factor_context::FactorContext;
+use crate::model::factors::{ProcessedFactor, ProcessedPatch};
+use crate::model::fixed_point::ONE;
+use crate::model::output::DomainPoint;
+use crate::model::patch_factors::{PatchFactors, QuadFactors, TriangleFactors};
+use crate::model::points::quad::Inside;
+use crate::model::points::{isoline, quad, triangle};
+use crate::model::state::Domain;
 
 /// Locates point `i`, which is less than the patch's point count.
 pub(crate) fn locate(patch: &ProcessedPatch, i: u32) -> PointOrigin {

@@ -26,11 +26,11 @@
 //! step is the largest one before which at most `t` steps are done, and the five bits of the search find it
 //! among 32. A walk would take up to 126 steps.
 
-use crate::factor_context::FactorContext;
-use crate::row::Row;
-use crate::ruler::has_point;
-use crate::state::{Parity, SplitOrder};
-use crate::stitch::Triangle;
+use crate::model::factor_context::FactorContext;
+use crate::model::row::Row;
+use crate::model::ruler::has_point;
+use crate::model::state::{Parity, SplitOrder};
+use crate::model::stitch::Triangle;
 
 /// The positions of a half edge: bit `k - 1` is set if position `k` in 1..=32 has a point.
 #[derive(Clone, Copy)]

@@ -1,6 +1,6 @@
 //! Reciprocals of 1..=64, the one table of point placement (spec section 2).
 
-use crate::fixed_point::ONE;
+use crate::model::fixed_point::ONE;
 
 /// `reciprocal(n)` at index `n - 1`.
 const TABLE: [u32; 64] = {

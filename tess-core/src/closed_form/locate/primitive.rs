@@ -1,11 +1,11 @@
 //! Which line, stitch or centre the t-th primitive of a patch belongs to, and its indices.
 
-use crate::factors::{ProcessedFactor, ProcessedPatch};
-use crate::locate::origin::PrimitiveOrigin;
-use crate::locate::rings;
-use crate::output::Primitive;
-use crate::patch_factors::{IsolineFactors, PatchFactors};
-use crate::state::{Config, Domain, OutputPrimitive};
+use crate::closed_form::locate::origin::PrimitiveOrigin;
+use crate::closed_form::locate::rings;
+use crate::model::factors::{ProcessedFactor, ProcessedPatch};
+use crate::model::output::Primitive;
+use crate::model::patch_factors::{IsolineFactors, PatchFactors};
+use crate::model::state::{Config, Domain, OutputPrimitive};
 
 /// Locates primitive `t`, which is less than the patch's primitive count.
 pub(crate) fn locate(config: Config, patch: &ProcessedPatch, t: u32) -> PrimitiveOrigin {

@@ -1,10 +1,10 @@
 //! Ring by ring, edge by edge: the stitches that triangle and quad patches share
 //! (spec section 7.1).
 
-use crate::factor_context::FactorContext;
-use crate::row::Row;
-use crate::state::Parity;
-use crate::stitch::{Stitch, StitchKind};
+use crate::model::factor_context::FactorContext;
+use crate::model::row::Row;
+use crate::model::state::Parity;
+use crate::model::stitch::{Stitch, StitchKind};
 
 /// What the rings of a patch with `EDGES` edges depend on.
 #[derive(Clone, Copy, Debug)]

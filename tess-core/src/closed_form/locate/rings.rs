@@ -33,20 +33,20 @@
 //!
 //! # Why not simpler
 //!
-//! The sequential walk (`connect/rings.rs`) adds up sizes and keeps its rows from ring to ring. Here a row is found from
+//! The sequential walk (`model/connect/rings.rs`) adds up sizes and keeps its rows from ring to ring. Here a row is found from
 //! the ring's number alone: two products, where adding up takes a step for each of up to 31 rings.
 
-use crate::connect::rings::Rings;
-use crate::connect::{quad, triangle};
-use crate::factors::ProcessedFactor;
-use crate::locate::origin::PrimitiveOrigin;
-use crate::locate::point::{quad_points_before, triangle_points_before};
-use crate::locate::{centre_strip, last_ring_at_or_before, slot_of, stitch};
-use crate::patch_factors::{QuadFactors, TriangleFactors};
-use crate::points::quad::Inside;
-use crate::row::Row;
-use crate::state::{Parity, SplitOrder};
-use crate::stitch::Triangle;
+use crate::closed_form::locate::origin::PrimitiveOrigin;
+use crate::closed_form::locate::point::{quad_points_before, triangle_points_before};
+use crate::closed_form::locate::{centre_strip, last_ring_at_or_before, slot_of, stitch};
+use crate::model::connect::rings::Rings;
+use crate::model::connect::{quad, triangle};
+use crate::model::factors::ProcessedFactor;
+use crate::model::patch_factors::{QuadFactors, TriangleFactors};
+use crate::model::points::quad::Inside;
+use crate::model::row::Row;
+use crate::model::state::{Parity, SplitOrder};
+use crate::model::stitch::Triangle;
 
 /// The closed forms of a patch with `EDGES` edges.
 pub(crate) trait ClosedForms<const EDGES: usize> {

@@ -1,0 +1,31 @@
+//! The specification's stages, one after another, and nothing else: start here.
+//!
+//! Floats and random access, counts and other orders are elsewhere: floats end in `factors`, the rest is in
+//! `closed_form`, `cache_order` and `prepare`. Read in this order; each module has its section's number.
+//!
+//! ```text
+//! raw factors -> factors -> factor_context -> place -> points   -> sink
+//!                                          -> row, stitch, connect -> sink
+//! ```
+//!
+//! 1. `state`, `patch_factors`: what goes in. `output`, `sink`: what comes out.
+//! 2. `factors`, on `d3d_float` and `fixed_point`: cull, clamp, round, convert (sections 1 to 3).
+//! 3. `factor_context`, on `reciprocal`: six numbers for each factor (section 4).
+//! 4. `place`: a point along one dimension (section 5). `points`: in two (section 6).
+//! 5. `row`, `stitch` on `ruler`, `connect`: the primitives (sections 7 and 8).
+
+pub(crate) mod connect;
+pub(crate) mod d3d_float;
+pub mod factor_context;
+pub mod factors;
+pub mod fixed_point;
+pub(crate) mod output;
+pub mod patch_factors;
+pub mod place;
+pub(crate) mod points;
+pub mod reciprocal;
+pub mod row;
+pub mod ruler;
+pub(crate) mod sink;
+pub mod state;
+pub mod stitch;
