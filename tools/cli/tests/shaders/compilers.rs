@@ -24,7 +24,10 @@ pub(crate) fn compile(folder: &Path, ending: &str) -> Result<(), String> {
     Ok(())
 }
 
-fn every_setup(language: &str, each: impl Fn(&Path) -> Result<(), String>) -> Result<(), Failed> {
+pub(crate) fn every_setup(
+    language: &str,
+    each: impl Fn(&Path) -> Result<(), String>,
+) -> Result<(), Failed> {
     for (number, setup) in SETUPS.iter().enumerate() {
         for checks in ["full", "none"] {
             let options = format!("--target {language} --checks {checks} {setup}");

@@ -32,7 +32,7 @@ use translation::{Target, Translation};
 #[command(after_help = "\
 The folder gets a file for each stage, tables.bin with the constants that they look up, and the same
 manifest twice: manifest.json, and tess_shaders.h for C99. bindings/vulkan is a host in C that needs
-nothing else. MSL is written but compiled by none of this project's tests; spirv, glsl and hlsl are.
+nothing else. Tests compile spirv, glsl and hlsl; of msl only what C++ shares.
 
 Examples:
   tess shaders --target spirv --domain quad -o shaders/

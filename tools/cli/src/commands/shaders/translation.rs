@@ -15,7 +15,7 @@ pub(super) enum Target {
     Glsl,
     /// Direct3D 11 and 12: shader model 5.1
     Hlsl,
-    /// Metal 2.0; no compiler has checked it
+    /// Metal 2.0; no compiler of Metal has checked it
     Msl,
 }
 

@@ -1,0 +1,1 @@
+// Included by every shader; nothing of it is used.
