@@ -95,8 +95,8 @@ const SUBJECTS: &[Subject] = &[
     },
 ];
 
-/// Where the survivors that change nothing are listed, each with its reason.
-const EQUIVALENT: &str = "docs/mutants.md";
+/// The survivors that change nothing: `TIMES`, the fault and the reason, with tabs between them.
+const EQUIVALENT: &str = "dev/xtask/faults/survivors.tsv";
 
 /// Plants the faults of `dev/xtask/faults`; see [`planted::run`].
 pub(crate) fn planted(words: &[&str]) -> Result<(), String> {
@@ -107,7 +107,7 @@ pub(crate) fn planted(words: &[&str]) -> Result<(), String> {
 /// shard. With `--iterate` among them, faults that an earlier run caught are left out.
 ///
 /// # Errors
-/// A survivor that `docs/mutants.md` does not list, or tests that fail without a fault.
+/// A survivor that [`EQUIVALENT`] does not list, or tests that fail without a fault.
 pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
     let subject = SUBJECTS.iter().find(|subject| subject.package == package);
     let subject = subject.ok_or_else(|| format!("no faults are planted in `{package}`"))?;
@@ -132,7 +132,8 @@ pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
         let list = |name: &str| read(&output.join("mutants.out").join(name));
         missed.add(&list("missed.txt")?, &(list("caught.txt")? + &list("timeout.txt")?));
     }
-    let unlisted = unlisted(&missed.0, &read(&workspace().join(EQUIVALENT))?);
+    let listed = listed(&read(&workspace().join(EQUIVALENT))?)?;
+    let unlisted = unlisted(&missed.0, listed);
     if unlisted.is_empty() {
         println!("\n{} survivors, all listed in {EQUIVALENT}", missed.0.len());
         return Ok(());
@@ -158,12 +159,11 @@ fn read(path: &Path) -> Result<String, String> {
     fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
 }
 
-/// The missed faults that `list` has too few times, whichever lines they are on.
-fn unlisted<'a>(missed: &'a [String], list: &str) -> Vec<&'a str> {
-    let mut left: Vec<String> = list.lines().filter_map(listed).collect();
-    let is_unlisted = |line: &&str| match left.iter().position(|name| *name == name_of(line)) {
+/// The missed faults that are not among these, whichever lines they are on; each of these excuses one.
+fn unlisted(missed: &[String], mut listed: Vec<String>) -> Vec<&str> {
+    let is_unlisted = |line: &&str| match listed.iter().position(|name| *name == name_of(line)) {
         Some(at) => {
-            left.swap_remove(at);
+            listed.swap_remove(at);
             false
         }
         None => true,
@@ -171,10 +171,22 @@ fn unlisted<'a>(missed: &'a [String], list: &str) -> Vec<&'a str> {
     missed.iter().map(String::as_str).filter(is_unlisted).collect()
 }
 
-/// The fault of a row of the list: what its first column has in backquotes.
-fn listed(row: &str) -> Option<String> {
-    let name = row.strip_prefix("| `")?.split('`').next()?;
-    Some(name.replace("\\|", "|"))
+/// The faults of a list, each as often as it says.
+///
+/// # Errors
+/// A line of another form.
+fn listed(list: &str) -> Result<Vec<String>, String> {
+    let mut faults = Vec::new();
+    for line in list.lines().filter(|line| !line.starts_with('#')) {
+        let parts: Vec<&str> = line.split('\t').collect();
+        let (times, fault) = match parts[..] {
+            [times, fault, reason] if !reason.is_empty() => (times.parse::<usize>().ok(), fault),
+            _ => (None, line),
+        };
+        let times = times.ok_or(format!("{EQUIVALENT}: `{line}` is not TIMES, fault, reason"))?;
+        faults.extend(std::iter::repeat_n(fault.to_owned(), times));
+    }
+    Ok(faults)
 }
 
 /// `FILE:LINE:COLUMN: WHAT` without line and column, which change too often.
@@ -210,17 +222,27 @@ mod tests {
 
     #[test]
     fn each_listed_fault_excuses_one_survivor() {
-        let list = "# Survivors\n\n| fault | reason |\n| --- | --- |\n\
-                    | `a.rs: replace * with + in f` | the factor is 2 |\n\
-                    | `a.rs: replace \\| with ^ in f` | no bit is shared |\n";
+        let list = "# Survivors\n1\ta.rs: replace * with + in f\tthe factor is 2\n\
+                    2\ta.rs: replace | with ^ in f\tno bit is shared\n";
+        let list = listed(list).expect("a list");
         let faults =
             |faults: &[&str]| faults.iter().map(|&fault| fault.to_owned()).collect::<Vec<_>>();
-        let one = faults(&["a.rs:3:9: replace * with + in f", "a.rs:3:9: replace | with ^ in f"]);
-        assert!(unlisted(&one, list).is_empty(), "it is listed");
-        let two = faults(&["a.rs:3:9: replace * with + in f", "a.rs:8:9: replace * with + in f"]);
-        assert_eq!(unlisted(&two, list), ["a.rs:8:9: replace * with + in f"], "listed once");
+        let [times, twice] = ["a.rs:3:9: replace * with + in f", "a.rs:8:9: replace * with + in f"];
+        let or = "a.rs:3:9: replace | with ^ in f";
+        assert!(unlisted(&faults(&[times, or, or]), list.clone()).is_empty(), "they are listed");
+        assert_eq!(unlisted(&faults(&[times, twice]), list.clone()), [twice], "listed once");
         let other = faults(&["a.rs:3:9: replace * with / in f", "b.rs:3:9: replace * with + in f"]);
         assert_eq!(unlisted(&other, list).len(), 2, "another fault, another file");
+        assert!(listed("a.rs: replace * with + in f\twhy").is_err(), "no number");
+    }
+
+    #[test]
+    fn listed_faults_are_of_files_that_exist() {
+        let list = read(&workspace().join(EQUIVALENT)).expect("the list");
+        for fault in listed(&list).expect("a list") {
+            let file = fault.split(':').next().expect("a file");
+            assert!(workspace().join(file).is_file(), "{fault}: the file has moved");
+        }
     }
 
     #[test]
