@@ -3,7 +3,7 @@
 //!
 //! `wide` chooses its instructions when it is compiled, so `benches/lanes.py` builds and runs this program
 //! for each target. Both forms are compared bit for bit before they are timed. Each line that is printed is
-//! a row of the table in `docs/experiments.md`.
+//! a row of the record `lanes-xeon`.
 //!
 //! `lanes STAGE FORM TIMES` runs one form of a stage and prints nothing: for counting instructions.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program that prints its results")]

@@ -1,4 +1,4 @@
-//! The tables of `docs/performance.md` and `docs/experiments.md`, and the charts, made from the records.
+//! The tables of `docs/performance.md` and the charts, made from the records.
 
 use super::{chart, names, read, table, targets};
 use crate::command::{in_file, workspace};
@@ -8,8 +8,11 @@ use std::path::PathBuf;
 const START: &str = "<!-- table: ";
 const END: &str = "<!-- end -->";
 
-/// The documents that have tables: results, and what was tried.
-const DOCUMENTS: [&str; 2] = ["docs/performance.md", "docs/experiments.md"];
+/// The document that has tables.
+const RESULTS: &str = "docs/performance.md";
+
+/// The document that only names records, by links to their files.
+const EXPERIMENTS: &str = "docs/experiments.md";
 
 /// Brings the tables between their markers, `<!-- table: NAME -->` and `<!-- end -->`, and the charts up to date.
 ///
@@ -35,17 +38,20 @@ pub(crate) fn run() -> Result<(), String> {
 fn made() -> Result<Vec<(PathBuf, String)>, String> {
     let targets = targets::read()?;
     let table = |name: &str| read(name).map(|record| table::block(&record, &targets));
-    let (mut files, mut used) = (Vec::new(), Vec::new());
-    for document in DOCUMENTS {
+    let text_of = |document: &str| {
         let path = workspace().join(document);
-        let text = fs::read_to_string(&path).map_err(|error| in_file(&path, &error))?;
-        let (text, names) = with_tables(&text, table).map_err(|error| in_file(&path, &error))?;
-        used.extend(names);
-        files.push((path, text));
+        fs::read_to_string(&path).map_err(|error| in_file(&path, &error))
+    };
+    let (text, used) = with_tables(&text_of(RESULTS)?, table)
+        .map_err(|error| in_file(RESULTS.as_ref(), &error))?;
+    let experiments = text_of(EXPERIMENTS)?;
+    let is_named = |name: &String| {
+        used.contains(name) || experiments.contains(&format!("](../benches/records/{name}.json)"))
+    };
+    if let Some(name) = names()?.iter().find(|name| !is_named(name)) {
+        return Err(format!("{RESULTS} has no `{START}{name} -->`, {EXPERIMENTS} no link to it"));
     }
-    if let Some(name) = names()?.into_iter().find(|name| !used.contains(name)) {
-        return Err(format!("no document has `{START}{name} -->`; {}", DOCUMENTS.join(", ")));
-    }
+    let mut files = vec![(workspace().join(RESULTS), text)];
     for (name, svg) in chart::all()? {
         files.push((workspace().join(format!("docs/images/{name}.svg")), svg));
     }
@@ -86,7 +92,7 @@ mod tests {
 
     #[test]
     fn every_chart_is_shown() {
-        let text = fs::read_to_string(workspace().join(DOCUMENTS[0])).expect("the document");
+        let text = fs::read_to_string(workspace().join(RESULTS)).expect("the document");
         for (name, _) in chart::all().expect("charts") {
             assert!(text.contains(&format!("](images/{name}.svg)")), "{name}");
         }
