@@ -6,7 +6,6 @@
 mod graph;
 mod imports;
 mod modules;
-mod tokens;
 
 use crate::command::{self, in_file, workspace};
 use graph::{Circle, circles};

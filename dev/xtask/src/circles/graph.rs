@@ -84,7 +84,7 @@ mod tests {
             let members: Vec<_> = circle.members.into_iter().collect();
             format!("{}: {}", circle.parent, members.join(" "))
         };
-        circles(&Modules::of(files.collect())).into_iter().map(show).collect()
+        circles(&Modules::of(files.collect()).expect("Rust")).into_iter().map(show).collect()
     }
 
     #[test]
@@ -125,7 +125,7 @@ mod tests {
     fn a_circle_has_its_places() {
         let files = [("a.rs", "\nuse crate::b::X;"), ("b.rs", "use crate::a;"), ("lib.rs", "")];
         let files = files.iter().map(|&(file, text)| (file.into(), text.to_owned()));
-        let found = circles(&Modules::of(files.collect()));
+        let found = circles(&Modules::of(files.collect()).expect("Rust"));
         let edge = ("a".to_owned(), "b".to_owned());
         assert_eq!(found[0].edges[&edge], ["a.rs:2: crate::b::X"], "the place");
     }

@@ -1,6 +1,6 @@
 //! The paths of one source file that name other modules of its crate.
 
-use super::tokens::{Token, tokens};
+use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 
 /// A path as it stands in a source file, outside of tests.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,168 +21,121 @@ pub(super) struct Source {
     pub(super) test_modules: Vec<String>,
 }
 
-/// Reads a source file. Paths count if they begin with `crate`, `self` or `super`; every `use` counts, as it
-/// may give a child's item another place.
-pub(super) fn read(text: &str) -> Source {
-    let mut reader = Reader { tokens: &tokens(text), ..Reader::default() };
-    while !reader.tokens.is_empty() {
-        reader.item();
-    }
-    reader.source
+/// Reads a source file. Paths count if they begin with `crate`, `self` or `super`, in macros too; every `use`
+/// counts, as it may give a child's item another place.
+///
+/// # Errors
+/// It is no Rust.
+pub(super) fn read(text: &str) -> Result<Source, String> {
+    let mut source = Source::default();
+    let stream: TokenStream = text.parse().map_err(|error| format!("{error}"))?;
+    source.walk(stream, &[]);
+    Ok(source)
 }
 
-#[derive(Default)]
-struct Reader<'a> {
-    tokens: &'a [Token<'a>],
-    source: Source,
-    /// Open braces; the name of a module where one begins it.
-    braces: Vec<Option<String>>,
-}
-
-impl<'a> Reader<'a> {
-    /// Takes what comes next: an attribute, a `use`, the head of a module, a path, or one token.
-    fn item(&mut self) {
-        let texts = |n: usize| self.tokens.get(n).map_or("", |token| token.text);
-        match (texts(0), texts(1), texts(2)) {
-            ("#", "[", _) => self.attribute(),
-            ("use", next, _) if next != "<" => self.import(),
-            ("mod", name, "{") => {
-                self.braces.push(Some(name.to_owned()));
-                self.advance(3);
-            }
-            ("{", ..) => {
-                self.braces.push(None);
-                self.advance(1);
-            }
-            ("}", ..) => {
-                self.braces.pop();
-                self.advance(1);
-            }
-            ("crate" | "self" | "super", "::", _) => self.path(),
-            // The rest of a path whose beginning is something else.
-            ("::", ..) => self.advance(2),
-            _ => self.advance(1),
-        }
-    }
-
-    fn advance(&mut self, count: usize) {
-        self.tokens = self.tokens.get(count..).unwrap_or_default();
-    }
-
-    fn next(&mut self) -> Option<&'a Token<'a>> {
-        let (first, rest) = self.tokens.split_first()?;
-        self.tokens = rest;
-        Some(first)
-    }
-
-    /// Skips an attribute, and with `#[cfg(test)]` its item.
-    fn attribute(&mut self) {
-        let words: Vec<&str> = self.tokens.iter().take(7).map(|token| token.text).collect();
-        let is_test = words.starts_with(&["#", "[", "cfg", "(", "test", ")"])
-            || words.starts_with(&["#", "[", "cfg", "(", "all", "(", "test"]);
-        self.advance(1);
-        self.group();
-        if is_test {
-            self.skip_item();
-        }
-    }
-
-    /// Skips from one bracket to the one that closes it.
-    fn group(&mut self) {
-        let mut depth = 0;
-        while let Some(token) = self.next() {
-            match token.text {
-                "(" | "[" | "{" => depth += 1,
-                ")" | "]" | "}" => depth -= 1,
+impl Source {
+    /// Takes attributes, `use`s, modules and paths out of a module in braces, or any other group of tokens.
+    fn walk(&mut self, stream: TokenStream, inside: &[String]) {
+        let tokens: Vec<TokenTree> = stream.into_iter().collect();
+        let mut rest = &tokens[..];
+        while let [first, after @ ..] = rest {
+            rest = after;
+            match (first.to_string().as_str(), first, after) {
+                ("#", _, [TokenTree::Group(attribute), after @ ..]) => {
+                    rest = if is_of_tests(attribute) { self.skip_item(after) } else { after };
+                }
+                ("use", _, [next, ..]) if next.to_string() != "<" => {
+                    let end = after.iter().position(|token| token.to_string() == ";");
+                    let (tree, behind) = after.split_at(end.unwrap_or(after.len()));
+                    self.branches(tree, &[], inside);
+                    rest = behind;
+                }
+                ("mod", _, [name, TokenTree::Group(body), after @ ..]) => {
+                    self.walk(body.stream(), &[inside, &[name.to_string()]].concat());
+                    rest = after;
+                }
+                ("crate" | "self" | "super", _, [colon, ..]) if colon.to_string() == ":" => {
+                    rest = self.path(first, after, inside);
+                }
+                (_, TokenTree::Group(group), _) => self.walk(group.stream(), inside),
                 _ => {}
-            }
-            if depth == 0 {
-                return;
             }
         }
     }
 
     /// Skips an item of tests; if it is a module in a file, notes its name.
-    fn skip_item(&mut self) {
-        while let Some(token) = self.tokens.first() {
-            match token.text {
-                "{" => return self.group(),
-                "(" | "[" => self.group(),
-                ";" => return self.advance(1),
-                "mod" => {
-                    let name = self.tokens.get(1).map_or("", |name| name.text);
-                    self.source.test_modules.push(name.to_owned());
-                    self.advance(2);
-                }
-                _ => self.advance(1),
-            }
+    fn skip_item<'a>(&mut self, tokens: &'a [TokenTree]) -> &'a [TokenTree] {
+        let is_end = |token: &TokenTree| match token {
+            TokenTree::Group(group) => group.delimiter() == Delimiter::Brace,
+            other => other.to_string() == ";",
+        };
+        let end = tokens.iter().position(is_end).map_or(tokens.len(), |end| end + 1);
+        let (item, rest) = tokens.split_at(end);
+        let words: Vec<String> = item.iter().map(ToString::to_string).collect();
+        if let [.., word, name, _] = &words[..]
+            && word == "mod"
+        {
+            self.test_modules.push(name.clone());
         }
+        rest
     }
 
-    /// A `use` with everything that it names.
-    fn import(&mut self) {
-        self.advance(1);
-        self.tree(&[]);
-    }
-
-    /// One branch of a `use`, behind `before`; ends at the comma, brace or semicolon behind it.
-    fn tree(&mut self, before: &[String]) {
-        let mut path = before.to_vec();
-        let mut line = self.tokens.first().map_or(0, |token| token.line);
-        let mut name = None;
-        while let Some(token) = self.tokens.first() {
-            match token.text {
-                "," | "}" | ";" => break,
-                "{" => return self.branches(&path),
-                "as" => {
-                    name = self.tokens.get(1).map(|token| token.text.to_owned());
-                    self.advance(2);
-                    continue;
-                }
-                "self" if !path.is_empty() => {}
-                "::" | "*" => {}
-                word => {
-                    line = token.line;
-                    path.push(word.to_owned());
+    /// The branches of a `use` behind `before`, with commas between them.
+    fn branches(&mut self, tree: &[TokenTree], before: &[String], inside: &[String]) {
+        for branch in tree.split(|token| token.to_string() == ",").filter(|one| !one.is_empty()) {
+            let mut path = before.to_vec();
+            let (mut line, mut name) = (0, None);
+            let mut words = branch.iter();
+            while let Some(token) = words.next() {
+                line = token.span().start().line;
+                match (token.to_string().as_str(), token) {
+                    (_, TokenTree::Group(group)) => {
+                        let inner: Vec<TokenTree> = group.stream().into_iter().collect();
+                        self.branches(&inner, &path, inside);
+                        path.clear();
+                    }
+                    ("as", _) => name = words.next().map(ToString::to_string),
+                    ("*", _) => name = None,
+                    (":", _) => {}
+                    (word, _) => {
+                        if word != "self" || path.is_empty() {
+                            path.push(word.to_owned());
+                        }
+                        name = path.last().cloned();
+                    }
                 }
             }
-            name = (token.text != "*").then(|| path.last().cloned()).flatten();
-            self.advance(1);
-        }
-        self.add(line, path, name);
-    }
-
-    /// The branches of a `use` between braces.
-    fn branches(&mut self, before: &[String]) {
-        self.advance(1);
-        while let Some(token) = self.tokens.first() {
-            match token.text {
-                "}" => return self.advance(1),
-                "," => self.advance(1),
-                _ => self.tree(before),
+            if !path.is_empty() {
+                self.imports.push(Import { line, inside: inside.to_vec(), path, name });
             }
         }
     }
 
-    /// A path in other code than a `use`.
-    fn path(&mut self) {
-        let line = self.tokens.first().map_or(0, |token| token.line);
-        let mut path = Vec::new();
-        while let Some(word) = self.tokens.first().filter(|token| token.is_word()) {
-            path.push(word.text.to_owned());
-            let goes_on = self.tokens.get(1).is_some_and(|token| token.text == "::");
-            self.advance(if goes_on { 2 } else { 1 });
-            if !goes_on {
-                break;
-            }
+    /// A path in other code than a `use`, and what is behind it.
+    fn path<'a>(
+        &mut self,
+        first: &TokenTree,
+        mut rest: &'a [TokenTree],
+        inside: &[String],
+    ) -> &'a [TokenTree] {
+        let mut path = vec![first.to_string()];
+        while let [TokenTree::Punct(a), TokenTree::Punct(b), TokenTree::Ident(name), after @ ..] =
+            rest
+            && (a.as_char(), b.as_char()) == (':', ':')
+        {
+            path.push(name.to_string());
+            rest = after;
         }
-        self.add(line, path, None);
+        let line = first.span().start().line;
+        self.imports.push(Import { line, inside: inside.to_vec(), path, name: None });
+        rest
     }
+}
 
-    fn add(&mut self, line: usize, path: Vec<String>, name: Option<String>) {
-        let inside = self.braces.iter().flatten().cloned().collect();
-        self.source.imports.push(Import { line, inside, path, name });
-    }
+/// Whether an attribute is `cfg(test)` or `cfg(all(test, ..))`.
+fn is_of_tests(attribute: &Group) -> bool {
+    let text = attribute.stream().to_string().replace(' ', "");
+    text == "cfg(test)" || text.starts_with("cfg(all(test")
 }
 
 #[cfg(test)]
@@ -196,7 +149,7 @@ mod tests {
             let name = name.as_deref().unwrap_or("-");
             format!("{line} {} {} {name}", inside.join("."), path.join("::"))
         };
-        read(text).imports.iter().map(show).collect()
+        read(text).expect("Rust").imports.iter().map(show).collect()
     }
 
     #[test]
@@ -226,6 +179,6 @@ mod tests {
             "11  crate::m m",
         ];
         assert_eq!(shown(text), expected, "paths");
-        assert_eq!(read(text).test_modules, ["e", "g"], "modules of tests");
+        assert_eq!(read(text).expect("Rust").test_modules, ["e", "g"], "modules of tests");
     }
 }

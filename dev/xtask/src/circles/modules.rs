@@ -35,7 +35,7 @@ impl Modules {
     /// Reads the files below `source`, a folder with `lib.rs` or `main.rs`.
     ///
     /// # Errors
-    /// A file that cannot be read.
+    /// A file that cannot be read, or is no Rust.
     pub(super) fn read(source: &Path) -> Result<Self, String> {
         let mut files = Vec::new();
         list(source, &mut files)?;
@@ -43,19 +43,24 @@ impl Modules {
             let text = fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
             Ok((file.strip_prefix(source).unwrap_or(&file).to_path_buf(), text))
         });
-        Ok(Self::of(texts.collect::<Result<_, String>>()?))
+        Self::of(texts.collect::<Result<_, String>>()?)
     }
 
     /// The modules of these files, whose paths begin at the source folder. A `main.rs` beside a `lib.rs` is a
     /// crate that has nothing else, and is left out, as `bin/` is.
-    pub(super) fn of(files: Vec<(PathBuf, String)>) -> Self {
+    ///
+    /// # Errors
+    /// A file that is no Rust.
+    pub(super) fn of(files: Vec<(PathBuf, String)>) -> Result<Self, String> {
         let has_library = files.iter().any(|(file, _)| file == Path::new("lib.rs"));
         let is_other =
             |file: &Path| file.starts_with("bin") || has_library && file == Path::new("main.rs");
         let files = files.into_iter().filter(|(file, _)| !is_other(file));
-        let mut modules: BTreeMap<_, _> = files
-            .map(|(file, text)| (path_of(&file), Module { file, source: imports::read(&text) }))
-            .collect();
+        let read = |(file, text): (PathBuf, String)| {
+            let source = imports::read(&text).map_err(|error| in_file(&file, &error))?;
+            Ok((path_of(&file), Module { file, source }))
+        };
+        let mut modules = files.map(read).collect::<Result<BTreeMap<_, _>, String>>()?;
         let tests: Vec<ModulePath> = modules
             .iter()
             .flat_map(|(path, module)| {
@@ -63,7 +68,7 @@ impl Modules {
             })
             .collect();
         modules.retain(|path, _| !tests.iter().any(|test| path.starts_with(test)));
-        Self(modules)
+        Ok(Self(modules))
     }
 
     pub(super) fn paths(&self) -> impl Iterator<Item = &ModulePath> {
@@ -171,7 +176,8 @@ mod tests {
     use super::*;
 
     fn modules(files: &[(&str, &str)]) -> Modules {
-        Modules::of(files.iter().map(|&(file, text)| (file.into(), text.to_owned())).collect())
+        let files = files.iter().map(|&(file, text)| (file.into(), text.to_owned()));
+        Modules::of(files.collect()).expect("Rust")
     }
 
     fn shown(modules: &Modules) -> Vec<String> {
