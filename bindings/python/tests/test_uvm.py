@@ -1,6 +1,7 @@
 """bindings/uvm in slang, which knows the covergroups, classes and interfaces that Verilator 5.006 does not."""
 
 import shutil
+import subprocess
 from pathlib import Path
 
 import pyslang
@@ -29,27 +30,34 @@ def example(tree: Path) -> int:
     return errors(tree, "tb_example", "-F", str(tree / "bindings/uvm/example/files.f"))
 
 
-def faulty(tmp_path: Path, name: str, right: str, wrong: str) -> Path:
-    """A tree with a planted fault in a file of bindings/uvm."""
+@pytest.fixture
+def tree(tmp_path: Path, program: Path) -> Path:
+    """A tree with bindings/uvm and the covergroups that the program writes."""
     copy = tmp_path / "bindings" / "uvm"
     for folder in ("src", "example"):
         shutil.copytree(UVM / folder, copy / folder)
     (tmp_path / "rtl").symlink_to(TREE / "rtl")
-    text = (copy / name).read_text()
-    assert right in text, f"{name} has {right}"
-    (copy / name).write_text(text.replace(right, wrong, 1))
+    subprocess.run([program, "coverage", "--covergroups", copy / "src" / "tess_covergroups.svh"], check=True)
     return tmp_path
 
 
-def test_the_package_elaborates_with_its_covergroups(tmp_path: Path) -> None:
+def plant(tree: Path, name: str, right: str, wrong: str) -> None:
+    """Plants a fault in a file of bindings/uvm."""
+    file = tree / "bindings" / "uvm" / name
+    text = file.read_text()
+    assert right in text, f"{name} has {right}"
+    file.write_text(text.replace(right, wrong, 1))
+
+
+def test_the_package_elaborates_with_its_covergroups(tree: Path) -> None:
     bench = str(UVM / "tests" / "tb_uvm.sv")
-    assert errors(TREE, "tb_uvm", bench) == 0
-    tree = faulty(tmp_path, "src/tess_covergroups.svh", "coverpoint bin ", "coverpoint other ")
+    assert errors(tree, "tb_uvm", bench) == 0
+    plant(tree, "src/tess_covergroups.svh", "coverpoint bin ", "coverpoint other ")
     assert errors(tree, "tb_uvm", bench) > 0, "an unknown name in a covergroup is seen"
 
 
-def test_the_example_elaborates_around_the_circuit() -> None:
-    assert example(TREE) == 0
+def test_the_example_elaborates_around_the_circuit(tree: Path) -> None:
+    assert example(tree) == 0
 
 
 @pytest.mark.parametrize(
@@ -63,5 +71,6 @@ def test_the_example_elaborates_around_the_circuit() -> None:
         ("example/files.f", "../../../rtl/tess_stitch.sv\n", ""),
     ],
 )
-def test_faults_of_the_example_are_seen(tmp_path: Path, name: str, right: str, wrong: str) -> None:
-    assert example(faulty(tmp_path, name, right, wrong)) > 0, f"{wrong} in {name}"
+def test_faults_of_the_example_are_seen(tree: Path, name: str, right: str, wrong: str) -> None:
+    plant(tree, name, right, wrong)
+    assert example(tree) > 0, f"{wrong} in {name}"

@@ -1,6 +1,5 @@
 //! The commands that ask the verification kit for cases, bins and names.
 
-mod covergroups;
 mod rtl;
 
 /// Runs the command; `None` if there is no such command.
@@ -11,7 +10,6 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["rtl", "--prove"] => rtl::prove(),
         ["rtl", "--synth"] => rtl::synthesize(),
         ["rtl", "--names"] => rtl::write_names(),
-        ["covergroups"] => covergroups::write(),
         _ => return None,
     })
 }

@@ -68,8 +68,6 @@ usage: cargo xtask <command>
           docs/hosts/mesa.md. Takes half an hour on two cores, most of it to compare. `test` runs the tests of
           Vulkan and OpenGL on the patched drivers. The version is that of this machine's Debian: 22.3.6 on 12
           (bookworm), 25.0.7 on 13 (trixie); the other one may be asked for
-  covergroups
-          write the covergroups of tess_uvm anew from the coverage bins
   circles [FOLDER...]
           show the modules that import each other in a circle, in all crates or those in these folders
   features [PACKAGE...]
@@ -81,7 +79,7 @@ usage: cargo xtask <command>
           build every fuzz target and run each, for 10 seconds by default
   mutants PACKAGE [OPTION...]
           plant faults in tess-core, tess-simd, tess-gpu, tess-wgpu, tess-surface or tess-verify; fails if one survives
-          the tests and docs/mutants.md does not list it (needs cargo-mutants; takes an hour)
+          the tests and dev/xtask/faults/survivors.tsv does not list it (needs cargo-mutants; takes an hour)
   mutants planted [WORD...]
           plant the faults of dev/xtask/faults, or those with one of these words, in a copy of the tree; fails
           if the test beside one does not see it (each compiles a crate again: hours for all)
@@ -95,7 +93,7 @@ usage: cargo xtask <command>
   record NAME [--machine TEXT] [--rows FILE] -- BENCH-ARGUMENT...
           run `tess bench` and keep its rows in benches/records/NAME.json
   performance
-          write the tables of docs/performance.md and docs/experiments.md and the charts from the records";
+          write the tables of docs/performance.md and the charts from the records";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -138,7 +136,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["explorer", "--serve"] => explorer::serve(),
         ["explorer", "--test"] => explorer::test(),
         ["integrations"] => after_setup(&integrations::run),
-        ["rtl" | "covergroups", ..] => return with_kit(words),
+        ["rtl", ..] => return with_kit(words),
         ["install", "--prefix", folder] => install::run(folder),
         ["mesa", ref words @ ..] => mesa::run(words),
         ["deny"] => publish::deny(false),

@@ -1,5 +1,7 @@
 //! `tess coverage`: adds coverage files up and reports what is missing.
 
+mod covergroups;
+
 use crate::args::name_of;
 use crate::coverage_file;
 use crate::failure::{Exit, Failure};
@@ -29,11 +31,15 @@ Examples:
   tess coverage coverage.xml
   tess coverage shard-*.xml --merged coverage.xml --html coverage.html
   tess coverage coverage.xml --domain tri,quad --partitioning integer --split ruler
-  tess coverage coverage.xml --exclude device.txt --complete")]
+  tess coverage coverage.xml --exclude device.txt --complete
+  tess coverage --covergroups bindings/uvm/src/tess_covergroups.svh")]
 pub(crate) struct Args {
     /// Coverage files; - is stdin
-    #[arg(value_name = "FILE", required = true)]
+    #[arg(value_name = "FILE", required_unless_present = "covergroups")]
     files: Vec<PathBuf>,
+    /// Only write the bins to this file, as the covergroups of `tess_uvm` in SystemVerilog
+    #[arg(long, value_name = "FILE", exclusive = true)]
+    covergroups: Option<PathBuf>,
     /// Domains that the device has [default: all]
     #[arg(long, value_name = "NAME,..", value_delimiter = ',', value_parser = name_of::<Domain>())]
     domain: Vec<Domain>,
@@ -69,6 +75,10 @@ pub(crate) struct Args {
 /// # Errors
 /// Files that are no coverage files, or given twice; patterns of no bin; places that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
+    if let Some(file) = args.covergroups.clone() {
+        OutputArgs { file }.write(covergroups::text().as_bytes())?;
+        return Ok(Exit::Done);
+    }
     refuse_shared(&args.roles())?;
     args.refuse_double()?;
     let outputs = [&args.merged, &args.html].into_iter().flatten().chain([&args.report.file]);

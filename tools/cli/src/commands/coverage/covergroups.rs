@@ -1,29 +1,17 @@
-//! The covergroups of `tess_uvm`, written from the bins of `tess-verify`.
+//! The covergroups of `tess_uvm`, written from the bins.
 
-use crate::command::workspace;
 use std::fmt::Write;
-use std::path::PathBuf;
 use tess_verify::coverage::Coverage;
 
-/// Writes the file anew.
-pub(crate) fn write() -> Result<(), String> {
-    let file = file();
-    std::fs::write(&file, text()).map_err(|error| format!("{}: {error}", file.display()))
-}
-
-fn file() -> PathBuf {
-    workspace().join("bindings/uvm/src/tess_covergroups.svh")
-}
-
 const HEAD: &str = "\
-// Written by `cargo xtask covergroups` from the bins of tess-verify. Do not edit.
+// Written by `tess coverage --covergroups FILE`. Do not edit.
 //
 // A covergroup for each group of bins. Bins are numbered in alphabetical order of their paths, as
 // tess_dpi::model_coverage numbers them.
 ";
 
-/// The file.
-fn text() -> String {
+/// A class in SystemVerilog with a covergroup for each group; `sample` takes the number of a bin.
+pub(super) fn text() -> String {
     let coverage = Coverage::new();
     let bins: Vec<(&str, &str)> =
         coverage.bins().map(|(bin, _)| bin.split_once('/').unwrap_or((bin, bin))).collect();
@@ -45,8 +33,7 @@ fn text() -> String {
     _ = writeln!(text, "    function void sample(int unsigned bin);");
     let mut word = "if";
     for group in &groups {
-        let numbers = || (0..).zip(&bins).filter(|(_, (of, _))| of == group).map(|(n, _)| n);
-        let last: usize = numbers().last().unwrap_or(0);
+        let last = bins.iter().rposition(|(of, _)| of == group).unwrap_or(0);
         _ = writeln!(text, "        {word} (bin <= {last}) cg_{group}.sample(bin);");
         word = "else if";
     }
@@ -58,20 +45,22 @@ fn text() -> String {
 mod tests {
     use super::*;
 
+    /// `sample` takes the numbers of a group to be consecutive, and every bin to have one.
     #[test]
-    fn covergroups_are_up_to_date() {
-        let found = std::fs::read_to_string(file()).expect("the file");
-        let same = found == text();
-        assert!(same, "the bins have changed: run `cargo xtask covergroups`");
-    }
-
-    /// The numbers of a group are consecutive, as `sample` takes them to be.
-    #[test]
-    fn groups_are_consecutive() {
-        let coverage = Coverage::new();
-        let mut groups: Vec<&str> =
-            coverage.bins().map(|(bin, _)| bin.split('/').next().unwrap_or(bin)).collect();
-        groups.dedup();
-        assert_eq!(groups.len(), coverage.groups().len(), "each group once");
+    fn every_bin_is_in_its_group() {
+        let (text, coverage) = (text(), Coverage::new());
+        let group = |line: &str| line.trim().strip_prefix("cp_").map(|rest| rest.to_owned());
+        let mut names = Vec::new();
+        let mut at = String::new();
+        for line in text.lines() {
+            at = group(line).and_then(|g| Some(g.split_once(':')?.0.to_owned())).unwrap_or(at);
+            if let Some(bin) = line.trim().strip_prefix("bins b_") {
+                names.push(format!("{at}_{bin}"));
+            }
+        }
+        let expected = coverage.bins().enumerate();
+        let expected =
+            expected.map(|(n, (bin, _))| format!("{} = {{{n}}};", bin.replace('/', "_")));
+        assert!(names.iter().cloned().eq(expected), "bins in order: {:?}", names.first());
     }
 }
