@@ -1,0 +1,180 @@
+//! Batches that reach every way through the passes.
+
+use super::run::{Batch, Machine};
+use std::collections::BTreeSet;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+use tess_gpu::sizes::CATALOGUE_PATCHES;
+use tess_gpu::{Capacity, Copies, IndexType, Limits, Numbering, Order, PointFormat, Setup, Stage};
+use tess_verify::generate::random_factor;
+use tess_verify::random::SplitMix64;
+
+/// Limits that cut after 65536 patches, a few hundred tiles and 5 workgroups.
+pub(crate) const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 5 };
+
+pub(crate) fn setup(domain: Domain, partitioning: Partitioning) -> Setup {
+    Setup::new(domain, Config::new(partitioning, OutputPrimitive::TriangleCw))
+}
+
+/// Random patches, boundary values, culled and degenerate ones, and one of factor 1.
+pub(crate) fn random(domain: Domain, count: u32) -> Vec<PatchFactors> {
+    let mut random = SplitMix64::new(u64::from(count));
+    let mut all: Vec<_> =
+        (1..count).map(|_| PatchFactors::from_fn(domain, |_| random_factor(&mut random))).collect();
+    all.push(PatchFactors::uniform(domain, 1.0));
+    all
+}
+
+/// Patches of these factors at random.
+pub(crate) fn of(domain: Domain, count: u32, factors: &[f32]) -> Vec<PatchFactors> {
+    let mut random = SplitMix64::new(77);
+    let most = u32::try_from(factors.len()).expect("some factors");
+    let mut factor = |_| factors[random.below(most) as usize];
+    (0..count).map(|_| PatchFactors::from_fn(domain, &mut factor)).collect()
+}
+
+/// Runs of like patches that begin and end within blocks.
+pub(crate) fn runs(domain: Domain, runs: &[(f32, usize)]) -> Vec<PatchFactors> {
+    let run = |&(factor, count)| vec![PatchFactors::uniform(domain, factor); count];
+    runs.iter().flat_map(run).collect()
+}
+
+fn assert_equal(machine: &mut Machine, batch: &Batch) -> Vec<Stage> {
+    machine.run(batch).unwrap_or_else(|difference| panic!("{difference}"))
+}
+
+/// Every domain and partitioning as a short and as a long batch; outputs, formats, numberings, index types, orders and
+/// split orders in turn.
+#[test]
+fn every_configuration() {
+    let mut machine = Machine::open();
+    let mut seen = BTreeSet::new();
+    let mut turn = 0;
+    for domain in Domain::ALL {
+        let patches = random(domain, 90);
+        for partitioning in Partitioning::ALL {
+            let mut setup = setup(domain, partitioning);
+            setup.config.output = OutputPrimitive::ALL[turn % 4];
+            setup.config.split = SplitOrder::ALL[turn / 2 % 2];
+            setup.point_format = [PointFormat::Packed, PointFormat::F32][turn / 2 % 2];
+            setup.numbering = [Numbering::PerBatch, Numbering::PerPatch][turn % 2];
+            setup.order = [Order::Specification, Order::VertexCache][turn / 3 % 2];
+            if setup.numbering == Numbering::PerPatch {
+                setup.index_type = IndexType::U16;
+            }
+            turn += 1;
+            let batch = Batch::new(setup, patches.clone());
+            seen.extend(assert_equal(&mut machine, &batch).iter().map(|it| it.entry_point()));
+            seen.extend(
+                assert_equal(&mut machine, &batch.long()).iter().map(|it| it.entry_point()),
+            );
+        }
+    }
+    assert_eq!(seen.len(), 8, "all but `list` and `groups`: {seen:?}");
+}
+
+/// Triangles in both orders and both numberings.
+#[test]
+fn orders_and_numberings() {
+    let mut machine = Machine::open();
+    for domain in [Domain::Triangle, Domain::Quad] {
+        for order in [Order::Specification, Order::VertexCache] {
+            for numbering in [Numbering::PerBatch, Numbering::PerPatch] {
+                let plain = setup(domain, Partitioning::FractionalOdd);
+                let setup = Setup { order, numbering, ..plain };
+                let batch = Batch::new(setup, random(domain, 40));
+                assert_equal(&mut machine, &batch);
+                assert_equal(&mut machine, &batch.long());
+            }
+        }
+    }
+}
+
+/// Output that does not fit: points, primitives or both, by one element; no room at all; and no patches.
+#[test]
+fn overflow_and_nothing() {
+    let mut machine = Machine::open();
+    let setup = setup(Domain::Quad, Partitioning::Integer);
+    let patches = of(Domain::Quad, 700, &[1.0, 2.0, 3.0]);
+    let counts = patches.iter().map(|&raw| tess_core::Patch::new(setup.config, raw).counts());
+    let (points, primitives) = counts.fold((0, 0), |(points, primitives), counts| {
+        (points + counts.points, primitives + counts.primitives)
+    });
+    let rooms = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(less_points, less_primitives)| Capacity {
+        points: points - less_points,
+        primitives: primitives - less_primitives,
+    });
+    for room in rooms.into_iter().chain([Capacity::default()]) {
+        for groups in [vec![], vec![0, 3, 3, 699]] {
+            let batch = Batch { room: Some(room), groups, ..Batch::new(setup, patches.clone()) };
+            assert_equal(&mut machine, &batch);
+            assert_equal(&mut machine, &batch.long());
+        }
+    }
+    assert_eq!(assert_equal(&mut machine, &Batch::new(setup, Vec::new())), [Stage::Totals]);
+}
+
+/// Runs of like patches, which are copied, and the same without copies.
+#[test]
+fn copies() {
+    let mut machine = Machine::open();
+    for partitioning in [Partitioning::Integer, Partitioning::FractionalEven] {
+        for copies in [Copies::WhereAlike, Copies::Never] {
+            let setup = Setup { copies, ..setup(Domain::Quad, partitioning) };
+            let patches =
+                runs(Domain::Quad, &[(2.0, 800), (0.0, 600), (5.0, 1), (3.5, 700), (1.0, 900)]);
+            assert_equal(&mut machine, &Batch::new(setup, patches));
+        }
+    }
+}
+
+/// A catalogue that holds every topology: unlike patches, like ones, culled ones and ones too large for it.
+pub(crate) fn catalogued(domain: Domain) -> Vec<PatchFactors> {
+    let mut patches = of(domain, CATALOGUE_PATCHES, &[1.0, 1.25, 2.0, 2.75, 4.0]);
+    patches.extend(runs(domain, &[(3.0, 700), (0.0, 300), (17.0, 40)]));
+    patches
+}
+
+#[test]
+fn catalogue() {
+    let mut machine = Machine::open();
+    for (domain, partitioning) in [
+        (Domain::Quad, Partitioning::Integer),
+        (Domain::Quad, Partitioning::FractionalEven),
+        (Domain::Triangle, Partitioning::FractionalOdd),
+    ] {
+        let batch = Batch::new(setup(domain, partitioning), catalogued(domain));
+        assert!(assert_equal(&mut machine, &batch).contains(&Stage::List), "it has a catalogue");
+    }
+}
+
+/// More topologies than the catalogue has slots and room for.
+pub(crate) fn too_many() -> Batch {
+    let patches = of(Domain::Quad, CATALOGUE_PATCHES, &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+    Batch::new(setup(Domain::Quad, Partitioning::Integer), patches)
+}
+
+#[test]
+fn full_catalogue() {
+    let stages = assert_equal(&mut Machine::open(), &too_many());
+    assert!(stages.contains(&Stage::List), "it has a catalogue");
+}
+
+/// Groups that begin and end in blocks, between portions and at the end, and empty ones.
+pub(crate) const GROUPS: [u32; 8] = [0, 7, 7, 300, 65_000, 65_536, 66_000, 66_500];
+
+/// Two portions, several windows of both outputs and rows of workgroups, with groups.
+pub(crate) fn cut_up() -> Batch {
+    let patches = of(Domain::Quad, 66_500, &[0.0, 1.0, 1.5, 2.0, 3.0, 3.0, 3.0]);
+    let setup = setup(Domain::Quad, Partitioning::FractionalOdd);
+    let groups = GROUPS.to_vec();
+    Batch { limits: LOW, groups, ..Batch::new(setup, patches) }
+}
+
+#[test]
+fn portions_windows_and_groups() {
+    let stages = assert_equal(&mut Machine::open(), &cut_up());
+    let count = |stage| stages.iter().filter(|it| **it == stage).count();
+    assert_eq!((count(Stage::Factors), count(Stage::Groups)), (2, 2), "two portions: {stages:?}");
+    let windows = [Stage::ExpandPoints, Stage::ExpandPrimitives].map(count);
+    assert!(windows.iter().all(|&windows| windows >= 4), "two windows or more: {stages:?}");
+}

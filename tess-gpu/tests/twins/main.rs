@@ -1,0 +1,64 @@
+//! Twins of the passes: for each file of `shaders/entry_points` a function that says what the buffers must hold behind
+//! the pass, given what they held before. Read a twin first; the shader says how threads do it together.
+//!
+//! ```text
+//! pass                twin                      writes
+//! factors             factors.rs, block.rs      Topologies, Contexts, Offsets (patches, blocks), keys of the Catalogue
+//! scan                scan.rs                   Offsets (blocks, sections)
+//! totals              totals.rs, finish.rs      Offsets (sections), Status, Arguments
+//! list                list.rs, described.rs     places and elements of the Catalogue
+//! groups              groups.rs                 Draws
+//! partition           partition.rs              Tiles
+//! expand_points       expand_points.rs          Points
+//! expand_primitives   expand_primitives.rs      Indices
+//! short_batch         short_batch.rs, block.rs  what the first three and `partition` write
+//! expand_short        expand_short.rs           Points, Indices
+//! ```
+//!
+//! Contexts, counts, points and triangles are those of `tess-core`. A batch runs pass by pass on wgpu, with the host code
+//! of `examples/bare_wgpu.rs`; behind each pass every word of every buffer that it may write is compared. What is not
+//! defined, and so taken from the device once it was checked: which slot a key gets, in which order the places of the
+//! catalogue are given, and the points of a culled topology.
+
+#[allow(dead_code, reason = "the tests run the passes one by one")]
+#[path = "../../examples/bare_wgpu.rs"]
+mod bare_wgpu;
+mod block;
+mod buffers;
+mod cases;
+mod catalogue;
+mod compare;
+mod described;
+mod expand_points;
+mod expand_primitives;
+mod expand_short;
+mod factors;
+mod faults;
+mod finish;
+mod groups;
+mod list;
+mod partition;
+mod run;
+mod scan;
+mod short_batch;
+mod totals;
+
+use buffers::{Bound, Pass};
+use tess_gpu::Stage;
+
+/// Makes the buffers what they must be behind the pass.
+fn twin(pass: &Pass<'_>, bound: &mut Bound<'_>) {
+    let twin = match pass.stage {
+        Stage::Short => short_batch::short_batch,
+        Stage::Factors => factors::factors,
+        Stage::Scan => scan::scan,
+        Stage::Totals => totals::totals,
+        Stage::List => list::list,
+        Stage::Partition => partition::partition,
+        Stage::Groups => groups::groups,
+        Stage::ExpandPoints => expand_points::expand_points,
+        Stage::ExpandPrimitives => expand_primitives::expand_primitives,
+        Stage::ExpandShort => expand_short::expand_short,
+    };
+    twin(pass, bound);
+}

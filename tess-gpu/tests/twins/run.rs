@@ -1,0 +1,181 @@
+//! Runs a batch pass by pass and compares what each leaves with its twin.
+
+use super::bare_wgpu;
+use super::buffers::{Bound, Pass, Words};
+use super::compare::{Difference, first_difference};
+use super::twin;
+use std::collections::HashMap;
+use tess_core::{Patch, PatchFactors};
+use tess_gpu::layout::Job;
+use tess_gpu::sizes::ALIGNMENT;
+use tess_gpu::{Access, Binding, Capacity, Dispatch, Limits, Plan, Resource, Setup, Stage};
+
+/// No output has these bits, so a word that was not written differs from any that was.
+const POISON: u32 = 0xFFFF_FFFF;
+
+/// A device and the pipelines that were made on it, without faults.
+pub(crate) struct Machine {
+    gpu: (wgpu::Device, wgpu::Queue),
+    pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
+}
+
+/// A batch to run.
+#[derive(Clone, Debug)]
+pub(crate) struct Batch {
+    pub(crate) setup: Setup,
+    pub(crate) patches: Vec<PatchFactors>,
+    /// The room for output; `None` is a little more than the batch needs.
+    pub(crate) room: Option<Capacity>,
+    pub(crate) limits: Limits,
+    pub(crate) in_long_stages: bool,
+    /// The first patch of each group.
+    pub(crate) groups: Vec<u32>,
+}
+
+impl Batch {
+    pub(crate) fn new(setup: Setup, patches: Vec<PatchFactors>) -> Self {
+        let (room, groups) = (None, Vec::new());
+        Self { setup, patches, room, limits: Limits::WEBGPU, in_long_stages: false, groups }
+    }
+
+    /// The same batch in the stages of a long one.
+    pub(crate) fn long(self) -> Self {
+        Self { in_long_stages: true, ..self }
+    }
+
+    fn plan(&self, patches: &[Patch]) -> Plan {
+        let total = |of: fn(&Patch) -> u32| patches.iter().map(of).sum::<u32>();
+        let needed = Capacity {
+            points: total(|patch| patch.counts().points) + 5,
+            primitives: total(|patch| patch.counts().primitives) + 5,
+        };
+        let count = u32::try_from(patches.len()).expect("a test's patches");
+        let make = if self.in_long_stages { Plan::in_long_stages } else { Plan::new };
+        let plan = make(self.setup, count, self.room.unwrap_or(needed), self.limits);
+        plan.with_groups(u32::try_from(self.groups.len()).expect("a test's groups"))
+    }
+}
+
+/// Everything that a pass of a batch is compared with.
+pub(crate) struct Context<'a> {
+    pub(crate) batch: &'a Batch,
+    pub(crate) plan: Plan,
+    pub(crate) patches: Vec<Patch>,
+    /// Where each patch's points and primitives begin.
+    pub(crate) begins: Vec<[u32; 2]>,
+    jobs: Vec<u8>,
+}
+
+impl<'a> Context<'a> {
+    pub(crate) fn new(batch: &'a Batch) -> Self {
+        let patches: Vec<_> =
+            batch.patches.iter().map(|&raw| Patch::new(batch.setup.config, raw)).collect();
+        let mut end = [0; 2];
+        let mut begin_of = |patch: &Patch| {
+            let begin = end;
+            end = super::buffers::sum(begin, super::buffers::counts(patch));
+            begin
+        };
+        let begins = patches.iter().map(&mut begin_of).collect();
+        let plan = batch.plan(&patches);
+        Self { batch, plan, patches, begins, jobs: plan.jobs() }
+    }
+
+    /// What a dispatch is told.
+    pub(crate) fn pass(&self, dispatch: &Dispatch) -> Pass<'_> {
+        let at = usize::try_from(ALIGNMENT).expect("256") * dispatch.job() as usize;
+        let job: Job = bytemuck::pod_read_unaligned(&self.jobs[at..][..size_of::<Job>()]);
+        let patches = &self.patches[job.first_patch as usize..][..job.patches as usize];
+        Pass { setup: self.batch.setup, stage: dispatch.stage(), job, patches }
+    }
+}
+
+impl Machine {
+    /// None is a failure, not a reason to skip.
+    pub(crate) fn open() -> Self {
+        let backends = wgpu::Backends::from_env().unwrap_or_default();
+        let gpu = bare_wgpu::open(backends).unwrap_or_else(|reason| panic!("{reason}"));
+        Self { gpu, pipelines: HashMap::new() }
+    }
+
+    fn pipeline(&mut self, stage: Stage, setup: Setup) -> wgpu::ComputePipeline {
+        let relevant = stage.relevant(setup);
+        let make = || bare_wgpu::pipeline(&self.gpu.0, stage, &stage.source(relevant));
+        self.pipelines.entry((stage, relevant)).or_insert_with(make).clone()
+    }
+
+    /// Runs the passes of a batch one by one and returns their stages.
+    pub(crate) fn run(&mut self, batch: &Batch) -> Result<Vec<Stage>, Difference> {
+        self.run_with(batch, |_, _| None)
+    }
+
+    /// The same with these shaders instead of a stage's own.
+    pub(crate) fn run_with(
+        &mut self,
+        batch: &Batch,
+        edit: impl Fn(Stage, &str) -> Option<String>,
+    ) -> Result<Vec<Stage>, Difference> {
+        let context = Context::new(batch);
+        let plan = context.plan;
+        let buffers =
+            bare_wgpu::buffers(&self.gpu, batch.setup, &plan, &batch.patches, &batch.groups);
+        let mut words = self.poisoned(&plan, &buffers);
+        let mut stages = Vec::new();
+        let mut edited = HashMap::new();
+        for dispatch in plan.dispatches() {
+            let stage = dispatch.stage();
+            let pipeline = edited.entry(stage).or_insert_with(|| {
+                let source = edit(stage, &stage.source(stage.relevant(batch.setup)));
+                match source {
+                    Some(source) => bare_wgpu::pipeline(&self.gpu.0, stage, &source),
+                    None => self.pipeline(stage, batch.setup),
+                }
+            });
+            self.dispatch(pipeline, &dispatch, &buffers);
+            let left = self.left(stage, &buffers);
+            let pass = context.pass(&dispatch);
+            let mut bound = Bound::new(&dispatch, &mut words, &left);
+            twin(&pass, &mut bound);
+            let refused = bound.refused.take();
+            first_difference(&context, &dispatch, (&words, &left), refused, stages.len())?;
+            stages.push(stage);
+        }
+        Ok(stages)
+    }
+
+    fn dispatch(
+        &self,
+        pipeline: &wgpu::ComputePipeline,
+        dispatch: &Dispatch,
+        buffers: &bare_wgpu::Buffers,
+    ) {
+        let mut encoder = self.gpu.0.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        bare_wgpu::encode(&self.gpu.0, &mut pass, pipeline, dispatch, buffers);
+        drop(pass);
+        self.gpu.1.submit([encoder.finish()]);
+    }
+
+    /// Poisons what the batch writes and returns the words of all buffers. A catalogue begins as zeros.
+    fn poisoned(&self, plan: &Plan, buffers: &bare_wgpu::Buffers) -> Words {
+        use Resource::{Catalogue, Factors, Groups, Job, Tables};
+        Resource::ALL.map(|resource| {
+            let buffer = &buffers[resource as usize];
+            let is_input = matches!(resource, Job | Factors | Tables | Groups);
+            if !is_input && (resource != Catalogue || !plan.has_catalogue()) {
+                let poison = vec![POISON; usize::try_from(buffer.size() / 4).expect("in memory")];
+                self.gpu.1.write_buffer(buffer, 0, bytemuck::cast_slice(&poison));
+            }
+            bare_wgpu::read(&self.gpu, buffer)
+        })
+    }
+
+    /// The words of the buffers that a stage writes.
+    fn left(&self, stage: Stage, buffers: &bare_wgpu::Buffers) -> Words {
+        Resource::ALL.map(|resource| {
+            let is_written = stage.bindings().contains(&Binding(resource, Access::ReadWrite));
+            let buffer = &buffers[resource as usize];
+            is_written.then(|| bare_wgpu::read(&self.gpu, buffer)).unwrap_or_default()
+        })
+    }
+}
