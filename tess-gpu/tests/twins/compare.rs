@@ -37,7 +37,11 @@ pub(crate) fn first_difference(
         let text = format!("{pass}: {resource:?} word {word}: {why}");
         return Err(difference(resource, text));
     }
-    for &Binding(resource, _) in stage.bindings().iter().filter(|it| it.1 == Access::ReadWrite) {
+    let written = stage.bindings().iter().filter(|it| it.1 == Access::ReadWrite);
+    let mut written: Vec<_> = written.map(|&Binding(resource, _)| resource).collect();
+    // Other buffers hold numbers of its slots.
+    written.sort_by_key(|resource| *resource != Resource::Catalogue);
+    for resource in written {
         let (expected, left) = (&expected[resource as usize], &left[resource as usize]);
         assert_eq!(expected.len(), left.len(), "the buffer {resource:?}");
         let Some(word) = (0..left.len()).find(|&word| expected[word] != left[word]) else {

@@ -1,29 +1,95 @@
 //! Faults are seen in the pass that has them, whatever they break behind it.
 
-use super::cases::{catalogued, cut_up, of, random, runs, setup, too_many};
+use super::cases::{catalogued, cut_up, of, runs, setup, too_many};
 use super::run::{Batch, Machine};
 use tess_core::{Domain, Partitioning};
-use tess_gpu::Resource::{self, Arguments, Catalogue, Draws, Indices, Offsets, Points, Tiles};
-use tess_gpu::{Fault, Stage};
+use tess_gpu::{Fault, Limits, Resource, Stage};
 
-/// Faults of `src/faults.txt`, with the pass and the buffer that must be named.
-const FAULTS: &[(&str, Stage, Resource)] = &[];
+/// Plants faults of `src/faults.txt` and demands that the first difference is in this pass and buffer.
+fn assert_named(batch: &Batch, faults: &[(&str, Stage, Resource)]) {
+    let mut machine = Machine::open();
+    if let Err(difference) = machine.run(batch) {
+        panic!("without a fault: {difference}");
+    }
+    for &(name, stage, resource) in faults {
+        let fault = Fault::named(name).unwrap_or_else(|| panic!("no fault is called {name}"));
+        let seen = machine.run_with(batch, |_, source| fault.planted(source)).err();
+        let seen = seen.unwrap_or_else(|| panic!("{name} went unnoticed"));
+        assert_eq!((seen.stage, seen.resource), (stage, resource), "{name}: {seen}");
+    }
+}
 
 #[test]
-fn a_fault_is_named_with_its_pass_and_buffer() {
-    let _ = (catalogued, cut_up, of, random, runs, setup, too_many, FAULTS);
-    let _ = (
-        Domain::Quad,
-        Partitioning::Integer,
-        Arguments,
-        Catalogue,
-        Draws,
-        Indices,
-        Offsets,
-        Points,
-        Tiles,
+fn of_a_short_batch() {
+    use Resource::{Indices, Offsets, Points, Status, Tiles, Topologies};
+    let odd = setup(Domain::Quad, Partitioning::FractionalOdd);
+    let batch = Batch::new(odd, of(Domain::Quad, 600, &[0.0, 1.0, 1.5, 3.25, 7.5]));
+    assert_named(
+        &batch,
+        &[
+            ("prefix_sums", Stage::Short, Offsets),
+            ("short_batch_2", Stage::Short, Offsets),
+            ("short_batch_4", Stage::Short, Status),
+            ("write_tiles_3", Stage::Short, Tiles),
+            ("place_before_middle_2", Stage::ExpandShort, Points),
+            ("centre_stitch", Stage::ExpandShort, Indices),
+        ],
     );
-    let _ = |batch: &Batch, machine: &mut Machine| {
-        machine.run(batch).is_ok() && Fault::named("a").is_some()
-    };
+    let integer = setup(Domain::Triangle, Partitioning::Integer);
+    let batch = Batch::new(integer, of(Domain::Triangle, 600, &[0.0, 1.0, 3.25, 7.5]));
+    assert_named(&batch, &[("edge_points", Stage::Short, Topologies)]);
+}
+
+#[test]
+fn of_a_long_batch() {
+    use Resource::{Indices, Offsets, Points, Tiles};
+    let integer = setup(Domain::Quad, Partitioning::Integer);
+    let like = runs(Domain::Quad, &[(2.0, 1350), (1.0, 3600), (10.0, 750), (5.0, 920)]);
+    assert_named(
+        &Batch::new(integer, like),
+        &[
+            ("process_block", Stage::Factors, Offsets),
+            ("entry_of", Stage::Partition, Tiles),
+            ("copy_points", Stage::ExpandPoints, Points),
+            ("kept_index", Stage::ExpandPrimitives, Indices),
+        ],
+    );
+    let rows = Limits { workgroups: 1, ..Limits::WEBGPU };
+    let unlike = of(Domain::Isoline, 66_000, &[1.0, 2.0]);
+    let batch = Batch::new(setup(Domain::Isoline, Partitioning::Integer), unlike);
+    assert_named(&Batch { limits: rows, ..batch }, &[("scan", Stage::Scan, Offsets)]);
+}
+
+#[test]
+fn of_a_batch_that_is_cut_up() {
+    use Resource::{Arguments, Draws, Offsets};
+    assert_named(
+        &cut_up(),
+        &[
+            ("factors", Stage::Factors, Resource::Catalogue),
+            ("totals", Stage::Totals, Offsets),
+            ("write_dispatch", Stage::Totals, Arguments),
+            ("groups_5", Stage::Groups, Draws),
+            ("write_primitive_tile_2", Stage::ExpandPoints, Resource::Points),
+        ],
+    );
+}
+
+#[test]
+fn of_a_catalogue() {
+    use Resource::{Catalogue, Indices, Points};
+    let even = setup(Domain::Quad, Partitioning::FractionalEven);
+    assert_named(
+        &Batch::new(even, catalogued(Domain::Quad)),
+        &[
+            ("key_of", Stage::Factors, Catalogue),
+            ("described_point_3", Stage::List, Catalogue),
+            ("placed_point", Stage::ExpandPoints, Points),
+        ],
+    );
+    let integer = setup(Domain::Quad, Partitioning::Integer);
+    let listed = Batch::new(integer, catalogued(Domain::Quad));
+    let fault = ("write_listed_triangles", Stage::ExpandPrimitives, Indices);
+    assert_named(&listed, &[("listed_point", Stage::ExpandPoints, Points), fault]);
+    assert_named(&too_many(), &[("take_room", Stage::List, Catalogue)]);
 }
