@@ -27,6 +27,9 @@ fn slot_of(topology: vec2<u32>, size: vec2<u32>) -> u32 {
 
 // Before the first key: nothing of the catalogue is in use.
 fn empty_catalogue() {
+    if job.has_catalogue == 0u {
+        return;
+    }
     atomicStore(&catalogue[USED_AT], 0u);
     atomicStore(&catalogue[USED_AT + 1u], 0u);
 }

@@ -1,9 +1,10 @@
 //! Batches that reach every way through the passes.
 
-use super::run::{Batch, Machine};
+use super::run::{Batch, Form, Machine};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_gpu::sizes::CATALOGUE_PATCHES;
 use tess_gpu::{Capacity, Copies, IndexType, Limits, Numbering, Order, PointFormat, Setup, Stage};
+use tess_gpu::{Resource, Written};
 use tess_verify::generate::random_factor;
 use tess_verify::random::SplitMix64;
 
@@ -174,4 +175,28 @@ fn portions_windows_and_groups() {
     assert_eq!((count(Stage::Factors), count(Stage::Groups)), (2, 2), "two portions: {stages:?}");
     let windows = [Stage::ExpandPoints, Stage::ExpandPrimitives].map(count);
     assert!(windows.iter().all(|&windows| windows >= 4), "two windows or more: {stages:?}");
+}
+
+/// Indices without points, and neither.
+#[test]
+fn batches_that_write_less() {
+    let mut machine = Machine::open();
+    let setup = setup(Domain::Triangle, Partitioning::Pow2);
+    for (written, stages) in [(Written::Indices, 5), (Written::Arguments, 4)] {
+        let batch = Batch::new(setup, of(Domain::Triangle, 1500, &[0.0, 1.0, 2.5, 7.0]));
+        let batch = Batch { form: Form::Writing(written), ..batch };
+        assert_eq!(assert_equal(&mut machine, &batch).len(), stages, "{written:?}");
+    }
+}
+
+/// Sums of sections that pass 2^32 several times, as no test's patches have them.
+#[test]
+fn totals_beyond_32_bits() {
+    let patches = of(Domain::Isoline, 300_000, &[1.0]);
+    let batch = Batch::new(setup(Domain::Isoline, Partitioning::Integer), patches);
+    let batch = Batch { room: Some(Capacity { points: 9, primitives: 9 }), ..batch };
+    let mut random = SplitMix64::new(3);
+    let large = || u32::MAX - random.below(1 << 20);
+    let compared = Machine::open().run_alone(&batch, Stage::Totals, Resource::Offsets, large);
+    compared.unwrap_or_else(|difference| panic!("{difference}"));
 }

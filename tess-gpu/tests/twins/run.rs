@@ -6,6 +6,7 @@ use super::compare::{Difference, first_difference};
 use super::twin;
 use std::collections::HashMap;
 use tess_core::{Patch, PatchFactors};
+use tess_gpu::Written;
 use tess_gpu::layout::Job;
 use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{Access, Binding, Capacity, Dispatch, Limits, Plan, Resource, Setup, Stage};
@@ -19,6 +20,17 @@ pub(crate) struct Machine {
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
 }
 
+/// Which stages a batch has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Form {
+    /// Those of a short batch if it is one.
+    Any,
+    /// Those of a long batch.
+    Long,
+    /// Those of a long batch that does not write everything.
+    Writing(Written),
+}
+
 /// A batch to run.
 #[derive(Clone, Debug)]
 pub(crate) struct Batch {
@@ -27,7 +39,7 @@ pub(crate) struct Batch {
     /// The room for output; `None` is a little more than the batch needs.
     pub(crate) room: Option<Capacity>,
     pub(crate) limits: Limits,
-    pub(crate) in_long_stages: bool,
+    pub(crate) form: Form,
     /// The first patch of each group.
     pub(crate) groups: Vec<u32>,
 }
@@ -35,12 +47,12 @@ pub(crate) struct Batch {
 impl Batch {
     pub(crate) fn new(setup: Setup, patches: Vec<PatchFactors>) -> Self {
         let (room, groups) = (None, Vec::new());
-        Self { setup, patches, room, limits: Limits::WEBGPU, in_long_stages: false, groups }
+        Self { setup, patches, room, limits: Limits::WEBGPU, form: Form::Any, groups }
     }
 
     /// The same batch in the stages of a long one.
     pub(crate) fn long(self) -> Self {
-        Self { in_long_stages: true, ..self }
+        Self { form: Form::Long, ..self }
     }
 
     fn plan(&self, patches: &[Patch]) -> Plan {
@@ -50,8 +62,12 @@ impl Batch {
             primitives: total(|patch| patch.counts().primitives) + 5,
         };
         let count = u32::try_from(patches.len()).expect("a test's patches");
-        let make = if self.in_long_stages { Plan::in_long_stages } else { Plan::new };
-        let plan = make(self.setup, count, self.room.unwrap_or(needed), self.limits);
+        let (setup, room) = (self.setup, self.room.unwrap_or(needed));
+        let plan = match self.form {
+            Form::Any => Plan::new(setup, count, room, self.limits),
+            Form::Long => Plan::in_long_stages(setup, count, room, self.limits),
+            Form::Writing(written) => Plan::writing(written, setup, count, room, self.limits),
+        };
         plan.with_groups(u32::try_from(self.groups.len()).expect("a test's groups"))
     }
 }
@@ -131,16 +147,50 @@ impl Machine {
                     None => self.pipeline(stage, batch.setup),
                 }
             });
-            self.dispatch(pipeline, &dispatch, &buffers);
-            let left = self.left(stage, &buffers);
-            let pass = context.pass(&dispatch);
-            let mut bound = Bound::new(&dispatch, &mut words, &left);
-            twin(&pass, &mut bound);
-            let refused = bound.refused.take();
-            first_difference(&context, &dispatch, (&words, &left), refused, stages.len())?;
+            let pass = (stages.len(), &dispatch);
+            self.compare(&context, pass, pipeline, &buffers, &mut words)?;
             stages.push(stage);
         }
         Ok(stages)
+    }
+
+    /// Runs the first pass of a stage alone, with other words in one buffer before it.
+    pub(crate) fn run_alone(
+        &mut self,
+        batch: &Batch,
+        stage: Stage,
+        resource: Resource,
+        word: impl FnMut() -> u32,
+    ) -> Result<(), Difference> {
+        let context = Context::new(batch);
+        let (plan, setup) = (context.plan, batch.setup);
+        let buffers = bare_wgpu::buffers(&self.gpu, setup, &plan, &batch.patches, &batch.groups);
+        let mut words = self.poisoned(&plan, &buffers);
+        let buffer = &buffers[resource as usize];
+        words[resource as usize].fill_with(word);
+        self.gpu.1.write_buffer(buffer, 0, bytemuck::cast_slice(&words[resource as usize]));
+        let mut dispatches = plan.dispatches();
+        let number = dispatches.position(|it| it.stage() == stage).expect("the batch has it");
+        let dispatch = plan.dispatches().nth(number).expect("it was found");
+        let pipeline = self.pipeline(stage, setup);
+        self.compare(&context, (number, &dispatch), &pipeline, &buffers, &mut words)
+    }
+
+    /// Runs a pass and its twin, and compares.
+    fn compare(
+        &self,
+        context: &Context<'_>,
+        (number, dispatch): (usize, &Dispatch),
+        pipeline: &wgpu::ComputePipeline,
+        buffers: &bare_wgpu::Buffers,
+        words: &mut Words,
+    ) -> Result<(), Difference> {
+        self.dispatch(pipeline, dispatch, buffers);
+        let left = self.left(dispatch.stage(), buffers);
+        let mut bound = Bound::new(dispatch, words, &left);
+        twin(&context.pass(dispatch), &mut bound);
+        let refused = bound.refused.take();
+        first_difference(context, dispatch, (words, &left), refused, number)
     }
 
     fn dispatch(
