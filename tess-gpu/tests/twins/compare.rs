@@ -31,7 +31,8 @@ pub(crate) fn first_difference(
     let stage = dispatch.stage();
     let job = context.pass(dispatch).job;
     let count = context.plan.dispatches().count();
-    let pass = format!("pass {} of {count}, `{}`", number + 1, stage.entry_point());
+    let (run, pass) = (number / count + 1, number % count + 1);
+    let pass = format!("run {run}, pass {pass} of {count}, `{}`", stage.entry_point());
     let difference = |resource, text| Difference { stage, resource, text };
     if let Some((resource, word, why)) = refused {
         let text = format!("{pass}: {resource:?} word {word}: {why}");
