@@ -1,5 +1,5 @@
 // needs: shared/block, {listing}, layout/setup
-// Factor processing: one workgroup per block of patches, and for each block the sums of the counts.
+// One workgroup per block of patches.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> raw_factors: array<vec2<u32>>;

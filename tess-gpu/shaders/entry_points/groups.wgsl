@@ -1,6 +1,5 @@
 // needs: shared/offsets, layout/setup
-// The draw arguments of each group of patches, one thread per group. Each portion writes what it knows, and
-// of several portions the last one knows it right: a group can begin in one and end in another.
+// One thread per group.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> offsets: array<vec2<u32>>;

@@ -1,5 +1,5 @@
 // needs: shared/catalogue, stages/connect, stages/counts, shared/described, layout/packed_triangle, layout/point_format, stages/points, layout/setup
-// Expands the topology of each slot of the catalogue: one workgroup per slot.
+// One workgroup per slot of the catalogue.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> tables: array<u32>;

@@ -1,5 +1,5 @@
 // needs: shared/search, layout/setup
-// The table of tiles of a portion: one thread per entry.
+// One thread per entry of the table of tiles.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read> offsets: array<vec2<u32>>;

@@ -1,7 +1,5 @@
 // needs: shared/prefix_sum, layout/setup
-// The upper levels of the prefix sums over all patches. A patch's place in the output is the sum
-// of three numbers: its offset within its block (the stage `factors` wrote it), the block's
-// offset within its section, and the section's offset in the output.
+// One workgroup per section, one thread per block.
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read_write> offsets: array<vec2<u32>>;
@@ -10,7 +8,6 @@ fn block_count() -> u32 {
     return (job.patches + BLOCK - 1u) / BLOCK;
 }
 
-// One workgroup per section: sums of blocks become offsets within the section.
 // No overflow: the 65536 patches of a section have at most 2^29 triangles.
 @compute @workgroup_size(SUMMED)
 fn scan(

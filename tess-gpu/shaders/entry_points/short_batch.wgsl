@@ -5,13 +5,6 @@
 // before. Their work for a short batch takes less time than their beginning, so one workgroup of 256 threads does
 // it, a block of patches at a time, and keeps the sums in registers.
 //
-//     for each block of 256 patches, thread = patch
-//       raw_factors  ->  process_block    topologies, contexts, offsets[patch], offsets[alike_at + block]
-//       sum          ->  offsets[blocks_at + block]         where the block begins in the batch
-//       begin, end   ->  tiles                              each patch enters itself for the tiles that begin in it
-//     at the end
-//       sum          ->  offsets[sections_at] = 0, status, arguments; the entry behind the last tile
-//
 // Three quad patches (3, 4.5, 5, 6; 4, 7) have 129 points in tiles of 128, so patch 0 begins tile 0 and patch 2
 // tile 1:
 //

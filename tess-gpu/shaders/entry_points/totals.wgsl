@@ -1,7 +1,6 @@
 // needs: shared/finish, shared/prefix_sum, layout/setup
-// One workgroup: sums of sections become offsets in the output, behind the portions before; the totals
-// grow by this portion's, from zero. Offsets wrap where the output could not fit anyway; the totals have
-// a second word for that. Behind the last portion follows what depends on the totals (shared/finish.wgsl).
+// One workgroup, one thread per section. Behind the last portion follows what depends on the totals
+// (shared/finish.wgsl).
 
 @group(0) @binding(0) var<uniform> job: Job;
 @group(0) @binding(1) var<storage, read_write> offsets: array<vec2<u32>>;

@@ -46,9 +46,8 @@ struct BlockSums {
     all: vec2<u32>,
 }
 
-// Processes a block: writes its patches' topologies, contexts and offsets within it, and the topology that all
-// of them have, if they do. The topologies' slots in the catalogue are with the block's one, or else with
-// each. Called in uniform control flow by all threads of a workgroup of BLOCK.
+// Processes a block, as tests/twins/block.rs says. Called in uniform control flow by all threads of a workgroup of
+// BLOCK.
 fn process_block(block: u32, thread: u32) -> BlockSums {
     let patch_index = block * BLOCK + thread;
     var own = vec2<u32>(0u, 0u);

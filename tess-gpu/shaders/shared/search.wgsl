@@ -1,6 +1,5 @@
 // needs: layout/setup, shared/tile_size; bindings: job, offsets, tiles
-// For each tile of the output, the patch that its first element belongs to: a binary search on each
-// level of the offsets. One more entry says to whom the last element belongs.
+// The table of tiles: a binary search on each level of the offsets.
 
 fn offset_at(index: u32, kind: u32) -> u32 {
     return offsets[index][kind];

@@ -6,7 +6,8 @@ use tess_core::{Patch, PatchFactors, ProcessedFactor, ProcessedPatch};
 use tess_gpu::Resource::{Contexts, Offsets, Topologies};
 use tess_gpu::layout::pack_context;
 
-/// Topologies, contexts, offsets within the block, and the block's common topology. Returns the counts of the block.
+/// Topologies, contexts, offsets within the block, and the topology that all its patches have, or 0. Slots of the
+/// catalogue are with that one, or else with each patch's. Returns the counts of the block.
 pub(crate) fn process_block(
     pass: &Pass<'_>,
     block: u32,

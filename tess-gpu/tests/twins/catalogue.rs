@@ -75,7 +75,7 @@ pub(crate) fn key_of(domain: Domain, topology: [u32; 2]) -> Option<u32> {
 
 /// A patch of the topology that has this key: each factor has one segment less than there are points.
 pub(crate) fn patch_of(setup: Setup, key: u32) -> Patch {
-    let field = |at: u32| f32::from(u8::try_from(key >> at & 31).expect("5 bits")) + 1.0;
+    let field = |at: u32| f32::from(u8::try_from((key >> at & 31) + 1).expect("6 bits"));
     let edges = setup.domain.outer_factors();
     let factors = PatchFactors::from_fn(setup.domain, |factor| match factor.checked_sub(edges) {
         _ if key >> 30 == 1 => 1.0,

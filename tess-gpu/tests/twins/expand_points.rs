@@ -34,7 +34,7 @@ pub(crate) fn window(job: &Job) -> Range<u64> {
     first << job.tile_bits..(first + tiles) << job.tile_bits
 }
 
-/// layout/point_format.wgsl: a point in two words.
+/// `layout/point_format.wgsl`: a point in two words.
 pub(crate) fn format_point(format: PointFormat, point: DomainPoint, patch: u32) -> [u32; 2] {
     match format {
         PointFormat::Packed => PackedPoint::new(point, patch).0,

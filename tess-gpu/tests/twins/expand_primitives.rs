@@ -29,7 +29,7 @@ pub(crate) fn expand_primitives(pass: &Pass<'_>, b: &mut Bound<'_>) {
     }
 }
 
-/// variants/indices_u32.wgsl and variants/indices_u16.wgsl: index `at` of the window.
+/// `variants/indices_u32.wgsl` and `indices_u16.wgsl`: index `at` of the window.
 fn set_index(pass: &Pass<'_>, at: u32, index: u32, b: &mut Bound<'_>) {
     match pass.setup.index_type {
         IndexType::U32 => b.set(Indices, at, index),

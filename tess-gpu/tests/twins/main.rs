@@ -62,3 +62,16 @@ fn twin(pass: &Pass<'_>, bound: &mut Bound<'_>) {
     };
     twin(pass, bound);
 }
+
+/// The twin of `entry_points/NAME.wgsl` is `NAME.rs`.
+#[test]
+fn every_entry_point_has_a_twin_of_its_name() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let shaders = root.join("shaders/entry_points");
+    let names = std::fs::read_dir(&shaders)
+        .expect("the shaders")
+        .map(|entry| entry.expect("a shader").path().file_stem().expect("a name").to_owned());
+    let twin = |name: &std::ffi::OsString| root.join("tests/twins").join(name).with_extension("rs");
+    let lacking: Vec<_> = names.filter(|name| !twin(name).is_file()).collect();
+    assert!(lacking.is_empty(), "there is no twin of {lacking:?}");
+}

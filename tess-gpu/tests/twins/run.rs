@@ -227,7 +227,7 @@ impl Machine {
         Resource::ALL.map(|resource| {
             let is_written = stage.bindings().contains(&Binding(resource, Access::ReadWrite));
             let buffer = &buffers[resource as usize];
-            is_written.then(|| bare_wgpu::read(&self.gpu, buffer)).unwrap_or_default()
+            if is_written { bare_wgpu::read(&self.gpu, buffer) } else { Vec::new() }
         })
     }
 }

@@ -1,5 +1,5 @@
 //! The pass `totals`: where each section begins in the output, the portion's range and what the batch needs so far.
-//! Offsets and ranges are modulo 2^32; totals have a second word.
+//! Totals have a second word; offsets and ranges wrap, where the output could not fit anyway.
 
 use super::buffers::{Bound, POINTS, PRIMITIVES, Pass, STATUS_RANGES};
 use super::finish::finish;
