@@ -1,5 +1,6 @@
 //! What the project's own tests need beside `tess-verify`: backends with planted faults, which every
-//! comparison must notice, and the invariants of spec section 12.
+//! comparison must notice, the invariants of spec section 12, and options crossed by pairs.
 
 pub mod faults;
 pub mod invariants;
+pub mod pairs;
