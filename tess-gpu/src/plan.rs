@@ -42,7 +42,7 @@
 use crate::bindings::Resource;
 use crate::layout::{DrawIndexed, Range, Status, Topology};
 use crate::room::{Capacity, Limits, Span};
-use crate::setup::Setup;
+use crate::setup::{IndexType, Numbering, Setup};
 use crate::sizes::{
     ALIGNMENT, BLOCK, CATALOGUE_PATCHES, CATALOGUE_WORDS, DISPATCHES_AT, LEAST_TILE_BITS,
     MAX_PORTION, SECTION, SHORT_ELEMENTS, SHORT_PATCHES, SHORT_TILES, SUMMED, TILE_BITS,
@@ -105,16 +105,17 @@ pub enum Written {
 }
 
 impl Plan {
-    /// Cuts up a batch of `patches` patches with room for `capacity`.
+    /// Cuts up a batch of `patches` patches with room for `capacity`. Of the points, no more count as room than the
+    /// indices that are written can name: 65536 with [`IndexType::U16`] and [`Numbering::PerBatch`].
     #[must_use]
     pub fn new(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
-        Self::cut(setup, patches, capacity, limits, true)
+        Self::cut(Written::Everything, setup, patches, capacity, limits, true)
     }
 
     /// The same batch in the stages of a long one, whatever its size, so that a host needs one path.
     #[must_use]
     pub fn in_long_stages(setup: Setup, patches: u32, capacity: Capacity, limits: Limits) -> Self {
-        Self::cut(setup, patches, capacity, limits, false)
+        Self::cut(Written::Everything, setup, patches, capacity, limits, false)
     }
 
     /// A batch that writes only some of its output, in the stages of a long one. `capacity` bounds what
@@ -130,16 +131,19 @@ impl Plan {
         capacity: Capacity,
         limits: Limits,
     ) -> Self {
-        Self { written, ..Self::cut(setup, patches, capacity, limits, false) }
+        Self::cut(written, setup, patches, capacity, limits, false)
     }
 
     fn cut(
+        written: Written,
         setup: Setup,
         patches: u32,
         capacity: Capacity,
         limits: Limits,
         may_be_short: bool,
     ) -> Self {
+        let capacity =
+            Capacity { points: capacity.points.min(most_points(setup, written)), ..capacity };
         let context_bytes = 8 * u64::from(setup.factors());
         let bound = limits.storage_binding.max(4 << 20);
         let most = to_u32(bound / context_bytes).min(MAX_PORTION) / SECTION * SECTION;
@@ -164,7 +168,7 @@ impl Plan {
             max_workgroups: limits.workgroups.max(1),
             tile_bits,
             is_short,
-            written: Written::Everything,
+            written,
         }
     }
 
@@ -381,6 +385,14 @@ impl Plan {
     fn in_rows(&self, workgroups: u32) -> [u32; 3] {
         let rows = workgroups.div_ceil(self.max_workgroups);
         [workgroups.min(self.max_workgroups), rows, 1]
+    }
+}
+
+/// The most points of a batch that its indices can name.
+const fn most_points(setup: Setup, written: Written) -> u32 {
+    match (setup.index_type, setup.numbering, written) {
+        (_, _, Written::Arguments) | (IndexType::U32, ..) | (_, Numbering::PerPatch, _) => u32::MAX,
+        (IndexType::U16, Numbering::PerBatch, _) => 1 << 16,
     }
 }
 

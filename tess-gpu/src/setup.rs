@@ -29,7 +29,7 @@ pub enum Numbering {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum IndexType {
     /// 16 bits: enough for any one patch ([`Numbering::PerPatch`]), and for a batch of up to 65536
-    /// points. A larger batch with [`Numbering::PerBatch`] does not fit.
+    /// points. A larger batch with [`Numbering::PerBatch`] does not fit, whatever room a [`crate::Plan`] is given.
     U16,
     /// 32 bits.
     #[default]

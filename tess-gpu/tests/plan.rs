@@ -6,7 +6,8 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::layout::Job;
 use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{
-    Capacity, Dispatch, Limits, Plan, Resource, Setup, Span, Stage, Workgroups, Written, tables,
+    Capacity, Dispatch, IndexType, Limits, Numbering, Plan, Resource, Setup, Span, Stage,
+    Workgroups, Written, tables,
 };
 
 /// Limits that cut batches often.
@@ -358,6 +359,33 @@ fn the_least_binding_is_4_mib() {
     let same = Plan::new(quads(), 70_000, ALL, Limits { storage_binding: 4 << 20, workgroups: 1 });
     assert_eq!(plan, same, "4 MiB and a workgroup");
     assert_eq!(plan.portion_patches(), 65_536, "a whole section");
+}
+
+/// Sixteen patches of 65 by 65 points are more than 16-bit indices can name, unless they begin anew with each patch or
+/// are not written.
+#[test]
+fn points_beyond_16_bits_are_no_room() {
+    let most = 1 << 16;
+    for (index_type, numbering, written, expected) in [
+        (IndexType::U16, Numbering::PerBatch, Written::Everything, most),
+        (IndexType::U16, Numbering::PerBatch, Written::Indices, most),
+        (IndexType::U16, Numbering::PerBatch, Written::Arguments, 16 * 4225),
+        (IndexType::U16, Numbering::PerPatch, Written::Everything, 16 * 4225),
+        (IndexType::U32, Numbering::PerBatch, Written::Everything, 16 * 4225),
+    ] {
+        let setup = Setup { index_type, numbering, ..quads() };
+        let room = Capacity::worst_case(setup, 16);
+        let forms = [
+            Plan::writing(written, setup, 16, room, Limits::WEBGPU),
+            Plan::in_long_stages(setup, 16, room, Limits::WEBGPU),
+            Plan::new(setup, 16, room, Limits::WEBGPU),
+        ];
+        let forms = if written == Written::Everything { &forms[..] } else { &forms[..1] };
+        for plan in forms {
+            let job: Job = bytemuck::pod_read_unaligned(&plan.jobs()[..size_of::<Job>()]);
+            assert_eq!(job.point_capacity, expected, "{plan:?}");
+        }
+    }
 }
 
 /// A patch of factor 64 has 65 by 65 points; the sum ends at what 32 bits hold.

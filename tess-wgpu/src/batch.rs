@@ -6,9 +6,7 @@ use crate::error::Error;
 use crate::limits;
 use crate::outputs::{Outputs, Patches};
 use crate::pipelines::Pipelines;
-use tess_gpu::{
-    Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Stage, Workgroups, Written,
-};
+use tess_gpu::{Capacity, Limits, Plan, Resource, Setup, Stage, Workgroups, Written};
 
 /// Patches of one [`Setup`] with the caller's buffers, and every buffer and bind group in between.
 ///
@@ -138,8 +136,8 @@ impl Batch {
         &self.offsets
     }
 
-    /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader of
-    /// [`tess_gpu::Pull::source_for_drawing`] binds the first.
+    /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader of [`tess_gpu::Pull`] binds
+    /// the first.
     #[must_use]
     pub const fn jobs(&self) -> &wgpu::Buffer {
         &self.jobs
@@ -217,10 +215,6 @@ fn capacity(setup: Setup, outputs: Outputs<'_>) -> Capacity {
         Outputs::Arguments(capacity) => return capacity,
         Outputs::Buffers { points, indices } => (elements(points.size(), 8), indices),
         Outputs::Indices { points, indices } => (points, indices),
-    };
-    let points = match (setup.index_type, setup.numbering) {
-        (IndexType::U16, Numbering::PerBatch) => points.min(1 << 16),
-        _ => points,
     };
     let primitives = elements(indices.size() / 8 * 8, setup.primitive_bytes());
     Capacity { points, primitives }
