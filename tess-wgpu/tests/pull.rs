@@ -3,12 +3,12 @@
 mod common;
 
 use common::device::Machine;
-use tess_core::Patch;
+use tess_core::{Patch, SplitOrder};
 use tess_gpu::tables;
 use tess_gpu::{Pull, Setup};
 use tess_verify::generate::configurations;
 use tess_verify::random::SplitMix64;
-use tess_wgpu::Outputs;
+use tess_wgpu::{Batch, Outputs};
 use wgpu::BufferUsages as Usage;
 
 /// A user's shader: asks for one point and one primitive of a patch.
@@ -65,7 +65,7 @@ fn any_element_in_every_configuration() {
                 expected.push(([point.u.to_bits(), point.v.to_bits(), u, v], indices, own.len()));
             }
         }
-        let answers = ask(&machine, setup, &batch, &asked);
+        let answers = ask(&machine, setup, &batch, &asked, config.split == SplitOrder::Center);
         assert_eq!(answers.len(), 7 * expected.len(), "one answer each");
         for (answer, (point, indices, size)) in answers.chunks(7).zip(&expected) {
             assert_eq!(answer[..4], point[..], "{setup:?}");
@@ -74,7 +74,8 @@ fn any_element_in_every_configuration() {
     }
 }
 
-fn ask(machine: &Machine, setup: Setup, batch: &tess_wgpu::Batch, asked: &[u32]) -> Vec<u32> {
+/// What the shader answers to `asked`; with `is_apart` the buffers of the batch are copied into larger ones first.
+fn ask(machine: &Machine, setup: Setup, batch: &Batch, asked: &[u32], is_apart: bool) -> Vec<u32> {
     let source = Pull { group: 0, first_binding: 2 }.source(setup) + USER;
     let device = &machine.gpu.device;
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
@@ -95,9 +96,12 @@ fn ask(machine: &Machine, setup: Setup, batch: &tess_wgpu::Batch, asked: &[u32])
     let tables = tables(setup.config.split);
     let upload = |words: &[u32]| machine.upload(words, Usage::STORAGE);
     let (asked, tables) = (upload(asked), upload(&tables));
-    let mut buffers = vec![&asked, &answers, batch.topologies(), &tables];
+    let own = [batch.topologies(), batch.contexts()];
+    let larger = own.map(|buffer| upload(&[machine.words(buffer), vec![7; 12_345]].concat()));
+    let [topologies, contexts] = if is_apart { [&larger[0], &larger[1]] } else { own };
+    let mut buffers = vec![&asked, &answers, topologies, &tables];
     if !setup.has_integer_factors() {
-        buffers.push(batch.contexts());
+        buffers.extend([contexts, batch.jobs()]);
     }
     let entries: Vec<_> = (0..)
         .zip(buffers)

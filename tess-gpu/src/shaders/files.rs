@@ -34,7 +34,7 @@ macro_rules! downloaded {
     };
 }
 
-const FILES: [(&str, &str); 58] = files![
+const FILES: [(&str, &str); 57] = files![
     "entry_points/expand_points",
     "entry_points/expand_primitives",
     "entry_points/expand_short",
@@ -89,7 +89,6 @@ const FILES: [(&str, &str); 58] = files![
     "variants/no_contexts",
     "variants/no_listing",
     "variants/place_evenly",
-    "variants/pulled_contexts",
     "variants/read_catalogue",
     "variants/stored_contexts",
     "variants/wide_tiles",

@@ -11,7 +11,7 @@ use tess_verify::generate::configurations;
 
 /// The functions that [`tess_gpu::Pull`] offers, called as a user's shader does.
 pub(crate) const PULLING: &str = "
-@group(0) @binding(3) var<storage, read_write> out: array<vec2<f32>>;
+@group(0) @binding(4) var<storage, read_write> out: array<vec2<f32>>;
 @compute @workgroup_size(64)
 fn user(@builtin(global_invocation_id) id: vec3<u32>) {
     let corner = tess_primitive(id.x, id.y).x;

@@ -34,8 +34,8 @@ fn roots() -> Vec<(&'static str, Vec<Choice>)> {
             }
             add("entry_points/short_batch", "variants/stored_contexts", false);
             add("entry_points/expand_short", "variants/stored_contexts", false);
-            add("stages/locate", "variants/pulled_contexts", false);
-            add("offered/elements", "variants/pulled_contexts", false);
+            add("stages/locate", "variants/stored_contexts", false);
+            add("offered/elements", "variants/stored_contexts", false);
             add("offered/counting", "variants/no_contexts", false);
         }
     }
