@@ -12,7 +12,9 @@ use tess_gpu::{Order, Setup};
 #[must_use = "the stage is made by `build`"]
 pub struct StageBuilder<'a> {
     pub(super) source: &'a str,
-    pub(super) setup: Setup,
+    domain: Domain,
+    config: Config,
+    order: Option<Order>,
     pub(super) patches: u32,
     pub(super) layouts: Vec<wgpu::BindGroupLayout>,
     pub(super) bind_groups: Vec<wgpu::BindGroup>,
@@ -43,7 +45,9 @@ impl<'a> StageBuilder<'a> {
     pub(super) const fn new(source: &'a str, domain: Domain, config: Config, patches: u32) -> Self {
         Self {
             source,
-            setup: Setup { order: Order::VertexCache, ..Setup::new(domain, config) },
+            domain,
+            config,
+            order: None,
             patches,
             layouts: Vec::new(),
             bind_groups: Vec::new(),
@@ -96,10 +100,10 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// The order of the triangles of a patch in the index buffer; [`Order::VertexCache`] if this is not called.
-    /// Without an index buffer it is [`Order::Specification`], as there is no vertex cache.
+    /// The order in which the triangles of a patch are drawn. If this is not called, it is [`Order::VertexCache`] with
+    /// an index buffer. Without one there is no vertex cache, and it is [`Order::Specification`], which takes less time.
     pub const fn order(mut self, order: Order) -> Self {
-        self.setup.order = order;
+        self.order = Some(order);
         self
     }
 
@@ -167,13 +171,20 @@ impl<'a> StageBuilder<'a> {
     /// bindings are in the group behind the user's.
     #[must_use]
     pub fn vertex_shader(&self) -> String {
-        source::of_vertices(self.source, self.setup, self.points, self.own_group())
+        source::of_vertices(self.source, self.setup(), self.points, self.own_group())
     }
 
     /// What the bytes of the stage's buffers depend on.
     pub(super) fn form(&self, device: &wgpu::Device) -> Form {
-        let Self { setup, points, patches, .. } = *self;
-        Form { setup, points, patches, buffer_limit: device.limits().max_buffer_size }
+        let Self { points, patches, .. } = *self;
+        Form { setup: self.setup(), points, patches, buffer_limit: device.limits().max_buffer_size }
+    }
+
+    /// The setup of the stage's batches.
+    pub(super) fn setup(&self) -> Setup {
+        let without_indices = self.points == Points::PullWithoutIndices;
+        let default = if without_indices { Order::Specification } else { Order::VertexCache };
+        Setup { order: self.order.unwrap_or(default), ..Setup::new(self.domain, self.config) }
     }
 
     /// The number of the stage's own bind group: the one behind the user's.

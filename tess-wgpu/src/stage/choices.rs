@@ -15,7 +15,9 @@ pub enum Factors<'a> {
     Buffer(&'a wgpu::Buffer),
 }
 
-/// Where the vertex shader takes its points from. The output is the same.
+/// Where the vertex shader takes its points from. Points and triangles are the same, and so is their order if
+/// [`StageBuilder::order`](super::StageBuilder::order) gives one: then the picture is the same too. Its default is
+/// another without indices, which shows where triangles of a patch overlap and no depth test decides.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Points {
     /// From a vertex buffer, 8 bytes each, with an index buffer.

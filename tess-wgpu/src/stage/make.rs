@@ -10,7 +10,7 @@ use crate::{Tessellator, gpu, limits};
 use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
-use tess_gpu::{Order, Setup};
+use tess_gpu::Setup;
 use wgpu::BufferUsages as Usage;
 
 impl StageBuilder<'_> {
@@ -51,15 +51,13 @@ fn now<T>(work: impl Future<Output = Result<T, Error>>) -> Result<T, Error> {
 }
 
 async fn stage(
-    mut builder: StageBuilder<'_>,
+    builder: StageBuilder<'_>,
     device: &wgpu::Device,
 ) -> Result<TessellationStage, Error> {
     check(&builder, device)?;
-    if builder.points == Points::PullWithoutIndices {
-        builder.setup.order = Order::Specification;
-    }
-    let StageBuilder { setup, patches, points, room, overflow, .. } = builder;
+    let StageBuilder { patches, points, room, overflow, .. } = builder;
     let form = builder.form(device);
+    let setup = form.setup;
     let mut tessellator = Tessellator::new(device);
     let usage = Usage::STORAGE | Usage::COPY_DST;
     let size = form.factor_bytes();
@@ -124,7 +122,7 @@ fn check(builder: &StageBuilder<'_>, device: &wgpu::Device) -> Result<(), Error>
     if let Factors::Buffer(given) = builder.factors {
         origin::check(given, needed)?;
     }
-    source::check_names(builder.source, builder.setup, builder.points)?;
+    source::check_names(builder.source, builder.setup(), builder.points)?;
     if builder.makes_pipeline { check_fragment(builder) } else { Ok(()) }
 }
 
@@ -184,7 +182,7 @@ async fn render_pipeline(
     device: &wgpu::Device,
     pulled: Option<&wgpu::BindGroupLayout>,
 ) -> Result<wgpu::RenderPipeline, Error> {
-    let StageBuilder { source: user, setup, layouts, render, .. } = builder;
+    let StageBuilder { source: user, layouts, render, .. } = builder;
     let shader = builder.vertex_shader();
     let module = modules::user_module(device, "domain", user, shader.clone()).await?;
     gl::check_flat_members(device, &shader)?;
@@ -215,7 +213,7 @@ async fn render_pipeline(
             compilation_options: Default::default(),
             buffers,
         },
-        primitive: wgpu::PrimitiveState { topology: topology(*setup), ..*primitive },
+        primitive: wgpu::PrimitiveState { topology: topology(builder.setup()), ..*primitive },
         depth_stencil: depth.clone(),
         multisample: *multisample,
         fragment: (!targets.is_empty()).then_some(wgpu::FragmentState {

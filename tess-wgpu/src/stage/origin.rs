@@ -41,7 +41,8 @@ impl Origin {
         device: &wgpu::Device,
         [factors, count]: [&wgpu::Buffer; 2],
     ) -> Result<Self, Error> {
-        let StageBuilder { source: user, setup, patches, layouts, .. } = builder;
+        let StageBuilder { source: user, patches, layouts, .. } = builder;
+        let setup = form.setup;
         let mut own = vec![(factors, Access::ReadWrite), (count, Access::Read)];
         let workgroups = passes::workgroups(device, *patches);
         let given = match builder.factors {

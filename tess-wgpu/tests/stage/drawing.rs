@@ -1,10 +1,11 @@
 //! Every way to draw gives the model's triangles.
 
 use crate::model::{compare, drawn};
-use crate::scene::{PATCHES, Scene};
+use crate::scene::{FORMAT, PATCHES, Scene};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_wgpu::Error;
-use tess_wgpu::stage::{DrawBuffers, Factors, PatchCount, Points, StageError};
+use tess_gpu::Order;
+use tess_wgpu::stage::{DrawBuffers, Factors, PatchCount, Points, Room, StageError};
+use tess_wgpu::{Error, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
 const WAYS: [Points; 3] = [Points::Stored, Points::Pull, Points::PullWithoutIndices];
@@ -43,6 +44,32 @@ fn every_way_to_draw_gives_the_models_triangles() {
             }
         }
     }
+}
+
+/// Patches that are folded, so that rings overlap: which triangle is seen depends on their order.
+#[test]
+fn a_given_order_is_that_of_every_way_to_draw() {
+    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
+    let unfolded = "place(number) + uv;";
+    let source = crate::scene::source(Domain::Quad);
+    assert!(source.contains(unfolded), "{source}");
+    let source = source.replace(unfolded, "place(number) + abs(uv - vec2f(0.3, 0.4));");
+    let picture = |points, order: Option<Order>| {
+        let builder = TessellationStage::builder(&source, scene.domain, scene.config, PATCHES);
+        let builder = builder.bind_group(&scene.layout, &scene.group).target(FORMAT).points(points);
+        let builder = builder.room(Room::WorstCase);
+        let builder = order.into_iter().fold(builder, |builder, order| builder.order(order));
+        scene.frame(&mut scene.build(builder), PATCHES.into()).expect("it draws")
+    };
+    let of_orders = [Order::Specification, Order::VertexCache].map(|order| {
+        let pictures = WAYS.map(|points| picture(points, Some(order)));
+        assert!(pictures.iter().all(|other| *other == pictures[0]), "{order:?}");
+        pictures[0].clone()
+    });
+    assert!(of_orders[0] != of_orders[1], "the order is seen");
+    let defaults = WAYS.map(|points| picture(points, None));
+    let [specification, vertex_cache] = of_orders;
+    assert!(defaults == [vertex_cache.clone(), vertex_cache, specification], "as documented");
 }
 
 #[test]
