@@ -38,6 +38,34 @@ impl<'a> Expected<'a> {
         (points, (indices * self.setup.index_type.bytes()).next_multiple_of(8) / 4)
     }
 
+    /// The words of points, and the indices.
+    pub(crate) fn output(&self) -> [&[u32]; 2] {
+        [&self.points, &self.indices]
+    }
+
+    /// The patch of each point with the bits of u and v, and of each primitive with its indices within the patch.
+    pub(crate) fn elements(&self) -> [Vec<(u32, Vec<u32>)>; 2] {
+        let mut all = [Vec::new(), Vec::new()];
+        for (number, &factors) in (0..).zip(self.patches) {
+            let whole = Patch::new(self.setup.config, factors).tessellate_in(self.setup.order);
+            let points = whole.points.iter().map(|point| point.to_f32().map(f32::to_bits).to_vec());
+            all[0].extend(points.map(|words| (number, words)));
+            let each = self.setup.indices_per_primitive() as usize;
+            all[1].extend(whole.indices.chunks(each).map(|indices| (number, indices.to_vec())));
+        }
+        all
+    }
+
+    /// First point and first primitive of each patch, and behind the last.
+    pub(crate) fn begins(&self) -> Vec<[u32; 2]> {
+        let per_primitive = self.setup.indices_per_primitive() as usize;
+        let end = (self.points.len(), self.indices.len());
+        let all = self.begins.iter().chain([&end]);
+        let number = |words: usize| u32::try_from(words).expect("a test's output");
+        all.map(|&(points, indices)| [number(points / 2), number(indices / per_primitive)])
+            .collect()
+    }
+
     /// Words of points, and indices.
     fn counts(&self) -> (u32, u32) {
         let count = |words: &[u32]| u32::try_from(words.len()).expect("a test's output");

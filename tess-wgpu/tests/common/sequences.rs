@@ -1,0 +1,57 @@
+//! Random sequences of calls, each shrunk to the shortest that fails and printed as code.
+
+use proptest::collection::vec;
+use proptest::strategy::Strategy;
+use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
+use std::cell::{Cell, RefCell};
+use std::fmt::Debug;
+use std::time::{Duration, Instant};
+
+/// For how long the long run goes on, or `None` for the short one: the variable `TESS_LONG_SECONDS`.
+pub(crate) fn long() -> Option<Duration> {
+    let seconds = std::env::var("TESS_LONG_SECONDS").ok()?;
+    let seconds = seconds.parse().unwrap_or_else(|_| panic!("TESS_LONG_SECONDS is {seconds:?}"));
+    Some(Duration::from_secs(seconds))
+}
+
+/// Runs sequences of 1 to `most` calls: `short` of them, or as many as the time of the long run allows. `run` returns
+/// how many words it compared, or says what is wrong.
+#[expect(clippy::print_stdout, reason = "the long run's numbers")]
+pub(crate) fn hold<C: Clone + Debug>(
+    short: u32,
+    most: usize,
+    call: impl Strategy<Value = C> + Clone,
+    run: impl FnMut(&[C]) -> Result<u64, String>,
+) {
+    let (begin, mut sequences) = (Instant::now(), 0_u64);
+    let (run, words) = (RefCell::new(run), Cell::new(0_u64));
+    for seed in 0_u64.. {
+        let mut bytes = [0; 32];
+        bytes[..8].copy_from_slice(&seed.to_le_bytes());
+        let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
+        let config = Config { cases: short, failure_persistence: None, ..Config::default() };
+        let outcome =
+            TestRunner::new_with_rng(config, rng).run(&vec(call.clone(), 1..=most), |calls| {
+                let compared = (run.borrow_mut())(&calls).map_err(TestCaseError::fail)?;
+                words.set(words.get() + compared);
+                Ok(())
+            });
+        match outcome {
+            Ok(()) => sequences += u64::from(short),
+            Err(TestError::Fail(reason, calls)) => panic!("{reason}\n\n{}", pasted(&calls)),
+            Err(TestError::Abort(reason)) => panic!("seed {seed}: {reason}"),
+        }
+        if long().is_none_or(|time| begin.elapsed() >= time) {
+            break;
+        }
+    }
+    let (words, time) = (words.get(), begin.elapsed());
+    assert!(words > 0, "nothing was compared");
+    println!("{sequences} sequences, {words} words compared, {time:?}");
+}
+
+/// The calls as a test that fails.
+fn pasted(calls: &[impl Debug]) -> String {
+    let lines: String = calls.iter().map(|call| format!("        {call:?},\n")).collect();
+    format!("#[test]\nfn found() {{\n    replay(&[\n{lines}    ]);\n}}")
+}

@@ -1,0 +1,178 @@
+//! The calls of a sequence. Their debug text is code.
+
+use proptest::prelude::*;
+use tess_core::{Domain, PatchFactors};
+use tess_verify::generate::random_patch;
+use tess_verify::random::SplitMix64;
+
+/// One call. Numbers of setups, batches and buffers count round and round.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Call {
+    /// The first patches of a domain's buffer of factors become others.
+    Fill { domain: Domain, with: Patches },
+    /// A batch of the first `count` patches of its domain's buffer, in groups.
+    Make { setup: usize, count: u32, groups: u32, output: Output },
+    /// `count` batches from batch `first` on are encoded into one encoder.
+    Run { first: usize, count: usize, then: Then },
+    /// The oldest encoder that was kept is submitted.
+    Late,
+    /// A batch is dropped.
+    Forget { batch: usize },
+    /// Batches that are made from now on keep to low limits, or to the device's.
+    Limit { is_low: bool },
+    /// Patches in, output back.
+    Whole { setup: usize, with: Patches },
+    /// A call that is refused.
+    Refused { setup: usize, wrong: Wrong },
+}
+
+/// Where a batch writes. A sum is what its patches need at that time, and so much more or less.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Output {
+    Count,
+    /// Buffers that other batches write too.
+    Shared {
+        points: usize,
+        indices: usize,
+    },
+    /// Buffers of its own.
+    Own {
+        points: i32,
+        primitives: i32,
+    },
+    /// Indices alone, into a buffer of its own.
+    Indices {
+        points: i32,
+        primitives: i32,
+    },
+    /// Draw arguments alone.
+    Arguments {
+        points: i32,
+        primitives: i32,
+    },
+}
+
+/// What becomes of an encoder.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Then {
+    Submit,
+    Drop,
+    Keep,
+}
+
+/// What is wrong with a call.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Wrong {
+    GroupsDescend,
+    GroupBehind,
+    FewFactors,
+    OneBuffer,
+    NotStorage,
+    OtherDomain,
+}
+
+/// Some patches, by a seed.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patches {
+    pub(crate) kind: Kind,
+    pub(crate) count: u32,
+    pub(crate) seed: u64,
+}
+
+/// Patches of one kind.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kind {
+    Culled,
+    /// Runs of 1 to 600 equal ones.
+    Runs,
+    /// Small in the mean, with everything that factors can be.
+    Any,
+    /// All factors from 40 to 66; not many.
+    Large,
+}
+
+impl Patches {
+    /// The patches.
+    pub(crate) fn of(self, domain: Domain) -> Vec<PatchFactors> {
+        let mut random = SplitMix64::new(self.seed);
+        let mut all: Vec<PatchFactors> = Vec::new();
+        let most = if matches!(self.kind, Kind::Large) { 30 } else { u32::MAX };
+        let count = self.count.min(most) as usize;
+        while all.len() < count {
+            let (length, patch) = match self.kind {
+                Kind::Culled => (1, PatchFactors::uniform(domain, 0.0)),
+                Kind::Any => (1, random_patch(domain, &mut random)),
+                Kind::Runs => (1 + random.below(600), random_patch(domain, &mut random)),
+                Kind::Large => {
+                    let mut factor = |_| f32::from(40 + random.next_u32().to_le_bytes()[0] % 27);
+                    (1, PatchFactors::from_fn(domain, &mut factor))
+                }
+            };
+            all.extend(std::iter::repeat_n(patch, length as usize));
+        }
+        all.truncate(count);
+        all
+    }
+}
+
+fn patches() -> impl Strategy<Value = Patches> + Clone {
+    let kinds = vec![Kind::Culled, Kind::Runs, Kind::Any, Kind::Any, Kind::Large];
+    let counts = prop_oneof![
+        4 => 0..300_u32,
+        2 => prop::sample::select(vec![255_u32, 256, 257, 1023, 1024, 1025]),
+        2 => 1000..2600_u32,
+    ];
+    (prop::sample::select(kinds), counts, any::<u64>())
+        .prop_map(|(kind, count, seed)| Patches { kind, count, seed })
+}
+
+fn output() -> impl Strategy<Value = Output> + Clone {
+    let more = || prop_oneof![4 => Just(0), 1 => Just(1), 1 => Just(-1), 1 => 0..3000];
+    let room = move || (more(), more());
+    prop_oneof![
+        1 => Just(Output::Count),
+        4 => (0..3_usize, 0..3_usize).prop_map(|(points, indices)| Output::Shared { points, indices }),
+        4 => room().prop_map(|(points, primitives)| Output::Own { points, primitives }),
+        2 => room().prop_map(|(points, primitives)| Output::Indices { points, primitives }),
+        2 => room().prop_map(|(points, primitives)| Output::Arguments { points, primitives }),
+    ]
+}
+
+/// A call; `setups` is how many setups there are.
+pub(crate) fn call(setups: usize) -> impl Strategy<Value = Call> + Clone {
+    let domain = prop::sample::select(&Domain::ALL[..]);
+    let then = prop::sample::select(vec![
+        Then::Submit,
+        Then::Submit,
+        Then::Submit,
+        Then::Keep,
+        Then::Drop,
+    ]);
+    let count = prop_oneof![
+        6 => 0..300_u32,
+        2 => prop::sample::select(vec![256_u32, 1024, 1025]),
+        3 => 1000..2600_u32,
+        1 => Just(16_384_u32),
+    ];
+    let groups = prop_oneof![2 => Just(0), 1 => 1..4_u32, 1 => 200..300_u32];
+    let wrong = prop::sample::select(vec![
+        Wrong::GroupsDescend,
+        Wrong::GroupBehind,
+        Wrong::FewFactors,
+        Wrong::OneBuffer,
+        Wrong::NotStorage,
+        Wrong::OtherDomain,
+    ]);
+    prop_oneof![
+        6 => (domain, patches()).prop_map(|(domain, with)| Call::Fill { domain, with }),
+        8 => (0..setups, count, groups, output())
+            .prop_map(|(setup, count, groups, output)| Call::Make { setup, count, groups, output }),
+        10 => (0..8_usize, 1..4_usize, then)
+            .prop_map(|(first, count, then)| Call::Run { first, count, then }),
+        2 => Just(Call::Late),
+        1 => (0..8_usize).prop_map(|batch| Call::Forget { batch }),
+        1 => any::<bool>().prop_map(|is_low| Call::Limit { is_low }),
+        1 => (0..setups, patches()).prop_map(|(setup, with)| Call::Whole { setup, with }),
+        1 => (0..setups, wrong).prop_map(|(setup, wrong)| Call::Refused { setup, wrong }),
+    ]
+}

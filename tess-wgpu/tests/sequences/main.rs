@@ -1,0 +1,88 @@
+//! Batches in any order of calls, and in all options crossed: compared with the golden model word for word.
+
+mod calls;
+#[path = "../common/mod.rs"]
+mod common;
+mod pulling;
+#[path = "../common/sequences.rs"]
+mod sequences;
+mod world;
+
+use calls::Call::{self, Fill, Forget, Late, Limit, Make, Run};
+use calls::{Kind, Output, Patches, Then};
+use common::device::Machine;
+use pulling::Pulling;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_gpu::{Copies, IndexType, Numbering, Order, PointFormat, Setup};
+use world::World;
+
+/// Setups of every domain, partitioning and format, few enough for their pipelines to be made quickly.
+fn setups() -> Vec<Setup> {
+    use OutputPrimitive::{Line, Point, TriangleCcw, TriangleCw};
+    use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};
+    let of = |domain, partitioning, output| Setup::new(domain, Config::new(partitioning, output));
+    let mut centred = of(Domain::Quad, Integer, TriangleCcw);
+    centred.config.split = SplitOrder::Center;
+    let (numbering, index_type) = (Numbering::PerPatch, IndexType::U16);
+    let (order, copies, point_format) = (Order::VertexCache, Copies::Never, PointFormat::F32);
+    vec![
+        Setup { order, ..of(Domain::Quad, FractionalOdd, TriangleCw) },
+        Setup { point_format, numbering, index_type, ..centred },
+        Setup { index_type, ..of(Domain::Triangle, FractionalEven, TriangleCw) },
+        Setup { order, copies, ..of(Domain::Triangle, Pow2, TriangleCcw) },
+        Setup { point_format, ..of(Domain::Isoline, FractionalOdd, Line) },
+        Setup { numbering, index_type, ..of(Domain::Quad, Integer, Point) },
+        Setup { index_type, ..of(Domain::Quad, Pow2, TriangleCw) },
+        Setup { index_type, copies, ..of(Domain::Isoline, Integer, Line) },
+    ]
+}
+
+/// Does the calls on a new world; returns how many words were compared.
+fn replayed(
+    machine: &mut Machine,
+    pulling: &mut Pulling,
+    setups: &[Setup],
+    calls: &[Call],
+) -> Result<u64, String> {
+    let mut world = World::new(machine, pulling, setups);
+    for (number, &call) in calls.iter().enumerate() {
+        world.call(call).map_err(|what| format!("call {number}, {call:?}: {what}"))?;
+    }
+    Ok(world.words)
+}
+
+/// Does a sequence that was found, on a device of its own.
+fn replay(calls: &[Call]) {
+    let outcome = replayed(&mut Machine::open(), &mut Pulling::default(), &setups(), calls);
+    outcome.unwrap_or_else(|difference| panic!("{difference}"));
+}
+
+#[test]
+fn any_sequence_of_calls_gives_the_models_words() {
+    let (mut machine, mut pulling) = (Machine::open(), Pulling::default());
+    let setups = setups();
+    sequences::hold(150, 20, calls::call(setups.len()), |calls| {
+        replayed(&mut machine, &mut pulling, &setups, calls)
+    });
+}
+
+/// Batches that share buffers, one of which grows beyond 16-bit indices while its encoder waits.
+#[test]
+fn a_batch_outgrows_its_indices() {
+    let large = Patches { kind: Kind::Large, count: 30, seed: 1 };
+    let small = Patches { kind: Kind::Any, count: 30, seed: 2 };
+    let output = Output::Shared { points: 2, indices: 2 };
+    replay(&[
+        Fill { domain: Domain::Quad, with: small },
+        Make { setup: 6, count: 30, groups: 3, output },
+        Run { first: 0, count: 1, then: Then::Submit },
+        Run { first: 0, count: 1, then: Then::Keep },
+        Limit { is_low: true },
+        Make { setup: 0, count: 25, groups: 0, output },
+        Fill { domain: Domain::Quad, with: large },
+        Late,
+        Run { first: 0, count: 2, then: Then::Submit },
+        Forget { batch: 0 },
+        Run { first: 0, count: 1, then: Then::Submit },
+    ]);
+}

@@ -1,0 +1,127 @@
+//! What a shader computes that pulls its points: every point and primitive of a batch that stores neither.
+
+use crate::common::device::Machine;
+use crate::common::expected::Expected;
+use std::collections::HashMap;
+use tess_gpu::layout::Job;
+use tess_gpu::{Pull, Setup, tables};
+use tess_wgpu::Batch;
+use wgpu::BufferUsages as Usage;
+
+/// A user's shader: the points and primitives of a batch by their numbers, in four words each.
+const USER: &str = "
+@group(1) @binding(0) var<storage, read_write> answers: array<vec4<u32>>;
+@group(1) @binding(1) var<uniform> asked: vec4<u32>;
+
+@compute @workgroup_size(64)
+fn ask(@builtin(global_invocation_id) id: vec3<u32>) {
+    if id.x < asked.x {
+        let at = tess_point_at(id.x);
+        answers[id.x] = vec4<u32>(at.x, bitcast<vec2<u32>>(tess_location(at.x, at.y)), 0u);
+    }
+    if id.x < asked.y {
+        let at = tess_primitive_at(id.x);
+        answers[asked.x + id.x] = vec4<u32>(at.x, tess_primitive(at.x, at.y));
+    }
+}
+";
+
+/// The most elements of a kind that are asked for, from the first on.
+const MOST: u32 = 20_000;
+
+/// The pipelines of the setups that were asked so far.
+#[derive(Default)]
+pub(crate) struct Pulling(HashMap<Setup, wgpu::ComputePipeline>);
+
+impl Pulling {
+    /// Compares what a shader computes behind a batch that has run; returns how many words were compared.
+    pub(crate) fn compare(
+        &mut self,
+        machine: &Machine,
+        setup: Setup,
+        batch: &Batch,
+        expected: &Expected<'_>,
+    ) -> Result<u64, String> {
+        let begins = expected.begins();
+        let asked = begins.last().expect("the end").map(|elements| elements.min(MOST));
+        if asked == [0, 0] {
+            return Ok(0);
+        }
+        let answers = self.ask(machine, setup, batch, asked);
+        let each = setup.indices_per_primitive() as usize;
+        let [points, primitives] = expected.elements();
+        let own = |(patch, words): &(u32, Vec<u32>)| [&[*patch], &words[..]].concat();
+        let points = points.iter().take(asked[0] as usize).map(own);
+        let primitives = primitives.iter().take(asked[1] as usize).map(own);
+        let named =
+            points.map(|own| ("point", own)).chain(primitives.map(|own| ("primitive", own)));
+        for (number, ((what, expected), answer)) in named.zip(&answers).enumerate() {
+            let observed = &answer[..if what == "point" { 3 } else { 1 + each }];
+            if *observed != expected[..] {
+                let number = if what == "point" { number } else { number - asked[0] as usize };
+                return Err(format!(
+                    "pulled {what} {number}, patch and words: observed {observed:x?}, expected {expected:x?}"
+                ));
+            }
+        }
+        Ok(4 * answers.len() as u64)
+    }
+
+    fn ask(
+        &mut self,
+        machine: &Machine,
+        setup: Setup,
+        batch: &Batch,
+        asked: [u32; 2],
+    ) -> Vec<[u32; 4]> {
+        let device = &machine.gpu.device;
+        let pipeline = self.0.entry(setup).or_insert_with(|| {
+            let source = Pull { group: 0, first_binding: 0 }.source_for_drawing(setup) + USER;
+            let source = wgpu::ShaderSource::Wgsl(source.into());
+            let module = device
+                .create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("user"), source });
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("user"),
+                layout: None,
+                module: &module,
+                entry_point: Some("ask"),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        });
+        let tables = machine.upload(&tables(setup.config.split), Usage::STORAGE);
+        let [points, primitives] = asked;
+        let answers = machine
+            .upload(&vec![0; 4 * (points + primitives) as usize], Usage::STORAGE | Usage::COPY_SRC);
+        let asked = machine.upload(&[points, primitives, 0, 0], Usage::UNIFORM);
+        let whole = wgpu::Buffer::as_entire_binding;
+        let job = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: batch.jobs(),
+            offset: 0,
+            size: std::num::NonZeroU64::new(size_of::<Job>() as u64),
+        });
+        let mut own = vec![(0, whole(batch.topologies())), (1, whole(&tables)), (3, job)];
+        own.extend([(4, whole(batch.offsets())), (5, whole(batch.tiles()))]);
+        if !setup.has_integer_factors() {
+            own.push((2, whole(batch.contexts())));
+        }
+        let bind = |group, entries: Vec<(u32, wgpu::BindingResource<'_>)>| {
+            let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+            device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: None,
+                layout: &pipeline.get_bind_group_layout(group),
+                entries: &entries.into_iter().map(entry).collect::<Vec<_>>(),
+            })
+        };
+        let groups = [bind(0, own), bind(1, vec![(0, whole(&answers)), (1, whole(&asked))])];
+        let mut encoder = device.create_command_encoder(&Default::default());
+        let mut pass = encoder.begin_compute_pass(&Default::default());
+        pass.set_pipeline(pipeline);
+        pass.set_bind_group(0, &groups[0], &[]);
+        pass.set_bind_group(1, &groups[1], &[]);
+        pass.dispatch_workgroups(points.max(primitives).div_ceil(64), 1, 1);
+        drop(pass);
+        machine.gpu.run(encoder).expect("the device finishes");
+        machine.words(&answers).as_chunks().0.to_vec()
+    }
+}

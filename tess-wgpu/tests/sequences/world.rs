@@ -1,0 +1,454 @@
+//! What the calls of a sequence do, and what the model says of it.
+//!
+//! Every buffer that batches write has a shadow: the words that it must hold. A batch whose output fits changes the
+//! beginning of its shadows, and nothing else ever changes. So a buffer that equals its shadow was written where it
+//! had to be and nowhere else.
+
+use crate::calls::{Call, Output, Patches, Then, Wrong};
+use crate::common::device::{Machine, POISON};
+use crate::common::expected::Expected;
+use crate::pulling::Pulling;
+use std::collections::VecDeque;
+use std::rc::Rc;
+use tess_core::{Domain, Patch, PatchFactors};
+use tess_gpu::layout::{DrawIndexed, factor_words};
+use tess_gpu::{Capacity, IndexType, Limits, Numbering, Setup};
+use tess_verify::random::SplitMix64;
+use tess_wgpu::{Batch, Error, Outputs, Tessellator};
+use wgpu::BufferUsages as Usage;
+
+/// Patches of each buffer of factors, enough for a catalogue.
+const PATCHES: u32 = 16_500;
+/// Points and words of indices of the buffers that batches share.
+const SHARED: [[usize; 3]; 2] = [[50, 6000, 120_000], [100, 30_000, 400_000]];
+const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 3 };
+
+/// A buffer that batches write.
+struct Store {
+    what: String,
+    buffer: wgpu::Buffer,
+    shadow: Vec<u32>,
+    last: Last,
+}
+
+/// Who wrote a store last: the setup, the factors, and where the words or 16-bit halves of each patch begin.
+#[derive(Default)]
+struct Last(Option<(Setup, Vec<PatchFactors>, Vec<usize>)>);
+
+/// A batch and what the model needs to know of it.
+struct Made {
+    batch: Batch,
+    setup: Setup,
+    count: usize,
+    groups: Vec<u32>,
+    room: Capacity,
+    /// The stores of points and of indices.
+    stores: [Option<usize>; 2],
+    /// Whether the vertex shader computes what is not stored.
+    is_pulled: bool,
+}
+
+/// Everything that lives as long as a sequence, and what outlives it.
+pub(crate) struct World<'a> {
+    machine: &'a mut Machine,
+    pulling: &'a mut Pulling,
+    setups: &'a [Setup],
+    /// By domain.
+    factors: Vec<(wgpu::Buffer, Vec<PatchFactors>)>,
+    stores: Vec<Store>,
+    batches: Vec<Rc<Made>>,
+    late: VecDeque<(wgpu::CommandEncoder, Vec<Rc<Made>>)>,
+    /// Words that were compared.
+    pub(crate) words: u64,
+}
+
+impl<'a> World<'a> {
+    pub(crate) fn new(
+        machine: &'a mut Machine,
+        pulling: &'a mut Pulling,
+        setups: &'a [Setup],
+    ) -> Self {
+        let culled = |domain| vec![PatchFactors::uniform(domain, 0.0); PATCHES as usize];
+        let usage = Usage::STORAGE | Usage::COPY_DST;
+        let factors = Domain::ALL.map(|domain| {
+            let patches = culled(domain);
+            (machine.upload(&factor_words(&patches), usage), patches)
+        });
+        limit(machine, false);
+        let (stores, batches, late) = (Vec::new(), Vec::new(), VecDeque::new());
+        let factors = factors.into();
+        let mut own = Self { machine, pulling, setups, factors, stores, batches, late, words: 0 };
+        for number in 0..3 {
+            own.store(format!("points {number}"), 2 * SHARED[0][number]);
+            own.store(format!("indices {number}"), SHARED[1][number]);
+        }
+        own
+    }
+
+    /// A store of these words, which nobody has written.
+    fn store(&mut self, what: String, words: usize) -> usize {
+        let shadow = vec![POISON; words.max(1)];
+        let buffer = self.machine.upload(&shadow, Usage::STORAGE | Usage::COPY_SRC);
+        self.stores.push(Store { what, buffer, shadow, last: Last::default() });
+        self.stores.len() - 1
+    }
+
+    /// Does a call, and says what is wrong afterwards.
+    pub(crate) fn call(&mut self, call: Call) -> Result<(), String> {
+        match call {
+            Call::Fill { domain, with } => self.fill(domain, with),
+            Call::Make { setup, count, groups, output } => {
+                self.make(self.setup(setup), count, groups, output)?;
+            }
+            Call::Run { first, count, then } => return self.run(first, count, then),
+            Call::Late => {
+                if let Some((encoder, batches)) = self.late.pop_front() {
+                    return self.submit(encoder, &batches);
+                }
+            }
+            Call::Forget { batch } if self.batches.is_empty() => drop(batch),
+            Call::Forget { batch } => drop(self.batches.remove(batch % self.batches.len())),
+            Call::Limit { is_low } => limit(self.machine, is_low),
+            Call::Whole { setup, with } => return self.whole(self.setup(setup), with),
+            Call::Refused { setup, wrong } => return self.refused(self.setup(setup), wrong),
+        }
+        Ok(())
+    }
+
+    fn setup(&self, number: usize) -> Setup {
+        self.setups[number % self.setups.len()]
+    }
+
+    /// The buffer of factors of a domain, and its patches.
+    fn factors(&self, domain: Domain) -> &(wgpu::Buffer, Vec<PatchFactors>) {
+        &self.factors[Domain::ALL.iter().position(|other| *other == domain).unwrap_or(0)]
+    }
+
+    fn fill(&mut self, domain: Domain, with: Patches) {
+        let patches = with.of(domain);
+        let words = factor_words(&patches);
+        let number = Domain::ALL.iter().position(|other| *other == domain).unwrap_or(0);
+        let (buffer, all) = &mut self.factors[number];
+        self.machine.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&words));
+        all[..patches.len()].clone_from_slice(&patches);
+    }
+
+    fn make(
+        &mut self,
+        setup: Setup,
+        count: u32,
+        groups: u32,
+        output: Output,
+    ) -> Result<(), String> {
+        let patches = &self.factors(setup.domain).1[..count as usize];
+        let needed = needed(setup, patches);
+        let room = |points: i32, primitives: i32| Capacity {
+            points: needed.points.saturating_add_signed(points),
+            primitives: needed.primitives.saturating_add_signed(primitives),
+        };
+        let mut random = SplitMix64::new(u64::from(groups));
+        let mut groups: Vec<u32> = (0..groups).map(|_| random.below(count + 1)).collect();
+        groups.sort_unstable();
+        let (room, stores) = match output {
+            Output::Count => (Capacity::default(), [None; 2]),
+            Output::Shared { points, indices } => {
+                (ALL, [Some(2 * (points % 3)), Some(2 * (indices % 3) + 1)])
+            }
+            Output::Own { points, primitives } => {
+                let Capacity { points, primitives } = room(points, primitives);
+                let points = self.store("own points".to_owned(), 2 * points as usize);
+                (ALL, [Some(points), Some(self.indices_for(setup, primitives))])
+            }
+            Output::Indices { points, primitives } => {
+                let room = room(points, primitives);
+                (room, [None, Some(self.indices_for(setup, room.primitives))])
+            }
+            Output::Arguments { points, primitives } => (room(points, primitives), [None; 2]),
+        };
+        let buffer = |store: Option<usize>| store.map(|store| &self.stores[store].buffer);
+        let outputs = match (output, buffer(stores[0]), buffer(stores[1])) {
+            (_, Some(points), Some(indices)) => Outputs::Buffers { points, indices },
+            (_, _, Some(indices)) => Outputs::Indices { points: room.points, indices },
+            (Output::Count, ..) => Outputs::CountOnly,
+            _ => Outputs::Arguments(room),
+        };
+        let of = &self.factors[Domain::ALL.iter().position(|d| *d == setup.domain).unwrap_or(0)];
+        let batch = self.machine.tessellator.batch_in_groups(setup, count, &groups, &of.0, outputs);
+        let batch = batch.map_err(|error| format!("{setup:?}, {count} patches: {error}"))?;
+        let room = self.room(setup, room, stores, matches!(output, Output::Arguments { .. }));
+        let is_pulled = matches!(output, Output::Indices { .. } | Output::Arguments { .. });
+        let count = count as usize;
+        self.batches.push(Rc::new(Made { batch, setup, count, groups, room, stores, is_pulled }));
+        Ok(())
+    }
+
+    /// A store of indices for so many primitives.
+    fn indices_for(&mut self, setup: Setup, primitives: u32) -> usize {
+        let bytes = primitives as usize * setup.primitive_bytes() as usize;
+        self.store("own indices".to_owned(), bytes.div_ceil(4))
+    }
+
+    /// The room that the documentation promises: whole points, whole 8 bytes of indices, and no more points than
+    /// indices can name.
+    fn room(
+        &self,
+        setup: Setup,
+        room: Capacity,
+        [points, indices]: [Option<usize>; 2],
+        is_arguments: bool,
+    ) -> Capacity {
+        let words = |store: usize| u32::try_from(self.stores[store].shadow.len()).unwrap_or(0);
+        let mut room = Capacity {
+            points: points.map_or(room.points, |store| words(store) / 2),
+            primitives: indices
+                .map_or(room.primitives, |store| words(store) / 2 * 8 / setup.primitive_bytes()),
+        };
+        let is_narrow =
+            (setup.index_type, setup.numbering) == (IndexType::U16, Numbering::PerBatch);
+        if is_narrow && !is_arguments {
+            room.points = room.points.min(65_536);
+        }
+        room
+    }
+
+    fn run(&mut self, first: usize, count: usize, then: Then) -> Result<(), String> {
+        let all = self.batches.len();
+        if all == 0 {
+            return Ok(());
+        }
+        let chosen: Vec<_> =
+            (first..first + count).map(|number| Rc::clone(&self.batches[number % all])).collect();
+        let mut encoder = self.machine.gpu.device.create_command_encoder(&Default::default());
+        for made in &chosen {
+            made.batch.encode(&mut encoder);
+        }
+        match then {
+            Then::Submit => return self.submit(encoder, &chosen),
+            Then::Keep => self.late.push_back((encoder, chosen)),
+            Then::Drop => drop(encoder),
+        }
+        Ok(())
+    }
+
+    /// Submits batches, changes the shadows as the model says, and compares everything.
+    fn submit(
+        &mut self,
+        encoder: wgpu::CommandEncoder,
+        batches: &[Rc<Made>],
+    ) -> Result<(), String> {
+        self.machine.gpu.run(encoder).map_err(|error| error.to_string())?;
+        for (number, made) in batches.iter().enumerate() {
+            let patches = self.factors(made.setup.domain).1[..made.count].to_vec();
+            let expected = Expected::new(made.setup, &patches);
+            let of_batch = |what: String| {
+                format!("batch {number} of the submission, {:?}: {what}", made.setup)
+            };
+            self.compare_own(made, &expected).map_err(of_batch)?;
+            if made.overflow(&expected) == 0 {
+                self.write(made, &expected, &patches);
+            }
+        }
+        self.compare_stores()
+    }
+
+    /// Writes a batch's output to the shadows.
+    fn write(&mut self, made: &Made, expected: &Expected<'_>, patches: &[PatchFactors]) {
+        let output = expected.output();
+        let (begins, each) = (expected.begins(), made.setup.indices_per_primitive() as usize);
+        for (kind, store) in made.stores.into_iter().enumerate() {
+            let Some(store) = store else { continue };
+            let Store { shadow, last, .. } = &mut self.stores[store];
+            if kind == 1 && made.setup.index_type == IndexType::U16 {
+                for (at, &index) in output[1].iter().enumerate() {
+                    let (word, shift) = (&mut shadow[at / 2], 16 * (at % 2));
+                    *word = *word & !(0xFFFF << shift) | index << shift;
+                }
+            } else {
+                shadow[..output[kind].len()].copy_from_slice(output[kind]);
+            }
+            let begin = |begin: &[u32; 2]| begin[kind] as usize * [2, each][kind];
+            *last = Last(Some((made.setup, patches.to_vec(), begins.iter().map(begin).collect())));
+        }
+    }
+
+    /// Compares what only a batch has: its counts, its draws, where its patches begin, and what a shader pulls.
+    fn compare_own(&mut self, made: &Made, expected: &Expected<'_>) -> Result<(), String> {
+        let (begins, overflow) = (expected.begins(), made.overflow(expected));
+        let (status, draw) = self.machine.status(&made.batch);
+        let [points, primitives] = *begins.last().expect("the end");
+        let observed = (status.points(), status.primitives());
+        let bits = u32::from(status.points_overflow()) | u32::from(status.indices_overflow()) << 1;
+        equal("totals", observed, (points.into(), primitives.into()))?;
+        equal("overflow", bits, overflow)?;
+        let each = made.setup.indices_per_primitive();
+        let drawn = |begin: u32, end: u32| DrawIndexed {
+            index_count: if overflow == 0 { each * (end - begin) } else { 0 },
+            instance_count: 1,
+            first_index: each * begin,
+            ..DrawIndexed::default()
+        };
+        equal("draw", draw, drawn(0, primitives))?;
+        if !made.groups.is_empty() {
+            let words = self.machine.words(made.batch.group_arguments());
+            let draws: Vec<DrawIndexed> =
+                bytemuck::pod_collect_to_vec(&words[..5 * made.groups.len()]);
+            let count = u32::try_from(made.count).unwrap_or(u32::MAX);
+            let ends = made.groups.iter().skip(1).copied().chain([count]);
+            for (number, ((&begin, end), draw)) in
+                made.groups.iter().zip(ends).zip(draws).enumerate()
+            {
+                let [begin, end] = [begin, end].map(|patch| begins[patch as usize][1]);
+                equal(&format!("draw of group {number}"), draw, drawn(begin, end))?;
+            }
+        }
+        let offsets = self.machine.words(made.batch.offsets());
+        for (patch, &begin) in (0..).zip(&begins[..made.count]) {
+            let entries = made.batch.plan().offset_entries(patch).map(|entry| 2 * entry as usize);
+            let sum = [0, 1].map(|kind| entries.iter().map(|at| offsets[at + kind]).sum::<u32>());
+            equal(&format!("beginning of patch {patch}"), sum, begin)?;
+        }
+        self.words += 18 + offsets.len() as u64;
+        if made.is_pulled && overflow == 0 {
+            self.words += self.pulling.compare(self.machine, made.setup, &made.batch, expected)?;
+        }
+        Ok(())
+    }
+
+    /// Compares every buffer with its shadow.
+    fn compare_stores(&mut self) -> Result<(), String> {
+        for Store { what, buffer, shadow, last } in &self.stores {
+            let observed = self.machine.words(buffer);
+            self.words += observed.len() as u64;
+            if observed != *shadow {
+                let differs = |(a, b): (&u32, &u32)| a != b;
+                let at = observed.iter().zip(shadow).position(differs).unwrap_or(0);
+                let (observed, expected) = (observed[at], shadow[at]);
+                let place = last.place(what, at, observed ^ expected);
+                return Err(format!(
+                    "{what}, word {at}{place}: observed {observed:#010x}, expected {expected:#010x}"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn whole(&mut self, setup: Setup, with: Patches) -> Result<(), String> {
+        let patches = with.of(setup.domain);
+        let expected = Expected::new(setup, &patches);
+        let mut begins = expected.begins();
+        let [points, primitives] = begins.pop().expect("the end");
+        let is_narrow =
+            (setup.index_type, setup.numbering) == (IndexType::U16, Numbering::PerBatch);
+        let output = self.machine.tessellator.tessellate(&self.machine.gpu, setup, &patches);
+        if is_narrow && points > 65_536 {
+            let (points, primitives) = (points.into(), primitives.into());
+            return equal(
+                "tessellate",
+                output.err(),
+                Some(Error::OutputTooLarge { points, primitives }),
+            );
+        }
+        let output = output.map_err(|error| error.to_string())?;
+        let observed = [output.status.points(), output.status.primitives()];
+        equal("totals", observed, [points, primitives].map(u64::from))?;
+        equal("draw", output.draw.index_count, primitives * setup.indices_per_primitive())?;
+        equal("beginnings", output.begins, begins)?;
+        let [points, indices] = expected.output();
+        equal("points", bytemuck::cast_slice(&output.points), points)?;
+        equal("indices", &output.indices[..], indices)
+    }
+
+    /// A call that is refused, with the error that says why.
+    fn refused(&mut self, setup: Setup, wrong: Wrong) -> Result<(), String> {
+        let (factors, _) =
+            &self.factors[Domain::ALL.iter().position(|d| *d == setup.domain).unwrap_or(0)];
+        let [points, indices] = [0, 1].map(|store| &self.stores[store].buffer);
+        let plain = self.machine.gpu.buffer("plain", 64, Usage::COPY_DST).expect("there is room");
+        let (groups, count, points, indices): (&[u32], _, _, _) = match wrong {
+            Wrong::GroupsDescend => (&[2, 1], 3, points, indices),
+            Wrong::GroupBehind => (&[0, 4], 3, points, indices),
+            Wrong::FewFactors => (&[], PATCHES + 1, points, indices),
+            Wrong::OneBuffer => (&[], 3, points, points),
+            Wrong::NotStorage => (&[], 3, points, &plain),
+            Wrong::OtherDomain => {
+                let other =
+                    if setup.domain == Domain::Quad { Domain::Triangle } else { Domain::Quad };
+                let patches = [PatchFactors::uniform(other, 1.0)];
+                let refused =
+                    self.machine.tessellator.tessellate(&self.machine.gpu, setup, &patches);
+                let is_right = matches!(refused, Err(Error::WrongDomain { patch: 0, .. }));
+                return if is_right { Ok(()) } else { Err(format!("{refused:?}")) };
+            }
+        };
+        let outputs = Outputs::Buffers { points, indices };
+        let refused =
+            self.machine.tessellator.batch_in_groups(setup, count, groups, factors, outputs);
+        let refused = refused.map(drop);
+        let is_right = match wrong {
+            Wrong::GroupsDescend => {
+                matches!(refused, Err(Error::MisplacedGroup { group: 1, begin: 1, .. }))
+            }
+            Wrong::GroupBehind => {
+                matches!(refused, Err(Error::MisplacedGroup { group: 1, begin: 4, .. }))
+            }
+            Wrong::FewFactors => matches!(refused, Err(Error::FactorsTooShort { .. })),
+            Wrong::OneBuffer => matches!(refused, Err(Error::SharedBuffer { .. })),
+            _ => matches!(refused, Err(Error::NotStorage { .. })),
+        };
+        if is_right { Ok(()) } else { Err(format!("{wrong:?}: {refused:?}")) }
+    }
+}
+
+const ALL: Capacity = Capacity { points: u32::MAX, primitives: u32::MAX };
+
+impl Made {
+    /// What does not fit: 1 for points, 2 for primitives.
+    fn overflow(&self, expected: &Expected<'_>) -> u32 {
+        let [points, primitives] = *expected.begins().last().expect("the end");
+        u32::from(points > self.room.points) | u32::from(primitives > self.room.primitives) << 1
+    }
+}
+
+impl Last {
+    /// Which element of which patch stands in word `at`, of which the bits `wrong` are wrong.
+    fn place(&self, what: &str, at: usize, wrong: u32) -> String {
+        let Some((setup, patches, begins)) = &self.0 else { return String::new() };
+        let is_narrow = what.contains("indices") && setup.index_type == IndexType::U16;
+        let at = if is_narrow { 2 * at + usize::from(wrong & 0xFFFF == 0) } else { at };
+        let patch = begins.partition_point(|&begin| begin <= at).saturating_sub(1);
+        match patches.get(patch) {
+            None => format!(", behind the {} patches of {setup:?}", patches.len()),
+            Some(factors) => {
+                let element = at - begins[patch];
+                format!(", element {element} of patch {patch} {factors:?} of {setup:?}")
+            }
+        }
+    }
+}
+
+/// What patches need.
+fn needed(setup: Setup, patches: &[PatchFactors]) -> Capacity {
+    let counts = patches.iter().map(|&patch| Patch::new(setup.config, patch).counts());
+    counts.fold(Capacity::default(), |sum, own| Capacity {
+        points: sum.points + own.points,
+        primitives: sum.primitives + own.primitives,
+    })
+}
+
+/// Batches that are made from now on keep to these limits. The pipelines stay.
+fn limit(machine: &mut Machine, is_low: bool) {
+    let device = &machine.gpu.device;
+    let tessellator = std::mem::replace(&mut machine.tessellator, Tessellator::new(device));
+    machine.tessellator = tessellator.limited(if is_low { LOW } else { Limits::WEBGPU });
+}
+
+fn equal<T: PartialEq + std::fmt::Debug>(
+    what: &str,
+    observed: T,
+    expected: T,
+) -> Result<(), String> {
+    if observed == expected {
+        return Ok(());
+    }
+    Err(format!("{what}: observed {observed:?}, expected {expected:?}"))
+}
