@@ -102,8 +102,13 @@ impl Machine {
 
     /// The status and draw arguments that a batch left.
     pub(crate) fn status(&self, batch: &Batch) -> (Status, DrawIndexed) {
-        let status = self.gpu.read(batch.status(), 32).expect("the device answers");
-        let draw = self.gpu.read(batch.draw_arguments(), 20).expect("the device answers");
+        self.left([batch.status(), batch.draw_arguments()])
+    }
+
+    /// The status and draw arguments in these buffers.
+    pub(crate) fn left(&self, [status, arguments]: [&wgpu::Buffer; 2]) -> (Status, DrawIndexed) {
+        let status = self.gpu.read(status, 32).expect("the device answers");
+        let draw = self.gpu.read(arguments, 20).expect("the device answers");
         (bytemuck::pod_read_unaligned(&status), bytemuck::pod_read_unaligned(&draw))
     }
 

@@ -10,8 +10,8 @@ use tess_verify::random::SplitMix64;
 pub(crate) enum Call {
     /// The first patches of a domain's buffer of factors become others.
     Fill { domain: Domain, with: Patches },
-    /// A batch of the first `count` patches of its domain's buffer, in groups.
-    Make { setup: usize, count: u32, groups: u32, output: Output },
+    /// A batch of the first `count` patches of its domain's buffer, in groups; or a plan in long stages on bare wgpu.
+    Make { setup: usize, count: u32, groups: u32, output: Output, is_bare: bool },
     /// `count` batches from batch `first` on are encoded into one encoder.
     Run { first: usize, count: usize, then: Then },
     /// The oldest encoder that was kept is submitted.
@@ -87,6 +87,8 @@ pub(crate) enum Kind {
     Runs,
     /// Small in the mean, with everything that factors can be.
     Any,
+    /// Factors up to 3.
+    Tiny,
     /// All factors from 40 to 66; not many.
     Large,
 }
@@ -101,6 +103,11 @@ impl Patches {
         while all.len() < count {
             let (length, patch) = match self.kind {
                 Kind::Culled => (1, PatchFactors::uniform(domain, 0.0)),
+                Kind::Tiny => {
+                    let factors = [0.0, 1.0, 1.0, 1.5, 2.0, 3.0];
+                    let mut factor = |_| factors[random.below(6) as usize];
+                    (1, PatchFactors::from_fn(domain, &mut factor))
+                }
                 Kind::Any => (1, random_patch(domain, &mut random)),
                 Kind::Runs => (1 + random.below(600), random_patch(domain, &mut random)),
                 Kind::Large => {
@@ -116,14 +123,17 @@ impl Patches {
 }
 
 fn patches() -> impl Strategy<Value = Patches> + Clone {
-    let kinds = vec![Kind::Culled, Kind::Runs, Kind::Any, Kind::Any, Kind::Large];
+    let kinds = vec![Kind::Culled, Kind::Tiny, Kind::Runs, Kind::Any, Kind::Any, Kind::Large];
     let counts = prop_oneof![
         4 => 0..300_u32,
         2 => prop::sample::select(vec![255_u32, 256, 257, 1023, 1024, 1025]),
         2 => 1000..2600_u32,
     ];
-    (prop::sample::select(kinds), counts, any::<u64>())
-        .prop_map(|(kind, count, seed)| Patches { kind, count, seed })
+    (prop::sample::select(kinds), counts, any::<u64>()).prop_map(|(kind, count, seed)| Patches {
+        kind,
+        count,
+        seed,
+    })
 }
 
 fn output() -> impl Strategy<Value = Output> + Clone {
@@ -165,8 +175,8 @@ pub(crate) fn call(setups: usize) -> impl Strategy<Value = Call> + Clone {
     ]);
     prop_oneof![
         6 => (domain, patches()).prop_map(|(domain, with)| Call::Fill { domain, with }),
-        8 => (0..setups, count, groups, output())
-            .prop_map(|(setup, count, groups, output)| Call::Make { setup, count, groups, output }),
+        8 => (0..setups, count, groups, output(), prop::bool::weighted(0.2))
+            .prop_map(|(setup, count, groups, output, is_bare)| Call::Make { setup, count, groups, output, is_bare }),
         10 => (0..8_usize, 1..4_usize, then)
             .prop_map(|(first, count, then)| Call::Run { first, count, then }),
         2 => Just(Call::Late),

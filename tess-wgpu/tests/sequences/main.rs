@@ -1,8 +1,10 @@
 //! Batches in any order of calls, and in all options crossed: compared with the golden model word for word.
 
+mod bare;
 mod calls;
 #[path = "../common/mod.rs"]
 mod common;
+mod options;
 mod pulling;
 #[path = "../common/sequences.rs"]
 mod sequences;
@@ -11,10 +13,10 @@ mod world;
 use calls::Call::{self, Fill, Forget, Late, Limit, Make, Run};
 use calls::{Kind, Output, Patches, Then};
 use common::device::Machine;
-use pulling::Pulling;
+
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::{Copies, IndexType, Numbering, Order, PointFormat, Setup};
-use world::World;
+use world::{Kept, World};
 
 /// Setups of every domain, partitioning and format, few enough for their pipelines to be made quickly.
 fn setups() -> Vec<Setup> {
@@ -40,29 +42,29 @@ fn setups() -> Vec<Setup> {
 /// Does the calls on a new world; returns how many words were compared.
 fn replayed(
     machine: &mut Machine,
-    pulling: &mut Pulling,
+    kept: &mut Kept,
     setups: &[Setup],
     calls: &[Call],
 ) -> Result<u64, String> {
-    let mut world = World::new(machine, pulling, setups);
+    let mut world = World::new(machine, kept, setups, 16_500);
     for (number, &call) in calls.iter().enumerate() {
         world.call(call).map_err(|what| format!("call {number}, {call:?}: {what}"))?;
     }
     Ok(world.words)
 }
 
-/// Does a sequence that was found, on a device of its own.
+/// Does a sequence that was found, on a device of its own. (The long run has the setups of [`options::setups`].)
 fn replay(calls: &[Call]) {
-    let outcome = replayed(&mut Machine::open(), &mut Pulling::default(), &setups(), calls);
+    let outcome = replayed(&mut Machine::open(), &mut Kept::default(), &setups(), calls);
     outcome.unwrap_or_else(|difference| panic!("{difference}"));
 }
 
 #[test]
 fn any_sequence_of_calls_gives_the_models_words() {
-    let (mut machine, mut pulling) = (Machine::open(), Pulling::default());
-    let setups = setups();
+    let (mut machine, mut kept) = (Machine::open(), Kept::default());
+    let setups = if sequences::long().is_some() { options::setups() } else { setups() };
     sequences::hold(150, 20, calls::call(setups.len()), |calls| {
-        replayed(&mut machine, &mut pulling, &setups, calls)
+        replayed(&mut machine, &mut kept, &setups, calls)
     });
 }
 
@@ -74,11 +76,11 @@ fn a_batch_outgrows_its_indices() {
     let output = Output::Shared { points: 2, indices: 2 };
     replay(&[
         Fill { domain: Domain::Quad, with: small },
-        Make { setup: 6, count: 30, groups: 3, output },
+        Make { setup: 6, count: 30, groups: 3, output, is_bare: false },
         Run { first: 0, count: 1, then: Then::Submit },
         Run { first: 0, count: 1, then: Then::Keep },
         Limit { is_low: true },
-        Make { setup: 0, count: 25, groups: 0, output },
+        Make { setup: 0, count: 25, groups: 0, output, is_bare: true },
         Fill { domain: Domain::Quad, with: large },
         Late,
         Run { first: 0, count: 2, then: Then::Submit },

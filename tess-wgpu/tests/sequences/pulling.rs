@@ -1,11 +1,11 @@
 //! What a shader computes that pulls its points: every point and primitive of a batch that stores neither.
 
+use crate::bare::Left;
 use crate::common::device::Machine;
 use crate::common::expected::Expected;
 use std::collections::HashMap;
 use tess_gpu::layout::Job;
 use tess_gpu::{Pull, Setup, tables};
-use tess_wgpu::Batch;
 use wgpu::BufferUsages as Usage;
 
 /// A user's shader: the points and primitives of a batch by their numbers, in four words each.
@@ -39,7 +39,7 @@ impl Pulling {
         &mut self,
         machine: &Machine,
         setup: Setup,
-        batch: &Batch,
+        left: &Left<'_>,
         expected: &Expected<'_>,
     ) -> Result<u64, String> {
         let begins = expected.begins();
@@ -47,7 +47,7 @@ impl Pulling {
         if asked == [0, 0] {
             return Ok(0);
         }
-        let answers = self.ask(machine, setup, batch, asked);
+        let answers = self.ask(machine, setup, left, asked);
         let each = setup.indices_per_primitive() as usize;
         let [points, primitives] = expected.elements();
         let own = |(patch, words): &(u32, Vec<u32>)| [&[*patch], &words[..]].concat();
@@ -71,7 +71,7 @@ impl Pulling {
         &mut self,
         machine: &Machine,
         setup: Setup,
-        batch: &Batch,
+        left: &Left<'_>,
         asked: [u32; 2],
     ) -> Vec<[u32; 4]> {
         let device = &machine.gpu.device;
@@ -96,14 +96,14 @@ impl Pulling {
         let asked = machine.upload(&[points, primitives, 0, 0], Usage::UNIFORM);
         let whole = wgpu::Buffer::as_entire_binding;
         let job = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: batch.jobs(),
+            buffer: left.jobs,
             offset: 0,
             size: std::num::NonZeroU64::new(size_of::<Job>() as u64),
         });
-        let mut own = vec![(0, whole(batch.topologies())), (1, whole(&tables)), (3, job)];
-        own.extend([(4, whole(batch.offsets())), (5, whole(batch.tiles()))]);
+        let mut own = vec![(0, whole(left.topologies)), (1, whole(&tables)), (3, job)];
+        own.extend([(4, whole(left.offsets)), (5, whole(left.tiles))]);
         if !setup.has_integer_factors() {
-            own.push((2, whole(batch.contexts())));
+            own.push((2, whole(left.contexts)));
         }
         let bind = |group, entries: Vec<(u32, wgpu::BindingResource<'_>)>| {
             let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };

@@ -4,6 +4,7 @@
 //! beginning of its shadows, and nothing else ever changes. So a buffer that equals its shadow was written where it
 //! had to be and nowhere else.
 
+use crate::bare::{Bare, Pipelines, Runner};
 use crate::calls::{Call, Output, Patches, Then, Wrong};
 use crate::common::device::{Machine, POISON};
 use crate::common::expected::Expected;
@@ -12,16 +13,14 @@ use std::collections::VecDeque;
 use std::rc::Rc;
 use tess_core::{Domain, Patch, PatchFactors};
 use tess_gpu::layout::{DrawIndexed, factor_words};
-use tess_gpu::{Capacity, IndexType, Limits, Numbering, Setup};
+use tess_gpu::{Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Written};
 use tess_verify::random::SplitMix64;
-use tess_wgpu::{Batch, Error, Outputs, Tessellator};
+use tess_wgpu::{Error, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 
-/// Patches of each buffer of factors, enough for a catalogue.
-const PATCHES: u32 = 16_500;
 /// Points and words of indices of the buffers that batches share.
-const SHARED: [[usize; 3]; 2] = [[50, 6000, 120_000], [100, 30_000, 400_000]];
-const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 3 };
+const SHARED: [[usize; 3]; 2] = [[50, 3000, 70_000], [100, 10_000, 150_000]];
+pub(crate) const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 3 };
 
 /// A buffer that batches write.
 struct Store {
@@ -37,7 +36,7 @@ struct Last(Option<(Setup, Vec<PatchFactors>, Vec<usize>)>);
 
 /// A batch and what the model needs to know of it.
 struct Made {
-    batch: Batch,
+    runner: Runner,
     setup: Setup,
     count: usize,
     groups: Vec<u32>,
@@ -48,13 +47,21 @@ struct Made {
     is_pulled: bool,
 }
 
+/// Pipelines that outlive a sequence.
+#[derive(Default)]
+pub(crate) struct Kept {
+    pulling: Pulling,
+    bare: Pipelines,
+}
+
 /// Everything that lives as long as a sequence, and what outlives it.
 pub(crate) struct World<'a> {
     machine: &'a mut Machine,
-    pulling: &'a mut Pulling,
+    kept: &'a mut Kept,
     setups: &'a [Setup],
     /// By domain.
     factors: Vec<(wgpu::Buffer, Vec<PatchFactors>)>,
+    limits: Limits,
     stores: Vec<Store>,
     batches: Vec<Rc<Made>>,
     late: VecDeque<(wgpu::CommandEncoder, Vec<Rc<Made>>)>,
@@ -63,21 +70,24 @@ pub(crate) struct World<'a> {
 }
 
 impl<'a> World<'a> {
+    /// With buffers for the factors of `patches` patches of each domain.
     pub(crate) fn new(
         machine: &'a mut Machine,
-        pulling: &'a mut Pulling,
+        kept: &'a mut Kept,
         setups: &'a [Setup],
+        patches: u32,
     ) -> Self {
-        let culled = |domain| vec![PatchFactors::uniform(domain, 0.0); PATCHES as usize];
+        let culled = |domain| vec![PatchFactors::uniform(domain, 0.0); patches as usize];
         let usage = Usage::STORAGE | Usage::COPY_DST;
         let factors = Domain::ALL.map(|domain| {
             let patches = culled(domain);
             (machine.upload(&factor_words(&patches), usage), patches)
         });
-        limit(machine, false);
+        let limits = limit(machine, false);
         let (stores, batches, late) = (Vec::new(), Vec::new(), VecDeque::new());
         let factors = factors.into();
-        let mut own = Self { machine, pulling, setups, factors, stores, batches, late, words: 0 };
+        let mut own =
+            Self { machine, kept, setups, factors, limits, stores, batches, late, words: 0 };
         for number in 0..3 {
             own.store(format!("points {number}"), 2 * SHARED[0][number]);
             own.store(format!("indices {number}"), SHARED[1][number]);
@@ -97,8 +107,9 @@ impl<'a> World<'a> {
     pub(crate) fn call(&mut self, call: Call) -> Result<(), String> {
         match call {
             Call::Fill { domain, with } => self.fill(domain, with),
-            Call::Make { setup, count, groups, output } => {
-                self.make(self.setup(setup), count, groups, output)?;
+            Call::Make { setup, count, groups, output, is_bare } => {
+                let setup = self.setup(setup);
+                self.make((setup, is_bare), count, groups, output)?;
             }
             Call::Run { first, count, then } => return self.run(first, count, then),
             Call::Late => {
@@ -106,9 +117,11 @@ impl<'a> World<'a> {
                     return self.submit(encoder, &batches);
                 }
             }
-            Call::Forget { batch } if self.batches.is_empty() => drop(batch),
-            Call::Forget { batch } => drop(self.batches.remove(batch % self.batches.len())),
-            Call::Limit { is_low } => limit(self.machine, is_low),
+            Call::Forget { batch } if !self.batches.is_empty() => {
+                self.batches.remove(batch % self.batches.len());
+            }
+            Call::Forget { .. } => {}
+            Call::Limit { is_low } => self.limits = limit(self.machine, is_low),
             Call::Whole { setup, with } => return self.whole(self.setup(setup), with),
             Call::Refused { setup, wrong } => return self.refused(self.setup(setup), wrong),
         }
@@ -121,21 +134,20 @@ impl<'a> World<'a> {
 
     /// The buffer of factors of a domain, and its patches.
     fn factors(&self, domain: Domain) -> &(wgpu::Buffer, Vec<PatchFactors>) {
-        &self.factors[Domain::ALL.iter().position(|other| *other == domain).unwrap_or(0)]
+        &self.factors[position(domain)]
     }
 
     fn fill(&mut self, domain: Domain, with: Patches) {
         let patches = with.of(domain);
         let words = factor_words(&patches);
-        let number = Domain::ALL.iter().position(|other| *other == domain).unwrap_or(0);
-        let (buffer, all) = &mut self.factors[number];
+        let (buffer, all) = &mut self.factors[position(domain)];
         self.machine.gpu.queue.write_buffer(buffer, 0, bytemuck::cast_slice(&words));
         all[..patches.len()].clone_from_slice(&patches);
     }
 
     fn make(
         &mut self,
-        setup: Setup,
+        (setup, is_bare): (Setup, bool),
         count: u32,
         groups: u32,
         output: Output,
@@ -172,13 +184,38 @@ impl<'a> World<'a> {
             (Output::Count, ..) => Outputs::CountOnly,
             _ => Outputs::Arguments(room),
         };
-        let of = &self.factors[Domain::ALL.iter().position(|d| *d == setup.domain).unwrap_or(0)];
-        let batch = self.machine.tessellator.batch_in_groups(setup, count, &groups, &of.0, outputs);
-        let batch = batch.map_err(|error| format!("{setup:?}, {count} patches: {error}"))?;
-        let room = self.room(setup, room, stores, matches!(output, Output::Arguments { .. }));
+        let promised = self.room(setup, room, stores, matches!(output, Output::Arguments { .. }));
+        let factors = &self.factors[position(setup.domain)].0;
+        let runner = if is_bare {
+            let given = [
+                (Resource::Factors, Some(factors)),
+                (Resource::Points, buffer(stores[0])),
+                (Resource::Indices, buffer(stores[1])),
+            ];
+            let given: Vec<_> =
+                given.into_iter().filter_map(|(of, buffer)| Some((of, buffer?))).collect();
+            // What the buffers hold, and not what the indices can name: the plan has to know that itself.
+            let held =
+                |store: usize| u32::try_from(self.stores[store].shadow.len() / 2).unwrap_or(0);
+            let room = Capacity { points: stores[0].map_or(room.points, held), ..promised };
+            let plan = Plan::writing(written(output), setup, count, room, self.limits);
+            let plan = plan.with_groups(u32::try_from(groups.len()).unwrap_or(u32::MAX));
+            Runner::Bare(Bare::new(
+                self.machine,
+                &mut self.kept.bare,
+                (setup, plan),
+                &groups,
+                &given,
+            ))
+        } else {
+            let batch =
+                self.machine.tessellator.batch_in_groups(setup, count, &groups, factors, outputs);
+            Runner::Batch(batch.map_err(|error| format!("{setup:?}, {count} patches: {error}"))?)
+        };
+        let room = promised;
         let is_pulled = matches!(output, Output::Indices { .. } | Output::Arguments { .. });
         let count = count as usize;
-        self.batches.push(Rc::new(Made { batch, setup, count, groups, room, stores, is_pulled }));
+        self.batches.push(Rc::new(Made { runner, setup, count, groups, room, stores, is_pulled }));
         Ok(())
     }
 
@@ -220,7 +257,7 @@ impl<'a> World<'a> {
             (first..first + count).map(|number| Rc::clone(&self.batches[number % all])).collect();
         let mut encoder = self.machine.gpu.device.create_command_encoder(&Default::default());
         for made in &chosen {
-            made.batch.encode(&mut encoder);
+            made.runner.encode(&mut encoder);
         }
         match then {
             Then::Submit => return self.submit(encoder, &chosen),
@@ -274,7 +311,8 @@ impl<'a> World<'a> {
     /// Compares what only a batch has: its counts, its draws, where its patches begin, and what a shader pulls.
     fn compare_own(&mut self, made: &Made, expected: &Expected<'_>) -> Result<(), String> {
         let (begins, overflow) = (expected.begins(), made.overflow(expected));
-        let (status, draw) = self.machine.status(&made.batch);
+        let left = made.runner.left();
+        let (status, draw) = self.machine.left([left.status, left.arguments]);
         let [points, primitives] = *begins.last().expect("the end");
         let observed = (status.points(), status.primitives());
         let bits = u32::from(status.points_overflow()) | u32::from(status.indices_overflow()) << 1;
@@ -289,7 +327,7 @@ impl<'a> World<'a> {
         };
         equal("draw", draw, drawn(0, primitives))?;
         if !made.groups.is_empty() {
-            let words = self.machine.words(made.batch.group_arguments());
+            let words = self.machine.words(left.draws);
             let draws: Vec<DrawIndexed> =
                 bytemuck::pod_collect_to_vec(&words[..5 * made.groups.len()]);
             let count = u32::try_from(made.count).unwrap_or(u32::MAX);
@@ -301,15 +339,16 @@ impl<'a> World<'a> {
                 equal(&format!("draw of group {number}"), draw, drawn(begin, end))?;
             }
         }
-        let offsets = self.machine.words(made.batch.offsets());
+        let offsets = self.machine.words(left.offsets);
         for (patch, &begin) in (0..).zip(&begins[..made.count]) {
-            let entries = made.batch.plan().offset_entries(patch).map(|entry| 2 * entry as usize);
+            let entries = left.plan.offset_entries(patch).map(|entry| 2 * entry as usize);
             let sum = [0, 1].map(|kind| entries.iter().map(|at| offsets[at + kind]).sum::<u32>());
             equal(&format!("beginning of patch {patch}"), sum, begin)?;
         }
         self.words += 18 + offsets.len() as u64;
         if made.is_pulled && overflow == 0 {
-            self.words += self.pulling.compare(self.machine, made.setup, &made.batch, expected)?;
+            let pulling = &mut self.kept.pulling;
+            self.words += pulling.compare(self.machine, made.setup, &left, expected)?;
         }
         Ok(())
     }
@@ -360,14 +399,15 @@ impl<'a> World<'a> {
 
     /// A call that is refused, with the error that says why.
     fn refused(&mut self, setup: Setup, wrong: Wrong) -> Result<(), String> {
-        let (factors, _) =
-            &self.factors[Domain::ALL.iter().position(|d| *d == setup.domain).unwrap_or(0)];
+        let (factors, patches) = &self.factors[position(setup.domain)];
         let [points, indices] = [0, 1].map(|store| &self.stores[store].buffer);
         let plain = self.machine.gpu.buffer("plain", 64, Usage::COPY_DST).expect("there is room");
         let (groups, count, points, indices): (&[u32], _, _, _) = match wrong {
             Wrong::GroupsDescend => (&[2, 1], 3, points, indices),
             Wrong::GroupBehind => (&[0, 4], 3, points, indices),
-            Wrong::FewFactors => (&[], PATCHES + 1, points, indices),
+            Wrong::FewFactors => {
+                (&[], u32::try_from(patches.len()).unwrap_or(u32::MAX) + 1, points, indices)
+            }
             Wrong::OneBuffer => (&[], 3, points, points),
             Wrong::NotStorage => (&[], 3, points, &plain),
             Wrong::OtherDomain => {
@@ -435,11 +475,27 @@ fn needed(setup: Setup, patches: &[PatchFactors]) -> Capacity {
     })
 }
 
+/// The number of a domain.
+fn position(domain: Domain) -> usize {
+    Domain::ALL.iter().position(|other| *other == domain).unwrap_or(0)
+}
+
+/// What a plan of this output writes.
+const fn written(output: Output) -> Written {
+    match output {
+        Output::Indices { .. } => Written::Indices,
+        Output::Arguments { .. } => Written::Arguments,
+        _ => Written::Everything,
+    }
+}
+
 /// Batches that are made from now on keep to these limits. The pipelines stay.
-fn limit(machine: &mut Machine, is_low: bool) {
+fn limit(machine: &mut Machine, is_low: bool) -> Limits {
+    let limits = if is_low { LOW } else { Limits::WEBGPU };
     let device = &machine.gpu.device;
     let tessellator = std::mem::replace(&mut machine.tessellator, Tessellator::new(device));
-    machine.tessellator = tessellator.limited(if is_low { LOW } else { Limits::WEBGPU });
+    machine.tessellator = tessellator.limited(limits);
+    limits
 }
 
 fn equal<T: PartialEq + std::fmt::Debug>(

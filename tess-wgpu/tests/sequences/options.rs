@@ -1,0 +1,124 @@
+//! Every two values of two options of a setup and of a plan, together on a device.
+
+use crate::calls::Call::{Fill, Limit, Make, Run};
+use crate::calls::{Kind, Output, Patches, Then};
+use crate::common::device::Machine;
+use crate::world::{Kept, World};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_gpu::{Capacity, Copies, IndexType, Numbering, Order, Plan, PointFormat, Setup};
+use tess_testkit::pairs::{Choice, Options};
+
+/// How many patches: one, a short batch, a long one, one with a catalogue, and one of two portions (0 stands for it).
+const COUNTS: [u32; 5] = [1, 300, 1100, 16_384, 0];
+const GROUPS: [u32; 3] = [0, 1, 300];
+/// Room for points and primitives beyond what is needed.
+const ROOMS: [[i32; 2]; 4] = [[0, 0], [-1, 0], [0, -1], [1000, 700]];
+
+/// The options in order, each with the number of its values.
+const OPTIONS: [(&str, usize); 14] = [
+    ("domain", 3),
+    ("partitioning", 4),
+    ("output", 4),
+    ("split", 2),
+    ("point format", 2),
+    ("numbering", 2),
+    ("index type", 2),
+    ("copies", 2),
+    ("order", 2),
+    ("written: everything, indices, arguments, counts", 4),
+    ("patches", COUNTS.len()),
+    ("groups", GROUPS.len()),
+    ("room", ROOMS.len()),
+    ("host: low limits, the device's, a plan in long stages on bare wgpu", 3),
+];
+const WRITTEN: usize = 9;
+const PATCHES: usize = 10;
+const HOST: usize = 13;
+
+/// What is pulled binds one portion.
+fn excluded(a: Choice, b: Choice) -> bool {
+    matches!((a, b), ((WRITTEN, 1 | 2), (PATCHES, 4)))
+}
+
+fn options() -> Options<fn(Choice, Choice) -> bool> {
+    Options::new(&OPTIONS.map(|(_, values)| values), excluded)
+}
+
+fn setup(row: &[usize]) -> Setup {
+    let config = Config {
+        split: SplitOrder::ALL[row[3]],
+        ..Config::new(Partitioning::ALL[row[1]], OutputPrimitive::ALL[row[2]])
+    };
+    Setup {
+        point_format: [PointFormat::Packed, PointFormat::F32][row[4]],
+        numbering: [Numbering::PerBatch, Numbering::PerPatch][row[5]],
+        index_type: [IndexType::U16, IndexType::U32][row[6]],
+        copies: [Copies::WhereAlike, Copies::Never][row[7]],
+        order: [Order::Specification, Order::VertexCache][row[8]],
+        ..Setup::new(Domain::ALL[row[0]], config)
+    }
+}
+
+/// The setups of all rows: every two of their values together.
+pub(crate) fn setups() -> Vec<Setup> {
+    options().rows().iter().map(|row| setup(row)).collect()
+}
+
+/// Runs the batch of a row and compares everything.
+fn run(machine: &mut Machine, kept: &mut Kept, row: &[usize]) -> Result<u64, String> {
+    let (setup, is_bare) = (setup(row), row[HOST] == 2);
+    let plan = Plan::new(setup, u32::MAX, Capacity::default(), crate::world::LOW);
+    let is_cut = COUNTS[row[PATCHES]] == 0;
+    let count = if is_cut { plan.portion_patches() + 700 } else { COUNTS[row[PATCHES]] };
+    let kind = if count > 2000 { Kind::Tiny } else { Kind::Any };
+    let [points, primitives] = ROOMS[row[12]];
+    let output = match row[WRITTEN] {
+        0 => Output::Own { points, primitives },
+        1 => Output::Indices { points, primitives },
+        2 => Output::Arguments { points, primitives },
+        _ => Output::Count,
+    };
+    let groups = GROUPS[row[11]];
+    let mut world = World::new(machine, kept, std::slice::from_ref(&setup), count);
+    let with = Patches { kind, count, seed: row.iter().sum::<usize>() as u64 };
+    for call in [
+        Limit { is_low: is_cut || row[HOST] == 0 },
+        Fill { domain: setup.domain, with },
+        Make { setup: 0, count, groups, output, is_bare },
+        Run { first: 0, count: 1, then: Then::Submit },
+        Run { first: 0, count: 1, then: Then::Submit },
+    ] {
+        world.call(call)?;
+    }
+    Ok(world.words)
+}
+
+/// The values of a row, by the names of their options.
+fn named(row: &[usize]) -> String {
+    let values = OPTIONS.iter().zip(row).map(|((name, _), value)| format!("{name}: {value}; "));
+    values.collect::<String>() + &format!("{:?}", setup(row))
+}
+
+#[test]
+fn every_two_options_together_give_the_models_words() {
+    let (mut machine, mut kept, mut words) = (Machine::open(), Kept::default(), 0);
+    for row in options().rows() {
+        let outcome = run(&mut machine, &mut kept, &row);
+        words += outcome.unwrap_or_else(|wrong| panic!("{}\n{wrong}", named(&row)));
+    }
+    assert!(words > 1_000_000, "{words} words were compared");
+}
+
+#[test]
+fn what_excludes_each_other_is_named() {
+    let (mut machine, mut kept) = (Machine::open(), Kept::default());
+    let refused = options().refused();
+    assert_eq!(refused.len(), 2, "indices or arguments alone, and two portions");
+    for (_, mut row) in refused {
+        // A plan itself is only told how many patches there are.
+        row[HOST] = 1;
+        let wrong = run(&mut machine, &mut kept, &row).expect_err(&named(&row));
+        let words = "patches without a point buffer are more than one binding holds";
+        assert!(wrong.contains(words), "{}\n{wrong}", named(&row));
+    }
+}
