@@ -63,7 +63,7 @@ fn replay(calls: &[Call]) {
 fn any_sequence_of_calls_gives_the_models_words() {
     let (mut machine, mut kept) = (Machine::open(), Kept::default());
     let setups = if sequences::long().is_some() { options::setups() } else { setups() };
-    sequences::hold(150, 20, calls::call(setups.len()), |calls| {
+    sequences::hold(80, 20, calls::call(setups.len()), |calls| {
         replayed(&mut machine, &mut kept, &setups, calls)
     });
 }

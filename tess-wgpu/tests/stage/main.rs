@@ -5,12 +5,17 @@
 mod ball;
 #[path = "../../examples/shared/bindings.rs"]
 mod bindings;
+mod calls;
 #[path = "../../examples/shared/camera.rs"]
 mod camera;
+#[path = "../common/mod.rs"]
+mod common;
 mod cracks;
 mod drawing;
 mod errors;
 mod frames;
+#[path = "../common/sequences.rs"]
+mod hold;
 #[cfg(target_os = "linux")]
 mod lost;
 mod model;
@@ -18,5 +23,6 @@ mod one_patch;
 mod porting;
 mod room;
 mod scene;
+mod sequences;
 mod topology;
 mod winding;

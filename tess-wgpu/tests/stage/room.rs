@@ -30,7 +30,7 @@ fn feedback(scene: &Scene, stage: &mut TessellationStage, frame: u64) -> Feedbac
 }
 
 /// The factors as the stage scales them.
-fn scaled(patches: &[PatchFactors], domain: Domain, scale: f32) -> Vec<PatchFactors> {
+pub(crate) fn scaled(patches: &[PatchFactors], domain: Domain, scale: f32) -> Vec<PatchFactors> {
     let one = |factor: f32| {
         // NaN stays too.
         if factor > 1.0 { (factor.min(64.0) * scale).max(1.0) } else { factor }

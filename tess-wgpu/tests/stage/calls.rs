@@ -1,0 +1,158 @@
+//! The calls of a sequence of frames. Their debug text is code.
+
+use proptest::prelude::*;
+use tess_core::{Domain, Partitioning, PatchFactors};
+use tess_gpu::{Capacity, Order};
+use tess_testkit::pairs::Options;
+use tess_verify::random::SplitMix64;
+use tess_wgpu::stage::{Overflow, Points, Room};
+
+/// One call. All but the first go to the stage that is in use; at first that is stage 0.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Call {
+    /// Another stage is used, which is built if it has not been.
+    Use { stage: usize },
+    /// The patches get other factors, by a seed. What records them may be dropped.
+    Give { seed: u64, is_dropped: bool },
+    /// The patches are moved on by so many places of the grid, through the uniform or another bind group.
+    Move { by: u32, is_bound: bool },
+    /// Other groups of patches, from the next frame on.
+    Group { groups: u32 },
+    /// A frame of the first `count` patches.
+    Frame { count: u32, from: Count, draw: Draw, then: Then },
+    /// The oldest frame that was kept is submitted.
+    Late,
+    /// Makes the room that a frame needs.
+    MakeRoom { count: u32 },
+    /// A call that is refused.
+    Refused { wrong: Wrong },
+}
+
+/// Where the number of patches comes from.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Count {
+    Host,
+    Device,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Draw {
+    Everything,
+    Group(u32),
+    /// Every stage is prepared in the encoder, and this one drawn.
+    AmongOthers,
+}
+
+/// What becomes of a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Then {
+    Submit,
+    Drop,
+    Keep,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Wrong {
+    Count,
+    Offset,
+    Groups,
+    BindGroup,
+    Factors,
+}
+
+/// Where a stage's factors come from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    Hull,
+    Host,
+    Buffer,
+}
+
+/// What a stage is made of.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Form {
+    pub(crate) domain: Domain,
+    pub(crate) partitioning: Partitioning,
+    pub(crate) points: Points,
+    pub(crate) source: Source,
+    pub(crate) room: Room,
+    pub(crate) overflow: Overflow,
+    pub(crate) order: Order,
+}
+
+/// Rooms from too little for most frames to enough for any.
+const ROOMS: [Room; 4] = [
+    Room::Automatic { most_bytes: 12_000 },
+    Room::Exactly(Capacity { points: 300, primitives: 350 }),
+    Room::Automatic { most_bytes: 1 << 20 },
+    Room::WorstCase,
+];
+
+/// A stage of these values of its options.
+fn form(row: &[usize]) -> Form {
+    Form {
+        domain: [Domain::Quad, Domain::Triangle][row[0]],
+        partitioning: Partitioning::ALL[row[1]],
+        points: [Points::Stored, Points::Pull, Points::PullWithoutIndices][row[2]],
+        source: [Source::Hull, Source::Host, Source::Buffer][row[3]],
+        room: ROOMS[row[4]],
+        overflow: [Overflow::Coarser, Overflow::DrawNothing][row[5]],
+        order: [Order::VertexCache, Order::Specification][row[6]],
+    }
+}
+
+/// The stages: a few, whose pipelines are made quickly, or every two options together.
+pub(crate) fn forms(is_long: bool) -> Vec<Form> {
+    if is_long {
+        let options = Options::new(&[2, 4, 3, 3, 4, 2, 2], |_, _| false);
+        return options.rows().iter().map(|row| form(row)).collect();
+    }
+    let few = [
+        [0, 2, 0, 0, 0, 0, 0],
+        [0, 0, 1, 1, 1, 0, 1],
+        [1, 3, 2, 0, 1, 1, 0],
+        [1, 1, 0, 2, 2, 1, 0],
+    ];
+    few.iter().map(|row| form(row)).collect()
+}
+
+/// The factors of all patches.
+pub(crate) fn factors(domain: Domain, seed: u64) -> Vec<PatchFactors> {
+    let mut random = SplitMix64::new(seed);
+    // Eighths up to 10 or, in one of four, up to 3; now and then what culls and what is beyond all.
+    let most = if seed % 4 == 0 { 24 } else { 80 };
+    let mut factor = || match random.below(60) {
+        0 => 0.0,
+        1 => f32::NAN,
+        2 if seed % 16 == 1 => f32::INFINITY,
+        3 => 0.5,
+        _ => (8 + random.below(most)) as f32 / 8.0,
+    };
+    (0..crate::scene::PATCHES).map(|_| PatchFactors::from_fn(domain, |_| factor())).collect()
+}
+
+/// A call; `stages` is how many stages there are.
+pub(crate) fn call(stages: usize) -> impl Strategy<Value = Call> + Clone {
+    let select = prop::sample::select::<Draw>;
+    let draw = prop_oneof![
+        4 => Just(Draw::Everything),
+        2 => (0..5_u32).prop_map(Draw::Group),
+        1 => select(vec![Draw::AmongOthers]),
+    ];
+    let from = prop_oneof![2 => Just(Count::Host), 1 => Just(Count::Device)];
+    let then = prop_oneof![5 => Just(Then::Submit), 1 => Just(Then::Drop), 1 => Just(Then::Keep)];
+    let wrong = vec![Wrong::Count, Wrong::Offset, Wrong::Groups, Wrong::BindGroup, Wrong::Factors];
+    prop_oneof![
+        2 => (0..stages).prop_map(|stage| Call::Use { stage }),
+        5 => (any::<u64>(), prop::bool::weighted(0.2))
+            .prop_map(|(seed, is_dropped)| Call::Give { seed, is_dropped }),
+        2 => (0..8_u32, any::<bool>()).prop_map(|(by, is_bound)| Call::Move { by, is_bound }),
+        2 => (0..6_u32).prop_map(|groups| Call::Group { groups }),
+        9 => (0..9_u32, from, draw, then)
+            .prop_map(|(count, from, draw, then)| Call::Frame { count, from, draw, then }),
+        1 => Just(Call::Late),
+        1 => (0..9_u32).prop_map(|count| Call::MakeRoom { count }),
+        1 => prop::sample::select(wrong).prop_map(|wrong| Call::Refused { wrong }),
+    ]
+}
