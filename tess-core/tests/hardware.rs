@@ -87,7 +87,11 @@ fn contexts_have_the_widths_that_the_specification_says() {
 #[test]
 fn placements_have_the_widths_that_the_specification_says() {
     let [mut a, mut b, mut sum, mut x] = [Range::NONE; 4];
+    let [mut position, mut mirrored] = [Range::NONE; 2];
     every_context(|_, context| {
+        position.see(context.points - 1);
+        mirrored.see(steps(context, context.half_points).position);
+        mirrored.see(steps(context, context.points / 2).position);
         for p in [0, context.half_points - 1] {
             let blend = steps(context, p).blend.expect("a position before the middle");
             a.see(blend.coarse);
@@ -100,6 +104,8 @@ fn placements_have_the_widths_that_the_specification_says() {
     for (name, range) in [("a", a), ("b", b), ("sum", sum), ("x", x)] {
         expect_row(&range.row(name));
     }
+    let bits = [position, mirrored].map(|range| u32::BITS - range.most.leading_zeros());
+    assert_eq!(bits, [7, 6], "bits of a position, and of a mirrored one");
 }
 
 /// The assumption of the test above, for every factor with few fraction bits.
@@ -202,6 +208,64 @@ fn rings_begin_where_the_specification_says() {
     assert!(rings_seen > 5000, "only {rings_seen} rings were compared");
 }
 
+/// 14.2, from a point's number to its origin: five comparisons find the ring, subtractions the edge and the position.
+fn origin(domain: Domain, counts: [u32; 2], outer: u32, number: u32) -> PointOrigin {
+    let rings = counts[0].min(counts[1]) / 2 - 1;
+    if rings == 0 {
+        return PointOrigin::Centre { p: number - outer };
+    }
+    let mut ring = 0;
+    for step in [16, 8, 4, 2, 1] {
+        let next = ring + step;
+        if next <= rings && first_of_ring(domain, counts, outer, next) <= number {
+            ring = next;
+        }
+    }
+    let mut p = number - first_of_ring(domain, counts, outer, ring);
+    let edges = if domain == Domain::Triangle { 3 } else { 4 };
+    for edge in 0..edges {
+        let along = counts[usize::from(domain == Domain::Quad && edge % 2 == 0)];
+        let points = along - 1 - 2 * ring;
+        if p < points {
+            return PointOrigin::Ring { ring, edge, p };
+        }
+        p -= points;
+    }
+    PointOrigin::Centre { p }
+}
+
+#[test]
+fn origins_follow_from_point_numbers() {
+    let (mut points, mut rings) = (0, 0);
+    for (u, v) in [(2, 2), (3, 2), (9, 4), (4, 9), (12, 12), (31, 30), (63, 64), (64, 64), (64, 63)]
+    {
+        for domain in [Domain::Triangle, Domain::Quad] {
+            let factors = PatchFactors::from_fn(domain, |i| match i {
+                0..3 => 3.0,
+                3 if domain == Domain::Quad => 3.0,
+                5 => f32::from(v),
+                _ => f32::from(u),
+            });
+            let patch = patch(Partitioning::Integer, factors);
+            let n_v = if domain == Domain::Quad { v } else { u };
+            let counts = [u, n_v].map(|factor: u16| u32::from(factor) + 1);
+            let outer = if domain == Domain::Quad { 12 } else { 9 };
+            for number in outer..patch.counts().points {
+                let expected = origin(domain, counts, outer, number);
+                assert_eq!(patch.locate_point(number), Some(expected), "{factors:?}: {number}");
+                points = points.max(number);
+                if let PointOrigin::Ring { ring, .. } = expected {
+                    rings = rings.max(ring);
+                }
+            }
+        }
+    }
+    let largest = PatchFactors::uniform(Domain::Quad, 64.0);
+    points = points.max(patch(Partitioning::Integer, largest).counts().points - 1);
+    let bits = |most: u32| u32::BITS - most.leading_zeros();
+    assert_eq!([bits(points), bits(rings)], [13, 5], "bits of point and ring numbers");
+}
+
 /// 14.3: bit k - 1 is set if position k of a half edge of `n` half steps has a point.
 fn mask(split: SplitOrder, n: u32) -> u32 {
     (1..=32).filter(|&k| rank(split, k).is_some_and(|rank| rank < n)).map(|k| 1 << (k - 1)).sum()
@@ -261,6 +325,10 @@ fn the_next_set_bit_walks_every_transition() {
             let mut expected = Vec::new();
             transition(split, outer, inside, |step: Step| expected.push(step.advances));
             assert_eq!(by_next_bit(split, outer, inside), expected, "{outer} to {inside}");
+            let [oh, ih] = [outer, inside].map(|points| (points - 1) / 2);
+            let way_out = &expected[..(oh + ih.saturating_sub(1)) as usize];
+            let on_outer = way_out.iter().filter(|side| **side == Side::Outer).count();
+            assert_eq!(on_outer, oh as usize, "{outer} to {inside}: the way out");
         }
     }
 }

@@ -24,6 +24,7 @@ mod setup;
 mod suite;
 mod tally;
 mod test;
+mod traceability;
 
 use ports::Extent;
 use records::{performance, take};
@@ -37,7 +38,7 @@ usage: cargo xtask <command>
           kit, the program and C; or only those in these folders and files, such as tess-core/tests/golden.rs
   test all
           run every test: Python, the browser, OpenGL, a window and simulators too
-  ci      what continuous integration runs: formatting, `circles`, lints, documentation, `features`,
+  ci      what continuous integration runs: formatting, `circles`, `traceability`, lints, documentation, `features`,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
@@ -70,6 +71,8 @@ usage: cargo xtask <command>
           (bookworm), 25.0.7 on 13 (trixie); the other one may be asked for
   circles [FOLDER...]
           show the modules that import each other in a circle, in all crates or those in these folders
+  traceability
+          compare the marks of docs/specification.md with docs/traceability.md, and that with the tests it names
   features [PACKAGE...]
           check that every published package, or these, compiles with none of its features, each, and all
   ports [brief] [NAME...]
@@ -121,6 +124,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
         ["circles", ref names @ ..] => circles::run(names),
+        ["traceability"] => traceability::run(),
         ["features", ref names @ ..] => features::check(names),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
         ["ports", ref names @ ..] => ports::run(names, Extent::Whole),

@@ -40,7 +40,7 @@ pub(crate) fn factor() -> impl Strategy<Value = f32> {
 
 /// The binary32 number of 15.16 bits below 2^24, exactly.
 #[expect(clippy::float_arithmetic, clippy::cast_precision_loss, reason = "24 bits, a power of two")]
-fn from_fixed(bits: u32) -> f32 {
+pub(crate) fn from_fixed(bits: u32) -> f32 {
     bits as f32 / 65536.0
 }
 
