@@ -203,6 +203,11 @@ pub(crate) const ALL: &[Fault] = &[
     fault("tess_sample", "(low << vec2<u32>(8u))) / 256.0", "(low << vec2<u32>(8u))) / 255.0"),
     fault("tess_sample", "(texels.w - texels.z) * part.x", "(texels.z - texels.w) * part.x"),
     fault("tess_sample", "(below - above) * part.y", "(below - above) * part.x"),
+    fault("bezier_edge", "s = min(t, 1.0 - t);", "s = t;"),
+    fault("bezier_edge", "if bezier_is_collapsed(points) {", "if false {"),
+    fault("bezier_edge", "if direction > 0 {", "if direction != 0 {"),
+    fault("bezier_patch_normal", "mix(v, 0.5, 1.0 / 1024.0)", "mix(v, 0.5, 1.0 / 64.0)"),
+    fault("bezier_patch_normal", "cross(inside.du, inside.dv)", "cross(inside.dv, inside.du)"),
     fault(
         "bezier_edge_by_distance",
         "distance(eye, bezier_edge(edge, 0.5)));",

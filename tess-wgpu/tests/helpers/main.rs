@@ -7,6 +7,7 @@
 #![expect(clippy::float_arithmetic, reason = "the helpers compute in floats")]
 
 mod bevy;
+mod beziers;
 mod culling;
 mod device;
 mod factors;
@@ -91,7 +92,10 @@ impl Table {
 }
 
 fn tables() -> Vec<Table> {
-    [factors::tables(), culling::tables(), points::tables()].into_iter().flatten().collect()
+    [factors::tables(), culling::tables(), points::tables(), beziers::tables()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 #[test]

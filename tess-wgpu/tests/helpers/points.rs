@@ -43,7 +43,7 @@ pub(crate) fn tables() -> Vec<Table> {
 }
 
 /// Places along an edge as tessellators give them: multiples of 2^-16.
-fn places(random: &mut SplitMix64) -> [f32; 6] {
+pub(crate) fn places(random: &mut SplitMix64) -> [f32; 6] {
     let part = |parts: u32| parts as f32 / 65536.0;
     let any = part(1 + random.below(65_535));
     [0.0, part(1), any, 0.5, part(65_535), 1.0]
