@@ -2,7 +2,7 @@
 
 use crate::error::{HeightError, MAX_COORDINATE};
 use crate::lanes::{LANES, Lanes, Lanes2};
-use crate::math::{floor, is_in_range};
+use crate::math::{floor, is_in_range, round};
 use alloc::vec::Vec;
 use glam::Vec2;
 
@@ -60,27 +60,29 @@ impl HeightMap {
     /// lower left corner of the image.
     #[must_use]
     pub fn sample(&self, texcoord: Vec2) -> (f32, Vec2) {
-        self.at(Vec2::new(texcoord.x, 1.0 - texcoord.y))
+        self.at(Vec2::new(texcoord.x, 1.0 - texcoord.y), |texels| texels)
     }
 
     /// The height at a place that is counted from the top: (0, 0) is the upper left corner of the image, (1, 1) the lower
-    /// right one.
+    /// right one. The place is rounded to 1/256 of a texel, the precision of samplers, as `tess_sample` of
+    /// [`shaders::HEIGHT`](crate::shaders::HEIGHT) does, which clamps. Beyond a clamped image every place has a height,
+    /// infinity too; an image that repeats has none there: NaN.
     #[must_use]
     pub fn height_at(&self, place: Vec2) -> f32 {
-        self.at(place).0
+        self.at(place, |texels| round(texels * 256.0) / 256.0).0
     }
 
-    /// [`HeightMap::sample`] at a place that is counted from the top.
-    fn at(&self, place: Vec2) -> (f32, Vec2) {
+    /// [`HeightMap::sample`] at a place that is counted from the top, in texels rounded by `precision`.
+    fn at(&self, place: Vec2, precision: fn(f32) -> f32) -> (f32, Vec2) {
         let (corners, part) = match self.address {
             Address::Repeat => {
-                let (column, fx) = cell(place.x, self.width);
-                let (row, fy) = cell(place.y, self.height);
+                let (column, fx) = cell(place.x, self.width, precision);
+                let (row, fy) = cell(place.y, self.height, precision);
                 (self.corners(column, row), [fx, fy])
             }
             Address::Clamp => {
-                let (columns, fx) = clamped_cell(place.x, self.width);
-                let (rows, fy) = clamped_cell(place.y, self.height);
+                let (columns, fx) = clamped_cell(place.x, self.width, precision);
+                let (rows, fy) = clamped_cell(place.y, self.height, precision);
                 let at = |row: usize, column: usize| {
                     self.texels[rows[row] * self.width + columns[column]]
                 };
@@ -100,8 +102,8 @@ impl HeightMap {
         let (mut rows, mut fy) = ([0; LANES], [0.0; LANES]);
         for lane in 0..LANES {
             let texcoord = texcoords.get(lane);
-            (columns[lane], fx[lane]) = cell(texcoord.x, self.width);
-            (rows[lane], fy[lane]) = cell(1.0 - texcoord.y, self.height);
+            (columns[lane], fx[lane]) = cell(texcoord.x, self.width, |texels| texels);
+            (rows[lane], fy[lane]) = cell(1.0 - texcoord.y, self.height, |texels| texels);
         }
         let mut corners = [[0.0; LANES]; 4];
         for lane in 0..LANES {
@@ -170,8 +172,8 @@ fn texels(size: usize) -> f32 {
     clippy::cast_sign_loss,
     reason = "the value is in 0..size, and images are far smaller than 2^24"
 )]
-fn cell(coordinate: f32, size: usize) -> (u32, f32) {
-    let scaled = (coordinate - floor(coordinate)) * texels(size) - 0.5;
+fn cell(coordinate: f32, size: usize, precision: impl Fn(f32) -> f32) -> (u32, f32) {
+    let scaled = precision((coordinate - floor(coordinate)) * texels(size) - 0.5);
     let before = floor(scaled);
     let last = size as i32 - 1;
     // `before` is -1 on the first half texel, which wraps to the last one.
@@ -186,8 +188,9 @@ fn cell(coordinate: f32, size: usize) -> (u32, f32) {
     clippy::cast_sign_loss,
     reason = "casts of floats saturate, and images are far smaller than 2^24"
 )]
-fn clamped_cell(coordinate: f32, size: usize) -> ([usize; 2], f32) {
-    let scaled = coordinate * texels(size) - 0.5;
+fn clamped_cell(coordinate: f32, size: usize, precision: fn(f32) -> f32) -> ([usize; 2], f32) {
+    // Within a texel of the image, so that the fraction is a number; further out both texels are the same.
+    let scaled = precision(coordinate * texels(size) - 0.5).max(-1.0).min(texels(size));
     let before = floor(scaled);
     // Casts turn NaN and what is below 0 to 0.
     let texel = |number: f32| (number as usize).min(size - 1);

@@ -40,14 +40,20 @@ pub(crate) fn sqrt(x: f32) -> f32 {
     libm::sqrtf(x)
 }
 
-/// The greatest integer that is not above `x`, as `libm::floorf`, in operations that vectors have.
+/// The nearest integer, the even one of two, as `libm::rintf`, in operations that vectors have.
 #[inline(always)]
-pub(crate) fn floor(x: f32) -> f32 {
+pub(crate) fn round(x: f32) -> f32 {
     // From 2^23 on every number is an integer; adding it to a smaller one rounds that to an integer.
     const INTEGERS: f32 = 8_388_608.0;
     let nearest = ((x.abs() + INTEGERS) - INTEGERS).copysign(x);
-    let below = nearest - if nearest > x { 1.0 } else { 0.0 };
-    if x.abs() < INTEGERS { below } else { x }
+    if x.abs() < INTEGERS { nearest } else { x }
+}
+
+/// The greatest integer that is not above `x`, as `libm::floorf`, in operations that vectors have.
+#[inline(always)]
+pub(crate) fn floor(x: f32) -> f32 {
+    let nearest = round(x);
+    nearest - if nearest > x { 1.0 } else { 0.0 }
 }
 
 /// The length of a vector.
@@ -175,19 +181,20 @@ impl Mul<f32> for Homogeneous {
 
 #[cfg(test)]
 mod tests {
-    use super::floor;
+    use super::{floor, round};
 
     #[test]
-    fn floor_is_that_of_libm() {
+    fn roundings_are_those_of_libm() {
         let near = [0.0, 0.5, 1.0, 2.5, 8_388_607.5, 8_388_608.0, 16_777_216.0, f32::INFINITY];
         let near =
             near.map(f32::to_bits).into_iter().flat_map(|bits| bits.saturating_sub(2)..bits + 3);
         let spread = (0..=u32::MAX).step_by(65_521);
         for bits in near.chain(spread).flat_map(|bits| [bits, bits ^ 1 << 31]) {
             let x = f32::from_bits(bits);
-            let (ours, theirs) = (floor(x), libm::floorf(x));
-            let same = ours.to_bits() == theirs.to_bits() || (ours.is_nan() && theirs.is_nan());
-            assert!(same, "{x:e}: {ours:e} {theirs:e}");
+            for (ours, theirs) in [(floor(x), libm::floorf(x)), (round(x), libm::rintf(x))] {
+                let same = ours.to_bits() == theirs.to_bits() || (ours.is_nan() && theirs.is_nan());
+                assert!(same, "{x:e}: {ours:e} {theirs:e}");
+            }
         }
     }
 }

@@ -60,11 +60,29 @@ fn heights_beyond_a_clamped_image_are_its_outermost() {
         ((1.0, 0.5), 2.0, [0.0, -4.0]),
         ((0.75, 7.5), 3.0, [0.0, 0.0]),
         ((-3.0, 0.125), 0.0, [0.0, 0.0]),
+        ((f32::INFINITY, 0.25), 1.0, [0.0, -4.0]),
+        ((f32::MAX, f32::MAX), 3.0, [0.0, 0.0]),
+        ((f32::NEG_INFINITY, f32::MIN), 0.0, [0.0, 0.0]),
     ] {
         let place = Vec2::from(at);
         assert_eq!(map.height_at(place), expected, "height at {at:?}");
         let (height, found) = map.sample(Vec2::new(place.x, 1.0 - place.y));
         assert_eq!((height, found.to_array()), (expected, slope), "sample at {at:?}");
+    }
+}
+
+/// 1/256 of a texel is as far as heights at places go; samples go further.
+#[test]
+fn places_are_rounded_as_samplers_do() {
+    for address in [Address::Repeat, Address::Clamp] {
+        let map = HeightMap::new(2, 1, vec![0.0, 256.0]).unwrap().with_address(address);
+        for (parts, expected) in
+            [(0.0, 0.0), (0.5, 0.0), (0.625, 1.0), (1.5, 2.0), (100.375, 100.0)]
+        {
+            let place = Vec2::new((0.5 + parts / 256.0) / 2.0, 0.5);
+            assert_eq!(map.height_at(place), expected, "{parts} parts, {address:?}");
+            assert_eq!(map.sample(place).0, parts, "{parts} parts, {address:?}");
+        }
     }
 }
 

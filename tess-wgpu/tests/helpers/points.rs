@@ -181,7 +181,8 @@ fn edges(corners: usize) -> Vec<Case> {
     all
 }
 
-/// Heights at places in 1/256 of a texel, where mixtures of texels of 8 bits are exact, and beyond the image.
+/// Heights at places around multiples of 1/256 of a texel, where mixtures of texels of 8 bits are exact, and beyond the
+/// image, up to infinity.
 fn samples() -> Vec<Case> {
     let [width, height] = SIZE.map(usize::from);
     let map = HeightMap::new(width, height, heights()).expect("as many texels");
@@ -194,14 +195,21 @@ fn samples() -> Vec<Case> {
     let any = |random: &mut SplitMix64, most: u32| i32::try_from(random.below(most)).unwrap_or(0);
     parts.extend((0..200).map(|_| [any(&mut random, 2600) - 300, any(&mut random, 1500) - 200]));
     let mut all = Vec::new();
+    let mut push = |place: Vec2| {
+        let expected = Expected::Bits(one(map.height_at(place)));
+        all.push(Case { args: args(&[[place.x, place.y, 0.0, 0.0]]), expected });
+    };
     for [x, y] in parts {
         let place = Vec2::new(x as f32, y as f32) / 256.0 / size;
-        let expected = Expected::Bits(one(map.height_at(place)));
-        // A place a third of 1/256 texel away is rounded to this one.
-        for off in [0.0, 0.3, -0.3] {
-            let beside = place + off / 256.0 / size;
-            all.push(Case { args: args(&[[beside.x, beside.y, 0.0, 0.0]]), expected });
+        for off in [0.0, 0.3, -0.3, 0.45, 0.7] {
+            push(place + off / 256.0 / size);
         }
+    }
+    let far = [1e9, -1e9, f32::MAX, f32::MIN, f32::INFINITY, f32::NEG_INFINITY];
+    for (x, y) in far.into_iter().flat_map(|x| far.map(|y| (x, y))) {
+        push(Vec2::new(x, y));
+        push(Vec2::new(x, 0.37));
+        push(Vec2::new(0.37, y));
     }
     all
 }
