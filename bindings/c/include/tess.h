@@ -1138,7 +1138,7 @@ TessStatus tess_batch_patch(struct TessBatch *batch,
  *   command that shows what is right, and the first difference. The message ends with a zero byte and is cut
  *   off at `message_capacity` bytes; 1024 are enough.
  *
- * This function allocates.
+ * `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function allocates.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:

@@ -83,7 +83,7 @@ impl Default for TessFuzzOptions {
 ///   command that shows what is right, and the first difference. The message ends with a zero byte and is cut
 ///   off at `message_capacity` bytes; 1024 are enough.
 ///
-/// This function allocates.
+/// `message` must not overlap `data` (`TESS_OVERLAP`; nothing was compared). This function allocates.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:
@@ -109,9 +109,13 @@ pub unsafe extern "C" fn tess_fuzz(
             unsafe { boundary::read(options) }?
         };
         let (strength, selection) = (options.strength()?, options.selection()?);
+        boundary::check_all_apart(&[
+            boundary::bytes(data, size)?,
+            boundary::bytes(message, message_capacity)?,
+        ])?;
         // SAFETY: `size` readable bytes, as the caller promises.
         let data = unsafe { boundary::list(data, size) }?;
-        // SAFETY: room for `message_capacity` bytes, as the caller promises.
+        // SAFETY: room for `message_capacity` bytes, as the caller promises, apart from `data`.
         let message = unsafe { boundary::room(message, message_capacity) }?;
         let Ok(case) = Case::arbitrary(&mut Unstructured::new(data)) else {
             return Err(TESS_LEFT_OUT);

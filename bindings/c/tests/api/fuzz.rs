@@ -9,7 +9,8 @@ use tess_capi::fuzz::{
     TessFuzzOptions, tess_fuzz,
 };
 use tess_capi::status::{
-    TESS_DIFFERENT, TESS_LEFT_OUT, TESS_NULL_POINTER, TESS_OK, TESS_UNKNOWN_VALUE,
+    TESS_DIFFERENT, TESS_LEFT_OUT, TESS_NULL_POINTER, TESS_OK, TESS_OVERLAP, TESS_TOO_LARGE,
+    TESS_UNKNOWN_VALUE,
 };
 use tess_capi::types::{
     TESS_DOMAIN_QUAD, TESS_OUTPUT_LINE, TESS_PARTITIONING_FRACTIONAL_EVEN, TESS_SPLIT_CENTER,
@@ -119,6 +120,27 @@ fn wrong_arguments_are_refused_and_messages_cut_off() {
     // SAFETY: as above, and no room at all.
     let status = unsafe { tess_fuzz(null(), 0, Some(device), user, null(), null_mut(), 0) };
     assert_eq!(status, TESS_DIFFERENT, "no room");
+}
+
+/// A message over the bytes that the patch comes from is refused before the device is asked.
+#[test]
+fn messages_do_not_overlap_the_data() {
+    let mut bytes = [7u8; 32];
+    let at = bytes.as_mut_ptr();
+    let call = |(from, size), (to, room)| {
+        // SAFETY: parts of an array of this function, and no device that could be asked.
+        unsafe {
+            let (data, message) = (at.add(from), at.add(to).cast());
+            tess_fuzz(data, size, None, null_mut(), null(), message, room)
+        }
+    };
+    assert_eq!(call((0, 16), (15, 16)), TESS_OVERLAP, "the last byte of the data");
+    assert_eq!(call((15, 16), (0, 16)), TESS_OVERLAP, "the first one");
+    assert_eq!(call((0, 32), (8, 8)), TESS_OVERLAP, "inside");
+    assert_eq!(call((0, 16), (16, 16)), TESS_NULL_POINTER, "behind it: there is no device");
+    assert_eq!(call((0, 32), (8, 0)), TESS_NULL_POINTER, "no message: there is no device");
+    assert_eq!(call((0, 16), (16, usize::MAX)), TESS_TOO_LARGE, "a message beyond all memory");
+    assert_eq!(bytes, [7; 32], "nothing is written");
 }
 
 /// A patch of a configuration that the device does not have is left out: neither equal nor different.
