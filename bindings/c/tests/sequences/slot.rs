@@ -1,0 +1,362 @@
+//! A batch, and its calls compared with the model.
+
+use super::arguments::{Arguments, Buffers, Way};
+use super::calls::{Bits, Call, Part, Patches, To, Wrong};
+use super::memory::{Image, Memory};
+use super::model::Model;
+use std::ptr::null_mut;
+use tess_capi::batch::{
+    TESS_INDEX_U16, TESS_NUMBERING_PER_BATCH, TESS_POINT_F32_APART, TESS_POINT_FIXED, TessBatch,
+    TessBatchCounts, TessRange, tess_batch_count, tess_batch_create, tess_batch_free,
+    tess_batch_groups, tess_batch_level, tess_batch_patch, tess_batch_reserve, tess_batch_run,
+};
+use tess_capi::status::{
+    TESS_BUFFER_TOO_SMALL, TESS_LEVEL_UNAVAILABLE, TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE,
+    TESS_UNKNOWN_VALUE, TessStatus,
+};
+use tess_capi::types::{TessConfig, TessCounts};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_simd::Level;
+
+/// Elements behind the output that a call on one patch may overwrite.
+const OVERRUN: usize = 64;
+
+/// A fault on the observed side.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fault {
+    /// The first index of the call after a refused one.
+    IndexAfterRefusal,
+    /// The first byte behind points that have just enough room.
+    BehindExact,
+}
+
+/// A batch, if there is one, and the memory of its caller.
+pub(crate) struct Slot {
+    batch: *mut TessBatch,
+    config: Config,
+    domain: Domain,
+    level: u32,
+    buffers: Buffers,
+    /// The ranges of the batch that was run last.
+    ranges: Vec<TessRange>,
+    fault: Option<Fault>,
+    was_refused: bool,
+}
+
+// A batch may be in one call at a time, on any thread.
+unsafe impl Send for Slot {}
+
+impl Drop for Slot {
+    fn drop(&mut self) {
+        unsafe { tess_batch_free(self.batch) };
+    }
+}
+
+impl Slot {
+    pub(crate) fn new(fault: Option<Fault>) -> Self {
+        Self {
+            batch: null_mut(),
+            config: Config::new(Partitioning::Integer, OutputPrimitive::Point),
+            domain: Domain::Quad,
+            level: 0,
+            buffers: std::array::from_fn(|_| Memory::default()),
+            ranges: Vec::new(),
+            fault,
+            was_refused: false,
+        }
+    }
+
+    /// Makes a call. Gives its status, or what was wrong.
+    pub(crate) fn perform(&mut self, call: &Call) -> Result<TessStatus, String> {
+        let status = match call {
+            Call::Create { config, level } => self.create(*config, *level),
+            Call::Free => {
+                unsafe { tess_batch_free(self.batch) };
+                self.batch = null_mut();
+                Ok(TESS_OK)
+            }
+            Call::Reserve => {
+                self.there_or_null("tess_batch_reserve", unsafe { tess_batch_reserve(self.batch) })
+            }
+            Call::Level => self.ask_level(),
+            Call::Count { patches: Patches(runs), wrong } => {
+                self.call(Way::Count, runs, &To::NOTHING, *wrong)
+            }
+            Call::Run { patches: Patches(runs), to, wrong } => {
+                self.call(Way::Batch, runs, to, *wrong)
+            }
+            Call::Single { factors, to, wrong } => {
+                self.call(Way::Single, &[(1, *factors)], to, *wrong)
+            }
+            Call::Groups { starts } => self.groups(*starts),
+        };
+        self.was_refused = status != Ok(TESS_OK);
+        status
+    }
+
+    fn create(&mut self, numbers: [u32; 4], level: u32) -> Result<TessStatus, String> {
+        let [domain, partitioning, output, split] = numbers;
+        let config = TessConfig { domain, partitioning, output, split };
+        let sentinel = (&raw mut *self).cast();
+        let mut made = sentinel;
+        let status = unsafe { tess_batch_create(&config, level, &mut made) };
+        let is_known = domain < 3 && partitioning < 4 && output < 4 && split < 2 && level < 4;
+        let is_there = level == 0
+            || Level::ALL.get(level as usize - 1).is_some_and(|level| level.is_available());
+        let expected = match (is_known, is_there) {
+            (false, _) => TESS_UNKNOWN_VALUE,
+            (true, false) => TESS_LEVEL_UNAVAILABLE,
+            (true, true) => TESS_OK,
+        };
+        if status != expected || (made == sentinel) != (status != TESS_OK) {
+            return Err(format!("status {status}, not {expected}; the batch is {made:?}"));
+        }
+        if status == TESS_OK {
+            unsafe { tess_batch_free(self.batch) };
+            (self.batch, self.level, self.domain) = (made, level, Domain::ALL[domain as usize]);
+            self.config = Config {
+                partitioning: Partitioning::ALL[partitioning as usize],
+                output: OutputPrimitive::ALL[output as usize],
+                split: SplitOrder::ALL[split as usize],
+            };
+        }
+        Ok(status)
+    }
+
+    fn ask_level(&self) -> Result<TessStatus, String> {
+        let mut level = 9;
+        let status = unsafe { tess_batch_level(self.batch, &mut level) };
+        let is_right = match (self.batch.is_null(), self.level) {
+            (true, _) => level == 9,
+            (false, 0) => (1..4).contains(&level),
+            (false, asked) => level == asked,
+        };
+        if is_right {
+            return self.there_or_null("tess_batch_level", status);
+        }
+        Err(format!("level {level}, asked was {}", self.level))
+    }
+
+    fn there_or_null(&self, name: &str, status: TessStatus) -> Result<TessStatus, String> {
+        let expected = if self.batch.is_null() { TESS_NULL_POINTER } else { TESS_OK };
+        if status == expected {
+            Ok(status)
+        } else {
+            Err(format!("{name}: status {status}, not {expected}"))
+        }
+    }
+
+    /// Counts or tessellates.
+    fn call(
+        &mut self,
+        way: Way,
+        runs: &[(u8, Bits)],
+        to: &To,
+        wrong: Wrong,
+    ) -> Result<TessStatus, String> {
+        let model = Model::new(self.config, self.domain, runs);
+        let given = Arguments::new(way, &model, to, wrong, &mut self.buffers);
+        let mut expected: Vec<Image> = self.buffers.iter().map(Memory::image).collect();
+        let [factors, _, _, _, counts, output] = given.at;
+        let status = unsafe {
+            match way {
+                Way::Count => {
+                    tess_batch_count(self.batch, factors.cast(), given.floats, counts.cast())
+                }
+                Way::Batch => tess_batch_run(
+                    self.batch,
+                    factors.cast(),
+                    given.floats,
+                    output.cast(),
+                    counts.cast(),
+                ),
+                Way::Single => {
+                    tess_batch_patch(self.batch, factors.cast(), output.cast(), counts.cast())
+                }
+            }
+        };
+        given.check(!self.batch.is_null(), status)?;
+        if matches!(status, TESS_OK | TESS_BUFFER_TOO_SMALL) {
+            put_counts(&mut expected[Part::Counts as usize], way, &model);
+        }
+        if status == TESS_OK && way != Way::Count {
+            put_output(&mut expected, &given, &model, to);
+            self.plant(&given, &model);
+        }
+        if status == TESS_OK && way == Way::Single {
+            self.leave_overrun(&mut expected, &given, &model, to);
+        }
+        if status == TESS_OK && way == Way::Batch {
+            self.ranges = model.parts().map(|(.., range)| range).collect();
+        }
+        for part in
+            [Part::Counts, Part::Points, Part::Indices, Part::Ranges, Part::Factors, Part::Output]
+        {
+            let observed = self.buffers[part as usize].image();
+            let expected = &expected[part as usize];
+            if let Some(at) = expected.first_difference(&observed) {
+                return Err(described(part, at, (&observed, expected), &given, &model, to));
+            }
+        }
+        Ok(status)
+    }
+
+    /// What lies behind the output of one patch is any.
+    fn leave_overrun(&self, expected: &mut [Image], given: &Arguments, model: &Model, to: &To) {
+        let arrays = match to.point_format {
+            TESS_POINT_F32_APART => {
+                vec![(Part::Points, 0, 4), (Part::Points, given.capacities[0], 4)]
+            }
+            _ => vec![(Part::Points, 0, 8)],
+        };
+        let indices = (Part::Indices, 0, given.sizes[Part::Indices as usize]);
+        for (part, first, size) in arrays.into_iter().chain([indices]) {
+            let needed = model.sizes()[part as usize - 1];
+            let end = given.capacities[part as usize - 1].min(needed + OVERRUN);
+            let observed = self.buffers[part as usize].image();
+            expected[part as usize].take(&observed, (first + needed) * size..(first + end) * size);
+        }
+    }
+
+    /// Makes the output wrong if it is to be.
+    fn plant(&mut self, given: &Arguments, model: &Model) {
+        let [_, indices, _] = model.sizes();
+        match self.fault {
+            Some(Fault::IndexAfterRefusal) if self.was_refused && indices > 0 => {
+                self.buffers[Part::Indices as usize].flip(0);
+            }
+            Some(Fault::BehindExact) if given.way == Way::Batch => {
+                self.buffers[Part::Points as usize].flip(8 * given.capacities[0]);
+            }
+            _ => {}
+        }
+    }
+
+    fn groups(&mut self, starts: [u32; 3]) -> Result<TessStatus, String> {
+        let end = |range: &TessRange| {
+            (range.first_point + range.points, range.first_index + range.indices)
+        };
+        let patches = self.ranges.len();
+        let place = |start: u32| match start.checked_sub(1) {
+            None => (0, 0),
+            Some(last) => self.ranges.get(last as usize).map_or((0, 0), end),
+        };
+        let is_right = starts.is_sorted() && starts[2] as usize <= patches;
+        let to = &mut self.buffers[Part::Ranges as usize];
+        to.fit(48, false);
+        let mut expected = to.image();
+        let ranges = self.ranges.as_ptr();
+        let status =
+            unsafe { tess_batch_groups(ranges, patches, starts.as_ptr(), 3, to.start().cast()) };
+        if is_right {
+            let small = u32::try_from(patches).expect("few patches");
+            for (i, (from, to)) in starts.into_iter().zip([starts[1], starts[2], small]).enumerate()
+            {
+                let ((point, index), (points, indices)) = (place(from), place(to));
+                put_words(&mut expected, 4 * i, [point, points - point, index, indices - index]);
+            }
+        }
+        let right = if is_right { TESS_OK } else { TESS_OUT_OF_RANGE };
+        if status != right || expected != self.buffers[Part::Ranges as usize].image() {
+            return Err(format!("status {status}, not {right}, or other groups"));
+        }
+        Ok(status)
+    }
+}
+
+fn put_words<const N: usize>(image: &mut Image, first: usize, words: [u32; N]) {
+    for (i, word) in words.into_iter().enumerate() {
+        *image.element(first + i) = word.to_ne_bytes();
+    }
+}
+
+fn put_counts(image: &mut Image, way: Way, model: &Model) {
+    let [points, indices, patches] = model.sizes();
+    if way == Way::Single {
+        let (_, case, ..) = model.parts().next().expect("one patch");
+        let TessCounts { points, primitives, indices } = case.patch().counts().into();
+        return put_words(image, 0, [points, primitives, indices]);
+    }
+    let TessBatchCounts { patches, points, indices } = TessBatchCounts { patches, points, indices };
+    for (i, count) in [patches, points, indices].into_iter().enumerate() {
+        *image.element(i) = count.to_ne_bytes();
+    }
+}
+
+fn put_output(images: &mut [Image], given: &Arguments, model: &Model, to: &To) {
+    for (number, _, output, range) in model.parts() {
+        for (i, point) in output.points.iter().enumerate() {
+            let words = match to.point_format {
+                TESS_POINT_FIXED => [point.u.to_bits(), point.v.to_bits()],
+                _ => point.to_f32().map(f32::to_bits),
+            };
+            for (which, word) in words.into_iter().enumerate() {
+                let at = given.coordinate(to, range.first_point as usize + i, which);
+                *images[Part::Points as usize].element(at) = word.to_ne_bytes();
+            }
+        }
+        let is_numbered = given.way == Way::Batch && to.numbering == TESS_NUMBERING_PER_BATCH;
+        let base = if is_numbered { given.base_vertex.wrapping_add(range.first_point) } else { 0 };
+        for (i, index) in output.indices.iter().enumerate() {
+            let (at, index) = (range.first_index as usize + i, base.wrapping_add(*index));
+            let image = &mut images[Part::Indices as usize];
+            match u16::try_from(index) {
+                Ok(short) if to.index_type == TESS_INDEX_U16 => {
+                    *image.element(at) = short.to_ne_bytes()
+                }
+                _ => *image.element(at) = index.to_ne_bytes(),
+            }
+        }
+        if given.way == Way::Batch {
+            let TessRange { first_point, points, first_index, indices } = range;
+            let image = &mut images[Part::Ranges as usize];
+            put_words(image, 4 * number, [first_point, points, first_index, indices]);
+        }
+    }
+}
+
+/// The first byte that differs, in words.
+fn described(
+    part: Part,
+    at: isize,
+    (observed, expected): (&Image, &Image),
+    given: &Arguments,
+    model: &Model,
+    to: &To,
+) -> String {
+    let name = format!("{part:?}").to_lowercase();
+    let values = |size: usize, element: usize| {
+        let [observed, expected] = [observed, expected].map(|image| image.value(element, size));
+        format!("observed {observed} ({observed:#x}), expected {expected} ({expected:#x})")
+    };
+    let Ok(byte) = usize::try_from(at) else {
+        return format!("{name}: byte {at}, before the buffer, was written");
+    };
+    let size = match part {
+        Part::Points | Part::Ranges => 4,
+        _ => given.sizes[part as usize],
+    };
+    let element = byte / size;
+    let owner = model.parts().find_map(|(number, case, output, range)| {
+        let own = match part {
+            Part::Points => (0..2 * output.points.len()).find_map(|i| {
+                let at = given.coordinate(to, range.first_point as usize + i / 2, i % 2);
+                (at == element).then(|| format!("{} of its point {}", ["u", "v"][i % 2], i / 2))
+            }),
+            Part::Indices => element
+                .checked_sub(range.first_index as usize)
+                .filter(|&i| i < output.indices.len())
+                .map(|i| format!("its index {i}")),
+            Part::Ranges if given.way == Way::Batch => {
+                (element / 4 == number).then(|| format!("word {} of its range", element % 4))
+            }
+            _ => None,
+        };
+        own.map(|own| format!("patch {number}, {own}: {case}"))
+    });
+    match owner {
+        Some(owner) => format!("{name}: element {element}, {}; {owner}", values(size, element)),
+        None if part == Part::Counts => format!("counts: byte {byte} is not what the model says"),
+        None => format!("{name}: byte {byte}, which is no output, was written"),
+    }
+}
