@@ -82,7 +82,20 @@ pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
     let size = if matches!(target, "simd" | "gpu") { 12 } else { 1 };
     // Calls that make a batch take milliseconds under a sanitizer.
     let step = if target == "capi" { 5 } else { 1 };
-    Ok(batches(size).iter().enumerate().step_by(step).map(seed).enumerate().map(long).collect())
+    let seeds = batches(size);
+    let seeds = seeds.iter().enumerate().step_by(step).map(seed).enumerate().map(long);
+    Ok(seeds.chain(if target == "capi" { culled_calls() } else { Vec::new() }).collect())
+}
+
+/// Calls of `tess_patch` with a culled patch, whose points lie nowhere (254) or askew (255), with a capacity of
+/// `SIZE_MAX` (1), two points (8) or none (0). Bytes stand for a setting and factors, for what is right with the
+/// configuration and the number of factors, then for the capacities and the pointers.
+fn culled_calls() -> Vec<(String, Vec<u8>)> {
+    let call = |capacity: u8, pointer: u8| {
+        let bytes = [&[0; 15], &[capacity, 0, 0, 0, 0, pointer, 0][..]].concat();
+        (format!("culled-{capacity}-{pointer}"), bytes)
+    };
+    [1, 8, 0].into_iter().flat_map(|capacity| [254, 255].map(|to| call(capacity, to))).collect()
 }
 
 fn numbered(seeds: Vec<Vec<u8>>) -> Vec<(String, Vec<u8>)> {

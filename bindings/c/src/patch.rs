@@ -73,11 +73,11 @@ pub unsafe extern "C" fn tess_patch(
             unsafe { boundary::write(counts, needed.into()) }?;
             return Err(TESS_BUFFER_TOO_SMALL);
         }
-        // SAFETY: at most `point_capacity` points, writable, as the caller promises, and apart
-        // from the indices and `counts`; inputs were copied, so nothing else is used.
-        let points = unsafe { boundary::room(points, point_count) }?;
-        // SAFETY: at most `index_capacity` indices, and as above.
-        let indices = unsafe { boundary::room(indices, index_count) }?;
+        // SAFETY: writable, as the caller promises, and apart from the indices and `counts`; inputs
+        // were copied, so nothing else is used.
+        let points = unsafe { boundary::room(points, point_capacity) }?;
+        // SAFETY: as above.
+        let indices = unsafe { boundary::room(indices, index_capacity) }?;
         // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
         unsafe { boundary::write(counts, needed.into()) }?;
         patch.emit(&mut Room { points: points.iter_mut(), indices: indices.iter_mut() });
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn tess_patch(
     })
 }
 
-/// Fills a caller's buffers, which hold as many elements as the patch has.
+/// Fills a caller's buffers, which have room for the patch.
 struct Room<'a> {
     points: std::slice::IterMut<'a, MaybeUninit<TessPoint>>,
     indices: std::slice::IterMut<'a, MaybeUninit<u32>>,

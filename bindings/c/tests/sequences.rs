@@ -20,6 +20,7 @@ mod sequences {
     pub(super) mod draw;
     pub(super) mod memory;
     pub(super) mod model;
+    pub(super) mod output;
     pub(super) mod slot;
 }
 

@@ -53,10 +53,10 @@ impl Wrongs {
         }
     }
 
-    /// The pointer of an output buffer. With no elements to write, anything may be wrong with it.
-    pub(super) fn room<T>(&mut self, bytes: &mut Bytes<'_>, good: *mut T, count: usize) -> *mut T {
+    /// The pointer of an output buffer of a capacity. With none, anything may be wrong with it.
+    pub(super) fn room<T>(&mut self, bytes: &mut Bytes<'_>, good: *mut T, capacity: usize) -> *mut T {
         let mut ignored = Self::default();
-        if count == 0 { ignored.pointer(bytes, good) } else { self.pointer(bytes, good) }
+        if capacity == 0 { ignored.pointer(bytes, good) } else { self.pointer(bytes, good) }
     }
 
     /// Sometimes not one of `listed` numbers.

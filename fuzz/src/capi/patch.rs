@@ -35,8 +35,8 @@ pub(super) fn check(bytes: &mut Bytes<'_>) -> Result<(), String> {
     wrongs.add_if(!is_possible(index_capacity, size_of::<u32>()), TESS_TOO_LARGE);
     wrongs.add_if(point_capacity < model.points.len(), TESS_BUFFER_TOO_SMALL);
     wrongs.add_if(index_capacity < model.indices.len(), TESS_BUFFER_TOO_SMALL);
-    let to_points = wrongs.room(bytes, points.as_mut_ptr(), model.points.len());
-    let to_indices = wrongs.room(bytes, indices.as_mut_ptr(), model.indices.len());
+    let to_points = wrongs.room(bytes, points.as_mut_ptr(), point_capacity);
+    let to_indices = wrongs.room(bytes, indices.as_mut_ptr(), index_capacity);
     // SAFETY: as above; a capacity beyond the memory is impossible, which is refused.
     let status = unsafe {
         let n = hostile.factor_count;

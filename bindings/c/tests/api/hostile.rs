@@ -155,6 +155,12 @@ fn buffers_of_patches() {
     let status =
         unsafe { tess_patch(c, culled.as_ptr(), 6, null_mut(), 0, null_mut(), 0, &mut counts) };
     assert_eq!((status, counts), (TESS_OK, TessCounts::default()), "a culled patch");
+    // Where there is said to be memory, there must be some.
+    for (points, status) in [(null_mut(), TESS_NULL_POINTER), (askew(p), TESS_MISALIGNED)] {
+        let given = culled.as_ptr();
+        let told = unsafe { tess_patch(c, given, 6, points, 1, null_mut(), 0, &mut counts) };
+        assert_eq!(told, status, "a culled patch and {points:?}");
+    }
 }
 
 #[test]
