@@ -1,18 +1,22 @@
 //! Many patches at the speed of `tess-simd`.
 
+mod work;
+
 use crate::arrays::{
     self, Array1, Array2, Flat, Rows, addresses, described, overlap, refuse_masked, writable,
 };
 use crate::errors::{self, argument, output};
 use crate::names::{config, named, whole, whole_or_none};
+use crate::threads::Threads;
 use crate::values;
 use numpy::{PyArray, PyUntypedArray, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PySlice, PyTuple};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
-use tess_simd::{BatchCounts, Buffers, Counted, IndexFormat, Numbering, OutputPoint, PatchRange};
+use tess_simd::{BatchCounts, Numbering, OutputPoint, PatchRange};
 use tess_verify::names::Named;
+use work::{How, Room, Sizes, Work};
 
 /// Tessellates batches in one configuration, on the CPU's vector units.
 ///
@@ -21,7 +25,7 @@ use tess_verify::names::Named;
 ///
 /// Args:
 ///     partitioning, output, split: As for :class:`Patch`.
-///     threads: How many threads write a batch, 1..256. The output is the same.
+///     threads: How many threads write a batch, 1..256. The output is the same. A forked child starts its own.
 ///
 /// >>> import numpy as np
 /// >>> from tess_model import Tessellator
@@ -55,6 +59,7 @@ impl Tessellator {
         if !(1..=most).contains(&threads) {
             return Err(argument(format!("threads must be 1 to {most}, not {threads}")));
         }
+        Threads::of_this_process(threads)?;
         let first = tess_simd::Tessellator::new(config).threads(threads);
         Ok(Self { config, threads, level: first.level(), idle: Mutex::new(vec![first]) })
     }
@@ -90,10 +95,11 @@ impl Tessellator {
         factors: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let batch = owned(named(domain)?, factors)?;
-        let counts = self.with(|tessellator| {
-            py.detach(|| tessellator.count(batch.batch()).map(|counted| counted.counts()))
+        let counts = self.with(|tessellator, threads| {
+            let count = || tessellator.count(batch.batch()).map(|counted| counted.counts());
+            py.detach(|| threads.run(count)).map_err(errors::batch)
         });
-        let BatchCounts { patches, points, indices } = counts.map_err(errors::batch)?;
+        let BatchCounts { patches, points, indices } = counts?;
         values::value(py, "BatchCounts", (patches, points, indices))
     }
 
@@ -116,6 +122,7 @@ impl Tessellator {
     ///     ArgumentError: Wrong names or factors; indices that do not fit 16 bits; more than
     ///         2**32 - 1 points or indices.
     ///     OutputError: An array of ``out`` cannot be written. Nothing was written.
+    ///     KeyboardInterrupt: Or what else a handler of a signal raises; a part of ``out`` may be written then.
     #[pyo3(signature = (domain, factors, *, points = "float32", indices = "uint32",
         base_vertex = None, out = None))]
     #[expect(clippy::too_many_arguments, reason = "they are named in Python")]
@@ -132,27 +139,40 @@ impl Tessellator {
         let batch = owned(named(domain)?, factors)?;
         let numbering = base_vertex
             .map_or(Numbering::PerPatch, |base_vertex| Numbering::PerBatch { base_vertex });
-        self.with(|tessellator| {
-            let counted = py.detach(|| tessellator.count(batch.batch())).map_err(errors::batch)?;
-            let counts = counted.counts();
+        self.with(|tessellator, threads| {
+            let counted = py.detach(|| threads.run(|| tessellator.count(batch.batch())));
+            let counted = counted.map_err(errors::batch)?;
+            let sizes = Sizes::of(&counted, numbering);
             let arrays = match out {
-                Some(out) => Arrays::given(py, out, counts)?,
-                None => Arrays::new(py, points, indices, counts)?,
+                Some(out) => Arrays::given(py, out, sizes.counts)?,
+                None => Arrays::new(py, points, indices, sizes.counts)?,
             };
-            arrays.write(py, counted, numbering)?;
-            arrays.result(py, counts)
+            if sizes.is_small() {
+                arrays.write(py, Work { threads, numbering, how: How::AtOnce(counted) })?;
+            } else {
+                let how = How::Parts { tessellator, batch: batch.batch(), sizes };
+                arrays.write(py, Work { threads, numbering, how })?;
+            }
+            arrays.result(py, sizes.counts)
         })
     }
 }
 
 impl Tessellator {
-    /// Lends a tessellator that no other call uses.
-    fn with<T>(&self, borrow: impl FnOnce(&mut tess_simd::Tessellator) -> T) -> T {
+    /// Lends a tessellator that no other call uses, and the threads for it.
+    ///
+    /// # Errors
+    /// What `borrow` gives; no thread can be started.
+    fn with<T>(
+        &self,
+        borrow: impl FnOnce(&mut tess_simd::Tessellator, &Threads) -> PyResult<T>,
+    ) -> PyResult<T> {
+        let threads = Threads::of_this_process(self.threads)?;
         let idle = || self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         let free = idle().pop();
         let make = || tess_simd::Tessellator::new(self.config).threads(self.threads);
         let mut tessellator = free.unwrap_or_else(make);
-        let result = borrow(&mut tessellator);
+        let result = borrow(&mut tessellator, &threads);
         idle().push(tessellator);
         result
     }
@@ -283,19 +303,19 @@ impl<'py> Arrays<'py> {
     }
 
     /// Writes the batch.
-    fn write(&self, py: Python<'py>, counted: Counted<'_>, numbering: Numbering) -> PyResult<()> {
+    fn write(&self, py: Python<'py>, work: Work<'_>) -> PyResult<()> {
         let mut ranges: Rows<'py, u32> = writable("ranges", &self.ranges)?;
         let ranges = arrays::ranges(ranges.as_slice_mut().map_err(output)?);
         match &self.points {
             Points::Float(points) => {
                 let mut points: Rows<'py, f32> = writable("points", points)?;
                 let (points, _) = points.as_slice_mut().map_err(output)?.as_chunks_mut::<2>();
-                self.write_indices(py, counted, numbering, points, ranges)
+                self.write_indices(py, work, points, ranges)
             }
             Points::Fixed(points) => {
                 let mut points: Rows<'py, u32> = writable("points", points)?;
                 let points = arrays::fixed_points(points.as_slice_mut().map_err(output)?);
-                self.write_indices(py, counted, numbering, points, ranges)
+                self.write_indices(py, work, points, ranges)
             }
         }
     }
@@ -303,8 +323,7 @@ impl<'py> Arrays<'py> {
     fn write_indices<P: OutputPoint>(
         &self,
         py: Python<'py>,
-        counted: Counted<'_>,
-        numbering: Numbering,
+        work: Work<'_>,
         points: &mut [P],
         ranges: &mut [PatchRange],
     ) -> PyResult<()> {
@@ -312,12 +331,12 @@ impl<'py> Arrays<'py> {
             Indices::Long(indices) => {
                 let mut indices: Flat<'py, u32> = writable("indices", indices)?;
                 let indices = indices.as_slice_mut().map_err(output)?;
-                run(py, counted, numbering, Buffers::new(points, indices).with_ranges(ranges))
+                work.write(py, Room { points, indices, ranges })
             }
             Indices::Short(indices) => {
                 let mut indices: Flat<'py, u16> = writable("indices", indices)?;
                 let indices = indices.as_slice_mut().map_err(output)?;
-                run(py, counted, numbering, Buffers::new(points, indices).with_ranges(ranges))
+                work.write(py, Room { points, indices, ranges })
             }
         }
     }
@@ -345,17 +364,6 @@ impl<'py> Arrays<'py> {
         );
         values::value(py, "Batch", views)
     }
-}
-
-/// Writes without the interpreter's lock.
-fn run<P: OutputPoint, I: IndexFormat>(
-    py: Python<'_>,
-    mut counted: Counted<'_>,
-    numbering: Numbering,
-    buffers: Buffers<'_, P, I>,
-) -> PyResult<()> {
-    py.detach(|| counted.write(numbering, buffers)).map_err(errors::batch)?;
-    Ok(())
 }
 
 /// An array of this type with rows of `columns` elements.

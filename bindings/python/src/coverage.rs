@@ -3,10 +3,12 @@
 use crate::errors::{argument, file_format};
 use crate::names::{named, whole};
 use crate::patch::Patch;
+use crate::signals::{self, Watched};
 use crate::{stages, values};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::io::ErrorKind;
+use std::fs::File;
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tess_verify::case::Case;
@@ -153,14 +155,22 @@ impl Coverage {
     }
 
     /// Writes a coverage file: UCIS XML.
-    fn write(&self, path: PathBuf) -> PyResult<()> {
-        Ok(std::fs::write(path, self.to_ucis())?)
+    fn write(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
+        let text = self.to_ucis();
+        let written = signals::interruptible(py, move |stop| {
+            Watched::new(File::create(path)?, stop).write_all(text.as_bytes())
+        });
+        Ok(written??)
     }
 
     /// Reads a coverage file.
     #[staticmethod]
-    fn read(path: PathBuf) -> PyResult<Self> {
-        let read = tess_verify::coverage::Coverage::read_ucis(std::fs::File::open(&path)?);
+    fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        let from = path.clone();
+        let read = signals::interruptible(py, move |stop| {
+            let file = Watched::new(File::open(from)?, stop);
+            tess_verify::coverage::Coverage::read_ucis(file)
+        })?;
         read.map(|coverage| Self(Arc::new(Mutex::new(coverage)))).map_err(|error| {
             match error.kind() {
                 ErrorKind::InvalidData => file_format(format!("{}: {error}", path.display())),

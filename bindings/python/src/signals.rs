@@ -4,7 +4,7 @@ use crate::errors::TessError;
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::*;
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -14,6 +14,8 @@ use std::time::Duration;
 pub(crate) const STEPS: u32 = 256;
 /// How long a call waits for its thread between two looks.
 const PATIENCE: Duration = Duration::from_millis(20);
+/// How long a call that is interrupted waits for its thread to end.
+const GRACE: Duration = Duration::from_millis(500);
 
 /// Looks for signals in a loop that runs without the interpreter.
 #[derive(Default)]
@@ -41,7 +43,7 @@ impl Watch {
 /// The exception that a signal's handler raised, if one did.
 pub(crate) type Raised = Arc<Mutex<Option<PyErr>>>;
 
-/// A file whose reader can be interrupted, also while it waits for a pipe.
+/// A file whose reader or writer can be interrupted, also while it waits for a pipe.
 pub(crate) struct Watched {
     file: File,
     stop: Arc<AtomicBool>,
@@ -49,7 +51,7 @@ pub(crate) struct Watched {
 }
 
 impl Watched {
-    /// A file that is read until `stop` is set.
+    /// A file that is read or written until `stop` is set.
     pub(crate) fn new(file: File, stop: Arc<AtomicBool>) -> Self {
         Self { file, stop, raised: Arc::default() }
     }
@@ -60,12 +62,28 @@ impl Watched {
     }
 }
 
+impl Watched {
+    fn goes_on(&self) -> io::Result<()> {
+        let is_stopped = self.stop.load(Ordering::Relaxed);
+        if is_stopped { Err(io::Error::other("interrupted")) } else { Ok(()) }
+    }
+}
+
+impl Write for Watched {
+    fn write(&mut self, buffer: &[u8]) -> io::Result<usize> {
+        self.goes_on()?;
+        self.file.write(buffer)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
 impl Read for Watched {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         loop {
-            if self.stop.load(Ordering::Relaxed) {
-                return Err(io::Error::other("interrupted"));
-            }
+            self.goes_on()?;
             match self.file.read(buffer) {
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {
                     if let Err(error) = Python::attach(|py| py.check_signals()) {
@@ -80,7 +98,8 @@ impl Read for Watched {
 }
 
 /// Does work on another thread while this one looks for signals. If a handler raises, the flag that
-/// `work` got is set, and the thread is left to end by itself: it may wait for a pipe for ever.
+/// `work` got is set. Work that looks at it has ended when this returns; a thread that waits for a pipe, perhaps
+/// for ever, is left to end by itself.
 ///
 /// # Errors
 /// What a handler of a signal raised; no thread can be started; the work panicked.
@@ -101,6 +120,8 @@ pub(crate) fn interruptible<T: Send + 'static>(
             Ok(result) => return Ok(result),
             Err(RecvTimeoutError::Timeout) => py.check_signals().inspect_err(|_| {
                 stop.store(true, Ordering::Relaxed);
+                let take = || take.lock().unwrap_or_else(PoisonError::into_inner);
+                _ = py.detach(|| take().recv_timeout(GRACE));
             })?,
             Err(RecvTimeoutError::Disconnected) => {
                 return Err(TessError::new_err("the work ended without a result"));

@@ -130,18 +130,17 @@ pub(crate) fn write_vectors(
     let cases = patches_of(patches)?;
     let source = "tess-core".to_owned();
     let header = Header { kind, count: Some(cases.len() as u64), source, notes: Vec::new() };
-    let mut watch = Watch::default();
-    let written = py.detach(|| {
-        let mut file = BufWriter::new(File::create(path)?);
-        let cases = cases.into_iter().take_while(|_| watch.goes_on());
+    let written = signals::interruptible(py, move |stop| {
+        let file = Watched::new(File::create(path)?, Arc::clone(&stop));
+        let mut file = BufWriter::new(file);
+        let cases = cases.into_iter().take_while(|_| !stop.load(Ordering::Relaxed));
         match kind {
             Kind::Listings => write_listings(&mut file, &header, cases)?,
             _ => write_patches(&mut file, &header, cases)?,
         }
         file.flush()
     });
-    watch.finish()?;
-    Ok(written?)
+    Ok(written??)
 }
 
 /// The cases of an iterable of patches, at least one.

@@ -15,7 +15,9 @@ import numpy as np
 import pytest
 
 import tess_model
-from tess_model import ArgumentError, Coverage, FileFormatError, NoSuchElementError, Patch, Tessellator, tessellate
+from tess_model import (
+    ArgumentError, Coverage, FileFormatError, NoSuchElementError, OutputError, Patch, Tessellator, tessellate,
+)
 
 PATCH = Patch("tri", [3, 4, 5], 6)
 HUGE = np.broadcast_to(np.float32(3), (2**40, 6))
@@ -181,3 +183,93 @@ def test_ctrl_c_at_a_stalled_pipe(script: str, has_begun: bool, tmp_path: Path) 
     finally:
         if writer:
             writer.kill()
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="needs named pipes")
+@pytest.mark.parametrize(
+    "script, other_end",
+    [
+        (script, end)
+        for script, other_end in [
+            ("t.Coverage.read(sys.argv[1])", "exec 3>'{}'; printf '<?xml' >&3"),
+            ("t.Coverage().write(sys.argv[1])", "exec 3<'{}'"),
+            ("t.write_vectors(sys.argv[1], [t.Patch('tri', [3, 4, 5], 6)] * 5000)", "exec 3<'{}'"),
+            ("t.write_vectors(sys.argv[1], [t.Patch('tri', [3, 4, 5], 6)] * 5000, form='listings')", "exec 3<'{}'"),
+        ]
+        for end in ("", other_end)
+    ],
+)
+def test_ctrl_c_at_a_pipe_without_end(script: str, other_end: str, tmp_path: Path) -> None:
+    """Nobody opens the other end; or somebody does, and reads nothing, or writes no more."""
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    other = subprocess.Popen(["sh", "-c", f"{other_end.format(pipe)}; sleep 100"]) if other_end else None
+    try:
+        assert interrupted(script, pipe) < 20
+    finally:
+        if other:
+            other.kill()
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="needs a timer's signal")
+@pytest.mark.parametrize("points, indices", [("fixed", "uint16"), ("float32", "uint32")])
+def test_a_signal_ends_a_batch(points: str, indices: str) -> None:
+    """A handler that raises ends a large batch between two parts: the last patches are not written."""
+    tessellator, factors = Tessellator(), np.full((4000, 6), 64, np.float32)
+    counts = tessellator.count("quad", factors)
+    out = (
+        np.zeros((counts.points, 2), "uint32" if points == "fixed" else points),
+        np.zeros(counts.indices, indices),
+        np.zeros((counts.patches, 4), np.uint32),
+    )
+
+    def raises(*_: object) -> None:
+        raise TimeoutError("the timer's")
+
+    before = signal.signal(signal.SIGALRM, raises)
+    written = 0
+    try:
+        for delay in (0.01, 0.02, 0.04, 0.08, 0.16):
+            with pytest.raises(TimeoutError, match="the timer's"):
+                signal.setitimer(signal.ITIMER_REAL, delay)
+                tessellator.tessellate("quad", factors, out=out)
+            written = int(out[2].any(axis=1).sum())
+            if written:
+                break
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert 0 < written < counts.patches
+    small = tessellator.tessellate("quad", factors[:3])
+    np.testing.assert_array_equal(small.points[: 4225], Patch("quad", [64] * 4, [64] * 2).points_f32)
+
+
+def test_parts_of_a_large_batch() -> None:
+    """A batch that is written in parts equals the same patches in batches that are not; what it refuses, too."""
+    tessellator = Tessellator("fractional_odd", threads=2)
+    # Large patches first: a part of average length is too large there.
+    sizes = np.repeat(np.float32([62.5, 1.5, 17.25, 0, 5]), [1200, 100_000, 150, 50, 1000])
+    factors = np.repeat(sizes[:, None], 6, axis=1)
+    for base_vertex in (None, 7):
+        whole = tessellator.tessellate("quad", factors, base_vertex=base_vertex)
+        patch = 0
+        while patch < len(factors):
+            first_point, _, first_index, _ = whole.ranges[patch].astype(np.int64)
+            some = factors[patch : patch + (300 if patch < 1200 else 40_000)]
+            part = tessellator.tessellate("quad", some)
+            points = slice(first_point, first_point + len(part.points))
+            indices = slice(first_index, first_index + len(part.indices))
+            np.testing.assert_array_equal(whole.points[points], part.points)
+            firsts = np.zeros(len(some), np.int64) if base_vertex is None else part.ranges[:, 0].astype(np.int64) + first_point + base_vertex
+            own = part.indices.astype(np.int64) + np.repeat(firsts, part.ranges[:, 3])
+            np.testing.assert_array_equal(whole.indices[indices], own)
+            moved = part.ranges.astype(np.int64) + [first_point, 0, first_index, 0]
+            np.testing.assert_array_equal(whole.ranges[patch : patch + len(some)], moved)
+            patch += len(some)
+        assert (len(whole.points), len(whole.indices)) == (points.stop, indices.stop)
+    with pytest.raises(ArgumentError, match="indices end at 65535"):
+        tessellator.tessellate("quad", factors, base_vertex=0, indices="uint16")
+    with pytest.raises(OutputError, match="range buffer"):
+        tessellator.tessellate("quad", factors, out=(whole.points, whole.indices, whole.ranges[1:]))
+    with pytest.raises(OutputError, match="point buffer"):
+        tessellator.tessellate("quad", factors, out=(whole.points[1:], whole.indices))

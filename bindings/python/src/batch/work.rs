@@ -1,0 +1,182 @@
+//! How a batch is written: at once, or in parts if that takes long enough to press Ctrl-C.
+
+use crate::errors;
+use crate::threads::Threads;
+use pyo3::prelude::*;
+use tess_simd::{
+    Batch, BatchCounts, Buffer, Buffers, Counted, Error, IndexFormat, Numbering, OutputPoint,
+    PatchRange, Tessellator,
+};
+
+/// The most output, in bytes, between two looks for signals: some hundredths of a second.
+const MOST_BYTES: usize = 64 << 20;
+
+/// A counted batch, to be written.
+pub(super) struct Work<'a> {
+    pub(super) threads: &'a Threads,
+    pub(super) numbering: Numbering,
+    pub(super) how: How<'a>,
+}
+
+/// At once, or in parts.
+pub(super) enum How<'a> {
+    /// Without counting it again.
+    AtOnce(Counted<'a>),
+    Parts {
+        tessellator: &'a mut Tessellator,
+        batch: Batch<'a>,
+        sizes: Sizes,
+    },
+}
+
+/// What is known of a batch that is counted.
+#[derive(Clone, Copy)]
+pub(super) struct Sizes {
+    pub(super) counts: BatchCounts,
+    largest_index: Option<u64>,
+}
+
+impl Sizes {
+    pub(super) fn of(counted: &Counted<'_>, numbering: Numbering) -> Self {
+        Self { counts: counted.counts(), largest_index: counted.largest_index(numbering) }
+    }
+
+    /// Whether the batch is written at once.
+    pub(super) fn is_small(&self) -> bool {
+        // The types are known later; these are the largest.
+        bytes::<[f32; 2], u32>(self.counts) <= MOST_BYTES
+    }
+}
+
+fn bytes<P, I>(counts: BatchCounts) -> usize {
+    counts.points * size_of::<P>() + counts.indices * size_of::<I>()
+}
+
+impl Work<'_> {
+    /// Writes it without the interpreter's lock.
+    ///
+    /// # Errors
+    /// Those of [`Counted::write`], and then nothing is written; what a handler of a signal raised.
+    pub(super) fn write<P: OutputPoint, I: IndexFormat>(
+        self,
+        py: Python<'_>,
+        mut room: Room<'_, P, I>,
+    ) -> PyResult<()> {
+        let Self { threads, numbering, how } = self;
+        let (tessellator, batch, sizes) = match how {
+            How::AtOnce(mut counted) => {
+                let write = || counted.write(numbering, room.buffers());
+                py.detach(|| threads.run(write)).map_err(errors::batch)?;
+                return Ok(());
+            }
+            How::Parts { tessellator, batch, sizes } => (tessellator, batch, sizes),
+        };
+        room = room.of_sizes(sizes).map_err(errors::batch)?;
+        let mut left = sizes.counts;
+        let mut first = PatchRange::default();
+        let mut patches = most_patches::<P, I>(left);
+        while left.patches > 0 {
+            py.check_signals()?;
+            let done = sizes.counts.patches - left.patches;
+            let part = batch.get(done..done + patches.min(left.patches));
+            let part = part.ok_or_else(|| errors::argument("a part past the end of the batch"))?;
+            let write = || write_part(tessellator, part, numbering, first, room.rest(sizes, left));
+            let written = py.detach(|| threads.run(write)).map_err(errors::batch)?;
+            let Some(counts) = written else {
+                patches /= 2;
+                continue;
+            };
+            left.patches -= counts.patches;
+            left.points -= counts.points;
+            left.indices -= counts.indices;
+            first.first_point += narrow(counts.points);
+            first.first_index += narrow(counts.indices);
+            patches = most_patches::<P, I>(left);
+        }
+        Ok(())
+    }
+}
+
+/// Patches that have [`MOST_BYTES`] of output if they are like the average: at least one.
+fn most_patches<P, I>(counts: BatchCounts) -> usize {
+    let average = bytes::<P, I>(counts).div_ceil(counts.patches.max(1));
+    (MOST_BYTES / average.max(1)).max(1)
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
+const fn narrow(count: usize) -> u32 {
+    count as u32
+}
+
+/// Writes a part, whose output begins at `first`, to the beginning of some room; `None` if it is too large for that
+/// and can be cut.
+fn write_part<P: OutputPoint, I: IndexFormat>(
+    tessellator: &mut Tessellator,
+    part: Batch<'_>,
+    numbering: Numbering,
+    first: PatchRange,
+    room: Room<'_, P, I>,
+) -> Result<Option<BatchCounts>, Error> {
+    let mut counted = tessellator.count(part)?;
+    let counts = counted.counts();
+    if bytes::<P, I>(counts) > 2 * MOST_BYTES && counts.patches > 1 {
+        return Ok(None);
+    }
+    let numbering = match numbering {
+        Numbering::PerBatch { base_vertex } => {
+            Numbering::PerBatch { base_vertex: base_vertex.wrapping_add(first.first_point) }
+        }
+        Numbering::PerPatch => numbering,
+    };
+    let Room { points, indices, ranges } = room;
+    counted.write(numbering, Buffers::new(points, indices).with_ranges(&mut *ranges))?;
+    for range in &mut ranges[..counts.patches] {
+        range.first_point += first.first_point;
+        range.first_index += first.first_index;
+    }
+    Ok(Some(counts))
+}
+
+/// The buffers of a batch.
+pub(super) struct Room<'a, P, I> {
+    pub(super) points: &'a mut [P],
+    pub(super) indices: &'a mut [I],
+    pub(super) ranges: &'a mut [PatchRange],
+}
+
+impl<'a, P: OutputPoint, I: IndexFormat> Room<'a, P, I> {
+    fn buffers(&mut self) -> Buffers<'_, P, I> {
+        Buffers::new(self.points, self.indices).with_ranges(self.ranges)
+    }
+
+    /// The room of the output.
+    ///
+    /// # Errors
+    /// Those of [`Counted::write`].
+    fn of_sizes(self, sizes: Sizes) -> Result<Self, Error> {
+        if let Some(largest) = sizes.largest_index.filter(|&largest| largest > I::LARGEST) {
+            return Err(Error::IndexTooLarge { largest, format: I::LARGEST });
+        }
+        let BatchCounts { patches, points, indices } = sizes.counts;
+        Ok(Self {
+            ranges: prefix(self.ranges, patches, Buffer::Ranges)?,
+            points: prefix(self.points, points, Buffer::Points)?,
+            indices: prefix(self.indices, indices, Buffer::Indices)?,
+        })
+    }
+
+    /// The room of what is left of a batch that has all of this.
+    fn rest(&mut self, sizes: Sizes, left: BatchCounts) -> Room<'_, P, I> {
+        let BatchCounts { patches, points, indices } = sizes.counts;
+        Room {
+            points: &mut self.points[points - left.points..],
+            indices: &mut self.indices[indices - left.indices..],
+            ranges: &mut self.ranges[patches - left.patches..],
+        }
+    }
+}
+
+fn prefix<T>(slice: &mut [T], needed: usize, buffer: Buffer) -> Result<&mut [T], Error> {
+    let got = slice.len();
+    slice.get_mut(..needed).ok_or(Error::BufferTooSmall { buffer, needed, got })
+}

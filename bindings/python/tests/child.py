@@ -1,0 +1,39 @@
+"""Work in a forked child."""
+
+import os
+import select
+import signal
+import sys
+import traceback
+from typing import Callable
+
+
+def in_a_child(work: "Callable[[], bytes]", patience: float = 60) -> bytes:
+    """What the work gives in a forked child.
+
+    Fails if the child raises, or has not ended in so many seconds.
+    """
+    reader, writer = os.pipe()
+    sys.stdout.flush()
+    child = os.fork()
+    if child == 0:
+        status = 1
+        try:
+            os.close(reader)
+            os.write(writer, work())
+            status = 0
+        except BaseException:
+            traceback.print_exc()
+        finally:
+            os._exit(status)
+    os.close(writer)
+    try:
+        is_ready, _, _ = select.select([reader], [], [], patience)
+        said = os.read(reader, 65536) if is_ready else None
+    finally:
+        os.close(reader)
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+    assert said is not None, f"the child hangs: it has not ended in {patience} s"
+    assert said, "the child raised an exception"
+    return said
