@@ -5,13 +5,11 @@
 //! cargo bench -p tess-benches --bench core -- --baseline before
 //! cargo bench -p tess-benches --bench simd -- terrain
 //! cargo bench -p tess-benches --bench surface
-//! python3 benches/lanes.py > rows.json
 //! ```
 //!
 //! A [`Case`] is a workload's first batch of the working set `cache` with buffers for its output.
 //! The digest of its output is compared with the random-access formulation before it is timed, and by
-//! `cargo test`. The bench `simd` fills the same bytes beside each workload. The program `lanes` has the stages of
-//! the front end over arrays and over `wide`; `lanes.py` runs it for each target.
+//! `cargo test`. The bench `simd` fills the same bytes beside each workload. The program `gpu` measures the GPU backend.
 
 use std::ops::Range;
 use tess_core::{BufferTooSmall, DomainPoint, Patch};

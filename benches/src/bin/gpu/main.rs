@@ -1,10 +1,21 @@
-//! Measures the GPU backend: see README.md beside this crate's Cargo.toml.
+//! Measures the GPU backend on the first adapter that has timestamps, for `docs/performance.md` and
+//! `docs/experiments.md`; `tess bench --backend gpu` is for users.
+//!
+//! ```text
+//! cargo run --release -p tess-benches --features gpu --bin gpu -- crossover
+//! cargo run --release -p tess-benches --features gpu --bin gpu -- groups
+//! cargo run --release -p tess-benches --features gpu --bin gpu -- ablation benches/edits uniform-16 character
+//! ```
+//!
+//! `ablation` runs workloads of `tess bench` (1 GiB of output) with edited shaders. Each file `*.edit` of a folder is one
+//! variant: blocks of a line `<<<`, the text to find, a line `===`, the text to put there, a line `>>>`. Results are
+//! compared with the model's digest; most variants are wrong on purpose, and their lines say so. With
+//! `--patches 256 --repeats 1` the workloads are short batches.
 #![expect(clippy::print_stdout, reason = "a program that prints what it measured")]
 
 mod ablation;
 mod crossover;
 mod groups;
-mod orders;
 mod timing;
 
 use clap::{Parser, Subcommand};
@@ -13,7 +24,7 @@ type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 /// Measures the GPU backend on the first adapter with timestamps
 #[derive(Debug, Parser)]
-#[command(name = "tess-measure")]
+#[command(name = "gpu")]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -25,8 +36,6 @@ enum Command {
     Crossover,
     /// Compare many meshes in one batch with as many batches
     Groups,
-    /// Draw the same triangles in several orders
-    Orders,
     /// Time each stage with parts of the shaders changed or left out
     Ablation(ablation::Arguments),
 }
@@ -35,7 +44,6 @@ fn main() -> Result<()> {
     match Arguments::parse().command {
         Command::Crossover => crossover::run(),
         Command::Groups => groups::run(),
-        Command::Orders => orders::run(),
         Command::Ablation(arguments) => ablation::run(&arguments),
     }
 }
