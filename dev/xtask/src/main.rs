@@ -33,11 +33,12 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask <command>
 
-  test [PATH...]
+  test [PATH... [WORD...]]
           set up what the tests need, then run those of the model, the CPU, the GPU on Vulkan, surfaces, the
-          kit, the program and C; or only those in these folders and files, such as tess-core/tests/golden.rs
+          kit, the program and C; or only those of a package's folder (tess-core) or file (tess-core/tests/golden.rs),
+          of which only those whose names have one of the words
   test all
-          run every test: Python, the browser, OpenGL, a window and simulators too
+          run every test: Python, the browser, OpenGL, a window, simulators, the explorer and benches too
   ci      what continuous integration runs: formatting, `circles`, `traceability`, lints, documentation, `features`,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
@@ -120,7 +121,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         |command: &dyn Fn() -> Result<(), String>| setup::run().and_then(|()| command());
     Some(match *words {
         ["test", "all"] => test::run_all(test::Browser::IfThere),
-        ["test", ref paths @ ..] => test::run(paths),
+        ["test", ref arguments @ ..] => test::run(arguments),
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
         ["circles", ref names @ ..] => circles::run(names),

@@ -1,7 +1,8 @@
 //! The test programs of the workspace, all built with one set of features.
 //!
-//! Cargo gives dependencies the features that the selected packages want together, so `cargo test -p PACKAGE`
-//! compiles most dependencies again. A part of the suite is therefore selected by its targets, of the whole workspace.
+//! Cargo gives dependencies the features that the selected packages want together. A file of tests is therefore
+//! selected by its target, of the whole workspace, so that no dependency is compiled again. The folder of a package
+//! selects that package alone: its own dependencies may be compiled once more, other packages' tests never.
 
 use crate::command::{self, cargo, workspace};
 use crate::levels;
@@ -15,6 +16,9 @@ use std::process::Command;
 
 /// The arguments of `cargo` for the tests of the workspace.
 const ALL: &str = "test --workspace --all-features --no-fail-fast";
+
+/// The packages that have no part in [`Extent::Comparisons`], and bring much that nothing else needs to compile.
+const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-measure", "tess-benches"];
 
 /// Has cargo list what it built on its standard output.
 const MESSAGES: &str = "--message-format=json-render-diagnostics";
@@ -68,32 +72,84 @@ struct Profile {
     test: bool,
 }
 
+/// What `cargo xtask test` was asked for: paths of tests, and words of which a test's name must have one.
+#[derive(Debug, Default, PartialEq, Eq)]
+pub(crate) struct Part<'a> {
+    pub(crate) paths: Vec<&'a str>,
+    pub(crate) words: Vec<&'a str>,
+}
+
+impl<'a> Part<'a> {
+    /// The first argument is a path; so are those behind it that have a `/` or are a package's folder.
+    pub(crate) fn of(arguments: &[&'a str]) -> Self {
+        let is_path = |(number, argument): &(usize, &str)| {
+            *number == 0
+                || argument.contains('/')
+                || workspace().join(argument).join("Cargo.toml").is_file()
+        };
+        let (paths, words): (Vec<_>, Vec<_>) =
+            arguments.iter().copied().enumerate().partition(is_path);
+        let texts = |list: Vec<(usize, &'a str)>| list.into_iter().map(|(_, text)| text).collect();
+        Self { paths: texts(paths), words: texts(words) }
+    }
+}
+
 /// Builds the tests and gives a job for each program, the longest first, and one for the examples in the
-/// documentation. With `paths`, only programs whose sources begin with one of them, and no documentation.
+/// documentation. Of a part, only programs whose sources begin with one of its paths, and no documentation.
 ///
 /// # Errors
 /// They do not compile, or a path has no tests.
-pub(crate) fn jobs(extent: Extent, paths: &[&str]) -> Result<Vec<Job>, String> {
-    let mut build = cargo(ALL);
+pub(crate) fn jobs(extent: Extent, part: &Part<'_>) -> Result<Vec<Job>, String> {
+    let base = base(extent, part)?;
+    let mut build = cargo(&base);
     println!("\n$ {}", command::shown(build.arg("--no-run")));
     let root = workspace();
-    let selected = match (extent, paths) {
+    let selected = match (extent, &part.paths[..]) {
         // Not the examples either, of which each links a window system.
         (Extent::Comparisons, []) => arguments(packages::all()?.iter().flat_map(comparisons)),
-        _ => selection(paths)?,
+        (_, paths) => selection(paths)?,
     };
     let messages = command::output(build.arg(MESSAGES).args(selected))?;
-    let mut jobs = jobs_of(&messages, &root, extent, paths);
+    let mut jobs = jobs_of(&messages, &root, extent, &part.paths);
     let place = |job: &Job| LONG.iter().position(|long| *long == job.name).unwrap_or(LONG.len());
     jobs.sort_by_key(place);
-    if paths.is_empty() {
-        let mut documentation = cargo(ALL);
+    if !part.words.is_empty() {
+        jobs = jobs.iter().flat_map(|job| part.words.iter().map(|word| job.with(word))).collect();
+    }
+    if part.paths.is_empty() {
+        let mut documentation = cargo(&base);
         documentation.arg("--doc");
-        prepare(&mut documentation);
+        prepare(&mut documentation, &base);
         // It compiles the examples, so it takes long.
         jobs.insert(1.min(jobs.len()), Job::new(documentation));
     }
+    for job in &mut jobs {
+        prepare(&mut job.command, &base);
+    }
     Ok(jobs)
+}
+
+/// The arguments of `cargo` that select the packages. With all of them every dependency has the same features, but the
+/// folder of a package says that no other is wanted.
+fn base(extent: Extent, part: &Part<'_>) -> Result<String, String> {
+    let mut base = ALL.to_owned();
+    if part.paths.is_empty() {
+        if extent == Extent::Comparisons {
+            APART.iter().for_each(|package| base += &format!(" --exclude {package}"));
+        }
+        return Ok(base);
+    }
+    let packages = packages::all()?;
+    let below = |path: &&str| {
+        let folder = workspace().join(path);
+        packages.iter().filter(move |package| package.folder().starts_with(&folder))
+    };
+    if part.paths.iter().all(|path| below(path).next().is_some()) {
+        let chosen = part.paths.iter().flat_map(below);
+        let chosen: String = chosen.map(|package| format!(" --package {}", package.name)).collect();
+        base = ALL.replace(" --workspace", &chosen);
+    }
+    Ok(base)
 }
 
 /// Builds the test programs of `path` in another tree and gives their jobs; for tests in Python, the package.
@@ -108,7 +164,9 @@ pub(crate) fn programs(tree: &Tree, path: &str) -> Result<Vec<Job>, String> {
     build.current_dir(&tree.root).env("CARGO_TARGET_DIR", &tree.target);
     build.arg("--no-run").args(selection(&[path])?);
     let messages = command::quiet_output(build.arg(MESSAGES))?;
-    Ok(jobs_of(&messages, &tree.root, Extent::All, &[path]))
+    let mut jobs = jobs_of(&messages, &tree.root, Extent::All, &[path]);
+    jobs.iter_mut().for_each(|job| prepare(&mut job.command, ALL));
+    Ok(jobs)
 }
 
 /// The jobs of a build, from what cargo said of it in the tree at `root`.
@@ -144,10 +202,10 @@ fn arguments<'a>(targets: impl IntoIterator<Item = &'a Target>) -> Vec<String> {
 
 /// The targets of a package that have tests of [`Extent::Comparisons`].
 fn comparisons(package: &Package) -> impl Iterator<Item = &Target> {
-    package
-        .targets
-        .iter()
-        .filter(|target| target.test && tests_beyond(&target.src_path) != Some(&[]))
+    let is_apart = APART.contains(&package.name.as_str());
+    package.targets.iter().filter(move |target| {
+        target.test && !is_apart && tests_beyond(&target.src_path) != Some(&[])
+    })
 }
 
 /// The tests of a program that need more than [`Extent::Comparisons`] has, from [`BEYOND`].
@@ -173,16 +231,17 @@ fn job(program: Program, root: &Path, extent: Extent, paths: &[&str]) -> Option<
     // As cargo runs tests.
     command.current_dir(folder).env("CARGO_MANIFEST_DIR", folder);
     command.env("CARGO", cargo("").get_program());
-    prepare(&mut command);
     Some(Job { name: source.display().to_string(), command })
 }
 
-/// Tells tests what they may rely on.
-fn prepare(tests: &mut Command) {
+/// Tells tests of a build with these arguments what they may rely on.
+fn prepare(tests: &mut Command, base: &str) {
     // A test whose tool is missing then fails; elsewhere it is reported as ignored.
     tests.env("CI", "1");
-    // The C interface's libraries are those of this build.
-    tests.env("TESS_CAPI_BUILD", ALL);
+    // The C interface's libraries are those of this build, which has this program.
+    if base.contains("--workspace") {
+        tests.env("TESS_CAPI_BUILD", format!("{base} --test foreign"));
+    }
     tests.env(levels::VARIABLE, levels::required().join(","));
     // Shaders without what debuggers want: a tenth less for the driver to compile.
     tests.env("WGPU_DEBUG", "0");
@@ -202,6 +261,9 @@ mod tests {
         for file in LONG.iter().chain(BEYOND.iter().map(|(file, _)| file)) {
             assert!(workspace().join(file).is_file(), "{file} is listed here and is no test");
         }
+        let packages = packages::all().expect("packages");
+        let is_there = |name: &&str| packages.iter().any(|package| package.name == *name);
+        assert!(APART.iter().all(is_there), "a package of {APART:?} has another name");
         for (file, names) in BEYOND {
             let text = fs::read_to_string(workspace().join(file)).expect("text");
             let is_there = |name: &&str| text.contains(&format!("\"{name}"));
@@ -215,5 +277,19 @@ mod tests {
         let selected = selection(&paths).expect("some");
         assert_eq!(selected, ["--lib", "--test", "golden"], "targets, each once");
         assert!(selection(&["tess-core/nope"]).is_err(), "no such test");
+    }
+
+    #[test]
+    fn a_folder_is_its_package_and_words_are_no_paths() {
+        let base = |arguments: &[&str]| base(Extent::All, &Part::of(arguments)).expect("packages");
+        let core = "test --package tess-core --all-features --no-fail-fast";
+        assert_eq!(base(&["tess-core"]), core, "one package");
+        assert_eq!(base(&["tess-core", "golden"]), core, "a word that is a folder too");
+        assert_eq!(base(&["tess-core", "tess-core/tests/golden.rs"]), ALL, "a file");
+        assert!(base(&["bindings"]).contains(" --package tess-capi "), "a folder of packages");
+        let part = Part::of(&["tess-core", "tess-core/src", "ring", "tess-gpu"]);
+        assert_eq!(part.paths, ["tess-core", "tess-core/src", "tess-gpu"], "paths");
+        assert_eq!(part.words, ["ring"], "words");
+        assert_eq!(Part::of(&["nope"]).paths, ["nope"], "the first is a path");
     }
 }

@@ -3,7 +3,7 @@
 use crate::command::shown;
 use std::collections::VecDeque;
 use std::fmt;
-use std::io::{BufRead, BufReader, Read};
+use std::io::{BufRead, BufReader};
 use std::process::{Command, ExitStatus, Stdio};
 use std::sync::Mutex;
 use std::sync::mpsc::{self, Receiver};
@@ -53,6 +53,17 @@ impl Job {
     pub(crate) fn new(command: Command) -> Self {
         Self { name: shown(&command), command }
     }
+
+    /// The same program with this word, which selects tests.
+    pub(crate) fn with(&self, word: &str) -> Self {
+        let mut command = Command::new(self.command.get_program());
+        command.args(self.command.get_args()).arg(word);
+        command.envs(self.command.get_envs().filter_map(|(key, value)| Some((key, value?))));
+        if let Some(folder) = self.command.get_current_dir() {
+            command.current_dir(folder);
+        }
+        Self { name: format!("{} {word}", self.name), command }
+    }
 }
 
 /// What commands ran, and which of them failed.
@@ -85,28 +96,29 @@ impl Report {
         Ok(())
     }
 
-    /// Runs the jobs, some of them at a time, and prints the output of each when it ends. A job may have no test, but
-    /// must say so: a program that ends before its tests would otherwise pass.
+    /// Runs the jobs, some of them at a time. Prints the line of each test when it ends, and the rest of a job's output
+    /// when the job ends. A job may have no test, but must say so: a program that ends before its tests would otherwise
+    /// pass.
     ///
     /// # Errors
     /// As for [`Report::one_by_one`], and jobs that have no test together.
     pub(crate) fn beside_each_other(&mut self, jobs: Vec<Job>) -> Result<(), String> {
         let passed_before = self.all.passed;
-        let (names, workers) = (jobs.iter().map(|job| job.name.clone()).collect(), at_once());
+        let (total, workers) = (jobs.len(), at_once());
         let waiting = Mutex::new(jobs.into_iter().collect::<VecDeque<_>>());
-        let (sender, ended) = mpsc::channel();
+        let (sender, news) = mpsc::channel();
         let take = || waiting.lock().ok().and_then(|mut jobs| jobs.pop_front());
         std::thread::scope(|scope| {
             for sender in std::iter::repeat_n(sender, workers) {
                 scope.spawn(move || {
-                    while let Some(job) = take() {
-                        let (name, output) = (job.name.clone(), captured(job.command));
+                    while let Some(Job { name, command }) = take() {
                         // The receiver outlives all senders.
-                        _ = sender.send((name, output));
+                        let tell = |news| _ = sender.send((name.clone(), news));
+                        tell(News::Ended(captured(command, |line| tell(News::Test(line)))));
                     }
                 });
             }
-            self.receive(names, ended)
+            self.receive(total, news)
         })?;
         if self.all.passed == passed_before {
             self.broken.push("no test ran".to_owned());
@@ -114,12 +126,20 @@ impl Report {
         Ok(())
     }
 
-    /// Prints and counts what the jobs put out, in the order in which they end.
-    fn receive(&mut self, names: Vec<String>, ended: Receiver<Ended>) -> Result<(), String> {
-        let total = names.len();
-        for (number, (name, output)) in (1..).zip(ended) {
-            let Output { text, status, seconds } = output.map_err(|e| format!("{name}: {e}"))?;
-            println!("\n[{number} of {total}] {name}, {seconds} s\n{}", text.trim_end());
+    /// Prints and counts what the jobs put out.
+    fn receive(&mut self, total: usize, news: Receiver<(String, News)>) -> Result<(), String> {
+        let mut number = 0;
+        for (name, news) in news {
+            let output = match news {
+                News::Test(line) => {
+                    println!("{name}: {line}");
+                    continue;
+                }
+                News::Ended(output) => output.map_err(|error| format!("{name}: {error}"))?,
+            };
+            let Output { text, status, seconds } = output;
+            number += 1;
+            println!("\n[{number} of {total}] {name}, {seconds} s\n{}\n", text.trim());
             let results = text.lines().filter(|line| self.all.add_line(line)).count();
             match (status.success(), results) {
                 (true, 1..) => {}
@@ -155,10 +175,14 @@ pub(crate) fn run(commands: impl IntoIterator<Item = Command>) -> Result<(), Str
     report.finish()
 }
 
-/// A job's name and what became of it.
-type Ended = (String, Result<Output, String>);
+/// What is heard of a job.
+enum News {
+    /// The line of a test that has ended, without its first word.
+    Test(String),
+    Ended(Result<Output, String>),
+}
 
-/// What a command printed on both of its outputs.
+/// What else a command printed on both of its outputs.
 struct Output {
     text: String,
     status: ExitStatus,
@@ -171,18 +195,24 @@ fn at_once() -> usize {
     std::thread::available_parallelism().map_or(1, |count| count.get().clamp(1, 4))
 }
 
-/// Runs a command and keeps its output.
-fn captured(mut command: Command) -> Result<Output, String> {
+/// Runs a command and keeps its output, but for the lines of tests, which it tells at once.
+fn captured(mut command: Command, tell: impl Fn(String)) -> Result<Output, String> {
     let began = Instant::now();
-    let (mut reader, writer) = std::io::pipe().map_err(|error| error.to_string())?;
+    let (reader, writer) = std::io::pipe().map_err(|error| error.to_string())?;
     let both = writer.try_clone().map_err(|error| error.to_string())?;
     let mut child = command.stdout(writer).stderr(both).spawn().map_err(|e| e.to_string())?;
     // The command holds the pipe's other end, which would never close.
     drop(command);
-    let mut bytes = Vec::new();
-    reader.read_to_end(&mut bytes).map_err(|error| error.to_string())?;
+    let mut text = String::new();
+    for line in BufReader::new(reader).split(b'\n') {
+        let line = line.map_err(|error| error.to_string())?;
+        let line = String::from_utf8_lossy(&line);
+        match line.strip_prefix("test ").filter(|rest| !rest.starts_with("result: ")) {
+            Some(test) => tell(test.to_owned()),
+            None => text += &format!("{line}\n"),
+        }
+    }
     let status = child.wait().map_err(|error| error.to_string())?;
-    let mut text = String::from_utf8_lossy(&bytes).into_owned();
     if !status.success() {
         text += &format!("\nended with {status}");
     }

@@ -1,6 +1,6 @@
 //! Runs every test and says how many there were.
 
-use crate::suite::{self, Extent};
+use crate::suite::{self, Extent, Part};
 use crate::tally::{Job, Report};
 use crate::{command, explorer, python, setup};
 
@@ -13,20 +13,21 @@ pub(crate) enum Browser {
     IfThere,
 }
 
-/// Runs the tests of the workspace that need no more than a Vulkan driver and a C compiler, or those in `paths`, on
+/// Runs the tests of the workspace that need no more than a Vulkan driver and a C compiler, or those of a [`Part`], on
 /// every CPU level that this machine should have; the last line printed is the tally.
 ///
 /// # Errors
 /// A test fails, something cannot be installed, or a path has no tests.
-pub(crate) fn run(paths: &[&str]) -> Result<(), String> {
+pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
     setup::for_comparisons()?;
     // Whoever names a test wants it.
-    let extent = if paths.is_empty() { Extent::Comparisons } else { Extent::All };
+    let extent = if arguments.is_empty() { Extent::Comparisons } else { Extent::All };
     let mut report = Report::default();
-    report.beside_each_other(suite::jobs(extent, paths)?)?;
-    if paths.is_empty() {
+    report.beside_each_other(suite::jobs(extent, &Part::of(arguments))?)?;
+    if arguments.is_empty() {
         println!(
-            "\nNOT RUN: OpenGL, a window, simulators, Python, the browser; `cargo xtask test all` runs them"
+            "\nNOT RUN: OpenGL, a window, simulators, Python, the explorer, the programs that measure; \
+             `cargo xtask test all` runs them"
         );
     }
     report.finish()
@@ -39,7 +40,7 @@ pub(crate) fn run(paths: &[&str]) -> Result<(), String> {
 pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     setup::run()?;
     // Compiled once, so that nothing else of the suite builds the program with other features.
-    let mut jobs = suite::jobs(Extent::All, &[])?;
+    let mut jobs = suite::jobs(Extent::All, &Part::default())?;
     let program = command::built_program();
     jobs.insert(0, Job::new(python::in_a_process(&program)?));
     let lacking = explorer::lacking();
