@@ -29,7 +29,7 @@ pub struct Job {
     pub window_first: u32,
     /// Tiles of the window that is bound.
     pub window_tiles: u32,
-    /// Chunks of the batch.
+    /// Portions of the batch.
     pub portions: u32,
     /// Points that the batch has room for.
     pub point_capacity: u32,

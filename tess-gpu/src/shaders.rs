@@ -24,7 +24,7 @@ pub use taps::Tap;
 /// One of the compute shaders that a batch runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// The work of the next four and of [`Stage::Partition`] in one workgroup, for a short batch.
+    /// The work of [`Stage::Factors`] to [`Stage::Totals`] and of [`Stage::Partition`] in one dispatch, for a short batch.
     Short,
     /// Turns raw factors into topologies, contexts, counts and offsets within blocks of 256 patches.
     Factors,
@@ -86,7 +86,7 @@ const fn front<const MORE: usize, const ALL: usize>(more: [Binding; MORE]) -> [B
 }
 
 impl Stage {
-    /// Every stage, in the order in which they run.
+    /// Every stage. A short batch runs the first and the last, any other those between, in this order.
     pub const ALL: [Self; 10] = [
         Self::Short,
         Self::Factors,

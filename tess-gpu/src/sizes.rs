@@ -2,7 +2,7 @@
 
 use crate::layout::DrawIndexed;
 
-/// Threads of a workgroup that expands a tile, partitions tiles or runs probes.
+/// Threads of a workgroup that expands a tile of primitives, partitions tiles, lists topologies or serves a tap.
 pub const WORKGROUP: u32 = 64;
 /// Threads of a workgroup that expands points: a tile of unlike patches waits less with more of them.
 pub(crate) const POINT_THREADS: u32 = 128;

@@ -62,8 +62,8 @@ const fn segment_length(segments: u32) -> u32 {
     }
 }
 
-/// What factor processing guarantees already; it makes every reciprocal below exist. Between the
-/// even factor 1, which acts as 2, and 2 itself there is none.
+/// The range that factor processing guarantees already; it makes every reciprocal below exist. Legal even
+/// factors are 1 (treated as 2) and 2..=64.
 const fn clamp_to_range(factor: FixedFactor, parity: Parity) -> FixedFactor {
     let lowest = if factor.to_bits() <= ONE { ONE } else { (2 - parity.odd()) << 16 };
     let highest = (64 - parity.odd()) << 16;

@@ -48,7 +48,7 @@ fn workgroups_of(slot: u32, range: Range, is_overflow: u32) -> u32 {
         slot - 1u - job.point_windows, job.primitive_window_tiles);
 }
 
-// Which output does not fit, of so many points and primitives, in two words each: 1, 2 or both.
+// Overflow flags of so many points and primitives, in two words each: bit 0 points, bit 1 indices.
 fn overflow(low: vec2<u32>, high: vec2<u32>) -> u32 {
     let points = high.x != 0u || low.x > job.point_capacity;
     let primitives = high.y != 0u || low.y > job.primitive_capacity;

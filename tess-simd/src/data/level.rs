@@ -72,7 +72,7 @@ impl fmt::Display for LevelUnavailable {
 
 impl core::error::Error for LevelUnavailable {}
 
-// The instructions of each level stand below and nowhere else: as the machine is asked for them, as
+// The instructions of each level stand below, and for kernels of its own in tess-surface's `dispatch.rs`: as the machine is asked for them, as
 // `multiversion` is told them, and as the functions that use intrinsics are.
 
 #[cfg(all(feature = "std", target_arch = "x86_64"))]

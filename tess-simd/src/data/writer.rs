@@ -52,8 +52,8 @@ impl<'a, T: Copy + Default> Writer<'a, T> {
         }
     }
 
-    /// [`Writer::map`] of elements that mostly are at most `LEAST`: as many are written without asking
-    /// how many there are, where there is room.
+    /// [`Writer::map`] with a fast path: if `length <= LEAST` and there is room, writes `LEAST` elements
+    /// unconditionally.
     #[inline(always)]
     pub(crate) fn map_least<S: Copy, const N: usize, const LEAST: usize>(
         &mut self,

@@ -170,7 +170,7 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
 /// Writes the first patch of a packet, a compact one that is not culled, its indices counted from its own first
 /// point.
 ///
-/// [`emit`] could do it, but first loads what the loops of large patches take.
+/// [`emit`] would be correct, but sets up state that only large patches use.
 #[inline(always)]
 pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,

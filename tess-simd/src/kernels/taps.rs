@@ -44,7 +44,7 @@ pub(crate) fn contexts(
     let odd = parity.odd();
     let highest = (64 - odd) << 16;
     for (factor, context) in factors.iter().zip(contexts) {
-        // Between the even factor 1, which acts as 2, and 2 itself there is none.
+        // Legal even factors are 1 (treated as 2) and 2..=64.
         let lowest = if factor.to_bits() <= ONE { ONE } else { (2 - odd) << 16 };
         let fixed = factor.to_bits().clamp(lowest, highest);
         *context = FactorContext::from(&Context::new(fixed, odd, split));

@@ -2,7 +2,7 @@
 //!
 //! Every run of points along an edge is one coordinate held and the other read from a table of
 //! locations; seen from the other end a location is `ONE` minus itself. For compact patches of fractional
-//! factors, `code` notes what each point is made of, and `permute` or `lookup` makes it.
+//! factors, `coordinate_code` notes what each point is made of, and `permute` or `lookup` makes it.
 
 mod coordinate_code;
 mod isoline;

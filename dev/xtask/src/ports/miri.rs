@@ -18,7 +18,7 @@ const WHOLE: &[&str] = &[
     "test --package tess-capi --lib --test api",
 ];
 
-/// Runs tests of the model, and those of the C interface, where the only `unsafe` code is.
+/// Runs tests of the model, and those of the C interface, whose `unsafe` code takes callers' memory.
 pub(super) fn check(extent: Extent) -> Result<(), String> {
     let parts = [(Part::Component, "miri"), (Part::Component, "rust-src")];
     setup::toolchain("nightly", &parts)?;

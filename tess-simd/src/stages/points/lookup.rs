@@ -57,7 +57,7 @@ use core::hint::black_box;
 use tess_core::Domain;
 use tess_core::fixed_point::{ONE, ONE_THIRD};
 
-/// Lookup at the same positions of one factor.
+/// A row of the table: coordinates at the eight positions of one factor.
 type Row = [u32; HALF_EDGE];
 
 /// The first rows: one of locations for each factor of a quad or each outer one of a triangle, then one of
@@ -189,7 +189,7 @@ impl Lookup {
     }
 }
 
-/// Lookup from locations, as they stand in memory.
+/// A row of coordinates, encoded in the output format.
 #[inline(always)]
 fn row<P: OutputPoint>(mut row: Row, coordinate: impl Fn(u32) -> u32) -> Row {
     for x in &mut row {

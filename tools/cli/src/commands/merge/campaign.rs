@@ -68,7 +68,7 @@ fn strangeness(report: &Report, usual: &Found) -> String {
 }
 
 impl Campaign {
-    /// The campaign that most reports are of; of several with as many, the first.
+    /// The majority campaign; of several with as many reports, the first.
     ///
     /// # Errors
     /// No report.
