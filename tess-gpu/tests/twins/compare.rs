@@ -1,10 +1,11 @@
 //! The first word that differs, and what it belongs to.
 
 use super::buffers::Words;
+use super::catalogue::Catalogue;
 use super::run::Context;
 use std::fmt;
 use tess_gpu::layout::Job;
-use tess_gpu::{Access, Binding, Dispatch, Resource, Stage};
+use tess_gpu::{Access, Binding, Dispatch, Resource, Setup, Stage};
 
 /// A word that a pass left otherwise than its twin says.
 #[derive(Debug)]
@@ -24,7 +25,7 @@ impl fmt::Display for Difference {
 pub(crate) fn first_difference(
     context: &Context<'_>,
     dispatch: &Dispatch,
-    (expected, left): (&Words, &Words),
+    (words, left): (&Words, &Words),
     refused: Option<(Resource, u32, String)>,
     number: usize,
 ) -> Result<(), Difference> {
@@ -43,12 +44,13 @@ pub(crate) fn first_difference(
     // Other buffers hold numbers of its slots.
     written.sort_by_key(|resource| *resource != Resource::Catalogue);
     for resource in written {
-        let (expected, left) = (&expected[resource as usize], &left[resource as usize]);
+        let (expected, left) = (&words[resource as usize], &left[resource as usize]);
         assert_eq!(expected.len(), left.len(), "the buffer {resource:?}");
         let Some(word) = (0..left.len()).find(|&word| expected[word] != left[word]) else {
             continue;
         };
-        let owner = owner(context, dispatch, &job, resource, word);
+        let catalogue = &words[Resource::Catalogue as usize];
+        let owner = owner(context, dispatch, &job, (resource, word), catalogue);
         let portion = job.portion;
         let text = format!(
             "{pass} of portion {portion}: {resource:?} word {word} ({owner}): {0} {0:#010x} instead of {1} {1:#010x}\n{2:?}",
@@ -59,13 +61,13 @@ pub(crate) fn first_difference(
     Ok(())
 }
 
-/// What a word of a buffer belongs to.
+/// What a word of a buffer belongs to; the catalogue is as it must be.
 fn owner(
     context: &Context<'_>,
     dispatch: &Dispatch,
     job: &Job,
-    resource: Resource,
-    word: usize,
+    (resource, word): (Resource, usize),
+    catalogue: &[u32],
 ) -> String {
     let (_, span) = dispatch.bindings().find(|(it, _)| *it == resource).expect("it is bound");
     let first = usize::try_from(span.offset / 4).expect("in memory");
@@ -92,7 +94,26 @@ fn owner(
             let at = (first as u64 + u64::from(word)) * u64::from(per_word);
             element_owner(context, 1, at, context.batch.setup.indices_per_primitive())
         }
+        Resource::Catalogue => catalogue_owner(context.batch.setup, word, catalogue),
         _ => "of no patch".to_owned(),
+    }
+}
+
+/// The slot that a word of the catalogue is of.
+fn catalogue_owner(setup: Setup, word: u32, words: &[u32]) -> String {
+    let it = Catalogue::new(setup);
+    let [(points_at, _, point_words), (triangles_at, ..)] = it.elements;
+    let (kind, each, what) = match word {
+        _ if word < it.slots => return format!("key of slot {word}"),
+        _ if word < it.places_at => return format!("counter {}", word - it.used_at),
+        _ if word < points_at => return format!("places of slot {}", (word - it.places_at) / 2),
+        _ if word < triangles_at => (0, point_words, "point"),
+        _ => (1, 1, "triangle"),
+    };
+    let place = |slot: &u32| words[(it.places_at + 2 * slot + kind) as usize];
+    match (0..it.slots).filter(|slot| place(slot) <= word && place(slot) > 0).max_by_key(place) {
+        Some(slot) => format!("{what} {} of slot {slot}", (word - place(&slot)) / each),
+        None => format!("{what} of no slot"),
     }
 }
 

@@ -57,7 +57,8 @@ fn refusal(
         for (place, size, slot) in spans {
             let is_next = if has_room { place == free } else { place >= free };
             if !is_next || place + size > first + words * room {
-                let why = format!("place {place} where {free} is the first free word");
+                let why =
+                    format!("slot {slot} has the place {place}, and {free} is the first free word");
                 let word = catalogue.places_at + 2 * slot + u32::from(kind == PRIMITIVES);
                 return Some((Words, word, why));
             }
