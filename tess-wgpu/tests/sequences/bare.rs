@@ -21,7 +21,7 @@ pub(crate) struct Left<'a> {
 
 /// What runs a batch.
 pub(crate) enum Runner {
-    Batch(Batch),
+    Batch(Box<Batch>),
     Bare(Bare),
 }
 

@@ -19,7 +19,7 @@ use tess_gpu::{Copies, IndexType, Numbering, Order, PointFormat, Setup};
 use world::{Kept, World};
 
 /// Setups of every domain, partitioning and format, few enough for their pipelines to be made quickly.
-fn setups() -> Vec<Setup> {
+fn few() -> Vec<Setup> {
     use OutputPrimitive::{Line, Point, TriangleCcw, TriangleCw};
     use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};
     let of = |domain, partitioning, output| Setup::new(domain, Config::new(partitioning, output));
@@ -53,7 +53,12 @@ fn replayed(
     Ok(world.words)
 }
 
-/// Does a sequence that was found, on a device of its own. (The long run has the setups of [`options::setups`].)
+/// The setups of this run.
+fn setups() -> Vec<Setup> {
+    if sequences::long().is_some() { options::setups() } else { few() }
+}
+
+/// Does a sequence that was found. One of the long run needs its variable.
 fn replay(calls: &[Call]) {
     let outcome = replayed(&mut Machine::open(), &mut Kept::default(), &setups(), calls);
     outcome.unwrap_or_else(|difference| panic!("{difference}"));
@@ -62,7 +67,7 @@ fn replay(calls: &[Call]) {
 #[test]
 fn any_sequence_of_calls_gives_the_models_words() {
     let (mut machine, mut kept) = (Machine::open(), Kept::default());
-    let setups = if sequences::long().is_some() { options::setups() } else { setups() };
+    let setups = setups();
     sequences::hold(80, 20, calls::call(setups.len()), |calls| {
         replayed(&mut machine, &mut kept, &setups, calls)
     });

@@ -19,7 +19,7 @@ use tess_wgpu::{Error, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 
 /// Points and words of indices of the buffers that batches share.
-const SHARED: [[usize; 3]; 2] = [[50, 3000, 70_000], [100, 10_000, 150_000]];
+const SHARED: [[usize; 2]; 3] = [[50, 100], [3000, 10_000], [70_000, 150_000]];
 pub(crate) const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 3 };
 
 /// A buffer that batches write.
@@ -88,9 +88,9 @@ impl<'a> World<'a> {
         let factors = factors.into();
         let mut own =
             Self { machine, kept, setups, factors, limits, stores, batches, late, words: 0 };
-        for number in 0..3 {
-            own.store(format!("points {number}"), 2 * SHARED[0][number]);
-            own.store(format!("indices {number}"), SHARED[1][number]);
+        for (number, [points, indices]) in SHARED.into_iter().enumerate() {
+            own.store(format!("points {number}"), 2 * points);
+            own.store(format!("indices {number}"), indices);
         }
         own
     }
@@ -152,31 +152,10 @@ impl<'a> World<'a> {
         groups: u32,
         output: Output,
     ) -> Result<(), String> {
-        let patches = &self.factors(setup.domain).1[..count as usize];
-        let needed = needed(setup, patches);
-        let room = |points: i32, primitives: i32| Capacity {
-            points: needed.points.saturating_add_signed(points),
-            primitives: needed.primitives.saturating_add_signed(primitives),
-        };
         let mut random = SplitMix64::new(u64::from(groups));
         let mut groups: Vec<u32> = (0..groups).map(|_| random.below(count + 1)).collect();
         groups.sort_unstable();
-        let (room, stores) = match output {
-            Output::Count => (Capacity::default(), [None; 2]),
-            Output::Shared { points, indices } => {
-                (ALL, [Some(2 * (points % 3)), Some(2 * (indices % 3) + 1)])
-            }
-            Output::Own { points, primitives } => {
-                let Capacity { points, primitives } = room(points, primitives);
-                let points = self.store("own points".to_owned(), 2 * points as usize);
-                (ALL, [Some(points), Some(self.indices_for(setup, primitives))])
-            }
-            Output::Indices { points, primitives } => {
-                let room = room(points, primitives);
-                (room, [None, Some(self.indices_for(setup, room.primitives))])
-            }
-            Output::Arguments { points, primitives } => (room(points, primitives), [None; 2]),
-        };
+        let (room, stores) = self.room_and_stores(setup, count, output);
         let buffer = |store: Option<usize>| store.map(|store| &self.stores[store].buffer);
         let outputs = match (output, buffer(stores[0]), buffer(stores[1])) {
             (_, Some(points), Some(indices)) => Outputs::Buffers { points, indices },
@@ -210,13 +189,45 @@ impl<'a> World<'a> {
         } else {
             let batch =
                 self.machine.tessellator.batch_in_groups(setup, count, &groups, factors, outputs);
-            Runner::Batch(batch.map_err(|error| format!("{setup:?}, {count} patches: {error}"))?)
+            let batch = batch.map_err(|error| format!("{setup:?}, {count} patches: {error}"))?;
+            Runner::Batch(Box::new(batch))
         };
         let room = promised;
         let is_pulled = matches!(output, Output::Indices { .. } | Output::Arguments { .. });
         let count = count as usize;
         self.batches.push(Rc::new(Made { runner, setup, count, groups, room, stores, is_pulled }));
         Ok(())
+    }
+
+    /// What a batch is told of its room, and the stores of its points and indices.
+    fn room_and_stores(
+        &mut self,
+        setup: Setup,
+        count: u32,
+        output: Output,
+    ) -> (Capacity, [Option<usize>; 2]) {
+        let patches = &self.factors(setup.domain).1[..count as usize];
+        let needed = needed(setup, patches);
+        let room = |points: i32, primitives: i32| Capacity {
+            points: needed.points.saturating_add_signed(points),
+            primitives: needed.primitives.saturating_add_signed(primitives),
+        };
+        match output {
+            Output::Count => (Capacity::default(), [None; 2]),
+            Output::Shared { points, indices } => {
+                (ALL, [Some(2 * (points % 3)), Some(2 * (indices % 3) + 1)])
+            }
+            Output::Own { points, primitives } => {
+                let Capacity { points, primitives } = room(points, primitives);
+                let points = self.store("own points".to_owned(), 2 * points as usize);
+                (ALL, [Some(points), Some(self.indices_for(setup, primitives))])
+            }
+            Output::Indices { points, primitives } => {
+                let room = room(points, primitives);
+                (room, [None, Some(self.indices_for(setup, room.primitives))])
+            }
+            Output::Arguments { points, primitives } => (room(points, primitives), [None; 2]),
+        }
     }
 
     /// A store of indices for so many primitives.
@@ -341,7 +352,8 @@ impl<'a> World<'a> {
         }
         let offsets = self.machine.words(left.offsets);
         for (patch, &begin) in (0..).zip(&begins[..made.count]) {
-            let entries = left.plan.offset_entries(patch).map(|entry| 2 * entry as usize);
+            let at = |entry: u64| 2 * usize::try_from(entry).expect("in memory");
+            let entries = left.plan.offset_entries(patch).map(at);
             let sum = [0, 1].map(|kind| entries.iter().map(|at| offsets[at + kind]).sum::<u32>());
             equal(&format!("beginning of patch {patch}"), sum, begin)?;
         }

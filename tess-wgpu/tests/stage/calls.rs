@@ -121,7 +121,7 @@ pub(crate) fn forms(is_long: bool) -> Vec<Form> {
 pub(crate) fn factors(domain: Domain, seed: u64) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(seed);
     // Eighths up to 10 or, in one of four, up to 3; now and then what culls and what is beyond all.
-    let most = if seed % 4 == 0 { 24 } else { 80 };
+    let most = if seed.is_multiple_of(4) { 24 } else { 80 };
     let mut factor = || match random.below(60) {
         0 => 0.0,
         1 => f32::NAN,
