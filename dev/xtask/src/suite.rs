@@ -27,6 +27,7 @@ const MESSAGES: &str = "--message-format=json-render-diagnostics";
 const LONG: &[&str] = &[
     "tools/cli/tests/program/main.rs",
     "tess-wgpu/tests/stage/main.rs",
+    "tess-wgpu/tests/sequences/main.rs",
     "tools/cli/tests/shaders/main.rs",
     "tess-gpu/tests/shaders.rs",
     "tess-verify/tests/golden.rs",

@@ -15,11 +15,11 @@ pub(crate) fn long() -> Option<Duration> {
 }
 
 /// Runs sequences of 1 to `most` calls: `short` of them, or as many as the time of the long run allows. `run` returns
-/// how many words it compared, or says what is wrong.
+/// how many words it compared, or says what is wrong. `names` is what the text of a call takes for granted.
 #[expect(clippy::print_stdout, reason = "the long run's numbers")]
 pub(crate) fn hold<C: Clone + Debug>(
-    short: u32,
-    most: usize,
+    names: &str,
+    (short, most): (u32, usize),
     call: impl Strategy<Value = C> + Clone,
     run: impl FnMut(&[C]) -> Result<u64, String>,
 ) {
@@ -38,7 +38,7 @@ pub(crate) fn hold<C: Clone + Debug>(
             });
         match outcome {
             Ok(()) => sequences += u64::from(short),
-            Err(TestError::Fail(reason, calls)) => panic!("{reason}\n\n{}", pasted(&calls)),
+            Err(TestError::Fail(reason, calls)) => panic!("{reason}\n\n{}", pasted(names, &calls)),
             Err(TestError::Abort(reason)) => panic!("seed {seed}: {reason}"),
         }
         if long().is_none_or(|time| begin.elapsed() >= time) {
@@ -51,7 +51,7 @@ pub(crate) fn hold<C: Clone + Debug>(
 }
 
 /// The calls as a test that fails.
-fn pasted(calls: &[impl Debug]) -> String {
+fn pasted(names: &str, calls: &[impl Debug]) -> String {
     let lines: String = calls.iter().map(|call| format!("        {call:?},\n")).collect();
-    format!("#[test]\nfn found() {{\n    replay(&[\n{lines}    ]);\n}}")
+    format!("#[test]\nfn found() {{\n    use {names};\n    replay(&[\n{lines}    ]);\n}}")
 }

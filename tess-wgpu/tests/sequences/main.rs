@@ -68,17 +68,20 @@ fn replay(calls: &[Call]) {
 fn any_sequence_of_calls_gives_the_models_words() {
     let (mut machine, mut kept) = (Machine::open(), Kept::default());
     let setups = setups();
-    sequences::hold(80, 20, calls::call(setups.len()), |calls| {
+    let names = "{calls::{Call::*, Kind::*, Output::*, Then::*, Wrong::*}, tess_core::Domain::*}";
+    sequences::hold(names, (80, 20), calls::call(setups.len()), |calls| {
         replayed(&mut machine, &mut kept, &setups, calls)
     });
 }
 
-/// Batches that share buffers, one of which grows beyond 16-bit indices while its encoder waits.
+/// Batches that share buffers, one of which grows beyond 16-bit indices while its encoder waits. Draw arguments
+/// alone have room for that.
 #[test]
 fn a_batch_outgrows_its_indices() {
     let large = Patches { kind: Kind::Large, count: 30, seed: 1 };
     let small = Patches { kind: Kind::Any, count: 30, seed: 2 };
     let output = Output::Shared { points: 2, indices: 2 };
+    let alone = Output::Arguments { points: 0, primitives: 0 };
     replay(&[
         Fill { domain: Domain::Quad, with: small },
         Make { setup: 6, count: 30, groups: 3, output, is_bare: false },
@@ -88,7 +91,8 @@ fn a_batch_outgrows_its_indices() {
         Make { setup: 0, count: 25, groups: 0, output, is_bare: true },
         Fill { domain: Domain::Quad, with: large },
         Late,
-        Run { first: 0, count: 2, then: Then::Submit },
+        Make { setup: 6, count: 30, groups: 2, output: alone, is_bare: false },
+        Run { first: 0, count: 3, then: Then::Submit },
         Forget { batch: 0 },
         Run { first: 0, count: 1, then: Then::Submit },
     ]);

@@ -39,7 +39,8 @@ pub(crate) enum Count {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Draw {
     Everything,
-    Group(u32),
+    /// A group, by a number that counts round and round.
+    One(u32),
     /// Every stage is prepared in the encoder, and this one drawn.
     AmongOthers,
 }
@@ -83,7 +84,7 @@ pub(crate) struct Form {
 
 /// Rooms from too little for most frames to enough for any.
 const ROOMS: [Room; 4] = [
-    Room::Automatic { most_bytes: 12_000 },
+    Room::Automatic { most_bytes: 40_000 },
     Room::Exactly(Capacity { points: 300, primitives: 350 }),
     Room::Automatic { most_bytes: 1 << 20 },
     Room::WorstCase,
@@ -137,7 +138,7 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = Call> + Clone {
     let select = prop::sample::select::<Draw>;
     let draw = prop_oneof![
         4 => Just(Draw::Everything),
-        2 => (0..5_u32).prop_map(Draw::Group),
+        2 => (0..5_u32).prop_map(Draw::One),
         1 => select(vec![Draw::AmongOthers]),
     ];
     let from = prop_oneof![2 => Just(Count::Host), 1 => Just(Count::Device)];
@@ -148,7 +149,7 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = Call> + Clone {
         5 => (any::<u64>(), prop::bool::weighted(0.2))
             .prop_map(|(seed, is_dropped)| Call::Give { seed, is_dropped }),
         2 => (0..8_u32, any::<bool>()).prop_map(|(by, is_bound)| Call::Move { by, is_bound }),
-        2 => (0..6_u32).prop_map(|groups| Call::Group { groups }),
+        3 => (0..6_u32).prop_map(|groups| Call::Group { groups }),
         9 => (0..9_u32, from, draw, then)
             .prop_map(|(count, from, draw, then)| Call::Frame { count, from, draw, then }),
         1 => Just(Call::Late),

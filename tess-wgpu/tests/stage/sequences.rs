@@ -375,7 +375,7 @@ impl World<'_> {
             Then::Keep | Then::Submit => {}
         }
         let group = match draw {
-            Draw::Group(group) if !own.groups.is_empty() => Some(group as usize % own.groups.len()),
+            Draw::One(group) if !own.groups.is_empty() => Some(group as usize % own.groups.len()),
             _ => None,
         };
         let stage = &own.stage;
@@ -498,13 +498,14 @@ fn replay(calls: &[Call]) {
 fn any_sequence_of_frames_gives_the_models_pictures() {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     let forms = forms();
-    hold::hold(25, 16, calls::call(forms.len()), |calls| replayed(&gpu, &forms, calls));
+    let names = "calls::{Call::*, Count::*, Draw::*, Then::*, Wrong::*}";
+    hold::hold(names, (25, 30), calls::call(forms.len()), |calls| replayed(&gpu, &forms, calls));
 }
 
 /// Groups wait for the frame in which the room grows.
 #[test]
 fn groups_and_room_change_in_one_frame() {
-    let frame = Frame { count: 8, from: Count::Host, draw: Draw::Group(1), then: Then::Submit };
+    let frame = Frame { count: 8, from: Count::Host, draw: Draw::One(1), then: Then::Submit };
     replay(&[
         Give { seed: 2, is_dropped: false },
         frame,
