@@ -1,8 +1,10 @@
 //! Recorded results of the reference model, in both formulations: enough of `golden/` for the core's
 //! tests to stand alone. All of it goes through `tess-verify`.
 
+mod common;
 mod recorded;
 
+use common::shown;
 use recorded::{Lines, config, digest, factors, hex_words, text};
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{
@@ -10,10 +12,39 @@ use tess_core::{
     place,
 };
 
-/// Points and indices by random access.
-fn by_number(patch: &Patch) -> (Vec<DomainPoint>, Vec<u32>) {
+type Elements = (Vec<DomainPoint>, Vec<u32>);
+
+/// Points and indices in sequence and by number.
+fn both_formulations(patch: &Patch) -> [(Elements, &'static str); 2] {
+    let whole = patch.tessellate();
     let indices = |primitive: Primitive| primitive.indices().to_vec();
-    (patch.points().collect(), patch.primitives().flat_map(indices).collect())
+    let by_number = (patch.points().collect(), patch.primitives().flat_map(indices).collect());
+    [((whole.points, whole.indices), "in sequence"), (by_number, "by number")]
+}
+
+/// The first point or index that differs, with where it comes from.
+fn first_difference(patch: &Patch, observed: &Elements, expected: &Elements) -> Option<String> {
+    let point = |i: usize| patch.locate_point(u32::try_from(i).ok()?);
+    let size = patch.primitive(0).map_or(1, |primitive| primitive.size() as usize);
+    let primitive = |i: usize| patch.locate_primitive(u32::try_from(i / size).ok()?);
+    for i in 0..observed.0.len().max(expected.0.len()) {
+        let [is, recorded] = [&observed.0, &expected.0].map(|all| all.get(i).copied());
+        if is != recorded {
+            let [is, recorded] = [is, recorded].map(|point| point.map_or("none".into(), shown));
+            return Some(format!("point {i} ({:?}) is {is}, not {recorded}", point(i)));
+        }
+    }
+    for i in 0..observed.1.len().max(expected.1.len()) {
+        let [is, recorded] = [&observed.1, &expected.1].map(|all| all.get(i).copied());
+        if is != recorded {
+            let t = i / size;
+            let from = primitive(i);
+            return Some(format!(
+                "index {i} of primitive {t} ({from:?}) is {is:?}, not {recorded:?}"
+            ));
+        }
+    }
+    None
 }
 
 #[test]
@@ -27,9 +58,11 @@ fn whole_outputs() {
         let points = lines.next_list("points ", 2, 16);
         let points = points.chunks(2).map(|uv| DomainPoint::from_bits(uv[0], uv[1])).collect();
         let indices = lines.next_list("indices ", 1, 10);
-        let whole = patch.tessellate();
-        assert!((&whole.points, &whole.indices) == (&points, &indices), "{case}: in sequence");
-        assert!(by_number(&patch) == (points, indices), "{case}: by number");
+        let recorded = (points, indices);
+        for (observed, formulation) in both_formulations(&patch) {
+            let difference = first_difference(&patch, &observed, &recorded);
+            assert_eq!(difference, None, "{case}, {formulation} against the record");
+        }
         cases += 1;
     }
     assert_eq!(cases, 51, "cases in the file");
@@ -40,10 +73,20 @@ fn check_digests(row: &str, patch: &Patch, recorded: &[&str]) {
     let counts = patch.counts();
     let [points, indices] = [recorded[0], recorded[1]].map(|n| n.parse::<u32>().expect("a number"));
     assert_eq!((counts.points, counts.indices), (points, indices), "{row}: predicted sizes");
-    let whole = patch.tessellate();
-    for (points, indices) in [(whole.points, whole.indices), by_number(patch)] {
+    let both = both_formulations(patch);
+    let [(in_sequence, _), (by_number, _)] = &both;
+    let between = match first_difference(patch, by_number, in_sequence) {
+        Some(difference) => format!("by number against in sequence: {difference}"),
+        None => {
+            "both formulations agree: factors, contexts, places and rows are what they share".into()
+        }
+    };
+    for ((points, indices), formulation) in &both {
         let words = points.iter().flat_map(|point| [point.u.to_bits(), point.v.to_bits()]);
-        assert_eq!([digest(words), digest(indices)], recorded[2..], "{row}");
+        let digests = [("points", digest(words)), ("indices", digest(indices.iter().copied()))];
+        for ((what, digest), recorded) in digests.into_iter().zip(&recorded[2..]) {
+            assert_eq!(digest, *recorded, "{row}\n{what} {formulation}; {between}");
+        }
     }
 }
 

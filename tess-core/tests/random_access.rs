@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::shown;
 use proptest::prelude::*;
 use tess_core::{
     Config, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch, PatchFactors,
@@ -33,20 +34,29 @@ impl Elements {
     }
 }
 
-/// The first element that random access gives differently, one past the ends included.
+/// The first element that random access gives differently, one past the ends included, with where it comes from.
 fn first_difference(patch: &Patch, sequential: &Elements) -> Option<String> {
-    fn differ<T: Copy + PartialEq + std::fmt::Debug>(
-        what: &str,
+    fn differ<T: Copy + PartialEq>(
         sequential: &[T],
         access: impl Fn(u32) -> Option<T>,
+        describe: impl Fn(u32, [Option<T>; 2]) -> String,
     ) -> Option<String> {
         let expected = sequential.iter().copied().map(Some).chain([None]);
         let mut elements = (0u32..).zip(expected).map(|(i, expected)| (i, access(i), expected));
         let (i, random, expected) = elements.find(|(_, random, expected)| random != expected)?;
-        Some(format!("{what} {i}: random access {random:?}, sequential {expected:?}"))
+        Some(describe(i, [random, expected]))
     }
-    differ("point", &sequential.points, |i| patch.point(i))
-        .or_else(|| differ("primitive", &sequential.primitives, |t| patch.primitive(t)))
+    let of_point = |i, points: [Option<DomainPoint>; 2]| {
+        let [random, sequential] = points.map(|point| point.map_or("none".into(), shown));
+        let origin = patch.locate_point(i);
+        format!("point {i} ({origin:?}): random access {random}, sequential {sequential}")
+    };
+    let of_primitive = |t, [random, sequential]: [Option<Primitive>; 2]| {
+        let origin = patch.locate_primitive(t);
+        format!("primitive {t} ({origin:?}): random access {random:?}, sequential {sequential:?}")
+    };
+    differ(&sequential.points, |i| patch.point(i), of_point)
+        .or_else(|| differ(&sequential.primitives, |t| patch.primitive(t), of_primitive))
 }
 
 fn assert_equal(config: Config, factors: PatchFactors) {
@@ -135,12 +145,15 @@ fn damage_is_noticed() {
     assert_eq!(first_difference(&patch, &good), None, "undamaged");
     type Damage = fn(&mut Elements);
     let damages: [(Damage, &str); 6] = [
-        (|e| e.points[7] = DomainPoint::from_bits(e.points[7].u.to_bits() ^ 1, 0), "point 7:"),
-        (|e| _ = e.points.pop(), "point 30:"),
-        (|e| e.points.push(DomainPoint::default()), "point 31:"),
-        (|e| e.primitives.swap(0, 1), "primitive 0:"),
-        (|e| _ = e.primitives.pop(), "primitive 47:"),
-        (|e| e.primitives.push(Primitive::Triangle([0, 1, 2])), "primitive 48:"),
+        (
+            |e| e.points[7] = DomainPoint::from_bits(e.points[7].u.to_bits() ^ 1, 0),
+            "point 7 (Some(OuterEdge { edge: 2, p: 0 })): random access (",
+        ),
+        (|e| _ = e.points.pop(), "point 30 (Some("),
+        (|e| e.points.push(DomainPoint::default()), "point 31 (None): random access none, "),
+        (|e| e.primitives.swap(0, 1), "primitive 0 (Some(Transition { edge: 0, step: 0 })): "),
+        (|e| _ = e.primitives.pop(), "primitive 47 (Some("),
+        (|e| e.primitives.push(Primitive::Triangle([0, 1, 2])), "primitive 48 (None): "),
     ];
     for (damage, expected) in damages {
         let mut damaged = good.clone();

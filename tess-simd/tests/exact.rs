@@ -168,8 +168,9 @@ fn planted_faults_are_seen() {
     let counts = Tessellator::new(config).tessellate(batch, numbering, &mut output);
     assert!(counts.is_ok_and(|counts| counts.indices > 0), "something to compare");
     let right = patches.expected(config);
-    let seen =
-        |expected: &[Tessellation]| difference(&patches.all, expected, numbering, &output, SAME);
+    let seen = |expected: &[Tessellation]| {
+        difference((config, &patches.all), expected, numbering, &output, SAME)
+    };
     assert_eq!(seen(&right), None, "no fault yet");
     for (patch, whole) in right.iter().enumerate().filter(|(_, whole)| !whole.points.is_empty()) {
         for element in [0, whole.points.len() - 1] {
@@ -177,7 +178,10 @@ fn planted_faults_are_seen() {
             let point = wrong[patch].points[element];
             wrong[patch].points[element] =
                 DomainPoint::from_bits(point.u.to_bits(), point.v.to_bits() ^ 1);
-            assert!(seen(&wrong).is_some_and(|d| d.contains("point")), "point of patch {patch}");
+            let named = format!("patch {patch}, case quad fractional_even triangle_cw ruler ");
+            let element = format!(": point {element} (Some(");
+            let found = seen(&wrong).unwrap_or_default();
+            assert!(found.starts_with(&named) && found.contains(&element), "{element}: {found}");
         }
         for element in [0, whole.indices.len() - 1] {
             let mut wrong = right.clone();

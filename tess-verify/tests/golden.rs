@@ -5,8 +5,11 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::PathBuf;
 use tess_verify::backend::Backend;
+use tess_verify::case::Case;
 use tess_verify::checker::{Tested, check};
+use tess_verify::compare;
 use tess_verify::core_backend::CoreBackend;
+use tess_verify::second::SecondFormulation;
 use tess_verify::vectors::{Kind, VectorFile};
 
 /// Every vector file there is.
@@ -36,9 +39,25 @@ fn check_file(name: &str) {
     backends.resize_with(threads, || Box::new(CoreBackend));
     let report = check(file, &mut backends, Tested::Backend, &|_| ())
         .unwrap_or_else(|error| panic!("{error}"));
-    let differences: Vec<_> = report.differences.iter().map(|d| format!("{d}\n")).collect();
+    let differences: Vec<_> = report
+        .differences
+        .iter()
+        .map(|d| format!("{d}\n{}\n", between_formulations(d.case)))
+        .collect();
     assert_eq!(report.mismatches, 0, "{name}: {report}\n{}", differences.concat());
     assert_eq!(report.cases, count, "{name}: all cases were checked");
+}
+
+/// Where the model's formulations part, which leads on from a digest.
+fn between_formulations(case: Option<Case>) -> String {
+    let Some(case) = case else { return String::new() };
+    let mut other = SecondFormulation;
+    let by_number = other.tessellate(case.config, &[case.factors]).expect("the model runs");
+    match compare::tessellations(&case, &case.patch().tessellate(), &by_number[0]) {
+        Some(first) => format!("  in sequence, where by number it is as expected: {first}"),
+        None => "  both formulations agree: factors, contexts, places and rows are what they share"
+            .into(),
+    }
 }
 
 #[test]

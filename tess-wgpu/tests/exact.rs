@@ -47,14 +47,24 @@ fn assert_both_equal(machine: &mut Machine, setup: Setup, patches: &[PatchFactor
     if let Err(difference) = expected.compare(&written) {
         panic!("{setup:?}, model: {difference}");
     }
-    assert!(is_simd(setup, patches, &written), "{setup:?}: differs from tess-simd");
+    let difference = from_simd(setup, patches, &written);
+    assert_eq!(difference, None, "{setup:?}");
 }
 
-/// Whether tess-simd tessellates the patches to this.
-fn is_simd(setup: Setup, patches: &[PatchFactors], written: &Written) -> bool {
+/// The first word that tess-simd has otherwise. Model and tess-simd are compared with each other elsewhere.
+fn from_simd(setup: Setup, patches: &[PatchFactors], written: &Written) -> Option<String> {
     let (points, indices) = by_simd(setup, patches);
+    let first = |what, [observed, expected]: [&[u32]; 2]| {
+        let at = (0..observed.len().max(expected.len()))
+            .find(|&i| observed.get(i) != expected.get(i))?;
+        let [is, right] = [observed, expected].map(|words| words.get(at));
+        Some(format!("{what} word {at} of {} is {is:x?}, of tess-simd {right:x?}", expected.len()))
+    };
     let (all, rest) = written.indices.split_at(indices.len().min(written.indices.len()));
-    points == written.points && indices == all && rest.len() < 2
+    let behind = || (rest.len() > 1).then(|| format!("{} words behind the indices", rest.len()));
+    first("point", [&written.points, &points])
+        .or_else(|| first("index", [all, &indices]))
+        .or_else(behind)
 }
 
 #[test]
@@ -65,13 +75,15 @@ fn another_output_is_not_that_of_tess_simd() {
     let patches = random(domain, 20, &mut SplitMix64::new(9));
     let (point_words, index_words) = Expected::new(setup, &patches).words();
     let written = machine.write(setup, &patches, point_words, index_words);
-    assert!(is_simd(setup, &patches, &written), "equal");
-    for change in [
-        |written: &mut Written| written.points[40] ^= 1,
-        |written: &mut Written| written.indices[30] ^= 1,
+    assert_eq!(from_simd(setup, &patches, &written), None, "equal");
+    for (change, named) in [
+        ((|written| written.points[40] ^= 1) as fn(&mut Written), "point word 40 of "),
+        (|written| written.indices[30] ^= 1, "index word 30 of "),
+        (|written| written.indices.extend([0; 2]), "2 words behind the indices"),
     ] {
         let mut other = machine.write(setup, &patches, point_words, index_words);
         change(&mut other);
-        assert!(!is_simd(setup, &patches, &other), "one bit differs");
+        let difference = from_simd(setup, &patches, &other).expect("they differ");
+        assert!(difference.starts_with(named), "{named}: {difference}");
     }
 }

@@ -5,6 +5,7 @@ use tess_core::{
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
 use tess_simd::{Batch, Error, IndexFormat, Numbering, Order, Output, OutputPoint, Tessellator};
+use tess_verify::case::Case;
 use tess_verify::random::SplitMix64;
 
 /// Every configuration there is.
@@ -139,7 +140,7 @@ impl Bits for u32 {
 /// The first difference between an output and the core's patches, with the patch that can be run
 /// again.
 pub(crate) fn difference<P: OutputPoint + Bits, I: IndexFormat + Bits>(
-    patches: &[PatchFactors],
+    (config, patches): (Config, &[PatchFactors]),
     expected: &[Tessellation],
     numbering: Numbering,
     output: &Output<P, I>,
@@ -168,14 +169,22 @@ pub(crate) fn difference<P: OutputPoint + Bits, I: IndexFormat + Bits>(
         let expected_points = expected.points.iter().map(|&p| point(p).bits()).collect::<Vec<_>>();
         let expected_indices =
             expected.indices.iter().map(|&index| [base + index, 0]).collect::<Vec<_>>();
+        let (points, indices) = (points.iter().map(|p| p.bits()), indices.iter().map(|p| p.bits()));
         let what = [
-            ("point", first(points.iter().map(|p| p.bits()), &expected_points)),
-            ("index", first(indices.iter().map(|p| p.bits()), &expected_indices)),
+            ("point", first(points, &expected_points)),
+            ("index", first(indices, &expected_indices)),
         ];
         for (what, difference) in what {
-            if let Some(difference) = difference {
-                return Some(format!("patch {i} {:?}: {what} {difference}", patches[i]));
-            }
+            let Some((at, difference)) = difference else { continue };
+            let case = Case { config, factors: patches[i] };
+            let from = match what {
+                "point" => {
+                    let number = u32::try_from(at).unwrap_or(u32::MAX);
+                    format!("{:?}", case.patch().locate_point(number))
+                }
+                _ => format!("primitive {}", at / case.primitive_size()),
+            };
+            return Some(format!("patch {i}, {case}: {what} {at} ({from}) {difference}"));
         }
         first_point += expected.points.len();
         first_index += expected.indices.len();
@@ -187,14 +196,17 @@ pub(crate) fn difference<P: OutputPoint + Bits, I: IndexFormat + Bits>(
 fn first(
     observed: impl ExactSizeIterator<Item = [u32; 2]>,
     expected: &[[u32; 2]],
-) -> Option<String> {
+) -> Option<(usize, String)> {
     let lengths = (observed.len(), expected.len());
     for (i, (observed, expected)) in observed.zip(expected).enumerate() {
         if observed != *expected {
-            return Some(format!("{i}: {observed:x?}, expected {expected:x?}"));
+            let words =
+                format!("is {observed:?} = {observed:x?}, expected {expected:?} = {expected:x?}");
+            return Some((i, words));
         }
     }
-    (lengths.0 != lengths.1).then(|| format!("count {}, expected {}", lengths.0, lengths.1))
+    let words = || (lengths.0.min(lengths.1), format!("ends: {} of {}", lengths.0, lengths.1));
+    (lengths.0 != lengths.1).then(words)
 }
 
 /// Runs a batch in one pair of formats and compares it.
@@ -231,6 +243,7 @@ pub(crate) fn compare<P: OutputPoint + Bits, I: IndexFormat + Bits>(
     let counts = result.unwrap_or_else(|error| panic!("{what}: {error}"));
     let counted = tessellator.count(batch).map(|counted| counted.counts());
     assert_eq!(counted, Ok(counts), "{what}: counts");
-    let difference = difference(&patches.all, expected, numbering, &output, point);
+    let difference =
+        difference((tessellator.config(), &patches.all), expected, numbering, &output, point);
     assert_eq!(difference, None, "{what}");
 }

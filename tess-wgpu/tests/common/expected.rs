@@ -88,11 +88,18 @@ impl<'a> Expected<'a> {
         let counts = (status.points(), status.primitives(), draw.index_count);
         let expected =
             (u64::from(point_words / 2), u64::from(index_words / per_primitive), index_words);
+        let elements = self
+            .first_difference("point", (&self.points, POISON), points, |begins| begins.0)
+            .and_then(|()| {
+                self.first_difference("index", (&self.indices, poison), indices, |begins| begins.1)
+            });
         if counts != expected || !status.fits() || draw.instance_count != 1 {
-            return Err(format!("status {status:?}, {draw:?}, expected counts {expected:?}"));
+            let first = elements.err().unwrap_or_else(|| "no element differs".into());
+            return Err(format!(
+                "{first}; points, primitives, indices {counts:?}, expected {expected:?}; {status:?}, {draw:?}"
+            ));
         }
-        self.first_difference("point", (&self.points, POISON), points, |begins| begins.0)?;
-        self.first_difference("index", (&self.indices, poison), indices, |begins| begins.1)
+        elements
     }
 
     fn first_difference(
@@ -109,14 +116,31 @@ impl<'a> Expected<'a> {
         };
         let patch = self.begins.partition_point(|begins| begin(begins) <= at).saturating_sub(1);
         let word = at - self.begins.get(patch).map_or(0, begin);
+        let [is, right] = [observed[at], *expected.get(at).unwrap_or(&poison)];
         Err(format!(
-            "{what} word {word} of patch {patch} {:?} (word {at} of {}): observed {:#010x}, \
-             expected {:#010x}",
-            self.patches.get(patch),
+            "{what} word {word} of patch {patch} ({}), word {at} of {}: observed {is} = {is:#010x}, \
+             expected {right} = {right:#010x}",
+            self.origin(what, patch, word),
             expected.len(),
-            observed[at],
-            expected.get(at).unwrap_or(&poison),
         ))
+    }
+
+    /// A patch as a case to run again, and where its element comes from.
+    fn origin(&self, what: &str, patch: usize, word: usize) -> String {
+        let Some(&factors) = self.patches.get(patch) else { return "behind the last one".into() };
+        let model = Patch::new(self.setup.config, factors);
+        let number = |words: usize| u32::try_from(word / words).unwrap_or(u32::MAX);
+        let size = self.setup.indices_per_primitive() as usize;
+        let origin = match what {
+            "point" => format!("{:?}", model.locate_point(number(2))),
+            // The model locates primitives in its own order.
+            _ if self.setup.order == tess_core::Order::Specification => {
+                format!("{:?}", model.locate_primitive(number(size)))
+            }
+            _ => format!("primitive {}", number(size)),
+        };
+        let case = tess_verify::case::Case { config: self.setup.config, factors };
+        format!("{case}: {origin}")
     }
 }
 

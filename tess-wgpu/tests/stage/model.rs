@@ -2,6 +2,7 @@
 
 use crate::scene::{Pixel, SIZE};
 use tess_core::{Config, Patch, PatchFactors};
+use tess_gpu::layout::factor_words;
 
 /// Pixels across and down of one patch.
 pub(crate) const PATCH: u32 = 64;
@@ -85,9 +86,61 @@ pub(crate) fn compare(observed: &[Pixel], expected: &[Option<Pixel>]) -> Result<
         Some((number, (observed, expected))) => {
             let width = SIZE[0] as usize;
             let at = [number % width, number / width];
-            Err(format!("pixel {at:?} is {observed:x?}, not {expected:x?}"))
+            let patch = at[1] / PATCH as usize * 4 + at[0] / PATCH as usize;
+            let (is, right) = (shown(*observed), expected.map_or_else(String::new, shown));
+            Err(format!("pixel {at:?}, where patch {patch} lies, shows {is}, not {right}"))
         }
     }
+}
+
+/// What a pixel says, in decimal and in bits.
+fn shown([u, v, number, is_drawn]: Pixel) -> String {
+    let [a, b] = [u, v].map(f32::from_bits);
+    match is_drawn {
+        0 => "nothing".into(),
+        _ => format!(
+            "the triangle of patch {number} with its corner at ({a}, {b}) = ({u:08x}, {v:08x})"
+        ),
+    }
+}
+
+/// The first factor of a buffer that is not that of these patches.
+pub(crate) fn compare_factors(observed: &[u32], patches: &[PatchFactors]) -> Result<(), String> {
+    let expected = factor_words(patches);
+    let each = expected.len() / patches.len().max(1);
+    for (i, (is, right)) in
+        observed.iter().zip(&expected).enumerate().filter(|(_, (is, right))| is != right)
+    {
+        let (patch, factor) = (i / each, i % each);
+        let [a, b] = [is, right].map(|bits| f32::from_bits(*bits));
+        return Err(format!(
+            "factor {factor} of patch {patch} is {a} = {is:08x}, not {b} = {right:08x}"
+        ));
+    }
+    let lengths = [observed.len(), expected.len()];
+    if lengths[0] == lengths[1] {
+        Ok(())
+    } else {
+        Err(format!("words and expected ones: {lengths:?}"))
+    }
+}
+
+#[test]
+fn differences_are_told_in_words() {
+    let pixel = |bits: u32, patch| Some([0.25_f32.to_bits() ^ bits, 0, patch, 1]);
+    let mut expected = vec![Some([0; 4]); (SIZE[0] * SIZE[1]) as usize];
+    let mut observed = vec![[0; 4]; expected.len()];
+    let at = (PATCH * SIZE[0] + PATCH + 3) as usize;
+    (expected[at], observed[at]) = (pixel(0, 5), pixel(1, 5).expect("a pixel"));
+    let difference = compare(&observed, &expected).expect_err("a bit");
+    let words = "pixel [67, 64], where patch 5 lies, shows the triangle of patch 5 with its corner at (0.25000003, 0) = (3e800001, 00000000), not ";
+    assert!(difference.starts_with(words), "{difference}");
+    let patches = [3.0, 5.0].map(|factor| PatchFactors::uniform(tess_core::Domain::Quad, factor));
+    let mut words = factor_words(&patches);
+    assert_eq!(compare_factors(&words, &patches), Ok(()), "as they are");
+    words[8] ^= 1;
+    let difference = compare_factors(&words, &patches).expect_err("a bit");
+    assert_eq!(difference, "factor 2 of patch 1 is 5.0000005 = 40a00001, not 5 = 40a00000");
 }
 
 /// How many pixels show a patch.

@@ -72,7 +72,11 @@ fn explained(report: &Report) -> Vec<Way> {
 fn exact_captures_are_equal_in_order() {
     for line in [LINE, DENORMAL, CULLED] {
         let report = judged(line, Strength { order: Order::Sequence, ..any() }, |_| {});
-        assert_eq!((report.different, report.odd, report.rows[0].sequence), (0, 0, 1), "{line}");
+        assert_eq!(
+            (report.different, report.odd, report.rows[0].sequence),
+            (0, 0, 1),
+            "{line}: {report}"
+        );
     }
 }
 
@@ -101,10 +105,19 @@ fn a_moved_point_is_seen_with_its_distance() {
         }
     };
     let report = judged(LINE, any(), moved);
-    assert_eq!((report.different, report.rows[0].coordinates, report.rows[0].max_units), (1, 1, 3));
+    assert_eq!(
+        (report.different, report.rows[0].coordinates, report.rows[0].max_units),
+        (1, 1, 3),
+        "{report}"
+    );
     let first = report.unexplained.first.expect("no freedom moves a point");
     assert_eq!((first.line.as_str(), first.stage.as_str()), (LINE, "location"));
-    assert_eq!((report.stages["location"], report.rows[0].different), (1, 1), "counted");
+    assert_eq!(
+        (report.stages["location"], report.rows[0].different),
+        (1, 1),
+        "counted: {}",
+        first.difference
+    );
     assert!(report.first_different.is_some_and(|first| first.line == LINE), "and named");
     assert!(first.command.starts_with("tess patch quad"), "{}", first.command);
 }
@@ -112,7 +125,7 @@ fn a_moved_point_is_seen_with_its_distance() {
 #[test]
 fn a_coordinate_between_two_numbers_is_seen() {
     let report = judged(LINE, any(), |captured| captured.vertices[3][1] += 1);
-    assert_eq!((report.rows[0].coordinates, report.rows[0].max_units), (1, 1));
+    assert_eq!((report.rows[0].coordinates, report.rows[0].max_units), (1, 1), "{report}");
     let first = report.unexplained.first.expect("it is no freedom");
     assert!(first.difference.contains("no multiple of 2^-16"), "{}", first.difference);
     assert_eq!(first.output(), None, "nor can it be drawn");
@@ -129,7 +142,7 @@ fn a_lost_triangle_is_seen() {
 fn a_flipped_triangle_is_seen() {
     let report = judged(LINE, any(), |captured| captured.vertices.swap(7, 8));
     assert_eq!((report.different, report.rows[0].connectivity), (1, 1), "{report}");
-    assert_eq!(report.unexplained.patches, 1, "one flipped triangle is no orientation");
+    assert_eq!(report.unexplained.patches, 1, "one flipped triangle is no orientation: {report}");
 }
 
 #[test]
@@ -137,9 +150,13 @@ fn other_orders_are_told_apart() {
     let turned = |captured: &mut Captured| captured.vertices[3..6].rotate_left(1);
     let moved = |captured: &mut Captured| captured.vertices.rotate_left(3);
     let report = judged(LINE, any(), turned);
-    assert_eq!((report.different, report.rows[0].leading), (0, 1), "another leading vertex");
+    assert_eq!(
+        (report.different, report.rows[0].leading),
+        (0, 1),
+        "another leading vertex: {report}"
+    );
     let report = judged(LINE, any(), moved);
-    assert_eq!((report.different, report.rows[0].order), (0, 1), "another order");
+    assert_eq!((report.different, report.rows[0].order), (0, 1), "another order: {report}");
     for fault in [&turned as &dyn Fn(&mut Captured), &moved] {
         let strength = Strength { order: Order::Sequence, ..any() };
         assert_eq!(judged(LINE, strength, fault).different, 1, "in sequence they differ");
@@ -157,12 +174,12 @@ fn a_patch_that_should_be_culled_is_seen() {
 fn flushed_denormals_are_explained_and_may_be_asked_for() {
     let flush = |captured: &mut Captured| captured.vertices.clear();
     let report = judged(DENORMAL, any(), flush);
-    assert_eq!((report.different, report.rows[0].culling), (1, 1), "they differ");
-    assert_eq!((explained(&report), report.unexplained.patches), (vec![Way::Flush], 0));
+    assert_eq!((report.different, report.rows[0].culling), (1, 1), "they differ: {report}");
+    assert_eq!((explained(&report), report.unexplained.patches), (vec![Way::Flush], 0), "{report}");
     let report = judged(DENORMAL, Strength { denormals: Denormals::Flush, ..any() }, flush);
-    assert_eq!(report.different, 0, "with the freedom they are equal");
+    assert_eq!(report.different, 0, "with the freedom they are equal: {report}");
     let report = judged(LINE, any(), flush);
-    assert_eq!((explained(&report), report.unexplained.patches), (vec![], 1), "{LINE}");
+    assert_eq!((explained(&report), report.unexplained.patches), (vec![], 1), "{LINE}: {report}");
 }
 
 /// What explains every odd patch is told from what explains some.
@@ -202,22 +219,26 @@ fn orientations_are_said_in_one_line() {
     let exchange =
         |captured: &mut Captured| captured.vertices.iter_mut().for_each(|v| v.swap(0, 1));
     let report = judged(LINE, any(), reverse);
-    assert_eq!(explained(&report), vec![Way::Reversed]);
+    assert_eq!(explained(&report), vec![Way::Reversed], "{report}");
     assert!(
         report.to_string().contains("not allowed: every triangle turns the other way"),
         "{report}"
     );
     let report = judged(LINE, any(), exchange);
-    assert_eq!(explained(&report), vec![Way::TransposedReversed]);
+    assert_eq!(explained(&report), vec![Way::TransposedReversed], "{report}");
 }
 
 #[test]
 fn a_wrong_third_coordinate_is_seen() {
     let line = "case tri fractional_even triangle_ccw ruler 40a00000 40d00000 40e00000 40500000";
     let report = judged(line, any(), |captured| captured.vertices[2][2] ^= 0x80);
-    assert_eq!((report.different, report.rows[0].third, report.unexplained.patches), (1, 1, 1));
+    assert_eq!(
+        (report.different, report.rows[0].third, report.unexplained.patches),
+        (1, 1, 1),
+        "{report}"
+    );
     let report = judged(LINE, any(), |captured| captured.vertices[2][2] = 1);
-    assert_eq!((report.different, report.rows[0].third), (1, 1), "0 on quads");
+    assert_eq!((report.different, report.rows[0].third), (1, 1), "0 on quads: {report}");
 }
 
 /// Points alone show moved points and culled patches, in any order and any number.
