@@ -2,9 +2,9 @@
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{circles, features, fuzz, levels, publish, test, traceability};
+use crate::{circles, features, fuzz, levels, public, publish, test, traceability};
 
-/// Formatting, circles of imports, traceability, lints, documentation, features, the fuzz targets, other
+/// Formatting, circles of imports, traceability, unused public items, lints, documentation, features, the fuzz targets, other
 /// compilers and processors, packages, then every test.
 pub(crate) fn run() -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
@@ -13,6 +13,7 @@ pub(crate) fn run() -> Result<(), String> {
     command::run(&mut cargo("fmt --all --check"))?;
     circles::run(&[])?;
     traceability::run()?;
+    public::run()?;
     command::run(
         cargo("clippy --workspace --all-targets --all-features").args(["--", "-D", "warnings"]),
     )?;

@@ -17,6 +17,7 @@ mod mesa;
 mod mutants;
 mod packages;
 mod ports;
+mod public;
 mod publish;
 mod python;
 mod records;
@@ -39,7 +40,7 @@ usage: cargo xtask <command>
           of which only those whose names have one of the words
   test all
           run every test: Python, the browser, OpenGL, a window, simulators, the explorer and benches too
-  ci      what continuous integration runs: formatting, `circles`, `traceability`, lints, documentation, `features`,
+  ci      what continuous integration runs: formatting, `circles`, `traceability`, `public`, lints, documentation, `features`,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
@@ -72,6 +73,7 @@ usage: cargo xtask <command>
           (bookworm), 25.0.7 on 13 (trixie); the other one may be asked for
   circles [FOLDER...]
           show the modules that import each other in a circle, in all crates or those in these folders
+  public  name the public items of the published libraries that nothing outside uses
   traceability
           compare the marks of docs/specification.md with docs/traceability.md, and that with the tests it names
   features [PACKAGE...]
@@ -125,6 +127,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
         ["circles", ref names @ ..] => circles::run(names),
+        ["public"] => public::run(),
         ["traceability"] => traceability::run(),
         ["features", ref names @ ..] => features::check(names),
         ["ports", "brief", ref names @ ..] => ports::run(names, Extent::Brief),
