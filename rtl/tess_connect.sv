@@ -1,8 +1,30 @@
-// The primitives of a patch, one a clock, in the specification's order (sections 7 and 8).
+// The primitives of a patch, one a clock, in the specification's order (sections 7 and 8). tess_top starts it with the
+// point counts of each patch; locations do not matter here.
 //
-// The walker goes ring by ring, edge by edge; within a stitch tess_stitch says which row advances, and tess_rows
-// which indices the rows have there. Only point counts matter here, so a patch is six numbers of seven bits. The
-// half edges of a transition are masks, which are looked up when an edge begins.
+// The walker goes ring by ring, edge by edge. Within a stitch tess_stitch says which row advances, and tess_rows which
+// indices the rows have there. The half edges of a transition are masks, which are looked up when an edge begins.
+//
+//   counts   | 5     | 4     | 3     | 2     | 1     | 0     |   seven bits each: points of a factor
+//   quad     | in v  | in u  | v = 1 | u = 1 | v = 0 | u = 0 |
+//   triangle |       |       | in    | w = 0 | v = 0 | u = 0 |
+//
+//   at       AT_STITCH  edges 0 .. of ring 1, of ring 2, ..; then AT_STRIP (quad) or AT_CENTRE (triangle)
+//   row      base + outer_at or inner_at; the row of the last edge closes at edge 0's first index
+//
+// The quad of docs/tour-cpu.md has the counts 5, 7, 7, 7 outside, 5 and 9 inside:
+//
+//   ring, edge   outer_base  points      inner_base  points      steps
+//   1, 0         0           5           22          9 - 2 = 7   10     bases of the next edge: base + points - 1
+//   1, 1         4           7           28          5 - 2 = 3   8
+//   1, 3         16          7           36          3           8      rows close at outer_start 0, inner_start 22
+//   2, 0         22          7           38          9 - 4 = 5   10
+//   2, 2         30          7           42          5           10     walks_back: ring 2 is a row, 42 to 38
+//
+// What must hold:
+// - start_patch.primitives is the patch's count, from tess_factors: it ends the walk, and a culled patch has 0.
+// - Indices are below 4225, so 13 bits hold them; a patch has at most 8192 primitives, so 14 bits count them.
+// - outer_all and inner_all belong to `side` of this clock, outer_begins and inner_begins to the edge that begins next.
+// - Registers of the walk change only where `advance` is 1, so nothing is lost while out_ready is 0 (formal/).
 `include "tess_fault.svh"
 `include "tess_types.svh"
 module tess_connect (

@@ -1,4 +1,19 @@
 //! Development commands. `cargo xtask` lists them.
+//!
+//! ```text
+//! what a developer runs      test -> setup, suite (builds, selects, one job for each program), tally (runs, counts)
+//! what guards a change       ci -> circles, features, fuzz, ports (a file for each system), publish, then test
+//! tests that are not Rust    python, explorer, integrations (Bevy), mesa (build, compare, piglit)
+//! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/), coverage (lines)
+//! results of measurements    records (take: bench -> JSON; performance: JSON -> tables and charts)
+//! for users                  install (header, libraries, tess.pc)
+//! with the kit compiled in   kit/rtl (the circuit: bench, stages, faults, proofs, cost)
+//! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
+//! ```
+//!
+//! A command is an arm of [`run`], a paragraph of [`USAGE`] and a function of its module that gives `Err(message)` for
+//! what went wrong. Programs that it needs are a `Need` of `setup/needs.rs`, which installs them or says how. Tests are
+//! counted by [`tally`], which fails a job that ran none.
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program talks to its user")]
 
 mod ci;

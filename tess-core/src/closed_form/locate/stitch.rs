@@ -141,6 +141,21 @@ fn middle_triangle(
 }
 
 /// Triangle `t` of a ring stitch whose inner row has `inner_points` points (spec section 7.3).
+///
+/// The outer row has two points more, one at each end: its first and last triangle stand alone, and between them each
+/// inner segment makes a pair. With 4 inner points:
+///
+/// ```text
+/// outer   o0 --- o1 --- o2 --- o3 --- o4 --- o5       segment p = (t - 1) / 2 of the inner row;
+///          \     | \    | \    |    / |     /        before the middle, p < 4 / 2, diagonals run from
+///            \   |   \  |   \  |  /   |   /          o(p+1) to i(p+1), behind it from i(p) to o(p+2)
+/// inner           i0 --- i1 --- i2 --- i3
+///
+/// t   0         1         2         3         4         5         6         7
+///     o0 o1 i0  o1 i1 i0  o1 o2 i1  o2 i2 i1  o2 o3 i2  i2 o3 o4  i2 o4 i3  o4 o5 i3
+/// ```
+///
+/// What holds: `t` is below `2 * inner_points`, and `inner_points` is at least 1: with 1, triangles 0 and 1 are the ends.
 pub(crate) fn ring_triangle((outer, inner): (&Row, &Row), inner_points: u32, t: u32) -> Triangle {
     let last = 2 * inner_points - 1;
     if t == 0 {
@@ -177,5 +192,17 @@ mod tests {
         });
         let expected = [("outer", 0, 0), ("outer", 1, 0), ("inner", 2, 0), ("outer", 2, 1)];
         assert_eq!(steps, expected, "row that advances, and the positions before");
+    }
+
+    /// The triangles of the picture above [`ring_triangle`].
+    #[test]
+    fn the_worked_ring() {
+        let rows = (&Row::ascending(0), &Row::ascending(10));
+        let found = [0, 1, 2, 3, 4, 5, 6, 7].map(|t| ring_triangle(rows, 4, t));
+        let ends = ([0, 1, 10], [4, 5, 13]);
+        let before = [[1, 11, 10], [1, 2, 11], [2, 12, 11], [2, 3, 12]];
+        let behind = [[12, 3, 4], [12, 4, 13]];
+        let expected = [&[ends.0][..], &before, &behind, &[ends.1]].concat();
+        assert_eq!(found[..], expected, "clockwise, outer row from 0, inner row from 10");
     }
 }
