@@ -8,5 +8,6 @@ pub(crate) mod lanes;
 pub(crate) mod level;
 pub(crate) mod output;
 pub(crate) mod point_writer;
+pub(crate) mod ranges;
 pub(crate) mod target;
 pub(crate) mod writer;

@@ -6,20 +6,21 @@
 use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
-use crate::data::output::{Buffers, PatchRange};
+use crate::data::output::Buffers;
+use crate::data::ranges::Ranges;
 
 /// Buffers for exactly one part of a batch.
 #[derive(Debug)]
 pub(crate) struct Target<'a> {
     pub(crate) points: AnyPoints<'a>,
     pub(crate) indices: AnyIndices<'a>,
-    pub(crate) ranges: Option<&'a mut [PatchRange]>,
+    pub(crate) ranges: Ranges<'a>,
 }
 
 impl<'a, P: OutputPoint, I: IndexFormat> From<Buffers<'a, P, I>> for Target<'a> {
     fn from(buffers: Buffers<'a, P, I>) -> Self {
         let Buffers { points, indices, ranges } = buffers;
-        Self { points: P::any(points), indices: I::any(indices), ranges }
+        Self { points: P::any(points), indices: I::any(indices), ranges: Ranges::new(ranges) }
     }
 }
 
@@ -27,7 +28,8 @@ impl<'a, P: OutputPoint, I: IndexFormat> From<Buffers<'a, P, I>> for Target<'a> 
 impl<'a, I: IndexFormat> From<ApartBuffers<'a, I>> for Target<'a> {
     fn from(buffers: ApartBuffers<'a, I>) -> Self {
         let ApartBuffers { u, v, indices, ranges } = buffers;
-        Self { points: AnyPoints::F32Apart([u, v]), indices: I::any(indices), ranges }
+        let points = AnyPoints::F32Apart([u, v]);
+        Self { points, indices: I::any(indices), ranges: Ranges::new(ranges) }
     }
 }
 
@@ -48,8 +50,7 @@ impl Target<'_> {
             AnyIndices::U16(all) => both(all.split_at_mut(sizes.indices), AnyIndices::U16),
             AnyIndices::U32(all) => both(all.split_at_mut(sizes.indices), AnyIndices::U32),
         };
-        let (ranges, more_ranges) =
-            self.ranges.map(|all| both(all.split_at_mut(sizes.patches), Some)).unwrap_or_default();
+        let (ranges, more_ranges) = self.ranges.split_at(sizes.patches);
         (
             Self { points, indices, ranges },
             Self { points: more_points, indices: more_indices, ranges: more_ranges },

@@ -59,11 +59,13 @@ use crate::stages::template::{CompactTemplate, CompactTemplates, Start, Template
 use tess_core::DomainPoint;
 
 /// Packets to write.
-#[derive(Clone, Copy, Debug)]
+#[derive(Debug)]
 pub(crate) struct Packets<'a> {
     pub(crate) packets: &'a [Packet],
     pub(crate) first: Offsets,
     pub(crate) numbering: Numbering,
+    /// Receives where each patch's output lies. As long as there are patches; the packets may have more lanes.
+    pub(crate) ranges: &'a mut [PatchRange],
 }
 
 /// Where packets are written.
@@ -73,8 +75,6 @@ pub(crate) struct Room<'a, W, I> {
     pub(crate) points: W,
     /// At least as long as the packets' output, as what `points` writes to. What follows that may be overwritten.
     pub(crate) indices: &'a mut [I],
-    /// As long as there are patches; the packets may have more lanes than that.
-    pub(crate) ranges: &'a mut [PatchRange],
 }
 
 /// The output of a batch before some patch of it: where that patch's output begins.
@@ -131,9 +131,9 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     caches: &mut Caches,
     compact_points: &mut M,
 ) -> Offsets {
-    let Packets { packets, mut first, numbering } = packets;
+    let Packets { packets, mut first, numbering, ranges } = packets;
     let mut out = Writers { points: room.points, indices: Writer::new(room.indices) };
-    for (packet, ranges) in packets.iter().zip(room.ranges.chunks_mut(LANES)) {
+    for (packet, ranges) in packets.iter().zip(ranges.chunks_mut(LANES)) {
         for (lane, range) in ranges.iter_mut().enumerate() {
             let patch = packet.patch(lane);
             *range = PatchRange {

@@ -19,6 +19,7 @@ pub(crate) struct Repeat {
 /// Writes the patches of a run after its first one, which stands at the beginning of the buffers.
 /// Returns where their output ends in the batch.
 #[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
 pub(crate) fn repeat<W: PointWriter, I: IndexFormat>(
     repeat: Repeat,
     room: Room<'_, W, I>,
@@ -33,11 +34,6 @@ pub(crate) fn repeat<W: PointWriter, I: IndexFormat>(
     Writer::new(room.indices).repeat(indices, times, |index, patches| {
         index.wrapping_add(I::wrapping_from(step.wrapping_mul(patches)))
     });
-    let mut next = range;
-    for range in room.ranges.iter_mut().take(times) {
-        *range = next;
-        next.first_point = next.first_point.wrapping_add(next.points);
-        next.first_index = next.first_index.wrapping_add(next.indices);
-    }
-    Offsets { points: next.first_point, indices: next.first_index }
+    let end = |first: u32, period: usize| first + (period * times) as u32;
+    Offsets { points: end(range.first_point, points), indices: end(range.first_index, indices) }
 }

@@ -6,6 +6,7 @@ use crate::data::format::{AnyIndices, AnyPoints, IndexFormat};
 use crate::data::level::Level;
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::{PointRoom, PointWriter};
+use crate::data::ranges::Ranges;
 use crate::data::target::Target;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
@@ -58,7 +59,7 @@ struct Memory {
 #[derive(Clone, Debug)]
 struct ChunkMemory {
     packets: [Packet; Chunk::PACKETS],
-    /// The ranges of a chunk, where the caller wants none.
+    /// Where the output of a chunk's patches lies.
     ranges: [PatchRange; Chunk::PATCHES],
 }
 
@@ -151,9 +152,9 @@ impl Memory {
             return levels::emit_one(level, settings, packet, (points, indices), caches, lookup);
         }
         let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
-        let packets = Packets { packets: from_ref(packet), first, numbering };
         let ranges = &mut [PatchRange::default()];
-        levels::emit(level, settings, packets, Room { points, indices, ranges }, caches, lookup);
+        let packets = Packets { packets: from_ref(packet), first, numbering, ranges };
+        levels::emit(level, settings, packets, Room { points, indices }, caches, lookup);
     }
 }
 
@@ -178,7 +179,7 @@ pub(crate) fn emit(job: Job<'_>, part: Part<'_>, workspace: &mut Workspace) {
 }
 
 /// Indices and ranges, as in [`Target`].
-type Rest<'a, I> = (&'a mut [I], Option<&'a mut [PatchRange]>);
+type Rest<'a, I> = (&'a mut [I], Ranges<'a>);
 
 /// Writes a part in one format of indices.
 fn emit_any<I: IndexFormat>(
@@ -220,21 +221,16 @@ fn emit_as<I: IndexFormat>(
             (stretch, &own.packets)
         };
         let own_ranges = &mut own.ranges[..patches];
-        let ranges_here =
-            ranges.as_mut().map_or(own_ranges, |all| &mut all[start..start + patches]);
-        let packets = Packets { packets, first, numbering };
-        let room = Room { points: points.writer(), indices: &mut *indices, ranges: ranges_here };
+        let packets = Packets { packets, first, numbering, ranges: own_ranges };
+        let room = Room { points: points.writer(), indices: &mut *indices };
         let mut end = levels::emit(level, settings, packets, room, caches, lookup);
         if times > 1 {
-            let range = PatchRange {
-                first_point: first.points,
-                points: end.points - first.points,
-                first_index: first.indices,
-                indices: end.indices - first.indices,
-            };
-            let ranges = ranges.as_mut().map_or(&mut [][..], |all| &mut all[start..start + times]);
-            let room = Room { points: points.writer(), indices: &mut *indices, ranges };
+            let range = own.ranges[0];
+            let room = Room { points: points.writer(), indices: &mut *indices };
             end = levels::repeat(level, Repeat { range, times, numbering }, room);
+            ranges.repeat(range, times);
+        } else {
+            ranges.put(&own.ranges[..patches]);
         }
         start += patches * times;
         points.skip((end.points - first.points) as usize);

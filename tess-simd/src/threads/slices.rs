@@ -25,10 +25,14 @@ pub(crate) struct Slicing {
 }
 
 impl Slicing {
+    /// The most slices of a batch for a number of threads.
+    pub(crate) const fn most(threads: usize) -> usize {
+        if threads == 1 { 1 } else { threads * SLICES_PER_THREAD }
+    }
+
     /// The slices of this many patches for a number of threads.
     pub(crate) fn new(patches: usize, threads: usize) -> Self {
-        let wanted = if threads == 1 { 1 } else { threads * SLICES_PER_THREAD };
-        let slice = patches.div_ceil(wanted).max(1);
+        let slice = patches.div_ceil(Self::most(threads)).max(1);
         let slice = if slice < LANES { slice } else { slice.next_multiple_of(LANES) };
         Self { patches: slice, slices: patches.div_ceil(slice) }
     }
@@ -147,8 +151,7 @@ mod parts {
         else {
             panic!("other formats than there were");
         };
-        let ranges = target.ranges.as_ref().map_or(0, |ranges| ranges.len());
-        (points.len() as u64, indices.len() as u64, ranges)
+        (points.len() as u64, indices.len() as u64, target.ranges.len())
     }
 
     /// Slices of two patches, the last of one, whose points and indices are given.
