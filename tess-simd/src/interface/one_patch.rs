@@ -58,6 +58,21 @@ impl Tessellator {
         self.count_patch(factors).write(points, indices)
     }
 
+    /// [`Tessellator::patch`] with points in two arrays, all u and all v.
+    ///
+    /// # Errors
+    /// As for [`Tessellator::patch`].
+    #[cfg(feature = "apart")]
+    pub fn patch_apart<I: IndexFormat>(
+        &mut self,
+        factors: impl Into<PatchFactors>,
+        u: &mut [f32],
+        v: &mut [f32],
+        indices: &mut [I],
+    ) -> Result<Counts, Error> {
+        self.count_patch(factors).write_apart(u, v, indices)
+    }
+
     /// Counts one patch: the sizes of the buffers that it needs, and then a `write` into them.
     pub fn count_patch(&mut self, factors: impl Into<PatchFactors>) -> CountedPatch<'_> {
         let (level, config) = (self.level, self.settings.config);

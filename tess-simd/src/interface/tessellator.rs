@@ -5,6 +5,8 @@ use crate::data::chunk::Chunk;
 use crate::data::error::Error;
 use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::level::{Level, LevelUnavailable};
+#[cfg(feature = "apart")]
+use crate::data::output::ApartBuffers;
 use crate::data::output::{BatchCounts, Buffers, Numbering, Output};
 use crate::interface::counted::Counted;
 use crate::levels;
@@ -35,10 +37,12 @@ pub struct Tessellator {
     pub(super) level: Level,
     pub(super) settings: Settings,
     pub(super) workspaces: Workspaces,
-    /// The counts of each slice of the batch that was counted last.
+    /// The counts of each slice of the batch that was counted last, and perhaps others behind.
     slices: Vec<PartCounts>,
     /// The packets of the batch that was counted last, if it had at most one chunk.
     kept: Option<Box<[Packet; Chunk::PACKETS]>>,
+    /// Whether it takes all memory before it is needed.
+    reserved: bool,
 }
 
 impl Tessellator {
@@ -65,6 +69,7 @@ impl Tessellator {
             workspaces: Workspaces::new(),
             slices: Vec::new(),
             kept: None,
+            reserved: false,
         }
     }
 
@@ -79,7 +84,7 @@ impl Tessellator {
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self {
         self.workspaces = Workspaces::of_threads(threads);
-        self
+        self.reserved_as_before()
     }
 
     /// The most threads that [`Tessellator::threads`] uses.
@@ -96,6 +101,14 @@ impl Tessellator {
         self.settings.order = order;
         // The templates have their triangles in the order before.
         self.workspaces.forget();
+        self.reserved_as_before()
+    }
+
+    /// Reserves the memory of new workspaces, if that of the old ones was reserved.
+    fn reserved_as_before(mut self) -> Self {
+        if self.reserved {
+            self.reserve();
+        }
         self
     }
 
@@ -111,11 +124,14 @@ impl Tessellator {
         self.level
     }
 
-    /// Takes all the memory that patches may ever need, 1.1 MB for each thread, so that no later call on one
-    /// thread allocates. For programs in which an allocation may not come late; others are faster without.
+    /// Takes all the memory that patches may ever need, 1.1 MB for each thread, and keeps it through
+    /// [`Tessellator::order`], `threads` and clones. No later call on one thread allocates, and
+    /// [`Tessellator::memory`] stays as it is. For programs in which an allocation may not come late; others are
+    /// faster without.
     pub fn reserve(&mut self) {
+        self.reserved = true;
         self.workspaces.reserve();
-        self.slices.reserve(1);
+        first(&mut self.slices, Slicing::most(self.workspaces.threads()));
         self.kept.get_or_insert_with(no_packets);
     }
 
@@ -139,16 +155,16 @@ impl Tessellator {
     /// Counts a batch. One of at most a chunk goes through the front end here, for the write too.
     fn counted<'a>(&'a mut self, batch: Batch<'a>) -> Result<Counted<'a>, Error> {
         batch.check()?;
-        let Self { level, ref settings, ref mut workspaces, ref mut slices, ref mut kept } = *self;
+        let Self { level, ref settings, ref mut workspaces, ref mut slices, ref mut kept, .. } =
+            *self;
         let slicing = Slicing::new(batch.len(), workspaces.threads());
-        slices.clear();
         let keep = slicing.slices <= 1 && batch.len() <= Chunk::PATCHES;
+        let slices = first(slices, slicing.slices.max(1));
         // Made by the first batch whatever its size, so that no later one has to.
         let packets = kept.get_or_insert_with(no_packets);
         if keep {
-            slices.push(levels::count_and_keep(level, settings.config, &batch, packets));
+            slices[0] = levels::count_and_keep(level, settings.config, &batch, packets);
         } else {
-            slices.resize(slicing.slices, PartCounts::default());
             let share = CountShare { batch, slice: slicing.patches, counts: slices };
             workspaces.count(level, settings.config, share);
         }
@@ -174,6 +190,20 @@ impl Tessellator {
         self.count(batch)?.write(numbering, buffers)
     }
 
+    /// [`Tessellator::write`] with points in two arrays.
+    ///
+    /// # Errors
+    /// As for [`Tessellator::write`].
+    #[cfg(feature = "apart")]
+    pub fn write_apart<'a, I: IndexFormat>(
+        &'a mut self,
+        batch: impl Into<Batch<'a>>,
+        numbering: Numbering,
+        buffers: ApartBuffers<'_, I>,
+    ) -> Result<BatchCounts, Error> {
+        self.count(batch)?.write_apart(numbering, buffers)
+    }
+
     /// Tessellates a batch into an output object, which grows if it must.
     ///
     /// # Errors
@@ -186,6 +216,15 @@ impl Tessellator {
     ) -> Result<BatchCounts, Error> {
         self.count(batch)?.tessellate(numbering, output)
     }
+}
+
+/// The counts of this many slices.
+fn first(slices: &mut Vec<PartCounts>, needed: usize) -> &mut [PartCounts] {
+    if let Some(more) = needed.checked_sub(slices.len()) {
+        slices.reserve_exact(more);
+        slices.resize(needed, PartCounts::default());
+    }
+    &mut slices[..needed]
 }
 
 #[cold]

@@ -75,6 +75,7 @@ impl Stitches {
                 self.add(output, |to| stitch::strip(quads, Diagonals::ForwardExceptMiddle, to));
         }
         self.forward = self.add(output, |to| stitch::strip(MAX_STRIP, Diagonals::Forward, to));
+        self.codes.shrink_to_fit();
     }
 
     /// Adds the codes of the stitch whose steps `stitch` sends, padded so that reading it in whole
@@ -150,4 +151,25 @@ fn codes(step: Step, output: OutputPrimitive) -> [i8; 3] {
         Side::Inner => step_code::inner(entry),
     });
     if output == OutputPrimitive::TriangleCcw { [a, c, b] } else { [a, b, c] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The figures that [`Stitches`], [`Tessellator`](crate::Tessellator) and the README give.
+    #[test]
+    fn tables_take_what_is_said() {
+        for partitioning in Partitioning::ALL {
+            for output in OutputPrimitive::ALL {
+                let bytes = Stitches::new(Config::new(partitioning, output)).bytes();
+                let expected = match (output, partitioning) {
+                    (OutputPrimitive::Point | OutputPrimitive::Line, _) => 1000..2000,
+                    (_, Partitioning::Integer | Partitioning::Pow2) => 750_000..800_000,
+                    _ => 200_000..225_000,
+                };
+                assert!(expected.contains(&bytes), "{partitioning:?} {output:?}: {bytes} bytes");
+            }
+        }
+    }
 }
