@@ -1,0 +1,222 @@
+//! Sequences of calls, at random.
+
+use crate::calls::{
+    Call, Factors, Format, From, Layout, List, Patches, Room, Start, To, Width, isoline, quad,
+    triangle,
+};
+use crate::patches::configs;
+use proptest::collection::vec;
+use proptest::prelude::*;
+use proptest::sample::select;
+use proptest_state_machine::ReferenceStateMachine;
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
+use tess_simd::{Level, Order};
+
+/// What calls are drawn by: those before.
+#[derive(Clone, Debug)]
+pub(crate) struct Drawn {
+    pub(crate) start: Start,
+    patch: Option<Factors>,
+    patches: Option<Patches>,
+}
+
+impl ReferenceStateMachine for Drawn {
+    type State = Self;
+    type Transition = Call;
+
+    /// A tessellator; [`at_level`] says at which level.
+    fn init_state() -> BoxedStrategy<Self> {
+        let configs = select(configs().collect::<Vec<_>>());
+        let start = (configs, orders(), 1..=4_usize, any::<bool>());
+        let level = Level::Baseline;
+        start
+            .prop_map(move |(config, order, threads, in_pool)| {
+                let start = Start { config, level, order, threads, in_pool };
+                Self { start, patch: None, patches: None }
+            })
+            .boxed()
+    }
+
+    fn transitions(state: &Self) -> BoxedStrategy<Call> {
+        let patches = again(state.patches.clone(), patches()).boxed();
+        let factors = again(state.patch, any_factors()).boxed();
+        let lists = |most| vec(buffers(), 0..=most).prop_map(List);
+        let rooms = vec(room(), 0..=2_usize).prop_map(List);
+        let kept = (patches.clone(), formats(), widths(), from(), groups());
+        prop_oneof![
+            4 => (patches.clone(), buffers()).prop_map(|(patches, to)| Call::Write(patches, to)),
+            3 => (patches, lists(2)).prop_map(|(patches, all)| Call::Count(patches, all)),
+            3 => kept.prop_map(|(p, f, w, from, groups)| Call::Tessellate(p, f, w, from, groups)),
+            4 => (factors.clone(), room()).prop_map(|(patch, room)| Call::Patch(patch, room)),
+            2 => (factors, rooms).prop_map(|(patch, rooms)| Call::CountPatch(patch, rooms)),
+            1 => prop_oneof![
+                Just(Call::Reserve),
+                Just(Call::Copy),
+                orders().prop_map(Call::SetOrder),
+                (1..=4_usize).prop_map(Call::SetThreads),
+            ],
+        ]
+        .boxed()
+    }
+
+    fn apply(mut state: Self, call: &Call) -> Self {
+        match call {
+            Call::Write(patches, _) | Call::Count(patches, _) | Call::Tessellate(patches, ..) => {
+                state.patches = Some(patches.clone());
+                state.patch = patches.runs.0.last().map(|run| run.1).or(state.patch);
+            }
+            Call::Patch(patch, _) | Call::CountPatch(patch, _) => state.patch = Some(*patch),
+            _ => {}
+        }
+        state
+    }
+}
+
+/// The one before, or another.
+fn again<T: Clone + std::fmt::Debug + 'static>(
+    before: Option<T>,
+    other: impl Strategy<Value = T> + 'static,
+) -> BoxedStrategy<T> {
+    match before {
+        Some(before) => prop_oneof![2 => other, 1 => Just(before)].boxed(),
+        None => other.boxed(),
+    }
+}
+
+fn orders() -> impl Strategy<Value = Order> + Clone {
+    select(vec![Order::Specification, Order::VertexCache])
+}
+
+fn formats() -> impl Strategy<Value = Format> + Clone {
+    select(vec![Format::Float, Format::Fixed, Format::Apart])
+}
+
+fn widths() -> impl Strategy<Value = Width> + Clone {
+    select(vec![Width::Bits16, Width::Bits32])
+}
+
+fn from() -> impl Strategy<Value = From> + Clone {
+    prop_oneof![
+        3 => Just(From::EachPatch),
+        2 => (0..1000_u32).prop_map(From::Base),
+        1 => (0..20_u32).prop_map(|below| From::Base(u32::MAX - below)),
+        2 => (-3..=1_i64).prop_map(From::Limit),
+    ]
+}
+
+/// Elements beyond those that are needed.
+fn spare() -> impl Strategy<Value = isize> + Clone {
+    prop_oneof![8 => Just(0), 4 => 1..70_isize, 2 => 70..400_isize, 1 => Just(-1)]
+}
+
+fn room() -> impl Strategy<Value = Room> + Clone {
+    (formats(), widths(), spare(), spare(), spare()).prop_map(
+        |(format, width, points, second, indices)| Room { format, width, points, second, indices },
+    )
+}
+
+fn buffers() -> impl Strategy<Value = To> + Clone {
+    (room(), from(), proptest::option::of(spare())).prop_map(|(room, from, ranges)| To {
+        room,
+        from,
+        ranges,
+    })
+}
+
+fn groups() -> impl Strategy<Value = List<u32>> {
+    (vec(0..40_u32, 0..5_usize), any::<bool>()).prop_map(|(mut starts, sorted)| {
+        if sorted {
+            starts.sort_unstable();
+        }
+        List(starts)
+    })
+}
+
+/// One raw factor.
+fn raw() -> impl Strategy<Value = f32> + Clone {
+    const SPECIAL: [f32; 10] = [
+        0.0,
+        -0.0,
+        -1.0,
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        1e-40,
+        64.0,
+        65.0,
+        3.000_000_2,
+    ];
+    prop_oneof![
+        8 => (1..=6_u8).prop_map(f32::from),
+        4 => (8..64_u8).prop_map(|eighths| f32::from(eighths) / 8.0),
+        2 => 1.0..20.0_f32,
+        1 => 1.0..64.0_f32,
+        1 => select(SPECIAL.to_vec()),
+    ]
+}
+
+/// Factors of a patch: a few that come often, equal ones, any.
+fn factors(domain: Domain) -> impl Strategy<Value = Factors> + Clone {
+    let uniform = move |factor| Factors(PatchFactors::uniform(domain, factor));
+    let often = match domain {
+        Domain::Isoline => vec![isoline([3.0, 2.0]), isoline([1.0, 9.5]), isoline([64.0; 2])],
+        Domain::Triangle => vec![triangle([3.0, 2.0, 4.0, 5.0]), triangle([1.0, 1.0, 1.0, 2.5])],
+        Domain::Quad => {
+            vec![quad([3.0, 4.5, 5.0, 6.0, 4.0, 7.0]), quad([2.0, 1.0, 2.0, 3.0, 1.0, 1.0])]
+        }
+    };
+    prop_oneof![
+        3 => select(often),
+        2 => select(vec![1.0, 2.0, 2.5, 3.0, 16.0, 0.0]).prop_map(uniform),
+        2 => raw().prop_map(uniform),
+        3 => vec(raw(), 6).prop_map(move |raw| Factors(PatchFactors::from_fn(domain, |i| raw[i]))),
+        1 => select(vec![17.0, 18.0, 33.5, 64.0]).prop_map(uniform),
+    ]
+}
+
+fn domains() -> impl Strategy<Value = Domain> + Clone {
+    select(Domain::ALL.to_vec())
+}
+
+fn any_factors() -> impl Strategy<Value = Factors> {
+    domains().prop_flat_map(factors)
+}
+
+fn layouts() -> impl Strategy<Value = Layout> + Clone {
+    prop_oneof![
+        4 => Just(Layout::Structures),
+        4 => Just(Layout::Columns),
+        4 => Just(Layout::AnyDomain),
+        1 => Just(Layout::Uneven),
+        1 => Just(Layout::Mixed),
+    ]
+}
+
+/// A batch of runs. Most have little output; some have enough for several threads.
+fn patches() -> impl Strategy<Value = Patches> {
+    let times = || prop_oneof![6 => Just(1), 5 => 2..=10_usize, 3 => 11..=100_usize];
+    let runs = move |domain| vec((times(), factors(domain)), 0..14_usize);
+    let points = prop_oneof![12 => Just(3000), 1 => Just(60_000_usize)];
+    let all = move |domain| (layouts(), Just(domain), runs(domain), points.clone());
+    domains().prop_flat_map(all).prop_map(|(layout, domain, runs, points)| Patches {
+        layout,
+        domain,
+        runs: cut(runs, points),
+    })
+}
+
+/// As many of the patches as have so many points together, but for the first.
+fn cut(runs: Vec<(usize, Factors)>, points: usize) -> List<(usize, Factors)> {
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let mut left = points;
+    let mut all = Vec::new();
+    for (times, patch) in runs {
+        let one = Patch::new(config, patch.0).counts().points.max(1) as usize;
+        let times = times.min(left / one + usize::from(left > 0));
+        if times > 0 {
+            all.push((times, patch));
+        }
+        left = left.saturating_sub(times * one);
+    }
+    List(all)
+}
