@@ -21,7 +21,7 @@
 //!
 //! The numbers are the steps of each stitch. A column's part of a stitch is a run of steps, so the whole order
 //! is a list of ranges of the specification's triangle numbers ([`CacheOrder::runs`]), and the place of a
-//! triangle is a sum of borders in closed form ([`CacheOrder::position`]).
+//! triangle is a sum of borders in closed form (`CacheOrder::position`).
 //!
 //! # One patch
 //!
@@ -98,9 +98,12 @@ struct Sector {
 impl<const EDGES: usize> CacheOrder<EDGES> {
     /// The order of a patch with these points along each outer edge, and along each inside axis:
     /// u and v of a quad, the one of a triangle twice.
+    ///
+    /// Total: outer edges have 2 to 65 points, inside axes 3 to 65. Any other number counts as the nearest.
     #[must_use]
     pub fn new(outer: [u32; EDGES], inside: [u32; 2]) -> Self {
-        let [u, v] = inside;
+        let outer = outer.map(|points| points.clamp(2, 65));
+        let [u, v] = inside.map(|points| points.clamp(3, 65));
         let end = u.min(v).div_ceil(2);
         let sectors = core::array::from_fn(|edge| {
             let along = if edge.is_multiple_of(2) { v } else { u };
@@ -111,8 +114,7 @@ impl<const EDGES: usize> CacheOrder<EDGES> {
 
     /// The place of a triangle in this order. `origin` and `t` are its origin and its number in the
     /// specification's order.
-    #[must_use]
-    pub fn position(&self, origin: PrimitiveOrigin, t: u32) -> u32 {
+    fn position(&self, origin: PrimitiveOrigin, t: u32) -> u32 {
         let (ring, edge, step) = match origin {
             PrimitiveOrigin::Transition { edge, step } => (1, edge as usize, step),
             PrimitiveOrigin::Ring { ring, edge, step } => (ring, edge as usize, step),

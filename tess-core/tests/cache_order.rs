@@ -122,3 +122,13 @@ fn what_has_no_rings_keeps_its_order() {
     }
     assert_eq!(drawn(&quad([1; 4], [1; 2])), [0, 1]);
 }
+
+#[test]
+fn counts_that_no_patch_has_count_as_the_nearest() {
+    for (count, nearest) in [(0, 3), (2, 3), (66, 65), (u32::MAX, 65)] {
+        let order = CacheOrder::new([count; 4], [count; 2]);
+        let outer = if count == 0 { 2 } else { nearest.min(count) };
+        assert_eq!(order, CacheOrder::new([outer; 4], [nearest; 2]), "{count} points");
+        order.runs(|run| assert!(!run.is_empty(), "{count} points: {run:?}"));
+    }
+}

@@ -117,3 +117,14 @@ fn center_even() {
 fn center_odd() {
     check(SplitOrder::Center, Parity::Odd, &Exceptions { equal: 1042, ..EVERY });
 }
+
+#[test]
+fn a_point_behind_the_last_is_the_last() {
+    for parity in [Parity::Even, Parity::Odd] {
+        let context =
+            FactorContext::new(FixedFactor::from_bits(5 * ONE), parity, SplitOrder::Ruler);
+        for p in [context.points, context.points + 1, u32::MAX] {
+            assert_eq!(place(&context, p).to_bits(), ONE, "{parity:?}, point {p}");
+        }
+    }
+}

@@ -29,7 +29,8 @@ pub fn obj(patch: &Listing) -> String {
     }
     let element = ["p", "l", "f"][patch.case.primitive_size() - 1];
     for primitive in patch.primitives() {
-        let indices: Vec<_> = primitive.iter().map(|index| (index + 1).to_string()).collect();
+        let number = |&index: &u32| (u64::from(index) + 1).to_string();
+        let indices: Vec<_> = primitive.iter().map(number).collect();
         _ = writeln!(text, "{element} {}", indices.join(" "));
     }
     text
@@ -43,6 +44,7 @@ fn header(kind: Kind, backend: &str) -> Header {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use tess_core::DomainPoint;
 
     /// Wavefront counts from 1.
     #[test]
@@ -53,5 +55,16 @@ mod tests {
         let (comment, rest) = text.split_once('\n').expect("lines");
         assert_eq!(comment, format!("# {}", patch.case.command()));
         assert_eq!(rest, "v 0 1 0\nv 0 0 0\nv 1 0 0\nf 1 2 3\n");
+    }
+
+    /// A device's answer may have any points and indices.
+    #[test]
+    fn a_patch_that_is_none_as_obj() {
+        let line = "case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000";
+        let mut patch = Listing::of_model(line.parse().expect("a case"));
+        patch.output.points = vec![DomainPoint::from_bits(u32::MAX, 0)];
+        patch.output.indices = vec![u32::MAX, 0];
+        let text = obj(&patch);
+        assert!(text.ends_with("v 65535.996 0 0\nf 4294967296 1\n"), "{text}");
     }
 }

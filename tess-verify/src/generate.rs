@@ -49,12 +49,18 @@ impl Shard {
     pub const WHOLE: Self = Self { part: 0, of: 1 };
 
     /// Whether item `i` belongs to this part.
+    ///
+    /// # Panics
+    /// If there are no parts.
     #[must_use]
     pub const fn has(&self, i: u64) -> bool {
         i % self.of == self.part
     }
 
     /// How many of `count` items belong to this part.
+    ///
+    /// # Panics
+    /// If there are no parts.
     #[must_use]
     pub const fn items(&self, count: u64) -> u64 {
         count.saturating_sub(self.part).div_ceil(self.of)
@@ -233,14 +239,13 @@ pub(crate) fn pick<T: Copy>(random: &mut impl Draw, from: &[T]) -> T {
     from[random.below(u32::try_from(from.len()).unwrap_or(u32::MAX)) as usize]
 }
 
-/// The binary32 with this 15.16 value, exact for values below 2^24.
+/// The binary32 with this 15.16 value, exact for values below 2^24; larger ones are rounded to nearest even.
 #[expect(
     clippy::cast_precision_loss,
     clippy::float_arithmetic,
-    reason = "exact: at most 24 significant bits, scaled by a power of two"
+    reason = "exact: 24 significant bits, scaled by a power of two"
 )]
 #[must_use]
 pub fn from_fixed(bits: u32) -> f32 {
-    debug_assert!(bits < 1 << 24, "24 bits fit a binary32 mantissa");
     bits as f32 / 65536.0
 }

@@ -5,7 +5,7 @@ use tess_verify::case::Case;
 use tess_verify::coverage::Coverage;
 use tess_verify::digest::Fnv1a;
 use tess_verify::generate::{
-    GenLevel, Selection, Shard, configurations, configurations_among, random_patch,
+    GenLevel, Selection, Shard, configurations, configurations_among, from_fixed, random_patch,
 };
 use tess_verify::random::SplitMix64;
 
@@ -289,4 +289,23 @@ fn level_1_stays_small_enough_to_simulate() {
         .sum();
     assert!((5_000..60_000).contains(&cases.len()), "{} cases", cases.len());
     assert!(elements < 40_000_000, "{elements} points and indices");
+}
+
+#[test]
+#[should_panic(expected = "divide by zero")]
+fn an_item_has_no_place_among_no_parts() {
+    let _ = Shard { part: 0, of: 0 }.items(9);
+}
+
+#[test]
+#[should_panic(expected = "divisor of zero")]
+fn no_parts_have_no_item() {
+    let _ = Shard { part: 0, of: 0 }.has(9);
+}
+
+#[test]
+fn fixed_factors_beyond_24_bits_are_rounded() {
+    for (bits, expected) in [(0x00FF_FFFF, 255.999_98), (0x0100_0001, 256.0), (u32::MAX, 65536.0)] {
+        assert_eq!(from_fixed(bits).to_bits(), f32::to_bits(expected), "{bits:#x}");
+    }
 }

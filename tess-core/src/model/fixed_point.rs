@@ -89,18 +89,18 @@ pub const fn ceil(x: u32) -> u32 {
     floor(x + 0xFFFF)
 }
 
-/// The exact binary32 value of a domain coordinate, `bits / 65536`, for `bits <= ONE`.
+/// The binary32 value of a domain coordinate, `bits / 65536`: exact below 256, and coordinates are at most one.
+/// What is larger is rounded toward zero.
 ///
-/// Built from the bits: a number of at most 17 bits fits a binary32 mantissa.
+/// Built from the bits: a number of at most 24 bits fits a binary32 mantissa.
 #[must_use]
 pub const fn coordinate_to_f32(coordinate: U16F16) -> f32 {
     let bits = coordinate.to_bits();
-    debug_assert!(bits <= ONE, "a domain coordinate is at most one");
     if bits == 0 {
         return 0.0;
     }
-    let top = 31 - bits.leading_zeros(); // 0..=16
-    let mantissa = (bits << (23 - top)) & 0x007F_FFFF;
+    let top = 31 - bits.leading_zeros(); // 0..=16 of coordinates
+    let mantissa = (bits << bits.leading_zeros() >> 8) & 0x007F_FFFF;
     f32::from_bits(((top + 127 - 16) << 23) | mantissa)
 }
 
@@ -157,6 +157,10 @@ mod tests {
             let float = coordinate_to_f32(U16F16::from_bits(bits));
             let back = U16F16::from_num(float);
             assert_eq!(back.to_bits(), bits, "coordinate {bits:#x} became {float}");
+        }
+        for (bits, float) in [(0x1_0001, 1.000_015_3), (u32::MAX, 65536.0_f32.next_down())] {
+            let found = coordinate_to_f32(U16F16::from_bits(bits));
+            assert_eq!(found.to_bits(), f32::to_bits(float), "{bits:#x} is no coordinate");
         }
     }
 }

@@ -48,27 +48,36 @@ impl Blend {
     ///
     /// No overflow: both places are at most `HALF + 10`, as reciprocals round up, so the weighted
     /// sum stays below 2^31 + 2^20 + `HALF`.
+    ///
+    /// # Panics
+    /// Where overflow is checked, if a place or the weight is larger than its field says.
     #[must_use]
     pub const fn half_location(self) -> u32 {
         let Self { coarse, fine, fraction } = self;
-        debug_assert!(coarse <= HALF + 10 && fine <= HALF + 10, "both lie on the half edge");
         (coarse * (ONE - fraction) + fine * fraction + HALF) >> 16
     }
 }
 
 /// The location of point `p` of an edge, as the split order places it.
 ///
-/// In: `p < context.points`. Out: 16.16 in `0..=ONE`, symmetric:
-/// `place(c, p) + place(c, c.points - 1 - p) == ONE`. Spec section 5 (D3D11.3 11.7.13, 11.7.14).
+/// In: a context that [`FactorContext::new`] made, and `p < context.points`; a larger `p` counts as the last point.
+/// Out: 16.16 in `0..=ONE`, symmetric: `place(c, p) + place(c, c.points - 1 - p) == ONE`. Spec section 5 (D3D11.3
+/// 11.7.13, 11.7.14).
+///
+/// # Panics
+/// Where overflow is checked, if no factor has this context.
 #[must_use]
 pub const fn place(context: &FactorContext, p: u32) -> U16F16 {
     steps(context, p).location
 }
 
-/// [`place`] with every intermediate value. In: `p < context.points`.
+/// [`place`] with every intermediate value.
+///
+/// # Panics
+/// As [`place`].
 #[must_use]
 pub const fn steps(context: &FactorContext, p: u32) -> Placement {
-    debug_assert!(p < context.points, "a point of this edge");
+    let p = if p < context.points { p } else { context.points - 1 };
     let flip = p >= context.half_points;
     // p < points = 2 * half_points + 1 - odd, so the mirrored position is not negative.
     let position = if flip { 2 * context.half_points - p - context.parity.odd() } else { p };
