@@ -3,6 +3,9 @@
 /// A list of levels for the tests: they fail if one of them is not compared.
 pub(crate) const VARIABLE: &str = "TESS_REQUIRE_LEVELS";
 
+/// Every level, as `tess-simd` names it.
+const ALL: [&str; 3] = ["baseline", "avx2", "avx512"];
+
 /// The levels that this processor has, found without asking `tess-simd`, which might be wrong.
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn required() -> Vec<&'static str> {
@@ -20,13 +23,42 @@ pub(crate) fn required() -> Vec<&'static str> {
         && is_x86_feature_detected!("gfni")
         && is_x86_feature_detected!("vaes")
         && is_x86_feature_detected!("vpclmulqdq");
-    let levels =
-        [("baseline", true), ("avx2", is_x86_feature_detected!("avx2")), ("avx512", has_avx512)];
-    levels.into_iter().filter_map(|(name, is_there)| is_there.then_some(name)).collect()
+    let there = [true, is_x86_feature_detected!("avx2"), has_avx512];
+    ALL.into_iter().zip(there).filter_map(|(name, is_there)| is_there.then_some(name)).collect()
 }
 
 /// Processors other than x86-64 have one level.
 #[cfg(not(target_arch = "x86_64"))]
 pub(crate) fn required() -> Vec<&'static str> {
     vec!["baseline"]
+}
+
+/// What the tests cannot compare on this processor, in one sentence.
+pub(crate) fn not_compared() -> Option<String> {
+    sentence(&required())
+}
+
+/// The sentence where these levels are there.
+fn sentence(there: &[&str]) -> Option<String> {
+    let missing: Vec<_> = ALL.into_iter().filter(|name| !there.contains(name)).collect();
+    let names = missing.join(" and ");
+    (!missing.is_empty())
+        .then(|| format!("NOT COMPARED: tess-simd at {names}, which this processor lacks"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_missing_is_said() {
+        let says = |there: &[&str]| sentence(there).unwrap_or_default();
+        assert_eq!(says(&ALL), "", "everything is there");
+        let one = "NOT COMPARED: tess-simd at avx512, which this processor lacks";
+        assert_eq!(says(&ALL[..2]), one, "one level is missing");
+        let two = "NOT COMPARED: tess-simd at avx2 and avx512, which this processor lacks";
+        assert_eq!(says(&ALL[..1]), two, "two are");
+        let missing = ALL.len() - required().len();
+        assert_eq!(not_compared().is_some(), missing > 0, "{missing} are missing here");
+    }
 }

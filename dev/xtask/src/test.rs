@@ -2,7 +2,7 @@
 
 use crate::suite::{self, Extent, Part};
 use crate::tally::{Job, Report};
-use crate::{command, explorer, python, setup};
+use crate::{command, explorer, levels, python, setup};
 
 /// What is done where no browser can be had.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
              `cargo xtask test all` runs them"
         );
     }
-    report.finish()
+    finish(report)
 }
 
 /// Runs every test; the last line printed is the tally.
@@ -59,5 +59,13 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     })?;
     // Alone, as a page waits for a picture only so long.
     report.one_by_one(explorer)?;
+    finish(report)
+}
+
+/// Says what this machine cannot compare, and then the tally.
+fn finish(report: Report) -> Result<(), String> {
+    if let Some(sentence) = levels::not_compared() {
+        println!("\n{sentence}");
+    }
     report.finish()
 }
