@@ -26,13 +26,14 @@ pub enum Reduction {
 /// Whether a quad's two inside factors are reduced together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum QuadAxes {
-    /// One reduction over all four edges, with the u scale, for both.
+    /// One reduction over all four edges, with the u scale, for both. The v scale has no effect.
     One,
     /// u from the edges v = 0 and v = 1, v from the edges u = 0 and u = 1.
     Two,
 }
 
-/// What a hull shader hands over for one patch.
+/// What a hull shader hands over for one patch. The inside factors are yet to come: their fields hold scales, 0 to 1,
+/// as in C and in vector files.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Request {
     /// Density and detail, as they are.

@@ -111,7 +111,7 @@ fn interiors() {
 /// Errors say what was needed and what there was.
 fn messages() {
     let error = Error::BufferTooSmall { buffer: Buffer::Indices, needed: 66, got: 65 };
-    let message = "the index buffer holds 65 elements, but the batch needs 66";
+    let message = "the index buffer holds 65 elements, but 66 are needed";
     assert_eq!(error.to_string(), message, "a buffer");
     let error = Error::UnevenColumns { lengths: [8, 9] };
     let message = "a column has 8 factors and another 9; all need one length";

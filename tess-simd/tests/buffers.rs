@@ -1,13 +1,13 @@
-//! Buffers: what does not fit is an error and leaves everything as it was, what is not needed is
-//! not touched, and nothing is allocated once a tessellator is warm.
+//! Buffers and batches: what does not fit is an error, what is not needed is not touched, and nothing is allocated
+//! once a tessellator is warm.
 
 use allocation_counter::measure;
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
 };
 use tess_simd::{
-    Batch, BatchCounts, Buffer, Buffers, Error, Level, LevelUnavailable, Numbering, Output,
-    OwnedBatch, PatchRange, Tessellator,
+    Batch, BatchCounts, Buffers, Error, Level, LevelUnavailable, Numbering, Output, OwnedBatch,
+    PatchRange, Tessellator,
 };
 
 const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
@@ -26,28 +26,6 @@ fn poisoned(
     let range =
         PatchRange { first_point: POISON, points: POISON, first_index: POISON, indices: POISON };
     (vec![[f32::from_bits(POISON); 2]; points], vec![POISON; indices], vec![range; ranges])
-}
-
-#[test]
-fn too_small_buffers_stay_as_they_were() {
-    let patches = [quad(4.5), quad(0.0), quad(63.0)];
-    let mut tessellator = Tessellator::new(CONFIG);
-    let counts = tessellator.count(&patches).expect("a small batch").counts();
-    let (points, indices, ranges) = (counts.points, counts.indices, counts.patches);
-    let cases = [
-        (Buffer::Points, points, (points - 1, indices, ranges)),
-        (Buffer::Indices, indices, (points, indices - 1, ranges)),
-        (Buffer::Ranges, ranges, (points, indices, ranges - 1)),
-    ];
-    for (buffer, needed, sizes) in cases {
-        let (mut p, mut i, mut r) = poisoned(sizes.0, sizes.1, sizes.2);
-        let buffers = Buffers::new(&mut p, &mut i).with_ranges(&mut r);
-        let result = tessellator.write(&patches[..], Numbering::PerPatch, buffers);
-        assert_eq!(result, Err(Error::BufferTooSmall { buffer, needed, got: needed - 1 }));
-        assert!(p.iter().flatten().all(|x| x.to_bits() == POISON), "points untouched");
-        assert!(i.iter().all(|&x| x == POISON), "indices untouched");
-        assert!(r.iter().all(|range| range.points == POISON), "ranges untouched");
-    }
 }
 
 /// Blocks may reach past a run, never past the output: at every level and for every length.
@@ -152,7 +130,10 @@ fn owned_batches_have_one_domain() {
     let (found, expected) = (Domain::Triangle, Domain::Isoline);
     for domain in Domain::ALL {
         let patches = [1.0, 2.0, 3.0].map(|factor| PatchFactors::uniform(domain, factor));
-        let owned = OwnedBatch::try_from(&patches[..]).expect("one domain");
+        let columns: Vec<_> = (0..domain.factors()).map(|_| [1.0, 2.0, 3.0]).collect();
+        let columns = Batch::from(PatchFactors::from_fn(domain, |i| &columns[i][..]));
+        let owned = OwnedBatch::try_from(columns).expect("one domain");
+        assert_eq!(OwnedBatch::try_from(&patches[..]), Ok(owned.clone()), "patch by patch");
         let size = (owned.batch().len(), owned.batch().domain());
         assert_eq!(size, (3, domain), "all of them");
         assert_eq!(owned.get(1..3).map(|part| part.len()), Some(2), "a part of them");
@@ -165,43 +146,9 @@ fn owned_batches_have_one_domain() {
     assert_eq!(owned.batch().len(), 1, "the isoline alone");
     let mixed = [PatchFactors::uniform(expected, 1.0), PatchFactors::uniform(found, 1.0)];
     assert_eq!(OwnedBatch::try_from(&mixed[..]), Err(error), "both");
-}
-
-/// A count can be written any number of times, in any formats, with or without ranges, and after
-/// an error. The output is the same as from one call.
-#[test]
-fn a_count_is_written_again_and_again() {
-    for patches in [0, 1, 63, 64, 65, 200_u8] {
-        let patches: Vec<_> = (0..patches).map(|i| quad(f32::from(i) / 3.0)).collect();
-        let mut output = Output::<[f32; 2], u32>::new();
-        let numbering = Numbering::PerBatch { base_vertex: 5 };
-        let result = Tessellator::new(CONFIG).tessellate(&patches, numbering, &mut output);
-        let counts = result.expect("a small batch");
-
-        let mut tessellator = Tessellator::new(CONFIG);
-        let mut counted = tessellator.count(&patches).expect("a small batch");
-        let sizes = (counted.patches(), counted.points(), counted.indices());
-        assert_eq!(sizes, (counts.patches, counts.points, counts.indices), "sizes");
-        let largest = counted.largest_index(numbering);
-        assert_eq!(largest, (sizes.1 > 0).then_some(sizes.1 as u64 + 4), "the largest index");
-        if let Some(too_few) = counts.points.checked_sub(1) {
-            let (mut p, mut i, _) = poisoned(too_few, counts.indices, 0);
-            let error = counted.write(numbering, Buffers::new(&mut p, &mut i));
-            assert!(matches!(error, Err(Error::BufferTooSmall { .. })), "{error:?}");
-        }
-        for with_ranges in [false, true] {
-            let (mut p, mut i, mut r) = poisoned(counts.points, counts.indices, counts.patches);
-            let buffers = Buffers::new(&mut p, &mut i);
-            let buffers = if with_ranges { buffers.with_ranges(&mut r) } else { buffers };
-            assert_eq!(counted.write(numbering, buffers), Ok(counts), "{with_ranges}");
-            assert!(p == output.points() && i == output.indices(), "{with_ranges}");
-            let untouched = r.iter().all(|range| range.points == POISON);
-            assert!(if with_ranges { r == output.ranges() } else { untouched }, "{with_ranges}");
-        }
-        let mut again = Output::<[f32; 2], u32>::new();
-        assert_eq!(counted.tessellate(numbering, &mut again), Ok(counts), "into an output");
-        assert_eq!(again.indices(), output.indices(), "into an output");
-    }
+    let uneven = PatchFactors::from_fn(expected, |i| &[1.0, 2.0][..=i]);
+    let error = Error::UnevenColumns { lengths: [1, 2] };
+    assert_eq!(OwnedBatch::try_from(Batch::from(uneven)), Err(error), "uneven columns");
 }
 
 #[test]

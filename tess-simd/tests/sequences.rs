@@ -38,23 +38,23 @@ use subject::replay_counted;
 use tess_simd::Level;
 
 /// Sequences of each level, unless a time is given.
-const SEQUENCES: u32 = 400;
+const SEQUENCES: u32 = 3000;
 
 /// The environment variable with the seconds that each level takes.
 const VARIABLE: &str = "TESS_SEQUENCES_SECONDS";
 
 #[test]
-fn at_baseline() {
+fn sequences_at_baseline() {
     any_sequence(Level::Baseline);
 }
 
 #[test]
-fn at_avx2() {
+fn sequences_at_avx2() {
     any_sequence(Level::Avx2);
 }
 
 #[test]
-fn at_avx512() {
+fn sequences_at_avx512() {
     any_sequence(Level::Avx512);
 }
 

@@ -68,7 +68,7 @@ impl fmt::Display for Error {
                     Buffer::Indices => "index",
                     Buffer::Ranges => "range",
                 };
-                write!(f, "the {what} buffer holds {got} elements, but the batch needs {needed}")
+                write!(f, "the {what} buffer holds {got} elements, but {needed} are needed")
             }
             Self::IndexTooLarge { largest, format } => {
                 write!(f, "the batch needs the index {largest}, but indices end at {format}")

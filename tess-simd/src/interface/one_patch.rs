@@ -29,6 +29,9 @@ impl Tessellator {
     /// Tessellates one patch into the caller's buffers, its indices counted from its own first point:
     /// [`Tessellator::count_patch`] and [`CountedPatch::write`] in one. Returns the output sizes.
     ///
+    /// Up to [`CountedPatch::OVERRUN`] elements behind the output are overwritten in each buffer, where there are so
+    /// many: unlike the buffers of batches, these do not keep what lies behind.
+    ///
     /// Call it with one patch at a time; [`Tessellator::write`] is faster from a few patches on. It uses the
     /// calling thread alone, and allocates only where it meets a topology for the first time.
     ///

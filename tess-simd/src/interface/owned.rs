@@ -9,8 +9,8 @@ use tess_core::{Domain, IsolineFactors, PatchFactors, QuadFactors, TriangleFacto
 /// Patches of one domain, owned and in the layout that is fastest to read: a structure of that
 /// domain for each patch.
 ///
-/// A batch of [`PatchFactors`] needs no copy, but small patches take up to a fifth longer. Copy patches once if you
-/// tessellate them again and again.
+/// A [`Batch`] of any layout becomes one. A batch of [`PatchFactors`] needs no copy, but small patches take up to a fifth
+/// longer. Copy patches once if you tessellate them again and again.
 ///
 /// ```
 /// use tess_simd::OwnedBatch;
@@ -77,13 +77,23 @@ impl OwnedBatch {
     }
 }
 
+impl TryFrom<Batch<'_>> for OwnedBatch {
+    type Error = Error;
+
+    /// Copies a batch of any layout.
+    fn try_from(batch: Batch<'_>) -> Result<Self, Error> {
+        batch.check()?;
+        let mut all = Self::new(batch.domain());
+        (0..batch.len()).filter_map(|i| batch.patch(i)).try_for_each(|patch| all.push(patch))?;
+        Ok(all)
+    }
+}
+
 impl TryFrom<&[PatchFactors]> for OwnedBatch {
     type Error = Error;
 
     /// Copies patches of one domain. Without patches the domain is quad.
     fn try_from(patches: &[PatchFactors]) -> Result<Self, Error> {
-        let mut all = Self::new(Batch::from(patches).domain());
-        patches.iter().try_for_each(|&patch| all.push(patch))?;
-        Ok(all)
+        Batch::from(patches).try_into()
     }
 }

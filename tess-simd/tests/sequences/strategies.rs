@@ -38,8 +38,9 @@ impl ReferenceStateMachine for Drawn {
     }
 
     fn transitions(state: &Self) -> BoxedStrategy<Call> {
-        let patches = again(state.patches.clone(), patches()).boxed();
-        let factors = again(state.patch, any_factors()).boxed();
+        let patches = again(state.patches.clone(), patches());
+        let near = state.patch.map_or_else(|| any_factors().boxed(), |patch| near(patch).boxed());
+        let factors = again(state.patch, prop_oneof![3 => any_factors(), 1 => near]);
         let lists = |most| vec(buffers(), 0..=most).prop_map(List);
         let rooms = vec(room(), 0..=2_usize).prop_map(List);
         let kept = (patches.clone(), formats(), widths(), from(), groups());
@@ -70,6 +71,15 @@ impl ReferenceStateMachine for Drawn {
         }
         state
     }
+}
+
+/// A patch that differs in one factor.
+fn near(Factors(patch): Factors) -> impl Strategy<Value = Factors> {
+    (0..patch.domain().factors(), raw()).prop_map(move |(changed, factor)| {
+        let all: Vec<f32> = patch.iter().collect();
+        let of = |i| if i == changed { factor } else { all[i] };
+        Factors(PatchFactors::from_fn(patch.domain(), of))
+    })
 }
 
 /// The one before, or another.
@@ -192,31 +202,49 @@ fn layouts() -> impl Strategy<Value = Layout> + Clone {
     ]
 }
 
-/// A batch of runs. Most have little output; some have enough for several threads.
+/// The most patches of a batch: around packets, chunks and what is counted at once, or any number.
+fn lengths() -> impl Strategy<Value = usize> {
+    let around = [1, 4, 8, 16, 32, 64, 128, 256].map(|length| length - 1..=length + 1);
+    prop_oneof![1 => select(around.into_iter().flatten().collect::<Vec<_>>()), 2 => Just(10_000)]
+}
+
+/// A batch of runs.
 fn patches() -> impl Strategy<Value = Patches> {
-    let times = || prop_oneof![6 => Just(1), 5 => 2..=10_usize, 3 => 11..=100_usize];
-    let runs = move |domain| vec((times(), factors(domain)), 0..14_usize);
-    let points = prop_oneof![12 => Just(3000), 1 => Just(60_000_usize)];
-    let all = move |domain| (layouts(), Just(domain), runs(domain), points.clone());
-    domains().prop_flat_map(all).prop_map(|(layout, domain, runs, points)| Patches {
-        layout,
-        domain,
-        runs: cut(runs, points),
+    let all = move |domain| (layouts(), Just(domain), runs(domain), lengths());
+    domains().prop_flat_map(all).prop_map(|(layout, domain, mut runs, mut length)| {
+        for (times, _) in &mut runs {
+            *times = length.min(*times);
+            length -= *times;
+        }
+        runs.retain(|&(times, _)| times > 0);
+        Patches { layout, domain, runs: List(runs) }
     })
 }
 
-/// As many of the patches as have so many points together, but for the first.
-fn cut(runs: Vec<(usize, Factors)>, points: usize) -> List<(usize, Factors)> {
+/// Runs with little output, some with enough patches and output for several threads, and some patches of which
+/// each has a topology of its own, so that templates need all their room.
+fn runs(domain: Domain) -> impl Strategy<Value = Vec<(usize, Factors)>> + Clone {
+    let times = prop_oneof![6 => Just(1), 5 => 2..=10_usize, 3 => 11..=100_usize];
+    let runs = vec((times, factors(domain)), 0..14_usize);
+    let middling = vec(9..=17_u8, domain.factors()).prop_map(move |raw| {
+        (1, Factors(PatchFactors::from_fn(domain, |factor| f32::from(raw[factor]))))
+    });
+    prop_oneof![
+        24 => runs.clone().prop_map(|runs| cut(runs, 1, 3000)),
+        2 => runs.prop_map(|runs| cut(runs, 8, 60_000)),
+        1 => vec(middling, 100..160_usize),
+    ]
+}
+
+/// Runs that are so many times as long, but end where they have so many points together.
+fn cut(runs: Vec<(usize, Factors)>, longer: usize, points: usize) -> Vec<(usize, Factors)> {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
     let mut left = points;
-    let mut all = Vec::new();
-    for (times, patch) in runs {
+    let cut = |(times, patch): (usize, Factors)| {
         let one = Patch::new(config, patch.0).counts().points.max(1) as usize;
-        let times = times.min(left / one + usize::from(left > 0));
-        if times > 0 {
-            all.push((times, patch));
-        }
+        let times = (times * longer).min(left.div_ceil(one));
         left = left.saturating_sub(times * one);
-    }
-    List(all)
+        (times > 0).then_some((times, patch))
+    };
+    runs.into_iter().filter_map(cut).collect()
 }
