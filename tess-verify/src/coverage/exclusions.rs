@@ -2,14 +2,14 @@
 
 use super::{Coverage, bins};
 use crate::quote::quoted;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::fmt;
 use tess_core::{Config, Domain};
 
 /// Bins that are left out of what a device has to hit. The default has none.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Exclusions {
-    bins: BTreeSet<String>,
+    bins: BTreeSet<&'static str>,
 }
 
 impl Exclusions {
@@ -18,7 +18,7 @@ impl Exclusions {
     pub fn outside(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Self {
         let within = bins::of(configurations);
         let is_outside = |bin: &&String| within.binary_search(bin).is_err();
-        Self { bins: bins::all().iter().filter(is_outside).cloned().collect() }
+        Self { bins: bins::all().iter().filter(is_outside).map(String::as_str).collect() }
     }
 
     /// Adds the bins of a pattern: a bin's path, or its first parts, of which each may be `*` for any. So
@@ -27,16 +27,21 @@ impl Exclusions {
     /// # Errors
     /// No bin begins with it.
     pub fn add(&mut self, pattern: &str) -> Result<(), UnknownBin> {
-        let parts: Vec<&str> = pattern.split('/').collect();
-        let fits = |bin: &&String| {
+        let fits = |bin: &str| {
             let mut found = bin.split('/');
-            parts.iter().all(|part| found.next().is_some_and(|own| *part == "*" || own == *part))
+            pattern
+                .split('/')
+                .all(|part| found.next().is_some_and(|own| part == "*" || own == part))
         };
-        let fitting: Vec<&String> = bins::all().iter().filter(fits).collect();
-        if fitting.is_empty() {
+        // The bins are sorted: those that begin as the pattern does before its first `*` stand together.
+        let literal = pattern.split('*').next().unwrap_or_default();
+        let from = bins::all().partition_point(|bin| bin.as_str() < literal);
+        let near = bins::all()[from..].iter().take_while(|bin| bin.starts_with(literal));
+        let mut fitting = near.map(String::as_str).filter(|bin| fits(bin)).peekable();
+        if fitting.peek().is_none() {
             return Err(UnknownBin { line: None, pattern: pattern.to_owned() });
         }
-        self.bins.extend(fitting.into_iter().cloned());
+        self.bins.extend(fitting);
         Ok(())
     }
 
@@ -46,9 +51,10 @@ impl Exclusions {
     /// A pattern of no bin, with its line.
     pub fn read(text: &str) -> Result<Self, UnknownBin> {
         let mut exclusions = Self::default();
+        let mut read = HashSet::new();
         for (number, line) in (1..).zip(text.lines()) {
             let pattern = line.split('#').next().unwrap_or_default().trim();
-            if !pattern.is_empty() {
+            if !pattern.is_empty() && read.insert(pattern) {
                 let added = exclusions.add(pattern);
                 added.map_err(|error| UnknownBin { line: Some(number), ..error })?;
             }
@@ -58,14 +64,14 @@ impl Exclusions {
 
     /// Adds what others exclude.
     pub fn merge(&mut self, other: &Self) {
-        self.bins.extend(other.bins.iter().cloned());
+        self.bins.extend(&other.bins);
     }
 
     /// The exclusions without the bins that were hit: for vectors beside those of other configurations.
     #[must_use]
     pub fn not_hit(&self, coverage: &Coverage) -> Self {
-        let is_hit = |bin: &&String| coverage.hits(bin).is_some_and(|hits| hits > 0);
-        Self { bins: self.bins.iter().filter(|bin| !is_hit(bin)).cloned().collect() }
+        let is_hit = |bin: &str| coverage.hits(bin).is_some_and(|hits| hits > 0);
+        Self { bins: self.bins.iter().copied().filter(|bin| !is_hit(bin)).collect() }
     }
 
     /// Whether a bin is excluded.
@@ -76,7 +82,7 @@ impl Exclusions {
 
     /// The bins that are excluded, in alphabetical order.
     pub fn bins(&self) -> impl Iterator<Item = &str> {
-        self.bins.iter().map(String::as_str)
+        self.bins.iter().copied()
     }
 }
 

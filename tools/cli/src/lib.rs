@@ -2,7 +2,7 @@
 //!
 //! `commands` has a folder for each command. What they share lies beside it: `args` (a patch on the
 //! command line), `backends` (who tessellates it), `campaign` (which part of the work, and its report), `formats`
-//! (what it is shown as), `output` and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and explanations are made by
+//! (what it is shown as), `input` (what is read), `output` and `coverage_file` (where results go) and `failure` (how a command ends). Drawings and explanations are made by
 //! `tess-verify`.
 
 mod args;
@@ -12,6 +12,7 @@ mod commands;
 mod coverage_file;
 mod failure;
 mod formats;
+mod input;
 mod output;
 mod threads;
 
@@ -53,13 +54,19 @@ pub fn main() -> ExitCode {
     let mut program = command_line();
     let words: Vec<OsString> = std::env::args_os().collect();
     let asked = program.try_get_matches_from_mut(&words).and_then(|matches| {
-        let words = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
-        let invocation = Invocation::new(words, &program, &matches);
+        let text = words.iter().map(|word| word.to_string_lossy().into_owned()).collect();
+        let invocation = Invocation::new(text, &program, &matches);
         Program::from_arg_matches(&matches).map(|asked| (asked.command, invocation))
     });
     let ended = match asked {
-        Ok((command, invocation)) => commands::run(&command, &invocation),
-        Err(error) if error.use_stderr() => error.exit(),
+        Ok((command, invocation)) => {
+            output::remove_earlier(&words).and_then(|()| commands::run(&command, &invocation))
+        }
+        Err(error) if error.use_stderr() => {
+            // What is kept is said when the command line is right.
+            drop(output::remove_earlier(&words));
+            error.exit()
+        }
         Err(help) => show(&help),
     };
     match ended {

@@ -163,6 +163,7 @@ fn unavailable(error: LevelUnavailable) -> Failure {
 #[cfg(not(feature = "gpu"))]
 pub(crate) fn not_built_in(name: &str) -> Failure {
     Failure::unavailable(format!(
-        "this build of tess has no {name} backend; --backend core is always there"
+        "this build of tess has no {name} backend: build it with --features {name}; --backend core is always \
+         there"
     ))
 }

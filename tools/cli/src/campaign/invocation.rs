@@ -5,8 +5,10 @@ use std::collections::BTreeMap;
 use tess_verify::digest::Fnv1a;
 
 /// The options that say where a shard's files lie, or which shard it is. Shards of one campaign differ in them.
-const PLACES: [&str; 10] = [
-    "shard", "given", "report", "junit", "file", "cases", "failures", "coverage", "picture", "json",
+/// The baseline is compared by its cases.
+const PLACES: [&str; 11] = [
+    "shard", "given", "report", "junit", "file", "cases", "failures", "coverage", "picture",
+    "json", "known",
 ];
 
 /// One run of the program, as its command line says it.
@@ -48,12 +50,15 @@ pub(crate) const fn commit() -> &'static str {
     env!("TESS_COMMIT")
 }
 
-/// Digest of the program's own file, FNV-1a of 64 bits over little-endian words of 32 bits; `None` if it cannot
-/// be read.
+/// Digest of the program's own file; `None` if it cannot be read.
 pub(crate) fn executable() -> Option<String> {
-    let bytes = std::fs::read(std::env::current_exe().ok()?).ok()?;
+    Some(digest(&std::fs::read(std::env::current_exe().ok()?).ok()?))
+}
+
+/// FNV-1a of 64 bits over little-endian words of 32 bits.
+pub(super) fn digest(bytes: &[u8]) -> String {
     let word = |chunk: &[u8]| chunk.iter().rev().fold(0, |word, byte| word << 8 | u32::from(*byte));
     let mut digest = Fnv1a::new();
     digest.words(bytes.chunks(4).map(word));
-    Some(format!("{:016x}", digest.finish()))
+    format!("{:016x}", digest.finish())
 }

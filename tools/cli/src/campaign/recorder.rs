@@ -6,7 +6,7 @@ use super::report::{FORMAT, Report, State};
 use super::shard::Placed;
 use crate::failure::{Exit, Failure};
 use crate::output::ending::{self, Guard};
-use crate::output::{OutputArgs, OutputFile, Role, remove_earlier, write_while_ending};
+use crate::output::{OutputArgs, OutputFile, Role, write_while_ending};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -17,8 +17,9 @@ use std::time::Instant;
 pub(crate) struct ReportArgs {
     /// Write what was run and what was found to this file, a line of JSON that `tess merge` reads
     ///
-    /// It is written at the end, and a signal is an end too. The report of an earlier run is removed at the
-    /// beginning. docs/campaigns.md explains its entries.
+    /// It is written at the end, and a signal is an end too. The report of an earlier run is removed before
+    /// anything else is done; a file that is no report is kept, and is an error. docs/campaigns.md explains its
+    /// entries.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Write the result to this file as `JUnit` XML, for Jenkins and its like
@@ -53,7 +54,6 @@ impl ReportArgs {
                 return Err(Failure::bad_input(message));
             }
             OutputArgs { file: path.to_owned() }.require_writable()?;
-            remove_earlier(path).map_err(|error| Failure::file("replace", path, &error))?;
         }
         let files = self.clone();
         if self.places().next().is_none() {

@@ -48,7 +48,7 @@ pub(crate) struct Report {
     pub(crate) first: Option<First>,
     /// What became of the baseline, if there is one.
     #[serde(default)]
-    pub(crate) known: Option<Baseline>,
+    pub(crate) known: Option<KnownCases>,
     /// The cases and mismatches again, in parts.
     #[serde(default)]
     pub(crate) parts: Vec<Part>,
@@ -81,10 +81,16 @@ pub(crate) struct First {
     pub(crate) difference: String,
 }
 
-/// What became of the known differences.
+/// The baseline, and what became of the known differences.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Baseline {
+pub(crate) struct KnownCases {
+    /// The file, as the command line names it.
+    #[serde(default)]
+    pub(crate) file: Option<String>,
+    /// Digest of its cases, in alphabetical order.
+    #[serde(default)]
+    pub(crate) digest: Option<String>,
     /// How many cases may differ.
     pub(crate) entries: u64,
     /// How many of them differed.
@@ -108,8 +114,7 @@ impl Report {
     /// Adds parts to the report and to its sums.
     pub(crate) fn add_parts(&mut self, parts: impl IntoIterator<Item = Part>) {
         for part in parts {
-            self.cases += part.cases;
-            self.mismatches += part.mismatches;
+            self.add(&part);
             if self.first.is_none() {
                 self.first.clone_from(&part.first);
             }
@@ -117,15 +122,20 @@ impl Report {
         }
     }
 
+    /// Adds to the sums. A report of others may be at their end.
+    fn add(&mut self, part: &Part) {
+        self.cases = self.cases.saturating_add(part.cases);
+        self.mismatches = self.mismatches.saturating_add(part.mismatches);
+    }
+
     /// Adds to the part of this name and to the sums.
     pub(crate) fn add_to_part(&mut self, name: &str, more: Part) {
-        self.cases += more.cases;
-        self.mismatches += more.mismatches;
+        self.add(&more);
         let known = self.parts.iter_mut().find(|part| part.name == name);
         match known {
             Some(part) => {
-                part.cases += more.cases;
-                part.mismatches += more.mismatches;
+                part.cases = part.cases.saturating_add(more.cases);
+                part.mismatches = part.mismatches.saturating_add(more.mismatches);
                 part.first = part.first.take().or(more.first);
             }
             None => self.parts.push(Part { name: name.to_owned(), ..more }),
@@ -135,7 +145,8 @@ impl Report {
     /// Adds mismatches of stages.
     pub(crate) fn add_stages<S: ToString>(&mut self, stages: impl IntoIterator<Item = (S, u64)>) {
         for (stage, more) in stages {
-            *self.stages.entry(stage.to_string()).or_default() += more;
+            let stage = self.stages.entry(stage.to_string()).or_default();
+            *stage = stage.saturating_add(more);
         }
     }
 

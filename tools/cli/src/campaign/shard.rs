@@ -53,13 +53,15 @@ impl ShardArgs {
         if let Some(shard) = self.given {
             return Ok(Placed { shard, source: Some(OPTION) });
         }
-        let value = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
+        let given = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty());
+        // What is not UTF-8 is no number, and is shown as such.
+        let value = |name: &str| given(name).map(|value| value.to_string_lossy().into_owned());
         let placed = from_environment(&value).map_err(|message| {
             Failure::bad_input(format!(
                 "{message}; or give --shard I/N, --shard 1/1 for everything"
             ))
         })?;
-        if let (Some(BAZEL), Some(file)) = (placed.source, value("TEST_SHARD_STATUS_FILE")) {
+        if let (Some(BAZEL), Some(file)) = (placed.source, given("TEST_SHARD_STATUS_FILE")) {
             // This is how a test says to its runner that it does its shard alone.
             let path = Path::new(&file);
             let touched = File::options().append(true).create(true).open(path);

@@ -37,9 +37,37 @@ pub(crate) enum Command {
     Merge(merge::Args),
     #[cfg(feature = "probe")]
     Probe(probe::Args),
+    #[cfg(not(feature = "probe"))]
+    #[command(hide = true)]
+    Probe(LeftOut),
     #[cfg(feature = "shaders")]
     Shaders(shaders::Args),
+    #[cfg(not(feature = "shaders"))]
+    #[command(hide = true)]
+    Shaders(LeftOut),
     Verify(verify::Args),
+}
+
+/// A command that this build leaves out, whatever it is asked.
+#[cfg(not(all(feature = "probe", feature = "shaders")))]
+#[derive(Debug, clap::Args)]
+#[command(disable_help_flag = true)]
+pub(crate) struct LeftOut {
+    #[arg(allow_hyphen_values = true, trailing_var_arg = true)]
+    words: Vec<std::ffi::OsString>,
+}
+
+#[cfg(not(all(feature = "probe", feature = "shaders")))]
+impl LeftOut {
+    /// Says which feature has the command, by whose name it goes.
+    fn run(&self, feature: &str) -> Failure {
+        let asked =
+            self.words.iter().map(|word| format!(" {}", word.display())).collect::<String>();
+        Failure::unavailable(format!(
+            "this build of tess leaves `{feature}` out, and so `tess {feature}{asked}`: build it with \
+             --features {feature}, or without --no-default-features"
+        ))
+    }
 }
 
 /// Runs a command.
@@ -59,8 +87,12 @@ pub(crate) fn run(command: &Command, invocation: &Invocation) -> Result<Exit, Fa
         Command::Merge(args) => merge::run(args),
         #[cfg(feature = "probe")]
         Command::Probe(args) => probe::run(args, invocation),
+        #[cfg(not(feature = "probe"))]
+        Command::Probe(args) => Err(args.run("probe")),
         #[cfg(feature = "shaders")]
         Command::Shaders(args) => shaders::run(args),
+        #[cfg(not(feature = "shaders"))]
+        Command::Shaders(args) => Err(args.run("shaders")),
         Command::Verify(args) => verify::run(args, invocation),
     }
 }

@@ -4,7 +4,6 @@ use super::file::{folder_of, follow};
 use crate::failure::Failure;
 use same_file::Handle;
 use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
 
 /// A file of a command, by the option that names it.
@@ -16,8 +15,8 @@ pub(crate) struct Role<'a> {
 }
 
 /// What `-` stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Standard {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Standard {
     Input,
     Output,
 }
@@ -44,19 +43,17 @@ impl<'a> Role<'a> {
     }
 
     /// The file or place behind the path; `None` of a device and of a path that leads nowhere.
-    fn identity(&self) -> Option<Identity> {
-        let standard = self.path.as_os_str() == "-";
+    pub(crate) fn identity(&self) -> Option<Identity> {
+        let is_standard = self.path.as_os_str() == "-";
         let there = match self.standard {
-            Standard::Input if standard => Handle::stdin(),
-            Standard::Output if standard => Handle::stdout(),
+            Standard::Input if is_standard => Handle::stdin().ok().and_then(key),
+            Standard::Output if is_standard => Handle::stdout().ok().and_then(key),
             // A pipe is not opened: that waits for its other end.
-            _ if self.path.is_file() => Handle::from_path(self.path),
-            _ => Err(io::ErrorKind::NotFound.into()),
+            _ => self.path.is_file().then(|| key_of(self.path)).flatten(),
         };
-        let there = there.ok().filter(|handle| is_regular(handle.as_file()));
         match there {
-            Some(handle) => Some(Identity::File(handle)),
-            None if standard => Some(Identity::Standard(self.standard)),
+            Some(key) => Some(Identity::File(key)),
+            None if is_standard => Some(Identity::Standard(self.standard)),
             None => self.place().map(Identity::Place),
         }
     }
@@ -78,11 +75,40 @@ impl<'a> Role<'a> {
     }
 }
 
-#[derive(PartialEq, Eq)]
-enum Identity {
-    File(Handle),
+#[derive(PartialEq, Eq, Hash)]
+pub(crate) enum Identity {
+    File(Key),
     Standard(Standard),
     Place(PathBuf),
+}
+
+/// Device and number of a file: thousands of files need no descriptor each.
+#[cfg(unix)]
+type Key = (u64, u64);
+#[cfg(not(unix))]
+type Key = Handle;
+
+/// The key of a regular file.
+#[cfg(unix)]
+fn key_of(path: &Path) -> Option<Key> {
+    use std::os::unix::fs::MetadataExt;
+    path.metadata().ok().map(|found| (found.dev(), found.ino()))
+}
+
+#[cfg(not(unix))]
+fn key_of(path: &Path) -> Option<Key> {
+    Handle::from_path(path).ok()
+}
+
+/// The key of what is open, if that is a regular file.
+#[cfg(unix)]
+fn key(handle: Handle) -> Option<Key> {
+    is_regular(handle.as_file()).then(|| (handle.dev(), handle.ino()))
+}
+
+#[cfg(not(unix))]
+fn key(handle: Handle) -> Option<Key> {
+    is_regular(handle.as_file()).then_some(handle)
 }
 
 fn is_regular(file: &fs::File) -> bool {
@@ -106,19 +132,19 @@ fn is_device(found: &fs::Metadata) -> bool {
 /// # Errors
 /// Exit code 2, with the first two roles of one file.
 pub(crate) fn refuse_shared(roles: &[Role<'_>]) -> Result<(), Failure> {
-    let known: Vec<_> = roles.iter().map(|role| (role, role.identity())).collect();
-    for (number, (role, identity)) in known.iter().enumerate() {
-        let may_share = |other: &Role<'_>| {
-            (role.standard, other.standard) == (Standard::Input, Standard::Input)
-        };
-        let same = known[..number]
-            .iter()
-            .find(|(other, earlier)| !may_share(other) && earlier.is_some() && earlier == identity);
-        if let Some((other, _)) = same {
+    let is_output = |role: &Role<'_>| role.standard == Standard::Output;
+    let outputs = roles.iter().enumerate().filter(|(_, role)| is_output(role));
+    let outputs: Vec<_> = outputs.map(|(at, role)| (at, role.identity())).collect();
+    for (number, role) in roles.iter().enumerate() {
+        let Some(identity) = role.identity() else { continue };
+        // Two outputs meet at the second of them.
+        let same = outputs.iter().find(|(at, other)| {
+            other.as_ref() == Some(&identity) && (*at < number || !is_output(role))
+        });
+        if let Some(&(at, _)) = same {
+            let [first, second] = [at.min(number), at.max(number)].map(|at| roles[at].words());
             return Err(Failure::bad_input(format!(
-                "{} and {} are the same file; give two files",
-                other.words(),
-                role.words()
+                "{first} and {second} are the same file; give two files"
             )));
         }
     }

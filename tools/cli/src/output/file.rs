@@ -177,17 +177,6 @@ pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()>
     }
 }
 
-/// Removes what an earlier run left, so that a run that is killed leaves nothing that looks like its result.
-///
-/// # Errors
-/// It is there and cannot be removed.
-pub(crate) fn remove_earlier(path: &Path) -> io::Result<()> {
-    match fs::remove_file(follow(path)?) {
-        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
-        removed => removed,
-    }
-}
-
 /// Writes a whole file from a cleanup, where no [`Guard`] can be made.
 ///
 /// # Errors

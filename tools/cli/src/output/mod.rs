@@ -2,9 +2,10 @@
 //!
 //! [`mod@file`] is the one way in which commands write files, [`stdout()`] the one way to stdout. Both name
 //! [`ending`] what must not stay behind when a signal ends the process. [`form`] chooses the form of
-//! a file by its name.
+//! a file by its name. [`earlier`] removes what a run before this one left.
 
 mod distinct;
+mod earlier;
 pub(crate) mod ending;
 mod file;
 mod folder;
@@ -15,8 +16,9 @@ mod stdout;
 use crate::failure::Failure;
 use crate::threads::startable;
 pub(crate) use distinct::{Role, refuse_shared};
+pub(crate) use earlier::remove_earlier;
 use file::Destination;
-pub(crate) use file::{OutputFile, create_unless_there, remove_earlier, write_while_ending};
+pub(crate) use file::{OutputFile, create_unless_there, write_while_ending};
 pub(crate) use folder::{NewFolder, refuse_stdout};
 use indicatif::{ProgressBar, ProgressStyle};
 pub(crate) use rows::{Frame, Rows};

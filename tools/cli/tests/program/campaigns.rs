@@ -5,14 +5,17 @@ use serde_json::Value;
 use std::fs;
 use std::path::Path;
 
-fn json(path: &Path) -> Value {
+pub(crate) fn json(path: &Path) -> Value {
     let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     assert_eq!(text.matches('\n').count(), 1, "one line: {text}");
     serde_json::from_str(&text).expect("it is JSON")
 }
 
+/// What an earlier run may have left.
+const EARLIER: &str = "{\"format\":\"tess-report 1\"}\n";
+
 /// Runs `tess` in a folder.
-fn tess_in(folder: &Folder, words: &str) -> Run {
+pub(crate) fn tess_in(folder: &Folder, words: &str) -> Run {
     command(words).current_dir(folder).output().expect("tess runs").into()
 }
 
@@ -111,7 +114,7 @@ fn missing_answers_are_in_the_report() {
 fn failed_runs_have_a_report() {
     let folder = directory("report-failed");
     let report = folder.join("r.jsonl");
-    fs::write(&report, "an earlier report").expect("written");
+    fs::write(&report, EARLIER).expect("written");
     let truncated = tess("gen --level 3 --count 3").stdout;
     let words =
         format!("check - --report {} --junit {}", report.display(), folder.join("r.xml").display());
@@ -130,7 +133,7 @@ fn failed_runs_have_a_report() {
 fn interrupted_and_killed_runs() {
     let folder = directory("report-interrupted");
     for (signal, state) in [("TERM", Some("interrupted")), ("KILL", None)] {
-        fs::write(folder.join("r.jsonl"), "an earlier report").expect("written");
+        fs::write(folder.join("r.jsonl"), EARLIER).expect("written");
         let script = format!(
             "rm -f rows; \"$TESS\" verify --backend simd --exhaustive --report r.jsonl > rows & p=$!\n\
              while ! grep -qs ^level-1 rows; do sleep 0.05; done; kill -s {signal} $p; wait $p"
@@ -164,7 +167,7 @@ fn places_of_reports_are_tried_first() {
 }
 
 /// Three shards of generated coverage.
-fn campaign(folder: &Folder) {
+pub(crate) fn campaign(folder: &Folder) {
     for part in 1..=3 {
         let words = format!(
             "gen --level 3 --count 50 --shard {part}/3 --coverage c{part}.xml --report r{part}.jsonl"

@@ -11,6 +11,8 @@ mod coverage;
 #[cfg(unix)]
 mod distinct;
 mod draw;
+#[cfg(unix)]
+mod earlier;
 mod explain;
 #[cfg(unix)]
 mod files;

@@ -10,21 +10,20 @@ pub(crate) use strength::{ConversionName, DenormalsName};
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
-use crate::campaign::{Invocation, KnownArgs, Recorder, ReportArgs, ShardArgs, conclude};
+use crate::campaign::{Baseline, Invocation, KnownArgs, Recorder, ReportArgs, ShardArgs};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
+use crate::input::{self, Reader};
 use crate::output::{Role, counted, progress, refuse_shared, stdout, stop_when_reader_leaves};
 use failures::Failures;
 use indicatif::ProgressBar;
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use strength::StrengthArgs;
 use tess_verify::backend::Backend;
 use tess_verify::checker::{self, CheckError, Difference, MAX_DIFFERENCES, Report, Tested};
-use tess_verify::known::Known;
 use tess_verify::names::Named;
 use tess_verify::rules::Specification;
 use tess_verify::vectors::{Cases, Kind, Record, VectorError, VectorFile};
@@ -115,6 +114,10 @@ pub(crate) struct Args {
 /// Malformed, short or empty input; a backend that is not available.
 pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     refuse_shared(&args.roles()?)?;
+    args.known.refuse_judged("the file to check", &Role::input("FILE", &args.file))?;
+    if let Some(cases) = &args.cases {
+        args.known.refuse_judged("what is asked", &Role::input("--cases", cases))?;
+    }
     // Before stdin is read: the GPU backend may start the program anew.
     let backends = backends(args);
     let read = if args.empty { VectorFile::maybe_empty } else { VectorFile::new };
@@ -124,6 +127,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     let placed = record::place(args.shard, file.header(), asked_header)?;
     let known = args.known.read(read_known)?;
     let recorder = args.report.begin(invocation, placed)?;
+    known.note(&recorder);
     asked_header
         .into_iter()
         .for_each(|asked| recorder.update(|report| record::add_asked(report, asked)));
@@ -136,19 +140,16 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
             backends.and_then(|backends| compare(args, file, asked, &known, backends, &recorder))
         }
     };
-    conclude(&known, &recorder);
+    known.conclude(&recorder);
     recorder.finish(ended)
 }
-
-/// Cases or records from a file or from stdin.
-type Reader = Box<dyn BufRead + Send>;
 
 /// Compares the records of a file.
 fn compare(
     args: &Args,
     file: VectorFile<Reader>,
     mut asked: Option<Cases<Reader>>,
-    known: &Known,
+    known: &Baseline,
     mut backends: Vec<Box<dyn Backend>>,
     recorder: &Recorder,
 ) -> Result<Exit, Failure> {
@@ -159,18 +160,20 @@ fn compare(
     stop_when_reader_leaves();
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
     let asked = asked.as_mut().map(|asked| asked as _);
-    let report = checker::check_known(file, asked, known, &mut backends, tested, &|checked| {
-        bar.inc(checked.records.len() as u64);
-        recorder.update(|report| record::add(report, checked));
-        if let Some(failures) = &failures {
-            failures.add(checked);
-        }
-        if let Some(coverage) = &coverage {
-            let coverage = &mut coverage.lock().unwrap_or_else(PoisonError::into_inner).coverage;
-            let cases = checked.records.iter().filter_map(Record::case);
-            cases.for_each(|case| coverage.record(&case));
-        }
-    });
+    let report =
+        checker::check_known(file, asked, &known.cases, &mut backends, tested, &|checked| {
+            bar.inc(checked.records.len() as u64);
+            recorder.update(|report| record::add(report, checked));
+            if let Some(failures) = &failures {
+                failures.add(checked);
+            }
+            if let Some(coverage) = &coverage {
+                let coverage =
+                    &mut coverage.lock().unwrap_or_else(PoisonError::into_inner).coverage;
+                let cases = checked.records.iter().filter_map(Record::case);
+                cases.for_each(|case| coverage.record(&case));
+            }
+        });
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
     recorder.update(|record| record::finish(record, &report));
@@ -209,7 +212,7 @@ impl Args {
 
     /// What messages call the file.
     fn name(&self) -> String {
-        if self.file.as_os_str() == "-" { "stdin".into() } else { self.file.display().to_string() }
+        input::name(&self.file)
     }
 
     /// The coverage file, if one is given.
@@ -279,16 +282,11 @@ fn open_cases(
     path: &Path,
     read: impl FnOnce(String, Reader) -> Result<Cases<Reader>, VectorError>,
 ) -> Result<Cases<Reader>, Failure> {
-    let name = if path.as_os_str() == "-" { "stdin".into() } else { path.display().to_string() };
-    read(name, open(path)?).map_err(|error| Failure::bad_input(error.to_string()))
+    read(input::name(path), open(path)?).map_err(|error| Failure::bad_input(error.to_string()))
 }
 
 fn open(path: &Path) -> Result<Reader, Failure> {
-    if path.as_os_str() == "-" {
-        return Ok(Box::new(BufReader::new(io::stdin())));
-    }
-    let file = File::open(path).map_err(|error| Failure::file("read", path, &error))?;
-    Ok(Box::new(BufReader::new(file)))
+    input::open(path).map_err(|error| Failure::file("read", path, &error))
 }
 
 fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {

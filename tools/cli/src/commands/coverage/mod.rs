@@ -5,8 +5,10 @@ mod covergroups;
 use crate::args::name_of;
 use crate::coverage_file;
 use crate::failure::{Exit, Failure};
+use crate::input::{self, name};
 use crate::output::{OutputArgs, Role, counted, note, refuse_shared};
-use std::path::{Path, PathBuf};
+use std::collections::HashSet;
+use std::path::PathBuf;
 use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_verify::coverage::{Coverage, Exclusions};
 use tess_verify::generate::configurations_among;
@@ -70,6 +72,9 @@ pub(crate) struct Args {
     report: OutputArgs,
 }
 
+/// The most bytes of `--exclude`: every bin by its path has 110 kB.
+const MAX_EXCLUDE_BYTES: u64 = 1 << 24;
+
 /// Runs the command.
 ///
 /// # Errors
@@ -100,11 +105,6 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     Ok(args.judge(&sum, &exclusions))
 }
 
-/// What messages call a file.
-fn name(file: &Path) -> String {
-    if file.as_os_str() == "-" { "stdin".to_owned() } else { file.display().to_string() }
-}
-
 impl Args {
     fn roles(&self) -> Vec<Role<'_>> {
         let read = self.files.iter().map(|file| Role::input("FILE", file));
@@ -116,17 +116,17 @@ impl Args {
 
     /// Refuses a file that would count twice.
     fn refuse_double(&self) -> Result<(), Failure> {
-        let roles: Vec<Role<'_>> =
-            self.files.iter().map(|file| Role::input("FILE", file)).collect();
-        for (number, role) in roles.iter().enumerate() {
-            if roles[..number].iter().any(|other| other.is_same_file(role)) {
-                let file = name(&self.files[number]);
-                return Err(Failure::bad_input(format!(
-                    "{file} is given twice; its hits count once"
-                )));
+        let mut seen = HashSet::new();
+        let mut is_new = |file: &&PathBuf| {
+            Role::input("FILE", file).identity().is_none_or(|file| seen.insert(file))
+        };
+        match self.files.iter().find(|file| !is_new(file)) {
+            Some(file) => {
+                let message = format!("{} is given twice; its hits count once", name(file));
+                Err(Failure::bad_input(message))
             }
+            None => Ok(()),
         }
-        Ok(())
     }
 
     /// What the device cannot hit.
@@ -135,7 +135,7 @@ impl Args {
         let has = configurations_among(domain, partitioning, output, split);
         let mut exclusions = Exclusions::outside(has);
         if let Some(path) = &self.exclude {
-            let text = std::fs::read_to_string(path);
+            let text = input::text(path, MAX_EXCLUDE_BYTES);
             let text = text.map_err(|error| Failure::file("read", path, &error))?;
             let read = Exclusions::read(&text);
             exclusions.merge(&read.map_err(|error| {

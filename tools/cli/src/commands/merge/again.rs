@@ -2,12 +2,13 @@
 //!
 //! The command lines of a campaign are one line with a number in it. `Pattern` finds where that number stands, from
 //! the lines that are there, and tries it on all of them: it must give each report's line for that report's
-//! shard. Then it gives the line of any other shard too.
+//! shard. Then it gives the line of any other shard too. One line alone does not show its number: a 1 in it may be
+//! the shard's or the level's. Then there is no pattern, as a wrong line would replace the file of another shard.
 
 use crate::campaign::report::Report;
 
-/// How many reports are tried as the line to change.
-const TRIED: usize = 16;
+/// How many reports are tried as the line to change: the first may have a number with more digits than others.
+const TRIED: usize = 4;
 
 /// A command line, and what its numbers count.
 pub(super) struct Pattern<'a> {
@@ -16,48 +17,31 @@ pub(super) struct Pattern<'a> {
     numbered: Vec<usize>,
     /// What the numbers in the words are less than the shard: 1 where they are counted from 0.
     less: u64,
-    /// Whether it gives the line of every report.
-    is_proven: bool,
 }
 
 impl<'a> Pattern<'a> {
-    /// The pattern of these reports' lines; `None` if there is no line.
+    /// The pattern of these reports' lines; `None` if they are too few, or have none.
     pub(super) fn of(reports: &[&'a Report]) -> Option<Self> {
-        let first = *reports.first()?;
-        let numbered: Vec<usize> = (0..first.words.len())
-            .filter(|&at| match reports {
-                [_] => is_place(&first.words, at),
-                _ => reports.iter().any(|other| other.words.get(at) != first.words.get(at)),
-            })
-            .collect();
+        let [first, others @ ..] = reports else { return None };
+        if others.iter().all(|other| other.shard == first.shard) {
+            return None;
+        }
+        let differs =
+            |at: &usize| others.iter().any(|one| one.words.get(*at) != first.words.get(*at));
+        let numbered: Vec<usize> = (0..first.words.len()).filter(differs).collect();
         let tried = reports.iter().take(TRIED).flat_map(|sample| [(*sample, 0), (*sample, 1)]);
         for (sample, less) in tried {
-            let pattern = Pattern { sample, numbered: numbered.clone(), less, is_proven: true };
-            let fits = |report: &&Report| pattern.words(report.shard) == report.words;
-            let is_moved = pattern.words(sample.shard + 1) != sample.words;
-            if reports.iter().all(fits) && (is_moved || numbered.is_empty()) {
+            let pattern = Pattern { sample, numbered: numbered.clone(), less };
+            if reports.iter().all(|report| pattern.words(report.shard) == report.words) {
                 return Some(pattern);
             }
         }
-        Some(Pattern { sample: first, numbered, less: 0, is_proven: false })
+        None
     }
 
     /// The command of a shard, for a shell.
     pub(super) fn command(&self, shard: u64) -> String {
-        let of = self.sample.shards;
-        let mut words = self.words(shard);
-        if !words.iter().any(|word| word == "--shard" || word.starts_with("--shard=")) {
-            words.extend(["--shard".to_owned(), format!("{shard}/{of}")]);
-        }
-        let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
-        let reads_stdin = self.sample.words.iter().skip(1).any(|word| word == "-");
-        let pipe = if reads_stdin {
-            format!("  # with the input of shard {shard} on stdin")
-        } else {
-            String::new()
-        };
-        let doubt = if self.is_proven { "" } else { "  # look at the names of its files first" };
-        format!("{line}{pipe}{doubt}")
+        command(self.words(shard), shard, self.sample.shards)
     }
 
     fn words(&self, shard: u64) -> Vec<String> {
@@ -68,7 +52,7 @@ impl<'a> Pattern<'a> {
                 Some(before) if before.is_empty() || before == "--shard=" => {
                     format!("{before}{shard}/{of}")
                 }
-                _ if self.numbered.contains(&at) && from >= self.less => {
+                _ if self.numbered.contains(&at) => {
                     renumbered(word, from - self.less, shard - self.less)
                 }
                 _ => word.clone(),
@@ -78,15 +62,23 @@ impl<'a> Pattern<'a> {
     }
 }
 
-/// Whether a word is the file of an option that each shard has its own of.
-fn is_place(words: &[String], at: usize) -> bool {
-    const OPTIONS: [&str; 8] =
-        ["--report", "--junit", "-o", "--out", "--coverage", "--failures", "--cases", "--picture"];
-    let option = words[at].split_once('=').map(|(option, _)| option);
-    let before = at.checked_sub(1).map(|before| words[before].as_str());
-    let is_file =
-        words.get(1).is_some_and(|command| command == "check") && !words[at].starts_with('-');
-    is_file || [option, before].into_iter().flatten().any(|option| OPTIONS.contains(&option))
+/// The command that a report is of, for a shell.
+pub(super) fn command_of(report: &Report) -> String {
+    command(report.words.clone(), report.shard, report.shards)
+}
+
+/// Words for a shell, with the shard if they do not have it.
+fn command(mut words: Vec<String>, shard: u64, of: u64) -> String {
+    // Behind `--` stand files alone.
+    let end = words.iter().position(|word| word == "--").unwrap_or(words.len());
+    let options = &words[..end];
+    if !options.iter().any(|word| word == "--shard" || word.starts_with("--shard=")) {
+        words.splice(end..end, ["--shard".to_owned(), format!("{shard}/{of}")]);
+    }
+    let line = words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ");
+    let reads_stdin = words.iter().skip(1).any(|word| word == "-");
+    let pipe = format!("  # with the input of shard {shard} on stdin");
+    line + if reads_stdin { &pipe } else { "" }
 }
 
 /// The word with every number `from` made `to`; a number with zeros in front keeps its width.
@@ -110,7 +102,7 @@ fn renumbered(word: &str, from: u64, to: u64) -> String {
 }
 
 /// A word as a shell takes it.
-fn quoted(word: &str) -> String {
+pub(super) fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "_-./,:=+@%".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {
         return word.to_owned();
@@ -127,18 +119,43 @@ mod tests {
         Report { words, shard, shards, ..Report::default() }
     }
 
-    fn command(shard: u64, reports: &[Report]) -> String {
+    fn command(shard: u64, reports: &[Report]) -> Option<String> {
         let reports: Vec<&Report> = reports.iter().collect();
-        Pattern::of(&reports).expect("there are reports").command(shard)
+        Pattern::of(&reports).map(|pattern| pattern.command(shard))
+    }
+
+    /// The number of one line may be anything's, as may one that does not fit all lines.
+    #[test]
+    fn what_is_not_certain_is_not_guessed() {
+        for lines in [
+            &[(3, "tess gen --level 3 --shard 3/8 -o v3.csv --report r-3.jsonl")][..],
+            &[(1, "tess check level1/d.txt --report r1.jsonl")],
+            &[(1, "tess verify --report r"), (1, "tess verify --report s")],
+            &[(1, "tess verify --report r007"), (3, "tess verify --report r009")],
+        ] {
+            let reports: Vec<Report> = lines.iter().map(|(i, line)| report(*i, 8, line)).collect();
+            assert_eq!(command(5, &reports), None, "{lines:?}");
+        }
     }
 
     #[test]
     fn the_line_of_another_shard() {
         for (lines, shard, expected) in [
             (
-                vec![(3, "tess gen --level 3 --shard 3/8 -o v3.csv --report r-3.jsonl")],
+                vec![
+                    (3, "tess gen --level 3 --shard 3/8 -o v3.csv --report r-3.jsonl"),
+                    (1, "tess gen --level 3 --shard 1/8 -o v1.csv --report r-1.jsonl"),
+                ],
                 5,
                 "tess gen --level 3 --shard 5/8 -o v5.csv --report r-5.jsonl",
+            ),
+            (
+                vec![
+                    (1, "tess check --report r1.jsonl -- level1/d1.txt"),
+                    (2, "tess check --report r2.jsonl -- level1/d2.txt"),
+                ],
+                3,
+                "tess check --report r3.jsonl --shard 3/8 -- level1/d3.txt",
             ),
             (
                 vec![
@@ -147,11 +164,6 @@ mod tests {
                 ],
                 5,
                 "tess gen --shard=5/8 --report r-5-of-8",
-            ),
-            (
-                vec![(1, "tess verify --report r007"), (3, "tess verify --report r009")],
-                2,
-                "tess verify --report r007 --shard 2/8  # look at the names of its files first",
             ),
             (
                 vec![
@@ -171,7 +183,7 @@ mod tests {
             ),
         ] {
             let reports: Vec<Report> = lines.iter().map(|(i, line)| report(*i, 8, line)).collect();
-            assert_eq!(command(shard, &reports), expected, "{lines:?}");
+            assert_eq!(command(shard, &reports).as_deref(), Some(expected), "{lines:?}");
         }
     }
 

@@ -1,13 +1,18 @@
 //! Which reports belong together, which shards they prove, and their sums.
 
+use super::again::quoted;
 use super::read::Found;
-use crate::campaign::report::{Baseline, Part, Report, State};
+use crate::campaign::report::{KnownCases, Part, Report, State};
 use crate::failure::Failure;
-use std::collections::BTreeMap;
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use tess_verify::coverage::Coverage;
 
 /// How many shards of a kind are shown by number.
 pub(super) const SHOWN: usize = 100;
+
+/// How many faults a file lists: a report may speak of more shards than there is memory for.
+pub(super) const LISTED: usize = 1_000_000;
 
 /// The reports of one campaign, and those that are of others.
 #[derive(Debug)]
@@ -31,40 +36,148 @@ pub(super) enum Fault {
     Double(String),
 }
 
-/// What all reports of a campaign have in common, by name.
-fn identity(report: &Report) -> [(&'static str, String); 6] {
-    // A build of changed or unknown sources is known by its file alone.
-    let is_sure = report.commit != "unknown" && !report.commit.ends_with("+changes");
-    let executable = if is_sure { None } else { report.executable.as_ref() };
-    let executable = executable.map(|digest| format!(" (file {digest})")).unwrap_or_default();
-    let options =
-        report.options.iter().map(|(name, values)| format!("{name}={}", values.join(",")));
-    [
-        ("the version", report.version.clone()),
-        ("the commit", format!("{}{executable}", report.commit)),
-        ("the command", report.command.clone()),
-        ("the seed", report.seed.map_or("none".to_owned(), |seed| seed.to_string())),
-        ("the number of shards", report.shards.to_string()),
-        ("an option", options.collect::<Vec<_>>().join(" ")),
-    ]
+/// What all reports of a campaign have in common.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Identity<'a> {
+    version: &'a str,
+    commit: &'a str,
+    /// The program's file, if the commit does not say what it was built from.
+    executable: Option<&'a str>,
+    command: &'a str,
+    seed: Option<u64>,
+    shards: u64,
+    options: &'a BTreeMap<String, Vec<String>>,
+    has_baseline: bool,
+}
+
+impl<'a> Identity<'a> {
+    fn of(report: &'a Report) -> Self {
+        // A build of changed or unknown sources is known by its file alone.
+        let is_sure = report.commit != "unknown" && !report.commit.ends_with("+changes");
+        let executable = if is_sure { None } else { report.executable.as_deref() };
+        let Report { version, commit, command, seed, shards, options, known, .. } = report;
+        let has_baseline = known.is_some();
+        Self {
+            version,
+            commit,
+            executable,
+            command,
+            seed: *seed,
+            shards: *shards,
+            options,
+            has_baseline,
+        }
+    }
+
+    /// What it has, by name, in words that are equal only if it is; the options are left out.
+    fn words(&self) -> [(&'static str, String); 6] {
+        let executable = self.executable.map(|digest| format!(" (file {digest})"));
+        let baseline = if self.has_baseline { "given" } else { "not given" };
+        [
+            ("the version", self.version.to_owned()),
+            ("the commit", self.commit.to_owned() + &executable.unwrap_or_default()),
+            ("the command", self.command.to_owned()),
+            ("the seed", self.seed.map_or("none".to_owned(), |seed| seed.to_string())),
+            ("the number of shards", self.shards.to_string()),
+            ("the baseline", baseline.to_owned()),
+        ]
+    }
+}
+
+/// Options as words: each value with its name, so that `a,b` is not `a` and `b`.
+pub(super) fn option_words(report: &Report) -> Vec<String> {
+    let words = |(name, values): (&String, &Vec<String>)| {
+        let words = values.iter().map(|value| format!("{name}={}", quoted(value)));
+        words.collect::<Vec<_>>().join(" ")
+    };
+    report.options.iter().map(words).collect()
 }
 
 /// How a report differs from one of another campaign.
 fn strangeness(report: &Report, usual: &Found) -> String {
-    let pairs = identity(report).into_iter().zip(identity(&usual.report));
-    let differing = pairs.into_iter().find(|(own, other)| own != other);
-    let Some(((what, own), (_, other))) = differing else { return String::new() };
-    // Of options, only those that differ.
-    let words = |text: &str, than: &str| {
-        let than: Vec<&str> = than.split(' ').collect();
-        let own: Vec<&str> = text.split(' ').filter(|word| !than.contains(word)).collect();
-        if own.is_empty() { "not given".to_owned() } else { own.join(" ") }
-    };
-    let (own, other) = match what {
-        "an option" => (words(&own, &other), words(&other, &own)),
-        _ => (own, other),
+    let (own, other) = (Identity::of(report).words(), Identity::of(&usual.report).words());
+    let differing = own.into_iter().zip(other).find(|(own, other)| own != other);
+    let (what, own, other) = match differing {
+        Some(((what, own), (_, other))) => (what, own, other),
+        None => {
+            let (own, other) = (option_words(report), option_words(&usual.report));
+            // Of options, only those that differ.
+            let words = |of: &[String], than: &[String]| {
+                let of: Vec<&str> =
+                    of.iter().filter(|word| !than.contains(word)).map(String::as_str).collect();
+                if of.is_empty() { "not given".to_owned() } else { of.join(" ") }
+            };
+            ("an option", words(&own, &other), words(&other, &own))
+        }
     };
     format!("{what} is {own}; in {} it is {other}", usual.place)
+}
+
+/// The reports of the campaign that most of them are of, the first of several with as many; and the others, each
+/// with why it is another. Both in the order of the reports.
+fn largest(reports: Vec<Found>) -> (Vec<Found>, Vec<(String, String)>) {
+    let mut numbers = BTreeMap::new();
+    let groups: Vec<usize> = reports
+        .iter()
+        .map(|found| {
+            let next = numbers.len();
+            *numbers.entry(Identity::of(&found.report)).or_insert(next)
+        })
+        .collect();
+    let own = most(&groups);
+    drop(numbers);
+    split(reports, |number, _| groups[number] == own, strangeness)
+}
+
+/// Those reports among them that have another baseline of the same name than most are of another campaign.
+fn of_one_baseline(reports: Vec<Found>) -> (Vec<Found>, Vec<(String, String)>) {
+    let of = |found: &Found| {
+        let known = found.report.known.clone()?;
+        Some((known.file?, known.digest.unwrap_or_default()))
+    };
+    let mut by_name: BTreeMap<String, Vec<String>> = BTreeMap::new();
+    for (name, digest) in reports.iter().filter_map(of) {
+        by_name.entry(name).or_default().push(digest);
+    }
+    let usual: BTreeMap<&String, String> =
+        by_name.iter().map(|(name, digests)| (name, most(digests))).collect();
+    let is_usual = |_, found: &Found| of(found).is_none_or(|(name, digest)| usual[&name] == digest);
+    let why = |report: &Report, _: &Found| {
+        let known = report.known.clone().unwrap_or_default();
+        let (name, digest) = (known.file.unwrap_or_default(), known.digest.unwrap_or_default());
+        let usual = usual.get(&name).map(String::as_str).unwrap_or_default();
+        format!(
+            "the cases of {name} have the digest {digest}; most reports have {usual} for this name"
+        )
+    };
+    split(reports, is_usual, why)
+}
+
+/// What occurs most often, the first of equals.
+///
+/// # Panics
+/// There is nothing.
+fn most<T: Ord + Clone>(all: &[T]) -> T {
+    let mut counts: BTreeMap<&T, (usize, Reverse<usize>)> = BTreeMap::new();
+    for (number, one) in all.iter().enumerate() {
+        counts.entry(one).or_insert((0, Reverse(number))).0 += 1;
+    }
+    let most = counts.into_iter().max_by_key(|(_, rank)| *rank);
+    most.map(|(one, _)| one.clone()).expect("there is one")
+}
+
+/// The reports that are the campaign's own, and where each other one stands with why it is none.
+fn split(
+    reports: Vec<Found>,
+    is_own: impl Fn(usize, &Found) -> bool,
+    why: impl Fn(&Report, &Found) -> String,
+) -> (Vec<Found>, Vec<(String, String)>) {
+    let (own, others): (Vec<_>, Vec<_>) =
+        reports.into_iter().enumerate().partition(|(number, found)| is_own(*number, found));
+    let own: Vec<Found> = own.into_iter().map(|(_, found)| found).collect();
+    let stranger = |(_, found): (usize, Found)| (found.place.clone(), why(&found.report, &own[0]));
+    let strangers = others.into_iter().map(stranger).collect();
+    (own, strangers)
 }
 
 impl Campaign {
@@ -73,24 +186,12 @@ impl Campaign {
     /// # Errors
     /// No report.
     pub(super) fn of(reports: Vec<Found>) -> Result<Self, Failure> {
-        let mut groups: Vec<Vec<Found>> = Vec::new();
-        let mut known = BTreeMap::new();
-        for found in reports {
-            let next = groups.len();
-            let group = *known.entry(identity(&found.report)).or_insert(next);
-            if group == next {
-                groups.push(Vec::new());
-            }
-            groups[group].push(found);
-        }
-        // The last of equals is taken, so they are looked at from the end.
-        let largest = groups.iter().enumerate().rev().max_by_key(|(_, group)| group.len());
-        let Some((number, _)) = largest else {
+        if reports.is_empty() {
             return Err(Failure::bad_input("there is no report to merge"));
-        };
-        let own = groups.remove(number);
-        let others = groups.into_iter().flatten();
-        let strangers = others.map(|one| (one.place, strangeness(&one.report, &own[0]))).collect();
+        }
+        let (own, mut strangers) = largest(reports);
+        let (own, others) = of_one_baseline(own);
+        strangers.extend(others);
         let of = own[0].report.shards;
         let mut shards: BTreeMap<u64, Vec<Found>> = BTreeMap::new();
         for found in own {
@@ -108,6 +209,19 @@ impl Campaign {
     pub(super) fn done(&self) -> impl Iterator<Item = &Found> {
         let done = |one: &&Found| one.report.state == State::Done;
         self.shards.values().filter_map(move |found| found.iter().find(done))
+    }
+
+    /// One report of each shard that ran once.
+    pub(super) fn once(&self) -> impl Iterator<Item = &Found> {
+        self.shards.values().filter_map(|found| match &found[..] {
+            [one] if one.report.state == State::Done => Some(one),
+            _ => None,
+        })
+    }
+
+    /// A report of a shard.
+    pub(super) fn report_of(&self, shard: u64) -> Option<&Report> {
+        self.shards.get(&shard)?.first().map(|one| &one.report)
     }
 
     /// What is wrong with which shard, in the order of the shards.
@@ -165,24 +279,34 @@ impl Campaign {
 
     /// The parts with their sums, in the order in which reports name them.
     pub(super) fn parts(&self) -> Vec<Part> {
-        let mut sum = Report::default();
+        let mut places: HashMap<&str, usize> = HashMap::new();
+        let mut parts: Vec<Part> = Vec::new();
         for part in self.done().flat_map(|one| &one.report.parts) {
-            sum.add_to_part(&part.name, Part { name: String::new(), ..part.clone() });
+            let place = *places.entry(&part.name).or_insert(parts.len());
+            if place == parts.len() {
+                parts.push(Part { name: part.name.clone(), ..Part::default() });
+            }
+            let sum = &mut parts[place];
+            sum.cases = sum.cases.saturating_add(part.cases);
+            sum.mismatches = sum.mismatches.saturating_add(part.mismatches);
         }
-        sum.parts
+        parts
     }
 
-    /// What became of the baseline in all shards; `None` if there was none.
-    pub(super) fn known(&self) -> Option<Baseline> {
-        let mut baselines = self.done().filter_map(|one| one.report.known.as_ref());
-        let mut sum = baselines.next()?.clone();
-        for Baseline { different, gone, .. } in baselines {
-            sum.different = sum.different.saturating_add(*different);
-            sum.gone.extend(gone.iter().cloned());
+    /// How many different baselines there are, and what became of them in all shards; `None` if there was none.
+    pub(super) fn known(&self) -> Option<(u64, KnownCases)> {
+        let mut digests = BTreeSet::new();
+        let mut sum = KnownCases::default();
+        for known in self.done().filter_map(|one| one.report.known.as_ref()) {
+            if digests.insert(&known.digest) {
+                sum.entries = sum.entries.saturating_add(known.entries);
+            }
+            sum.different = sum.different.saturating_add(known.different);
+            sum.gone.extend(known.gone.iter().cloned());
         }
         sum.gone.sort();
         sum.gone.dedup();
-        Some(sum)
+        (!digests.is_empty()).then_some((digests.len() as u64, sum))
     }
 
     /// The hits of all shards.

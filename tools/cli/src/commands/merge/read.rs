@@ -2,8 +2,8 @@
 
 use crate::campaign::report::Report;
 use crate::failure::Failure;
-use std::fs::File;
-use std::io::{self, Read};
+use crate::input;
+use std::io;
 use std::path::{Path, PathBuf};
 
 /// The most bytes of one file: a thousand reports with coverage have 20 MB.
@@ -31,7 +31,7 @@ pub(super) struct Reports {
 pub(super) fn reports(paths: &[PathBuf]) -> Result<Reports, Failure> {
     let mut all = Reports::default();
     for path in paths {
-        match text(path) {
+        match input::text(path, MAX_BYTES) {
             Ok(text) => all.reports.extend(lines(path, &text)?),
             Err(error) if error.kind() == io::ErrorKind::NotFound => all.absent.push(path.clone()),
             Err(error) => return Err(Failure::file("read", path, &error)),
@@ -40,21 +40,8 @@ pub(super) fn reports(paths: &[PathBuf]) -> Result<Reports, Failure> {
     Ok(all)
 }
 
-fn text(path: &Path) -> io::Result<String> {
-    let mut text = String::new();
-    let read = match path.to_str() {
-        Some("-") => io::stdin().take(MAX_BYTES + 1).read_to_string(&mut text)?,
-        _ => File::open(path)?.take(MAX_BYTES + 1).read_to_string(&mut text)?,
-    };
-    if read as u64 > MAX_BYTES {
-        return Err(io::Error::other(format!("it has more than {MAX_BYTES} bytes")));
-    }
-    Ok(text)
-}
-
 fn lines(path: &Path, text: &str) -> Result<Vec<Found>, Failure> {
-    let name =
-        if path.as_os_str() == "-" { "stdin".to_owned() } else { path.display().to_string() };
+    let name = input::name(path);
     let mut found = Vec::new();
     for (number, line) in (1..).zip(text.lines()) {
         let report = Report::parse(line)

@@ -1,7 +1,7 @@
 //! A campaign as text, CSV and `JUnit` XML.
 
-use super::again::Pattern;
-use super::campaign::{Campaign, Fault, SHOWN};
+use super::again::{Pattern, command_of};
+use super::campaign::{Campaign, Fault, LISTED, SHOWN, option_words};
 use super::read::Found;
 use crate::campaign::junit::{Outcome, Suite, Test, seconds};
 use crate::campaign::report::{First, Report, State};
@@ -22,9 +22,7 @@ pub(super) fn text(campaign: &Campaign) -> String {
 // Writing to a String does not fail: the results of `write!` are dropped throughout.
 
 fn heading(text: &mut String, report: &Report) {
-    let options =
-        report.options.iter().map(|(name, values)| format!(" {name}={}", values.join(",")));
-    let options: String = options.collect();
+    let options: String = option_words(report).iter().map(|words| format!(" {words}")).collect();
     let Report { command, version, commit, .. } = report;
     _ = writeln!(text, "tess {command}:{options}\ntess {version}, commit {commit}");
 }
@@ -39,9 +37,10 @@ fn table(text: &mut String, campaign: &Campaign) {
     for (stage, mismatches) in campaign.stages() {
         _ = writeln!(text, "stage {stage}: {mismatches}");
     }
-    if let Some(known) = campaign.known() {
-        let (entries, different) = (known.entries, known.different);
-        _ = writeln!(text, "known differences: {different} of {} occur", counted(entries, "case"));
+    if let Some((baselines, known)) = campaign.known() {
+        let (entries, different) = (counted(known.entries, "case"), known.different);
+        let of = if baselines > 1 { format!(" of {baselines} baselines") } else { String::new() };
+        _ = writeln!(text, "known differences: {different} of {entries}{of} occur");
         known.gone.iter().for_each(|line| _ = writeln!(text, "no longer different: {line}"));
     }
 }
@@ -84,10 +83,34 @@ fn faults(text: &mut String, campaign: &Campaign) {
     if campaign.cases() == 0 {
         _ = writeln!(text, "no case was compared");
     }
-    let reports: Vec<&Report> = campaign.all().map(|one| &one.report).collect();
-    let Some(pattern) = Pattern::of(&reports).filter(|_| !again.is_empty()) else { return };
-    _ = writeln!(text, "run again:");
-    again.iter().for_each(|shard| _ = writeln!(text, "  {}", pattern.command(*shard)));
+    run_again(text, campaign, &again);
+}
+
+/// The commands that are certain: those of the reports, and others if every report shows how they are made.
+fn run_again(text: &mut String, campaign: &Campaign, again: &[u64]) {
+    let pattern = if again.is_empty() {
+        None
+    } else {
+        Pattern::of(&campaign.all().map(|one| &one.report).collect::<Vec<_>>())
+    };
+    let command = |shard: &u64| match campaign.report_of(*shard) {
+        Some(own) => Some(command_of(own)),
+        None => pattern.as_ref().map(|pattern| pattern.command(*shard)),
+    };
+    let commands: Vec<String> = again.iter().filter_map(command).collect();
+    if !commands.is_empty() {
+        _ = writeln!(text, "run again:");
+        commands.iter().for_each(|command| _ = writeln!(text, "  {command}"));
+    }
+    let sample = campaign.all().next().map(|one| &one.report);
+    if let Some(sample) = sample.filter(|_| commands.len() < again.len()) {
+        let Report { shard, shards, .. } = sample;
+        _ = writeln!(
+            text,
+            "run again what is missing, each with files of its own; shard {shard}/{shards} was:"
+        );
+        _ = writeln!(text, "  # {}", command_of(sample));
+    }
 }
 
 fn more(text: &mut String, all: u64, one: &str) {
@@ -98,17 +121,13 @@ fn more(text: &mut String, all: u64, one: &str) {
 }
 
 fn summary(text: &mut String, campaign: &Campaign) {
-    let once = campaign.done().filter(|one| is_single(campaign, one)).count();
+    let once = campaign.once().count();
     let (of, time) = (counted(campaign.of, "shard"), seconds(campaign.milliseconds()));
     let (cases, mismatches) = (campaign.cases(), campaign.mismatches());
     _ = writeln!(
         text,
         "{once} of {of} ran once: {cases} cases, {mismatches} mismatches, {time} s of all shards"
     );
-}
-
-fn is_single(campaign: &Campaign, one: &Found) -> bool {
-    campaign.all().filter(|other| other.report.shard == one.report.shard).count() == 1
 }
 
 /// A row for each report of the campaign, and one for each missing shard.
@@ -133,9 +152,13 @@ pub(super) fn csv(campaign: &Campaign) -> String {
             "{shard},{shards},{state},{cases},{mismatches},{time},{case},{difference},{place}"
         );
     }
-    let missing = campaign.faults().filter(|(_, fault)| *fault == Fault::Missing);
-    for (shard, _) in missing.take(SHOWN) {
-        _ = writeln!(text, "{shard},{},missing,0,0,0.000,,,", campaign.of);
+    for (shard, fault) in campaign.faults().take(LISTED) {
+        if fault == Fault::Missing {
+            _ = writeln!(text, "{shard},{},missing,0,0,0.000,,,", campaign.of);
+        }
+    }
+    if campaign.faults().nth(LISTED).is_some() {
+        _ = writeln!(text, "more,{},missing,0,0,0.000,,,", campaign.of);
     }
     text
 }
@@ -159,14 +182,14 @@ pub(super) fn junit(campaign: &Campaign) -> String {
         milliseconds,
         outcome,
     };
-    let well = campaign.done().filter(|one| is_single(campaign, one));
-    let mut tests: Vec<(u64, Test)> = well
+    let mut tests: Vec<(u64, Test)> = campaign
+        .once()
         .map(|Found { report, .. }| {
             let time = Some(report.milliseconds);
             (report.shard, test(report.shard, time, outcome(report)))
         })
         .collect();
-    for (shard, fault) in campaign.faults().take(SHOWN) {
+    for (shard, fault) in campaign.faults().take(LISTED) {
         let error = match fault {
             Fault::Missing => Outcome::Error("missing".to_owned(), "it has no report".to_owned()),
             Fault::Unfinished(place, why) => Outcome::Error(why, place),
@@ -175,13 +198,19 @@ pub(super) fn junit(campaign: &Campaign) -> String {
         tests.push((shard, test(shard, None, error)));
     }
     tests.sort_by_key(|(shard, _)| *shard);
+    let more = campaign.faults().nth(LISTED).map(|_| Test {
+        class: class.clone(),
+        name: "more shards".to_owned(),
+        milliseconds: None,
+        outcome: Outcome::Error("missing".to_owned(), format!("more than {LISTED} are not listed")),
+    });
     let strangers = campaign.strangers.iter().map(|(place, why)| Test {
         class: class.clone(),
         name: place.clone(),
         milliseconds: None,
         outcome: Outcome::Error("of another campaign".to_owned(), why.clone()),
     });
-    let tests = tests.into_iter().map(|(_, test)| test).chain(strangers).collect();
+    let tests = tests.into_iter().map(|(_, test)| test).chain(more).chain(strangers).collect();
     let (name, milliseconds) = (format!("tess {command}"), campaign.milliseconds());
     Suite { name, milliseconds, tests }.to_xml()
 }

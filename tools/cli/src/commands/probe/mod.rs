@@ -7,7 +7,7 @@ use super::check::{ConversionName, DenormalsName, read_known, rules};
 use crate::args::{SelectionArgs, name_of};
 use crate::backends::quiet;
 use crate::campaign::report::{First as FirstOf, Part, Report as Record};
-use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, conclude};
+use crate::campaign::{Baseline, Invocation, KnownArgs, Placed, Recorder, ReportArgs};
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
 use crate::output::form;
@@ -15,12 +15,10 @@ use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use tess_probe::{First, Prober, Report, Row, cases, list, probe_known};
 use tess_verify::case::Case;
 use tess_verify::drawing::{self, DrawOptions};
-use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::known::Known;
+use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::names::Named;
 use tess_verify::rules::Specification;
 use tess_verify::strength::{Order, Strength};
@@ -136,9 +134,10 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     let others = args.known.role().into_iter().chain(args.report.roles());
     refuse_shared(&drawn.chain([args.output.role()]).chain(others).collect::<Vec<_>>())?;
     let recorder = args.report.begin(invocation, placed)?;
+    known.note(&recorder);
     let ended = match args.rules {
         Some(specification) => args.judge(specification, &recorder),
-        None => args.compare(placed, picture.as_ref(), known, &recorder),
+        None => args.compare(placed, picture.as_ref(), &known, &recorder),
     };
     recorder.finish(ended)
 }
@@ -154,25 +153,29 @@ impl Args {
         &self,
         placed: Placed,
         picture: Option<&Picture>,
-        known: Known,
+        known: &Baseline,
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
         let args = self;
-        let cases = cases(args.selection.selection(), placed.shard);
-        if cases.is_empty() {
+        let selection = args.selection.selection();
+        let cases = cases(selection.clone(), placed.shard);
+        if cases.is_empty() && tess_probe::cases(selection, Shard::WHOLE).is_empty() {
             return Err(Failure::bad_input("these arguments select no case"));
+        }
+        if cases.is_empty() {
+            note(&format!("no case in shard {placed}"));
         }
         let open = if args.points { Prober::open_for_points } else { Prober::open };
         let mut prober =
             open(args.device).map_err(unavailable)?.with_draw_vertices(args.draw_vertices);
         let bar = progress(cases.len() as u64, "patches");
-        let known = Arc::new(known);
         let strength = args.strength();
-        let report = probe_known(&mut prober, &cases, strength, &known, |patches| bar.inc(patches));
+        let report =
+            probe_known(&mut prober, &cases, strength, &known.cases, |patches| bar.inc(patches));
         bar.finish_and_clear();
         let report = report.map_err(unavailable)?;
         recorder.update(|record| note_parts(record, &report));
-        conclude(&known, recorder);
+        known.conclude(recorder);
         if let (Some(picture), Some(first)) = (picture, &report.unexplained.first) {
             picture.draw(first)?;
         }

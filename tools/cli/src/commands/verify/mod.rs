@@ -4,7 +4,7 @@ use super::check::{read_known, rules};
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
 use crate::campaign::report::{First, Part, Report};
-use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, ShardArgs, conclude};
+use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, ShardArgs};
 use crate::failure::{Exit, Failure};
 use crate::output::{Frame, Role, Rows, note, progress, refuse_shared, stop_when_reader_leaves};
 use std::fmt::Write;
@@ -91,11 +91,12 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     let known = args.known.read(read_known)?;
     let workers = args.workers()?;
     let recorder = args.report.begin(invocation, placed)?;
+    known.note(&recorder);
     let ended = match args.rules {
         Some(specification) => args.judge(specification, &recorder),
-        None => args.compare(workers, placed, &known, &recorder),
+        None => args.compare(workers, placed, &known.cases, &recorder),
     };
-    conclude(&known, &recorder);
+    known.conclude(&recorder);
     recorder.finish(ended)
 }
 

@@ -1,0 +1,37 @@
+//! What commands read: a file, or stdin where the path is `-`.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
+
+/// A text that comes from a file or from stdin.
+pub(crate) type Reader = Box<dyn BufRead + Send>;
+
+/// What messages call a path.
+pub(crate) fn name(path: &Path) -> String {
+    if path.as_os_str() == "-" { "stdin".to_owned() } else { path.display().to_string() }
+}
+
+/// Begins to read.
+///
+/// # Errors
+/// A file that cannot be opened.
+pub(crate) fn open(path: &Path) -> io::Result<Reader> {
+    Ok(match path.to_str() {
+        Some("-") => Box::new(BufReader::new(io::stdin())),
+        _ => Box::new(BufReader::new(File::open(path)?)),
+    })
+}
+
+/// A whole text of at most `max` bytes, so that a device without an end does not fill the memory.
+///
+/// # Errors
+/// It cannot be read, is longer, or is not UTF-8.
+pub(crate) fn text(path: &Path, max: u64) -> io::Result<String> {
+    let mut text = String::new();
+    let read = open(path)?.take(max + 1).read_to_string(&mut text)?;
+    if read as u64 > max {
+        return Err(io::Error::other(format!("it has more than {max} bytes")));
+    }
+    Ok(text)
+}

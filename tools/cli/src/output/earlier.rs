@@ -1,0 +1,152 @@
+//! Removes what an earlier run left where this one will write, before anything can fail.
+//!
+//! ```text
+//! tess check - --cases a.txt --report r.jsonl     r.jsonl says "done" since yesterday
+//!                                                 1. r.jsonl is removed   2. stdin is empty: exit code 2
+//! ```
+//!
+//! Whoever reads the file afterwards trusts it, so a run that ends early, for whatever reason, must leave none.
+//! That is why the words are looked at here and not the options: a command line that is no command counts too.
+//! A file that begins as no file of that kind does is kept, and so is one that the command reads.
+
+use super::distinct::Role;
+use super::file::Destination;
+use crate::failure::Failure;
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+/// A kind of file, by what stands in its beginning.
+#[derive(Clone, Copy, Debug)]
+struct Form {
+    option: &'static str,
+    name: &'static str,
+    /// It begins with this,
+    begins: &'static str,
+    /// and has this among its first bytes.
+    has: &'static str,
+}
+
+/// How many bytes are looked at.
+const BEGINNING: u64 = 4096;
+
+const fn form(option: &'static str, name: &'static str, [begins, has]: [&'static str; 2]) -> Form {
+    Form { option, name, begins, has }
+}
+
+const UCIS: [&str; 2] = ["<?xml", "<UCIS"];
+const REPORT: Form = form("--report", "report", ["{", "\"tess-report "]);
+const JUNIT: Form = form("--junit", "JUnit file", ["<", "<testsuite"]);
+const CHECK: [Form; 3] = [REPORT, JUNIT, form("--failures", "vector file", ["# tess-vectors", ""])];
+const MERGE: [Form; 3] = [
+    form("--csv", "table of shards", ["shard,shards,state,", ""]),
+    JUNIT,
+    form("--coverage", "coverage file", UCIS),
+];
+const COVERAGE: [Form; 2] = [
+    form("--merged", "coverage file", UCIS),
+    form("--html", "coverage page", ["<!DOCTYPE html>", "Coverage of the tessellator"]),
+];
+
+/// The outputs of a command that are trusted when it has ended. What it adds to, as `--coverage` of other
+/// commands, is none: that stays as it was.
+fn trusted(command: &OsStr) -> &'static [Form] {
+    match command.to_str() {
+        Some("check") => &CHECK,
+        Some("merge") => &MERGE,
+        Some("coverage") => &COVERAGE,
+        _ => &[REPORT, JUNIT],
+    }
+}
+
+/// A trusted output that the words name.
+struct Named {
+    form: Form,
+    path: PathBuf,
+    /// The number of the word that has the path.
+    at: usize,
+}
+
+/// Removes the outputs of earlier runs that these words of a command line name, the program first.
+///
+/// # Errors
+/// The first that is kept because it is no file of its kind, or cannot be removed. The others are removed all
+/// the same.
+pub(crate) fn remove_earlier(words: &[OsString]) -> Result<(), Failure> {
+    let forms = words.get(1).map_or(&[][..], |command| trusted(command));
+    let named: Vec<Named> = (2..words.len()).flat_map(|at| named(words, at, forms)).collect();
+    let mut removed = Ok(());
+    for output in &named {
+        let others = (2..words.len()).filter(|at| named.iter().all(|output| output.at != *at));
+        let others = others.flat_map(|at| [Some(&*words[at]), value(&words[at])]).flatten();
+        removed = removed.and(output.remove(others));
+    }
+    removed
+}
+
+/// The outputs that a word names, by itself or for the next one.
+fn named(words: &[OsString], at: usize, forms: &'static [Form]) -> Vec<Named> {
+    let named = |form: &Form| {
+        if words[at] == form.option {
+            let path = words.get(at + 1)?.into();
+            return Some(Named { form: *form, path, at: at + 1 });
+        }
+        let is_option = words[at].as_encoded_bytes().starts_with(form.option.as_bytes());
+        let path = value(&words[at])
+            .filter(|value| is_option && words[at].len() == form.option.len() + 1 + value.len())?;
+        Some(Named { form: *form, path: path.into(), at })
+    };
+    forms.iter().filter_map(named).collect()
+}
+
+/// What follows the first `=` of a word.
+#[cfg(unix)]
+fn value(word: &OsStr) -> Option<&OsStr> {
+    use std::os::unix::ffi::OsStrExt;
+    let bytes = word.as_bytes();
+    let equals = bytes.iter().position(|byte| *byte == b'=')?;
+    Some(OsStr::from_bytes(&bytes[equals + 1..]))
+}
+
+#[cfg(not(unix))]
+fn value(word: &OsStr) -> Option<&OsStr> {
+    word.to_str()?.split_once('=').map(|(_, value)| value.as_ref())
+}
+
+impl Named {
+    fn remove<'a>(&self, mut others: impl Iterator<Item = &'a OsStr>) -> Result<(), Failure> {
+        let Self { form, path, .. } = self;
+        let own = Role::output(form.option, path);
+        // What is no file is refused by the command, which knows why, or written as it is.
+        let found = Destination::of(path).map_err(|error| Failure::write(path, error))?;
+        let Destination::File(file) = found else { return Ok(()) };
+        let is_own = |other: &Role<'_>| own.is_same_file(other);
+        let standard = Path::new("-");
+        if !file.exists()
+            || [Role::input("", standard), Role::output("", standard)].iter().any(is_own)
+            || others.any(|other| is_own(&Role::input("", other.as_ref())))
+        {
+            return Ok(());
+        }
+        if !form.fits(&file).map_err(|error| Failure::file("read", path, &error))? {
+            return Err(Failure::bad_input(format!(
+                "{} {} is there, and is no {}: it is kept; give another file, or remove it",
+                form.option,
+                path.display(),
+                form.name
+            )));
+        }
+        fs::remove_file(file).map_err(|error| Failure::file("replace", path, &error))
+    }
+}
+
+impl Form {
+    /// Whether a file begins so. One without a byte may become anything.
+    fn fits(&self, file: &Path) -> io::Result<bool> {
+        let mut bytes = Vec::new();
+        File::open(file)?.take(BEGINNING).read_to_end(&mut bytes)?;
+        let text = String::from_utf8_lossy(&bytes);
+        Ok(text.is_empty() || text.trim_start().starts_with(self.begins) && text.contains(self.has))
+    }
+}

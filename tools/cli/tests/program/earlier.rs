@@ -1,0 +1,163 @@
+//! What an earlier run left is no result of one that ends early.
+
+use crate::campaigns::tess_in;
+use crate::support::{Folder, Run, directory, shell, tess};
+use std::fs;
+use std::path::Path;
+
+/// The trusted outputs, each by its option with a name and the beginning of what yesterday's run left there.
+const OLD: [(&str, &str, &str); 7] = [
+    ("--report", "r.jsonl", "{\"format\":\"tess-report 1\",\"state\":\"done\"}\n"),
+    ("--junit", "r.xml", "<?xml version=\"1.0\"?>\n<testsuites name=\"tess\" tests=\"19\"/>\n"),
+    ("--failures", "f.txt", "# tess-vectors 1 kind=listings source=yesterday\n# end\n"),
+    ("--csv", "s.csv", "shard,shards,state,cases,mismatches,seconds,first,difference,report\n"),
+    ("--coverage", "c.xml", "<?xml version=\"1.0\"?>\n<UCIS ucisVersion=\"1.0\"></UCIS>\n"),
+    ("--merged", "m.xml", "<?xml version=\"1.0\"?>\n<UCIS ucisVersion=\"1.0\"></UCIS>\n"),
+    ("--html", "p.html", "<!DOCTYPE html>\n<title>Coverage of the tessellator</title>\n"),
+];
+
+/// The options of these outputs as words.
+fn options(names: &[&str]) -> String {
+    let named = OLD.iter().filter(|(option, ..)| names.contains(option));
+    named.map(|(option, name, _)| format!(" {option} {name}")).collect()
+}
+
+fn prepare(folder: &Path) {
+    for (_, name, old) in OLD {
+        fs::write(folder.join(name), old).expect("written");
+    }
+}
+
+/// Runs a script that ends early, in which `$TESS` is the program, and demands that nothing looks like its result.
+fn left_nothing(folder: &Folder, script: &str, names: &[&str]) -> Run {
+    prepare(folder);
+    let run = shell(script, folder);
+    assert_ne!(run.code, Some(0), "{script}: {}{}", run.stdout, run.stderr);
+    for (_, name, old) in OLD.iter().filter(|(option, ..)| names.contains(option)) {
+        let left = fs::read_to_string(folder.join(name)).unwrap_or_default();
+        let is_result = left.contains("done") || left.contains("tests=\"19\"") || left == *old;
+        assert!(!is_result, "{script}: {name} is yesterday's: {left}{}", run.stderr);
+    }
+    run
+}
+
+const RUN: [&str; 2] = ["--report", "--junit"];
+const CHECK: [&str; 3] = ["--report", "--junit", "--failures"];
+
+#[test]
+fn runs_that_end_early() {
+    let folder = directory("runs_that_end_early");
+    let listing =
+        "$TESS patch tri --outer 2,2,2 --inner 2 -o e.txt && sed -n /^case/p e.txt > a.txt";
+    assert_eq!(shell(listing, &folder).code, Some(0), "made");
+    let check = [
+        "false | $TESS check - --cases a.txt",
+        "$TESS check missing.txt",
+        "echo Segmentation fault | $TESS check -",
+        "$TESS check e.txt --known missing.txt",
+        "$TESS check e.txt --cases missing.txt",
+        "TEST_SHARD_INDEX=0 $TESS check e.txt",
+        "TEST_TOTAL_SHARDS=2 TEST_SHARD_INDEX=0 JOB_COMPLETION_INDEX=1 TESS_SHARDS=2 $TESS check e.txt",
+        "$TESS check e.txt --order sideways",
+        "$TESS check e.txt --nonsense",
+        "$TESS check",
+        "$TESS check e.txt --report",
+    ];
+    for command in check {
+        left_nothing(&folder, &format!("{command}{}", options(&CHECK)), &CHECK);
+    }
+    let mut others = vec![
+        "$TESS chekc e.txt",
+        "$TESS gen --level 3 --count 0",
+        "$TESS gen --level 4",
+        "$TESS verify --backend simd --random 0",
+        "$TESS verify --backend simd --cpu-level sse9",
+        "SLURM_ARRAY_TASK_ID=1 $TESS verify --backend simd --random 1",
+    ];
+    if cfg!(feature = "gpu") {
+        others.push("export VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent WGPU_BACKEND=vulkan; $TESS verify --backend gpu");
+    }
+    if cfg!(feature = "probe") {
+        others.push("$TESS probe --device 1000");
+        others.push("$TESS probe --known missing.txt");
+        others.push("$TESS probe --picture first.jpg");
+    }
+    for command in others {
+        left_nothing(&folder, &format!("{command}{}", options(&RUN)), &RUN);
+    }
+    left_nothing(&folder, "$TESS check missing.txt --report=r.jsonl --junit=r.xml", &RUN);
+    let script = "ln -s r.jsonl link; $TESS check missing.txt --report link";
+    left_nothing(&folder, script, &["--report"]);
+}
+
+/// A device that is waited for has answered nothing.
+#[test]
+fn waiting_for_the_first_line() {
+    let folder = directory("waiting_for_the_first_line");
+    let options = options(&CHECK);
+    let script = format!(
+        "mkfifo device; $TESS check device{options} & p=$!\n\
+         i=0; while [ -e r.jsonl ] && [ $i -lt 100 ]; do sleep 0.05; i=$((i + 1)); done\n\
+         kill -s TERM $p; wait $p; exit 1"
+    );
+    left_nothing(&folder, &script, &CHECK);
+}
+
+#[test]
+fn sums_that_cannot_be_made() {
+    let folder = directory("sums_that_cannot_be_made");
+    const MERGE: [&str; 3] = ["--junit", "--csv", "--coverage"];
+    const COVERAGE: [&str; 2] = ["--merged", "--html"];
+    for (text, code) in [("{}\n", 2), ("", 2)] {
+        fs::write(folder.join("bad"), text).expect("written");
+        for (command, names) in [("merge", &MERGE[..]), ("coverage", &COVERAGE)] {
+            for file in ["bad", "missing"] {
+                let run = left_nothing(
+                    &folder,
+                    &format!("$TESS {command} {file}{}", options(names)),
+                    names,
+                );
+                assert_eq!(run.code, Some(code), "{command} {file}: {}", run.stderr);
+            }
+        }
+    }
+}
+
+/// One typo away from `--report /etc/fstab`: what is no file of its kind stays, and the run says so at once.
+#[test]
+fn what_is_another_file_is_kept() {
+    let folder = directory("what_is_another_file_is_kept");
+    let listing = tess("patch tri --outer 2,2,2 --inner 2").stdout;
+    fs::write(folder.join("e.txt"), &listing).expect("written");
+    for (command, option) in [
+        ("check e.txt", "--report"),
+        ("gen --level 3 --count 1", "--report"),
+        ("verify --backend simd --random 1", "--junit"),
+        ("check e.txt", "--junit"),
+        ("check e.txt", "--failures"),
+        ("merge r.jsonl", "--csv"),
+        ("merge r.jsonl", "--junit"),
+        ("merge r.jsonl", "--coverage"),
+        ("coverage c.xml", "--merged"),
+        ("coverage c.xml", "--html"),
+    ] {
+        for text in ["thesis\n", "{\"a\": 1}\n", "<?xml version=\"1.0\"?>\n<svg/>\n", "\u{feff}\n"]
+        {
+            fs::write(folder.join("mine"), text).expect("written");
+            let run = tess_in(&folder, &format!("{command} {option} mine"));
+            let left = fs::read_to_string(folder.join("mine")).expect("it is there");
+            assert_eq!((run.code, left.as_str()), (Some(2), text), "{command}: {}", run.stderr);
+            let said = format!("{option} mine is there, and is no ");
+            assert!(run.stderr.contains(&said), "{command}: {}", run.stderr);
+            assert_eq!(run.stdout, "", "{command} {option}");
+        }
+    }
+    // A file without a byte, as `mktemp` makes it, may become anything.
+    fs::write(folder.join("mine"), "").expect("written");
+    let run = tess_in(&folder, "check e.txt --report mine");
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let before = fs::read(folder.join("mine")).expect("a report");
+    let run = tess_in(&folder, "check e.txt --report mine --help");
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(fs::read(folder.join("mine")).is_ok_and(|now| now == before), "help removes nothing");
+}
