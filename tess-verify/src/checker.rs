@@ -1,5 +1,6 @@
 //! Runs the records of a vector file through a backend.
 
+mod alignment;
 mod asked;
 mod consistency;
 mod device;
@@ -39,7 +40,10 @@ pub enum Tested {
 
 /// A part of a file that was checked: consecutive records, or nearly so.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Checked<'a> {
+    /// Number of the first record, from 1. The calls come in no order.
+    pub first: u64,
     /// The records.
     pub records: &'a [Record],
     /// For each, whether it is wrong for the case that it states. A record that is right for its case but
@@ -67,8 +71,9 @@ pub fn check<R: BufRead + Send>(
 }
 
 /// [`check`], and the records must answer the cases that were `asked`, one for one and in this order: a
-/// record that answers another case is a difference, and so is a case without a record. Behind it the
-/// comparison is in step again, if fewer than [`WINDOW`] cases in a row have no record.
+/// record that answers another case is a difference, and so is a case without a record. The fewest
+/// differences count that explain what is there: the comparison is in step again behind them, if
+/// fewer than [`WINDOW`] cases in a row have no record.
 ///
 /// # Errors
 /// The errors of [`check`] and of reading `asked`.
@@ -171,8 +176,8 @@ struct Source<'a, R> {
 /// Records that one worker checks together.
 #[derive(Default)]
 struct Unit {
-    /// Numbers of the records, from 1.
-    numbers: Vec<u64>,
+    /// Number of the first record, from 1.
+    first: u64,
     /// For each record that answers another case than was asked, what is wrong about that.
     astray: Vec<Option<Mismatch>>,
     records: Vec<Record>,
@@ -180,16 +185,10 @@ struct Unit {
 
 impl<R: BufRead> Source<'_, R> {
     fn next_unit(&mut self, how: &How) -> Option<Unit> {
-        let mut unit = Unit::default();
+        let mut unit = Unit { first: self.taken + 1, ..Unit::default() };
         while self.stopped.is_none() && unit.records.len() < unit_size(how.header.kind) {
-            match self
-                .file
-                .next()
-                .transpose()
-                .and_then(|record| record.map(|record| self.expect(record, how.tested)).transpose())
-            {
+            match self.next_record(how.tested) {
                 Ok(Some((record, astray))) => {
-                    unit.numbers.push(self.taken);
                     unit.astray.push(astray);
                     unit.records.push(record);
                 }
@@ -200,12 +199,16 @@ impl<R: BufRead> Source<'_, R> {
         (!unit.records.is_empty()).then_some(unit)
     }
 
-    /// The record, and how the case that it answers differs from the one that was asked.
-    fn expect(
+    /// The next record, and how the case that it answers differs from the one that was asked.
+    fn next_record(
         &mut self,
-        record: Record,
         tested: Tested,
-    ) -> Result<(Record, Option<Mismatch>), VectorError> {
+    ) -> Result<Option<(Record, Option<Mismatch>)>, VectorError> {
+        let next = match &mut self.expected {
+            Some(expected) => expected.answer(&mut self.file)?,
+            None => self.file.next().transpose()?.map(|record| (record, None)),
+        };
+        let Some((record, astray)) = next else { return Ok(None) };
         self.taken += 1;
         if let (Record::Coordinates(_), Tested::Listings(strength)) = (&record, tested)
             && strength.elements == Elements::Points
@@ -215,9 +218,7 @@ impl<R: BufRead> Source<'_, R> {
                            primitives, or points in any order";
             return Err(self.file.error_at(record.line(), "coordinates", message));
         }
-        let Some(expected) = &mut self.expected else { return Ok((record, None)) };
-        let astray = expected.answer(record.case())?;
-        Ok((record, astray))
+        Ok(Some((record, astray)))
     }
 
     /// The cases that no record answers.
@@ -249,7 +250,7 @@ fn run<R: BufRead>(
     let mut findings = Findings::default();
     loop {
         let unit = lock(source).next_unit(how);
-        let Some(Unit { numbers, astray, records }) = unit else { return Ok(findings) };
+        let Some(Unit { first, astray, records }) = unit else { return Ok(findings) };
         let found = check_unit(how, backend, &records)?;
         let found: Vec<Found> = found
             .into_iter()
@@ -257,7 +258,7 @@ fn run<R: BufRead>(
             .map(|(found, record)| found.unless_known(record.case(), known))
             .collect();
         let different: Vec<bool> = found.iter().map(Found::is_different).collect();
-        let answers = numbers.into_iter().zip(&records).zip(astray.into_iter().zip(found));
+        let answers = (first..).zip(&records).zip(astray.into_iter().zip(found));
         for ((number, record), (astray, found)) in answers {
             let (line, is_astray) = (Some(record.line()), astray.is_some());
             let found = astray.map_or(found, |mismatch| Found::new(Some(mismatch), None));
@@ -265,7 +266,7 @@ fn run<R: BufRead>(
             let file = || if is_astray { None } else { report::file_of(&how.header, record) };
             findings.add(number, line, found, file);
         }
-        checked(Checked { records: &records, different: &different });
+        checked(Checked { first, records: &records, different: &different });
     }
 }
 

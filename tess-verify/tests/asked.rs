@@ -1,11 +1,13 @@
 //! Answers beside what was asked: each dropped, repeated or foreign answer is one difference.
 
+use std::time::Instant;
 use tess_core::Tessellation;
 use tess_verify::backend::Backend;
 use tess_verify::case::Case;
 use tess_verify::checker::{Report, Tested, WINDOW, check_asked};
 use tess_verify::core_backend::CoreBackend;
 use tess_verify::generate::{GenLevel, Selection};
+use tess_verify::random::SplitMix64;
 use tess_verify::strength::Strength;
 use tess_verify::vectors::{Listing, VectorFile};
 
@@ -90,11 +92,100 @@ fn two_exchanged_answers_are_two_differences() {
     assert_eq!(report.mismatches, 2, "{:?}", shown(&report));
 }
 
+/// One wrong answer does not make the right ones behind it wrong.
+#[test]
+fn one_coincidence_is_no_place_to_go_on_from() {
+    let asked = cases(1000);
+    let mut answered = asked.clone();
+    answered[0] = asked[999];
+    let report = check(&asked, &answered);
+    assert_eq!((report.cases, report.mismatches), (1000, 1), "{:?}", shown(&report));
+    assert!(shown(&report)[0].starts_with("record 1 (line "), "{:?}", shown(&report));
+    answered[500] = asked[700];
+    answered.remove(300);
+    let report = check(&asked, &answered);
+    assert_eq!((report.cases, report.mismatches), (1000, 3), "{:?}", shown(&report));
+}
+
+/// How many of one list must be put in, left out or replaced to make another, entry by entry.
+fn distance(answered: &[Case], asked: &[Case]) -> u64 {
+    let mut row: Vec<u64> = (0..).take(asked.len() + 1).collect();
+    for (number, answer) in (1..).zip(answered) {
+        let mut next = vec![number];
+        for (j, case) in asked.iter().enumerate() {
+            let replaced = row[j] + u64::from(answer != case);
+            next.push(replaced.min(row[j + 1] + 1).min(next[j] + 1));
+        }
+        row = next;
+    }
+    row[asked.len()]
+}
+
+/// Edits at random: no explanation has fewer differences, and each edit counts at most twice.
+#[test]
+fn the_shortest_explanation_is_given() {
+    let asked = cases(300);
+    let mut random = SplitMix64::new(38);
+    for round in 0..300 {
+        let mut answered = asked.clone();
+        let edits = round % 9 + 1;
+        for _ in 0..edits {
+            let length = u32::try_from(answered.len()).expect("few");
+            let [at, other] = [0; 2].map(|_| random.below(length) as usize);
+            match random.below(5) {
+                0 => drop(answered.remove(at)),
+                1 => answered.insert(at, asked[other.min(299)]),
+                2 => answered[at] = asked[other.min(299)],
+                3 => answered.swap(at, other),
+                _ => {
+                    let moved = answered.remove(at);
+                    answered.insert(other.min(answered.len()), moved);
+                }
+            }
+        }
+        let report = check(&asked, &answered);
+        assert_eq!(report.mismatches, distance(&answered, &asked), "round {round}: {report:?}");
+        assert!(report.mismatches <= 2 * edits, "round {round}: {report}");
+        let (right, answers) = (report.cases - report.mismatches, answered.len() as u64);
+        assert!(right <= answers && report.cases >= answers.max(300), "round {round}: {report}");
+    }
+}
+
+/// What is out of step in several places, each farther from the next than is looked through, and as far as that.
+#[test]
+fn long_files_come_into_step_again() {
+    let asked = cases(5 * WINDOW);
+    let mut answered = asked.clone();
+    answered.drain(4 * WINDOW..4 * WINDOW + 10);
+    answered[3 * WINDOW] = asked[0];
+    answered.splice(2 * WINDOW..2 * WINDOW, asked[..1000].iter().copied());
+    answered.drain(1000..WINDOW);
+    let report = check(&asked, &answered);
+    assert_eq!(report.mismatches, (WINDOW - 1000 + 1000 + 1 + 10) as u64, "{report}");
+}
+
+/// Answers that share nothing with what was asked take no longer than three times the time of right ones.
+#[test]
+fn foreign_answers_take_the_time_of_right_ones() {
+    let all = cases(80_000);
+    let (asked, foreign) = all.split_at(40_000);
+    let time = |answered: &[Case], mismatches: u64| {
+        let times = (0..3).map(|_| {
+            let start = Instant::now();
+            assert_eq!(check(asked, answered).mismatches, mismatches);
+            start.elapsed()
+        });
+        times.min().expect("three")
+    };
+    let (right, foreign) = (time(asked, 0), time(foreign, 40_000));
+    assert!(foreign < 3 * right, "{foreign:?} is more than three times {right:?}");
+}
+
 #[test]
 fn more_missing_answers_than_are_looked_through() {
-    let asked = cases(WINDOW + 10);
-    let report = check(&asked, &asked[WINDOW + 1..]);
-    assert_eq!(report.mismatches, WINDOW as u64 + 10, "nothing is in step: {report}");
+    let asked = cases(2 * WINDOW + 10);
+    let report = check(&asked, &asked[2 * WINDOW + 1..]);
+    assert_eq!(report.mismatches, 2 * WINDOW as u64 + 10, "nothing is in step: {report}");
     let report = check(&asked, &asked[WINDOW - 1..]);
     assert_eq!(report.mismatches, WINDOW as u64 - 1, "in step behind the window: {report}");
 }
