@@ -59,13 +59,24 @@ fn isolines() -> Workload {
     Workload::single("seed-table/isolines", config, patches)
 }
 
-/// `single/...`: workloads of small patches, one patch at a time.
+/// `unlike-K`: as `uniform-K`, but every other patch has the factors K - 1/2, which integer rounds to K. So all
+/// patches have the same output, and no two neighbours the same factors.
+fn unlike(factor: u8) -> Workload {
+    let alike = uniform(factor);
+    let other = quad([f32::from(factor) - 0.5; 6]);
+    let pair = [alike.patches[0], other];
+    let patches = pair.into_iter().cycle().take(alike.patches.len()).collect();
+    Workload { name: format!("unlike-{factor}"), patches, ..alike }
+}
+
+/// `single/...`: one patch at a time, of small patches, and of the workloads in which neighbours are unlike.
 #[must_use]
 pub fn single() -> Vec<Workload> {
     let uniforms = [1, 2, 4, 8].map(uniform);
-    let scenes = [terrain(), character(), mosaic(), mosaic_even()];
+    let scenes = [terrain(), character(), mosaic(), mosaic_even(), worst()];
     uniforms
         .into_iter()
+        .chain(UNIFORM_FACTORS.map(unlike))
         .chain(scenes)
         .map(|workload| Workload {
             name: format!("single/{}", workload.name),

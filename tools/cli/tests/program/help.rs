@@ -50,3 +50,21 @@ fn no_command_and_unknown_commands_are_bad_usage() {
         assert!(run.stderr.contains("Usage"), "tess {words}: {}", run.stderr);
     }
 }
+
+/// A command that this build leaves out is known, and the message says how to get it.
+#[cfg(not(all(feature = "gpu", feature = "probe", feature = "shaders")))]
+#[test]
+fn what_this_build_leaves_out_is_named() {
+    let all = [
+        ("probe", "probe --level 1", cfg!(feature = "probe")),
+        ("probe", "probe --help", cfg!(feature = "probe")),
+        ("shaders", "shaders --target wgsl -o out", cfg!(feature = "shaders")),
+        ("gpu", "verify --backend gpu", cfg!(feature = "gpu")),
+    ];
+    for (feature, words, _) in all.into_iter().filter(|(.., is_there)| !is_there) {
+        let run = tess(words);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(3), ""), "{words}: {}", run.stderr);
+        let advice = format!("build it with --features {feature}");
+        assert!(run.stderr.contains(&advice), "{words}: {}", run.stderr);
+    }
+}

@@ -20,6 +20,8 @@ mod generate;
 mod help;
 #[cfg(unix)]
 mod long;
+#[cfg(unix)]
+mod merge;
 mod mesh;
 mod mesh_gltf;
 mod mesh_input;

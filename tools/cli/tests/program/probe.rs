@@ -32,6 +32,26 @@ fn reports_are_json_on_request() {
     assert_eq!(report["rows"][0]["set_digest"].as_str().map(str::len), Some(16), "{text}");
 }
 
+/// A shard without a case is done, as those of other commands are, so that its campaign can be whole.
+#[test]
+fn shards_without_cases_are_done() {
+    let folder = directory("shards_without_cases_are_done");
+    let words = "probe --level 3 --count 1 --domain tri --denormals flush";
+    let run = |shard: u64| {
+        let place = folder.join(format!("r{shard}.jsonl"));
+        tess(&format!("{words} --shard {shard}/2 --report {}", place.display()))
+    };
+    let runs = [1, 2].map(run);
+    for run in &runs {
+        assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    }
+    assert!(runs[1].stderr.contains("tess: no case in shard 2/2\n"), "{}", runs[1].stderr);
+    let [one, two] = [1, 2].map(|shard| folder.join(format!("r{shard}.jsonl")));
+    let merged = tess(&format!("merge {} {}", one.display(), two.display()));
+    assert_eq!(merged.code, Some(0), "{}{}", merged.stdout, merged.stderr);
+    assert!(merged.stdout.contains("2 of 2 shards ran once: 1 cases"), "{}", merged.stdout);
+}
+
 /// What cannot be written is refused before the device is asked, which is not there.
 #[test]
 fn outputs_are_tried_first() {

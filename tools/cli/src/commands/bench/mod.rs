@@ -35,7 +35,9 @@ Examples:
 Every result is compared with the model before it is timed. Backend, fill and core run in turn;
 a part's time is the median of its samples, a workload's the sum over its parts. A row is printed as
 soon as it is measured; what could not be measured is left out and named at the end. Workloads:
-uniform-1 to uniform-64, seed-table, terrain, character, mosaic, mosaic-even, meshes, single, worst.")]
+uniform-1 to uniform-64, seed-table, terrain, character, mosaic, mosaic-even, meshes, single, worst. Those of single are
+one patch a call: single/uniform-1 to -8 the same patch again, which is faster than any other; single/unlike-1 to -64
+patches of the same output whose factors differ from call to call; and the scenes, whose neighbours are unlike.")]
 pub(crate) struct Args {
     /// Workload or family of workloads; may be repeated [default: all]
     #[arg(long, value_name = "NAME")]

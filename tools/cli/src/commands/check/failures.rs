@@ -2,6 +2,7 @@
 
 use crate::failure::Failure;
 use crate::output::{OutputFile, counted, note};
+use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
@@ -18,6 +19,11 @@ struct State {
     file: BufWriter<OutputFile>,
     records: u64,
     written: io::Result<()>,
+    /// Number of the record whose turn it is to be written.
+    next: u64,
+    /// What threads have checked of the records behind it, by the number of its first: how many they are, and
+    /// those that differ.
+    waiting: BTreeMap<u64, (u64, String)>,
 }
 
 impl Failures {
@@ -34,18 +40,25 @@ impl Failures {
         let columns = header.kind.columns().map(|columns| columns.join(",") + "\n");
         let begun = write!(file, "{header}\n{}", columns.unwrap_or_default());
         begun.map_err(|error| Failure::write(path, error))?;
-        let state = Mutex::new(State { file, records: 0, written: Ok(()) });
+        let waiting = BTreeMap::new();
+        let state = Mutex::new(State { file, records: 0, written: Ok(()), next: 1, waiting });
         Ok(Self { path: path.to_owned(), state })
     }
 
-    /// Adds what differs of some records.
+    /// Adds what differs of some records. The file has them in their order, whichever thread is first.
     pub(super) fn add(&self, checked: Checked<'_>) {
+        let Checked { first, records, different, .. } = checked;
+        let pairs = records.iter().zip(different);
+        let wrong: Vec<String> =
+            pairs.filter(|(_, different)| **different).map(|(one, _)| one.to_string()).collect();
         let mut state = self.state.lock().unwrap_or_else(PoisonError::into_inner);
-        let pairs = checked.records.iter().zip(checked.different);
-        for (record, _) in pairs.filter(|(_, different)| **different) {
-            state.records += 1;
+        let state = &mut *state;
+        state.records += wrong.len() as u64;
+        state.waiting.insert(first, (records.len() as u64, wrong.concat()));
+        while let Some((records, wrong)) = state.waiting.remove(&state.next) {
+            state.next += records;
             if state.written.is_ok() {
-                state.written = write!(state.file, "{record}");
+                state.written = state.file.write_all(wrong.as_bytes());
             }
         }
     }
@@ -56,7 +69,7 @@ impl Failures {
     /// It could not be written.
     pub(super) fn finish(self, report: &Report) -> Result<(), Failure> {
         let Self { path, state } = self;
-        let State { mut file, records, written } =
+        let State { mut file, records, written, .. } =
             state.into_inner().unwrap_or_else(PoisonError::into_inner);
         let others = report.mismatches.saturating_sub(records);
         if others > 0 {

@@ -43,7 +43,8 @@ A device's listings are compared in a strength: --order, --points, --conversion 
 which freedom of the public specification counts as equal (docs/verification.md).
 
 With --cases, the file must answer those cases, one for one and in their order. They are a vector file,
-or lines that begin with `case`. A case without an answer is one difference (`record 9 is missing`).
+or lines that begin with `case`. A case without an answer is one difference (`record 9 is missing`), and so is an
+answer to another case; the fewest differences count that explain all answers.
 
 A file may be one shard of a campaign (docs/campaigns.md). Which one is said by --shard, by the batch system, or
 by the note shard=I/N in the first line of --cases or FILE; they may not contradict each other.
@@ -94,7 +95,7 @@ pub(crate) struct Args {
     /// Accept a FILE and --cases without records: those of an empty shard, or the failures of a run without any
     #[arg(long)]
     empty: bool,
-    /// Write the records that differ to this file, which `tess check` reads; - is no file
+    /// Write the records that differ to this file, in their order, which `tess check` reads; - is no file
     #[arg(long, value_name = "FILE")]
     failures: Option<PathBuf>,
     /// Add the coverage bins that the file's patches hit to this file of UCIS XML

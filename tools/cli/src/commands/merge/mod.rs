@@ -16,8 +16,9 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 The reports are those that `tess gen`, `check`, `verify` and `probe` write with --report, a line of JSON each; a
 file may have several lines. They must be of one program, one command with the same options, one seed and one
-number of shards, and each shard must have ended once. Where something is missing, the commands that make it
-are printed, ready to paste (docs/campaigns.md).
+number of shards, and each shard must have ended once. Baselines of one name must have the same cases. Where something
+is missing, the commands that make it are printed, ready to paste, if all reports show how (docs/campaigns.md).
+The files of an earlier run are removed before a report is read, so a run that ends early leaves none.
 
 Exit code 0: every shard ran once, and all is equal; 1: every shard ran once, and something differs; 2: a shard is
 missing, double, interrupted or failed, a report is of another campaign, or no case was compared.
@@ -30,7 +31,7 @@ pub(crate) struct Args {
     /// Reports of shards; - is stdin
     #[arg(value_name = "REPORT", required = true)]
     reports: Vec<PathBuf>,
-    /// Write a row for each shard to this file, as CSV
+    /// Write a row for each shard to this file, missing ones too, as CSV
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     /// Write a test case for each shard to this file, as `JUnit` XML

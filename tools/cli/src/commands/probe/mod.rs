@@ -158,7 +158,7 @@ impl Args {
     ) -> Result<Exit, Failure> {
         let args = self;
         let selection = args.selection.selection();
-        let cases = cases(selection.clone(), placed.shard);
+        let cases = cases(selection, placed.shard);
         if cases.is_empty() && tess_probe::cases(selection, Shard::WHOLE).is_empty() {
             return Err(Failure::bad_input("these arguments select no case"));
         }
@@ -234,6 +234,8 @@ fn verdict(report: &Report) -> Exit {
             "equal: {} of {patches} patches; the differences of {known} are known",
             patches - known
         ));
+        Exit::Done
+    } else if *patches == 0 {
         Exit::Done
     } else if *different == 0 {
         note(&format!("equal: all {patches} patches, as far as they were compared"));

@@ -1,0 +1,250 @@
+//! `tess merge`: what is one campaign, what is listed, what is certain, and how long it takes.
+
+use crate::campaigns::{campaign, json, tess_in};
+use crate::support::{Run, directory, shell, tess_with_input};
+use serde_json::{Value, json as value};
+use std::fs;
+use std::time::{Duration, Instant};
+
+/// A report of a shard that another program has written, with some entries of its own.
+fn report(shard: u64, shards: u64, own: Value) -> String {
+    let mut report = value!({
+        "format": "tess-report 1", "version": "1", "commit": "abc", "command": "device",
+        "words": ["device", "--report", format!("r{shard}.jsonl")], "options": {}, "shard": shard,
+        "shards": shards, "state": "done", "cases": 2, "mismatches": 0, "milliseconds": 1,
+    });
+    let Value::Object(own) = own else { panic!("an object: {own}") };
+    own.into_iter().for_each(|(key, value)| report[key] = value);
+    report.to_string() + "\n"
+}
+
+fn merged(reports: &[String]) -> Run {
+    tess_with_input("merge -", &reports.concat())
+}
+
+/// Options are compared value by value.
+#[test]
+fn joined_values_are_other_values() {
+    let of =
+        |shard, domains: &[&str]| report(shard, 2, value!({ "options": { "domain": domains } }));
+    let run = merged(&[of(1, &["tri,quad"]), of(2, &["tri", "quad"])]);
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    let why = "an option is domain=tri domain=quad; in stdin:1 it is domain=tri,quad";
+    assert!(run.stdout.contains(why), "{}", run.stdout);
+    let of = |shard, options: Value| report(shard, 2, value!({ "options": options }));
+    let run =
+        merged(&[of(1, value!({ "a": ["1 b=2"] })), of(2, value!({ "a": ["1"], "b": ["2"] }))]);
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    let run = merged(&[of(1, value!({ "a": ["1"] })), of(2, value!({ "a": ["1"] }))]);
+    assert_eq!(run.code, Some(0), "{}", run.stdout);
+}
+
+/// Baselines of one name must have the same cases; a shard may have one of its own.
+#[test]
+fn baselines_are_compared() {
+    let of = |shard, file: &str, digest: &str| {
+        let known =
+            value!({ "file": file, "digest": digest, "entries": 3, "different": 1, "gone": [] });
+        report(shard, 3, value!({ "known": known }))
+    };
+    let run = merged(&[of(1, "k", "0a"), of(2, "k", "0b"), of(3, "k", "0a")]);
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    let why =
+        "stdin:2 is of another campaign: the cases of k have the digest 0b; most reports have 0a";
+    assert!(run.stdout.contains(why), "{}", run.stdout);
+    let run = merged(&[of(1, "k1", "0a"), of(2, "k2", "0b"), of(3, "k3", "0a")]);
+    assert_eq!(run.code, Some(0), "{}", run.stdout);
+    let sum = "known differences: 3 of 6 cases of 2 baselines occur\n";
+    assert!(run.stdout.contains(sum), "{}", run.stdout);
+    let run = merged(&[of(1, "k", "0a"), of(2, "k", "0a"), report(3, 3, value!({}))]);
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    let why = "stdin:3 is of another campaign: the baseline is not given";
+    assert!(run.stdout.contains(why), "{}", run.stdout);
+}
+
+/// The digest is of the cases, in any order and with any remarks.
+#[test]
+fn baselines_by_their_cases() {
+    let folder = directory("baselines_by_their_cases");
+    let lines = ["40000000", "40400000"]
+        .map(|factor| format!("case isoline integer line ruler 3f800000 {factor}\n"));
+    let baselines =
+        [lines.concat(), format!("# remark\n{}{}", lines[1], lines[0]), lines[0].clone()];
+    let digest = |text: &String| {
+        fs::write(folder.join("k.txt"), text).expect("written");
+        let run =
+            tess_in(&folder, "verify --backend simd --random 1 --known k.txt --report r.jsonl");
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let report = json(&folder.join("r.jsonl"));
+        assert_eq!(report["known"]["file"], "k.txt", "{report}");
+        report["known"]["digest"].as_str().expect("text").to_owned()
+    };
+    let digests = baselines.each_ref().map(digest);
+    assert_eq!(digests[0], digests[1], "the same cases");
+    assert_ne!(digests[0], digests[2], "fewer cases");
+}
+
+/// Every shard is in the table and in the JUnit file, however many are missing.
+#[test]
+fn every_fault_is_listed() {
+    let folder = directory("every_fault_is_listed");
+    fs::write(folder.join("r.jsonl"), report(7, 500, value!({}))).expect("written");
+    let run = tess_in(&folder, "merge r.jsonl --csv s.csv --junit s.xml");
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    let [csv, xml] =
+        ["s.csv", "s.xml"].map(|name| fs::read_to_string(folder.join(name)).expect(name));
+    assert_eq!(csv.lines().count(), 501, "a heading and every shard");
+    assert_eq!(csv.matches(",missing,").count(), 499, "{csv}");
+    assert!(xml.contains("tests=\"500\" failures=\"0\" errors=\"499\""), "{}", &xml[..300]);
+    assert!(run.stdout.contains("and more shards\n"), "the text says that it is not all");
+}
+
+/// What no report shows is not guessed; what ran before runs again as it did.
+#[test]
+fn commands_that_are_certain() {
+    let folder = directory("commands_that_are_certain");
+    let words =
+        |d: &str, r: &str| value!(["tess", "check", format!("level1/{d}.txt"), "--report", r]);
+    fs::write(folder.join("a"), report(1, 3, value!({ "words": words("d", "r1") })))
+        .expect("written");
+    let run = tess_in(&folder, "merge a");
+    assert!(!run.stdout.contains("level2") && !run.stdout.contains("level3"), "{}", run.stdout);
+    let shown = "each with files of its own; shard 1/3 was:\n  # tess check level1/d.txt --report r1 --shard 1/3\n";
+    assert!(run.stdout.contains(shown), "{}", run.stdout);
+    let stopped = value!({ "words": words("e", "r2"), "state": "interrupted" });
+    fs::write(folder.join("b"), report(2, 3, stopped)).expect("written");
+    let run = tess_in(&folder, "merge a b");
+    let shown =
+        "run again:\n  tess check level1/e.txt --report r2 --shard 2/3\nrun again what is missing";
+    assert!(run.stdout.contains(shown), "{}", run.stdout);
+    let words =
+        |n: u64| value!(["tess", "check", "--report", format!("r{n}"), "--", format!("d{n}")]);
+    let reports = [1, 2].map(|n| report(n, 3, value!({ "words": words(n) })));
+    let run = merged(&reports);
+    assert!(run.stdout.contains("  tess check --report r3 --shard 3/3 -- d3\n"), "{}", run.stdout);
+}
+
+/// No sum wraps round.
+#[test]
+fn sums_end_at_the_largest_number() {
+    let half = 1u64 << 63;
+    let part = value!([{ "name": "p", "cases": half, "mismatches": 0 }]);
+    let of = |shard| report(shard, 2, value!({ "cases": half, "parts": part }));
+    let run = merged(&[of(1), of(2)]);
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    let shown = |name: &str| {
+        let line = run.stdout.lines().find(|line| line.starts_with(name)).expect("a row");
+        line.split_whitespace().nth(1).expect("a number").to_owned()
+    };
+    assert_eq!([shown("p "), shown("all ")], [u64::MAX.to_string(), u64::MAX.to_string()]);
+}
+
+/// Ten times the shards take no more than about ten times the time, in one file or in many.
+#[test]
+fn the_time_grows_with_the_shards_alone() {
+    let folder = directory("the_time_grows_with_the_shards_alone");
+    let time = |shards: u64| -> Duration {
+        let all: String = (1..=shards).map(|shard| report(shard, shards, value!({}))).collect();
+        fs::write(folder.join("all"), all).expect("written");
+        let times = (0..3).map(|_| {
+            let start = Instant::now();
+            let run = tess_in(&folder, "merge all --csv s.csv --junit s.xml");
+            assert_eq!(run.code, Some(0), "{}", run.stderr);
+            start.elapsed()
+        });
+        times.min().expect("three")
+    };
+    let (few, many) = (time(2000), time(20_000));
+    assert!(many < 25 * few, "{many:?} is far more than ten times {few:?}");
+}
+
+/// More files than descriptors, each still told from the outputs.
+#[test]
+fn many_files() {
+    let folder = directory("many_files");
+    let name = |shard: u64| folder.join(format!("r{shard}"));
+    for shard in 1..=2000 {
+        fs::write(name(shard), report(shard, 2000, value!({}))).expect("written");
+    }
+    let run = shell("ulimit -n 64; $TESS merge r* --csv s.csv", &folder);
+    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    let run = shell("ulimit -n 64; $TESS merge r* --csv r1999", &folder);
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    assert!(run.stderr.contains("are the same file"), "{}", run.stderr);
+    assert!(fs::read_to_string(name(1999)).is_ok_and(|text| text.starts_with('{')), "it is kept");
+}
+
+/// A baseline that is the file to check excuses everything.
+#[test]
+fn files_do_not_excuse_themselves() {
+    let folder = directory("files_do_not_excuse_themselves");
+    let made = "$TESS gen --level 3 --count 5 --format listing -o a.txt && ln -s a.txt link && ln a.txt hard \
+                && cp a.txt copy.txt && cp a.txt d.txt";
+    assert_eq!(shell(made, &folder).code, Some(0), "made");
+    for command in [
+        "check a.txt --known a.txt",
+        "check a.txt --known link",
+        "check hard --known ./a.txt",
+        "check - --known a.txt < a.txt",
+        "check d.txt --cases a.txt --known link",
+    ] {
+        let run = shell(&format!("$TESS {command}"), &folder);
+        assert_eq!(run.code, Some(2), "{command}: {}{}", run.stdout, run.stderr);
+        assert!(run.stderr.contains("itself: every difference would be known"), "{}", run.stderr);
+    }
+    assert_eq!(tess_in(&folder, "check a.txt --known copy.txt").code, Some(0), "another file");
+}
+
+/// The failing records stand in the order of the file, whichever thread is first.
+#[test]
+fn failures_are_in_the_order_of_the_file() {
+    let folder = directory("failures_are_in_the_order_of_the_file");
+    let right = "gen --level 3 --count 3000 --domain isoline --format csv -o right.csv";
+    assert_eq!(tess_in(&folder, right).code, Some(0));
+    let text = fs::read_to_string(folder.join("right.csv")).expect("vectors");
+    let (head, rows): (Vec<&str>, Vec<&str>) =
+        (text.lines().take(2).collect(), text.lines().skip(2).collect());
+    let wrong: Vec<String> =
+        rows.iter().map(|row| row[..row.len() - 16].to_owned() + "0123456789abcdef").collect();
+    let file = format!("{}\n{}\n", head.join("\n"), wrong.join("\n"));
+    fs::write(folder.join("wrong.csv"), file).expect("written");
+    for _ in 0..3 {
+        let run = tess_in(&folder, "check wrong.csv --failures f.csv");
+        assert_eq!(run.code, Some(1), "{}", run.stderr);
+        let failures = fs::read_to_string(folder.join("f.csv")).expect("failures");
+        let found: Vec<&str> = failures.lines().skip(2).take(wrong.len()).collect();
+        assert!(found == wrong, "each in its place");
+    }
+}
+
+/// A variable that is no text says a shard that cannot be read, and not that there is none.
+#[test]
+fn variables_that_are_no_text() {
+    let folder = directory("variables_that_are_no_text");
+    for variable in
+        ["TEST_SHARD_INDEX", "TEST_TOTAL_SHARDS", "SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"]
+    {
+        let script = format!("export {variable}=$(printf '1\\377'); $TESS gen --level 3 --count 2");
+        let run = shell(&script, &folder);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{variable}: {}", run.stderr);
+        assert!(run.stderr.contains("which is no number"), "{variable}: {}", run.stderr);
+    }
+}
+
+/// A file of patterns is bounded, and what it says twice is done once.
+#[test]
+fn long_exclusions() {
+    let folder = directory("long_exclusions");
+    campaign(&folder);
+    let run = tess_in(&folder, "coverage c1.xml --exclude /dev/zero");
+    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    assert!(run.stderr.contains("cannot read /dev/zero: it has more than "), "{}", run.stderr);
+    let time = |lines: usize| {
+        fs::write(folder.join("x.txt"), "*\n".repeat(lines)).expect("written");
+        let start = Instant::now();
+        assert_eq!(tess_in(&folder, "coverage c1.xml --exclude x.txt").code, Some(0));
+        start.elapsed()
+    };
+    let (once, often) = (time(1), time(20_000));
+    assert!(often < 10 * once, "{often:?} for equal lines, {once:?} for one");
+}
