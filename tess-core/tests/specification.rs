@@ -7,6 +7,8 @@ use proptest::prelude::*;
 use tess_core::fixed_point::{HALF, ONE, ONE_THIRD, TWO_THIRDS, ceil, floor};
 use tess_core::place::steps;
 use tess_core::reciprocal::reciprocal;
+use tess_core::row::Row;
+use tess_core::ruler::{has_point, rank};
 use tess_core::{
     Config, Domain, DomainPoint, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning,
     Patch, PatchFactors, ProcessedPatch, SplitOrder, Tessellation, place,
@@ -126,6 +128,26 @@ fn inside_factors_have_the_least_points_that_are_said() {
                 let least = 4 - u32::from(context.parity == Parity::Even);
                 assert_eq!(context.points, least, "{domain:?}, {partitioning:?}");
             }
+        }
+    }
+}
+
+/// Section 7.1: a row runs up or down, and closes at one entry.
+#[test]
+fn rows_run_both_ways_and_close() {
+    let entries = |row: Row| [0, 1, 2, 3].map(|k| row.index(k));
+    assert_eq!(entries(Row::ascending(7)), [7, 8, 9, 10], "up");
+    assert_eq!(entries(Row::descending(7)), [7, 6, 5, 4], "down");
+    assert_eq!(entries(Row::ascending(7).with(2, 0)), [7, 8, 0, 10], "closed at entry 2");
+}
+
+/// Section 7.2: a half edge has a point where its position's rank is below its number of points.
+#[test]
+fn positions_have_points_by_rank() {
+    for split in SplitOrder::ALL {
+        for (k, half) in (0..=40).flat_map(|k| (0..=33).map(move |half| (k, half))) {
+            let expected = rank(split, k).is_some_and(|rank| rank < half);
+            assert_eq!(has_point(split, k, half), expected, "{split:?}: {k} of {half}");
         }
     }
 }

@@ -56,7 +56,7 @@ pub fn edge_normal(a: PnCorner, b: PnCorner) -> Vec3 {
 /// second end) over the monomials, without binomial factors, as the paper has it.
 #[must_use]
 #[inline(always)]
-pub fn normal_along(along: [Vec3; 3], t: f32) -> Vec3 {
+pub(crate) fn normal_along(along: [Vec3; 3], t: f32) -> Vec3 {
     let ([a, middle, b], s) = (along, 1.0 - t);
     a * (s * s) + middle * (s * t) + b * (t * t)
 }
@@ -169,7 +169,7 @@ impl PnQuad {
     /// The quadratic normals along the edges u = 0, v = 0, u = 1, v = 1.
     #[must_use]
     #[inline(always)]
-    pub fn boundary_normals(&self) -> [[Vec3; 3]; 4] {
+    pub(crate) fn boundary_normals(&self) -> [[Vec3; 3]; 4] {
         let [n00, n10, n11, n01] = self.corner_normals;
         let [u0, v0, u1, v1] = self.edge_normals;
         [[n00, u0, n01], [n00, v0, n10], [n10, u1, n11], [n01, v1, n11]]

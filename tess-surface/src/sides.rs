@@ -40,7 +40,7 @@ impl<T> Sides<T> {
 
     /// The values with `f` applied to each one's number and itself.
     #[inline]
-    pub fn map_numbered<U>(self, mut f: impl FnMut(usize, T) -> U) -> Sides<U> {
+    pub(crate) fn map_numbered<U>(self, mut f: impl FnMut(usize, T) -> U) -> Sides<U> {
         match self {
             Self::Triangle([a, b, c]) => Sides::Triangle([f(0, a), f(1, b), f(2, c)]),
             Self::Quad([a, b, c, d]) => Sides::Quad([f(0, a), f(1, b), f(2, c), f(3, d)]),

@@ -25,7 +25,7 @@ pub const fn fixed(bits: u32) -> Option<u32> {
 /// to the number's binary32 than to any other. So `0.333328247` is 21845/65536, and `0.999999999` and
 /// `1e-50` are no numbers: 1 and 0 with as many digits are written otherwise.
 #[must_use]
-pub fn from_decimal(text: &str) -> Option<u32> {
+pub(crate) fn from_decimal(text: &str) -> Option<u32> {
     let number = fixed(text.parse::<f32>().ok()?.to_bits())?;
     let Decimal { digits, decimals } = Decimal::parse(text)?;
     // |digits / 10^decimals - number / 2^16| is at most half of 10^-decimals. Both products are below 2^80.

@@ -183,7 +183,7 @@ impl Coverage {
 
     /// The groups, in alphabetical order, with the bins that are excluded.
     #[must_use]
-    pub fn groups_without(&self, exclusions: &Exclusions) -> Vec<Group> {
+    pub(crate) fn groups_without(&self, exclusions: &Exclusions) -> Vec<Group> {
         let mut groups: BTreeMap<&str, Group> = BTreeMap::new();
         for (bin, hits) in self.bins() {
             let name = bin.split('/').next().unwrap_or(bin);

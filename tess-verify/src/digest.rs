@@ -71,7 +71,7 @@ impl Fnv1a {
 
 /// The digest of points alone.
 #[must_use]
-pub fn points_digest(points: &[DomainPoint]) -> u64 {
+pub(crate) fn points_digest(points: &[DomainPoint]) -> u64 {
     let mut digest = Fnv1a::new();
     digest.points(points);
     digest.finish()

@@ -53,7 +53,7 @@ impl Way {
 
     /// What may explain every difference of a file: the freedoms of `tess check`'s options first, then what turns a
     /// whole output round.
-    pub const OF_FILES: [Self; 9] = [
+    pub(crate) const OF_FILES: [Self; 9] = [
         Self::Order,
         Self::Flush,
         Self::Conversion,

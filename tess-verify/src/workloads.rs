@@ -5,10 +5,8 @@
 
 mod scenes;
 
-pub use scenes::{
-    SEED, UNIFORM_FACTORS, character, meshes, mosaic, mosaic_even, seed_table, single, terrain,
-    uniform, worst,
-};
+use scenes::{UNIFORM_FACTORS, mosaic_even, seed_table};
+pub use scenes::{character, meshes, mosaic, single, terrain, uniform, worst};
 
 use crate::digest::Fnv1a;
 use std::ops::Range;
@@ -88,9 +86,9 @@ impl Totals {
 /// Bytes of output that a batch of the working set `cache` has at least.
 pub const CACHE_BATCH_BYTES: u64 = 1 << 20;
 /// Patches that a batch of the working set `cache` has at least.
-pub const CACHE_BATCH_PATCHES: usize = 8;
+const CACHE_BATCH_PATCHES: usize = 8;
 /// Bytes of output of the working set `stream`.
-pub const STREAM_BYTES: u64 = 1 << 30;
+const STREAM_BYTES: u64 = 1 << 30;
 
 impl Workload {
     fn batch(name: impl Into<String>, config: Config, patches: Vec<PatchFactors>) -> Self {

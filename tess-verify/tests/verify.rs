@@ -1,7 +1,7 @@
 //! Verification of backends: it compares what it says, in any number of shards and threads.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
-use tess_verify::backend::Backend;
+use tess_verify::backend::{Backend, BackendError};
 use tess_verify::case::Case;
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::second::SecondFormulation;
@@ -147,4 +147,12 @@ fn as_many_random_patches_as_there_are_numbers() {
 fn no_backend_is_an_error() {
     assert!(verify(&mut [], &Plan::levels(), &|_, _, _| {}).is_err(), "no worker");
     assert!(verify(&mut [vec![]], &Plan::levels(), &|_, _, _| {}).is_err(), "no backend");
+}
+
+/// An implementation says what it does not have, and a caller can tell that from a failure.
+#[test]
+fn what_is_unsupported_is_told_from_failures() {
+    let error = BackendError::unsupported("no isolines");
+    assert!(error.is_unsupported() && error.to_string().contains("no isolines"), "{error}");
+    assert!(!BackendError::new("the device is lost").is_unsupported(), "a failure");
 }

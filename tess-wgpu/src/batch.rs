@@ -62,7 +62,7 @@ impl Batch {
 
     /// The same, with a call of `after` behind each dispatch, to time stages one by one.
     #[cfg(feature = "measure")]
-    pub fn encode_each(
+    pub(crate) fn encode_each(
         &self,
         encoder: &mut wgpu::CommandEncoder,
         after: impl FnMut(&mut wgpu::ComputePass<'_>, Stage),

@@ -51,6 +51,13 @@ fn whole_outputs_say_where_each_patch_begins() {
         let setup = Setup { numbering, index_type, ..Setup::new(Domain::Triangle, config) };
         let output =
             machine.tessellator.tessellate(&machine.gpu, setup, &patches).expect("it fits");
+        let awaited = machine.tessellator.tessellate_async(&machine.gpu, setup, &patches);
+        let awaited = pollster::block_on(awaited).expect("it fits");
+        assert_eq!(
+            (&awaited.points, &awaited.indices),
+            (&output.points, &output.indices),
+            "{setup:?}: awaited"
+        );
         let (mut begins, mut indices) = (Vec::new(), Vec::new());
         let mut points = 0;
         for &factors in &patches {

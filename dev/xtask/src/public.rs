@@ -1,7 +1,8 @@
 //! Nothing public without a caller: an item of a published library that nobody outside uses is a promise that nobody tests.
 //!
 //! Words are compared, not paths: an item counts as used where its name stands in the code of a test, an example, a
-//! bench, a tool, a binding or another crate. The lint `unreachable_pub` sees to it that what is `pub` can be reached.
+//! bench, a tool, a binding or another crate. A type may also come with its caller: it stands in a signature or a field.
+//! The lint `unreachable_pub` sees to it that what is `pub` can be reached.
 
 use crate::command::{self, in_file, workspace};
 use std::collections::BTreeSet;
@@ -9,7 +10,8 @@ use std::process::Command;
 
 const LIBRARIES: [&str; 6] =
     ["tess-core", "tess-simd", "tess-gpu", "tess-wgpu", "tess-surface", "tess-verify"];
-const KINDS: [&str; 8] = ["fn", "struct", "enum", "union", "trait", "const", "static", "type"];
+const TYPES: [&str; 5] = ["struct", "enum", "union", "trait", "type"];
+const VALUES: [&str; 3] = ["fn", "const", "static"];
 
 /// Names the items that nothing outside uses.
 ///
@@ -45,10 +47,12 @@ fn unused(libraries: &[&str], files: &[(&str, String)]) -> (usize, Vec<String>) 
         let (own, others): (Vec<_>, Vec<_>) =
             files.iter().partition(|(path, _)| path.starts_with(&source));
         let used: BTreeSet<&str> = others.iter().flat_map(|(_, text)| words(text)).collect();
+        let named: BTreeSet<&str> =
+            own.iter().flat_map(|(_, text)| signatures(text)).flat_map(words).collect();
         for (path, text) in own.iter().filter(|(path, _)| !path.ends_with("tests.rs")) {
-            for (line, name) in items(text) {
+            for (line, kind, name) in items(text) {
                 all += 1;
-                if !used.contains(name) {
+                if !used.contains(name) && !(TYPES.contains(&kind) && named.contains(name)) {
                     found.push(format!("{path}:{line}: {name}"));
                 }
             }
@@ -57,14 +61,26 @@ fn unused(libraries: &[&str], files: &[(&str, String)]) -> (usize, Vec<String>) 
     (all, found)
 }
 
-/// The public items of a file and their lines, those of its tests left out.
-fn items(text: &str) -> impl Iterator<Item = (usize, &str)> {
+/// The public items of a file: line, kind and name. Those of its tests are left out.
+fn items(text: &str) -> impl Iterator<Item = (usize, &str, &str)> {
     let code = text.split("\n#[cfg(test)]\nmod ").next().unwrap_or(text);
-    (1..).zip(code.lines()).filter_map(|(line, text)| Some((line, item(text)?)))
+    (1..)
+        .zip(code.lines())
+        .filter_map(|(line, text)| item(text).map(|(kind, name)| (line, kind, name)))
 }
 
-/// The name of the public item that a line declares.
-fn item(line: &str) -> Option<&str> {
+/// What signatures and fields name: what stands behind `->` or the `:` of a public line, or is an error type.
+fn signatures(text: &str) -> impl Iterator<Item = &str> {
+    text.lines().filter_map(|line| {
+        let is_public = line.trim_start().starts_with("pub ");
+        let result = line.split_once("-> ").or_else(|| line.split_once("type Err"));
+        let part = if is_public { line.split_once(['(', ':']) } else { None };
+        part.or(result).map(|(_, rest)| rest)
+    })
+}
+
+/// The kind and the name of the public item that a line declares.
+fn item(line: &str) -> Option<(&str, &str)> {
     let mut words = line.trim_start().strip_prefix("pub ")?.split_whitespace();
     let mut kind = words.next()?;
     let mut name = words.next()?;
@@ -73,8 +89,9 @@ fn item(line: &str) -> Option<&str> {
     {
         (kind, name) = (name, words.next()?);
     }
-    let name = KINDS.contains(&kind).then(|| self::words(name).next())?;
-    name.filter(|name| *name != "_")
+    let is_item = TYPES.contains(&kind) || VALUES.contains(&kind);
+    let name = is_item.then(|| self::words(name).next())?;
+    name.filter(|name| *name != "_").map(|name| (kind, name))
 }
 
 /// The words of code, comments left out.
@@ -104,6 +121,10 @@ mod tests {
         assert_eq!(used(""), (4, vec![lonely, alone.clone()]), "a comment is no use");
         assert_eq!(used("lonely(1)"), (4, vec![alone]), "a call is");
         assert_eq!(used("lonely(ALONE)"), (4, vec![]), "all are used");
+        let types = "pub struct Result;\npub struct Nobody;\npub fn f() -> Result {}\n".to_owned();
+        let files = [("lib/src/lib.rs", types), ("lib/tests/a.rs", "f()".to_owned())];
+        let nobody = vec!["lib/src/lib.rs:2: Nobody".to_owned()];
+        assert_eq!(unused(&["lib"], &files), (3, nobody), "a type comes with its caller");
     }
 
     #[test]

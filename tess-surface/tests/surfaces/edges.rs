@@ -1,7 +1,11 @@
 //! Edges that are the same curve from both ends.
 
 use glam::{Vec3, Vec4};
-use tess_surface::{BezierPatch, Curve, Direction, Edge, Model, Patch, Sample, Surface};
+use tess_surface::pn::edge_normal;
+use tess_surface::sides::{Place, corner_coordinates};
+use tess_surface::{
+    BezierPatch, Curve, Direction, Edge, Model, Patch, PnCorner, Sample, Sides, Surface,
+};
 
 /// Control points that read the same backwards, polynomial and rational; no coordinate is a short binary number.
 fn palindromes() -> [[Vec4; 4]; 2] {
@@ -90,4 +94,34 @@ fn patches_agree_on_palindromic_edges() {
         };
         assert_eq!(samples(&one, 0), samples(&other, 1), "{edge:?} in lanes");
     }
+}
+
+/// The polygon of a curve is at least as long as the curve, and as long as a line.
+#[test]
+fn curves_are_at_most_as_long_as_their_polygons() {
+    let [a, b, c, d] =
+        [[0.0; 3], [1.0, 2.0, 0.0], [3.0, -1.0, 0.5], [4.0, 0.0, 1.0]].map(Vec3::from_array);
+    assert_eq!(Curve::Line([a, d]).length_bound(), a.distance(d), "a line");
+    for curve in [Curve::cubic([a, b, c, d]), Curve::cubic([a, b, b, a])] {
+        let places: Vec<Vec3> = (0..=64).map(|k| curve.position(k as f32 / 64.0)).collect();
+        let length: f32 = places.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        let bound = curve.length_bound();
+        assert!((length..2.0 * length).contains(&bound), "{bound} for {length}");
+    }
+}
+
+/// The corners lie where edges meet, and an edge's middle normal is the same from both ends.
+#[test]
+fn corners_and_middle_normals_belong_to_edges() {
+    for sides in [Sides::Triangle([(); 3]), Sides::Quad([(); 4])] {
+        for (corner, [u, v]) in corner_coordinates(&sides).as_slice().iter().enumerate() {
+            assert_eq!(Place::of(&sides, *u, *v), Place::Corner(corner), "{sides:?}");
+        }
+    }
+    let a = PnCorner { position: Vec3::ZERO, normal: Vec3::Z };
+    let b = PnCorner { position: Vec3::X, normal: Vec3::new(0.6, 0.0, 0.8) };
+    let middle = edge_normal(a, b);
+    assert_eq!(bits(middle), bits(edge_normal(b, a)), "from both ends");
+    // The sum (0.6, 0, 1.8), reflected at the plane across the edge.
+    assert!(middle.distance(Vec3::new(-0.6, 0.0, 1.8).normalize()) < 1e-6, "{middle}");
 }

@@ -15,10 +15,10 @@ use tess_core::{
 };
 
 /// The factors K of the workloads `uniform-K`.
-pub const UNIFORM_FACTORS: [u8; 7] = [1, 2, 4, 8, 16, 32, 64];
+pub(super) const UNIFORM_FACTORS: [u8; 7] = [1, 2, 4, 8, 16, 32, 64];
 
 /// The seed of the workloads that are drawn at random.
-pub const SEED: u64 = 11;
+const SEED: u64 = 11;
 
 /// `uniform-K`: 4096 quads, all factors `factor`, integer.
 #[must_use]
@@ -30,7 +30,7 @@ pub fn uniform(factor: u8) -> Workload {
 
 /// `seed-table`: single quads of several sizes, and every integer isoline, one patch at a time.
 #[must_use]
-pub fn seed_table() -> Vec<Workload> {
+pub(super) fn seed_table() -> Vec<Workload> {
     let quads = [
         ("16", [16; 6]),
         ("32", [32; 6]),
@@ -137,7 +137,7 @@ pub fn mosaic() -> Workload {
 
 /// `mosaic-even`: 20000 quads, every factor uniform in 1..6 on its own, `fractional_even`.
 #[must_use]
-pub fn mosaic_even() -> Workload {
+pub(super) fn mosaic_even() -> Workload {
     let mut random = SplitMix64::new(SEED);
     let patches = (0..20_000)
         .map(|_| quad(std::array::from_fn(|_| (1.0 + 5.0 * random.unit()) as f32)))
