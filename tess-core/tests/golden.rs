@@ -1,11 +1,12 @@
 //! Recorded results of the reference model, in both formulations: enough of `golden/` for the core's
 //! tests to stand alone. All of it goes through `tess-verify`.
 
-mod common;
 mod recorded;
+#[path = "common/shown.rs"]
+mod shown;
 
-use common::shown;
 use recorded::{Lines, config, digest, factors, hex_words, text};
+use shown::shown;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{
     DomainPoint, FactorContext, FixedFactor, Parity, Patch, PatchFactors, Primitive, SplitOrder,

@@ -1,9 +1,11 @@
 //! Both formulations give the same elements: on every topology, and on random patches.
 
 mod common;
+#[path = "common/shown.rs"]
+mod shown;
 
-use common::shown;
 use proptest::prelude::*;
+use shown::shown;
 use tess_core::{
     Config, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, Patch, PatchFactors,
     Primitive, QuadFactors, Sink, SplitOrder, TriangleFactors,

@@ -2,16 +2,9 @@
 
 use proptest::prelude::*;
 use tess_core::{
-    Config, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
-    SplitOrder, TriangleFactors,
+    Config, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, SplitOrder,
+    TriangleFactors,
 };
-
-/// A point in decimal and in bits.
-#[allow(dead_code, reason = "not every test compares points")]
-pub(crate) fn shown(point: DomainPoint) -> String {
-    let DomainPoint { u, v } = point;
-    format!("({u}, {v}) = (0x{:05x}, 0x{:05x})", u.to_bits(), v.to_bits())
-}
 
 /// Bit patterns of factors: any at all, and those around which things change.
 pub(crate) fn factor() -> impl Strategy<Value = f32> {
