@@ -185,7 +185,12 @@ pub(crate) fn tessellate(
 }
 
 fn main() -> ExitCode {
-    let gpu = match open(wgpu::Backends::from_env().unwrap_or_default()) {
+    run(wgpu::Backends::from_env().unwrap_or_default())
+}
+
+/// Tessellates four patches and prints what to draw; 3 without an adapter.
+pub(crate) fn run(backends: wgpu::Backends) -> ExitCode {
+    let gpu = match open(backends) {
         Ok(gpu) => gpu,
         Err(reason) => {
             eprintln!("{reason}");

@@ -7,6 +7,7 @@ mod bare_wgpu;
 
 use std::fs::File;
 use std::io::BufReader;
+use std::process::ExitCode;
 use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::layout::PackedPoint;
 use tess_gpu::{Capacity, Resource, Setup};
@@ -141,19 +142,24 @@ fn differences_are_seen() {
 }
 
 #[test]
-fn no_adapter_is_said() {
-    let error = bare_wgpu::open(wgpu::Backends::empty()).expect_err("there is no such adapter");
+fn no_adapter_is_said_and_ends_with_3() {
+    let code = |backends| format!("{:?}", bare_wgpu::run(backends));
+    let nothing = wgpu::Backends::empty();
+    assert_eq!(code(nothing), format!("{:?}", ExitCode::from(3)), "no adapter");
+    let backends = wgpu::Backends::from_env().unwrap_or_default();
+    assert_eq!(code(backends), format!("{:?}", ExitCode::SUCCESS), "an adapter");
+    let error = bare_wgpu::open(nothing).expect_err("there is no such adapter");
     assert!(error.starts_with("no adapter: "), "{error}");
 }
 
-/// Each block of the README that names the example stands there.
+/// Each block of the README that is no example of its own stands in the example.
 #[test]
 fn the_readme_quotes_the_example() {
     let readme = include_str!("../README.md");
     let example = include_str!("../examples/bare_wgpu.rs");
     let trimmed = |text: &str| text.lines().map(str::trim).collect::<Vec<_>>().join("\n");
     let example = trimmed(example);
-    let quotes: Vec<_> = readme.split("```rust,ignore\n").skip(1).collect();
+    let quotes: Vec<_> = readme.split("```rs\n").skip(1).collect();
     assert!(!quotes.is_empty(), "the README shows the example");
     for quote in quotes {
         let quote = quote.split("```").next().expect("it ends");

@@ -3,8 +3,10 @@
 use super::run::{Batch, Form, Machine};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_gpu::sizes::CATALOGUE_PATCHES;
-use tess_gpu::{Capacity, Copies, IndexType, Limits, Numbering, Order, PointFormat, Setup, Stage};
-use tess_gpu::{Resource, Written};
+use tess_gpu::{
+    Capacity, Copies, IndexType, Limits, Numbering, Order, PointFormat, Resource, Setup, Stage,
+    Written,
+};
 use tess_verify::generate::random_factor;
 use tess_verify::random::SplitMix64;
 

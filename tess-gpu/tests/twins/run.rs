@@ -6,10 +6,11 @@ use super::compare::{Difference, first_difference};
 use super::twin;
 use std::collections::HashMap;
 use tess_core::{Patch, PatchFactors};
-use tess_gpu::Written;
 use tess_gpu::layout::Job;
 use tess_gpu::sizes::ALIGNMENT;
-use tess_gpu::{Access, Binding, Capacity, Dispatch, Limits, Plan, Resource, Setup, Stage};
+use tess_gpu::{
+    Access, Binding, Capacity, Dispatch, Limits, Plan, Resource, Setup, Stage, Written,
+};
 
 /// No output has these bits, so a word that was not written differs from any that was.
 const POISON: u32 = 0xFFFF_FFFF;
