@@ -146,7 +146,7 @@ def interrupted(script: str, path: "Path | str" = "") -> float:
     begun = time.monotonic()
     process.send_signal(signal.SIGINT)
     try:
-        _, said = process.communicate(timeout=60)
+        _, said = process.communicate(timeout=30)
     finally:
         process.kill()
     assert b"KeyboardInterrupt" in said, said

@@ -49,7 +49,9 @@ impl Sizes {
 }
 
 fn bytes<P, I>(counts: BatchCounts) -> usize {
-    counts.points * size_of::<P>() + counts.indices * size_of::<I>()
+    counts.points * size_of::<P>()
+        + counts.indices * size_of::<I>()
+        + counts.patches * size_of::<PatchRange>()
 }
 
 impl Work<'_> {
