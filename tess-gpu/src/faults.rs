@@ -1,24 +1,24 @@
 //! The faults that tests plant in the shaders: a comparison counts only after it was seen to fail.
 
-/// A line of `src/faults.txt` for each fault: its name, a colon and a space, and the wrong line.
+/// A line of `src/faults.txt` for each fault: `NAME: RIGHT => WRONG`. A line of the shaders that is RIGHT, but for spaces
+/// around it, becomes WRONG, which may be nothing.
 const LIST: &str = include_str!("faults.txt");
 
-/// A fault that a test plants in the shaders.
-///
-/// A line that ends with `// mark: NAME` is where the fault of that name goes; one line can have several marks, with
-/// commas between them, and several lines one. So a test names a fault, and no text of a shader stands in a test.
+/// A fault that a test plants in the shaders. A test names it, so that no text of a shader stands in a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Fault {
     name: &'static str,
-    line: &'static str,
+    right: &'static str,
+    wrong: &'static str,
 }
 
 impl Fault {
     /// Every fault of the list.
     pub fn all() -> impl Iterator<Item = Self> {
         LIST.lines().filter_map(|fault| {
-            let (name, line) = fault.split_once(": ").or(fault.strip_suffix(':').zip(Some("")))?;
-            Some(Self { name, line })
+            let (name, lines) = fault.split_once(": ")?;
+            let (right, wrong) = lines.split_once(" =>")?;
+            Some(Self { name, right, wrong: wrong.trim_start() })
         })
     }
 
@@ -34,22 +34,16 @@ impl Fault {
         self.name
     }
 
-    /// The shader with the wrong line instead of each marked one; `None` if no line has the mark.
+    /// The shader with the wrong line instead of each right one; `None` if it has none.
     #[must_use]
     pub fn planted(self, source: &str) -> Option<String> {
-        let is_marked = |line: &str| marks(line).any(|mark| mark == self.name);
-        if !source.lines().any(is_marked) {
+        let is_right = |line: &str| line.trim() == self.right;
+        if !source.lines().any(is_right) {
             return None;
         }
-        let lines = source.lines().map(|line| if is_marked(line) { self.line } else { line });
+        let lines = source.lines().map(|line| if is_right(line) { self.wrong } else { line });
         Some(lines.flat_map(|line| [line, "\n"]).collect())
     }
-}
-
-/// The marks of a line of a shader.
-fn marks(line: &str) -> impl Iterator<Item = &str> {
-    let names = line.split_once("// mark: ").map(|(_, names)| names);
-    names.into_iter().flat_map(|names| names.split(", "))
 }
 
 #[cfg(test)]
@@ -59,35 +53,26 @@ mod tests {
     use std::collections::BTreeSet;
 
     #[test]
-    fn every_mark_has_a_fault_and_every_fault_a_mark() {
-        let listed: BTreeSet<&str> = Fault::all().map(Fault::name).collect();
+    fn every_line_is_a_fault_and_every_fault_has_its_place() {
+        let names: BTreeSet<&str> = Fault::all().map(Fault::name).collect();
         assert_eq!(
-            listed.len(),
+            names.len(),
             LIST.lines().count(),
             "each name stands once, each line is a fault"
         );
-        let marked: BTreeSet<&str> =
-            texts().flat_map(|text| text.lines().flat_map(marks)).collect();
-        assert_eq!(marked, listed, "the marks of shaders/ and faults.txt");
-    }
-
-    #[test]
-    fn faults_differ_from_what_they_replace() {
         for fault in Fault::all() {
-            let marked =
-                texts().flat_map(str::lines).filter(|line| marks(line).any(|it| it == fault.name));
-            for line in marked {
-                let code = line.split(" // mark: ").next().unwrap_or_default().trim();
-                assert_ne!(code, fault.line, "{}", fault.name);
-            }
+            assert_ne!(fault.right, fault.wrong, "{}", fault.name);
+            let in_file =
+                |text: &str| text.lines().filter(|line| line.trim() == fault.right).count();
+            let most = texts().map(in_file).max();
+            assert_eq!(most, Some(1), "{}: one line of a file is `{}`", fault.name, fault.right);
         }
     }
 
     #[test]
     fn a_fault_replaces_its_lines_alone() {
-        let fault = Fault::named("has_key").expect("it is listed");
-        let source = "a\n    b // mark: other, has_key\nc\n";
-        assert_eq!(fault.planted(source), Some(format!("a\n{}\nc\n", fault.line)), "one line");
-        assert_eq!(fault.planted("a\nb // mark: has_keys\n"), None, "no mark");
+        let fault = Fault { name: "b", right: "b;", wrong: "c;" };
+        assert_eq!(fault.planted("a\n    b;\nbb;\n").as_deref(), Some("a\nc;\nbb;\n"), "one line");
+        assert_eq!(fault.planted("a\nbb;\n"), None, "no such line");
     }
 }

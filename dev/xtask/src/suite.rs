@@ -18,7 +18,7 @@ use std::process::Command;
 const ALL: &str = "test --workspace --all-features --no-fail-fast";
 
 /// The packages that have no part in [`Extent::Comparisons`], and bring much that nothing else needs to compile.
-const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-measure", "tess-benches"];
+const APART: &[&str] = &["tess-explorer", "tess-explorer-stage", "tess-benches"];
 
 /// Has cargo list what it built on its standard output.
 const MESSAGES: &str = "--message-format=json-render-diagnostics";

@@ -16,6 +16,6 @@ fn expand_points(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let number = workgroup.x + workgroup.y * job.max_workgroups; // mark: number
+    let number = workgroup.x + workgroup.y * job.max_workgroups;
     write_point_tile(number, thread);
 }

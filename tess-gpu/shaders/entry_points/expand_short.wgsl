@@ -16,7 +16,7 @@ fn expand_short(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let number = workgroup.x + workgroup.y * job.max_workgroups; // mark: number
+    let number = workgroup.x + workgroup.y * job.max_workgroups;
     let point_tiles = tile_end(job.point_capacity);
     if number < point_tiles {
         write_point_tile(number, thread);

@@ -14,7 +14,7 @@ fn factors(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let block = workgroup.x + workgroup.y * job.max_workgroups; // mark: factors
+    let block = workgroup.x + workgroup.y * job.max_workgroups;
     let all = process_block(block, thread).all;
     if thread == 0u && block + job.first_patch == 0u {
         empty_catalogue();

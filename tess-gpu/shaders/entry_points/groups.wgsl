@@ -19,11 +19,11 @@ struct DrawIndexed {
 
 // The first index of a patch of this portion; behind the portion, the end of its indices.
 fn first_index_of(patch_number: u32) -> u32 {
-    let patch_index = patch_number - job.first_patch; // mark: first_index_of_2
-    if patch_index >= job.patches { // mark: first_index_of
-        return status.ranges[job.portion].primitives_end * INDICES; // mark: first_index_of_4
+    let patch_index = patch_number - job.first_patch;
+    if patch_index >= job.patches {
+        return status.ranges[job.portion].primitives_end * INDICES;
     }
-    return patch_offset(patch_index)[PRIMITIVES] * INDICES; // mark: first_index_of_3
+    return patch_offset(patch_index)[PRIMITIVES] * INDICES;
 }
 
 @compute @workgroup_size(WORKGROUP)
@@ -31,7 +31,7 @@ fn groups(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let group = (workgroup.x + workgroup.y * job.max_workgroups) * WORKGROUP + thread; // mark: groups_4
+    let group = (workgroup.x + workgroup.y * job.max_workgroups) * WORKGROUP + thread;
     let count = arrayLength(&group_begins);
     if group >= count {
         return;
@@ -39,12 +39,12 @@ fn groups(
     let begin = group_begins[group];
     var end = NEVER;
     if group + 1u < count {
-        end = group_begins[group + 1u]; // mark: groups_3
+        end = group_begins[group + 1u];
     }
-    if begin >= job.first_patch { // mark: groups
+    if begin >= job.first_patch {
         draws[group] = DrawIndexed(0u, 1u, first_index_of(begin), 0u, 0u);
     }
-    if end >= job.first_patch && status.overflow == 0u { // mark: groups_2, groups_6
-        draws[group].index_count = first_index_of(end) - draws[group].first_index; // mark: groups_5
+    if end >= job.first_patch && status.overflow == 0u {
+        draws[group].index_count = first_index_of(end) - draws[group].first_index;
     }
 }

@@ -12,7 +12,7 @@ var<workgroup> places: vec2<u32>;
 fn take_room(counts: vec2<u32>) -> vec2<u32> {
     let points = atomicAdd(&catalogue[USED_AT], counts.x);
     let triangles = atomicAdd(&catalogue[USED_AT + 1u], counts.y);
-    if points + counts.x > CATALOGUE_POINTS || triangles + counts.y > CATALOGUE_TRIANGLES { // mark: take_room
+    if points + counts.x > CATALOGUE_POINTS || triangles + counts.y > CATALOGUE_TRIANGLES {
         return vec2<u32>(0u, 0u);
     }
     return vec2<u32>(POINTS_AT + POINT_WORDS * points, TRIANGLES_AT + triangles);

@@ -14,7 +14,7 @@ fn scan(
     @builtin(workgroup_id) workgroup: vec3<u32>,
     @builtin(local_invocation_index) thread: u32,
 ) {
-    let section = workgroup.x + workgroup.y * job.max_workgroups; // mark: scan
+    let section = workgroup.x + workgroup.y * job.max_workgroups;
     let block = section * SECTION_BLOCKS + thread;
     var own = vec2<u32>(0u, 0u);
     if block < block_count() {

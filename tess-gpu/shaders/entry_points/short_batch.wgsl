@@ -37,11 +37,11 @@ fn short_batch(@builtin(local_invocation_index) thread: u32) {
     // This thread's last patch that has output, and where that ends.
     var last = NEVER;
     var last_end = vec2<u32>(0u, 0u);
-    for (var block = 0u; block * BLOCK < job.patches; block++) { // mark: short_batch_7
+    for (var block = 0u; block * BLOCK < job.patches; block++) {
         workgroupBarrier(); // before a block's workgroup memory serves the next one
         let in_block = process_block(block, thread);
         if thread == 0u {
-            offsets[job.blocks_at + block] = sum; // mark: short_batch_2
+            offsets[job.blocks_at + block] = sum;
         }
         if any(in_block.own != vec2<u32>(0u, 0u)) {
             let begin = sum + in_block.before;
@@ -50,11 +50,11 @@ fn short_batch(@builtin(local_invocation_index) thread: u32) {
             write_tiles(0u, begin.x, last_end.x, job.point_capacity, last);
             write_tiles(job.primitive_tiles_at, begin.y, last_end.y, job.primitive_capacity, last);
         }
-        sum += in_block.all; // mark: short_batch
+        sum += in_block.all;
     }
-    let range = Range(0u, sum.x, 0u, sum.y); // mark: short_batch_4
+    let range = Range(0u, sum.x, 0u, sum.y);
     if thread == 0u {
-        offsets[job.sections_at] = vec2<u32>(0u, 0u); // mark: short_batch_3
+        offsets[job.sections_at] = vec2<u32>(0u, 0u);
         status.points = sum.x;
         status.points_high = 0u;
         status.primitives = sum.y;
@@ -71,10 +71,10 @@ fn short_batch(@builtin(local_invocation_index) thread: u32) {
     if is_overflow == 0u && last != NEVER {
         // Behind the last tile: the patch of the last element.
         if last_end.x == sum.x {
-            tiles[tile_end(sum.x)] = last; // mark: short_batch_5
+            tiles[tile_end(sum.x)] = last;
         }
         if last_end.y == sum.y {
-            tiles[job.primitive_tiles_at + tile_end(sum.y)] = last; // mark: short_batch_6
+            tiles[job.primitive_tiles_at + tile_end(sum.y)] = last;
         }
     }
 }
@@ -85,7 +85,7 @@ fn write_tiles(first_entry: u32, begin: u32, end: u32, capacity: u32, patch_inde
     if end > capacity {
         return;
     }
-    for (var tile = tile_end(begin); tile < tile_end(end); tile++) { // mark: write_tiles, write_tiles_2
-        tiles[first_entry + tile] = patch_index; // mark: write_tiles_3
+    for (var tile = tile_end(begin); tile < tile_end(end); tile++) {
+        tiles[first_entry + tile] = patch_index;
     }
 }

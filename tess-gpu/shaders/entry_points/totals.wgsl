@@ -23,7 +23,7 @@ fn totals(@builtin(local_invocation_index) thread: u32) {
     let sums = prefix_sums(thread, own);
     var begin = vec2<u32>(0u, 0u);
     var high = vec2<u32>(0u, 0u);
-    if job.portion > 0u { // mark: totals
+    if job.portion > 0u {
         begin = vec2<u32>(status.points, status.primitives);
         high = vec2<u32>(status.points_high, status.primitives_high);
     }

@@ -54,8 +54,8 @@ fn repeat_of(tile: Tile, kind: u32, most: u32) -> Repeat {
         return none;
     }
     return Repeat(
-        topology, size[kind], tile.base - begin[kind], // mark: repeat_of_2
-        (0x1fffffu + size[kind]) / size[kind], begin.x, size.x); // mark: repeat_of
+        topology, size[kind], tile.base - begin[kind],
+        (0x1fffffu + size[kind]) / size[kind], begin.x, size.x);
 }
 
 // The topology of all patches of the blocks in which a tile's patches are, or a culled one.
@@ -64,7 +64,7 @@ fn common_topology(tile: Tile) -> vec2<u32> {
     let last = job.alike_at + (tile.last_patch >> BLOCK_BITS);
     let topology = offsets[first];
     for (var block = first + 1u; block <= last; block++) {
-        if any(offsets[block] != topology) { // mark: common_topology
+        if any(offsets[block] != topology) {
             return vec2<u32>(0u, 0u);
         }
     }

@@ -68,8 +68,8 @@ fn process_block(block: u32, thread: u32) -> BlockSums {
     let sums = prefix_sums(thread, own);
     if patch_index < job.patches {
         offsets[patch_index] = sums.before;
-        if any(topology != first_topology) { // mark: process_block_2
-            atomicStore(&differs, 1u); // mark: process_block
+        if any(topology != first_topology) {
+            atomicStore(&differs, 1u);
         }
     }
     workgroupBarrier();

@@ -37,7 +37,7 @@
 
 // A key has the points along each edge and inside axis, less 2, in 5 bits each, and the state in bits 30..31.
 fn key_of(topology: vec2<u32>) -> u32 {
-    var key = ((inside_u(topology) - 2u) << 20u) | ((inside_v(topology) - 2u) << 25u); // mark: key_of
+    var key = ((inside_u(topology) - 2u) << 20u) | ((inside_v(topology) - 2u) << 25u);
     for (var edge = 0u; edge < EDGES; edge++) {
         key |= (outer_points(topology, edge) - 2u) << (5u * edge);
     }
@@ -50,7 +50,7 @@ fn has_key(topology: vec2<u32>) -> bool {
     for (var edge = 0u; edge < EDGES; edge++) {
         most = max(most, outer_points(topology, edge));
     }
-    return state_of(topology) != CULLED && most <= 33u; // mark: has_key
+    return state_of(topology) != CULLED && most <= 33u;
 }
 
 // The topology of a key.

@@ -75,8 +75,8 @@ fn load_patch(i: u32, patch_index: u32, tile: Tile, kind: u32) {
     scratch[i] = topology;
     let found = place_of(patch_index, topology, kind);
     let words = select(1u, POINT_WORDS, kind == POINTS);
-    listed[i] = vec2<u32>(found - words * begin, select(0u, offset.x, NUMBERING == PER_BATCH)); // mark: load_patch
-    if found == 0u && state_of(topology) != CULLED { // mark: load_patch_2
+    listed[i] = vec2<u32>(found - words * begin, select(0u, offset.x, NUMBERING == PER_BATCH));
+    if found == 0u && state_of(topology) != CULLED {
         atomicStore(&is_missing, 1u);
     }
 }
@@ -125,13 +125,13 @@ fn find_patch(round: Round, element: u32) -> u32 {
 
 fn nearer_patch(found: u32, reach: u32, last: u32, element: u32) -> u32 {
     let next = min(found + reach, last);
-    return select(found, next, begins[next] <= i32(element)); // mark: nearer_patch
+    return select(found, next, begins[next] <= i32(element));
 }
 
 // The same for an element that belongs to patch `number` or to one behind it.
 fn next_patch(round: Round, number: u32, element: u32) -> u32 {
     var found = number;
-    while found + 1u < round.count && begins[found + 1u] <= i32(element) { // mark: next_patch
+    while found + 1u < round.count && begins[found + 1u] <= i32(element) {
         found++;
     }
     return found;

@@ -5,7 +5,7 @@
 // of primitives.
 
 fn write_dispatch(number: u32, workgroups: u32) {
-    let rows = (workgroups + job.max_workgroups - 1u) / job.max_workgroups; // mark: write_dispatch
+    let rows = (workgroups + job.max_workgroups - 1u) / job.max_workgroups;
     let at = DISPATCHES_AT + 3u * number;
     arguments[at] = select(job.max_workgroups, workgroups, rows <= 1u);
     arguments[at + 1u] = max(rows, 1u);

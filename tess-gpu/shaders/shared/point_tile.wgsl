@@ -120,7 +120,7 @@ fn listed_point(round: Round, number: u32, element: u32) -> vec2<u32> {
     let patch_number = job.first_patch + patch_index;
     if IS_INTEGER {
         return numbered(
-            vec2<u32>(catalogue_word(at), catalogue_word(at + 1u)), patch_number); // mark: listed_point
+            vec2<u32>(catalogue_word(at), catalogue_word(at + 1u)), patch_number);
     }
     return format_point(placed_point(catalogue_word(at), patch_index), patch_number);
 }
@@ -135,14 +135,14 @@ fn write_listed_points(round: Round, thread: u32, out: u32) {
         points_out[out + first] = listed_point(round, number, first);
         if first == element && element + 1u < round.end {
             let next = next_patch(round, number, element + 1u);
-            points_out[out + element + 1u] = listed_point(round, next, element + 1u); // mark: write_listed_points
+            points_out[out + element + 1u] = listed_point(round, next, element + 1u);
         }
     }
 }
 
 // Whether patches of one topology have the same points.
 fn has_same_points(topology: vec2<u32>) -> bool {
-    return IS_INTEGER || state_of(topology) == MINIMUM; // mark: has_same_points
+    return IS_INTEGER || state_of(topology) == MINIMUM;
 }
 
 fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
@@ -159,7 +159,7 @@ fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
         let number = patch_at(repeat, position);
         points_out[out + element] = numbered(
             scratch[position - number * repeat.size],
-            job.first_patch + tile.first_patch + number); // mark: copy_points
+            job.first_patch + tile.first_patch + number);
     }
 }
 
@@ -167,10 +167,10 @@ fn copy_points(tile: Tile, repeat: Repeat, thread: u32, out: u32) {
 fn write_point_tile(number: u32, thread: u32) {
     let range = status.ranges[job.portion];
     let tile = tile_of(number, range.points_begin, range.points_end, 0u);
-    if tile.end == 0u || status.overflow != 0u { // mark: write_primitive_tile
+    if tile.end == 0u || status.overflow != 0u {
         return;
     }
-    let out = tile.base - (job.window_first << job.tile_bits); // mark: write_primitive_tile_2
+    let out = tile.base - (job.window_first << job.tile_bits);
     let repeat = repeat_of(tile, POINTS, SCRATCH);
     if repeat.size > 0u && has_same_points(repeat.topology) {
         copy_points(tile, repeat, thread, out);

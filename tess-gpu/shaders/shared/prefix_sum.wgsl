@@ -49,7 +49,7 @@ fn prefix_sums(thread: u32, own: vec2<u32>) -> Sums {
     }
     workgroupBarrier();
     let before = sums[thread] + sums[FOURS + (thread >> 2u)]
-        + sums[SIXTEENS + (thread >> 4u)] + sums[SIXTY_FOURS + (thread >> 6u)]; // mark: prefix_sums
+        + sums[SIXTEENS + (thread >> 4u)] + sums[SIXTY_FOURS + (thread >> 6u)];
     let all = sums[WHOLE];
     workgroupBarrier();
     return Sums(before, all);

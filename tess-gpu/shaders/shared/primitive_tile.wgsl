@@ -117,7 +117,7 @@ fn drawn_next(source: Source, location: RingLocation, element: u32) -> RingLocat
             return next;
         }
     }
-    return location_of(source, element - source.begin); // mark: drawn_next
+    return location_of(source, element - source.begin);
 }
 
 // A triangle of the catalogue for patch `number` of the round.
@@ -137,7 +137,7 @@ fn write_listed_triangles(round: Round, thread: u32, out: u32) {
         let at = (out + element) >> 1u;
         if first == element && element + 1u < round.end {
             let next = next_patch(round, number, element + 1u);
-            write_triangle_pair(at, triangle, listed_triangle(next, element + 1u)); // mark: write_listed_triangles
+            write_triangle_pair(at, triangle, listed_triangle(next, element + 1u));
         } else {
             write_triangle(at, first != element, triangle);
         }
@@ -175,7 +175,7 @@ fn keep_triangles(repeat: Repeat, thread: u32) {
         if i < SCRATCH {
             scratch[i].x = packed;
         } else {
-            scratch[i - SCRATCH].y = packed; // mark: keep_triangles
+            scratch[i - SCRATCH].y = packed;
         }
     }
 }
@@ -190,7 +190,7 @@ struct Corner {
 // The corner that index `at` of the tile stands for.
 fn corner_at(repeat: Repeat, at: u32) -> Corner {
     // A third of it, exactly, as it is below 3 * 2048.
-    let element = (at * 43691u) >> 17u; // mark: corner_at
+    let element = (at * 43691u) >> 17u;
     let position = element + repeat.before;
     let number = patch_at(repeat, position);
     return Corner(number, position - number * repeat.size, at - 3u * element);
@@ -198,7 +198,7 @@ fn corner_at(repeat: Repeat, at: u32) -> Corner {
 
 fn next_corner(repeat: Repeat, it: Corner) -> Corner {
     let is_last_corner = it.corner == 2u;
-    let is_last = is_last_corner && it.i + 1u == repeat.size; // mark: next_corner
+    let is_last = is_last_corner && it.i + 1u == repeat.size;
     return Corner(
         it.number + select(0u, 1u, is_last),
         select(it.i + select(0u, 1u, is_last_corner), 0u, is_last),
@@ -209,7 +209,7 @@ fn kept_index(repeat: Repeat, it: Corner) -> u32 {
     let is_low = it.i < SCRATCH;
     let two = scratch[select(it.i - SCRATCH, it.i, is_low)];
     let vertex = packed_vertex(select(two.y, two.x, is_low), it.corner);
-    return vertex + select(0u, repeat.base + it.number * repeat.points, NUMBERING == PER_BATCH); // mark: kept_index
+    return vertex + select(0u, repeat.base + it.number * repeat.points, NUMBERING == PER_BATCH);
 }
 
 // Two indices at a time, whichever triangles they are of.
@@ -239,10 +239,10 @@ fn write_primitive_tile(number: u32, thread: u32) {
     let range = status.ranges[job.portion];
     let tile = tile_of(
         number, range.primitives_begin, range.primitives_end, job.primitive_tiles_at);
-    if tile.end == 0u || status.overflow != 0u { // mark: write_primitive_tile
+    if tile.end == 0u || status.overflow != 0u {
         return;
     }
-    let out = tile.base - (job.window_first << job.tile_bits); // mark: write_primitive_tile_2
+    let out = tile.base - (job.window_first << job.tile_bits);
     if IS_TRIANGLES {
         let repeat = repeat_of(tile, PRIMITIVES, 2u * SCRATCH);
         if repeat.size > 0u {

@@ -51,7 +51,7 @@ fn entries(begin: u32, end: u32) -> u32 {
 
 fn entry_of(number: u32, begin: u32, end: u32, kind: u32) -> u32 {
     let element = (tile_at(begin) + number) << job.tile_bits;
-    return patch_of(clamp(element, begin, end - 1u), kind); // mark: entry_of
+    return patch_of(clamp(element, begin, end - 1u), kind);
 }
 
 // Entry `number` of the table of tiles: those of the points, then those of the primitives.

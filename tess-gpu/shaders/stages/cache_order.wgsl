@@ -81,7 +81,7 @@ fn location_in_sector(sector: Sector, t: u32) -> RingLocation {
     let rest = t - columns_before(sector, column);
     let begin = transition_border(sector, column);
     let transition = transition_border(sector, column + 1u) - begin;
-    if rest < transition { // mark: location_in_sector
+    if rest < transition {
         return RingLocation(1u, sector.edge, begin + rest);
     }
     return location_in_column(sector, column, rest - transition);
@@ -124,12 +124,12 @@ fn drawn_behind(rings: Rings, location: RingLocation) -> RingLocation {
     if location.ring == 1u {
         column = (((step * (2u * sector.along - 4u) - 1u) / sector.transition) + 1u) / (2u * COLUMN);
     }
-    if step < border(sector, location.ring, column + 1u) { // mark: drawn_behind
+    if step < border(sector, location.ring, column + 1u) {
         return RingLocation(location.ring, location.edge, step);
     }
     let ring = location.ring + 1u;
     let first = ring_border(sector, ring, column);
-    let is_there = ring < sector.end && first < ring_border(sector, ring, column + 1u); // mark: drawn_behind_2
+    let is_there = ring < sector.end && first < ring_border(sector, ring, column + 1u);
     return RingLocation(select(NEVER, ring, is_there), location.edge, first);
 }
 
@@ -167,8 +167,8 @@ fn borders(sector: Sector, end: u32, column: u32) -> u32 {
     let first = 2u * COLUMN * column + 1u;
     let half = (max(2u * sector.along + 1u, first) - first) >> 1u;
     let top = max(end, 2u);
-    let cut = max(min(min(end, COLUMN * column + 1u), half), 2u); // mark: borders
+    let cut = max(min(min(end, COLUMN * column + 1u), half), 2u);
     let complete = clamp(half, 2u, top);
-    return (cut - 2u) * (max(first, cut + 1u) - cut - 1u) // mark: borders_2
+    return (cut - 2u) * (max(first, cut + 1u) - cut - 1u)
         + (top - complete) * 2u * (sector.along + 1u - complete - top);
 }

@@ -36,7 +36,7 @@
 
 // Where triangle t of a regular patch is, in the order of the setup.
 fn triangle_location(rings: Rings, t: u32) -> RingLocation {
-    if ORDER == VERTEX_CACHE { // mark: triangle_location
+    if ORDER == VERTEX_CACHE {
         return drawn_location(rings, t);
     }
     return specified_location(rings, t);
@@ -90,7 +90,7 @@ fn transition_stitch(rings: Rings, edge: u32, base: u32) -> Stitch {
     return rows(
         rings, 1u, edge,
         outer_points + inner_points - 2u,
-        TRANSITION_STRIDE * outer_points + inner_points - 2u * TRANSITION_STRIDE, // mark: transition_stitch
+        TRANSITION_STRIDE * outer_points + inner_points - 2u * TRANSITION_STRIDE,
         base, base + outer_sum(rings, edge) - edge,
         ring, ring + along_sum(rings, edge) - 3u * edge);
 }
@@ -119,9 +119,9 @@ fn rows(
     let walks_back = rings.short == 2u * ring + 1u;
     return Stitch(
         size, steps_of(number), outer, inner,
-        edge == EDGES - 1u || walks_back, // mark: rows
+        edge == EDGES - 1u || walks_back,
         inner_ring, inner_ring + outer_ring,
-        inner_ring + select(points, points >> 1u, walks_back), 2u * inner_ring + points); // mark: rows_2
+        inner_ring + select(points, points >> 1u, walks_back), 2u * inner_ring + points);
 }
 
 // A stitch whose rows don't turn.
@@ -138,18 +138,18 @@ fn minimum_stitch(base: u32) -> Stitch {
 fn centre_stitch(rings: Rings, base: u32) -> Stitch {
     let first = base + first_of_ring(rings, stitch_ring_end(rings) - 1u);
     if DOMAIN == TRIANGLE {
-        return straight(1u, FAN_STITCH, first, first + 2u); // mark: centre_stitch_3
+        return straight(1u, FAN_STITCH, first, first + 2u);
     }
     let quads = max(rings.u, rings.v) - rings.short + 1u;
-    let along_u = select(0u, 1u, rings.u > rings.v); // mark: centre_stitch_4
-    let is_mirrored = rings.u <= rings.v && (rings.v & 1u) == 0u; // mark: centre_stitch
+    let along_u = select(0u, 1u, rings.u > rings.v);
+    let is_mirrored = rings.u <= rings.v && (rings.v & 1u) == 0u;
     return Stitch(
         2u * quads,
         steps_of(select(PLAIN_STRIP, MIRRORED_STRIP + quads, is_mirrored)),
         first + along_u, first,
         true,
         NEVER, 0u,
-        first + along_u, 2u * first + 2u * quads + 1u + along_u); // mark: centre_stitch_2
+        first + along_u, 2u * first + 2u * quads + 1u + along_u);
 }
 
 // Where the steps of a stitch begin in the tables, by its number there.
@@ -160,7 +160,7 @@ fn steps_of(number: u32) -> u32 {
 // The first index of primitive t, for lines and points: they join the points in order.
 fn sequence_first(topology: vec2<u32>, t: u32, base: u32) -> u32 {
     if DOMAIN == ISOLINE && OUTPUT != OUTPUT_POINT {
-        return base + t + t / (outer_points(topology, 1u) - 1u); // mark: sequence_first
+        return base + t + t / (outer_points(topology, 1u) - 1u);
     }
     return base + t;
 }

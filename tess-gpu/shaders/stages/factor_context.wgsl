@@ -15,7 +15,7 @@ fn half_factor(factor: u32, odd: u32) -> u32 {
 // Points along an edge, both ends included: 2..=65.
 fn edge_points(factor: u32, odd: u32) -> u32 {
     if IS_INTEGER {
-        return select((factor >> 16u) + 1u, 3u, factor == ONE && odd == 0u); // mark: edge_points
+        return select((factor >> 16u) + 1u, 3u, factor == ONE && odd == 0u);
     }
     let half_points = (half_factor(factor, odd) + 0xffffu) >> 16u;
     return 2u * half_points + 1u - odd;

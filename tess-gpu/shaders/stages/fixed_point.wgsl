@@ -2,9 +2,9 @@
 // Fixed-point numbers and the conversion from binary32 (spec section 2).
 
 const ONE = 0x10000u;
-const HALF = 0x8000u; // mark: HALF
-const ONE_THIRD = 0x5555u; // mark: ONE_THIRD
-const TWO_THIRDS = 0xaaaau; // mark: TWO_THIRDS
+const HALF = 0x8000u;
+const ONE_THIRD = 0x5555u;
+const TWO_THIRDS = 0xaaaau;
 
 // The 15.16 factor nearest to a binary32 in [1, 64], ties to even, from its bits.
 // Its exponent field is 127..133, so the shift is 1..7.

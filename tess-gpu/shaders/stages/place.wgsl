@@ -7,10 +7,10 @@
 // HALF + 10, so the weighted sum, coarse * ONE + (fine - coarse) * fraction modulo 2^32,
 // stays below 2^32.
 fn place_before_middle(context: vec2<u32>, position: u32) -> u32 {
-    let coarse_position = position - select(0u, 1u, position > split_of(context)); // mark: place_before_middle_2
+    let coarse_position = position - select(0u, 1u, position > split_of(context));
     let coarse = coarse_position * inv_floor_of(context);
     let fine = position * inv_ceil_of(context);
-    return ((coarse << 16u) + (fine - coarse) * fraction_of(context) + HALF) >> 16u; // mark: place_before_middle
+    return ((coarse << 16u) + (fine - coarse) * fraction_of(context) + HALF) >> 16u;
 }
 
 // The 16.16 location of point `position` of an edge, 0..points-1.
@@ -21,5 +21,5 @@ fn place(context: vec2<u32>, position: u32) -> u32 {
     let x = place_before_middle(context, p);
     let location = select(x, ONE - x, flip);
     // The exact middle of an even edge.
-    return select(location, HALF, p == half_points); // mark: place
+    return select(location, HALF, p == half_points);
 }

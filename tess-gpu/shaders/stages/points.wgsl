@@ -119,7 +119,7 @@ fn point_location(rings: Rings, i: u32) -> RingLocation {
         rest = i - rings.boundary - k * (form - EDGES * k);
         size_2 = rings.v - 1u - 2u * ring;
         // The centre has one edge.
-        begin_1 = select(size_2, NEVER, k == end); // mark: point_location
+        begin_1 = select(size_2, NEVER, k == end);
         begin_2 = select(rings.sides - 2u - 4u * ring, NEVER, k == end);
     }
     return location_on_edges(ring, rest, begin_1, begin_2, size_2);
@@ -138,7 +138,7 @@ fn shape_of(rings: Rings, location: RingLocation) -> RunShape {
     var descends = edge == 0u || edge == 3u;
     if DOMAIN == TRIANGLE {
         form = select(edge, FORM_CORNER, is_centre);
-        descends = edge != 1u; // mark: shape_of
+        descends = edge != 1u;
     }
     return RunShape(
         last - ring + select(0u, 1u, is_centre), form,
@@ -201,7 +201,7 @@ fn corner(fixed: u32, number: u32) -> vec2<u32> {
     if DOMAIN == TRIANGLE {
         return vec2<u32>(select(0u, ONE, number == 2u), select(0u, ONE, number == 0u));
     }
-    return vec2<u32>(select(0u, ONE, number == 1u || number == 2u), select(0u, ONE, number >= 2u)); // mark: corner
+    return vec2<u32>(select(0u, ONE, number == 1u || number == 2u), select(0u, ONE, number >= 2u));
 }
 
 // Point `step` of a run: u and v, 16.16.
@@ -214,7 +214,7 @@ fn point_of_run(run: PointRun, step: u32) -> vec2<u32> {
     }
     var q = place(run.context, run.first + run.sign * step);
     if DOMAIN == TRIANGLE {
-        q -= (fixed + 1u) >> 1u; // mark: point_of_run
+        q -= (fixed + 1u) >> 1u;
         if run.form == FORM_Q_REST {
             return vec2<u32>(q, ONE - q - fixed);
         }

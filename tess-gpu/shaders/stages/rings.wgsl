@@ -85,7 +85,7 @@ fn last_before(goal: u32, end: u32, form: u32, scale: u32) -> u32 {
 
 fn nearer_ring(k: u32, reach: u32, goal: u32, end: u32, form: u32, scale: u32) -> u32 {
     let next = min(k + reach, end);
-    return select(k, next, next * (form - scale * next) <= goal); // mark: nearer_ring
+    return select(k, next, next * (form - scale * next) <= goal);
 }
 
 // Step `step` along edge `edge` of a ring: a point, or a triangle between that ring and the one
@@ -117,6 +117,6 @@ fn location_on_edges(ring: u32, rest: u32, begin_1: u32, begin_2: u32, size_2: u
 
 // The first step of the next edge.
 fn next_edge(location: RingLocation) -> RingLocation {
-    let is_last = location.edge + 1u == EDGES; // mark: next_edge
+    let is_last = location.edge + 1u == EDGES;
     return RingLocation(select(location.ring, location.ring + 1u, is_last), select(location.edge + 1u, 0u, is_last), 0u);
 }

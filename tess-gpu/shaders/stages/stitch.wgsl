@@ -62,7 +62,7 @@ fn stitch_triangles(stitch: Stitch, number: u32) -> Pair {
         b = inner_vertex(stitch, b);
     }
     return Pair(
-        oriented(a, b, c, (steps & 0x100u) != 0u), // mark: stitch_triangles
+        oriented(a, b, c, (steps & 0x100u) != 0u),
         oriented(
             select(c, a, first_inner), select(b, c, first_inner), d, (steps & 0x1000000u) != 0u));
 }

@@ -11,7 +11,7 @@ fn slot_of(topology: vec2<u32>, size: vec2<u32>) -> u32 {
     var at = (key * 0x9e3779b9u) >> (32u - SLOT_BITS);
     for (var probe = 0u; probe < 16u; probe++) {
         let found = atomicLoad(&catalogue[at]);
-        if found == key { // mark: slot_of
+        if found == key {
             return at + 1u;
         }
         if found == 0u {

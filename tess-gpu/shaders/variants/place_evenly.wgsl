@@ -10,8 +10,8 @@ fn context_of(patch_index: u32, factor: u32, points: u32) -> vec2<u32> {
 fn place(context: vec2<u32>, position: u32) -> u32 {
     let mirror = context.x - position;
     let x = min(position, mirror) * context.y;
-    let location = select(x, ONE - x, position > mirror); // mark: place_2
-    return select(location, HALF, position == mirror); // mark: place_3
+    let location = select(x, ONE - x, position > mirror);
+    return select(location, HALF, position == mirror);
 }
 
 // The same for a position in the first half.
