@@ -40,12 +40,12 @@ impl Machine {
         Self { gpu, tessellator }
     }
 
-    /// Plants a fault in the shaders, of which at least one must have its mark.
+    /// Plants a fault in the shaders, of which at least one must have its right line.
     pub(crate) fn plant(&mut self, setup: Setup, name: &str) {
         let fault = Fault::named(name).unwrap_or_else(|| panic!("no fault is called {name}"));
         let sources = Stage::ALL.map(|stage| stage.source(setup));
         let takes_it = |source: &String| fault.planted(source).is_some();
-        assert!(sources.iter().any(takes_it), "{name} is the mark of no line");
+        assert!(sources.iter().any(takes_it), "{name}: no shader has its right line");
         let edit = move |_, source: String| fault.planted(&source).unwrap_or(source);
         self.tessellator = Tessellator::with_edit(&self.gpu.device, edit);
     }
