@@ -54,7 +54,12 @@ impl Wrongs {
     }
 
     /// The pointer of an output buffer of a capacity. With none, anything may be wrong with it.
-    pub(super) fn room<T>(&mut self, bytes: &mut Bytes<'_>, good: *mut T, capacity: usize) -> *mut T {
+    pub(super) fn room<T>(
+        &mut self,
+        bytes: &mut Bytes<'_>,
+        good: *mut T,
+        capacity: usize,
+    ) -> *mut T {
         let mut ignored = Self::default();
         if capacity == 0 { ignored.pointer(bytes, good) } else { self.pointer(bytes, good) }
     }
