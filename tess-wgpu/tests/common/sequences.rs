@@ -55,3 +55,15 @@ fn pasted(names: &str, calls: &[impl Debug]) -> String {
     let lines: String = calls.iter().map(|call| format!("        {call:?},\n")).collect();
     format!("#[test]\nfn found() {{\n    use {names};\n    replay(&[\n{lines}    ]);\n}}")
 }
+
+/// Says what differs.
+pub(crate) fn equal<T: PartialEq + Debug>(
+    what: &str,
+    observed: T,
+    expected: T,
+) -> Result<(), String> {
+    if observed == expected {
+        return Ok(());
+    }
+    Err(format!("{what}: observed {observed:?}, expected {expected:?}"))
+}

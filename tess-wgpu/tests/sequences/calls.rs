@@ -89,6 +89,8 @@ pub(crate) enum Kind {
     Any,
     /// Factors up to 3.
     Tiny,
+    /// The same, but seven of eight are culled.
+    Sparse,
     /// All factors from 40 to 66; not many.
     Large,
 }
@@ -103,7 +105,8 @@ impl Patches {
         while all.len() < count {
             let (length, patch) = match self.kind {
                 Kind::Culled => (1, PatchFactors::uniform(domain, 0.0)),
-                Kind::Tiny => {
+                Kind::Sparse if all.len() % 8 != 0 => (1, PatchFactors::uniform(domain, 0.0)),
+                Kind::Tiny | Kind::Sparse => {
                     let factors = [0.0, 1.0, 1.0, 1.5, 2.0, 3.0];
                     let mut factor = |_| factors[random.below(6) as usize];
                     (1, PatchFactors::from_fn(domain, &mut factor))

@@ -69,7 +69,7 @@ fn any_sequence_of_calls_gives_the_models_words() {
     let (mut machine, mut kept) = (Machine::open(), Kept::default());
     let setups = setups();
     let names = "{calls::{Call::*, Kind::*, Output::*, Then::*, Wrong::*}, tess_core::Domain::*}";
-    sequences::hold(names, (80, 20), calls::call(setups.len()), |calls| {
+    sequences::hold(names, (150, 20), calls::call(setups.len()), |calls| {
         replayed(&mut machine, &mut kept, &setups, calls)
     });
 }

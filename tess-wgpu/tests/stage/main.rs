@@ -5,7 +5,6 @@
 mod ball;
 #[path = "../../examples/shared/bindings.rs"]
 mod bindings;
-mod calls;
 #[path = "../../examples/shared/camera.rs"]
 mod camera;
 #[path = "../common/mod.rs"]

@@ -20,6 +20,8 @@ pub(crate) enum Call {
     Group { groups: u32 },
     /// A frame of the first `count` patches.
     Frame { count: u32, from: Count, draw: Draw, then: Then },
+    /// What was prepared last is drawn again, if it ran.
+    Again { draw: Draw },
     /// The oldest frame that was kept is submitted.
     Late,
     /// Makes the room that a frame needs.
@@ -150,7 +152,8 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = Call> + Clone {
             .prop_map(|(seed, is_dropped)| Call::Give { seed, is_dropped }),
         2 => (0..8_u32, any::<bool>()).prop_map(|(by, is_bound)| Call::Move { by, is_bound }),
         3 => (0..6_u32).prop_map(|groups| Call::Group { groups }),
-        9 => (0..9_u32, from, draw, then)
+        2 => draw.clone().prop_map(|draw| Call::Again { draw }),
+        9 => (prop_oneof![Just(crate::scene::PATCHES), 0..9_u32], from, draw, then)
             .prop_map(|(count, from, draw, then)| Call::Frame { count, from, draw, then }),
         1 => Just(Call::Late),
         1 => (0..9_u32).prop_map(|count| Call::MakeRoom { count }),
