@@ -3,8 +3,8 @@
 use crate::data::output::PatchRange;
 use core::mem::take;
 
-/// The ranges of patches, written from front to back where the caller wants them. Nobody can read them back, so that
-/// nothing depends on whether they are there.
+/// The ranges of patches, written from front to back where the caller wants them. Nobody can ask whether they are there
+/// or how many are left, so that nothing depends on it.
 #[derive(Debug)]
 pub(crate) struct Ranges<'a>(Option<&'a mut [PatchRange]>);
 
@@ -14,20 +14,21 @@ impl<'a> Ranges<'a> {
         Self(all)
     }
 
-    /// Writes the next ranges.
-    pub(crate) fn put(&mut self, ranges: &[PatchRange]) {
-        if let Some(next) = self.next(ranges.len()) {
-            next.copy_from_slice(ranges);
-        }
+    /// Room for the next ranges, to be written before it is read: the caller's, or all of `own`, which has as many.
+    pub(crate) fn next_or<'b>(&mut self, own: &'b mut [PatchRange]) -> &'b mut [PatchRange]
+    where
+        'a: 'b,
+    {
+        self.next(own.len()).unwrap_or(own)
     }
 
-    /// Writes the next `times` ranges: the first one, and those of patches of the same sizes behind it.
-    pub(crate) fn repeat(&mut self, first: PatchRange, times: usize) {
-        let mut range = first;
-        for next in self.next(times).unwrap_or_default() {
-            *next = range;
+    /// Writes the next ranges: those of `more` patches that follow a patch and have its sizes.
+    pub(crate) fn repeat(&mut self, patch: PatchRange, more: usize) {
+        let mut range = patch;
+        for next in self.next(more).unwrap_or_default() {
             range.first_point = range.first_point.wrapping_add(range.points);
             range.first_index = range.first_index.wrapping_add(range.indices);
+            *next = range;
         }
     }
 

@@ -59,7 +59,7 @@ struct Memory {
 #[derive(Clone, Debug)]
 struct ChunkMemory {
     packets: [Packet; Chunk::PACKETS],
-    /// Where the output of a chunk's patches lies.
+    /// The ranges of a chunk, where the caller wants none.
     ranges: [PatchRange; Chunk::PATCHES],
 }
 
@@ -220,17 +220,15 @@ fn emit_as<I: IndexFormat>(
             levels::process(level, settings.config, &batch, &mut own.packets);
             (stretch, &own.packets)
         };
-        let own_ranges = &mut own.ranges[..patches];
-        let packets = Packets { packets, first, numbering, ranges: own_ranges };
+        let ranges_here = ranges.next_or(&mut own.ranges[..patches]);
+        let packets = Packets { packets, first, numbering, ranges: &mut *ranges_here };
         let room = Room { points: points.writer(), indices: &mut *indices };
         let mut end = levels::emit(level, settings, packets, room, caches, lookup);
         if times > 1 {
-            let range = own.ranges[0];
+            let range = ranges_here[0];
             let room = Room { points: points.writer(), indices: &mut *indices };
             end = levels::repeat(level, Repeat { range, times, numbering }, room);
-            ranges.repeat(range, times);
-        } else {
-            ranges.put(&own.ranges[..patches]);
+            ranges.repeat(range, times - 1);
         }
         start += patches * times;
         points.skip((end.points - first.points) as usize);

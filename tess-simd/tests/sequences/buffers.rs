@@ -190,8 +190,8 @@ const NO_RANGE: PatchRange =
 /// Nothing if these ranges are the expected ones, and those behind untouched.
 fn check_ranges(found: &[PatchRange], expected: &[PatchRange]) -> Outcome {
     let all = expected.iter().chain(std::iter::repeat(&NO_RANGE));
-    let ranges = found.iter().zip(all).enumerate();
-    ranges.map(|(i, (a, b))| equal(&format!("range {i}"), a, b)).collect()
+    let mut ranges = found.iter().zip(all).enumerate();
+    ranges.try_for_each(|(i, (a, b))| equal(&format!("range {i}"), a, b))
 }
 
 /// As many elements as are needed and these beyond.

@@ -2,6 +2,7 @@
 
 use crate::calls::{Factors, Format};
 use crate::patches::Bits;
+use tess_core::fixed::types::U16F16;
 use tess_core::{Config, DomainPoint, Patch, PatchFactors};
 use tess_simd::{Order, PatchRange};
 
@@ -51,7 +52,7 @@ impl Column {
 
     fn shown(&self, bits: u32) -> String {
         match self.of {
-            Of::Point(Format::Fixed, _) => format!("{} ({bits:#x})", f64::from(bits) / 65536.0),
+            Of::Point(Format::Fixed, _) => format!("{} ({bits:#x})", U16F16::from_bits(bits)),
             Of::Point(..) => format!("{} ({bits:#x})", f32::from_bits(bits)),
             Of::Index(_) => format!("{bits} ({bits:#x})"),
         }
