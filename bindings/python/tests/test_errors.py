@@ -269,7 +269,13 @@ def test_parts_of_a_large_batch() -> None:
         assert (len(whole.points), len(whole.indices)) == (points.stop, indices.stop)
     with pytest.raises(ArgumentError, match="indices end at 65535"):
         tessellator.tessellate("quad", factors, base_vertex=0, indices="uint16")
-    with pytest.raises(OutputError, match="range buffer"):
-        tessellator.tessellate("quad", factors, out=(whole.points, whole.indices, whole.ranges[1:]))
-    with pytest.raises(OutputError, match="point buffer"):
-        tessellator.tessellate("quad", factors, out=(whole.points[1:], whole.indices))
+    with pytest.raises(ArgumentError, match="the index 4294967296, but"):
+        tessellator.tessellate("quad", factors, base_vertex=2**32 + 1 - len(whole.points))
+    before = whole.indices[:5000].copy()
+    for given, message in [
+        ((whole.points, whole.indices, whole.ranges[1:]), "range buffer"),
+        ((whole.points[1:], whole.indices), "point buffer"),
+    ]:
+        with pytest.raises(OutputError, match=message):
+            tessellator.tessellate("quad", factors, out=given)
+        np.testing.assert_array_equal(whole.indices[:5000], before, "nothing is written")

@@ -92,9 +92,22 @@ class Expected:
 
     def equals(self, batch: Any, base_vertex: Optional[int]) -> None:
         exact = batch.points if batch.points.dtype == np.uint32 else batch.points.astype(np.float64) * 65536
-        np.testing.assert_array_equal(batch.ranges, self.ranges)
-        np.testing.assert_array_equal(exact, self.points)
-        np.testing.assert_array_equal(batch.indices, self.indices(base_vertex))
+        self.same("range", batch.ranges, self.ranges, np.arange(len(self.ranges)))
+        self.same("point", exact, self.points, self.ranges[:, 0])
+        self.same("index", batch.indices, self.indices(base_vertex), self.ranges[:, 2])
+
+    def same(self, what: str, observed: Array, expected: Array, firsts: Array) -> None:
+        """Names the first element that differs, and its patch by the bits of its factors."""
+        assert observed.shape == expected.shape, f"{what}: {observed.shape}, expected {expected.shape}"
+        differs = (observed != expected).any(axis=1) if expected.ndim > 1 else observed != expected
+        if differs.any():
+            at = int(differs.argmax())
+            patch = int(np.searchsorted(firsts, at, "right")) - 1
+            factors = " ".join(f"{bits:08x}" for bits in self.factors[patch])
+            raise AssertionError(
+                f"patch {patch} of {len(firsts)} ({factors}), {what} {at - firsts[patch]}: "
+                f"observed {observed[at]}, expected {expected[at]}"
+            )
 
     def arrays(self, points: str, indices: str, rooms: "list[str]") -> "list[Array]":
         """Arrays to write, full of canaries."""
@@ -243,13 +256,20 @@ class Calls(RuleBasedStateMachine):
 
 
 def on_threads(call: "Callable[[], Any]", count: int) -> "list[Any]":
+    """What a call gives in so many threads that begin together, each a few times."""
     results: "list[Any]" = []
-    threads = [threading.Thread(target=lambda: results.append(call())) for _ in range(count)]
+    begin = threading.Barrier(count)
+
+    def work() -> None:
+        begin.wait()
+        results.extend(call() for _ in range(3))
+
+    threads = [threading.Thread(target=work) for _ in range(count)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(results) == count, "a thread raised"
+    assert len(results) == 3 * count, "a thread raised"
     return results
 
 
