@@ -162,6 +162,16 @@ fn long_files_come_into_step_again() {
     answered.drain(1000..WINDOW);
     let report = check(&asked, &answered);
     assert_eq!(report.mismatches, (WINDOW - 1000 + 1000 + 1 + 10) as u64, "{report}");
+
+    let mut answered = asked.clone();
+    answered.splice(100..100, asked[2 * WINDOW..][..3000].iter().copied());
+    assert_eq!(check(&asked, &answered).mismatches, 3000, "most of a window is too many");
+
+    // The answers behind the gap are the last that are looked through, fewer than it is wide.
+    let mut answered = asked.clone();
+    answered[0] = asked[5000];
+    answered.drain(WINDOW - 6..WINDOW + 44);
+    assert_eq!(check(&asked, &answered).mismatches, 51, "a gap at the end of a window");
 }
 
 /// Answers that share nothing with what was asked take no longer than three times the time of right ones.

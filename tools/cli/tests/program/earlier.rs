@@ -152,6 +152,9 @@ fn what_is_another_file_is_kept() {
             assert_eq!(run.stdout, "", "{command} {option}");
         }
     }
+    // Another output goes all the same.
+    fs::write(folder.join("mine"), "thesis\n").expect("written");
+    left_nothing(&folder, "$TESS check e.txt --report mine --junit r.xml", &["--junit"]);
     // A file without a byte, as `mktemp` makes it, may become anything.
     fs::write(folder.join("mine"), "").expect("written");
     let run = tess_in(&folder, "check e.txt --report mine");

@@ -35,6 +35,9 @@ fn joined_values_are_other_values() {
     let run =
         merged(&[of(1, value!({ "a": ["1 b=2"] })), of(2, value!({ "a": ["1"], "b": ["2"] }))]);
     assert_eq!(run.code, Some(2), "{}", run.stdout);
+    let run = merged(&[of(1, value!({ "a": ["1 a=2"] })), of(2, value!({ "a": ["1", "2"] }))]);
+    let why = "an option is a=1 a=2; in stdin:1 it is a='1 a=2'";
+    assert!(run.stdout.contains(why), "{}", run.stdout);
     let run = merged(&[of(1, value!({ "a": ["1"] })), of(2, value!({ "a": ["1"] }))]);
     assert_eq!(run.code, Some(0), "{}", run.stdout);
 }
