@@ -52,7 +52,8 @@ fn unused(libraries: &[&str], files: &[(&str, String)]) -> (usize, Vec<String>) 
         for (path, text) in own.iter().filter(|(path, _)| !path.ends_with("tests.rs")) {
             for (line, kind, name) in items(text) {
                 all += 1;
-                if !used.contains(name) && !(TYPES.contains(&kind) && named.contains(name)) {
+                let is_named = TYPES.contains(&kind) && named.contains(name);
+                if !used.contains(name) && !is_named {
                     found.push(format!("{path}:{line}: {name}"));
                 }
             }

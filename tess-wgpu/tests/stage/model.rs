@@ -108,9 +108,8 @@ fn shown([u, v, number, is_drawn]: Pixel) -> String {
 pub(crate) fn compare_factors(observed: &[u32], patches: &[PatchFactors]) -> Result<(), String> {
     let expected = factor_words(patches);
     let each = expected.len() / patches.len().max(1);
-    for (i, (is, right)) in
-        observed.iter().zip(&expected).enumerate().filter(|(_, (is, right))| is != right)
-    {
+    let mut pairs = observed.iter().zip(&expected).enumerate();
+    if let Some((i, (is, right))) = pairs.find(|(_, (is, right))| is != right) {
         let (patch, factor) = (i / each, i % each);
         let [a, b] = [is, right].map(|bits| f32::from_bits(*bits));
         return Err(format!(
