@@ -24,12 +24,14 @@ pub(crate) fn hold<C: Clone + Debug>(
     run: impl FnMut(&[C]) -> Result<u64, String>,
 ) {
     let (begin, mut sequences) = (Instant::now(), 0_u64);
+    // The clock is looked at after so many.
+    let cases = if long().is_some() { 10 } else { short };
     let (run, words) = (RefCell::new(run), Cell::new(0_u64));
     for seed in 0_u64.. {
         let mut bytes = [0; 32];
         bytes[..8].copy_from_slice(&seed.to_le_bytes());
         let rng = TestRng::from_seed(RngAlgorithm::ChaCha, &bytes);
-        let config = Config { cases: short, failure_persistence: None, ..Config::default() };
+        let config = Config { cases, failure_persistence: None, ..Config::default() };
         let outcome =
             TestRunner::new_with_rng(config, rng).run(&vec(call.clone(), 1..=most), |calls| {
                 let compared = (run.borrow_mut())(&calls).map_err(TestCaseError::fail)?;
@@ -37,7 +39,7 @@ pub(crate) fn hold<C: Clone + Debug>(
                 Ok(())
             });
         match outcome {
-            Ok(()) => sequences += u64::from(short),
+            Ok(()) => sequences += u64::from(cases),
             Err(TestError::Fail(reason, calls)) => panic!("{reason}\n\n{}", pasted(names, &calls)),
             Err(TestError::Abort(reason)) => panic!("seed {seed}: {reason}"),
         }
