@@ -8,6 +8,7 @@ mod captures;
 mod check;
 #[cfg(unix)]
 mod coverage;
+mod crossed;
 #[cfg(unix)]
 mod distinct;
 mod draw;
