@@ -4,12 +4,14 @@
 //! cargo bench -p tess-benches --bench core -- --save-baseline before
 //! cargo bench -p tess-benches --bench core -- --baseline before
 //! cargo bench -p tess-benches --bench simd -- terrain
+//! cargo bench -p tess-benches --bench kernels -- stages/points
 //! cargo bench -p tess-benches --bench surface
 //! ```
 //!
 //! A [`Case`] is a workload's first batch of the working set `cache` with buffers for its output.
 //! The digest of its output is compared with the random-access formulation before it is timed, and by
-//! `cargo test`. The bench `simd` fills the same bytes beside each workload. The program `gpu` measures the GPU backend.
+//! `cargo test`. The bench `simd` fills the same bytes beside each workload, `kernels` times single stages beside the
+//! model's. The program `gpu` measures the GPU backend.
 
 use std::ops::Range;
 use tess_core::{BufferTooSmall, DomainPoint, Patch};

@@ -2,6 +2,8 @@
 
 pub(crate) mod counted;
 pub(crate) mod groups;
+#[cfg(all(feature = "taps", feature = "apart"))]
+pub(crate) mod kernel_taps;
 pub(crate) mod one_patch;
 pub(crate) mod owned;
 #[cfg(feature = "taps")]

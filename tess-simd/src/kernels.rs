@@ -5,6 +5,8 @@
 
 pub(crate) mod emit;
 pub(crate) mod front_end;
+#[cfg(all(feature = "taps", feature = "apart"))]
+pub(crate) mod kernel_taps;
 pub(crate) mod repeat;
 #[cfg(feature = "taps")]
 pub(crate) mod taps;

@@ -156,3 +156,41 @@ mod taps {
         fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) = kernels::taps::locations;
     }
 }
+
+/// Kernels on their own.
+#[cfg(all(feature = "taps", feature = "apart"))]
+pub(crate) use alone::{compact_points, of_indices, of_numbers, of_patches, of_points};
+
+#[cfg(all(feature = "taps", feature = "apart"))]
+mod alone {
+    use crate::at_each_level;
+    use crate::data::format::IndexFormat;
+    use crate::data::point_writer::PointWriter;
+    use crate::kernels::kernel_taps::{self, Kernel, Made, Work};
+
+    at_each_level! {
+        /// [`kernel_taps::of_numbers`] at a level.
+        fn of_numbers(kernel: Kernel, work: &Work, made: &mut Made) = kernel_taps::of_numbers;
+    }
+
+    at_each_level! {
+        /// [`kernel_taps::of_patches`] at a level.
+        fn of_patches(kernel: Kernel, work: &Work, made: &mut Made) = kernel_taps::of_patches;
+    }
+
+    at_each_level! {
+        /// Points of compact patches as [`super::emit`] makes them.
+        fn compact_points(work: &Work, made: &mut Made) = kernel_taps::compact_by_lookup,
+            avx512 = kernel_taps::compact_by_permutes;
+    }
+
+    at_each_level! {
+        /// [`kernel_taps::of_points`] at a level.
+        fn of_points<W: PointWriter>(work: &Work, out: W) = kernel_taps::of_points;
+    }
+
+    at_each_level! {
+        /// [`kernel_taps::of_indices`] at a level.
+        fn of_indices<I: IndexFormat>(work: &Work, indices: &mut [I]) = kernel_taps::of_indices;
+    }
+}

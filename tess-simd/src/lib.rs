@@ -22,10 +22,16 @@ pub use data::output::ApartBuffers;
 pub use data::output::{BatchCounts, Buffers, ExactOutput, Numbering, Output, PatchRange};
 pub use interface::counted::Counted;
 pub use interface::groups::{BadGroup, group_ranges};
+#[cfg(all(feature = "taps", feature = "apart"))]
+#[doc(hidden)]
+pub use interface::kernel_taps::{Format, Input, Tap};
 pub use interface::one_patch::CountedPatch;
 pub use interface::owned::OwnedBatch;
 #[cfg(feature = "taps")]
 pub use interface::taps::{contexts, fixed_factors, locations};
 pub use interface::tessellator::Tessellator;
+#[cfg(all(feature = "taps", feature = "apart"))]
+#[doc(hidden)]
+pub use kernels::kernel_taps::Kernel;
 pub use tess_core;
 pub use tess_core::Order;

@@ -38,7 +38,7 @@ const SUBJECTS: &[Subject] = &[
         passes: &[
             // Without `std` the kernels are compiled for one CPU level alone.
             Pass {
-                tests: "-C=--no-default-features -C=--features=taps -C=--test=baseline",
+                tests: "-C=--no-default-features -C=--features=taps,apart -C=--test=baseline -C=--test=kernels",
                 files: &[],
             },
             Pass {

@@ -164,7 +164,7 @@ fn is_greater(x: f32, low: f32) -> bool {
 
 /// Steps 2 and 5, for `0.0 <= low <= high`; NaN gives `low`.
 #[inline(always)]
-fn clamp(x: f32, low: f32, high: f32) -> f32 {
+pub(crate) fn clamp(x: f32, low: f32, high: f32) -> f32 {
     let [bits, low, high] = [x, low, high].map(|number| number.to_bits().cast_signed());
     let bits = if bits > INFINITY { 0 } else { bits };
     f32::from_bits(bits.max(low).min(high).cast_unsigned())
@@ -217,7 +217,7 @@ fn fractions<const ALL: usize>(clamped: &Column<f32>) -> Column {
 /// The ceiling of a number in 0..2^22: the nearest integer, one more if that lies below.
 #[inline(always)]
 #[expect(clippy::float_arithmetic, reason = "sums below 2^24 round to the nearest integer")]
-fn ceil(x: f32) -> u32 {
+pub(crate) fn ceil(x: f32) -> u32 {
     let sum = x + TWO_POW_23;
     (sum.to_bits() & MANTISSA) + u32::from(sum - TWO_POW_23 < x)
 }
@@ -228,7 +228,7 @@ fn ceil(x: f32) -> u32 {
 /// adding rounds to the nearest one, ties to even, and leaves it in the mantissa.
 #[inline(always)]
 #[expect(clippy::float_arithmetic, reason = "the rounding of the sum is the conversion's own")]
-fn to_fixed(x: f32) -> u32 {
+pub(crate) fn to_fixed(x: f32) -> u32 {
     (x * 65536.0 + TWO_POW_23).to_bits() & MANTISSA
 }
 

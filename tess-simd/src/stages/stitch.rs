@@ -9,6 +9,8 @@ mod shared;
 mod step_code;
 mod tables;
 
+#[cfg(all(feature = "taps", feature = "apart"))]
+pub(crate) use rows::Codes;
 pub(crate) use rows::{Replaced, Rows};
 pub(crate) use shared::SharedStitches;
 pub(crate) use tables::Stitches;

@@ -23,7 +23,7 @@ pub(crate) struct LocationTables {
 }
 
 /// The locations along each factor's edge or axis, in the order of the factors.
-pub(super) type FactorLocations<'a> = [&'a Locations; MAX_FACTORS];
+pub(crate) type FactorLocations<'a> = [&'a Locations; MAX_FACTORS];
 
 impl LocationTables {
     pub(crate) const EMPTY: Self = Self { keys: [0; SLOTS], tables: Vec::new() };
@@ -40,7 +40,7 @@ impl LocationTables {
 
     /// The locations of a patch, computed where they are not there yet.
     #[inline(always)]
-    pub(super) fn of(&mut self, patch: PacketPatch<'_>) -> FactorLocations<'_> {
+    pub(crate) fn of(&mut self, patch: PacketPatch<'_>) -> FactorLocations<'_> {
         let integer = patch.integer();
         let slot = |factor| {
             if integer { MAX_FACTORS + patch.edge_points(factor) as usize % COUNTS } else { factor }

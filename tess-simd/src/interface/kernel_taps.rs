@@ -1,0 +1,308 @@
+//! One stage or kernel over inputs of one's own, for comparison and for timing: see `tests/kernels/table.rs`.
+
+mod words;
+
+use crate::data::batch::Batch;
+use crate::data::chunk::Chunk;
+use crate::data::format::IndexFormat;
+use crate::data::lanes::{Column, LANES, MAX_FACTORS};
+use crate::data::level::{Level, LevelUnavailable};
+use crate::data::output::{Numbering, PatchRange};
+use crate::data::point_writer::PointRoom;
+use crate::kernels::emit::{Caches, Offsets, Packets, Room};
+use crate::kernels::kernel_taps::{Kernel, Made, Work};
+use crate::kernels::repeat::Repeat;
+use crate::levels;
+use crate::stages::counts::PartCounts;
+use crate::stages::packet::{OnePatch, Packet};
+use crate::stages::points::Lookup;
+use crate::stages::settings::Settings;
+use alloc::vec::Vec;
+use tess_core::fixed_point::ONE;
+use tess_core::{
+    Config, Counts, Domain, DomainPoint, FactorContext, FixedFactor, Order, Parity, PatchFactors,
+};
+
+/// The formats that points and indices are written in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "as the formats are called")]
+pub enum Format {
+    #[default]
+    FixedU32,
+    F32U16,
+    F32U32,
+    ApartU32,
+}
+
+/// What a kernel is run on.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// The configuration.
+    pub config: Config,
+    /// The order of triangles.
+    pub order: Order,
+    /// The parity of factors that come as numbers.
+    pub parity: Parity,
+    /// The number of the first point, in both numberings.
+    pub base: u32,
+    /// How indices count.
+    pub per_batch: bool,
+    /// The formats of points and indices.
+    pub format: Format,
+    /// The numbers that a stage of numbers takes, a multiple of 16. Others take from their bytes, highest first:
+    ///
+    /// - stitches: what it is (0 transition, 1 ring, 2 strip, 3 strip except in the middle), outer points, and
+    ///   inside points, inner points or quads;
+    /// - rows: a stitch; first indices of the outer and the inner row; whether both run up, the entries of the outer
+    ///   and of the inner row that are replaced (255: none), whether the inner row runs down; what replaces them;
+    /// - writers: a method, the place of the first source, two bytes of the length;
+    /// - repeating: points, indices and times of each run.
+    pub numbers: Vec<u32>,
+    /// The patches that other kernels take, at most 64 of one domain.
+    pub patches: Vec<PatchFactors>,
+    /// How much is written: points, indices.
+    pub sizes: [usize; 2],
+}
+
+/// A kernel at a level with its input, ready to run.
+#[derive(Debug)]
+pub struct Tap {
+    kernel: Kernel,
+    level: Level,
+    format: Format,
+    numbering: Numbering,
+    work: Work,
+    made: Made,
+    caches: Caches,
+    kept: [Packet; Chunk::PACKETS],
+    part: PartCounts,
+    ones: Vec<Counts>,
+    one: OnePatch,
+}
+
+impl Tap {
+    /// Takes an input up to the kernel.
+    ///
+    /// # Errors
+    /// [`LevelUnavailable`] if this machine cannot run the level.
+    pub fn new(kernel: Kernel, level: Level, input: &Input) -> Result<Self, LevelUnavailable> {
+        level.require()?;
+        let base_vertex = input.base;
+        let mut tap = Self {
+            kernel,
+            level,
+            format: input.format,
+            numbering: if input.per_batch {
+                Numbering::PerBatch { base_vertex }
+            } else {
+                Numbering::PerPatch
+            },
+            work: work(kernel, level, input),
+            made: Made::new(),
+            caches: Caches::new(),
+            kept: [Packet::EMPTY; _],
+            part: PartCounts::default(),
+            ones: Vec::new(),
+            one: OnePatch::CULLED,
+        };
+        tap.make_room(input.sizes);
+        Ok(tap)
+    }
+
+    /// Exactly the room that is written.
+    fn make_room(&mut self, sizes: [usize; 2]) {
+        let [points, indices] = sizes;
+        let Self { kernel, format, made, .. } = self;
+        // Repeating begins with the places' numbers. What other kernels leave unwritten has none of their output.
+        let flip = if *kernel == Kernel::Repeat { 0 } else { u32::MAX };
+        let number = |i: usize| u32::try_from(i).unwrap_or(u32::MAX) ^ flip;
+        let points = 0..if *kernel == Kernel::Codes { 0 } else { points };
+        match *format {
+            Format::FixedU32 => {
+                made.points = points.map(|i| DomainPoint::from_bits(number(i), ONE)).collect();
+            }
+            Format::F32U16 | Format::F32U32 => {
+                made.floats = points.map(|i| [f32::from_bits(number(i)), 1.0]).collect();
+            }
+            Format::ApartU32 => {
+                let ones = points.clone().map(|_| 1.0).collect();
+                made.apart = [points.map(|i| f32::from_bits(number(i))).collect(), ones];
+            }
+        }
+        let indices = (0..indices).map(number);
+        if *format == Format::F32U16 || matches!(*kernel, Kernel::ConnectU16 | Kernel::RowsU16) {
+            made.narrow = indices.map(u16::wrapping_from).collect();
+        } else {
+            made.indices = indices.collect();
+        }
+        if *kernel == Kernel::Codes {
+            made.codes.resize(sizes[0], [u16::MAX; 2]);
+        }
+        made.ranges.resize(self.work.patches.len(), PatchRange::default());
+    }
+
+    /// Runs the kernel over the input.
+    pub fn run(&mut self) {
+        let Self { kernel, level, work, made, .. } = self;
+        match *kernel {
+            Kernel::Process
+            | Kernel::Count
+            | Kernel::CountAndKeep
+            | Kernel::ProcessOne
+            | Kernel::Emit
+            | Kernel::EmitOne
+            | Kernel::Repeat
+            | Kernel::WritePoints
+            | Kernel::WriteIndices => self.run_kernel(),
+            Kernel::CompactPoints => levels::compact_points(*level, work, made),
+            kernel if is_of_patches(kernel) => levels::of_patches(*level, kernel, work, made),
+            kernel => levels::of_numbers(*level, kernel, work, made),
+        }
+    }
+
+    fn run_kernel(&mut self) {
+        let Self { kernel, level, work, kept, part, .. } = self;
+        let (config, batch) = (work.settings.config, Batch::from(&work.patches));
+        match *kernel {
+            Kernel::Process => levels::process(*level, config, &batch, kept),
+            Kernel::Count => *part = levels::count(*level, config, &batch),
+            Kernel::CountAndKeep => *part = levels::count_and_keep(*level, config, &batch, kept),
+            Kernel::ProcessOne => {
+                self.ones.clear();
+                for &factors in &work.patches {
+                    let counts = levels::process_one(*level, config, factors, &mut self.one);
+                    self.ones.push(counts);
+                }
+            }
+            _ => self.write(),
+        }
+    }
+
+    /// Writes points and indices in their formats.
+    fn write(&mut self) {
+        let Self { kernel, level, format, numbering, work, made, caches, .. } = self;
+        let (kernel, level, numbering) = (*kernel, *level, *numbering);
+        let Made { points, floats, apart, indices, narrow, ranges, lookup, words, .. } = made;
+        let mut to = To { kernel, level, numbering, work, caches, lookup, ranges };
+        let end = match format {
+            Format::FixedU32 => to.write(&mut points[..], indices),
+            Format::F32U32 => to.write(&mut floats[..], indices),
+            Format::F32U16 => to.write(&mut floats[..], narrow),
+            Format::ApartU32 => to.write(apart.each_mut().map(|array| &mut array[..]), indices),
+        };
+        words.clear();
+        if matches!(kernel, Kernel::Emit | Kernel::Repeat) {
+            words.extend([end.points, end.indices]);
+        }
+    }
+}
+
+/// Where kernels write to, but for the formats.
+struct To<'a> {
+    kernel: Kernel,
+    level: Level,
+    numbering: Numbering,
+    work: &'a Work,
+    caches: &'a mut Caches,
+    lookup: &'a mut Lookup,
+    ranges: &'a mut [PatchRange],
+}
+
+impl To<'_> {
+    /// Runs the kernel; returns where its output ends.
+    fn write<I: IndexFormat>(
+        &mut self,
+        mut points: impl PointRoom,
+        mut indices: &mut [I],
+    ) -> Offsets {
+        let Self { kernel, level, numbering, work, caches, lookup, ranges } = self;
+        let (settings, packets) = (&work.settings, &work.packets[..]);
+        let mut end = Offsets::default();
+        match kernel {
+            Kernel::WritePoints => levels::of_points(*level, work, points.writer()),
+            Kernel::WriteIndices => levels::of_indices(*level, work, indices),
+            Kernel::EmitOne => {
+                for packet in packets {
+                    let patch = packet.patch(0);
+                    let out = (points.writer(), &mut *indices);
+                    levels::emit_one(*level, settings, packet, out, caches, lookup);
+                    points.skip(patch.points() as usize);
+                    indices = indices.split_at_mut(patch.indices() as usize).1;
+                }
+            }
+            Kernel::Repeat => {
+                for &[point_count, index_count, times] in work.numbers.as_chunks::<3>().0 {
+                    let range = PatchRange {
+                        first_point: end.points,
+                        points: point_count,
+                        first_index: end.indices,
+                        indices: index_count,
+                    };
+                    let times = times as usize;
+                    let repeat = Repeat { range, times, numbering: *numbering };
+                    let room = Room { points: points.writer(), indices: &mut *indices };
+                    end = levels::repeat(*level, repeat, room);
+                    points.skip(point_count as usize * times);
+                    indices = indices.split_at_mut(index_count as usize * times).1;
+                }
+            }
+            _ => {
+                let packets = Packets { packets, first: end, numbering: *numbering, ranges };
+                let room = Room { points: points.writer(), indices };
+                end = levels::emit(*level, settings, packets, room, caches, lookup);
+            }
+        }
+        end
+    }
+}
+
+/// What the kernel reads: its input, after the stages before it.
+fn work(kernel: Kernel, level: Level, input: &Input) -> Work {
+    let Input { config, order, parity, base, numbers, patches, .. } = input.clone();
+    let settings = Settings { order, ..Settings::new(config) };
+    let domain = patches.first().map_or(Domain::Quad, PatchFactors::domain);
+    let context =
+        |&bits: &u32| FactorContext::new(FixedFactor::from_bits(bits), parity, config.split);
+    let contexts = if matches!(kernel, Kernel::Place | Kernel::PlaceInHalf) {
+        numbers.iter().map(context).collect()
+    } else {
+        Vec::new()
+    };
+    let raw = patches.chunks(LANES).map(raw_column).collect();
+    let at_once = if kernel == Kernel::EmitOne { 1 } else { Chunk::PATCHES };
+    let packets = patches.chunks(at_once).flat_map(|patches| {
+        let mut packets = [Packet::EMPTY; Chunk::PACKETS];
+        levels::process(level, config, &Batch::from(patches), &mut packets);
+        packets.into_iter().take(patches.len().div_ceil(LANES))
+    });
+    let packets = packets.collect();
+    Work { settings, parity, numbers, contexts, domain, patches, raw, packets, base }
+}
+
+/// The raw factors of up to sixteen patches, factor by factor.
+fn raw_column(patches: &[PatchFactors]) -> Column<f32> {
+    let mut column = [0.0; LANES * MAX_FACTORS];
+    for (lane, patch) in patches.iter().enumerate() {
+        patch.iter().enumerate().for_each(|(i, factor)| column[i * LANES + lane] = factor);
+    }
+    column
+}
+
+/// Whether a kernel is one of [`levels::of_patches`].
+const fn is_of_patches(kernel: Kernel) -> bool {
+    use Kernel::{CacheOrder, Codes, CompactTemplate, ConnectU16, ConnectU32};
+    use Kernel::{Points, RowsU16, RowsU32, Tables, Template};
+    matches!(
+        kernel,
+        CacheOrder
+            | Codes
+            | CompactTemplate
+            | ConnectU16
+            | ConnectU32
+            | Points
+            | RowsU16
+            | RowsU32
+            | Tables
+            | Template
+    )
+}

@@ -1,0 +1,145 @@
+//! Stages and kernels on their own, over many inputs: what [`crate::Tap`] runs.
+
+mod numbers;
+mod patches;
+mod writers;
+
+pub(crate) use numbers::of_numbers;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use patches::compact_by_permutes;
+pub(crate) use patches::{compact_by_lookup, of_patches};
+pub(crate) use writers::{of_indices, of_points};
+
+use crate::data::lanes::{Column, LANES};
+use crate::data::output::PatchRange;
+use crate::stages::counts::PacketCounts;
+use crate::stages::factors::{OneProcessed, Processed};
+use crate::stages::packet::{Packet, PacketPatch};
+use crate::stages::points::{Code, LocationTables, Lookup};
+use crate::stages::settings::Settings;
+use crate::stages::template::{CompactTemplates, Templates};
+use alloc::vec::Vec;
+use tess_core::{Domain, DomainPoint, FactorContext, Parity, PatchFactors};
+
+macro_rules! kernels {
+    ($($name:ident),* $(,)?) => {
+        /// The stages and kernels that a [`crate::Tap`] runs, each named after its file.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[expect(missing_docs, reason = "the table of `tests/kernels` says what each takes and gives")]
+        pub enum Kernel {
+            $($name),*
+        }
+
+        impl Kernel {
+            /// Each of them.
+            pub const ALL: &[Self] = &[$(Self::$name),*];
+        }
+    };
+}
+kernels!(
+    Reciprocal,
+    Clamp,
+    Ceil,
+    ToFixed,
+    PointCount,
+    Context,
+    Place,
+    PlaceInHalf,
+    Factors,
+    FactorsOfOne,
+    Counts,
+    Packet,
+    PacketOfOne,
+    Tables,
+    Points,
+    Codes,
+    CompactTemplate,
+    CompactPoints,
+    Template,
+    Stitches,
+    RowsU16,
+    RowsU32,
+    ConnectU16,
+    ConnectU32,
+    CacheOrder,
+    Float,
+    WritePoints,
+    WriteIndices,
+    Process,
+    Count,
+    CountAndKeep,
+    ProcessOne,
+    Emit,
+    EmitOne,
+    Repeat,
+);
+
+/// What taps read: [`crate::Input`], and what stages before make of it.
+#[derive(Debug)]
+pub(crate) struct Work {
+    pub(crate) settings: Settings,
+    pub(crate) parity: Parity,
+    pub(crate) numbers: Vec<u32>,
+    pub(crate) contexts: Vec<FactorContext>,
+    pub(crate) domain: Domain,
+    pub(crate) patches: Vec<PatchFactors>,
+    pub(crate) raw: Vec<Column<f32>>,
+    pub(crate) packets: Vec<Packet>,
+    pub(crate) base: u32,
+}
+
+impl Work {
+    /// The patches that are not culled.
+    #[inline(always)]
+    fn patches(&self) -> impl Iterator<Item = PacketPatch<'_>> {
+        let lanes = self.packets.iter().flat_map(|packet| (0..LANES).map(|i| packet.patch(i)));
+        lanes.filter(|patch| patch.points() != 0)
+    }
+}
+
+/// What taps make, and what they keep from patch to patch.
+#[derive(Debug)]
+pub(crate) struct Made {
+    pub(crate) words: Vec<u32>,
+    pub(crate) processed: Vec<Processed>,
+    pub(crate) ones: Vec<OneProcessed>,
+    pub(crate) counts: Vec<PacketCounts>,
+    pub(crate) packets: Vec<Packet>,
+    pub(crate) codes: Vec<Code>,
+    pub(crate) points: Vec<DomainPoint>,
+    pub(crate) floats: Vec<[f32; 2]>,
+    pub(crate) apart: [Vec<f32>; 2],
+    pub(crate) indices: Vec<u32>,
+    pub(crate) narrow: Vec<u16>,
+    pub(crate) ranges: Vec<PatchRange>,
+    pub(crate) tables: LocationTables,
+    pub(crate) templates: Templates,
+    pub(crate) compact: CompactTemplates,
+    pub(crate) lookup: Lookup,
+    /// Indices that are their own places.
+    pub(crate) places: Vec<u16>,
+}
+
+impl Made {
+    pub(crate) fn new() -> Self {
+        Self {
+            words: Vec::new(),
+            processed: Vec::new(),
+            ones: Vec::new(),
+            counts: Vec::new(),
+            packets: Vec::new(),
+            codes: Vec::new(),
+            points: Vec::new(),
+            floats: Vec::new(),
+            apart: [Vec::new(), Vec::new()],
+            indices: Vec::new(),
+            narrow: Vec::new(),
+            ranges: Vec::new(),
+            tables: LocationTables::EMPTY,
+            templates: Templates::new(),
+            compact: CompactTemplates::new(),
+            lookup: Lookup::new(),
+            places: (0..25_000).collect(),
+        }
+    }
+}

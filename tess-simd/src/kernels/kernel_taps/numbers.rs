@@ -1,0 +1,145 @@
+//! Stages of numbers, and of packets' raw factors.
+
+use super::Kernel;
+use super::{Made, Work};
+use crate::data::format::OutputPoint;
+use crate::data::lanes::LANES;
+use crate::kernels::taps::locations;
+use crate::stages::factor_context::{Context, point_count};
+use crate::stages::factors::{self, process_one, process_one_isoline};
+use crate::stages::packet::{Packet, packet_counts};
+use crate::stages::place::{Spacing, place_in_half};
+use crate::stages::reciprocal::reciprocal;
+use crate::stages::stitch::Codes;
+use alloc::vec::Vec;
+use tess_core::fixed_point::ONE;
+use tess_core::stitch::Diagonals;
+use tess_core::{Domain, Partitioning};
+
+/// Runs a stage whose input are numbers.
+#[inline(always)]
+pub(crate) fn of_numbers(kernel: Kernel, work: &Work, made: &mut Made) {
+    let (numbers, words) = (&work.numbers[..], &mut made.words);
+    words.clear();
+    let (odd, split) = (work.parity.odd(), work.settings.config.split);
+    match kernel {
+        Kernel::Reciprocal => columns(numbers, words, |n| [reciprocal(n)]),
+        Kernel::Clamp => {
+            let (low, high) = bounds(work.settings.config.partitioning);
+            let clamp = |x| factors::clamp(f32::from_bits(x), low, high);
+            columns(numbers, words, |x| [clamp(x).to_bits()]);
+        }
+        Kernel::Ceil => columns(numbers, words, |x| [factors::ceil(f32::from_bits(x))]),
+        Kernel::ToFixed => columns(numbers, words, |x| [factors::to_fixed(f32::from_bits(x))]),
+        Kernel::PointCount => columns(numbers, words, |fixed| [point_count(fixed, odd)]),
+        Kernel::Context => columns(numbers, words, |fixed| {
+            let made = Context::new(fixed, odd, split);
+            let Context { inv_floor, inv_ceil, fraction, half_points, split, points, .. } = made;
+            [inv_floor, inv_ceil, fraction, half_points, split, points]
+        }),
+        Kernel::Place => locations(&work.contexts, words),
+        Kernel::PlaceInHalf => {
+            for context in &work.contexts {
+                let spacing = Spacing::new(&Context::from(context));
+                let half = 0..context.points.div_ceil(2);
+                words.extend(half.map(|position| place_in_half(&spacing, position)));
+            }
+        }
+        Kernel::Float => {
+            columns(numbers, words, |x| <[f32; 2]>::from_bits(x, ONE - x).map(f32::to_bits));
+        }
+        Kernel::Stitches => {
+            for &number in numbers {
+                let Codes { codes, length } = stitch(work, number);
+                words.extend(codes[..length].iter().map(|&code| i32::from(code).cast_unsigned()));
+            }
+        }
+        _ => of_raw(kernel, work, made),
+    }
+}
+
+/// Runs a stage whose input are raw factors. Loops, as a closure in `extend` would miss the level's instructions.
+#[inline(always)]
+fn of_raw(kernel: Kernel, work: &Work, made: &mut Made) {
+    let config = work.settings.config;
+    match kernel {
+        Kernel::Factors => {
+            made.processed.clear();
+            for raw in &work.raw {
+                made.processed.push(factors::process(config, work.domain, raw));
+            }
+        }
+        Kernel::FactorsOfOne => {
+            made.ones.clear();
+            for factors in &work.patches {
+                let mut raw = [0.0; factors::FACTORS_AT_ONCE];
+                raw.iter_mut().zip(factors.iter()).for_each(|(raw, factor)| *raw = factor);
+                made.ones.push(match work.domain {
+                    Domain::Isoline => process_one_isoline(config.partitioning, &raw),
+                    Domain::Triangle => process_one::<3, 4>(config.partitioning, &raw),
+                    Domain::Quad => process_one::<4, 6>(config.partitioning, &raw),
+                });
+            }
+        }
+        Kernel::Counts => {
+            made.counts.clear();
+            for raw in &work.raw {
+                made.counts.push(packet_counts(config, work.domain, raw));
+            }
+        }
+        Kernel::Packet => {
+            made.packets.resize(work.raw.len(), Packet::EMPTY);
+            for (packet, raw) in made.packets.iter_mut().zip(&work.raw) {
+                packet.process(config, work.domain, raw);
+            }
+        }
+        Kernel::PacketOfOne => {
+            made.packets.resize(work.raw.len(), Packet::EMPTY);
+            for (packet, patches) in made.packets.iter_mut().zip(work.patches.chunks(LANES)) {
+                for (lane, &factors) in patches.iter().enumerate() {
+                    packet.process_one(config, lane, factors);
+                }
+            }
+        }
+        _ => debug_assert!(false, "{kernel:?} takes no numbers"),
+    }
+}
+
+/// The bounds of an inside factor beside factors of 3.
+const fn bounds(partitioning: Partitioning) -> (f32, f32) {
+    let (low, high) = partitioning.range();
+    let odd = matches!(partitioning, Partitioning::FractionalOdd);
+    (if odd { f32::from_bits(0x3F80_0080) } else { low }, high)
+}
+
+/// `f` of each number, a vector of them at a time: all first results, then all second ones.
+#[inline(always)]
+fn columns<const N: usize>(numbers: &[u32], words: &mut Vec<u32>, f: impl Fn(u32) -> [u32; N]) {
+    let all = numbers.len();
+    words.resize(N * all, 0);
+    for (block, numbers) in numbers.as_chunks::<LANES>().0.iter().enumerate() {
+        let mut made = [[0; LANES]; N];
+        for lane in 0..LANES {
+            let results = f(numbers[lane]);
+            for k in 0..N {
+                made[k][lane] = results[k];
+            }
+        }
+        for (k, made) in made.iter().enumerate() {
+            words[k * all + block * LANES..][..LANES].copy_from_slice(made);
+        }
+    }
+}
+
+/// The stitch of a number: see [`crate::Input::numbers`].
+#[inline(always)]
+pub(super) fn stitch(work: &Work, number: u32) -> Codes<'_> {
+    let [kind, outer, inner, _] = number.to_be_bytes().map(u32::from);
+    let stitches = &work.settings.stitches;
+    match kind {
+        0 => stitches.transition(outer, inner),
+        1 => stitches.ring(inner),
+        2 => stitches.strip(inner, Diagonals::Forward),
+        _ => stitches.strip(inner, Diagonals::ForwardExceptMiddle),
+    }
+}

@@ -1,0 +1,151 @@
+//! Stages of patches that went through the front end.
+
+use super::Kernel;
+use super::numbers::stitch;
+use super::{Made, Work};
+use crate::data::format::IndexFormat;
+use crate::data::writer::Writer;
+use crate::stages::connect::{self, cache_order};
+#[cfg(target_arch = "x86_64")]
+use crate::stages::packet::PacketPatch;
+use crate::stages::points::{self, CompactPoints, LocationTables, codes};
+#[cfg(target_arch = "x86_64")]
+use crate::stages::points::{
+    Code,
+    permute::{self, Permutes},
+};
+use crate::stages::stitch::{Replaced, Rows};
+use crate::stages::template::{CompactTemplates, long};
+use tess_core::DomainPoint;
+
+/// Runs a stage of patches.
+#[inline(always)]
+pub(crate) fn of_patches(kernel: Kernel, work: &Work, made: &mut Made) {
+    match kernel {
+        Kernel::Tables => {
+            made.words.clear();
+            for patch in work.patches() {
+                let tables = made.tables.of(patch);
+                for (factor, table) in tables.iter().enumerate().take(work.domain.factors()) {
+                    let points = patch.edge_points(factor) as usize;
+                    made.words.extend_from_slice(&table.from(0)[..points]);
+                }
+            }
+        }
+        Kernel::Points => {
+            let mut out = Writer::new(&mut made.points);
+            for patch in work.patches() {
+                points::emit(patch, &mut made.tables, &mut out);
+            }
+        }
+        Kernel::Codes => {
+            let mut all = &mut made.codes[..];
+            for patch in work.patches() {
+                let (here, rest) = all.split_at_mut(patch.points() as usize);
+                codes(work.domain, &patch.edges(), here);
+                all = rest;
+            }
+        }
+        Kernel::CompactTemplate | Kernel::Template => of_templates(kernel, work, made),
+        Kernel::ConnectU32 => connect_as(work, &mut made.indices),
+        Kernel::ConnectU16 => connect_as(work, &mut made.narrow),
+        Kernel::RowsU32 => rows_as(work, &mut made.indices),
+        Kernel::RowsU16 => rows_as(work, &mut made.narrow),
+        Kernel::CacheOrder => {
+            let mut out = Writer::new(&mut made.indices);
+            for patch in work.patches() {
+                let index = |place: u16| work.base.wrapping_add(place.into());
+                cache_order::emit(&work.settings, patch, &made.places, &mut out, index);
+            }
+        }
+        _ => debug_assert!(false, "{kernel:?} takes no patches"),
+    }
+}
+
+/// Copies what templates have.
+#[inline(always)]
+fn of_templates(kernel: Kernel, work: &Work, made: &mut Made) {
+    made.points.clear();
+    made.indices.clear();
+    let Made { tables, templates, compact, points, indices, .. } = made;
+    for patch in work.patches() {
+        let (point_count, index_count) = (patch.points() as usize, patch.indices() as usize);
+        if kernel == Kernel::CompactTemplate {
+            compact.make_room();
+            let start = compact.find(&work.settings, patch, tables, |_, code| code);
+            let template = compact.get(start);
+            indices.extend(template.indices[..index_count].iter().map(|&index| u32::from(index)));
+            if patch.integer() {
+                let all = template.points[..point_count].iter();
+                points.extend(all.map(|&point| long::<DomainPoint>(point)));
+            }
+        } else if let Some(template) = templates.get(&work.settings, patch, tables) {
+            indices.extend(template.indices[..index_count].iter().map(|&index| u32::from(index)));
+            points.extend_from_slice(template.points.map_or(&[], |all| &all[..point_count]));
+        }
+    }
+}
+
+#[inline(always)]
+fn connect_as<I: IndexFormat>(work: &Work, indices: &mut [I]) {
+    let mut out = Writer::new(indices);
+    for patch in work.patches() {
+        connect::emit(&work.settings, patch, work.base, &mut out);
+    }
+}
+
+/// Stitches between rows: see [`crate::Input::numbers`].
+#[inline(always)]
+fn rows_as<I: IndexFormat>(work: &Work, indices: &mut [I]) {
+    let mut out = Writer::new(indices);
+    for &[number, outer, inner, how, outer_index, inner_index] in work.numbers.as_chunks::<6>().0 {
+        let codes = stitch(work, number);
+        let [plain, outer_at, inner_at, down] = how.to_be_bytes();
+        if plain != 0 {
+            codes.emit_ascending(outer, inner, &mut out);
+            continue;
+        }
+        let replaced = |at: u8, index| (at != u8::MAX).then(|| Replaced { at: at.into(), index });
+        let rows = Rows {
+            outer,
+            inner,
+            descending: down != 0,
+            outer_replaced: replaced(outer_at, outer_index),
+            inner_replaced: replaced(inner_at, inner_index),
+        };
+        codes.emit(&rows, &mut out);
+    }
+}
+
+/// Points of compact patches with fractional factors.
+#[inline(always)]
+fn compact_points<'a, M: CompactPoints<Writer<'a, DomainPoint>>>(
+    work: &Work,
+    (compact, tables): (&mut CompactTemplates, &mut LocationTables),
+    points: &'a mut [DomainPoint],
+    make: &mut M,
+) {
+    let mut out = Writer::new(points);
+    for patch in work.patches() {
+        compact.make_room();
+        let start = compact.find(&work.settings, patch, tables, M::kept);
+        make.emit(patch, compact.get(start).points, &mut out);
+    }
+}
+
+#[inline(always)]
+pub(crate) fn compact_by_lookup(work: &Work, made: &mut Made) {
+    let Made { compact, tables, points, lookup, .. } = made;
+    compact_points(work, (compact, tables), points, lookup);
+}
+
+#[cfg(target_arch = "x86_64")]
+crate::data::level::with_avx512! {
+    pub(crate) fn compact_by_permutes(work: &Work, made: &mut Made) {
+        let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, DomainPoint>| {
+            permute::emit(patch, codes, out);
+        };
+        let Made { compact, tables, points, .. } = made;
+        compact_points(work, (compact, tables), points, &mut Permutes(permute));
+    }
+}
