@@ -7,6 +7,7 @@ use crate::data::format::IndexFormat;
 #[cfg(target_arch = "x86_64")]
 use crate::data::level::with_avx512;
 use crate::data::point_writer::PointWriter;
+use crate::data::ranges::Ranges;
 use crate::kernels;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
@@ -118,6 +119,7 @@ at_each_level! {
     fn repeat<W: PointWriter, I: IndexFormat>(
         repeat: Repeat,
         room: Room<'_, W, I>,
+        ranges: &mut Ranges<'_>,
     ) -> Offsets = kernels::repeat::repeat;
 }
 

@@ -23,6 +23,7 @@ impl<'a> Ranges<'a> {
     }
 
     /// Writes the next ranges: those of `more` patches that follow a patch and have its sizes.
+    #[inline(always)]
     pub(crate) fn repeat(&mut self, patch: PatchRange, more: usize) {
         let mut range = patch;
         for next in self.next(more).unwrap_or_default() {
@@ -33,6 +34,7 @@ impl<'a> Ranges<'a> {
     }
 
     /// The next ranges, which count as written.
+    #[inline(always)]
     fn next(&mut self, patches: usize) -> Option<&'a mut [PatchRange]> {
         let (next, rest) = take(&mut self.0)?.split_at_mut(patches);
         self.0 = Some(rest);

@@ -3,6 +3,7 @@
 use crate::data::format::IndexFormat;
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointWriter;
+use crate::data::ranges::Ranges;
 use crate::data::writer::Writer;
 use crate::kernels::emit::{Offsets, Room};
 
@@ -16,13 +17,14 @@ pub(crate) struct Repeat {
     pub(crate) numbering: Numbering,
 }
 
-/// Writes the patches of a run after its first one, which stands at the beginning of the buffers.
+/// Writes the patches of a run after its first one, which stands at the beginning of the buffers, and their ranges.
 /// Returns where their output ends in the batch.
 #[inline(always)]
 #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
 pub(crate) fn repeat<W: PointWriter, I: IndexFormat>(
     repeat: Repeat,
     room: Room<'_, W, I>,
+    ranges: &mut Ranges<'_>,
 ) -> Offsets {
     let Repeat { range, times, numbering } = repeat;
     let (points, indices) = (range.points as usize, range.indices as usize);
@@ -34,6 +36,7 @@ pub(crate) fn repeat<W: PointWriter, I: IndexFormat>(
     Writer::new(room.indices).repeat(indices, times, |index, patches| {
         index.wrapping_add(I::wrapping_from(step.wrapping_mul(patches)))
     });
+    ranges.repeat(range, times - 1);
     let end = |first: u32, period: usize| first + (period * times) as u32;
     Offsets { points: end(range.first_point, points), indices: end(range.first_index, indices) }
 }

@@ -227,8 +227,8 @@ fn emit_as<I: IndexFormat>(
         if times > 1 {
             let range = ranges_here[0];
             let room = Room { points: points.writer(), indices: &mut *indices };
-            end = levels::repeat(level, Repeat { range, times, numbering }, room);
-            ranges.repeat(range, times - 1);
+            let repeat = Repeat { range, times, numbering };
+            end = levels::repeat(level, repeat, room, &mut ranges);
         }
         start += patches * times;
         points.skip((end.points - first.points) as usize);
