@@ -24,7 +24,7 @@ use tess_core::{Config, Order};
 /// Tessellates batches of patches in one configuration.
 ///
 /// Making one is cheap: less than a microsecond and a kilobyte. Tables that follow from the configuration
-/// (0.2 to 0.8 MB) are made once for the process, by the first tessellator that needs them, in about a
+/// (0.2 to 0.9 MB) are made once for the process, by the first tessellator that needs them, in about a
 /// millisecond; without the feature `std` each tessellator makes its own.
 ///
 /// What it learns of patches takes memory as it is used ([`Tessellator::memory`]): some 10 KB from the first

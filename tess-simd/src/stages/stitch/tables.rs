@@ -26,7 +26,7 @@ struct Table {
 
 /// Every stitch that a configuration can ask for.
 ///
-/// About 770 KiB for integer partitionings and 210 KiB for fractional ones; configurations that
+/// About 870 KiB for integer partitionings and 200 to 290 KiB for fractional ones; configurations that
 /// make no triangles have empty tables.
 #[derive(Clone, Debug)]
 pub(crate) struct Stitches {
@@ -165,8 +165,8 @@ mod tests {
                 let bytes = Stitches::new(Config::new(partitioning, output)).bytes();
                 let expected = match (output, partitioning) {
                     (OutputPrimitive::Point | OutputPrimitive::Line, _) => 1000..2000,
-                    (_, Partitioning::Integer | Partitioning::Pow2) => 750_000..800_000,
-                    _ => 200_000..225_000,
+                    (_, Partitioning::Integer | Partitioning::Pow2) => 850_000..900_000,
+                    _ => 200_000..300_000,
                 };
                 assert!(expected.contains(&bytes), "{partitioning:?} {output:?}: {bytes} bytes");
             }
