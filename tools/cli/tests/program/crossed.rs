@@ -249,7 +249,8 @@ fn backends_are_verified_and_timed_whatever_the_options() {
     let cores = ["", "--backend core"];
     let order = |core| ((0, core), (5, "--order cache"), ["--order", "--backend"]);
     let frame = |core| ((0, core), (4, "--frame 2"), ["--frame", "--backend"]);
-    let of_simd = cores.map(order).into_iter().chain(cores.map(frame));
+    let threads = |core| ((0, core), (3, "--threads 2"), ["--threads", "backend core"]);
+    let of_simd = [cores.map(order), cores.map(frame), cores.map(threads)].concat();
     let excluded = of_backends(0, &cores).into_iter().chain(of_simd).collect();
     let crossed = Crossed { values, excluded };
     let line = |words: &[&str]| {
