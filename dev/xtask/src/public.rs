@@ -52,8 +52,8 @@ fn unused(libraries: &[&str], files: &[(&str, String)]) -> (usize, Vec<String>) 
         for (path, text) in own.iter().filter(|(path, _)| !path.ends_with("tests.rs")) {
             for (line, kind, name) in items(text) {
                 all += 1;
-                let is_named = TYPES.contains(&kind) && named.contains(name);
-                if !used.contains(name) && !is_named {
+                let comes_with_a_caller = TYPES.contains(&kind) && named.contains(name);
+                if !used.contains(name) && !comes_with_a_caller {
                     found.push(format!("{path}:{line}: {name}"));
                 }
             }
