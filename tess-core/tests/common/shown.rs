@@ -1,4 +1,4 @@
-//! Values as messages show them.
+//! Elements as messages show them.
 
 use tess_core::DomainPoint;
 
