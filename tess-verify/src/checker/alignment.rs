@@ -36,7 +36,12 @@ type Bits = Vec<u64>;
 /// count nothing, as their answers are still to come.
 ///
 /// Time: the number of answers times that of words of 64 cases.
-pub(super) fn align(answers: &[Option<Case>], asked: &[Case], whole: bool) -> Vec<Step> {
+pub(super) fn align(
+    answers: &[Option<Case>],
+    asked: &[Case],
+    whole: bool,
+    said: &mut Said,
+) -> Vec<Step> {
     let words = asked.len().div_ceil(64);
     // Where the cases stand that were answered; of others nothing is known, and nothing is allocated.
     let mut places: HashMap<Case, Bits> =
@@ -49,15 +54,14 @@ pub(super) fn align(answers: &[Option<Case>], asked: &[Case], whole: bool) -> Ve
     }
     let none = vec![0; words];
     let mut row = Row { up: vec![if whole { u64::MAX } else { 0 }; words], down: none.clone() };
-    let below: Vec<Said> = answers
-        .iter()
-        .rev()
-        .map(|answer| {
-            let equal = answer.and_then(|case| places.get(&case));
-            row.next(equal.filter(|places| !places.is_empty()).unwrap_or(&none))
-        })
-        .collect();
-    trace(answers, asked, whole, &below)
+    said.diagonal.clear();
+    said.up.clear();
+    for answer in answers.iter().rev() {
+        let equal = answer.and_then(|case| places.get(&case));
+        row.next(equal.filter(|places| !places.is_empty()).unwrap_or(&none), &mut said.diagonal);
+        said.up.extend_from_slice(&row.up);
+    }
+    trace(answers, asked, whole, said)
 }
 
 /// The differences between an entry of a row and the one for one case fewer: up by one, or down by one.
@@ -66,8 +70,9 @@ struct Row {
     down: Bits,
 }
 
-/// What is kept of a row's entries.
-struct Said {
+/// What is kept of the entries, row by row from the last answer on. Its memory is used again.
+#[derive(Default)]
+pub(super) struct Said {
     /// Equal to the entry for an answer and a case fewer: so the answer is right, or no replacement.
     diagonal: Bits,
     /// One more than the entry for one case fewer: the case may be missing.
@@ -76,9 +81,8 @@ struct Said {
 
 impl Row {
     /// Makes the row for one answer more, which is to the cases `equal`.
-    fn next(&mut self, equal: &Bits) -> Said {
+    fn next(&mut self, equal: &Bits, diagonal: &mut Bits) {
         let (mut carry, mut more_in, mut less_in) = (false, 1, 0);
-        let mut diagonal = Vec::with_capacity(equal.len());
         for ((up, down), equal) in self.up.iter_mut().zip(&mut self.down).zip(equal) {
             let (sum, over) = (equal & *up).overflowing_add(*up);
             let (sum, over_again) = sum.overflowing_add(u64::from(carry));
@@ -92,19 +96,18 @@ impl Row {
             *down = more_left & same;
             diagonal.push(same);
         }
-        Said { diagonal, up: self.up.clone() }
     }
 }
 
 /// The steps from the first answer and case on.
-fn trace(answers: &[Option<Case>], asked: &[Case], whole: bool, below: &[Said]) -> Vec<Step> {
+fn trace(answers: &[Option<Case>], asked: &[Case], whole: bool, said: &Said) -> Vec<Step> {
     let mut steps = Vec::with_capacity(answers.len());
     let (mut i, mut j) = (0, 0);
     while i < answers.len() {
-        let said = &below[answers.len() - 1 - i];
+        let row = (answers.len() - 1 - i) * asked.len().div_ceil(64);
         let is_set = |bits: &Bits| {
             let bit = asked.len() - 1 - j;
-            bits[bit / 64] >> (bit % 64) & 1 == 1
+            bits[row + bit / 64] >> (bit % 64) & 1 == 1
         };
         let step = if j == asked.len() {
             Step::Extra
@@ -172,7 +175,7 @@ mod tests {
     /// Texts of few and of many cases, shorter and longer than a word, equal in long parts or nowhere.
     #[test]
     fn no_explanation_is_shorter() {
-        let mut random = SplitMix64::new(1);
+        let (mut random, mut said) = (SplitMix64::new(1), Said::default());
         for round in 0..3000usize {
             let length = [3, 10, 64, 65, 200][round % 5];
             let kinds = [2, 4, 1000][round / 5 % 3];
@@ -192,7 +195,7 @@ mod tests {
                 }
             }
             let answers: Vec<Option<Case>> = answered.into_iter().map(Some).collect();
-            let steps = align(&answers, &asked, whole);
+            let steps = align(&answers, &asked, whole, &mut said);
             let found = edits(&steps, &answers, &asked, whole);
             assert_eq!(found, fewest(&answers, &asked, whole), "round {round}: {steps:?}");
         }

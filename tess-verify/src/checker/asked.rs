@@ -10,7 +10,7 @@
 //! are settled; what is best for the rest depends on what comes behind it. So a case is looked for as
 //! far as fewer than [`WINDOW`] are missing, and it is a place to go on from only if what follows agrees.
 
-use super::alignment::{Step, align};
+use super::alignment::{Said, Step, align};
 use super::findings::{Findings, Found};
 use crate::case::Case;
 use crate::compare::{Element, Mismatch, Stage};
@@ -40,6 +40,7 @@ pub(super) struct Expected<'a> {
     answers_end: bool,
     /// What becomes of the first answers and cases, as far as it is settled.
     steps: VecDeque<Step>,
+    said: Said,
     missing: Findings,
 }
 
@@ -52,6 +53,7 @@ impl<'a> Expected<'a> {
             ahead: VecDeque::new(),
             answers_end: false,
             steps: VecDeque::new(),
+            said: Said::default(),
             missing: Findings::default(),
         }
     }
@@ -97,7 +99,8 @@ impl<'a> Expected<'a> {
         self.read_cases(2 * WINDOW)?;
         let cases_end = self.next.len() < 2 * WINDOW;
         let answers: Vec<Option<Case>> = self.ahead.iter().map(Record::case).collect();
-        let steps = align(&answers, self.next.make_contiguous(), self.answers_end || cases_end);
+        let whole = self.answers_end || cases_end;
+        let steps = align(&answers, self.next.make_contiguous(), whole, &mut self.said);
         let settled =
             if self.answers_end && cases_end { answers.len() } else { answers.len().div_ceil(2) };
         let mut taken = 0;
