@@ -9,6 +9,7 @@ use crate::data::lanes::{Column, LANES, MAX_FACTORS};
 use crate::data::level::{Level, LevelUnavailable};
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointRoom;
+use crate::data::ranges::Ranges;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::kernel_taps::{Kernel, Made, Work};
 use crate::kernels::repeat::Repeat;
@@ -138,7 +139,12 @@ impl Tap {
         if *kernel == Kernel::Codes {
             made.codes.resize(sizes[0], [u16::MAX; 2]);
         }
-        made.ranges.resize(self.work.patches.len(), PatchRange::default());
+        let ranges = if *kernel == Kernel::Repeat {
+            self.work.numbers.as_chunks::<3>().0.iter().map(|[.., times]| *times as usize).sum()
+        } else {
+            self.work.patches.len()
+        };
+        made.ranges.resize(ranges, PatchRange::default());
     }
 
     /// Runs the kernel over the input.
@@ -231,6 +237,7 @@ impl To<'_> {
                 }
             }
             Kernel::Repeat => {
+                let mut done = 0;
                 for &[point_count, index_count, times] in work.numbers.as_chunks::<3>().0 {
                     let range = PatchRange {
                         first_point: end.points,
@@ -241,7 +248,10 @@ impl To<'_> {
                     let times = times as usize;
                     let repeat = Repeat { range, times, numbering: *numbering };
                     let room = Room { points: points.writer(), indices: &mut *indices };
-                    end = levels::repeat(*level, repeat, room);
+                    ranges[done] = range;
+                    let mut rest = Ranges::new(Some(&mut ranges[done + 1..done + times]));
+                    end = levels::repeat(*level, repeat, room, &mut rest);
+                    done += times;
                     points.skip(point_count as usize * times);
                     indices = indices.split_at_mut(index_count as usize * times).1;
                 }

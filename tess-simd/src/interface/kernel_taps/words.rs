@@ -24,7 +24,7 @@ impl Tap {
         words.extend(u.iter().zip(v).flat_map(|(u, v)| [u.to_bits(), v.to_bits()]));
         words.extend(&made.indices);
         words.extend(made.narrow.iter().map(|&index| u32::from(index)));
-        if self.kernel == Kernel::Emit {
+        if matches!(self.kernel, Kernel::Emit | Kernel::Repeat) {
             words.extend(made.ranges.iter().flat_map(|range| {
                 [range.first_point, range.points, range.first_index, range.indices]
             }));

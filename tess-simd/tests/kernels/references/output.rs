@@ -270,6 +270,11 @@ pub(crate) fn repeated(case: &Case, words: &mut Words) {
         let all = (0..*times).flat_map(|t| (0..*indices).map(move |k| start + k + step * t));
         words.indices(run, all.map(|i| index(case, 0, i, false)));
     }
+    for (run, ([points, indices, times], [point, index])) in runs.iter().zip(&starts).enumerate() {
+        for t in 0..*times {
+            words.add(run, RANGE, [point + points * t, *points, index + indices * t, *indices]);
+        }
+    }
 }
 
 /// An output as the model's words are: the points that codes stand for, other words as they are.
