@@ -9,6 +9,7 @@ mod room;
 mod setup;
 mod shaders;
 pub mod sizes;
+pub mod surfaces;
 mod tables;
 
 pub use bindings::{Access, Binding, Resource};

@@ -1,6 +1,6 @@
 //! Tests that cull a patch before it is tessellated. A patch that nobody sees gets factors of 0.
 //!
-//! [`shaders::CULLING`](crate::shaders::CULLING) has the same functions.
+//! As WGSL, tess-gpu's `surfaces::CULLING` has the same functions.
 
 use glam::{Mat4, Vec3, Vec4, Vec4Swizzles};
 

@@ -3,8 +3,8 @@
 //! A rule gets what both patches of an edge share, and gives the same bits whichever patch asks. So neighbours have the
 //! same factor, and no crack opens. Inside factors open no crack whatever they are.
 //!
-//! [`shaders::FACTORS`](crate::shaders::FACTORS) has the functions for straight edges, and
-//! [`shaders::BEZIER_FACTORS`](crate::shaders::BEZIER_FACTORS) the rules of [`FactorRule`] for cubic ones.
+//! As WGSL, tess-gpu's `surfaces::FACTORS` has the functions for straight edges, and `surfaces::BEZIER_FACTORS` the rules
+//! of [`FactorRule`] for cubic ones.
 //!
 //! # Insides
 //!

@@ -65,7 +65,7 @@ impl HeightMap {
 
     /// The height at a place that is counted from the top: (0, 0) is the upper left corner of the image, (1, 1) the lower
     /// right one. The place is rounded to 1/256 of a texel, the precision of samplers, as `tess_sample` of
-    /// [`shaders::HEIGHT`](crate::shaders::HEIGHT) does, which clamps. Beyond a clamped image every place has a height,
+    /// tess-gpu's `surfaces::HEIGHT` does, which clamps. Beyond a clamped image every place has a height,
     /// infinity too; an image that repeats has none there: NaN.
     #[must_use]
     pub fn height_at(&self, place: Vec2) -> f32 {

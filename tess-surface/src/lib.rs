@@ -25,7 +25,6 @@ mod model;
 pub mod patch;
 pub mod pn;
 mod samples;
-pub mod shaders;
 pub mod sides;
 pub mod teapot;
 mod topology;

@@ -1,5 +1,5 @@
 // Bicubic Bezier patches. bezier.rs writes the words: 16 control points a patch, three numbers each, rows along
-// v. Needs tess_surface's BEZIER.
+// v. Needs tess_gpu::surfaces' BEZIER.
 
 fn control(at: TessPlace, k: u32) -> vec3<f32> {
     return tess_vec3(at, 3u * (16u * at.patch_number + k));

@@ -1,5 +1,5 @@
 // Point-normal triangles. point_normal.rs writes the words: the number of corners, the corners with six
-// numbers each, the triangles. Needs tess_surface's BEZIER, POINT_NORMAL and PN_TRIANGLE.
+// numbers each, the triangles. Needs tess_gpu::surfaces' BEZIER, POINT_NORMAL and PN_TRIANGLE.
 
 fn pn_corner(at: TessPlace, k: u32) -> PnCorner {
     let corners = tess_uint(at, 0u);

@@ -9,7 +9,8 @@ use std::fmt;
 use tess_core::{Domain, PatchFactors, QuadFactors};
 use tess_surface::factors::inside_quad;
 use tess_surface::glam;
-use tess_surface::{BezierPatch, Patch, Surface, shaders};
+use tess_surface::{BezierPatch, Patch, Surface};
+use tess_wgpu::tess_gpu::surfaces;
 
 /// The control points of a bicubic patch: rows along v, columns along u.
 pub type Net = [[[f32; 3]; 4]; 4];
@@ -79,7 +80,7 @@ impl Shape for BezierPatches {
 
     fn surface(&self) -> Cow<'static, str> {
         let own = include_str!("../shaders/bezier_patches.wgsl");
-        Cow::Owned([shaders::BEZIER, own].join("\n"))
+        Cow::Owned([surfaces::BEZIER, own].join("\n"))
     }
 
     fn words(&self) -> Vec<u32> {

@@ -2,7 +2,7 @@
 
 /// How many segments an edge gets, 1 to 64, by the camera. Both patches of an edge get the same number.
 ///
-/// [`tess_surface::factors`] has the rules, in WGSL and in Rust.
+/// [`tess_surface::factors`] has the rules.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LevelOfDetail {
     /// The same factor everywhere.

@@ -10,7 +10,8 @@ use tess_core::{Domain, PatchFactors, TriangleFactors};
 use tess_surface::factors::inside_triangle;
 use tess_surface::glam;
 use tess_surface::pn::edge_points;
-use tess_surface::{Patch, PnCorner, PnTriangle, Surface, shaders};
+use tess_surface::{Patch, PnCorner, PnTriangle, Surface};
+use tess_wgpu::tess_gpu::surfaces;
 
 /// A mesh whose triangles become point-normal triangles: curved, with smooth normals.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,7 +78,7 @@ impl PointNormalMesh {
     #[must_use]
     pub fn functions() -> String {
         let own = include_str!("../shaders/point_normal.wgsl");
-        [shaders::BEZIER, shaders::POINT_NORMAL, shaders::PN_TRIANGLE, own].join("\n")
+        [surfaces::BEZIER, surfaces::POINT_NORMAL, surfaces::PN_TRIANGLE, own].join("\n")
     }
 
     /// A mesh of corners with unit normals, and triangles that are counter-clockwise as seen from outside.

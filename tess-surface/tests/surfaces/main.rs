@@ -23,4 +23,3 @@ mod range;
 mod samples;
 mod teapot;
 mod weld;
-mod wgsl;

@@ -1,4 +1,4 @@
-// A mesh of PN triangles, displaced along their normals. Needs tess_surface::shaders::BEZIER,
+// A mesh of PN triangles, displaced along their normals. Needs tess_gpu::surfaces::BEZIER,
 // POINT_NORMAL and PN_TRIANGLE.
 
 struct Frame {

@@ -7,7 +7,7 @@ use crate::gltf;
 use glam::Vec3;
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_surface::shaders;
+use tess_gpu::surfaces;
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
@@ -37,7 +37,8 @@ impl Show for Character {
         let (layout, group) = bind(gpu, &bound);
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
         let own = include_str!("character.wgsl");
-        let wgsl = [shaders::BEZIER, shaders::POINT_NORMAL, shaders::PN_TRIANGLE, own].join("\n");
+        let wgsl =
+            [surfaces::BEZIER, surfaces::POINT_NORMAL, surfaces::PN_TRIANGLE, own].join("\n");
         let triangles = u32::try_from(mesh.triangles.len())?;
         let stage = TessellationStage::builder(&wgsl, Domain::Triangle, config, triangles)
             .bind_group(&layout, &group)

@@ -8,7 +8,7 @@ use std::error::Error;
 use teapot::PATCHES;
 use teapot::picture::{self, Mesh, Scene};
 use tess_gpu::layout::factor_words;
-use tess_surface::shaders;
+use tess_gpu::surfaces;
 use tess_wgpu::Gpu;
 use wgpu::BufferUsages as Usage;
 
@@ -48,7 +48,7 @@ pub(crate) fn render(gpu: &Gpu) -> Result<Vec<u8>, Box<dyn Error>> {
         .map(|(number, material)| Mesh { first_patch: number * PATCHES, material })
         .collect();
     let source =
-        [shaders::BEZIER, include_str!("../teapot/draw.wgsl"), include_str!("material.wgsl")];
+        [surfaces::BEZIER, include_str!("../teapot/draw.wgsl"), include_str!("material.wgsl")];
     let scene = Scene {
         setup: teapot::setup(),
         patches: PATCHES * u32::try_from(TEAPOTS.len())?,

@@ -4,14 +4,14 @@ use crate::app::{self, Args, Show, View};
 use crate::bindings::{Bound, bind};
 use crate::teapot;
 use std::error::Error;
-use tess_surface::shaders;
+use tess_gpu::surfaces;
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
-/// The user's WGSL: the formulas of tess-surface, and what calls them.
+/// The user's WGSL: the formulas of a surface, and what calls them.
 fn wgsl() -> String {
     let stage = include_str!("stage.wgsl");
-    [shaders::BEZIER, shaders::BEZIER_FACTORS, &teapot::source()[shaders::BEZIER.len()..], stage]
+    [surfaces::BEZIER, surfaces::BEZIER_FACTORS, &teapot::source()[surfaces::BEZIER.len()..], stage]
         .join("\n")
 }
 

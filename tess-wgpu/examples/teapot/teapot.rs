@@ -9,9 +9,9 @@ use glam::Vec3;
 use picture::Scene;
 use std::error::Error;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
-use tess_gpu::Setup;
 use tess_gpu::layout::factor_words;
-use tess_surface::{FactorRule, MeshError, Model, shaders, teapot};
+use tess_gpu::{Setup, surfaces};
+use tess_surface::{FactorRule, MeshError, Model, teapot};
 use tess_wgpu::Gpu;
 use wgpu::BufferUsages as Usage;
 
@@ -42,9 +42,9 @@ pub(crate) fn nets() -> Vec<[f32; 4]> {
     patches.iter().flat_map(|patch| patch.points.as_flattened()).map(|p| p.to_array()).collect()
 }
 
-/// The shaders: the formulas of tess-surface, and draw.wgsl, which calls them.
+/// The shaders: the formulas of a surface, and draw.wgsl, which calls them.
 pub(crate) fn source() -> String {
-    [shaders::BEZIER, include_str!("draw.wgsl"), include_str!("material.wgsl")].join("\n")
+    [surfaces::BEZIER, include_str!("draw.wgsl"), include_str!("material.wgsl")].join("\n")
 }
 
 /// Renders the teapot. The pixels are RGBA, row by row.

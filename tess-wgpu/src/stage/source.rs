@@ -8,7 +8,7 @@ use tess_core::Domain;
 use tess_gpu::{Pull, Setup};
 
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
-const HELPERS: &str = tess_surface::shaders::HELPERS;
+const HELPERS: &str = tess_gpu::surfaces::HELPERS;
 const HULL: &str = include_str!("../../shaders/hull.wgsl");
 const STORED: &str = include_str!("../../shaders/vertex_stored.wgsl");
 const PULLED: &str = include_str!("../../shaders/vertex_pulled.wgsl");

@@ -1,6 +1,6 @@
 //! The Bevy plugin's WGSL is valid with the helpers. Its own tests need Bevy, which continuous integration leaves out.
 
-use tess_surface::shaders::{BEZIER, PN_TRIANGLE, POINT_NORMAL};
+use tess_gpu::surfaces::{BEZIER, PN_TRIANGLE, POINT_NORMAL};
 use tess_wgpu::TessellationStage;
 use wgpu::naga::front::wgsl;
 use wgpu::naga::valid::{Capabilities, ValidationFlags, Validator};

@@ -1,7 +1,7 @@
 //! Calling helpers on a device.
 
 use crate::{Args, Table};
-use tess_surface::shaders;
+use tess_gpu::surfaces;
 use tess_wgpu::Gpu;
 use wgpu::BufferUsages as Usage;
 
@@ -26,9 +26,9 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 
 /// The shader of a call, with an edit of what the stage joins.
 fn source(edit: impl Fn(&str) -> String, call: &str) -> String {
-    let mut joined = vec![TYPES, shaders::HELPERS];
+    let mut joined = vec![TYPES, surfaces::HELPERS];
     if call.contains("bezier") {
-        joined.extend([shaders::BEZIER, shaders::BEZIER_FACTORS]);
+        joined.extend([surfaces::BEZIER, surfaces::BEZIER_FACTORS]);
     }
     edit(&joined.join("\n")) + &CALLS.replace("CALL", call)
 }

@@ -2,7 +2,7 @@
 
 use crate::bindings::{Bound, bind};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
-use tess_surface::shaders;
+use tess_gpu::surfaces;
 use tess_wgpu::{Gpu, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
@@ -49,7 +49,7 @@ fn the_blocks_of_the_porting_guide_compile() {
                 })
                 .build(&gpu.device)
         };
-        let wgsl = [shaders::BEZIER, shaders::POINT_NORMAL, block].join("\n");
+        let wgsl = [surfaces::BEZIER, surfaces::POINT_NORMAL, block].join("\n");
         build(&wgsl).unwrap_or_else(|error| panic!("block {number}: {error}"));
         let wrong = wgsl.replace("-> Vertex", "-> vec4f");
         assert!(build(&wrong).is_err(), "block {number} with a wrong domain function");

@@ -5,11 +5,10 @@ use crate::thrown;
 use std::f32::consts::TAU;
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::layout::factor_words;
+use tess_gpu::surfaces;
 use tess_simd::{ExactOutput, Numbering, Tessellator};
 use tess_surface::glam::{Vec3, Vec4};
-use tess_surface::{
-    Face, FactorRule, Model, PolygonMesh, Sample, Sides, Style, Surface, shaders, teapot,
-};
+use tess_surface::{Face, FactorRule, Model, PolygonMesh, Sample, Sides, Style, Surface, teapot};
 use tess_verify::names::Named;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -132,12 +131,12 @@ impl SurfaceView {
     pub fn wgsl(&self) -> String {
         let normal = match self.model.patch(0).surface() {
             Surface::PnQuad(_) => {
-                [shaders::PN_EDGE, shaders::POINT_NORMAL, POINT_NORMAL].join("\n")
+                [surfaces::PN_EDGE, surfaces::POINT_NORMAL, POINT_NORMAL].join("\n")
             }
             _ => BEZIER_NORMAL.to_owned(),
         };
         let net = NET.replace("COUNT", &self.model.len().to_string());
-        [shaders::BEZIER, &net, &normal].join("\n")
+        [surfaces::BEZIER, &net, &normal].join("\n")
     }
 }
 

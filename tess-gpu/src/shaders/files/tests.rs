@@ -152,7 +152,8 @@ fn first_lines_name_what_a_file_uses() {
 fn every_file_is_part_of_a_shader() {
     let shaders = Path::new(env!("CARGO_MANIFEST_DIR")).join("shaders");
     let mut in_folders = BTreeSet::new();
-    for folder in entries(&shaders) {
+    // Surfaces are joined by their users.
+    for folder in entries(&shaders).into_iter().filter(|folder| !folder.ends_with("surfaces")) {
         let folder_name = folder.file_name().expect("a folder").to_string_lossy().into_owned();
         for file in entries(&folder) {
             let name = file.file_name().expect("a file").to_string_lossy().into_owned();
