@@ -95,14 +95,10 @@ impl Setup {
         self.domain.factors() as u32
     }
 
-    /// How many indices a primitive has: 1, 2 or 3. Isoline patches have no triangles but lines.
+    /// How many indices a primitive has: 1, 2 or 3.
     #[must_use]
     pub const fn indices_per_primitive(&self) -> u32 {
-        match (self.config.output, self.domain) {
-            (OutputPrimitive::Point, _) => 1,
-            (OutputPrimitive::Line, _) | (_, Domain::Isoline) => 2,
-            _ => 3,
-        }
+        self.config.output.indices_per_primitive(self.domain)
     }
 
     /// Bytes of one primitive's indices.

@@ -59,11 +59,7 @@ impl Case {
     /// Indices per primitive: 1, 2 or 3.
     #[must_use]
     pub const fn primitive_size(&self) -> usize {
-        match (self.domain(), self.config.output) {
-            (_, OutputPrimitive::Point) => 1,
-            (_, OutputPrimitive::Line) | (Domain::Isoline, _) => 2,
-            (_, OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw) => 3,
-        }
+        self.config.output.indices_per_primitive(self.domain()) as usize
     }
 
     /// The patch, processed by the model.

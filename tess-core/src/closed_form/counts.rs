@@ -4,7 +4,7 @@ use crate::model::factors::{ProcessedFactor, ProcessedPatch};
 use crate::model::patch_factors::{IsolineFactors, PatchFactors};
 use crate::model::patch_factors::{QuadFactors, TriangleFactors};
 use crate::model::points::isoline::line_count;
-use crate::model::state::{Config, Domain, OutputPrimitive, Parity};
+use crate::model::state::{Config, Parity};
 
 /// The most points that one patch has: a 64 x 64 quad.
 pub const MAX_POINTS: usize = 65 * 65;
@@ -25,67 +25,51 @@ pub struct Counts {
 /// Predicts the output sizes of a processed patch.
 #[must_use]
 pub fn counts(config: Config, patch: &ProcessedPatch) -> Counts {
-    let (points, triangles) = match patch {
-        ProcessedPatch::Culled => return Counts::default(),
-        ProcessedPatch::Regular(PatchFactors::Isoline(factors)) => {
-            return isoline(config, factors);
-        }
-        ProcessedPatch::Minimum(factors) => minimum(factors.domain()),
-        ProcessedPatch::Regular(PatchFactors::Triangle(factors)) => triangle(factors),
-        ProcessedPatch::Regular(PatchFactors::Quad(factors)) => quad(factors),
+    let Some(factors) = patch.factors() else { return Counts::default() };
+    let [points, lines, triangles] = match (patch, factors) {
+        (_, PatchFactors::Isoline(factors)) => isoline(factors),
+        (ProcessedPatch::Minimum(_), PatchFactors::Triangle(_)) => [3, 2, 1],
+        (ProcessedPatch::Minimum(_), PatchFactors::Quad(_)) => [4, 3, 2],
+        (_, PatchFactors::Triangle(factors)) => triangle(factors),
+        (_, PatchFactors::Quad(factors)) => quad(factors),
     };
-    match config.output {
-        OutputPrimitive::Point => in_primitives(points, points, 1),
-        OutputPrimitive::Line => in_primitives(points, points - 1, 2),
-        OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw => {
-            in_primitives(points, triangles, 3)
-        }
-    }
+    let each = config.output.indices_per_primitive(factors.domain());
+    let primitives = match each {
+        1 => points,
+        2 => lines,
+        _ => triangles,
+    };
+    Counts { points, primitives, indices: primitives * each }
 }
 
-/// Asked for triangles, isolines are lines.
-fn isoline(config: Config, factors: &IsolineFactors<ProcessedFactor>) -> Counts {
+/// Points, lines that join them, and triangles.
+type Sizes = [u32; 3];
+
+/// Each line of an isoline patch is joined alone.
+fn isoline(factors: &IsolineFactors<ProcessedFactor>) -> Sizes {
     let lines = line_count(factors);
     let points = factors.detail.context.points;
-    match config.output {
-        OutputPrimitive::Point => in_primitives(lines * points, lines * points, 1),
-        _ => in_primitives(lines * points, lines * (points - 1), 2),
-    }
+    [lines * points, lines * (points - 1), 0]
 }
 
-/// Points and triangles of a minimum patch. Isolines have none.
-const fn minimum(domain: Domain) -> (u32, u32) {
-    match domain {
-        Domain::Isoline => (0, 0),
-        Domain::Triangle => (3, 1),
-        Domain::Quad => (4, 2),
-    }
-}
-
-/// Points and triangles of a triangle patch.
-fn triangle(factors: &TriangleFactors<ProcessedFactor>) -> (u32, u32) {
+fn triangle(factors: &TriangleFactors<ProcessedFactor>) -> Sizes {
     let boundary = factors.outer_contexts().iter().map(|context| context.points - 1).sum();
     let half = factors.inside.context.points / 2;
     let interior = match factors.inside.context.parity {
         Parity::Odd => 3 * (half - 1) * (half - 1),
         Parity::Even => 3 * half * (half - 1) + 1,
     };
-    points_and_triangles(boundary, interior)
+    of_disc(boundary, interior)
 }
 
-/// Points and triangles of a quad patch.
-fn quad(factors: &QuadFactors<ProcessedFactor>) -> (u32, u32) {
+fn quad(factors: &QuadFactors<ProcessedFactor>) -> Sizes {
     let boundary = factors.outer_contexts().iter().map(|context| context.points - 1).sum();
     let [u, v] = factors.inside().map(|factor| factor.context.points);
-    points_and_triangles(boundary, (u - 2) * (v - 2))
+    of_disc(boundary, (u - 2) * (v - 2))
 }
 
-/// Euler's formula for a disc: triangles = 2 * points - 2 - boundary.
-fn points_and_triangles(boundary: u32, interior: u32) -> (u32, u32) {
+/// Euler's formula for a disc: triangles = 2 * points - 2 - boundary. One line joins all points in order.
+const fn of_disc(boundary: u32, interior: u32) -> Sizes {
     let points = boundary + interior;
-    (points, 2 * points - 2 - boundary)
-}
-
-const fn in_primitives(points: u32, primitives: u32, indices_each: u32) -> Counts {
-    Counts { points, primitives, indices: primitives * indices_each }
+    [points, points - 1, 2 * points - 2 - boundary]
 }

@@ -38,6 +38,19 @@ pub enum OutputPrimitive {
     TriangleCcw,
 }
 
+impl OutputPrimitive {
+    /// How many indices a primitive of a patch of this domain has: 1, 2 or 3.
+    #[must_use]
+    #[inline]
+    pub const fn indices_per_primitive(self, domain: Domain) -> u32 {
+        match (self, domain) {
+            (Self::Point, _) => 1,
+            (Self::Line, _) | (_, Domain::Isoline) => 2,
+            (Self::TriangleCw | Self::TriangleCcw, _) => 3,
+        }
+    }
+}
+
 /// The order in which points join an edge as its factor grows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum SplitOrder {

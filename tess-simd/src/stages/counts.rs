@@ -63,10 +63,10 @@ type Sizes = [u32; 3];
 /// Indices for each of these.
 #[inline(always)]
 const fn indices_each(output: OutputPrimitive, domain: Domain) -> Sizes {
-    match (output, domain) {
-        (OutputPrimitive::Point, _) => [1, 0, 0],
-        (OutputPrimitive::Line, _) | (_, Domain::Isoline) => [0, 2, 0],
-        (OutputPrimitive::TriangleCw | OutputPrimitive::TriangleCcw, _) => [0, 0, 3],
+    match output.indices_per_primitive(domain) {
+        1 => [1, 0, 0],
+        2 => [0, 2, 0],
+        _ => [0, 0, 3],
     }
 }
 
