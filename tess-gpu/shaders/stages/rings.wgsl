@@ -19,23 +19,19 @@ struct Rings {
 }
 
 fn rings_of(topology: vec2<u32>) -> Rings {
-    let before_1 = outer_points(topology, 0u);
-    let before_2 = before_1 + outer_points(topology, 1u);
-    let before_3 = before_2 + outer_points(topology, 2u);
     let u = inside_u(topology);
     let v = inside_v(topology);
     let sides = u + v;
     return Rings(
-        topology.x, before_1, before_2, before_3, u, v, min(u, v), sides,
-        before_3 + select(outer_points(topology, 3u) - 4u, 0u - 3u, DOMAIN == TRIANGLE),
-        select(2u * sides, sides + u, DOMAIN == TRIANGLE));
+        topology.x, outer_before(topology, 1u), outer_before(topology, 2u), outer_before(topology, 3u),
+        u, v, min(u, v), sides, boundary(topology), select(2u * sides, sides + u, DOMAIN == TRIANGLE));
 }
 
 fn outer_of(rings: Rings, edge: u32) -> u32 {
     return (rings.outer >> (7u * edge)) & 127u;
 }
 
-// The sum of `outer_of` over the edges before this one.
+// `outer_before` of an edge.
 fn outer_sum(rings: Rings, edge: u32) -> u32 {
     let high = select(rings.before_2, rings.before_3, edge == 3u);
     return select(select(0u, rings.before_1, edge == 1u), high, edge >= 2u);
