@@ -52,10 +52,10 @@
 //! counts, but 9 pairs of dependent dispatches instead of 5 dispatches, in every frame that might not fit. Reading the
 //! counts back would make the host wait, or leave the frame to the next one's scale.
 
-use super::passes::{self, Access};
+use super::passes;
 use crate::error::Error;
 use crate::gpu;
-use tess_gpu::{Capacity, Counting, Setup};
+use tess_gpu::{Access, Capacity, Counting, Setup};
 use wgpu::BufferUsages as Usage;
 
 /// Steps of the ladder of scales behind 1. As `LAST_STEP` of fit.wgsl.

@@ -2,12 +2,12 @@
 
 use super::builder::StageBuilder;
 use super::choices::Factors;
-use super::passes::{self, Access};
+use super::passes;
 use super::room::Form;
 use super::{modules, source};
 use crate::error::Error;
 use crate::gpu;
-use tess_gpu::Resource;
+use tess_gpu::{Access, Resource};
 use wgpu::BufferUsages as Usage;
 
 /// The pass that writes the raw factors of a frame.

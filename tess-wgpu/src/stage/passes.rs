@@ -1,6 +1,7 @@
 //! Compute pipelines of the stage, and how their threads are laid out.
 
 use crate::error::{Error, checked};
+use tess_gpu::Access;
 
 /// The threads of a workgroup of the stage's own passes.
 pub(crate) const WORKGROUP: u32 = 64;
@@ -14,13 +15,6 @@ pub(crate) fn workgroups(device: &wgpu::Device, threads: u32) -> [u32; 2] {
 
 /// A binding of a compute pass: a storage buffer, and whether it is only read.
 pub(crate) type Binding<'a> = (&'a wgpu::Buffer, Access);
-
-/// What a pass does with a buffer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Access {
-    Read,
-    ReadWrite,
-}
 
 /// The layout and the bind group of these buffers, bindings 0, 1, ...
 pub(crate) fn bind(
