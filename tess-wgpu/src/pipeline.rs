@@ -5,7 +5,7 @@ use tess_gpu::{Access, Binding, Resource, Stage};
 /// The pipeline of a stage's source.
 pub(crate) fn of_stage(device: &wgpu::Device, stage: Stage, source: &str) -> wgpu::ComputePipeline {
     let label = Some(stage.entry_point());
-    let entries: Vec<_> = (0..).zip(stage.bindings()).map(layout_entry).collect();
+    let entries: Vec<_> = entries(stage.bindings()).collect();
     compute_pipeline(device, label, source, &entries)
 }
 
@@ -14,7 +14,7 @@ pub(crate) fn of_stage(device: &wgpu::Device, stage: Stage, source: &str) -> wgp
 pub(crate) fn of_tap(device: &wgpu::Device, source: &str) -> wgpu::ComputePipeline {
     let accesses = [Access::Read, Access::ReadWrite, Access::Read];
     let bindings = accesses.map(|access| Binding(Resource::Tables, access));
-    let entries: Vec<_> = (0..).zip(&bindings).map(layout_entry).collect();
+    let entries: Vec<_> = entries(&bindings).collect();
     compute_pipeline(device, Some("taps"), source, &entries)
 }
 
@@ -49,8 +49,18 @@ fn compute_pipeline(
     })
 }
 
-fn layout_entry(
-    (binding, &Binding(resource, access)): (u32, &Binding),
+/// The entries of bindings 0, 1, ... of a compute shader.
+fn entries(bindings: &[Binding]) -> impl Iterator<Item = wgpu::BindGroupLayoutEntry> {
+    (0..)
+        .zip(bindings)
+        .map(|(number, &binding)| entry(number, binding, wgpu::ShaderStages::COMPUTE))
+}
+
+/// The entry of a binding in the layout of its bind group.
+pub(crate) const fn entry(
+    binding: u32,
+    Binding(resource, access): Binding,
+    visibility: wgpu::ShaderStages,
 ) -> wgpu::BindGroupLayoutEntry {
     let ty = match (resource, access) {
         (Resource::Job, _) => wgpu::BufferBindingType::Uniform,
@@ -59,7 +69,7 @@ fn layout_entry(
     };
     wgpu::BindGroupLayoutEntry {
         binding,
-        visibility: wgpu::ShaderStages::COMPUTE,
+        visibility,
         ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
         count: None,
     }

@@ -1,6 +1,7 @@
 //! WGSL for shaders that compute points and primitives where they need them.
 
 use super::files;
+use crate::bindings::Resource;
 use crate::setup::Setup;
 
 /// WGSL to put in front of your own shader. It computes any point or primitive of a patch from its
@@ -20,32 +21,45 @@ use crate::setup::Setup;
 pub struct Pull {
     /// Bind group of the buffers.
     pub group: u32,
-    /// Binding of `topologies`; `tables`, `contexts` and `job` have the next three numbers.
+    /// Binding of `topologies`, to which the others follow: [`Pull::bindings`].
     pub first_binding: u32,
 }
 
 impl Pull {
+    /// The buffers in order of their bindings.
+    const RESOURCES: [Resource; 6] = [
+        Resource::Topologies,
+        Resource::Tables,
+        Resource::Contexts,
+        Resource::Job,
+        Resource::Offsets,
+        Resource::Tiles,
+    ];
+
+    /// What [`Pull::source_for_drawing`] declares: numbers of bindings and their buffers. [`Pull::source`] declares the
+    /// first four of six, or with [`Setup::has_integer_factors`], where contexts are left out, two of five.
+    pub fn bindings(self, setup: Setup) -> impl Iterator<Item = (u32, Resource)> {
+        let all = (self.first_binding..).zip(Self::RESOURCES);
+        all.filter(move |(_, what)| *what != Resource::Contexts || !setup.has_integer_factors())
+    }
+
     /// The WGSL.
     #[must_use]
     pub fn source(self, setup: Setup) -> String {
-        let job = if setup.has_integer_factors() { String::new() } else { self.job() };
-        self.begin(setup) + &job + &Self::files(setup, &["stages/locate"])
+        let declared = if setup.has_integer_factors() { 2 } else { 4 };
+        self.begin(setup, declared) + &Self::files(setup, &["stages/locate"])
     }
 
     /// The same for the vertex shader of a batch that does not write everything
     /// ([`crate::Plan::writing`]).
     ///
-    /// The WGSL declares `job` in every setup, and the storage buffers `offsets` and `tiles`: bindings
-    /// `first_binding` + 4 and 5. It also offers
+    /// The WGSL declares `job` in every setup, and the storage buffers `offsets` and `tiles`. It also offers
     /// - `tess_point_at(i) -> vec2<u32>`: the patch of point `i` of the batch, and the point's number
     ///   within the patch,
     /// - `tess_primitive_at(t) -> vec2<u32>`: the same for primitive `t` of the batch.
     #[must_use]
     pub fn source_for_drawing(self, setup: Setup) -> String {
-        self.begin(setup)
-            + &self.job()
-            + &self.declared(4, "offsets", "vec2<u32>")
-            + &self.declared(5, "tiles", "u32")
+        self.begin(setup, Self::RESOURCES.len())
             + &Self::files(setup, &["stages/locate", "offered/elements"])
     }
 
@@ -54,26 +68,21 @@ impl Pull {
         files::joined(files, &files::placing(setup, "variants/stored_contexts"))
     }
 
-    /// The declaration of the job.
-    fn job(self) -> String {
-        let (group, binding) = (self.group, self.first_binding + 3);
-        format!("@group({group}) @binding({binding}) var<uniform> job: Job;\n")
+    /// The constants, and the declarations of the first bindings.
+    fn begin(self, setup: Setup, declared: usize) -> String {
+        let bindings = self.bindings(setup).take(declared);
+        setup.prelude() + &bindings.map(|binding| self.declaration(binding)).collect::<String>()
     }
 
-    /// The constants, and the buffers that both forms read.
-    fn begin(self, setup: Setup) -> String {
-        let mut source = setup.prelude()
-            + &self.declared(0, "topologies", "vec2<u32>")
-            + &self.declared(1, "tables", "u32");
-        if !setup.has_integer_factors() {
-            source += &self.declared(2, "contexts", "vec2<u32>");
-        }
-        source
-    }
-
-    /// The declaration of a buffer.
-    fn declared(self, offset: u32, name: &str, of: &str) -> String {
-        let (group, binding) = (self.group, self.first_binding + offset);
-        format!("@group({group}) @binding({binding}) var<storage, read> {name}: array<{of}>;\n")
+    fn declaration(self, (binding, resource): (u32, Resource)) -> String {
+        let (space, declared) = match resource {
+            Resource::Job => ("uniform", "job: Job"),
+            Resource::Topologies => ("storage, read", "topologies: array<vec2<u32>>"),
+            Resource::Contexts => ("storage, read", "contexts: array<vec2<u32>>"),
+            Resource::Offsets => ("storage, read", "offsets: array<vec2<u32>>"),
+            Resource::Tiles => ("storage, read", "tiles: array<u32>"),
+            _ => ("storage, read", "tables: array<u32>"),
+        };
+        format!("@group({}) @binding({binding}) var<{space}> {declared};\n", self.group)
     }
 }

@@ -6,11 +6,11 @@ use super::choices::{Factors, Overflow, Points};
 use super::output::{Output, Stored};
 use super::{Fit, Origin, StageError, TessellationStage, gl, modules, origin, source, wgsl};
 use crate::error::{Error, checked};
-use crate::{Tessellator, gpu, limits};
+use crate::{Tessellator, gpu, limits, pipeline};
 use std::future::Future;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
-use tess_gpu::Setup;
+use tess_gpu::{Access, Binding, Pull, Setup};
 use wgpu::BufferUsages as Usage;
 
 impl StageBuilder<'_> {
@@ -145,7 +145,7 @@ fn check_fragment(builder: &StageBuilder<'_>) -> Result<(), Error> {
     Err(StageError::UnclearFragment { asked: fragment.map(str::to_owned), found }.into())
 }
 
-/// What a vertex shader binds that computes its points, as `Pull::source_for_drawing` numbers it.
+/// What a vertex shader binds that computes its points.
 fn pulled_layout(
     device: &wgpu::Device,
     setup: Setup,
@@ -154,21 +154,13 @@ fn pulled_layout(
     if points == Points::Stored {
         return Ok(None);
     }
-    let entry = |binding| wgpu::BindGroupLayoutEntry {
-        binding,
-        visibility: wgpu::ShaderStages::VERTEX,
-        ty: wgpu::BindingType::Buffer {
-            ty: match binding {
-                3 => wgpu::BufferBindingType::Uniform,
-                _ => wgpu::BufferBindingType::Storage { read_only: true },
-            },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    };
-    let has = |&binding: &u32| binding != 2 || !setup.has_integer_factors();
-    let entries: Vec<_> = (0..6).filter(has).map(entry).collect();
+    let entries: Vec<_> = Pull { group: 0, first_binding: 0 }
+        .bindings(setup)
+        .map(|(number, resource)| {
+            let binding = Binding(resource, Access::Read);
+            pipeline::entry(number, binding, wgpu::ShaderStages::VERTEX)
+        })
+        .collect();
     let label = Some("pulled");
     checked(device, || {
         let entries = &entries;

@@ -5,8 +5,8 @@ use super::gl;
 use super::room::Form;
 use crate::error::{Error, checked};
 use crate::{Batch, Outputs, Tessellator, gpu};
-use tess_gpu::Capacity;
 use tess_gpu::layout::{DrawIndexed, Job};
+use tess_gpu::{Capacity, Pull, Resource};
 use wgpu::BufferUsages as Usage;
 
 /// A batch with room for its output.
@@ -111,27 +111,22 @@ fn bind(
     batch: &Batch,
 ) -> Result<wgpu::BindGroup, Error> {
     let tables = tessellator.pipelines.tables(form.setup.config.split)?;
-    let job = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-        buffer: batch.jobs(),
-        offset: 0,
-        size: std::num::NonZeroU64::new(size_of::<Job>() as u64),
-    });
-    let buffers = [
-        (0, batch.topologies()),
-        (1, &tables),
-        (2, batch.contexts()),
-        (4, batch.offsets()),
-        (5, batch.tiles()),
-    ];
-    let mut entries: Vec<_> = buffers
-        .into_iter()
-        .filter(|&(binding, _)| binding != 2 || !form.setup.has_integer_factors())
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        })
+    let bound = |resource| match resource {
+        Resource::Job => wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: batch.jobs(),
+            offset: 0,
+            size: std::num::NonZeroU64::new(size_of::<Job>() as u64),
+        }),
+        Resource::Topologies => batch.topologies().as_entire_binding(),
+        Resource::Contexts => batch.contexts().as_entire_binding(),
+        Resource::Offsets => batch.offsets().as_entire_binding(),
+        Resource::Tiles => batch.tiles().as_entire_binding(),
+        _ => tables.as_entire_binding(),
+    };
+    let entries: Vec<_> = Pull { group: 0, first_binding: 0 }
+        .bindings(form.setup)
+        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: bound(resource) })
         .collect();
-    entries.push(wgpu::BindGroupEntry { binding: 3, resource: job });
     let device = tessellator.pipelines.device();
     checked(device, || {
         device.create_bind_group(&wgpu::BindGroupDescriptor {
