@@ -5,7 +5,7 @@
 //! patches, and what changes the tessellator between. A failure shrinks to the smallest sequence and prints it as a
 //! test for `sequences/found.rs`.
 //!
-//! `TESS_SEQUENCES_SECONDS=600` draws other sequences in every run, for so many seconds at each level, and prints how
+//! `TESS_LONG_SECONDS=600` draws other sequences in every run, for so many seconds at each level, and prints how
 //! many there were.
 
 #[path = "sequences/buffers.rs"]
@@ -41,7 +41,7 @@ use tess_simd::Level;
 const SEQUENCES: u32 = 3000;
 
 /// The environment variable with the seconds that each level takes.
-const VARIABLE: &str = "TESS_SEQUENCES_SECONDS";
+const VARIABLE: &str = "TESS_LONG_SECONDS";
 
 #[test]
 fn sequences_at_baseline() {
