@@ -9,10 +9,12 @@ mod own;
 use crate::hold::{self, equal};
 use crate::scene::PATCHES;
 use calls::Call::{self, Again, Frame, Give, Group, MakeRoom, Move, Use};
-use calls::{Count, Draw, Form, Then};
+use calls::{Count, Draw, Form, Source, Then};
 use own::{Own, fits};
 use std::collections::BTreeMap;
+use tess_core::{Domain, Order, Partitioning};
 use tess_wgpu::Gpu;
+use tess_wgpu::stage::{Overflow, Points, Room};
 
 struct World<'a> {
     gpu: &'a Gpu,
@@ -39,8 +41,13 @@ impl World<'_> {
                 return self.frame(count, from, draw, then);
             }
             Call::Late => {
-                if let Some((encoder, frame, count, needed)) = own.kept.pop_front() {
+                if let Some((encoder, frame, count, recorded)) = own.kept.pop_front() {
                     own.drawn = None;
+                    // A bind group is recorded; factors in a buffer are those at the time of the run.
+                    let needed = match own.form.source {
+                        Source::Hull => recorded,
+                        Source::Host | Source::Buffer => own.needed(&own.frame_patches(count)),
+                    };
                     gpu.run(encoder).map_err(|error| error.to_string())?;
                     if own.heard.is_none_or(|(heard, _)| heard <= frame) {
                         own.heard = Some((frame, needed));
@@ -143,6 +150,29 @@ fn any_sequence_of_frames_gives_the_models_pictures() {
     let forms = forms();
     let names = "calls::{Call::*, Count::*, Draw::*, Then::*, Wrong::*}";
     hold::hold(names, (25, 30), calls::call(forms.len()), |calls| replayed(&gpu, &forms, calls));
+}
+
+/// A frame that runs late needs the room of the factors that its buffer has then.
+#[test]
+fn a_late_frame_reads_later_factors() {
+    let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+    let form = Form {
+        domain: Domain::Quad,
+        partitioning: Partitioning::Integer,
+        points: Points::PullWithoutIndices,
+        source: Source::Host,
+        room: Room::Automatic { most_bytes: 40000 },
+        overflow: Overflow::Coarser,
+        order: Order::Specification,
+    };
+    let frame = |then| Frame { count: 8, from: Count::Host, draw: Draw::Everything, then };
+    let calls = [
+        frame(Then::Keep),
+        Give { seed: 16031510608930659577, is_dropped: false },
+        Call::Late,
+        frame(Then::Submit),
+    ];
+    replayed(&gpu, &[form], &calls).unwrap_or_else(|wrong| panic!("{wrong}"));
 }
 
 /// Groups wait for the frame in which the room grows.
