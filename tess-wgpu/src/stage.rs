@@ -1,6 +1,5 @@
 //! The tessellation stage: a hull and a domain function in WGSL, drawn.
 
-mod bound;
 mod builder;
 mod choices;
 mod feedback;
@@ -23,7 +22,6 @@ pub use feedback::Feedback;
 
 use crate::error::Error;
 use crate::{Tessellator, gpu};
-use bound::Bound;
 use feedback::Feedbacks;
 use fit::Fit;
 use origin::Origin;
@@ -63,7 +61,7 @@ pub struct TessellationStage {
     form: Form,
     room: Room,
     groups: Vec<u32>,
-    bound: Bound,
+    bind_groups: Vec<wgpu::BindGroup>,
     /// The raw factors of the frame, as the batch reads them.
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
@@ -132,7 +130,7 @@ impl TessellationStage {
         let mut number = 0;
         if let Some(pipeline) = &self.pipeline {
             pass.set_pipeline(pipeline);
-            for own in self.bound.groups() {
+            for own in &self.bind_groups {
                 pass.set_bind_group(number, own, &[]);
                 number += 1;
             }
@@ -168,32 +166,18 @@ impl TessellationStage {
         Ok(())
     }
 
-    /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or `draw`
-    /// on.
+    /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or `draw` on.
     ///
-    /// A group other than the present one is tried first, in an encoder that is dropped, which takes most of the time
-    /// that recording a frame does. For groups that are replaced each frame, [`Self::set_bind_group_unchecked`] saves
-    /// the trial.
-    ///
-    /// # Errors
-    /// [`StageError::NoSuchBindGroup`]; [`StageError::BadBindGroup`] for a group that does not go with its layout.
-    /// The bind groups are then what they were.
-    pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
-        self.bound.set(&self.device, number, group)
-    }
-
-    /// Replaces a bind group as [`Self::set_bind_group`] does, without the trial. It is for a group that an earlier
-    /// call of [`Self::set_bind_group`] took for this number, or that has the same layout. With another group,
-    /// [`Self::prepare`] succeeds, and wgpu reports an error when the frame's encoder is finished.
+    /// A group of another layout than the builder got, or with dynamic offsets, which the stage does not set, is an error
+    /// of wgpu's when the frame's encoder is finished. It names the group's number and the binding.
     ///
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]. The bind groups are then what they were.
-    pub fn set_bind_group_unchecked(
-        &mut self,
-        number: u32,
-        group: &wgpu::BindGroup,
-    ) -> Result<(), Error> {
-        self.bound.set_unchecked(number, group)
+    pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
+        let groups = self.bind_groups.len();
+        let own = self.bind_groups.get_mut(number as usize);
+        *own.ok_or(StageError::NoSuchBindGroup { number, groups })? = group.clone();
+        Ok(())
     }
 
     /// Records new factors from the host for the first `patches.len()` patches. Patches that never had

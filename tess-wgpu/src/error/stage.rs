@@ -74,14 +74,6 @@ pub enum StageError {
         /// Bind groups that the stage was made with.
         groups: usize,
     },
-    /// A bind group does not go with the layout of its number, or has buffers with dynamic offsets, which the stage
-    /// does not set.
-    BadBindGroup {
-        /// Number of the bind group.
-        number: u32,
-        /// What wgpu says.
-        reason: String,
-    },
     /// The factors of this stage do not come from the host. Make it with `Factors::Host`.
     NotHostFactors,
     /// Whoever draws without the stage's pipeline needs stored points and indices. Leave out `points`.
@@ -136,11 +128,6 @@ impl fmt::Display for StageError {
             ),
             Self::NothingStored => f.write_str(
                 "to draw without the stage's pipeline, points and indices have to be stored; leave out `points`",
-            ),
-            Self::BadBindGroup { number, reason } => write!(
-                f,
-                "bind group {number} does not go with its layout ({reason}); make it with the layout that the \
-                 builder got, without dynamic offsets, which the stage does not set"
             ),
             Self::NoSuchGroup { group, groups } => {
                 write!(f, "the stage has {groups} groups, numbered from 0, and none is {group}")

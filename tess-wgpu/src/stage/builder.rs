@@ -81,7 +81,8 @@ impl<'a> StageBuilder<'a> {
 
     /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so on. The device's limit
     /// is 4 by default, and the stage takes one of them. The layout is visible to the stages that use
-    /// it: `COMPUTE` for `hull`, `VERTEX` for `domain`. It has no dynamic offsets.
+    /// it: `COMPUTE` for `hull`, `VERTEX` for `domain`. It has no dynamic offsets. wgpu looks at the group when a frame's
+    /// encoder is finished: see [`set_bind_group`](super::TessellationStage::set_bind_group).
     pub fn bind_group(mut self, layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup) -> Self {
         self.layouts.push(layout.clone());
         self.bind_groups.push(group.clone());

@@ -41,7 +41,7 @@ impl TessellationStage {
         }
         self.grow()?;
         encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
-        self.origin.encode(encoder, self.bound.groups());
+        self.origin.encode(encoder, &self.bind_groups);
         if let Some(fit) = &self.fit {
             fit.encode(encoder);
         }

@@ -1,6 +1,5 @@
 //! Making a stage: checks, modules, pipelines.
 
-use super::bound::Bound;
 use super::builder::{Render, StageBuilder};
 use super::choices::{Factors, Overflow, Points};
 use super::output::{Output, Stored};
@@ -19,7 +18,7 @@ impl StageBuilder<'_> {
     /// # Errors
     /// - For the user's WGSL: [`StageError::Wgsl`], [`StageError::UnclearFragment`], and on OpenGL
     ///   [`StageError::FlatOfFirstVertex`].
-    /// - For bind groups: [`StageError::BadBindGroup`], [`StageError::TooManyBindGroups`].
+    /// - For bind groups: [`StageError::TooManyBindGroups`].
     /// - If the device does not allow this many patches: [`Error::TooManyPatches`], [`StageError::TooManyFactors`],
     ///   [`Error::TooManyToPull`], [`Error::BufferTooLarge`], [`Error::OutOfMemory`].
     /// - If the device allows no stage at all: [`Error::LimitTooLow`].
@@ -69,7 +68,6 @@ async fn stage(
         true => Some(render_pipeline(&builder, device, pulled.as_ref()).await?),
         false => None,
     };
-    let bound = Bound::new(device, &builder.layouts, &builder.bind_groups)?;
     let capacity = form.initial(room);
     let fit = (overflow == Overflow::Coarser)
         .then(|| Fit::new(device, setup, patches, &factors, capacity))
@@ -87,7 +85,7 @@ async fn stage(
         form,
         room,
         groups: builder.groups,
-        bound,
+        bind_groups: builder.bind_groups,
         factors,
         count,
         origin,
