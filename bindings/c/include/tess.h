@@ -986,8 +986,8 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
  *
  * `level` is `TESS_LEVEL_...`; all levels give the same bits, and one that this machine lacks
  * gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
- * millisecond, later ones a microsecond. What a batch learns of patches takes memory as it is used:
- * some 10 KB from the first small patch on, 1.1 MB at most. `tess_batch_reserve` takes all of it before.
+ * millisecond, later ones a microsecond. What a batch learns of patches takes memory as it is used,
+ * 1.1 MB at most. `tess_batch_reserve` takes all of it before.
  * What is stored in `batch` is to be given to `tess_batch_free`.
  *
  * The caller must ensure:
