@@ -20,6 +20,7 @@ pub type Choice = (usize, usize);
 pub struct Options<E> {
     values: Vec<usize>,
     excluded: E,
+    seldom: Vec<Choice>,
 }
 
 impl<E: Fn(Choice, Choice) -> bool> Options<E> {
@@ -30,7 +31,13 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
     /// If there are fewer than two options, or an option has no value.
     pub fn new(values: &[usize], excluded: E) -> Self {
         assert!(values.len() >= 2 && !values.contains(&0), "pairs of options: {values:?}");
-        Self { values: values.to_vec(), excluded }
+        Self { values: values.to_vec(), excluded, seldom: Vec::new() }
+    }
+
+    /// The same options, of which a row has one of these choices only for a pair with it, or where there is no other.
+    #[must_use]
+    pub fn seldom(self, choices: &[Choice]) -> Self {
+        Self { seldom: choices.to_vec(), ..self }
     }
 
     /// Rows with a value of each option, by number. None has a pair that is excluded; every other pair is in one
@@ -86,7 +93,7 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
     }
 
     /// Chooses a value of each option that has none yet: the one that adds most pairs of `missing`, and among equals
-    /// each in turn. Goes back where no value is left.
+    /// each in turn, those of `seldom` last. Goes back where no value is left.
     fn complete(
         &self,
         chosen: &mut Vec<Choice>,
@@ -101,7 +108,8 @@ impl<E: Fn(Choice, Choice) -> bool> Options<E> {
             .collect();
         let is_missing = |a: Choice, b: Choice| missing.contains(&ordered(a, b));
         values.sort_by_key(|&a| {
-            std::cmp::Reverse(chosen.iter().filter(|&&b| is_missing(a, b)).count())
+            let added = chosen.iter().filter(|&&b| is_missing(a, b)).count();
+            (self.seldom.contains(&a), std::cmp::Reverse(added))
         });
         values.into_iter().any(|choice| {
             chosen.push(choice);

@@ -59,6 +59,19 @@ fn rows_are_few() {
     }
 }
 
+/// Three rows have every pair of one choice, and choices of two options meet in one of them.
+#[test]
+fn seldom_choices_are_in_few_rows() {
+    let options = Options::new(&[3, 3, 3, 2], |_, _| false).seldom(&[(0, 1), (3, 1)]);
+    let rows = options.rows();
+    let all = pairs(&[3, 3, 3, 2], |_, _| false);
+    assert!(all.iter().all(|(pair, _)| rows.iter().any(|row| has(row, *pair))), "{rows:?}");
+    for (option, most) in [(0, 4), (3, 6)] {
+        let seldom = rows.iter().filter(|row| row[option] == 1).count();
+        assert!(seldom <= most, "option {option}: {seldom} of {rows:?}");
+    }
+}
+
 /// Both values of option 1 exclude one of the others.
 #[test]
 #[should_panic(expected = "no row can have [(0, 0), (2, 0)]: exclude it")]
