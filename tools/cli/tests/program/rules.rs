@@ -58,6 +58,19 @@ fn rules_are_for_listings() {
     }
 }
 
+/// Rules ask no backend, so how one runs is refused with them.
+#[test]
+fn rules_have_no_backend() {
+    let listing = tess("patch tri --outer 2,2,2 --inner 2").stdout;
+    for words in ["--cpu-level baseline", "--index-type u16", "--index-type u32"] {
+        let run = tess_with_input(&format!("check - --rules vulkan {words}"), &listing);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
+        for name in ["--rules", words.split(' ').next().unwrap_or(words)] {
+            assert!(run.stderr.contains(name), "{words}: {name} is not in {}", run.stderr);
+        }
+    }
+}
+
 #[test]
 fn backends_are_judged() {
     let run = tess("verify --backend simd --rules d3d11");

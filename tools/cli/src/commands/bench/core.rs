@@ -1,8 +1,7 @@
 //! The golden model under the clock.
 
 use super::parts::parts;
-use super::runner::{Amount, Runner, RunnerOptions, WorkingSet};
-use crate::failure::Failure;
+use super::runner::{Amount, Runner, WorkingSet};
 use std::hint::black_box;
 use std::ops::Range;
 use std::time::{Duration, Instant};
@@ -35,15 +34,6 @@ struct Batch {
 }
 
 impl CoreRunner {
-    pub(super) fn new(options: RunnerOptions) -> Result<Self, Failure> {
-        if options.threads != 1 || options.index_type != IndexType::U32 {
-            return Err(Failure::bad_input(
-                "backend core runs on one thread (--threads 1) with --index-type u32",
-            ));
-        }
-        Ok(Self::single())
-    }
-
     /// The core as it is: one thread, 32-bit indices.
     pub(super) const fn single() -> Self {
         Self {

@@ -106,6 +106,11 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     if args.no_copies && args.backend != BackendName::Gpu {
         return Err(Failure::bad_input("--no-copies goes with --backend gpu"));
     }
+    if args.threads != 1 && args.backend != BackendName::Simd {
+        return Err(Failure::bad_input(
+            "--threads goes with --backend simd; core and gpu run on one thread (--threads 1)",
+        ));
+    }
     if args.order == OrderName::Cache && args.backend == BackendName::Core {
         return Err(Failure::bad_input("--order cache goes with --backend simd or gpu"));
     }
@@ -171,10 +176,10 @@ fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Resul
 /// The runner of a backend.
 ///
 /// # Errors
-/// Exit code 3 if the backend is not available, 2 if it does not offer these options.
+/// Exit code 3 if the backend is not available.
 fn runner(name: BackendName, options: RunnerOptions) -> Result<Box<dyn Runner>, Failure> {
     match name {
-        BackendName::Core => Ok(Box::new(core::CoreRunner::new(options)?)),
+        BackendName::Core => Ok(Box::new(core::CoreRunner::single())),
         BackendName::Simd => simd::runner(options),
         #[cfg(feature = "gpu")]
         BackendName::Gpu => {

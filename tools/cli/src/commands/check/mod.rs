@@ -85,8 +85,8 @@ pub(crate) struct Args {
     /// Judge listings by the rules of this standard: vulkan, opengl or d3d11
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
     #[arg(conflicts_with_all = [
-        "backend", "order", "primitives", "points", "conversion", "denormals", "cases", "failures",
-        "coverage", "known",
+        "backend", "cpu_level", "index_type", "order", "primitives", "points", "conversion",
+        "denormals", "cases", "failures", "coverage", "known",
     ])]
     rules: Option<Specification>,
     /// What was asked: records that answer other cases, too few or too many are differences
@@ -119,6 +119,8 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     if let Some(cases) = &args.cases {
         args.known.refuse_judged("what is asked", &Role::input("--cases", cases))?;
     }
+    // Before a device is opened.
+    args.strength.tested(Kind::Listings, args.backend)?;
     // Before stdin is read: the GPU backend may start the program anew.
     let backends = backends(args);
     let read = if args.empty { VectorFile::maybe_empty } else { VectorFile::new };

@@ -49,9 +49,6 @@ struct Timed {
 
 impl GpuRunner {
     pub(super) fn new(options: RunnerOptions) -> Result<Self, Failure> {
-        if options.threads != 1 {
-            return Err(Failure::bad_input("backend gpu is run by one thread (--threads 1)"));
-        }
         let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))
             .map_err(|error| Failure::unavailable(error.to_string()))?;
         let stopwatch = Stopwatch::new(&gpu).map_err(|error| {
