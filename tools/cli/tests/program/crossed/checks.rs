@@ -11,7 +11,7 @@ use tess_verify::vectors::Listing;
 
 /// A second case of the same configuration, which is answered wrongly.
 fn second(case: Case) -> Case {
-    Case { factors: PatchFactors::from_fn(case.domain(), |i| FACTORS[i] + 1.0), ..case }
+    Case { factors: PatchFactors::from_fn(case.domain(), |i| FACTORS[5 - i]), ..case }
 }
 
 /// A file with the model's answer and then a wrong one to the second case, as listings or as digests.
