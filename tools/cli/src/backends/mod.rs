@@ -4,8 +4,6 @@
 
 #[cfg(feature = "gpu")]
 pub(crate) mod gpu;
-#[cfg(any(feature = "gpu", feature = "probe"))]
-pub(crate) mod quiet;
 pub(crate) mod simd;
 #[cfg(test)]
 mod tests;
@@ -127,10 +125,7 @@ impl BackendOptions {
             BackendName::Core => Ok(Box::new(CoreBackend)),
             BackendName::Simd => self.simd(),
             #[cfg(feature = "gpu")]
-            BackendName::Gpu => {
-                quiet::start_again_for_loader();
-                Ok(Box::new(gpu::GpuBackend::open(self.index_type)?))
-            }
+            BackendName::Gpu => Ok(Box::new(gpu::GpuBackend::open(self.index_type)?)),
             #[cfg(not(feature = "gpu"))]
             BackendName::Gpu => Err(not_built_in("gpu")),
         }

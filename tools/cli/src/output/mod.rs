@@ -25,8 +25,6 @@ pub(crate) use rows::{Frame, Rows};
 use std::io::{self, BufWriter, Write};
 use std::path::PathBuf;
 use std::time::Duration;
-#[cfg(all(target_os = "linux", any(feature = "gpu", feature = "probe")))]
-pub(crate) use stdout::stay_closed;
 pub(crate) use stdout::{stdout, stop_when_reader_leaves};
 
 /// The `-o` option.

@@ -66,16 +66,6 @@ fn was_closed() -> bool {
     WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)
 }
 
-/// Closes stdout in the program that this process becomes, if it was closed when this one began: that
-/// one must find it so too, and not the `/dev/null` in its place.
-#[cfg(all(target_os = "linux", any(feature = "gpu", feature = "probe")))]
-pub(crate) fn stay_closed() {
-    if was_closed() {
-        // It fails for no descriptor that is open.
-        _ = rustix::io::fcntl_setfd(rustix::stdio::stdout(), rustix::io::FdFlags::CLOEXEC);
-    }
-}
-
 /// Elsewhere a write to a closed stdout fails by itself.
 #[cfg(not(unix))]
 const fn was_closed() -> bool {

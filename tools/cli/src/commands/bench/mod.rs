@@ -9,8 +9,6 @@ mod runner;
 mod simd;
 mod table;
 
-#[cfg(feature = "gpu")]
-use crate::backends::quiet;
 use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
 use crate::output::{self, Frame, Rows, note};
@@ -182,10 +180,7 @@ fn runner(name: BackendName, options: RunnerOptions) -> Result<Box<dyn Runner>, 
         BackendName::Core => Ok(Box::new(core::CoreRunner::single())),
         BackendName::Simd => simd::runner(options),
         #[cfg(feature = "gpu")]
-        BackendName::Gpu => {
-            quiet::start_again_for_loader();
-            Ok(Box::new(gpu::GpuRunner::new(options)?))
-        }
+        BackendName::Gpu => Ok(Box::new(gpu::GpuRunner::new(options)?)),
         #[cfg(not(feature = "gpu"))]
         BackendName::Gpu => Err(crate::backends::not_built_in("gpu")),
     }

@@ -5,7 +5,6 @@ mod bench;
 
 use super::check::{ConversionName, DenormalsName, read_known, rules};
 use crate::args::{SelectionArgs, name_of};
-use crate::backends::quiet;
 use crate::campaign::report::{First as FirstOf, Part, Report as Record};
 use crate::campaign::{Baseline, Invocation, KnownArgs, Placed, Recorder, ReportArgs};
 use crate::failure::{Exit, Failure};
@@ -114,7 +113,6 @@ enum OrderName {
 /// No Vulkan, no such device, one that cannot be captured, or one that fails; no case to ask; an
 /// output that cannot be written.
 pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
-    quiet::start_again_for_loader();
     if args.list {
         return args.list_devices();
     }
