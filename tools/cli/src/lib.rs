@@ -85,8 +85,7 @@ pub fn main() -> ExitCode {
 /// # Errors
 /// Stdout cannot be written.
 fn show(help: &clap::Error) -> Result<Exit, Failure> {
-    let is_open = output::stdout().map(drop);
-    let written = is_open.and_then(|()| help.print()).and_then(|()| io::stdout().flush());
+    let written = help.print().and_then(|()| io::stdout().flush());
     written.map(|()| Exit::Done).map_err(|error| Failure::write(Path::new("-"), error))
 }
 

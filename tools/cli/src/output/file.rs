@@ -210,10 +210,7 @@ impl OutputFile {
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
         let content = || -> io::Result<Content> {
             Ok(match Destination::of(path)? {
-                Destination::Stdout => {
-                    drop(stdout()?); // closed?
-                    Content::Spool(tempfile::tempfile()?, None)
-                }
+                Destination::Stdout => Content::Spool(tempfile::tempfile()?, None),
                 Destination::Stream(path) => {
                     Content::Spool(tempfile::tempfile()?, Some(open_stream(&path)?))
                 }
@@ -257,7 +254,7 @@ impl OutputFile {
         match self.content {
             Content::Partial(partial) => partial.persist(),
             Content::Spool(file, Some(mut stream)) => copy(file, &mut stream),
-            Content::Spool(file, None) => copy(file, &mut stdout()?),
+            Content::Spool(file, None) => copy(file, &mut stdout()),
         }
     }
 

@@ -61,7 +61,7 @@ impl OutputArgs {
     fn stream_to(&self, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
         match Destination::of(&self.file)? {
             Destination::Stdout => {
-                let mut out = stdout()?;
+                let mut out = stdout();
                 content(&mut out)?;
                 out.flush()
             }
@@ -84,8 +84,7 @@ impl OutputArgs {
     /// As [`OutputArgs::write`] would; but a pipe is not opened, which waits for its reader.
     pub(crate) fn require_writable(&self) -> Result<(), Failure> {
         let attempt = || match Destination::of(&self.file)? {
-            Destination::Stdout => stdout().map(drop),
-            Destination::Stream(_) => Ok(()),
+            Destination::Stdout | Destination::Stream(_) => Ok(()),
             Destination::File(path) => file::Partial::of(&path).map(drop),
         };
         attempt().map_err(|error| Failure::write(&self.file, error))

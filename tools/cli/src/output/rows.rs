@@ -44,9 +44,8 @@ impl Rows {
     /// Rows to come, by name.
     ///
     /// # Errors
-    /// Stdout is closed, or signals cannot be listened to.
+    /// Signals cannot be listened to.
     pub(crate) fn new(frame: Frame, to_come: impl IntoIterator<Item = String>) -> io::Result<Self> {
-        drop(stdout()?);
         let to_come = to_come.into_iter().collect();
         let (state, guard) = ending::guarded(|| {
             let state = Arc::new(Mutex::new(State { frame, printed: 0, to_come }));
@@ -88,7 +87,7 @@ fn lock(state: &Mutex<State>) -> MutexGuard<'_, State> {
 impl State {
     fn print(&mut self, row: &str) -> io::Result<()> {
         let before = if self.printed == 0 { &self.frame.opening } else { self.frame.between };
-        let mut out = stdout()?;
+        let mut out = stdout();
         write!(out, "{before}{row}")?;
         out.flush()?;
         self.printed += 1;
@@ -97,7 +96,7 @@ impl State {
 
     fn close(&self) -> io::Result<()> {
         let end = if self.printed == 0 { self.frame.empty } else { self.frame.closing };
-        let mut out = stdout()?;
+        let mut out = stdout();
         out.write_all(end.as_bytes())?;
         out.flush()
     }

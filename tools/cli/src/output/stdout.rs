@@ -1,18 +1,14 @@
-//! Stdout: closed, left by its reader, or a terminal.
+//! Stdout: left by its reader, or a terminal.
 
 use crate::failure::Failure;
 use std::io::{self, BufWriter, IsTerminal, StdoutLock};
 
 /// Stdout, buffered. It must be flushed, or errors are lost.
 ///
-/// # Errors
-/// Stdout was closed when the program began. A write fails with [`io::ErrorKind::BrokenPipe`] when
-/// the reader has left; [`Failure::write`] makes that a quiet end.
-pub(crate) fn stdout() -> io::Result<BufWriter<StdoutLock<'static>>> {
-    if was_closed() {
-        return Err(io::Error::other("stdout is closed"));
-    }
-    Ok(BufWriter::new(io::stdout().lock()))
+/// A write fails with [`io::ErrorKind::BrokenPipe`] when the reader has left;
+/// [`Failure::write`] makes that a quiet end.
+pub(crate) fn stdout() -> BufWriter<StdoutLock<'static>> {
+    BufWriter::new(io::stdout().lock())
 }
 
 /// Refuses to write bytes that are no text to stdout if that is a terminal.
@@ -49,25 +45,3 @@ pub(crate) fn stop_when_reader_leaves() {
 /// Elsewhere the next write notices.
 #[cfg(not(unix))]
 pub(crate) fn stop_when_reader_leaves() {}
-
-#[cfg(unix)]
-static WAS_CLOSED: std::sync::atomic::AtomicBool = std::sync::atomic::AtomicBool::new(false);
-
-/// Runs before Rust's runtime, which opens `/dev/null` in the place of a closed stdout.
-#[cfg(unix)]
-#[ctor::ctor]
-fn look_at_stdout() {
-    let closed = rustix::io::fcntl_getfd(rustix::stdio::stdout()).is_err();
-    WAS_CLOSED.store(closed, std::sync::atomic::Ordering::Relaxed);
-}
-
-#[cfg(unix)]
-fn was_closed() -> bool {
-    WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)
-}
-
-/// Elsewhere a write to a closed stdout fails by itself.
-#[cfg(not(unix))]
-const fn was_closed() -> bool {
-    false
-}

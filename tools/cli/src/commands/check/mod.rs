@@ -293,7 +293,7 @@ fn open(path: &Path) -> Result<Reader, Failure> {
 }
 
 fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
-    let mut out = stdout()?;
+    let mut out = stdout();
     if report.mismatches > 0 {
         writeln!(out, "{sides}")?;
     }

@@ -110,9 +110,7 @@ pub(crate) fn show(report: &RulesReport) -> Result<Exit, Failure> {
 }
 
 fn print(what: &impl Display) -> Result<(), Failure> {
-    let written = stdout().and_then(|mut out| {
-        write!(out, "{what}")?;
-        out.flush()
-    });
+    let mut out = stdout();
+    let written = write!(out, "{what}").and_then(|()| out.flush());
     written.map_err(|error| Failure::write(Path::new("-"), error))
 }
