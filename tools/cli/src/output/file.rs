@@ -4,9 +4,9 @@ use super::ending::{self, Guard};
 use super::stdout::stdout;
 use crate::failure::Failure;
 use std::fs::{self, File, Metadata};
-use std::io::{self, BufReader, Read, Seek, Write};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
-use tempfile::{Builder, NamedTempFile, PersistError};
+use tempfile::{Builder, NamedTempFile};
 
 /// What a path given to `-o` stands for.
 #[derive(Debug)]
@@ -129,29 +129,29 @@ impl Partial {
     /// # Errors
     /// It cannot be put there; then it is removed.
     pub(super) fn persist(self) -> io::Result<()> {
-        persist(self.file, &self.path).map_err(|error| error.error)
+        persist(self.file, &self.path)
     }
 }
 
 #[cfg(not(windows))]
-fn persist(file: NamedTempFile, path: &Path) -> Result<(), PersistError> {
-    file.persist(path).map(drop)
+fn persist(file: NamedTempFile, path: &Path) -> io::Result<()> {
+    file.persist(path).map(drop).map_err(|error| error.error)
 }
 
 /// Windows replaces no file that another program looks at: that takes a moment, and may happen again.
 #[cfg(windows)]
 #[expect(clippy::disallowed_methods, reason = "nothing tells when the other program is done")]
-fn persist(mut file: NamedTempFile, path: &Path) -> Result<(), PersistError> {
+fn persist(mut file: NamedTempFile, path: &Path) -> io::Result<()> {
     for _ in 0..100 {
         match file.persist(path) {
             Err(denied) if denied.error.kind() == io::ErrorKind::PermissionDenied => {
                 file = denied.file
             }
-            persisted => return persisted.map(drop),
+            persisted => return persisted.map(drop).map_err(|error| error.error),
         }
         std::thread::sleep(std::time::Duration::from_millis(10));
     }
-    file.persist(path).map(drop)
+    file.persist(path).map(drop).map_err(|error| error.error)
 }
 
 impl Write for Partial {
@@ -185,7 +185,7 @@ pub(crate) fn write_while_ending(path: &Path, content: &[u8]) -> io::Result<()> 
     let path = follow(path)?;
     let mut file = Partial::create(&path, path.metadata().ok().as_ref())?;
     file.write_all(content)?;
-    file.persist(&path).map(drop).map_err(|error| error.error)
+    persist(file, &path)
 }
 
 /// An output that is written in any order and put in its place at the end.
@@ -227,9 +227,9 @@ impl OutputFile {
         !matches!(Destination::of(path), Ok(Destination::Stdout | Destination::Stream(_)))
     }
 
-    fn file(&mut self) -> &mut File {
-        match &mut self.content {
-            Content::Partial(partial) => partial.file.as_file_mut(),
+    fn file(&self) -> &File {
+        match &self.content {
+            Content::Partial(partial) => partial.file.as_file(),
             Content::Spool(file, _) => file,
         }
     }
@@ -239,11 +239,7 @@ impl OutputFile {
     /// # Errors
     /// They cannot be written.
     pub(crate) fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<()> {
-        let file = match &self.content {
-            Content::Partial(partial) => partial.file.as_file(),
-            Content::Spool(file, _) => file,
-        };
-        write_at(file, bytes, offset)
+        write_at(self.file(), bytes, offset)
     }
 
     /// Puts the whole output in its place.
@@ -267,9 +263,8 @@ impl OutputFile {
             (Content::Partial(first), Content::Partial(second)) => {
                 let (_first, _second) = (first.guard, second.guard);
                 ending::undisturbed(|| {
-                    first.file.persist(&first.path).map_err(|error| error.error)?;
-                    second.file.persist(&second.path).map_err(|error| error.error)?;
-                    Ok(())
+                    persist(first.file, &first.path)?;
+                    persist(second.file, &second.path)
                 })
             }
             (first, second) => {
@@ -299,14 +294,8 @@ fn write_at(file: &File, mut bytes: &[u8], mut offset: u64) -> io::Result<()> {
 
 fn copy(mut from: File, to: &mut impl Write) -> io::Result<()> {
     from.rewind()?;
-    let mut from = BufReader::with_capacity(1 << 20, from);
-    let mut buffer = vec![0; 1 << 20];
-    loop {
-        match from.read(&mut buffer)? {
-            0 => return to.flush(),
-            read => to.write_all(&buffer[..read])?,
-        }
-    }
+    io::copy(&mut from, to)?;
+    to.flush()
 }
 
 impl Write for OutputFile {
