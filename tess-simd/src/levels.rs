@@ -19,7 +19,7 @@ use crate::stages::points::Lookup;
 #[cfg(target_arch = "x86_64")]
 use crate::stages::points::{Code, permute, permute::Permutes};
 use crate::stages::settings::Settings;
-use tess_core::{Config, Counts, PatchFactors};
+use tess_core::{Config, Counts, Domain};
 
 at_each_level! {
     /// [`kernels::front_end::count`] at a level.
@@ -46,7 +46,7 @@ at_each_level! {
 
 at_each_level! {
     /// [`kernels::front_end::process_one`] at a level.
-    fn process_one(config: Config, factors: PatchFactors, one: &mut OnePatch) -> Counts
+    fn process_one(config: Config, domain: Domain, a: u64, b: u64, c: u64, one: &mut OnePatch) -> Counts
         = kernels::front_end::process_one;
 }
 

@@ -15,7 +15,7 @@ use crate::kernels::kernel_taps::{Kernel, Made, Work};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
 use crate::stages::counts::PartCounts;
-use crate::stages::packet::{OnePatch, Packet};
+use crate::stages::packet::{OnePatch, Packet, pairs};
 use crate::stages::points::Lookup;
 use crate::stages::settings::Settings;
 use alloc::vec::Vec;
@@ -176,7 +176,9 @@ impl Tap {
             Kernel::ProcessOne => {
                 self.ones.clear();
                 for &factors in &work.patches {
-                    let counts = levels::process_one(*level, config, factors, &mut self.one);
+                    let (domain, [a, b, c]) = (factors.domain(), pairs(factors));
+                    let counts =
+                        levels::process_one(*level, config, domain, a, b, c, &mut self.one);
                     self.ones.push(counts);
                 }
             }

@@ -60,7 +60,7 @@
 
 mod one;
 
-pub(crate) use one::OnePatch;
+pub(crate) use one::{OnePatch, pairs};
 
 use crate::data::lanes::{Column, EdgePoints, LANES, Lanes, MAX_FACTORS, is_odd};
 use crate::stages::counts::{PacketCounts, counts};

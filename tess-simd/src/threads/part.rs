@@ -11,7 +11,7 @@ use crate::data::target::Target;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
-use crate::stages::packet::{OnePatch, Packet};
+use crate::stages::packet::{OnePatch, Packet, pairs};
 use crate::stages::points::Lookup;
 use crate::stages::settings::Settings;
 use alloc::boxed::Box;
@@ -95,7 +95,8 @@ impl Workspace {
         config: Config,
         factors: PatchFactors,
     ) -> Counts {
-        levels::process_one(level, config, factors, &mut self.memory().one)
+        let [a, b, c] = pairs(factors);
+        levels::process_one(level, config, factors.domain(), a, b, c, &mut self.memory().one)
     }
 
     /// Writes the patch that was processed last. What lies behind it in the buffers may be overwritten.

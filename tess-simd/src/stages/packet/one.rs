@@ -10,6 +10,7 @@ use crate::stages::counts::counts_of_patch;
 use crate::stages::factor_context::{Context, point_count};
 use crate::stages::factors::{FACTORS_AT_ONCE, OneProcessed, process_one, process_one_isoline};
 use crate::stages::place::Spacing;
+use core::array::from_fn;
 use tess_core::{Config, Counts, Domain, PatchFactors};
 
 /// A patch that came alone, and a packet that has it in its first lane.
@@ -17,19 +18,26 @@ use tess_core::{Config, Counts, Domain, PatchFactors};
 pub(crate) struct OnePatch {
     /// As the patch that was processed last made it; nothing else writes to it.
     packet: Packet,
-    raw: RawFactors,
+    raw: RawPairs,
+    /// [`kept`] of its processed factors: what the packet and the sizes follow from.
+    kept: [u32; FACTORS_AT_ONCE],
     domain: Domain,
     counts: Counts,
 }
 
 /// The raw factors of a patch side by side; zeros follow those that its domain has.
-type RawFactors = [u32; FACTORS_AT_ONCE];
+type RawFactors = [f32; FACTORS_AT_ONCE];
+
+/// Pairs of raw factors, the first of each pair in the lower half, zeros behind them. They travel in registers: a
+/// vector that is loaded from memory would wait for factors written in pieces.
+pub(crate) type RawPairs = [u64; MAX_FACTORS / 2];
 
 impl OnePatch {
     /// A patch that is culled, as all its factors are 0.
     pub(crate) const CULLED: Self = Self {
         packet: Packet::EMPTY,
-        raw: [0; FACTORS_AT_ONCE],
+        raw: [0; _],
+        kept: [0; FACTORS_AT_ONCE],
         domain: Domain::Quad,
         counts: Counts { points: 0, primitives: 0, indices: 0 },
     };
@@ -42,21 +50,50 @@ impl OnePatch {
     /// Processes the raw factors of one patch, unless they are those of the patch before. Returns its output
     /// sizes, zeros if it is culled. The configuration is the same in each call.
     #[inline(always)]
-    pub(crate) fn process(&mut self, config: Config, factors: PatchFactors) -> Counts {
-        let (raw, domain) = (side_by_side(factors), factors.domain());
+    pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: RawPairs) -> Counts {
+        use Domain::{Isoline, Quad, Triangle};
         // All factors in one comparison: which is the first to differ is hard to predict.
-        let differences = (0..FACTORS_AT_ONCE).fold(0, |any, i| any | (raw[i] ^ self.raw[i]));
-        if differences != 0 || domain != self.domain {
+        let differences = (0..raw.len()).fold(0, |any, i| any | (raw[i] ^ self.raw[i]));
+        let other = domain != self.domain;
+        if differences != 0 || other {
             (self.raw, self.domain) = (raw, domain);
-            self.counts = self.packet.process_raw(config, 0, domain, &raw);
+            // In each arm the domain is a constant.
+            match domain {
+                Isoline => {
+                    self.keep(config, Isoline, &process(config, Isoline, &apart(raw)), other)
+                }
+                Triangle => {
+                    self.keep(config, Triangle, &process(config, Triangle, &apart(raw)), other)
+                }
+                Quad => self.keep(config, Quad, &process(config, Quad, &apart(raw)), other),
+            }
         }
         self.counts
     }
+
+    /// Makes the packet from processed factors, unless it has these.
+    #[inline(always)]
+    fn keep(&mut self, config: Config, domain: Domain, processed: &OneProcessed, other: bool) {
+        let kept = kept(processed);
+        let differences = (0..FACTORS_AT_ONCE).fold(0, |any, i| any | (kept[i] ^ self.kept[i]));
+        if differences != 0 || other {
+            self.kept = kept;
+            self.counts = self.packet.keep_one(config, 0, domain, processed);
+        }
+    }
+}
+
+/// Processed factors in one vector: zeros if the patch is culled, as the others are at least 1. In one
+/// configuration and domain, parities and whether it is a minimum patch follow from the factors.
+#[inline(always)]
+fn kept(processed: &OneProcessed) -> [u32; FACTORS_AT_ONCE] {
+    let mask = 0_u32.wrapping_sub(processed.alive.into());
+    processed.fixed.map(|factor| factor & mask)
 }
 
 #[inline(always)]
 fn side_by_side(factors: PatchFactors) -> RawFactors {
-    let raw = match factors {
+    match factors {
         PatchFactors::Isoline(factors) => {
             let [density, detail] = factors.into();
             [density, detail, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
@@ -69,8 +106,32 @@ fn side_by_side(factors: PatchFactors) -> RawFactors {
             let [u0, v0, u1, v1, inside_u, inside_v] = factors.into();
             [u0, v0, u1, v1, inside_u, inside_v, 0.0, 0.0]
         }
-    };
-    raw.map(f32::to_bits)
+    }
+}
+
+/// The raw factors of one patch in pairs.
+#[inline(always)]
+pub(crate) fn pairs(factors: PatchFactors) -> RawPairs {
+    let raw = side_by_side(factors).map(f32::to_bits).map(u64::from);
+    from_fn(|i| raw[2 * i] | (raw[2 * i + 1] << 32))
+}
+
+/// The factors of which [`pairs`] made these.
+#[inline(always)]
+#[expect(clippy::cast_possible_truncation, reason = "the lower half")]
+fn apart(raw: RawPairs) -> RawFactors {
+    let [a, b, c] = raw.map(|pair| [pair as u32, (pair >> 32) as u32].map(f32::from_bits));
+    [a[0], a[1], b[0], b[1], c[0], c[1], 0.0, 0.0]
+}
+
+#[inline(always)]
+fn process(config: Config, domain: Domain, raw: &RawFactors) -> OneProcessed {
+    let partitioning = config.partitioning;
+    match domain {
+        Domain::Isoline => process_one_isoline(partitioning, raw),
+        Domain::Triangle => process_one::<3, 4>(partitioning, raw),
+        Domain::Quad => process_one::<4, 6>(partitioning, raw),
+    }
 }
 
 impl Packet {
@@ -83,25 +144,8 @@ impl Packet {
         lane: usize,
         factors: PatchFactors,
     ) -> Counts {
-        self.process_raw(config, lane, factors.domain(), &side_by_side(factors))
-    }
-
-    #[inline(always)]
-    fn process_raw(
-        &mut self,
-        config: Config,
-        lane: usize,
-        domain: Domain,
-        raw: &RawFactors,
-    ) -> Counts {
-        let partitioning = config.partitioning;
-        let raw = &raw.map(f32::from_bits);
-        let processed = match domain {
-            Domain::Isoline => process_one_isoline(partitioning, raw),
-            Domain::Triangle => process_one::<3, 4>(partitioning, raw),
-            Domain::Quad => process_one::<4, 6>(partitioning, raw),
-        };
-        self.keep_one(config, lane, domain, &processed)
+        let domain = factors.domain();
+        self.keep_one(config, lane, domain, &process(config, domain, &side_by_side(factors)))
     }
 
     /// Makes the lane from processed factors.
