@@ -329,3 +329,18 @@ fn workgroups_keep_to_the_default_limits() {
         }
     }
 }
+
+/// Hosts without `tess-wgpu` join modules of surfaces by hand, those of the stage or single ones.
+#[test]
+fn surfaces_are_joined_by_hand() {
+    use tess_gpu::surfaces::{CULLING, DISPLACEMENT, FLAT, HELPERS};
+    for module in [FLAT, CULLING] {
+        assert!(HELPERS.contains(module), "the stage's modules are whole: {module}");
+    }
+    for text in [FLAT.to_owned(), CULLING.to_owned(), [HELPERS, DISPLACEMENT].join("\n")] {
+        let module = naga::front::wgsl::parse_str(&text)
+            .unwrap_or_else(|error| panic!("{}", error.emit_to_string(&text)));
+        assert!(module.functions.len() > 1, "functions alone");
+        assert!(module.entry_points.is_empty() && module.global_variables.is_empty(), "no more");
+    }
+}
