@@ -7,6 +7,7 @@
 //!
 //! `TESS_LONG_SECONDS=600` draws other sequences in every run, for so many seconds at each level, and prints how
 //! many there were.
+#![cfg(not(target_family = "wasm"))]
 
 #[path = "sequences/buffers.rs"]
 mod buffers;
