@@ -219,7 +219,7 @@ fn families_and_unknown_names() {
     assert_eq!(named("nothing").len(), 0, "unknown");
     assert_eq!(named("mosaic").len(), 1, "mosaic is a workload and no family");
     assert_eq!(named("meshes").len(), 4, "meshes is a family");
-    assert_eq!(all().len(), 31, "all");
+    assert_eq!(all().len(), 39, "all");
     let names: BTreeSet<String> = all().into_iter().map(|workload| workload.name).collect();
-    assert_eq!(names.len(), 31, "each has a name of its own");
+    assert_eq!(names.len(), 39, "each has a name of its own");
 }
