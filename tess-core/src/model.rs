@@ -1,7 +1,7 @@
 //! The specification's stages, one after another, and nothing else: start here.
 //!
-//! Floats and random access, counts and other orders are elsewhere: floats end in `factors`, the rest is in
-//! `closed_form`, `cache_order` and `prepare`. Read in this order; each module has its section's number.
+//! Floats end in `factors`. Counts and random access are in `closed_form`, another order of triangles in `cache_order`,
+//! and what HLSL does in front in `prepare`. Read in this order; each line has its sections of the specification.
 //!
 //! ```text
 //! raw factors -> factors -> factor_context -> place -> points   -> sink
