@@ -32,7 +32,7 @@ pub enum QuadAxes {
     Two,
 }
 
-/// What a hull shader hands over for one patch. The inside factors are yet to come: their fields hold scales, 0 to 1,
+/// Factors of one patch as a hull shader hands them over. The inside factors are yet to come: their fields hold scales, 0 to 1,
 /// as in C and in vector files.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Request {

@@ -170,7 +170,7 @@ fn coarse_places_exceed_a_half_by_what_is_said() {
     }
 }
 
-/// What only exceptions have.
+/// Properties that only exceptions have.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Damage {
     zero_areas: bool,

@@ -56,7 +56,7 @@ impl Resource {
     ];
 }
 
-/// What a stage does with a buffer.
+/// A stage's access to a buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Access {
     /// Reads it.

@@ -51,7 +51,7 @@ pub struct Job {
     pub has_catalogue: u32,
 }
 
-/// What a batch needs and whether it fits: the first 32 bytes of [`crate::Resource::Status`].
+/// The needs of a batch and whether they fit: the first 32 bytes of [`crate::Resource::Status`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct Status {
@@ -126,7 +126,7 @@ pub struct DrawIndexed {
     pub first_instance: u32,
 }
 
-/// What the connectivity of a patch depends on: its state and the points along its edges (spec
+/// The key of a patch's connectivity: its state and the points along its edges (spec
 /// section 12.8; the bits are in `layout/topology.wgsl`).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]

@@ -28,7 +28,7 @@
 //! reader  expansions       expansions      shared/alike.wgsl           expansions
 //! ```
 //!
-//! What must hold:
+//! Invariants:
 //! - A binding begins at a multiple of [`ALIGNMENT`], lies within its buffer and keeps to the limits. The tiles, the
 //!   arguments and the catalogue are bound whole: `room.rs` says which limits suffice for them.
 //! - A portion is a whole number of sections, or the whole batch.

@@ -1,9 +1,9 @@
-//! What a batch is planned for: a device's limits and the room for output.
+//! The setting that a batch is planned for: a device's limits and the room for output.
 
 use crate::setup::Setup;
 use tess_core::{Patch, PatchFactors};
 
-/// What a device can do.
+/// The limits of a device.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Bytes of one storage binding: at least 128 MiB. A smaller limit, down to 4 MiB, is kept except
@@ -36,7 +36,7 @@ impl Capacity {
         Self::uniform(setup, patches, 64.0)
     }
 
-    /// What `patches` patches need if all of their factors are `factor`. Patches with several factors need no
+    /// The room that `patches` patches need if all of their factors are `factor`. Patches with several factors need no
     /// more than patches whose factors all equal the largest one.
     #[must_use]
     pub fn uniform(setup: Setup, patches: u32, factor: f32) -> Self {

@@ -9,7 +9,7 @@ use std::io::Write;
 use std::process::{Command, Stdio};
 use tess_gpu::{Counting, Pull, Stage, Tap};
 
-/// What Tint says of a shader that it refuses.
+/// Tint's message about a shader that it refuses.
 fn refusal(source: &str) -> Option<String> {
     let mut child = Command::new("tint")
         .args(["--input-format", "wgsl", "--format", "wgsl", "-"])

@@ -4,7 +4,7 @@ use crate::model::fixed_point::{FixedFactor, HALF, ONE, ceil, floor};
 use crate::model::reciprocal::reciprocal;
 use crate::model::state::{Parity, SplitOrder};
 
-/// What is derived once from a factor and its parity.
+/// Numbers derived once from a factor and its parity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FactorContext {
     /// Parity of the number of segments.

@@ -19,7 +19,7 @@ pub struct ProcessedFactor {
     pub context: FactorContext,
 }
 
-/// What factor processing makes of a patch.
+/// A patch behind factor processing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProcessedPatch {
     /// An outer factor is zero, negative or NaN: no points, no indices.

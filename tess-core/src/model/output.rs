@@ -1,4 +1,4 @@
-//! What a patch consists of: domain points and primitives (spec section 1).
+//! The output of a patch: domain points and primitives (spec section 1).
 
 use crate::model::fixed_point::coordinate_to_f32;
 use fixed::types::U16F16;

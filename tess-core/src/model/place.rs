@@ -12,7 +12,7 @@ pub struct Placement {
     pub flip: bool,
     /// The position on the half edge, `0..=half_points`.
     pub position: u32,
-    /// What is blended on the half edge; `None` in the exact middle of an even edge.
+    /// The two locations that are blended on the half edge; `None` in the exact middle of an even edge.
     pub blend: Option<Blend>,
     /// The location on the half edge, before mirroring, 16 fraction bits.
     pub half_location: u32,

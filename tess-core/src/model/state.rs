@@ -1,4 +1,4 @@
-//! What a tessellator is set to before patches arrive (spec section 1).
+//! The settings of a tessellator before patches arrive (spec section 1).
 
 /// The shape of a patch's parameter space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -25,7 +25,7 @@ pub enum Partitioning {
     FractionalEven,
 }
 
-/// What the index list is made of. Clockwise is seen with v pointing down (spec section 7).
+/// The elements of the index list. Clockwise is seen with v pointing down (spec section 7).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum OutputPrimitive {
     /// One index per domain point.
@@ -86,7 +86,7 @@ impl Parity {
 pub struct Config {
     /// Spacing of the cuts.
     pub partitioning: Partitioning,
-    /// What the indices describe.
+    /// The kind of primitive that the indices describe.
     pub output: OutputPrimitive,
     /// Order in which edges are split.
     pub split: SplitOrder,

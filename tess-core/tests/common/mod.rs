@@ -1,4 +1,4 @@
-//! What the tests of the core share.
+//! Helpers that the tests of the core share.
 
 use proptest::prelude::*;
 use tess_core::{

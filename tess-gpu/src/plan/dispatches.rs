@@ -1,4 +1,4 @@
-//! What runs, in order, and what each dispatch binds.
+//! Dispatches in their order, and the buffers that each binds.
 
 use super::Plan;
 use super::jobs::Part;
@@ -55,7 +55,7 @@ impl Plan {
         counting.chain(list).chain(groups).chain(expansion)
     }
 
-    /// What writes the output of a portion; nothing if there is no room for any.
+    /// The dispatches that write the output of a portion; nothing if there is no room for any.
     fn expansion(self, portion: u32) -> impl Iterator<Item = Dispatch> + use<> {
         let has_room = self.capacity != Capacity::default();
         let (points, primitives) = match self.is_short() {

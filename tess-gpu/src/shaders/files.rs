@@ -158,7 +158,7 @@ fn chosen(need: &'static str, choices: &[Choice]) -> &'static str {
     choice.map(|&(_, file)| file).unwrap_or_else(|| panic!("{need} is not chosen"))
 }
 
-/// What the first line of a file names.
+/// The names in the first line of a file.
 fn needs(file: &'static str) -> impl Iterator<Item = &'static str> {
     first_line(file).0.split(", ").filter(|&need| need != "nothing")
 }

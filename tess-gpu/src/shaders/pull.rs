@@ -36,7 +36,7 @@ impl Pull {
         Resource::Tiles,
     ];
 
-    /// What [`Pull::source_for_drawing`] declares: numbers of bindings and their buffers. [`Pull::source`] declares the
+    /// Declarations of [`Pull::source_for_drawing`]: numbers of bindings and their buffers. [`Pull::source`] declares the
     /// first four of six, or with [`Setup::has_integer_factors`], where contexts are left out, two of five.
     pub fn bindings(self, setup: Setup) -> impl Iterator<Item = (u32, Resource)> {
         let all = (self.first_binding..).zip(Self::RESOURCES);

@@ -9,7 +9,7 @@ pub(crate) enum Argument {
     Two([u32; 2]),
 }
 
-/// What the function `name` returns.
+/// The value that the function `name` returns.
 pub(crate) fn call(module: &Module, name: &str, arguments: &[Argument]) -> u32 {
     let mut functions = module.functions.iter().map(|(_, function)| function);
     let function = functions.find(|function| function.name.as_deref() == Some(name));

@@ -11,7 +11,7 @@ pub(crate) type Words = [Vec<u32>; Resource::ALL.len()];
 pub(crate) const POINTS: usize = 0;
 pub(crate) const PRIMITIVES: usize = 1;
 
-/// What a pass is told, and the patches of its portion as the model has them.
+/// The arguments of a pass, and the patches of its portion as the model has them.
 #[derive(Debug)]
 pub(crate) struct Pass<'a> {
     pub(crate) setup: Setup,
@@ -25,7 +25,7 @@ pub(crate) struct Pass<'a> {
 #[derive(Debug)]
 pub(crate) struct Bound<'a> {
     words: &'a mut Words,
-    /// What the device left in the buffers that the pass writes.
+    /// The device's words in the buffers that the pass writes.
     left: &'a Words,
     spans: [Option<Span>; Resource::ALL.len()],
     /// A choice of the device that the pass may not make: the word, and what is wrong.
@@ -55,7 +55,7 @@ impl<'a> Bound<'a> {
         self.words[resource as usize][at] = value;
     }
 
-    /// What the device left. A twin looks only where the pass may choose: slots and places of the catalogue, and the
+    /// The device's words. A twin looks only where the pass may choose: slots and places of the catalogue, and the
     /// unused bits of culled topologies.
     pub(crate) fn left(&self, resource: Resource, word: u32) -> u32 {
         self.left[resource as usize][self.at(resource, word)]

@@ -61,7 +61,7 @@ pub(crate) fn first_difference(
     Ok(())
 }
 
-/// What a word of a buffer belongs to; the catalogue is as it must be.
+/// The owner of a word of a buffer; the catalogue is as it must be.
 fn owner(
     context: &Context<'_>,
     dispatch: &Dispatch,

@@ -37,7 +37,7 @@ pub(crate) fn list(pass: &Pass<'_>, b: &mut Bound<'_>) {
     }
 }
 
-/// What is wrong with the places that the device chose. Their order is not defined. What is: elements of two topologies
+/// Faults of the places that the device chose. Their order is not defined. Defined is this: elements of two topologies
 /// share no word; if there is room for all, all have a place and no word between them is left; places lie within the room.
 fn refusal(
     catalogue: &Catalogue,

@@ -98,7 +98,7 @@ impl<'a> Context<'a> {
         Self { batch, plan, patches, begins, jobs: plan.jobs() }
     }
 
-    /// What a dispatch is told.
+    /// The arguments of a dispatch.
     pub(crate) fn pass(&self, dispatch: &Dispatch) -> Pass<'_> {
         let at = usize::try_from(ALIGNMENT).expect("256") * dispatch.job() as usize;
         let job: Job = bytemuck::pod_read_unaligned(&self.jobs[at..][..size_of::<Job>()]);

@@ -17,7 +17,7 @@
 //! `Centre { p: 4 }`. Triangle 45 is `Ring { ring: 2, edge: 0, step: 7 }`: its stitch joins ring 1 to ring 2, and is
 //! named after the inner one. `locate.rs` works these numbers out, and its test `the_worked_patch` has them.
 //!
-//! What holds: an origin is a pure value. One that `locate` never gives for a patch is no error: `point` and `primitive`
+//! Invariant: an origin is a pure value. One that `locate` never gives for a patch is no error: `point` and `primitive`
 //! give `None` for it.
 
 /// Where a domain point comes from in the walk of spec section 6.

@@ -22,7 +22,7 @@
 //! them are the steps of the middle, one for each of the two factors whose parity is odd; here are none. The
 //! test `the_worked_transition` has the first half's steps.
 //!
-//! What holds: `t` is below the stitch's size, which the caller has from the same counts; the position of a
+//! Invariants: `t` is below the stitch's size, which the caller has from the same counts; the position of a
 //! step is the largest one before which at most `t` steps are done, and the five bits of the search find it
 //! among 32. A walk would take up to 126 steps.
 
@@ -52,7 +52,7 @@ impl HalfEdge {
     }
 }
 
-/// What one step of a stitch does; `o` and `i` are the positions on the rows before it.
+/// One step of a stitch; `o` and `i` are the positions on the rows before it.
 #[derive(Clone, Copy)]
 enum Step {
     Outer { o: u32, i: u32 },
@@ -155,7 +155,7 @@ fn middle_triangle(
 ///     o0 o1 i0  o1 i1 i0  o1 o2 i1  o2 i2 i1  o2 o3 i2  i2 o3 o4  i2 o4 i3  o4 o5 i3
 /// ```
 ///
-/// What holds: `t` is below `2 * inner_points`, and `inner_points` is at least 1: with 1, triangles 0 and 1 are the ends.
+/// Invariants: `t` is below `2 * inner_points`, and `inner_points` is at least 1: with 1, triangles 0 and 1 are the ends.
 pub(crate) fn ring_triangle((outer, inner): (&Row, &Row), inner_points: u32, t: u32) -> Triangle {
     let last = 2 * inner_points - 1;
     if t == 0 {

@@ -6,7 +6,7 @@ use crate::model::row::Row;
 use crate::model::state::Parity;
 use crate::model::stitch::{Stitch, StitchKind};
 
-/// What the rings of a patch with `EDGES` edges depend on.
+/// The numbers that the rings of a patch with `EDGES` edges depend on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rings<'a, const EDGES: usize> {
     /// Contexts of the outer edges.

@@ -45,7 +45,7 @@ fn roots() -> Vec<(&'static str, Vec<Choice>)> {
     all
 }
 
-/// What a file declares at module scope, bindings apart, and what it mentions.
+/// Names that a file declares at module scope, bindings apart, and what it mentions.
 #[derive(Debug, Default)]
 struct Names<'a> {
     declared: BTreeSet<&'a str>,
@@ -96,7 +96,7 @@ fn words(code: &str) -> Vec<&str> {
     words
 }
 
-/// What is wrong with the first lines of a shader's files.
+/// Faults of the first lines of a shader's files.
 fn complaints(root: &'static str, choices: &[Choice]) -> Vec<String> {
     let mut files = Vec::new();
     add(root, choices, &mut files);
@@ -173,7 +173,7 @@ fn every_file_is_part_of_a_shader() {
     assert!(unused.is_empty(), "{unused:?}");
 }
 
-/// What is in a folder.
+/// The files in a folder.
 fn entries(folder: &Path) -> Vec<PathBuf> {
     let all = std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{folder:?}: {error}"));
     all.map(|entry| entry.expect("an entry").path()).collect()
