@@ -1,4 +1,13 @@
-//! Installs the C library as C programs expect one: headers, static and shared library, and a file for pkg-config.
+//! Installs the C library as C and C++ programs expect one: headers, static and shared library, and what pkg-config and
+//! CMake look for.
+//!
+//! | system | archive | shared library | beside it |
+//! | --- | --- | --- | --- |
+//! | Linux | `lib/libtess.a` | `lib/libtess.so.0.1.0` | links `libtess.so.0.1` and `libtess.so`, `lib/pkgconfig/tess.pc` |
+//! | macOS | `lib/libtess.a` | `lib/libtess.dylib` | `lib/pkgconfig/tess.pc` |
+//! | Windows (GNU) | `lib/libtess.a` | `bin/tess_capi.dll` | `lib/libtess.dll.a` |
+//!
+//! The headers go to `include`, CMake's package to `lib/cmake/tess`.
 
 use crate::command::{self, cargo, in_file, workspace};
 use std::fs;
@@ -14,29 +23,72 @@ const MESSAGES: &str = "--message-format=json-render-diagnostics";
 /// The version of the package, `MAJOR.MINOR.PATCH`: all packages of the workspace have one.
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 
-/// Builds the C library and installs it below `prefix`: `include/tess.h`, `lib/libtess.a`, `lib/libtess.so` and
-/// `lib/pkgconfig/tess.pc`. What is there of these is replaced.
+/// Builds the C library for `target`, or for this machine, and installs it below `prefix`. Files that are there are
+/// replaced.
 ///
 /// # Errors
-/// The system has no ELF libraries, the build fails, or a file cannot be written.
-pub(crate) fn run(prefix: &str) -> Result<(), String> {
-    if !cfg!(target_os = "linux") {
-        return Err("install: the shared library is laid out as Linux has them; elsewhere, take \
-             libtess_capi from `cargo build --release -p tess-capi` and bindings/c/include/tess.h"
-            .to_owned());
-    }
+/// The system is none of the table above, the build fails, or a file cannot be written.
+pub(crate) fn run(prefix: &str, target: Option<&str>) -> Result<(), String> {
+    let system = System::of(target.unwrap_or(std::env::consts::OS))?;
     let prefix = std::path::absolute(prefix).map_err(|error| in_file(Path::new(prefix), &error))?;
     let mut release = cargo("rustc --release -p tess-capi --lib");
-    release.arg(MESSAGES).arg("--").arg(format!("-Clink-arg=-Wl,-soname,{}", soname()));
-    let built = build(&mut release)?;
-    let files = Files::new(&prefix);
-    files.install(&built)?;
-    println!("\ninstalled in {}; compile with", prefix.display());
+    release.args(target.map(|target| format!("--target={target}"))).arg(MESSAGES).arg("--");
+    release.args(system.name_of_library());
+    let files = Files { prefix, system };
+    files.install(&build(&mut release, system)?)?;
+    println!("\ninstalled in {}; compile with", files.prefix.display());
+    if system != System::Windows {
+        let pkgconfig = files.prefix.join("lib/pkgconfig");
+        println!(
+            "  PKG_CONFIG_PATH={} cc program.c $(pkg-config --cflags --libs tess)",
+            pkgconfig.display()
+        );
+    }
     println!(
-        "  PKG_CONFIG_PATH={} cc program.c $(pkg-config --cflags --libs tess)",
-        files.pkgconfig.display()
+        "  cmake -DCMAKE_PREFIX_PATH={}   # find_package(tess), tess::tess or tess::static",
+        files.prefix.display()
     );
     Ok(())
+}
+
+/// A system by the names that its libraries have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum System {
+    Linux,
+    Macos,
+    Windows,
+}
+
+impl System {
+    /// The system of a target, or of `std::env::consts::OS`.
+    fn of(target: &str) -> Result<Self, String> {
+        match target {
+            _ if target.contains("linux") => Ok(Self::Linux),
+            _ if target.contains("apple") || target == "macos" => Ok(Self::Macos),
+            _ if target.ends_with("windows-gnu") => Ok(Self::Windows),
+            _ => Err(format!(
+                "install: {target} has none of the layouts of Linux, macOS and Windows with GNU's tools; take \
+                 tess_capi from `cargo build --release -p tess-capi` and bindings/c/include/tess.h"
+            )),
+        }
+    }
+
+    /// How the linker is told the name by which programs find the shared library.
+    fn name_of_library(self) -> Option<String> {
+        match self {
+            Self::Linux => Some(format!("-Clink-arg=-Wl,-soname,{}", soname())),
+            Self::Macos => Some("-Clink-arg=-Wl,-install_name,@rpath/libtess.dylib".to_owned()),
+            Self::Windows => None,
+        }
+    }
+
+    fn shared(self) -> &'static str {
+        match self {
+            Self::Linux => ".so",
+            Self::Macos => ".dylib",
+            Self::Windows => ".dll",
+        }
+    }
 }
 
 /// The name by which programs find the shared library: another one for each version that may break them.
@@ -56,15 +108,22 @@ struct Built {
 }
 
 /// Runs a build that has the library in it, with [`MESSAGES`].
-fn build(command: &mut Command) -> Result<Built, String> {
+fn build(command: &mut Command, system: System) -> Result<Built, String> {
     println!("\n$ {}", command::shown(command));
     let messages = command::output(command)?;
     let files: Vec<PathBuf> = messages.lines().filter_map(artifacts).flatten().collect();
     let with = |extension: &str| {
-        let found = files.iter().find(|file| file.extension().is_some_and(|e| e == extension));
-        found.cloned().ok_or_else(|| format!("cargo built no .{extension}: {files:?}"))
+        let is_it = |file: &&PathBuf| {
+            let name = file.to_string_lossy();
+            name.ends_with(extension) && !name.ends_with(".dll.a")
+        };
+        files
+            .iter()
+            .find(is_it)
+            .cloned()
+            .ok_or_else(|| format!("cargo built no {extension}: {files:?}"))
     };
-    Ok(Built { archive: with("a")?, shared: with("so")? })
+    Ok(Built { archive: with(".a")?, shared: with(system.shared())? })
 }
 
 /// The files of the library that one of cargo's messages speaks of.
@@ -79,41 +138,80 @@ fn artifacts(line: &str) -> Option<Vec<PathBuf>> {
 /// Where the files go.
 struct Files {
     prefix: PathBuf,
-    include: PathBuf,
-    lib: PathBuf,
-    pkgconfig: PathBuf,
+    system: System,
 }
 
 impl Files {
-    fn new(prefix: &Path) -> Self {
-        let lib = prefix.join("lib");
-        Self {
-            prefix: prefix.to_path_buf(),
-            include: prefix.join("include"),
-            pkgconfig: lib.join("pkgconfig"),
-            lib,
-        }
+    /// The file `name` of the installation, in a folder that is there.
+    fn at(&self, name: &str) -> Result<PathBuf, String> {
+        let path = self.prefix.join(name);
+        let folder = path.parent().unwrap_or(&self.prefix);
+        fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))?;
+        Ok(path)
+    }
+
+    fn write(&self, name: &str, text: &str) -> Result<(), String> {
+        let path = self.at(name)?;
+        fs::write(&path, text).map_err(|error| in_file(&path, &error))
     }
 
     fn install(&self, built: &Built) -> Result<(), String> {
-        for folder in [&self.include, &self.lib, &self.pkgconfig] {
-            fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))?;
+        let bindings = workspace().join("bindings/c");
+        for header in ["tess.h", "tess.hpp"] {
+            replace(
+                &bindings.join("include").join(header),
+                &self.at(&format!("include/{header}"))?,
+            )?;
         }
-        let header = workspace().join("bindings/c/include/tess.h");
-        replace(&header, &self.include.join("tess.h"))?;
-        replace(&built.archive, &self.lib.join("libtess.a"))?;
-        let full = format!("libtess.so.{VERSION}");
-        replace(&built.shared, &self.lib.join(&full))?;
-        for link in [soname(), "libtess.so".to_owned()] {
-            self.link(&full, &link)?;
+        self.archive(&built.archive)?;
+        match self.system {
+            System::Linux => {
+                let full = format!("libtess.so.{VERSION}");
+                replace(&built.shared, &self.at(&format!("lib/{full}"))?)?;
+                for link in [soname(), "libtess.so".to_owned()] {
+                    self.link(&full, &link)?;
+                }
+            }
+            System::Macos => replace(&built.shared, &self.at("lib/libtess.dylib")?)?,
+            System::Windows => {
+                replace(&built.shared, &self.at("bin/tess_capi.dll")?)?;
+                let import = built.shared.with_file_name("libtess_capi.dll.a");
+                replace(&import, &self.at("lib/libtess.dll.a")?)?;
+            }
         }
-        let description = self.pkgconfig.join("tess.pc");
-        fs::write(&description, self.description()).map_err(|error| in_file(&description, &error))
+        for file in ["tess-config.cmake", "tess-config-version.cmake"] {
+            let path = bindings.join("cmake").join(file);
+            let text = fs::read_to_string(&path).map_err(|error| in_file(&path, &error))?;
+            self.write(&format!("lib/cmake/tess/{file}"), &text.replace("@VERSION@", VERSION))?;
+        }
+        if self.system == System::Windows {
+            Ok(())
+        } else {
+            self.write("lib/pkgconfig/tess.pc", &self.description())
+        }
+    }
+
+    /// The archive without symbols for debuggers, which are most of its bytes and those of Rust's library; the linker
+    /// takes what a program calls.
+    fn archive(&self, built: &Path) -> Result<(), String> {
+        let archive = self.at("lib/libtess.a")?;
+        replace(built, &archive)?;
+        let tool =
+            if self.system == System::Windows { "x86_64-w64-mingw32-strip" } else { "strip" };
+        let flag = if cfg!(target_os = "macos") { "-S" } else { "--strip-debug" };
+        match Command::new(tool).arg(flag).arg(&archive).status() {
+            Ok(status) if status.success() => Ok(()),
+            Ok(status) => Err(format!("{tool} {flag} {}: {status}", archive.display())),
+            Err(_) => {
+                println!("{tool} is not there: lib/libtess.a keeps its symbols for debuggers");
+                Ok(())
+            }
+        }
     }
 
     /// Makes `name` stand for the library `full` beside it.
     fn link(&self, full: &str, name: &str) -> Result<(), String> {
-        let link = self.lib.join(name);
+        let link = self.at(&format!("lib/{name}"))?;
         remove(&link)?;
         #[cfg(unix)]
         std::os::unix::fs::symlink(full, &link).map_err(|error| in_file(&link, &error))?;

@@ -77,8 +77,8 @@ usage: cargo xtask <command>
   rtl --long | --prove | --synth
           compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
           where it stopped; prove handshakes and placement; print what the circuit costs
-  install --prefix FOLDER
-          build the C library and install its header, both libraries and `tess.pc` there, so that
+  install --prefix FOLDER [--target TARGET]
+          build the C library and install headers, both libraries, `tess.pc` and CMake's package there, so that
           `cc program.c $(pkg-config --cflags --libs tess)` works
   mesa [build | compare | test] [22.3.6 | 25.0.7]
           get Mesa's sources from Debian, build its drivers lavapipe (Vulkan) and llvmpipe (OpenGL) as they are
@@ -160,7 +160,8 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["explorer", "--test"] => explorer::test(),
         ["integrations"] => after_setup(&integrations::run),
         ["rtl", ..] => return with_kit(words),
-        ["install", "--prefix", folder] => install::run(folder),
+        ["install", "--prefix", folder] => install::run(folder, None),
+        ["install", "--prefix", folder, "--target", target] => install::run(folder, Some(target)),
         ["mesa", ref words @ ..] => mesa::run(words),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),

@@ -20,14 +20,15 @@ fn library() -> Built {
         Ok(all) => cargo(&format!("{all} --no-run")),
         Err(_) => cargo(own),
     };
-    build(build_tests.arg(MESSAGES)).expect("a library")
+    build(build_tests.arg(MESSAGES), System::Linux).expect("a library")
 }
 
 #[test]
 fn programs_find_what_is_installed() {
     let folder = command::target().join(format!("tmp/install-{}", std::process::id()));
     fs::create_dir_all(&folder).expect("a folder");
-    Files::new(&folder.join("usr")).install(&library()).expect("an installation");
+    let files = Files { prefix: folder.join("usr"), system: System::Linux };
+    files.install(&library()).expect("an installation");
     fs::copy(workspace().join("bindings/c/examples/patch.c"), folder.join("patch.c"))
         .expect("the example");
 
@@ -37,6 +38,30 @@ fn programs_find_what_is_installed() {
     assert!(needed.contains("[libtess.so"), "the shared library is taken where both are: {needed}");
     let shared = shell(&folder, &format!("LD_LIBRARY_PATH=usr/lib ./shared {arguments}"));
     assert!(shared.starts_with("points 27\n"), "the patch: {shared}");
+
+    let project = workspace().join("bindings/c/examples/cmake");
+    let build = "-DCMAKE_PREFIX_PATH=$PWD/usr -DCMAKE_C_FLAGS=-Werror -DCMAKE_CXX_FLAGS='-Wall -Wextra -Werror'";
+    shell(
+        &folder,
+        &format!("cmake -S {} -B build {build} && cmake --build build", project.display()),
+    );
+    assert!(
+        shell(&folder, "readelf -d build/batch").contains("libtess.so"),
+        "tess::tess is the shared library"
+    );
+    assert!(
+        !shell(&folder, "readelf -d build/batch_static").contains("libtess.so"),
+        "tess::static is the archive"
+    );
+    let batch = shell(&folder, "build/batch");
+    assert!(batch.starts_with("1000 patches, "), "each compared with the model: {batch}");
+    assert_eq!(shell(&folder, "build/batch_static"), batch, "the same in C++");
+    let later =
+        format!("sed 's/tess 0.1/tess 0.2/' {}/CMakeLists.txt > CMakeLists.txt", project.display());
+    shell(
+        &folder,
+        &format!("{later} && ! cmake -B refused {build} 2> said && grep -q 'version: 0.1.0' said"),
+    );
 
     // Without the shared library `-ltess` is the archive.
     shell(&folder, "rm usr/lib/libtess.so*");

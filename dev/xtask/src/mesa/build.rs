@@ -11,7 +11,7 @@ use std::process::Command;
 /// Builds every variant whose driver is missing or older than what it is made of.
 pub(super) fn all(place: &Place) -> Result<(), String> {
     let prefix = place.root.join("tess");
-    install::run(&prefix.display().to_string())?;
+    install::run(&prefix.display().to_string(), None)?;
     for variant in Variant::ALL {
         if !is_current(place, variant, &prefix)? {
             build(place, variant, &prefix)?;

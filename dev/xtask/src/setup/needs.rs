@@ -13,9 +13,9 @@ pub(super) const COMPARISONS: &[Need] = &[
         is_there: has_vulkan,
     },
     Need {
-        what: "C and C++ compilers, make and pkg-config (tests of the C interface)",
-        packages: &["gcc", "g++", "libc6-dev", "make", "pkg-config"],
-        is_there: || ["cc", "c++", "make", "pkg-config"].into_iter().all(has_program),
+        what: "C and C++ compilers, make, CMake and pkg-config (tests of the C interface)",
+        packages: &["gcc", "g++", "libc6-dev", "make", "cmake", "pkg-config"],
+        is_there: || ["cc", "c++", "make", "cmake", "pkg-config"].into_iter().all(has_program),
     },
     Need {
         what: "compilers of shaders and Vulkan's header (tests of `tess shaders` and `tess probe`)",
