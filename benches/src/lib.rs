@@ -16,8 +16,8 @@
 use std::ops::Range;
 use tess_core::{BufferTooSmall, DomainPoint, Patch};
 use tess_simd::{Buffers, Level, Numbering, OwnedBatch, PatchRange, Tessellator};
-use tess_verify::digest::Fnv1a;
-use tess_verify::workloads::{IndexType, Totals, Workload, all};
+use tess_verify::generate::{IndexType, Totals, Workload};
+use tess_verify::vectors::Fnv1a;
 
 /// Patches to tessellate and buffers of the right size.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ struct Simd {
 /// Every workload's first batch.
 #[must_use]
 pub fn cases() -> Vec<Case> {
-    all().into_iter().map(Case::new).collect()
+    Workload::all().into_iter().map(Case::new).collect()
 }
 
 impl Case {

@@ -1,6 +1,6 @@
 //! A tessellator of one's own against the model, by cases instead of bytes.
 #![no_main]
 
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 libfuzzer_sys::fuzz_target!(|case: Case| tess_fuzz::fail_if(tess_fuzz::device::check_case(&case)));

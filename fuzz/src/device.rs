@@ -5,7 +5,7 @@ mod example;
 
 use crate::fault_is_planted;
 use arbitrary::{Arbitrary, Unstructured};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// Compares a case.
 ///

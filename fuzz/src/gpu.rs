@@ -5,7 +5,7 @@ use crate::input::Bytes;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
 use tess_gpu::{Numbering, PointFormat, Setup};
-use tess_verify::case::Case;
+use tess_verify::Case;
 use tess_wgpu::{Gpu, Tessellator};
 
 /// Patches in a batch: small, as a software adapter runs them.

@@ -1,7 +1,7 @@
 //! Cases from the bytes that libFuzzer makes.
 
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, SplitOrder};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// Bytes, taken from the front. Where none are left, zeros come.
 #[derive(Clone, Copy, Debug)]

@@ -20,8 +20,8 @@ pub mod vectors;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tess_core::Tessellation;
-use tess_verify::case::Case;
-use tess_verify::compare;
+use tess_verify::Case;
+use tess_verify::check::Mismatch;
 
 /// Ends the run with the message of an oracle, which libFuzzer takes as a finding.
 pub fn fail_if(result: Result<(), String>) {
@@ -55,7 +55,7 @@ pub fn compare_with_model(
     if let Some(last) = observed.indices.last_mut().filter(|_| fault_is_planted()) {
         *last ^= 1;
     }
-    match compare::tessellations(case, &observed, model) {
+    match Mismatch::between(case, &observed, model) {
         None => Ok(()),
         Some(mismatch) => Err(repeatable(case, &format!("{name} differs from core: {mismatch}"))),
     }

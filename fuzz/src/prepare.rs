@@ -7,7 +7,7 @@ use crate::fault_is_planted;
 use crate::input::Bytes;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{Domain, Partitioning, PatchFactors};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// Compares the unrounded and the rounded factors of one request.
 ///

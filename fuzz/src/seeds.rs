@@ -5,8 +5,7 @@ use crate::mesh;
 use std::io;
 use std::path::Path;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
-use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{SplitMix64, boundary_factors, exceptional_factors, special_factors};
 
 /// Every target.
 pub const TARGETS: [&str; 11] = [

@@ -6,7 +6,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use tess_core::{Config, DomainPoint, PatchFactors, Tessellation};
 use tess_simd::{ExactOutput, Level, Numbering, Output, OwnedBatch, Tessellator};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// Patches in a batch: more than three chunks of 64 patches, the last of which is not whole.
 const MOST: usize = 200;

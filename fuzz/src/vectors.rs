@@ -1,7 +1,7 @@
 //! The reader of vector files, on any bytes.
 
 use crate::fault_is_planted;
-use tess_verify::case::Case;
+use tess_verify::Case;
 use tess_verify::vectors::{Coordinates, Listing, Record, VectorFile};
 
 /// Reads a file to its end. It never panics; it gives as many records as its header says, at least one

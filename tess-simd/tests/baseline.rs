@@ -194,8 +194,7 @@ mod taps {
     use tess_core::fixed_point::ONE;
     use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder};
     use tess_simd::{Level, contexts, fixed_factors, locations};
-    use tess_verify::backend::Backend;
-    use tess_verify::core_backend::CoreBackend;
+    use tess_verify::{Backend, CoreBackend};
 
     pub(super) fn every_tap() {
         levels_that_are_missing();

@@ -12,7 +12,7 @@ use tess_core::{
     SplitOrder, Tessellation, TriangleFactors,
 };
 use tess_simd::{Level, Numbering, Output, Tessellator};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 const SAME: fn(DomainPoint) -> DomainPoint = |point| point;
 

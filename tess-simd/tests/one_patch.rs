@@ -15,8 +15,7 @@ use tess_core::{
 use tess_simd::{
     Batch, Buffer, Buffers, Error, IndexFormat, Level, Numbering, Order, OutputPoint, Tessellator,
 };
-use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{GenLevel, Selection, SplitMix64};
 
 /// Points and indices that no patch has.
 const FIXED: DomainPoint = DomainPoint::from_bits(u32::MAX, u32::MAX);

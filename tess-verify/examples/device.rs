@@ -9,11 +9,9 @@
 use std::error::Error;
 use std::fmt;
 use tess_core::{DomainPoint, Tessellation};
-use tess_verify::case::Case;
-use tess_verify::checker::{Report, check_device};
-use tess_verify::coordinate::fixed;
-use tess_verify::strength::{Order, Strength};
-use tess_verify::ways::Way;
+use tess_verify::Case;
+use tess_verify::check::{Order, Report, Strength, Way, check_device};
+use tess_verify::vectors::fixed;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let default = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/device.capture").to_owned();

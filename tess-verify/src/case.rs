@@ -12,7 +12,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFacto
 /// factor as the 8 hex digits of its binary32 bits, so that no factor is lost in print.
 ///
 /// ```
-/// use tess_verify::case::Case;
+/// use tess_verify::Case;
 ///
 /// let line = "case tri fractional_odd triangle_cw ruler 40200000 40400000 3f800000 7fc00000";
 /// let case: Case = line.parse()?;
@@ -22,7 +22,7 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFacto
 ///     "tess patch tri --outer 0x40200000,0x40400000,0x3f800000 --inner 0x7fc00000 \
 ///      --partitioning fractional_odd --output triangle_cw --split ruler"
 /// );
-/// # Ok::<(), tess_verify::case::CaseError>(())
+/// # Ok::<(), tess_verify::CaseError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Case {

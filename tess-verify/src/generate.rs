@@ -7,18 +7,24 @@
 //!
 //! Each level ends with random cases.
 
+#[cfg(feature = "arbitrary")]
+mod arbitrary;
 mod boundaries;
 mod levels;
 mod patches;
+mod random;
 mod related;
+mod workloads;
 
 pub use boundaries::{boundary_factors, exceptional_factors, special_factors};
 #[cfg(feature = "arbitrary")]
 pub(crate) use patches::{factor_up_to, patch_of};
 pub use patches::{random_factor, random_patch};
+pub use random::SplitMix64;
+pub use workloads::{CACHE_BATCH_BYTES, Calls, IndexType, Totals, Workload};
 
 use crate::case::Case;
-use crate::random::{Draw, SplitMix64};
+use random::Draw;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
 /// How much is generated: `--level` of `tess gen`.

@@ -14,8 +14,9 @@
 //! Vertices are told apart by their coordinates, as a shader sees them, never by their numbers.
 //!
 //! ```
+//! use tess_verify::Case;
+//! use tess_verify::check::Order;
 //! use tess_verify::rules::{Checker, Rule, Specification, Verdict};
-//! use tess_verify::{Case, Order};
 //!
 //! let mut checker = Checker::new(Specification::Vulkan);
 //! // 3.00000024 is above 3, so Vulkan asks for 5 segments. The model rounds to 16 fraction bits first.
@@ -50,7 +51,7 @@ pub use standard::{Rule, Specification};
 
 use crate::backend::{Backend, BackendError};
 use crate::case::Case;
-use crate::checker::tessellate;
+use crate::check::tessellate;
 use answer::Answer;
 use memory::Memory;
 use report::Tally;

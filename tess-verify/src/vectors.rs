@@ -5,8 +5,11 @@
 //! line and field, so that nothing passes because it was not there.
 
 mod cases;
+mod coordinate;
 mod coordinates;
+mod digest;
 mod error;
+mod formats;
 mod header;
 mod lines;
 mod listing;
@@ -17,7 +20,9 @@ mod words;
 mod write;
 
 pub use cases::Cases;
+pub use coordinate::fixed;
 pub use coordinates::{Coordinates, Vertex};
+pub use digest::{Fnv1a, words_digest};
 pub use error::VectorError;
 pub use header::{Header, Kind};
 pub use listing::Listing;

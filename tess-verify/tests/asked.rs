@@ -2,14 +2,10 @@
 
 use std::time::Instant;
 use tess_core::Tessellation;
-use tess_verify::backend::Backend;
-use tess_verify::case::Case;
-use tess_verify::checker::{Report, Tested, WINDOW, check_asked};
-use tess_verify::core_backend::CoreBackend;
-use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::random::SplitMix64;
-use tess_verify::strength::Strength;
+use tess_verify::check::{Report, Strength, Tested, WINDOW, check_asked};
+use tess_verify::generate::{GenLevel, Selection, SplitMix64};
 use tess_verify::vectors::{Listing, VectorFile};
+use tess_verify::{Backend, Case, CoreBackend};
 
 /// Distinct small cases.
 fn cases(count: usize) -> Vec<Case> {

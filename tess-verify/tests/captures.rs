@@ -4,14 +4,12 @@
 use std::fmt::Write;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, OutputPrimitive, Tessellation};
-use tess_verify::backend::Backend;
-use tess_verify::case::Case;
-use tess_verify::checker::{CheckError, Report, Tested, check, check_asked};
-use tess_verify::core_backend::CoreBackend;
+use tess_verify::check::{
+    CheckError, Elements, Order, Report, Strength, Tested, Way, check, check_asked, vertices,
+};
 use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::strength::{Elements, Order, Strength, vertices};
 use tess_verify::vectors::{Cases, Listing, Record, VectorFile};
-use tess_verify::ways::Way;
+use tess_verify::{Backend, Case, CoreBackend};
 
 const ANY: Strength = strength(Order::Any);
 const SEQUENCE: Strength = strength(Order::Sequence);
@@ -22,7 +20,7 @@ const QUAD: &str = "case quad integer triangle_cw ruler \
 const HEADER: &str = "# tess-vectors 1 kind=listings source=capture\n";
 
 const fn strength(order: Order) -> Strength {
-    use tess_verify::strength::{Conversion, Denormals};
+    use tess_verify::check::{Conversion, Denormals};
     let (conversion, denormals) = (Conversion::Exact, Denormals::Keep);
     Strength { order, elements: Elements::Primitives, conversion, denormals }
 }
@@ -292,7 +290,7 @@ fn answered_wrongly(asked: &str, records: &str) -> Vec<bool> {
     let mut one: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
     let seen = std::sync::Mutex::new(Vec::new());
     let tested = Tested::Listings(ANY);
-    let checked = |checked: tess_verify::checker::Checked<'_>| {
+    let checked = |checked: tess_verify::check::Checked<'_>| {
         seen.lock().expect("no panic").extend_from_slice(checked.different);
     };
     check_asked(file, Some(&mut cases), &mut one, tested, &checked).expect("a verdict");

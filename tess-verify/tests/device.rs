@@ -1,13 +1,12 @@
 //! Listings of a device under test: which differences are seen, and which stage they point to.
 
 use tess_core::{DomainPoint, Tessellation};
-use tess_verify::backend::Backend;
-use tess_verify::case::Case;
-use tess_verify::checker::{CheckError, Report, Tested, check};
-use tess_verify::compare::{Element, Stage};
-use tess_verify::core_backend::CoreBackend;
-use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
+use tess_verify::check::{
+    CheckError, Conversion, Denormals, Element, Elements, Order, Report, Stage, Strength, Tested,
+    check,
+};
 use tess_verify::vectors::{Listing, VectorFile};
+use tess_verify::{Backend, Case, CoreBackend};
 
 const TRIANGLE: &str =
     "case tri fractional_even triangle_ccw ruler 40733333 40a00000 40e66666 4119999a";

@@ -2,11 +2,10 @@
 //! many there are of each kind.
 
 use tess_core::{Domain, DomainPoint, Tessellation};
-use tess_verify::case::Case;
-use tess_verify::checker::{Report, check_device};
-use tess_verify::compare::Stage;
-use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
-use tess_verify::ways::Way;
+use tess_verify::Case;
+use tess_verify::check::{
+    Conversion, Denormals, Elements, Order, Report, Stage, Strength, Way, check_device,
+};
 
 const ANY: Strength = Strength {
     order: Order::Any,

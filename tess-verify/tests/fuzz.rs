@@ -5,7 +5,7 @@
 mod fuzz;
 
 use fuzz::device::Device;
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 fn search(truncates: bool, cases: usize) -> Option<String> {
     let mut device = Device { truncates };

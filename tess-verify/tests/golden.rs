@@ -4,13 +4,9 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::BufReader;
 use std::path::PathBuf;
-use tess_verify::backend::Backend;
-use tess_verify::case::Case;
-use tess_verify::checker::{Tested, check};
-use tess_verify::compare;
-use tess_verify::core_backend::CoreBackend;
-use tess_verify::second::SecondFormulation;
+use tess_verify::check::{Mismatch, SecondFormulation, Tested, check};
 use tess_verify::vectors::{Kind, VectorFile};
+use tess_verify::{Backend, Case, CoreBackend};
 
 /// Every vector file there is.
 const FILES: [(&str, Kind, u64); 8] = [
@@ -53,7 +49,7 @@ fn between_formulations(case: Option<Case>) -> String {
     let Some(case) = case else { return String::new() };
     let mut other = SecondFormulation;
     let by_number = other.tessellate(case.config, &[case.factors]).expect("the model runs");
-    match compare::tessellations(&case, &case.patch().tessellate(), &by_number[0]) {
+    match Mismatch::between(&case, &case.patch().tessellate(), &by_number[0]) {
         Some(first) => format!("  in sequence, where by number it is as expected: {first}"),
         None => "  both formulations agree: factors, contexts, places and rows are what they share"
             .into(),

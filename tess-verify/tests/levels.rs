@@ -1,13 +1,13 @@
 //! The generated levels: what they hit, and that they are reproducible.
 
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
-use tess_verify::case::Case;
-use tess_verify::coverage::Coverage;
-use tess_verify::digest::Fnv1a;
+use tess_verify::Case;
+use tess_verify::cover::Coverage;
 use tess_verify::generate::{
-    GenLevel, Selection, Shard, configurations, configurations_among, from_fixed, random_patch,
+    GenLevel, Selection, Shard, SplitMix64, configurations, configurations_among, from_fixed,
+    random_patch,
 };
-use tess_verify::random::SplitMix64;
+use tess_verify::vectors::Fnv1a;
 
 fn level(level: GenLevel) -> Vec<Case> {
     Selection::level(level, 1).cases().collect()

@@ -1,8 +1,8 @@
 //! What each strength of comparison accepts, and what it must not.
 
 use tess_core::{DomainPoint, Tessellation};
-use tess_verify::case::Case;
-use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength, flushed};
+use tess_verify::Case;
+use tess_verify::check::{Conversion, Denormals, Elements, Order, Strength, flushed};
 
 const QUAD: &str = "case quad fractional_odd triangle_cw ruler \
                     40600000 40200000 40a00000 40400000 40900000 40d00000";

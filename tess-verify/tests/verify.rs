@@ -1,11 +1,9 @@
 //! Verification of backends: it compares what it says, in any number of shards and threads.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
-use tess_verify::backend::{Backend, BackendError};
-use tess_verify::case::Case;
+use tess_verify::check::{Plan, Random, Row, SecondFormulation, Subject, Unit, Units, verify};
 use tess_verify::generate::{GenLevel, Selection, Shard};
-use tess_verify::second::SecondFormulation;
-use tess_verify::verify::{Plan, Random, Row, Subject, Unit, Units, verify};
+use tess_verify::{Backend, BackendError, Case};
 
 /// One part in 61 of every subject (and far less of the largest).
 fn small_plan() -> Plan {

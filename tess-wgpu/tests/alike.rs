@@ -6,7 +6,7 @@ use common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::{BLOCK, SHORT_PATCHES};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 use tess_wgpu::Outputs;
 
 /// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole

@@ -6,7 +6,7 @@ use common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::CATALOGUE_PATCHES;
 use tess_gpu::{Copies, IndexType, Numbering, PointFormat, Setup};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 /// As many patches as a batch with a catalogue has.
 const COUNT: u32 = CATALOGUE_PATCHES;

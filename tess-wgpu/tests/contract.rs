@@ -11,7 +11,7 @@ use tess_core::{
 };
 use tess_gpu::layout::{Topology, unpack_context};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup, Tap};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 use tess_wgpu::Outputs;
 
 fn quads(partitioning: Partitioning) -> Setup {

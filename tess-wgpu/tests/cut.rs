@@ -7,7 +7,7 @@ use common::expected::{Expected, by_simd};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::sizes::{BLOCK, SECTION, TILE};
 use tess_gpu::{Capacity, Dispatch, IndexType, Limits, Numbering, Plan, Setup, Stage, Workgroups};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 use tess_wgpu::{Gpu, Outputs, Tessellator, Wanted};
 use wgpu::BufferUsages;
 

@@ -7,9 +7,8 @@ use common::expected::{Expected, by_simd};
 use common::patches::random;
 use tess_core::{Domain, PatchFactors};
 use tess_gpu::Setup;
-use tess_verify::case::Case;
-use tess_verify::generate::{GenLevel, Selection, configurations};
-use tess_verify::random::SplitMix64;
+use tess_verify::Case;
+use tess_verify::generate::{GenLevel, Selection, SplitMix64, configurations};
 
 /// Random patches of each configuration, every boundary once and what lies beside minimum patches, through the whole
 /// pipeline.

@@ -6,7 +6,7 @@ use common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::SHORT_PATCHES;
 use tess_gpu::{Fault, Setup};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 #[test]
 fn planted_faults_are_seen() {

@@ -10,7 +10,7 @@ use common::patches::random;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_gpu::layout::DrawIndexed;
 use tess_gpu::{Limits, Setup};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 use tess_wgpu::{Batch, Error, Outputs};
 use wgpu::BufferUsages as Usage;
 

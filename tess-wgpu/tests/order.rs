@@ -6,7 +6,7 @@ use common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::CATALOGUE_PATCHES;
 use tess_gpu::{Copies, IndexType, Limits, Numbering, Order, Setup};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 fn setup(domain: Domain, partitioning: Partitioning, output: OutputPrimitive) -> Setup {
     Setup { order: Order::VertexCache, ..Setup::new(domain, Config::new(partitioning, output)) }

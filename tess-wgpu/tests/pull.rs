@@ -6,8 +6,7 @@ use common::device::Machine;
 use tess_core::{Patch, SplitOrder};
 use tess_gpu::tables;
 use tess_gpu::{Pull, Setup};
-use tess_verify::generate::configurations;
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{SplitMix64, configurations};
 use tess_wgpu::{Batch, Outputs};
 use wgpu::BufferUsages as Usage;
 

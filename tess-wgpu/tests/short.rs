@@ -8,8 +8,7 @@ use common::patches::random;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::{SHORT_ELEMENTS, SHORT_PATCHES};
 use tess_gpu::{Capacity, Limits, Plan, Setup, Stage};
-use tess_verify::generate::configurations;
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{SplitMix64, configurations};
 use tess_wgpu::Outputs;
 use wgpu::BufferUsages as Usage;
 

@@ -5,7 +5,7 @@ use crate::types::{TESS_MAX_INDICES, TESS_MAX_POINTS, TessConfig, TessCounts, Te
 use std::ffi::{c_char, c_void};
 use std::mem::MaybeUninit;
 use tess_core::{DomainPoint, Tessellation};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// A device's answer: it does not have the configuration that it was asked for. Not a finding.
 pub const TESS_DEVICE_UNSUPPORTED: i32 = -1;

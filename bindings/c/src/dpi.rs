@@ -13,8 +13,8 @@ use crate::process::TessProcessedPatch;
 use crate::status::{TESS_OUT_OF_RANGE, TessStatus, answer};
 use crate::types::{TessConfig, TessContext, TessCounts, TessPoint, listed, parity};
 use tess_core::{Domain, FactorContext, FixedFactor, Patch, PatchFactors, SplitOrder};
-use tess_verify::case::Case;
-use tess_verify::coverage::bins_hit;
+use tess_verify::Case;
+use tess_verify::cover::bins_hit;
 
 /// The context of a 15.16 factor: `tess_context` in scalars.
 ///

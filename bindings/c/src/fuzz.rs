@@ -7,10 +7,9 @@ use crate::types::listed;
 use arbitrary::{Arbitrary, Unstructured};
 use std::ffi::{c_char, c_void};
 use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
-use tess_verify::case::Case;
-use tess_verify::checker::check_device;
+use tess_verify::Case;
+use tess_verify::check::{Conversion, Denormals, Order, Strength, check_device};
 use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::strength::{Conversion, Denormals, Order, Strength};
 
 /// Order: the model's, index for index.
 pub const TESS_ORDER_EXACT: u32 = 0;

@@ -12,7 +12,7 @@ use pyo3::prelude::*;
 use std::ops::Range;
 use tess_core::{Domain, DomainPoint};
 use tess_simd::PatchRange;
-use tess_verify::names::Named;
+use tess_verify::Named;
 
 /// The factors of a batch: a copy, so that a thread that writes to the array meanwhile changes
 /// nothing.

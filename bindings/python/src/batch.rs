@@ -15,7 +15,7 @@ use pyo3::types::{PySlice, PyTuple};
 use std::sync::{Mutex, PoisonError};
 use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
 use tess_simd::{BatchCounts, Numbering, OutputPoint, PatchRange};
-use tess_verify::names::Named;
+use tess_verify::Named;
 use work::{How, Room, Sizes, Work};
 
 /// Tessellates batches in one configuration, on the CPU's vector units.

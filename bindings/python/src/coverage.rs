@@ -11,10 +11,9 @@ use std::fs::File;
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use tess_verify::case::Case;
-use tess_verify::coverage::Exclusions;
+use tess_verify::cover::Exclusions;
 use tess_verify::generate::configurations_among;
-use tess_verify::names::Named;
+use tess_verify::{Case, Named};
 
 /// How many patches are taken from the interpreter before they are counted.
 const RECORDED_TOGETHER: usize = 4096;
@@ -32,7 +31,7 @@ const RECORDED_TOGETHER: usize = 4096;
 /// (2, Group(hit=2, bins=4))
 #[pyclass(frozen, module = "tess_model")]
 #[derive(Default)]
-pub(crate) struct Coverage(Arc<Mutex<tess_verify::coverage::Coverage>>);
+pub(crate) struct Coverage(Arc<Mutex<tess_verify::cover::Coverage>>);
 
 #[pymethods]
 impl Coverage {
@@ -150,7 +149,7 @@ impl Coverage {
     /// Reads what :meth:`to_ucis` gave, or ``tess gen --coverage FILE`` wrote.
     #[staticmethod]
     fn from_ucis(text: &str) -> PyResult<Self> {
-        let read = tess_verify::coverage::Coverage::from_ucis(text);
+        let read = tess_verify::cover::Coverage::from_ucis(text);
         read.map(|coverage| Self(Arc::new(Mutex::new(coverage)))).map_err(file_format)
     }
 
@@ -169,7 +168,7 @@ impl Coverage {
         let from = path.clone();
         let read = signals::interruptible(py, move |stop| {
             let file = Watched::new(File::open(from)?, stop);
-            tess_verify::coverage::Coverage::read_ucis(file)
+            tess_verify::cover::Coverage::read_ucis(file)
         })?;
         read.map(|coverage| Self(Arc::new(Mutex::new(coverage)))).map_err(|error| {
             match error.kind() {
@@ -242,7 +241,7 @@ impl Coverage {
     }
 
     /// The coverage, alone; nothing waits for the interpreter while it holds this.
-    pub(crate) fn lock(&self) -> MutexGuard<'_, tess_verify::coverage::Coverage> {
+    pub(crate) fn lock(&self) -> MutexGuard<'_, tess_verify::cover::Coverage> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }

@@ -2,7 +2,7 @@
 
 use pyo3::PyErr;
 use std::fmt::Display;
-use tess_verify::checker::CheckError;
+use tess_verify::check::CheckError;
 
 pyo3::import_exception!(tess_model.errors, ArgumentError);
 pyo3::import_exception!(tess_model.errors, NoSuchElementError);

@@ -6,8 +6,7 @@ use pyo3::conversion::FromPyObjectOwned;
 use pyo3::prelude::*;
 use pyo3::types::{PyByteArray, PyBytes};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
-use tess_verify::case::Case;
-use tess_verify::names::Named;
+use tess_verify::{Case, Named};
 
 /// The value of a name.
 pub(crate) fn named<T: Named>(name: &str) -> PyResult<T> {

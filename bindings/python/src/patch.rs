@@ -9,12 +9,12 @@ use pyo3::types::{PyDict, PyTuple};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use tess_core::{Config, Domain, DomainPoint, ProcessedPatch, Tessellation};
-use tess_verify::case::Case;
-use tess_verify::circuit::{self, CompareError, Part};
-use tess_verify::drawing::{Colours, DrawOptions, draw, has_rings};
-use tess_verify::explanation::{Explanation, FactorReport, PointReport, PrimitiveReport};
-use tess_verify::names::Named;
+use tess_verify::show::{
+    self, Colours, DrawOptions, Explanation, FactorReport, Part, PointReport, PrimitiveReport,
+    SignalError, draw, has_rings,
+};
 use tess_verify::vectors::Listing;
+use tess_verify::{Case, Named};
 
 /// One patch: a configuration and raw factors, and what the model makes of them.
 ///
@@ -286,8 +286,8 @@ impl Patch {
             observed.iter().map(|(signal, value)| (signal.as_str(), *value)).collect();
         let part = part(point, primitive, factor)?;
         let differences =
-            circuit::compare(&self.case, part, &observed).map_err(|error| match error {
-                CompareError::NoSuchPart(_) => self.missing(part),
+            show::compare_signals(&self.case, part, &observed).map_err(|error| match error {
+                SignalError::NoSuchPart(_) => self.missing(part),
                 other => argument(other),
             })?;
         let values = differences.iter().map(|one| values::signal_difference(py, one));

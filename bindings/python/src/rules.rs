@@ -9,11 +9,10 @@ use pyo3::prelude::*;
 use pyo3::types::{PyString, PyTuple};
 use std::path::PathBuf;
 use tess_core::Tessellation;
-use tess_verify::case::Case;
-use tess_verify::checker::CheckError;
-use tess_verify::names::Named;
+use tess_verify::check::CheckError;
 use tess_verify::rules::{Checker, Row, RulesReport, Specification};
 use tess_verify::vectors::{Kind, Record};
+use tess_verify::{Case, Named};
 
 /// Judges outputs by what a standard demands of them, without the model (docs/rules.md).
 ///

@@ -2,7 +2,7 @@
 
 use crate::errors::argument;
 use pyo3::PyResult;
-use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
+use tess_verify::check::{Conversion, Denormals, Elements, Order, Strength};
 
 /// The orders that `tess check` knows.
 const ORDERS: [(&str, Order); 3] =

@@ -4,9 +4,9 @@ use pyo3::call::PyCallArgs;
 use pyo3::prelude::*;
 use tess_core::place::Placement;
 use tess_core::{FactorContext, PointOrigin, PrimitiveOrigin, ProcessedFactor};
-use tess_verify::checker::{Difference, Report};
-use tess_verify::circuit;
-use tess_verify::names::Named;
+use tess_verify::Named;
+use tess_verify::check::{Difference, Report};
+use tess_verify::show::SignalDifference;
 
 /// A named tuple with these elements.
 pub(crate) fn value<'py>(
@@ -73,7 +73,7 @@ pub(crate) fn primitive_origin(
 
 pub(crate) fn signal_difference<'py>(
     py: Python<'py>,
-    found: &circuit::Difference,
+    found: &SignalDifference,
 ) -> PyResult<Bound<'py, PyAny>> {
     let signal = found.signal;
     let elements = (signal.stage, signal.module, signal.name, found.observed, found.expected);

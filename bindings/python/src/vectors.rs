@@ -16,13 +16,10 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use tess_core::{DomainPoint, Tessellation};
-use tess_verify::backend::Backend;
-use tess_verify::case::Case;
-use tess_verify::checker::{self, CheckError, Report, Tested};
-use tess_verify::core_backend::CoreBackend;
+use tess_verify::check::{CheckError, Report, Tested, check_asked};
 use tess_verify::generate::{GenLevel, Selection, Shard};
-use tess_verify::names::Named;
 use tess_verify::vectors::{Header, Kind, Listing, VectorError, write_listings, write_patches};
+use tess_verify::{Backend, Case, CoreBackend, Named};
 
 /// Cases; `None` for one of another shard.
 type Source = Box<dyn Iterator<Item = Option<Case>> + Send>;
@@ -349,7 +346,7 @@ fn run_check(
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let mut backends: Vec<Box<dyn Backend>> =
         (0..threads).map(|_| Box::new(CoreBackend) as Box<dyn Backend>).collect();
-    checker::check_asked(file, asked, &mut backends, tested, &|checked| {
+    check_asked(file, asked, &mut backends, tested, &|checked| {
         if let Some(coverage) = coverage {
             let mut coverage = coverage.lock();
             let cases = checked.records.iter().filter_map(tess_verify::vectors::Record::case);
@@ -396,7 +393,7 @@ pub(crate) fn check_device<'py>(
     }
     let mut watch = Watch::default();
     let answers = answers.into_iter().take_while(|_| watch.goes_on());
-    let report = py.detach(|| checker::check_device(answers, strength));
+    let report = py.detach(|| tess_verify::check::check_device(answers, strength));
     watch.finish()?;
     values::report(py, &report)
 }

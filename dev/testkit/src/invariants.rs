@@ -16,8 +16,7 @@ use tess_core::{
     Config, Domain, FactorContext, OutputPrimitive, Parity, Partitioning, Patch, PatchFactors,
     ProcessedFactor, ProcessedPatch, Tessellation,
 };
-use tess_verify::case::Case;
-use tess_verify::names::Named;
+use tess_verify::{Case, Named};
 
 /// An invariant does not hold.
 #[derive(Clone, Debug, PartialEq, Eq)]

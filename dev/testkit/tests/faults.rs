@@ -4,13 +4,12 @@ use std::fs::read_to_string;
 use std::sync::atomic::Ordering;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_testkit::faults::{Fault, Faulty};
-use tess_verify::backend::Backend;
-use tess_verify::case::Case;
-use tess_verify::checker::{CheckError, MAX_DIFFERENCES, Report, Tested, check, check_device};
-use tess_verify::compare::{Element, Stage};
-use tess_verify::core_backend::CoreBackend;
-use tess_verify::strength::{Conversion, Order, Strength};
+use tess_verify::check::{
+    CheckError, Conversion, Element, MAX_DIFFERENCES, Order, Report, Stage, Strength, Tested,
+    check, check_device,
+};
 use tess_verify::vectors::VectorFile;
+use tess_verify::{Backend, Case, CoreBackend};
 
 /// Rows of a golden file as a file of its own; of listings, all.
 fn excerpt(name: &str, keep: impl Fn(usize, &str) -> bool) -> String {

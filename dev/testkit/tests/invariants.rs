@@ -8,7 +8,7 @@ use tess_core::{Config, DomainPoint, OutputPrimitive, Tessellation};
 use tess_testkit::invariants::{
     Violation, all, area, counts, crack_free, manifold, range, separability, symmetry, winding,
 };
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20_000))]

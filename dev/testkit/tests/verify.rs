@@ -2,11 +2,9 @@
 
 use std::sync::atomic::Ordering;
 use tess_testkit::faults::{Fault, Faulty};
-use tess_verify::backend::Backend;
-use tess_verify::core_backend::CoreBackend;
+use tess_verify::check::{Known, Plan, Random, Row, Subject, verify, verify_known};
 use tess_verify::generate::Shard;
-use tess_verify::known::Known;
-use tess_verify::verify::{Plan, Random, Row, Subject, verify, verify_known};
+use tess_verify::{Backend, CoreBackend};
 
 fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &Plan) -> Vec<Row> {
     verify(workers, plan, &|_, _, _| {}).expect("the backends run")

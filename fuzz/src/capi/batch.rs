@@ -16,7 +16,7 @@ use tess_capi::batch::{
 use tess_capi::status::{TESS_BUFFER_TOO_SMALL, TESS_OK, TESS_TOO_LARGE, TESS_UNKNOWN_VALUE};
 use tess_capi::types::{TessConfig, TessPoint};
 use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 const NO_POINT: TessPoint = TessPoint { u: CANARY, v: CANARY };
 const NO_RANGE: TessRange =

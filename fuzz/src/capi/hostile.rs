@@ -7,7 +7,7 @@ use tess_capi::status::{
     TessStatus,
 };
 use tess_capi::types::TessConfig;
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// The words that buffers hold before a call.
 pub(super) const CANARY: u32 = 0xC0DE_C0DE;

@@ -7,8 +7,7 @@ use tess_gpu::{
     Capacity, Copies, IndexType, Limits, Numbering, Order, PointFormat, Resource, Setup, Stage,
     Written,
 };
-use tess_verify::generate::random_factor;
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{SplitMix64, random_factor};
 
 /// Limits that cut after 65536 patches, a few hundred tiles and 5 workgroups.
 const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 5 };

@@ -5,8 +5,8 @@ use tess_core::{
     PatchFactors, QuadFactors, SplitOrder, Tessellation, TriangleFactors,
 };
 use tess_simd::{Batch, Error, IndexFormat, Numbering, Order, Output, OutputPoint, Tessellator};
-use tess_verify::case::Case;
-use tess_verify::random::SplitMix64;
+use tess_verify::Case;
+use tess_verify::generate::SplitMix64;
 
 /// Every configuration there is.
 pub(crate) fn configs() -> impl Iterator<Item = Config> {

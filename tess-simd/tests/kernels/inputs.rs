@@ -3,7 +3,7 @@
 use tess_core::{
     Config, Domain, OutputPrimitive, Parity, Partitioning, Patch, PatchFactors, ProcessedPatch,
 };
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 /// Where inputs come from.
 pub(crate) struct Draw {

@@ -3,7 +3,7 @@
 use super::Case;
 use std::fmt;
 use tess_core::DomainPoint;
-use tess_verify::case::Case as Line;
+use tess_verify::Case as Line;
 
 /// What the model gives: words, and what they are.
 #[derive(Debug, Default)]

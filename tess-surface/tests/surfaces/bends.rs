@@ -3,7 +3,7 @@
 
 use glam::{DVec3, Vec3};
 use tess_surface::{Bend, BezierPatch, PnCorner, PnQuad, PnTriangle, Surface};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 /// Small integers, so that differences are exact.
 fn vector(random: &mut SplitMix64) -> Vec3 {

@@ -4,7 +4,7 @@
 use crate::models::{models, rational_ball};
 use glam::{DVec3, Vec3, Vec4};
 use tess_surface::{BezierPatch, Patch, Surface, Tangents, teapot};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 fn bernstein(t: f64) -> [f64; 4] {
     let s = 1.0 - t;

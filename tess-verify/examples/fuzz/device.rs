@@ -1,11 +1,8 @@
 //! The tessellator under test, and what a fuzzer asks about it. Put yours in place of this one.
 
 use tess_core::{Config, PatchFactors, Tessellation};
-use tess_verify::backend::{Backend, BackendError};
-use tess_verify::case::Case;
-use tess_verify::checker::check_case;
-use tess_verify::second::SecondFormulation;
-use tess_verify::strength::Strength;
+use tess_verify::check::{SecondFormulation, Strength, check_case};
+use tess_verify::{Backend, BackendError, Case};
 
 /// A device: the model by random access, which may have a fault.
 #[derive(Clone, Copy, Debug, Default)]

@@ -13,8 +13,8 @@ use arbitrary::{Arbitrary, Unstructured};
 use device::Device;
 use std::error::Error;
 use std::time::{Duration, Instant};
-use tess_verify::case::Case;
-use tess_verify::random::SplitMix64;
+use tess_verify::Case;
+use tess_verify::generate::SplitMix64;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let words: Vec<String> = std::env::args().skip(1).collect();

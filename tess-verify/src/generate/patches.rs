@@ -1,7 +1,7 @@
 //! Random factors and patches.
 
+use super::random::{Draw, SplitMix64};
 use super::{exceptional_factors, from_fixed, pick, special_factors};
-use crate::random::{Draw, SplitMix64};
 use tess_core::{Domain, PatchFactors};
 
 /// The largest factor there is.
@@ -72,8 +72,8 @@ pub(crate) fn factor_up_to(top: u16, random: &mut impl Draw) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::digest::Fnv1a;
-    use crate::random::SplitMix64;
+    use crate::generate::SplitMix64;
+    use crate::vectors::Fnv1a;
 
     /// A seed means the same patches on every machine and in every release that does not say otherwise.
     #[test]

@@ -2,7 +2,7 @@
 
 use super::{from_fixed, pick};
 use crate::case::Case;
-use crate::random::SplitMix64;
+use crate::generate::SplitMix64;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 
 /// What a level becomes in a relative of a patch: neither above 0 nor a number, or not above 1.

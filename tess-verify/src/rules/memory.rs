@@ -6,7 +6,7 @@ use super::edge::{is_fractional, lines, shorter};
 use super::levels::{clamped, is_minimum, may_touch_outline, segments};
 use super::standard::{Rule, Specification};
 use crate::case::Case;
-use crate::digest::words_digest;
+use crate::vectors::words_digest;
 use std::collections::{BTreeMap, HashMap};
 use tess_core::fixed_point::ONE;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};

@@ -1,7 +1,7 @@
 //! The rows of the CSV kinds.
 
+use super::digest::{points_digest, words_digest};
 use crate::case::Case;
-use crate::digest::{points_digest, words_digest};
 use crate::names::Named;
 use std::fmt;
 use tess_core::prepare::{Prepared, Reduction, Request};

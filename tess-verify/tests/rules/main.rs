@@ -5,8 +5,9 @@ mod words;
 
 use tess_core::fixed_point::ONE;
 use tess_core::{DomainPoint, Tessellation};
+use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::rules::{Checker, Row, Rule, RulesReport, Specification, Verdict};
-use tess_verify::{Case, GenLevel, Named, Selection};
+use tess_verify::{Case, Named};
 
 const VULKAN: Specification = Specification::Vulkan;
 /// Outer levels 4, 5, 3 and inner level 5; outer levels 4, 6, 7 and inner level 6; 4, 4, 3; 5.
@@ -225,7 +226,7 @@ fn equal_spacing_is_rounded() {
 #[test]
 #[expect(clippy::float_cmp, reason = "exactly 1")]
 fn one_minus_a_coordinate_cannot_fail() {
-    let mut random = tess_verify::random::SplitMix64::new(1);
+    let mut random = tess_verify::generate::SplitMix64::new(1);
     for exponent in 0..127u32 {
         let some = (0..1000).map(|_| random.next_u32() & 0x7F_FFFF);
         for mantissa in

@@ -139,7 +139,7 @@ impl<'a> Expected<'a> {
             }
             _ => format!("primitive {}", number(size)),
         };
-        let case = tess_verify::case::Case { config: self.setup.config, factors };
+        let case = tess_verify::Case { config: self.setup.config, factors };
         format!("{case}: {origin}")
     }
 }

@@ -1,8 +1,7 @@
 //! Patches to test with.
 
 use tess_core::{Domain, PatchFactors};
-use tess_verify::generate::random_factor;
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{SplitMix64, random_factor};
 
 /// Random patches, boundary values, culled and degenerate ones included.
 pub(crate) fn random(domain: Domain, count: u32, random: &mut SplitMix64) -> Vec<PatchFactors> {

@@ -6,7 +6,7 @@ use crate::common::patches::random;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_gpu::sizes::SHORT_PATCHES;
 use tess_gpu::{IndexType, Numbering, Order, PointFormat, Setup};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 use tess_wgpu::Gpu;
 
 /// Every domain with every partitioning, and every output with each of both; split orders, formats, orders and

@@ -6,7 +6,7 @@ use crate::{Case, Expected, Table, ULP, args, one, vec};
 use glam::Vec4;
 use std::sync::LazyLock;
 use tess_surface::{Curve, Edge, teapot};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 /// Patches of the teapot's knob and bottom: their edges v = 0 are collapsed.
 const COLLAPSED: [usize; 2] = [20, 28];

@@ -4,7 +4,7 @@ use crate::factors::{number, point};
 use crate::{Case, Expected, Table, args, one, vec};
 use glam::{DMat4, DVec3, Mat4, Vec3};
 use tess_surface::culling::{faces_away, is_outside};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 /// Radii a little below and a little above the one that decides.
 const RADII: [(f64, bool); 2] = [(0.999, true), (1.001, false)];

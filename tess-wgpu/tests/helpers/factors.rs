@@ -3,7 +3,7 @@
 use crate::{Args, Case, Expected, Table, ULP, args, one, vec};
 use glam::{Vec3, Vec4};
 use tess_surface::{Curve, Edge, FactorRule, PnCorner, factors, pn};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 /// Errors of a quotient, in ulps: 2.5 of the division by WGSL's rule.
 const OF_A_QUOTIENT: f32 = 3.0;

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 use tess_surface::pn::edge_points;
 use tess_surface::sides::edge_corners;
 use tess_surface::{Address, Curve, Edge, HeightMap, Patch, PnCorner, Sides, Surface};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 /// Errors of a position, in ulps of the largest coordinate: a fused operation rounds once where the CPU rounds twice.
 const OF_A_POINT: f32 = 8.0;

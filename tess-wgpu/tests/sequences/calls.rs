@@ -2,8 +2,7 @@
 
 use proptest::prelude::*;
 use tess_core::{Domain, PatchFactors};
-use tess_verify::generate::random_patch;
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{SplitMix64, random_patch};
 
 /// One call. Numbers of setups, batches and buffers count round and round.
 #[derive(Clone, Copy, Debug)]

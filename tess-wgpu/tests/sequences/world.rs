@@ -16,7 +16,7 @@ use std::rc::Rc;
 use tess_core::{Domain, Patch, PatchFactors};
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Capacity, IndexType, Limits, Numbering, Plan, Resource, Setup, Written};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 use tess_wgpu::{Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 

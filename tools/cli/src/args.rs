@@ -5,9 +5,8 @@ use crate::failure::Failure;
 use crate::output::{counted, note};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
-use tess_verify::case::{Case, factor};
 use tess_verify::generate::{GenLevel, Selection, Shard};
-use tess_verify::names::Named;
+use tess_verify::{Case, Named, factor};
 
 /// The arguments that describe one patch.
 #[derive(Clone, Debug, clap::Args)]

@@ -5,7 +5,7 @@ use crate::output::{OutputArgs, Role, create_unless_there};
 use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
-use tess_verify::coverage::Coverage;
+use tess_verify::cover::Coverage;
 
 /// A file of coverage, and hits to add to it.
 #[derive(Debug)]

@@ -3,8 +3,7 @@
 use crate::{json, thrown};
 use serde::Serialize;
 use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
-use tess_verify::case::factor;
-use tess_verify::names::Named;
+use tess_verify::{Named, factor};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 

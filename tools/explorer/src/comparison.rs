@@ -7,9 +7,9 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use tess_core::{Config, Tessellation};
 use tess_simd::{ExactOutput, Numbering, Tessellator};
-use tess_verify::case::Case;
-use tess_verify::compare;
-use tess_verify::drawing::differing;
+use tess_verify::Case;
+use tess_verify::check::Mismatch;
+use tess_verify::show::differing;
 use tess_verify::vectors::{Header, Kind, Record, VectorFile};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -30,7 +30,7 @@ struct Comparison {
 #[must_use]
 pub fn compare(expected: &PatchView, observed: &PatchView) -> String {
     let (expected, observed) = (&expected.listing, &observed.listing);
-    let first = compare::tessellations(&expected.case, &observed.output, &expected.output);
+    let first = Mismatch::between(&expected.case, &observed.output, &expected.output);
     let [points, primitives] = differing(expected, observed);
     let first = first.map(|mismatch| mismatch.to_string());
     json(&Comparison { equal: first.is_none(), first, points, primitives })

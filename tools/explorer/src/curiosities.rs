@@ -6,7 +6,7 @@ use tess_core::{
     Config, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, PatchFactors,
     QuadFactors, SplitOrder, TriangleFactors, place,
 };
-use tess_verify::case::Case;
+use tess_verify::Case;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[derive(Serialize)]

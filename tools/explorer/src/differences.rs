@@ -6,7 +6,7 @@
 use crate::patch::PatchView;
 use std::fmt::Write;
 use tess_core::{DomainPoint, MAX_INDICES, MAX_POINTS, Tessellation};
-use tess_verify::drawing::differing;
+use tess_verify::show::differing;
 use tess_verify::vectors::Listing;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -86,7 +86,7 @@ fn apply(output: &mut Tessellation, size: usize, word: &str) -> Option<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tess_verify::case::Case;
+    use tess_verify::Case;
 
     fn model() -> PatchView {
         let line = "case quad integer triangle_cw ruler 40400000 40400000 40400000 40400000 40400000 40400000";

@@ -8,11 +8,10 @@ use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::{
     Access, Capacity, Limits, Numbering, Order, Plan, Resource, Setup, Stage, Workgroups, tables,
 };
-use tess_verify::case::Case;
-use tess_verify::compare;
-use tess_verify::names::Named;
+use tess_verify::check::Mismatch;
+use tess_verify::generate::Workload;
 use tess_verify::vectors::Listing;
-use tess_verify::workloads::{self, Workload};
+use tess_verify::{Case, Named};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -105,7 +104,7 @@ impl GpuBatch {
     /// # Errors
     /// There is no workload of that name, or not one of its patches makes so little.
     pub fn workload(name: &str, mebibytes: u32) -> Result<Self, JsError> {
-        let all = workloads::named(name);
+        let all = Workload::named(name);
         let [workload] = &all[..] else {
             return Err(thrown(format!("{name} is not the name of one workload")));
         };
@@ -145,7 +144,7 @@ impl GpuBatch {
                 points: take(&mut points, expected.points.len()).iter().map(unpacked).collect(),
                 indices: take(&mut indices, expected.indices.len()).to_vec(),
             };
-            if let Some(mismatch) = compare::tessellations(&case, &observed, &expected) {
+            if let Some(mismatch) = Mismatch::between(&case, &observed, &expected) {
                 return Some(format!("{case}: {mismatch}"));
             }
         }

@@ -2,11 +2,11 @@
 
 use crate::{json, marks, thrown};
 use tess_core::{DomainPoint, Patch, Tessellation};
-use tess_verify::case::Case;
-use tess_verify::drawing::{Colours, DrawOptions, Drawing, draw, fills, has_rings};
-use tess_verify::explanation::{Explanation, PointReport, PrimitiveReport};
-use tess_verify::formats;
-use tess_verify::picture::Colour;
+use tess_verify::Case;
+use tess_verify::show::{
+    Colour, Colours, DrawOptions, Drawing, Explanation, PointReport, PrimitiveReport, draw, fills,
+    has_rings,
+};
 use tess_verify::vectors::Listing;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -123,19 +123,19 @@ impl PatchView {
     /// The file that `tess patch` writes by default.
     #[must_use]
     pub fn text(&self) -> String {
-        formats::text(&self.listing, "core")
+        self.listing.to_file("core")
     }
 
     /// The file of `tess patch --format csv`.
     #[must_use]
     pub fn csv(&self) -> String {
-        formats::csv(&self.listing, "core")
+        self.listing.to_csv("core")
     }
 
     /// The file of `tess patch --format obj`.
     #[must_use]
     pub fn obj(&self) -> String {
-        formats::obj(&self.listing)
+        self.listing.to_obj()
     }
 
     /// The picture of `tess draw`: `colours` is plain, order or rings; `size` in pixels.

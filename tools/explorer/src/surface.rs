@@ -9,7 +9,7 @@ use tess_gpu::surfaces;
 use tess_simd::{ExactOutput, Numbering, Tessellator};
 use tess_surface::glam::{Vec3, Vec4};
 use tess_surface::{Face, FactorRule, Model, PolygonMesh, Sample, Sides, Style, Surface, teapot};
-use tess_verify::names::Named;
+use tess_verify::Named;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 

@@ -3,7 +3,7 @@
 use crate::{json, thrown};
 use std::ops::Range;
 use tess_simd::{ExactOutput, Numbering, Tessellator};
-use tess_verify::workloads::{self, IndexType, Workload};
+use tess_verify::generate::{IndexType, Workload};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -12,7 +12,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 #[must_use]
 pub fn workload_names() -> String {
     let named = ["uniform", "terrain", "character", "mosaic", "mosaic-even"];
-    let names = named.iter().flat_map(|name| workloads::named(name)).map(|workload| workload.name);
+    let names = named.iter().flat_map(|name| Workload::named(name)).map(|workload| workload.name);
     json(&names.collect::<Vec<_>>())
 }
 
@@ -34,7 +34,7 @@ impl CpuBench {
     /// There is no workload of that name.
     #[wasm_bindgen(constructor)]
     pub fn new(name: &str) -> Result<Self, JsError> {
-        let mut all = workloads::named(name);
+        let mut all = Workload::named(name);
         match (all.pop(), all.is_empty()) {
             (Some(workload), true) => {
                 let tessellator = Tessellator::new(workload.config);

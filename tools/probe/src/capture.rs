@@ -11,7 +11,7 @@ use std::collections::HashMap;
 use std::ptr::null;
 use std::sync::Arc;
 use tess_core::{Config, Domain, PatchFactors, SplitOrder};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// What is captured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

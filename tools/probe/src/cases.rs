@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 use tess_core::{Config, Domain, OutputPrimitive, SplitOrder};
-use tess_verify::case::Case;
+use tess_verify::Case;
 use tess_verify::generate::{Selection, Shard};
 
 /// The cases of a selection, with what Vulkan does not have replaced by what it has: one split order,

@@ -1,7 +1,7 @@
 //! Digests of captures, in the device's order and in none.
 
 use tess_core::Tessellation;
-use tess_verify::digest::Fnv1a;
+use tess_verify::vectors::Fnv1a;
 
 /// Digests over the patches of a configuration, one after another.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Patches as a device gets them: cut into draws, factors as words.
 
 use tess_core::{Config, Partitioning, PatchFactors};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// Patches of a draw: their first, and how many.
 pub(crate) type Draw = (u32, u32);

@@ -9,13 +9,9 @@ use crate::verdict::{Verdict, any_order, third_is_right, verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use tess_core::Tessellation;
-use tess_verify::case::Case;
-use tess_verify::checker::check_device;
-use tess_verify::coordinate::fixed;
-use tess_verify::known::Known;
-use tess_verify::names::Named;
-use tess_verify::strength::{Elements, Strength};
-use tess_verify::ways::Way;
+use tess_verify::check::{Elements, Known, Strength, Way, check_device};
+use tess_verify::vectors::fixed;
+use tess_verify::{Case, Named};
 
 /// Compares what a device gave, patch by patch, and says in the end what explains the differences.
 #[derive(Clone, Debug)]

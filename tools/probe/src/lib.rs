@@ -28,5 +28,5 @@ pub use judge::Judge;
 pub use probe::{probe, probe_known};
 pub use report::{Explanation, First, Report, Row, Unexplained};
 pub use rules::rules;
-pub use tess_verify::ways::Way;
+pub use tess_verify::check::Way;
 pub use vulkan::{Spirv, list};

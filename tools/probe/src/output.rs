@@ -2,7 +2,7 @@
 
 use crate::capture::Captured;
 use tess_core::{DomainPoint, Tessellation};
-use tess_verify::coordinate::fixed;
+use tess_verify::vectors::fixed;
 
 /// A captured patch as an output: each vertex is a separate point, in the order of the primitives;
 /// `None` if a coordinate is no 16.16 number in 0..=1.

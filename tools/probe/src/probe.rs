@@ -7,9 +7,8 @@ use crate::judge::Judge;
 use crate::report::Report;
 use std::sync::Arc;
 use tess_core::PatchFactors;
-use tess_verify::case::Case;
-use tess_verify::known::Known;
-use tess_verify::strength::Strength;
+use tess_verify::Case;
+use tess_verify::check::{Known, Strength};
 
 /// Patches that are captured before they are compared.
 const AT_ONCE: usize = 4096;

@@ -9,8 +9,8 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
 use tess_core::Tessellation;
-use tess_verify::case::Case;
-use tess_verify::ways::Way;
+use tess_verify::Case;
+use tess_verify::check::Way;
 
 /// The result of a probe.
 #[derive(Clone, Debug, Serialize)]

@@ -5,7 +5,7 @@ use crate::cases::{asked, groups};
 use crate::error::Error;
 use crate::output::output;
 use tess_core::{PatchFactors, SplitOrder};
-use tess_verify::case::Case;
+use tess_verify::Case;
 use tess_verify::generate::Selection;
 use tess_verify::rules::{Checker, RulesReport, Specification};
 

@@ -3,9 +3,9 @@
 use crate::capture::{Captured, Method};
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, Tessellation};
-use tess_verify::case::Case;
-use tess_verify::coordinate::fixed;
-use tess_verify::strength::{Elements, Order, Strength, vertices};
+use tess_verify::Case;
+use tess_verify::check::{Elements, Order, Strength, vertices};
+use tess_verify::vectors::fixed;
 
 /// The nearest to the model that a captured patch is; the first is the nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,9 +6,9 @@
 use std::process::Command;
 use tess_core::{Domain, Partitioning};
 use tess_probe::{Prober, Report, cases, list, probe};
-use tess_verify::case::Case;
+use tess_verify::Case;
+use tess_verify::check::{Denormals, Order, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
-use tess_verify::strength::{Denormals, Order, Strength};
 
 const SHADERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
 

@@ -9,9 +9,8 @@
 use std::sync::{Arc, OnceLock};
 use tess_core::Domain;
 use tess_probe::{Captured, Info, Judge, Method, Report, Way};
-use tess_verify::case::Case;
-use tess_verify::known::Known;
-use tess_verify::strength::{Denormals, Order, Strength};
+use tess_verify::Case;
+use tess_verify::check::{Denormals, Known, Order, Strength};
 
 const LINE: &str = "case quad fractional_odd triangle_cw ruler 40a00000 40d00000 40e00000 40500000 40a80000 40c00000";
 const DENORMAL: &str = "case tri integer triangle_cw ruler 00000001 40400000 40400000 40400000";

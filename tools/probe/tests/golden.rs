@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use tess_core::Partitioning;
 use tess_probe::{Digests, cases};
-use tess_verify::case::Case;
+use tess_verify::check::flushed;
 use tess_verify::generate::{GenLevel, Selection, Shard};
-use tess_verify::names::Named;
-use tess_verify::strength::flushed;
+use tess_verify::{Case, Named};
 
 /// Domain, partitioning and output.
 type Names = (String, String, String);

@@ -10,8 +10,8 @@ use std::time::{Duration, Instant};
 use tess_core::{DomainPoint, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::{Numbering, Setup, Stage};
-use tess_verify::digest::Fnv1a;
-use tess_verify::workloads::{self, IndexType, Totals, Workload};
+use tess_verify::generate::{IndexType, Totals, Workload};
+use tess_verify::vectors::Fnv1a;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 use variant::Variant;
 
@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<()> {
     println!("{}", gpu.name());
     let mut selected = Vec::new();
     for name in &arguments.workloads {
-        let named = workloads::named(name);
+        let named = Workload::named(name);
         if named.is_empty() {
             return Err(
                 format!("no workload is called {name}; `tess bench --help` lists them").into()

@@ -6,14 +6,15 @@ use std::time::{Duration, Instant};
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup};
-use tess_verify::workloads::{Workload, character, uniform};
+use tess_verify::generate::Workload;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 
 pub(crate) fn run() -> Result<()> {
     let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
     let stopwatch = Stopwatch::new(&gpu)?;
     println!("{}; CPU level {}", gpu.name(), tess_simd::Level::detect());
-    for workload in [uniform(1), uniform(4), uniform(16), uniform(64), character()] {
+    for name in ["uniform-1", "uniform-4", "uniform-16", "uniform-64", "character"] {
+        let workload = Workload::named(name).remove(0);
         println!("{}: patches, microseconds: CPU, device, device and host", workload.name);
         for exponent in 0..=12 {
             let count = 1usize << exponent;

@@ -7,7 +7,7 @@ use std::time::Duration;
 use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Numbering, Setup};
-use tess_verify::workloads::{Workload, character};
+use tess_verify::generate::Workload;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 
 /// How many meshes there are.
@@ -20,7 +20,7 @@ pub(crate) fn run() -> Result<()> {
     let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
     let stopwatch = Stopwatch::new(&gpu)?;
     println!("{}", gpu.name());
-    let workload = character();
+    let workload = Workload::named("character").remove(0);
     let count = u32::try_from(workload.patches.len())?;
     let begins: Vec<u32> = (0..MESHES).map(|mesh| mesh * count / MESHES).collect();
     println!("{}: {count} patches in {MESHES} meshes, microseconds", workload.name);

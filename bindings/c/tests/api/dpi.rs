@@ -15,8 +15,8 @@ use tess_capi::status::{TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE, TESS_UNKN
 use tess_capi::types::{TessConfig, TessContext};
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{Domain, PatchFactors, place};
-use tess_verify::case::Case;
-use tess_verify::coverage::Coverage;
+use tess_verify::Case;
+use tess_verify::cover::Coverage;
 
 /// The bits of a sample's factors; those that the domain has not are not looked at.
 fn bits(sample: &Sample) -> [u32; 6] {

@@ -4,7 +4,7 @@ use super::tools::{build_folder, crate_folder, libraries, output, run, text};
 use libtest_mimic::Failed;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 pub(crate) const STRICT: &[&str] = &["-Wall", "-Wextra", "-pedantic", "-Werror"];
 /// What a Rust static library needs from the system.

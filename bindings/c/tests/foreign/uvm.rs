@@ -5,7 +5,7 @@ use libtest_mimic::Failed;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// The planted differences, and what the scoreboard says of each.
 const FAULTS: [(u32, &str); 6] = [

@@ -3,7 +3,7 @@
 use super::calls::{Base, Bits};
 use tess_capi::batch::TessRange;
 use tess_core::{Config, Domain, PatchFactors, Tessellation};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// Where batches are cut off, so that a sequence takes milliseconds.
 const MOST_POINTS: usize = 60_000;

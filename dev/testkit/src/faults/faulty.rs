@@ -7,7 +7,7 @@ use tess_core::{
     Config, DomainPoint, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors,
     SplitOrder, Tessellation,
 };
-use tess_verify::backend::{Backend, BackendError};
+use tess_verify::{Backend, BackendError};
 
 /// A backend that commits one [`Fault`] in one kind of answer.
 ///

@@ -6,7 +6,7 @@ use tess_core::{
     Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Patch, ProcessedPatch,
     Tessellation,
 };
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// 12.5: the points on an outer edge are those of that edge's factor, whatever the other factors
 /// and whichever edge it is, and one minus themselves walked from the other side.

@@ -4,7 +4,7 @@ use super::{Violation, ensure, has_triangles};
 use std::collections::BTreeSet;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, OutputPrimitive, Tessellation};
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// 12.3: the signed areas add up to exactly the area of the domain.
 ///

@@ -13,7 +13,7 @@ mod stages;
 use bench::Bench;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use tess_verify::case::Case;
+use tess_verify::Case;
 use tess_verify::generate::{GenLevel, Selection};
 
 /// Random patches behind level 1; the bench draws them itself.

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use tess_core::{Domain, Partitioning, PatchFactors};
 use tess_gpu::{Capacity, Order};
 use tess_testkit::pairs::Options;
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 use tess_wgpu::stage::{Overflow, Points, Room};
 
 /// One call. All but the first go to the stage that is in use; at first that is stage 0.

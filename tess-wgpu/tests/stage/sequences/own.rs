@@ -196,7 +196,7 @@ impl Own {
     }
 
     pub(super) fn regroup(&mut self, groups: u32) {
-        let mut random = tess_verify::random::SplitMix64::new(groups.into());
+        let mut random = tess_verify::generate::SplitMix64::new(groups.into());
         let mut begins: Vec<u32> = (0..groups).map(|_| random.below(PATCHES + 1)).collect();
         begins.sort_unstable();
         self.stage.set_groups(&begins).expect("they ascend");

@@ -8,8 +8,8 @@ use tess_core::{
 };
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
 use tess_gpu::{Numbering, Setup, Tap};
-use tess_verify::backend::{Backend, BackendError};
-use tess_verify::workloads::IndexType;
+use tess_verify::generate::IndexType;
+use tess_verify::{Backend, BackendError};
 use tess_wgpu::{Gpu, Output, Tessellator};
 
 /// `tess-gpu` on the first adapter that there is, with WebGPU's default limits.

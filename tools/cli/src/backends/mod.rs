@@ -13,9 +13,8 @@ use crate::threads::start_pool;
 use clap::ValueEnum;
 use simd::Simd;
 use tess_simd::{Level, LevelUnavailable};
-use tess_verify::backend::Backend;
-use tess_verify::core_backend::CoreBackend;
-use tess_verify::workloads::IndexType;
+use tess_verify::generate::IndexType;
+use tess_verify::{Backend, CoreBackend};
 
 /// The names that `--backend` takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

@@ -7,7 +7,7 @@ use tess_core::{
     SplitOrder, Tessellation,
 };
 use tess_simd::{IndexFormat, Level, LevelUnavailable, Numbering, Output, Tessellator};
-use tess_verify::backend::{Backend, BackendError};
+use tess_verify::{Backend, BackendError};
 
 /// `tess-simd` at one CPU level, with indices of 16 or 32 bits.
 #[derive(Debug)]

@@ -5,11 +5,11 @@ use super::gpu::GpuBackend;
 use super::simd::Simd;
 use tess_simd::Level;
 use tess_testkit::faults::{Fault, Faulty};
-use tess_verify::backend::Backend;
-use tess_verify::checker::{self, Tested};
-use tess_verify::vectors::VectorFile;
+use tess_verify::Backend;
+use tess_verify::check::{self, Tested};
 #[cfg(feature = "gpu")]
-use tess_verify::workloads::IndexType;
+use tess_verify::generate::IndexType;
+use tess_verify::vectors::VectorFile;
 
 /// One index that is one too high, in a backend with 16-bit indices.
 #[test]
@@ -19,7 +19,7 @@ fn narrow_indices_that_differ() {
     for backend in &mut faulty() {
         let file = VectorFile::new("cases.txt", recorded.as_bytes()).expect("a vector file");
         let one = std::slice::from_mut(backend);
-        let report = checker::check(file, one, Tested::Backend, &|_| {}).expect("a verdict");
+        let report = check::check(file, one, Tested::Backend, &|_| {}).expect("a verdict");
         assert_eq!((report.cases, report.mismatches), (51, 1), "{}", backend.device());
     }
 }

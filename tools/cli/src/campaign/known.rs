@@ -7,8 +7,8 @@ use crate::failure::Failure;
 use crate::output::{Role, counted, note};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tess_verify::case::Case;
-use tess_verify::known::Known;
+use tess_verify::Case;
+use tess_verify::check::Known;
 
 /// The `--known` option.
 #[derive(Clone, Debug, clap::Args)]

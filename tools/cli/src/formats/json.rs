@@ -2,7 +2,7 @@
 
 use super::OnePatch;
 use serde::Serialize;
-use tess_verify::names::Named;
+use tess_verify::Named;
 
 #[derive(Serialize)]
 struct Document<'a> {

@@ -6,12 +6,9 @@ use crate::failure::Failure;
 use crate::output::form::Form;
 use clap::ValueEnum;
 use tess_core::Tessellation;
-use tess_verify::backend::Backend;
-use tess_verify::case::Case;
-use tess_verify::drawing::{DrawOptions, draw};
-use tess_verify::formats;
-use tess_verify::picture::Picture;
+use tess_verify::show::{DrawOptions, Picture, draw};
 use tess_verify::vectors::Listing;
+use tess_verify::{Backend, Case};
 
 /// The forms of a patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -106,10 +103,10 @@ impl Format {
     /// The picture could not be made.
     pub(crate) fn render(self, patch: &OnePatch) -> Result<Vec<u8>, Failure> {
         Ok(match self {
-            Self::Text => formats::text(&patch.listing, patch.backend).into_bytes(),
-            Self::Csv => formats::csv(&patch.listing, patch.backend).into_bytes(),
+            Self::Text => patch.listing.to_file(patch.backend).into_bytes(),
+            Self::Csv => patch.listing.to_csv(patch.backend).into_bytes(),
             Self::Json => json::render(patch).into_bytes(),
-            Self::Obj => formats::obj(&patch.listing).into_bytes(),
+            Self::Obj => patch.listing.to_obj().into_bytes(),
             Self::Svg => PictureFormat::Svg.render(&picture(patch))?,
             Self::Png => PictureFormat::Png.render(&picture(patch))?,
         })

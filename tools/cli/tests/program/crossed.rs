@@ -9,9 +9,8 @@ use serde_json::{Value, json};
 use std::fs::write;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_testkit::pairs::Options;
-use tess_verify::case::Case;
-use tess_verify::drawing::{DrawOptions, draw};
-use tess_verify::formats;
+use tess_verify::Case;
+use tess_verify::show::{DrawOptions, draw};
 use tess_verify::vectors::Listing;
 
 /// Two values that exclude each other, and what the message says of each.
@@ -160,8 +159,8 @@ fn patches_are_the_models_whatever_the_options() {
 fn is_model(form: &str, printed: &str, case: Case, backend: &str, said: &str) {
     let model = Listing::of_model(case);
     let expected = match form {
-        "csv" => formats::csv(&model, backend),
-        "obj" => formats::obj(&model),
+        "csv" => model.to_csv(backend),
+        "obj" => model.to_obj(),
         "svg" => draw(&model, &DrawOptions::default()).picture.to_svg(),
         "json" => {
             let printed: Value = serde_json::from_str(printed).expect("JSON");
@@ -182,7 +181,7 @@ fn is_model(form: &str, printed: &str, case: Case, backend: &str, said: &str) {
             assert_eq!(printed["backend"], backend, "{said}");
             return;
         }
-        _ => formats::text(&model, backend),
+        _ => model.to_file(backend),
     };
     assert_eq!(printed, expected, "{said}");
 }

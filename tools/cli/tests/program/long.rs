@@ -140,7 +140,7 @@ fn interrupted_rows_are_kept() {
 }
 
 fn all_workloads() -> usize {
-    tess_verify::workloads::all().len()
+    tess_verify::generate::Workload::all().len()
 }
 
 /// On a terminal there is a bar; elsewhere there is none. `script` gives the program a terminal.

@@ -5,7 +5,7 @@ use std::ops::Deref;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
-use tess_verify::digest::words_digest;
+use tess_verify::vectors::words_digest;
 
 /// What a run of the program left.
 pub(crate) struct Run {

@@ -1,10 +1,8 @@
 //! What is run: factors with the words that the model gives for them.
 
 use tess_core::{Config, Domain, PatchFactors};
-use tess_verify::case::Case;
-use tess_verify::generate::random_patch;
-use tess_verify::names::Named;
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{SplitMix64, random_patch};
+use tess_verify::{Case, Named};
 
 /// Patches of one setup.
 pub(crate) struct Batch {

@@ -6,7 +6,7 @@ use crate::setup;
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use tess_verify::case::Case;
+use tess_verify::Case;
 
 /// The program that Verilator built, and where its files lie.
 pub(crate) struct Bench {

@@ -1,8 +1,8 @@
 //! How many clocks the workloads of `tess bench` take, without back-pressure.
 
 use super::bench::{Bench, Verdict};
-use tess_verify::case::Case;
-use tess_verify::workloads::{self, Calls, Workload};
+use tess_verify::Case;
+use tess_verify::generate::{Calls, Workload};
 
 /// Points of a workload that are enough; what is behind them is left out.
 const POINTS: u64 = 100_000;
@@ -19,7 +19,7 @@ pub(crate) fn run(bench: &Bench) -> Result<(), String> {
     );
     println!("| --- | --- | --- | --- | --- | --- | --- | --- |");
     // The circuit does not know how many patches a call has.
-    let batches = workloads::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
+    let batches = Workload::all().into_iter().filter(|workload| workload.calls == Calls::Batch);
     for workload in batches {
         let file = workload.name.replace('/', "-");
         let stimuli = bench.stimuli(&file, &beginning(&workload))?;
@@ -75,7 +75,7 @@ mod tests {
 
     #[test]
     fn a_beginning_has_enough_points() {
-        let worst = workloads::worst();
+        let worst = Workload::named("worst").remove(0);
         let some = beginning(&worst);
         let points: u32 = some.iter().map(|case| case.patch().counts().points).sum();
         assert!(u64::from(points) >= POINTS && some.len() < worst.patches.len(), "{points} points");

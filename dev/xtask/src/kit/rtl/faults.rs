@@ -63,7 +63,7 @@ fn read(text: &str) -> Result<Vec<Fault<'_>>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tess_verify::circuit::signals;
+    use tess_verify::show::signals;
 
     #[test]
     fn the_list_is_read() {

@@ -8,10 +8,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
-use tess_verify::case::Case;
-use tess_verify::digest::Fnv1a;
-use tess_verify::generate::{GenLevel, Selection, configurations, random_patch};
-use tess_verify::random::SplitMix64;
+use tess_verify::Case;
+use tess_verify::generate::{GenLevel, Selection, SplitMix64, configurations, random_patch};
+use tess_verify::vectors::Fnv1a;
 
 /// Patches of a shard.
 const PATCHES: u64 = 10_000;

@@ -4,10 +4,10 @@ use super::sources;
 use crate::command::in_file;
 use std::fmt::Write;
 use std::path::PathBuf;
-use tess_verify::circuit::{Signal, signals};
+use tess_verify::show::{Signal, signals};
 
 const HEAD: &str = "\
-// Written by `cargo xtask rtl --names` from tess_verify::circuit. Do not edit.
+// Written by `cargo xtask rtl --names` from tess_verify::show::signals. Do not edit.
 // The bench includes it: the number of each signal, then names by number. OPTIONS chooses in `tess explain` what
 // the signal describes.
 ";

@@ -6,9 +6,9 @@ use std::hint::black_box;
 use std::ops::Range;
 use std::time::{Duration, Instant};
 use tess_core::{Config, Counts, DomainPoint, Patch, PatchFactors};
-use tess_verify::backend::BackendError;
-use tess_verify::digest::Fnv1a;
-use tess_verify::workloads::{IndexType, Totals, Workload};
+use tess_verify::BackendError;
+use tess_verify::generate::{IndexType, Totals, Workload};
+use tess_verify::vectors::Fnv1a;
 
 /// The sequential formulation, patch by patch, into slices.
 #[derive(Debug)]

@@ -12,8 +12,8 @@ use crate::failure::Failure;
 use std::fmt;
 use std::time::Duration;
 use tess_simd::Order;
-use tess_verify::backend::BackendError;
-use tess_verify::workloads::Workload;
+use tess_verify::BackendError;
+use tess_verify::generate::Workload;
 
 /// What is measured.
 #[derive(Clone, Copy, Debug)]
@@ -228,8 +228,8 @@ mod tests {
             1
         }
 
-        fn index_type(&self) -> tess_verify::workloads::IndexType {
-            tess_verify::workloads::IndexType::U32
+        fn index_type(&self) -> tess_verify::generate::IndexType {
+            tess_verify::generate::IndexType::U32
         }
 
         fn prepare(
@@ -257,7 +257,7 @@ mod tests {
     /// The ratios say how much faster the backend is than the others, and a wrong result has none.
     #[test]
     fn ratios_and_digests() {
-        let workload = &tess_verify::workloads::named("uniform-1")[0];
+        let workload = &Workload::named("uniform-1")[0];
         let plan = Plan { workload, working_set: WorkingSet::Cache, samples: 1 };
         let digest = workload.digest_in(Order::Specification);
         let row = measure(&mut Slow { digest }, plan).expect("it is right");

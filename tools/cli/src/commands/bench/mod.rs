@@ -17,7 +17,7 @@ use runner::{Runner, RunnerOptions, WorkingSet};
 use std::path::Path;
 use table::heading;
 use tess_simd::Order;
-use tess_verify::workloads::{self, Workload};
+use tess_verify::generate::Workload;
 
 /// Time the named workloads against filling the same bytes and against the core
 #[derive(Debug, clap::Args)]
@@ -188,13 +188,13 @@ fn runner(name: BackendName, options: RunnerOptions) -> Result<Box<dyn Runner>, 
 
 fn find_workloads(names: &[String]) -> Result<Vec<Workload>, Failure> {
     if names.is_empty() {
-        return Ok(workloads::all());
+        return Ok(Workload::all());
     }
     let mut found = Vec::new();
     for name in names {
-        let workloads = workloads::named(name);
+        let workloads = Workload::named(name);
         if workloads.is_empty() {
-            let known: Vec<_> = workloads::all().into_iter().map(|known| known.name).collect();
+            let known: Vec<_> = Workload::all().into_iter().map(|known| known.name).collect();
             let known = known.join(", ");
             return Err(Failure::bad_input(format!(
                 "--workload: there is no workload {name}; there are {known}"

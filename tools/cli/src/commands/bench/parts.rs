@@ -1,7 +1,7 @@
 //! How a workload is cut into parts on a CPU.
 
 use std::ops::Range;
-use tess_verify::workloads::CACHE_BATCH_BYTES;
+use tess_verify::generate::CACHE_BATCH_BYTES;
 
 /// Consecutive batches that together have about a mebibyte of output, from the bytes of each.
 ///

@@ -4,8 +4,8 @@ use clap::ValueEnum;
 use std::iter::Sum;
 use std::time::Duration;
 use tess_simd::{Level, Order};
-use tess_verify::backend::BackendError;
-use tess_verify::workloads::{IndexType, Workload};
+use tess_verify::BackendError;
+use tess_verify::generate::{IndexType, Workload};
 
 /// Where a runner's output goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

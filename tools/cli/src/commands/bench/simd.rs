@@ -13,9 +13,9 @@ use tess_core::{DomainPoint, PatchFactors};
 use tess_simd::{
     BatchCounts, Buffers, IndexFormat, Numbering, Order, OwnedBatch, PatchRange, Tessellator,
 };
-use tess_verify::backend::BackendError;
-use tess_verify::digest::Fnv1a;
-use tess_verify::workloads::{Calls, IndexType, Totals, Workload};
+use tess_verify::BackendError;
+use tess_verify::generate::{Calls, IndexType, Totals, Workload};
+use tess_verify::vectors::Fnv1a;
 
 /// The runner for these options.
 ///

@@ -4,7 +4,7 @@
 use super::runner::Runner;
 use crate::output::json;
 use serde::Serialize;
-use tess_verify::workloads::IndexType;
+use tess_verify::generate::IndexType;
 
 /// One line of results, with the keys that `--json` prints.
 #[derive(Clone, Debug, Serialize)]

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use tess_verify::checker::{Checked, Report};
+use tess_verify::check::{Checked, Report};
 use tess_verify::vectors::Header;
 
 /// The file of failing records. It has no count: it marks its end.

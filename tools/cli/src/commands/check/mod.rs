@@ -22,11 +22,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use strength::StrengthArgs;
-use tess_verify::backend::Backend;
-use tess_verify::checker::{self, CheckError, Difference, MAX_DIFFERENCES, Report, Tested};
-use tess_verify::names::Named;
+use tess_verify::check::{self, CheckError, Difference, MAX_DIFFERENCES, Report, Tested};
 use tess_verify::rules::Specification;
 use tess_verify::vectors::{Cases, Kind, Record, VectorError, VectorFile};
+use tess_verify::{Backend, Named};
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
@@ -163,20 +162,18 @@ fn compare(
     stop_when_reader_leaves();
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
     let asked = asked.as_mut().map(|asked| asked as _);
-    let report =
-        checker::check_known(file, asked, &known.cases, &mut backends, tested, &|checked| {
-            bar.inc(checked.records.len() as u64);
-            recorder.update(|report| record::add(report, checked));
-            if let Some(failures) = &failures {
-                failures.add(checked);
-            }
-            if let Some(coverage) = &coverage {
-                let coverage =
-                    &mut coverage.lock().unwrap_or_else(PoisonError::into_inner).coverage;
-                let cases = checked.records.iter().filter_map(Record::case);
-                cases.for_each(|case| coverage.record(&case));
-            }
-        });
+    let report = check::check_known(file, asked, &known.cases, &mut backends, tested, &|checked| {
+        bar.inc(checked.records.len() as u64);
+        recorder.update(|report| record::add(report, checked));
+        if let Some(failures) = &failures {
+            failures.add(checked);
+        }
+        if let Some(coverage) = &coverage {
+            let coverage = &mut coverage.lock().unwrap_or_else(PoisonError::into_inner).coverage;
+            let cases = checked.records.iter().filter_map(Record::case);
+            cases.for_each(|case| coverage.record(&case));
+        }
+    });
     bar.finish_and_clear();
     let report = report.map_err(failure)?;
     recorder.update(|record| record::finish(record, &report));

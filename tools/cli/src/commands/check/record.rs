@@ -4,12 +4,10 @@ use crate::campaign::report::{First, Part, Report};
 use crate::campaign::{Placed, ShardArgs, shard};
 use crate::coverage_file;
 use crate::failure::Failure;
-use tess_verify::case::Case;
-use tess_verify::checker::{self, Checked, Difference};
-use tess_verify::compare::Stage;
-use tess_verify::coverage::Coverage;
-use tess_verify::names::Named;
+use tess_verify::check::{self, Checked, Difference, Stage};
+use tess_verify::cover::Coverage;
 use tess_verify::vectors::Header;
+use tess_verify::{Case, Named};
 
 /// The part of a record's case: its configuration, but for the split order.
 fn part_of(case: Option<Case>) -> String {
@@ -30,7 +28,7 @@ pub(super) fn add(report: &mut Report, checked: Checked<'_>) {
 const OTHERS: &str = "missing answers, answers to other cases, contradictions";
 
 /// Adds what is known at the end: stages, differences, and mismatches that no record shows by itself.
-pub(super) fn finish(report: &mut Report, found: &checker::Report) {
+pub(super) fn finish(report: &mut Report, found: &check::Report) {
     let others = Part {
         cases: found.cases.saturating_sub(report.cases),
         mismatches: found.mismatches.saturating_sub(report.mismatches),

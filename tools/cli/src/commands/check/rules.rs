@@ -9,11 +9,10 @@ use std::fmt::{self, Display, Formatter};
 use std::io::{BufRead, Write};
 use std::path::Path;
 use tess_core::Tessellation;
-use tess_verify::case::Case;
-use tess_verify::names::Named;
+use tess_verify::check::{Order, Strength};
 use tess_verify::rules::{Checker, Row, RulesReport, Specification, Verdict};
-use tess_verify::strength::{Order, Strength};
 use tess_verify::vectors::{Kind, Record, VectorError, VectorFile};
+use tess_verify::{Case, Named};
 
 /// Judges every listing of a file and prints the verdicts.
 ///

@@ -3,9 +3,8 @@
 use crate::backends::BackendName;
 use crate::failure::Failure;
 use clap::ValueEnum;
-use tess_verify::checker::Tested;
-use tess_verify::names::Named;
-use tess_verify::strength::{Conversion, Denormals, Elements, Order, Strength};
+use tess_verify::Named;
+use tess_verify::check::{Conversion, Denormals, Elements, Order, Strength, Tested};
 use tess_verify::vectors::Kind;
 
 /// The strength of a comparison with a device under test (spec section 13).

@@ -1,7 +1,7 @@
 //! The covergroups of `tess_uvm`, written from the bins.
 
 use std::fmt::Write;
-use tess_verify::coverage::Coverage;
+use tess_verify::cover::Coverage;
 
 const HEAD: &str = "\
 // Written by `tess coverage --covergroups FILE`. Do not edit.

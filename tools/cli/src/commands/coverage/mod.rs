@@ -10,7 +10,7 @@ use crate::output::{OutputArgs, Role, counted, note, refuse_shared};
 use std::collections::HashSet;
 use std::path::PathBuf;
 use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
-use tess_verify::coverage::{Coverage, Exclusions};
+use tess_verify::cover::{Coverage, Exclusions};
 use tess_verify::generate::configurations_among;
 
 /// Add coverage files up and report what is missing

@@ -10,8 +10,8 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use tess_core::{Domain, OutputPrimitive};
-use tess_verify::backend::Backend;
-use tess_verify::drawing::{self, Colours, DrawOptions, Drawing};
+use tess_verify::Backend;
+use tess_verify::show::{self, Colours, DrawOptions, Drawing};
 use tess_verify::vectors::{Record, VectorFile};
 
 /// Draw one patch as SVG or PNG
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     };
     let (drawing, exit) = match pair {
         Some((expected, observed)) => draw_overlay(&expected, &observed, &args.options.options()),
-        None => (drawing::draw(&patch.listing, &args.options.options()), Exit::Done),
+        None => (show::draw(&patch.listing, &args.options.options()), Exit::Done),
     };
     report_left_out(&drawing);
     args.output.write(&format.render(&drawing.picture)?)?;
@@ -101,7 +101,7 @@ impl DrawArgs {
     /// # Errors
     /// Rings without triangles.
     fn fit(&self, domain: Domain, output: OutputPrimitive) -> Result<(), Failure> {
-        if self.rings && !drawing::has_rings(domain, output) {
+        if self.rings && !show::has_rings(domain, output) {
             return Err(Failure::bad_input(
                 "--rings colours the triangles of a tri or quad patch; this one has none",
             ));
@@ -140,7 +140,7 @@ fn draw_overlay(
     observed: &OnePatch,
     options: &DrawOptions,
 ) -> (Drawing, Exit) {
-    let (drawing, differences) = drawing::overlay(&expected.listing, &observed.listing, options);
+    let (drawing, differences) = show::overlay(&expected.listing, &observed.listing, options);
     let (points, primitives) = (differences.points, differences.primitives);
     note(&format!(
         "differences between {} and {}: {} and {}",

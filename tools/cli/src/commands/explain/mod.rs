@@ -7,8 +7,9 @@ use serde::Serialize;
 use std::fmt::{self, Display};
 use tess_core::Patch;
 use tess_verify::Case;
-use tess_verify::circuit::{self, Part};
-use tess_verify::explanation::{Explanation, FactorReport, PointReport, PrimitiveReport};
+use tess_verify::show::{
+    self, Explanation, FactorReport, Part, PointReport, PrimitiveReport, SignalDifference,
+};
 
 const OBSERVED: &str = "\
 Compare what a circuit gave there, name the stage, module and signal that differ, and end with 1 if any does
@@ -81,17 +82,13 @@ impl Args {
     }
 
     /// What differs from what was observed, if something was.
-    fn circuit(
-        &self,
-        case: &Case,
-        part: Part,
-    ) -> Result<Option<Vec<circuit::Difference>>, Failure> {
+    fn circuit(&self, case: &Case, part: Part) -> Result<Option<Vec<SignalDifference>>, Failure> {
         if self.observed.is_empty() {
             return Ok(None);
         }
         let observed: Vec<(&str, u32)> =
             self.observed.iter().map(|(signal, value)| (signal.as_str(), *value)).collect();
-        let differences = circuit::compare(case, part, &observed);
+        let differences = show::compare_signals(case, part, &observed);
         differences.map(Some).map_err(|error| Failure::bad_input(format!("--observed: {error}")))
     }
 }
@@ -117,7 +114,7 @@ struct Explained {
     #[serde(flatten)]
     report: Report,
     #[serde(rename = "differences", skip_serializing_if = "Option::is_none")]
-    circuit: Option<Vec<circuit::Difference>>,
+    circuit: Option<Vec<SignalDifference>>,
 }
 
 impl Display for Explained {

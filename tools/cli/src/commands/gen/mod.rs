@@ -1,5 +1,8 @@
 //! `tess gen`: test vectors with expected results from the model.
 
+mod images;
+mod stages;
+
 use crate::args::{SelectionArgs, name_of};
 use crate::campaign::report::Part;
 use crate::campaign::{Invocation, Placed, Recorder, ReportArgs};
@@ -11,17 +14,15 @@ use crate::output::{
 };
 use clap::ValueEnum;
 use indicatif::ProgressBar;
+use stages::Block;
 use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use tess_core::SplitOrder;
-use tess_verify::case::Case;
-use tess_verify::coverage::{Coverage, Exclusions};
+use tess_verify::cover::{Coverage, Exclusions};
 use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::names::Named;
-use tess_verify::readmemh;
-use tess_verify::stage_vectors::{self, Block};
 use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
+use tess_verify::{Case, Named};
 
 /// Generate test vectors with expected results; same arguments, same bytes
 #[derive(Debug, clap::Args)]
@@ -116,7 +117,7 @@ fn generate(args: &Args, placed: Placed, recorder: &Recorder) -> Result<Exit, Fa
     let written = match args.format {
         Format::Csv => args.output.stream(|out| write_patches(out, &header, cases)),
         Format::Listing => args.output.stream(|out| write_listings(out, &header, cases)),
-        Format::Readmemh => images(&args.output.file, cases),
+        Format::Readmemh => write_folder(&args.output.file, cases),
     };
     bar.finish_and_clear();
     written?;
@@ -160,14 +161,14 @@ impl Args {
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
         let write = match self.format {
-            Format::Csv => stage_vectors::write_csv,
-            Format::Readmemh => stage_vectors::write_memh,
+            Format::Csv => stages::write_csv,
+            Format::Readmemh => stages::write_memh,
             Format::Listing => {
                 return Err(Failure::bad_input("a stage has no listing: --format csv or readmemh"));
             }
         };
         let bar = self.progress(count);
-        let rows = stage_vectors::rows(block, bar.wrap_iter(self.cases(placed)));
+        let rows = stages::rows(block, bar.wrap_iter(self.cases(placed)));
         bar.finish_and_clear();
         self.output.stream(|out| write(out, block, &rows))?;
         recorder.update(|report| report.add_parts([part(count)]));
@@ -240,7 +241,7 @@ impl Args {
 }
 
 /// Writes the memory images into a new folder.
-fn images(folder: &Path, cases: impl Iterator<Item = Case>) -> Result<(), Failure> {
+fn write_folder(folder: &Path, cases: impl Iterator<Item = Case>) -> Result<(), Failure> {
     refuse_stdout(folder, "readmemh writes several files")?;
     let write = || {
         let new = NewFolder::create(folder)?;
@@ -252,8 +253,8 @@ fn images(folder: &Path, cases: impl Iterator<Item = Case>) -> Result<(), Failur
 
 fn write_images(folder: &Path, cases: impl Iterator<Item = Case>) -> io::Result<()> {
     let create = |name| File::create(folder.join(name)).map(BufWriter::new);
-    let [a, b, c, d, e] = readmemh::FILES;
+    let [a, b, c, d, e] = images::FILES;
     let mut files = [create(a)?, create(b)?, create(c)?, create(d)?, create(e)?];
-    readmemh::write_images(&mut files.each_mut().map(|file| file as &mut dyn Write), cases)?;
+    images::write_images(&mut files.each_mut().map(|file| file as &mut dyn Write), cases)?;
     files.iter_mut().try_for_each(Write::flush)
 }

@@ -6,7 +6,7 @@ use crate::campaign::report::{KnownCases, Part, Report, State};
 use crate::failure::Failure;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use tess_verify::coverage::Coverage;
+use tess_verify::cover::Coverage;
 
 /// How many shards of a kind are shown by number.
 pub(super) const SHOWN: usize = 100;

@@ -28,7 +28,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use tess_core::Partitioning;
 use tess_surface::{DisplacedModel, Displacement, FactorRule, HeightError, Model, Style};
-use tess_verify::names::Named;
+use tess_verify::Named;
 use view::{View, ViewArgs};
 
 /// Tessellate a model into a mesh or a picture

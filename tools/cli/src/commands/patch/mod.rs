@@ -8,7 +8,7 @@ use crate::formats::{Format, OnePatch};
 use crate::output::{OutputArgs, Role, form, refuse_shared};
 use std::io;
 use std::path::{Path, PathBuf};
-use tess_verify::case::Case;
+use tess_verify::Case;
 use tess_verify::vectors::{Header, Kind, VectorError};
 
 /// Tessellate one patch, or the cases of a file

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::{OutputArgs, json, progress};
 use std::fmt::Write;
 use tess_probe::{Times, bench};
-use tess_verify::workloads::{self, Workload};
+use tess_verify::generate::Workload;
 
 /// How often each way runs; the fastest counts.
 const RUNS: u32 = 10;
@@ -23,7 +23,7 @@ pub(super) fn run(
 ) -> Result<(), Failure> {
     let usual: Vec<String> = WORKLOADS.map(str::to_owned).to_vec();
     let names = if names.is_empty() { &usual } else { names };
-    let workloads: Vec<Workload> = names.iter().flat_map(|name| workloads::named(name)).collect();
+    let workloads: Vec<Workload> = names.iter().flat_map(|name| Workload::named(name)).collect();
     if workloads.is_empty() {
         return Err(Failure::bad_input("no workload has this name; tess bench --help lists them"));
     }

@@ -15,13 +15,12 @@ use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tess_probe::{First, Prober, Report, Row, cases, list, probe_known};
-use tess_verify::case::Case;
-use tess_verify::drawing::{self, DrawOptions};
+use tess_verify::check::{Order, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
-use tess_verify::names::Named;
 use tess_verify::rules::Specification;
-use tess_verify::strength::{Order, Strength};
+use tess_verify::show::{self, DrawOptions};
 use tess_verify::vectors::Listing;
+use tess_verify::{Case, Named};
 
 /// Compare the tessellator of a Vulkan device with the model
 #[derive(Debug, clap::Args)]
@@ -294,7 +293,7 @@ impl Picture {
         let listing = |output| Listing { case, output, line: 0 };
         let expected = listing(case.patch().tessellate());
         let options = DrawOptions { size: 800, ..DrawOptions::default() };
-        let (drawing, _) = drawing::overlay(&expected, &listing(output), &options);
+        let (drawing, _) = show::overlay(&expected, &listing(output), &options);
         self.output.write(&self.format.render(&drawing.picture)?)
     }
 }

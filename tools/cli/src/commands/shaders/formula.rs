@@ -2,7 +2,7 @@
 
 use serde::{Serialize, Serializer};
 use tess_gpu::sizes::{BLOCK, SECTION, TILE};
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::SplitMix64;
 
 /// What sizes depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -6,7 +6,7 @@ use super::translation::Translation;
 use serde::Serialize;
 use tess_gpu::sizes::ALIGNMENT;
 use tess_gpu::{IndexType, Numbering, PointFormat, Resource, Setup};
-use tess_verify::names::Named;
+use tess_verify::Named;
 
 /// The file of the tables' contents.
 pub(super) const TABLES_FILE: &str = "tables.bin";

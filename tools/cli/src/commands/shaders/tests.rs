@@ -9,8 +9,7 @@ use std::mem::offset_of;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::layout::Job;
 use tess_gpu::{Capacity, IndexType, Limits, Numbering, Plan, Setup, Workgroups};
-use tess_verify::generate::configurations;
-use tess_verify::random::SplitMix64;
+use tess_verify::generate::{SplitMix64, configurations};
 
 fn setups() -> impl Iterator<Item = Setup> {
     configurations().map(|(domain, config)| Setup::new(domain, config))

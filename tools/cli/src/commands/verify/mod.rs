@@ -11,13 +11,10 @@ use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 use tess_core::SplitOrder;
-use tess_verify::backend::Backend;
+use tess_verify::check::{Known, Plan, Random, Row, SecondFormulation, Subject, verify_known};
 use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::known::Known;
-use tess_verify::names::Named;
 use tess_verify::rules::{Specification, check_rules};
-use tess_verify::second::SecondFormulation;
-use tess_verify::verify::{Plan, Random, Row, Subject, verify_known};
+use tess_verify::{Backend, Named};
 
 /// Compare every backend with the model, over generated levels or over everything there is
 #[derive(Debug, clap::Args)]

@@ -5,8 +5,7 @@ use crate::support::{directory, tess_with_input};
 use std::fs::{read_to_string, write};
 use std::path::Path;
 use tess_core::{DomainPoint, PatchFactors};
-use tess_verify::case::Case;
-use tess_verify::formats;
+use tess_verify::Case;
 use tess_verify::vectors::Listing;
 
 /// A second case of the same configuration, which is answered wrongly.
@@ -19,7 +18,7 @@ fn answers(case: Case, kind: &str) -> String {
     let (right, mut wrong) = (Listing::of_model(case), Listing::of_model(second(case)));
     let last = wrong.output.points.last_mut().expect("a point");
     *last = DomainPoint::from_bits(last.u.to_bits() ^ 0x1234, last.v.to_bits());
-    let form = if kind == "digests" { formats::csv } else { formats::text };
+    let form = if kind == "digests" { Listing::to_csv } else { Listing::to_file };
     let [right, wrong] = [right, wrong].map(|answer| form(&answer, "a-device"));
     let heading = if kind == "digests" { 2 } else { 1 };
     let wrong: String = wrong.split_inclusive('\n').skip(heading).collect();

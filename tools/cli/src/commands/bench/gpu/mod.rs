@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 use tess_core::{Counts, PatchFactors};
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Copies, Order, Setup};
-use tess_verify::backend::BackendError;
-use tess_verify::digest::Fnv1a;
-use tess_verify::workloads::{Calls, IndexType, Totals, Workload};
+use tess_verify::BackendError;
+use tess_verify::generate::{Calls, IndexType, Totals, Workload};
+use tess_verify::vectors::Fnv1a;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 
 mod fill;

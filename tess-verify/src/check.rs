@@ -1,0 +1,298 @@
+//! Runs the records of a vector file through a backend.
+
+mod alignment;
+mod asked;
+mod compare;
+mod consistency;
+mod device;
+mod exhaustive;
+mod findings;
+mod known;
+mod patches;
+mod report;
+mod second;
+mod sequences;
+mod stages;
+mod strength;
+mod verify;
+mod ways;
+mod workers;
+
+pub use asked::{Asked, WINDOW};
+pub use compare::{Element, Mismatch, Stage};
+pub use known::Known;
+pub(crate) use patches::tessellate;
+pub use report::{CheckError, Difference, Group, MAX_DIFFERENCES, Report};
+pub use second::SecondFormulation;
+pub use strength::{Conversion, Denormals, Elements, Order, Strength, flushed, vertices};
+pub use verify::{Plan, Random, RandomUnit, Row, Subject, Unit, Units, verify, verify_known};
+pub use ways::Way;
+
+use crate::backend::{Backend, BackendError};
+use crate::case::Case;
+use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
+use asked::Expected;
+use findings::{Findings, Found};
+use std::io::BufRead;
+use std::sync::{Mutex, PoisonError};
+use tess_core::Tessellation;
+
+/// Which side of a comparison is tested; the other one is right.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Tested {
+    /// The backend: each of its results must equal the recorded one exactly.
+    Backend,
+    /// The file: its listings are what a device gave, and each must equal the model's as closely as
+    /// the strength says. The backends are not asked.
+    Listings(Strength),
+}
+
+/// A part of a file that was checked: consecutive records, or nearly so.
+#[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
+pub struct Checked<'a> {
+    /// Number of the first record, from 1. The calls come in no order.
+    pub first: u64,
+    /// The records.
+    pub records: &'a [Record],
+    /// For each, whether it is wrong for the case that it states. A record that is right for its case but
+    /// answers another one than was asked, or contradicts another record, counts in the report alone.
+    pub different: &'a [bool],
+}
+
+/// Checks every record of a file.
+///
+/// `tested` decides which side is right; nothing in the file does. Give one backend for each thread
+/// to use; the report does not depend on their number. `checked` is called from any thread, with the
+/// records that were checked since its last call; each comes once.
+///
+/// # Errors
+/// A file that is malformed, truncated or too long, which is known at its end: the report of a
+/// file that is not whole is never given. [`Tested::Listings`] for a file that has none. A backend
+/// that could not run, or no backend at all.
+pub fn check<R: BufRead + Send>(
+    file: VectorFile<R>,
+    backends: &mut [Box<dyn Backend>],
+    tested: Tested,
+    checked: &(dyn Fn(Checked<'_>) + Sync),
+) -> Result<Report, CheckError> {
+    check_asked(file, None, backends, tested, checked)
+}
+
+/// [`check`], and the records must answer the cases that were `asked`, one for one and in this order: a
+/// record that answers another case is a difference, and so is a case without a record. The fewest
+/// differences count that explain what is there: the comparison is in step again behind them, if
+/// fewer than [`WINDOW`] cases in a row have no record.
+///
+/// # Errors
+/// The errors of [`check`] and of reading `asked`.
+pub fn check_asked<R: BufRead + Send>(
+    file: VectorFile<R>,
+    asked: Option<Asked<'_>>,
+    backends: &mut [Box<dyn Backend>],
+    tested: Tested,
+    checked: &(dyn Fn(Checked<'_>) + Sync),
+) -> Result<Report, CheckError> {
+    check_known(file, asked, &Known::default(), backends, tested, checked)
+}
+
+/// [`check_asked`], where a record that differs from what is right for its case is no mismatch if that is `known`.
+/// A record that answers another case than was asked is one all the same.
+///
+/// # Errors
+/// The errors of [`check_asked`].
+pub fn check_known<R: BufRead + Send>(
+    file: VectorFile<R>,
+    asked: Option<Asked<'_>>,
+    known: &Known,
+    backends: &mut [Box<dyn Backend>],
+    tested: Tested,
+    checked: &(dyn Fn(Checked<'_>) + Sync),
+) -> Result<Report, CheckError> {
+    if backends.is_empty() {
+        return Err(BackendError::new("no backend to check with").into());
+    }
+    let header = file.header().clone();
+    if tested != Tested::Backend && header.kind != Kind::Listings {
+        return Err(CheckError::NoListings(header.kind));
+    }
+    let how = How { header, tested };
+    let expected = asked.map(Expected::new);
+    let source = Mutex::new(Source { file, expected, taken: 0, stopped: None });
+    let run = |backend: &mut Box<dyn Backend>| {
+        let result = run(&how, &source, known, backend.as_mut(), checked);
+        if result.is_err() {
+            lock(&source).stopped.get_or_insert(Ok(()));
+        }
+        result
+    };
+    let results = workers::run(backends, run);
+    // A malformed file is reported as such, whatever a backend answered meanwhile.
+    if let Some(Err(error)) = lock(&source).stopped.take() {
+        return Err(error.into());
+    }
+    let mut findings = source.into_inner().unwrap_or_else(PoisonError::into_inner).finish()?;
+    for result in results {
+        findings.join(result.ok_or_else(|| BackendError::new("the backend panicked"))??);
+    }
+    Ok(findings.report())
+}
+
+/// Checks what a device answered for cases, in a strength: [`check`] without a file.
+#[must_use]
+pub fn check_device(
+    answers: impl IntoIterator<Item = (Case, Tessellation)>,
+    strength: Strength,
+) -> Report {
+    let mut findings = Findings::default();
+    for (number, (case, answer)) in (1..).zip(answers) {
+        findings.add(number, None, device::check(&case, &answer, strength), || None);
+    }
+    findings.report()
+}
+
+/// What is wrong with a backend's output for one case, in a strength; `None` if nothing is.
+///
+/// This is the oracle of a fuzz target.
+///
+/// # Errors
+/// The backend could not run, or did not answer with one patch.
+pub fn check_case(
+    backend: &mut dyn Backend,
+    case: &Case,
+    strength: Strength,
+) -> Result<Option<Mismatch>, BackendError> {
+    let outputs = tessellate(backend, &[*case])?;
+    let report = check_device(outputs.into_iter().map(|output| (*case, output)), strength);
+    Ok(report.differences.into_iter().next().map(|difference| difference.mismatch))
+}
+
+/// What the comparison of a record depends on besides the record.
+struct How {
+    header: Header,
+    tested: Tested,
+}
+
+/// The records that are still to be checked.
+struct Source<'a, R> {
+    file: VectorFile<R>,
+    expected: Option<Expected<'a>>,
+    taken: u64,
+    /// Set when no more records are to be taken before the end, with the reason.
+    stopped: Option<Result<(), VectorError>>,
+}
+
+/// Records that one worker checks together.
+#[derive(Default)]
+struct Work {
+    /// Number of the first record, from 1.
+    first: u64,
+    /// For each record that answers another case than was asked, what is wrong about that.
+    astray: Vec<Option<Mismatch>>,
+    records: Vec<Record>,
+}
+
+impl<R: BufRead> Source<'_, R> {
+    fn next_unit(&mut self, how: &How) -> Option<Work> {
+        let mut unit = Work { first: self.taken + 1, ..Work::default() };
+        while self.stopped.is_none() && unit.records.len() < unit_size(how.header.kind) {
+            match self.next_record(how.tested) {
+                Ok(Some((record, astray))) => {
+                    unit.astray.push(astray);
+                    unit.records.push(record);
+                }
+                Ok(None) => break,
+                Err(error) => self.stopped = Some(Err(error)),
+            }
+        }
+        (!unit.records.is_empty()).then_some(unit)
+    }
+
+    /// The next record, and how the case that it answers differs from the one that was asked.
+    fn next_record(
+        &mut self,
+        tested: Tested,
+    ) -> Result<Option<(Record, Option<Mismatch>)>, VectorError> {
+        let next = match &mut self.expected {
+            Some(expected) => expected.answer(&mut self.file)?,
+            None => self.file.next().transpose()?.map(|record| (record, None)),
+        };
+        let Some((record, astray)) = next else { return Ok(None) };
+        self.taken += 1;
+        if let (Record::Coordinates(_), Tested::Listings(strength)) = (&record, tested)
+            && strength.elements == Elements::Points
+            && strength.order != Order::Any
+        {
+            let message = "vertices by coordinates do not show the order of points: compare \
+                           primitives, or points in any order";
+            return Err(self.file.error_at(record.line(), "coordinates", message));
+        }
+        Ok(Some((record, astray)))
+    }
+
+    /// The cases that no record answers.
+    fn finish(self) -> Result<Findings, VectorError> {
+        self.expected.map_or_else(|| Ok(Findings::default()), Expected::finish)
+    }
+}
+
+/// Single patches are handed over in batches; a row of the other kinds is a whole batch.
+const fn unit_size(kind: Kind) -> usize {
+    match kind {
+        Kind::Listings | Kind::Patches | Kind::Preparation => 256,
+        Kind::Sweep | Kind::Uniform | Kind::Locations | Kind::Factors => 1,
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// One worker: takes units until there are none.
+fn run<R: BufRead>(
+    how: &How,
+    source: &Mutex<Source<'_, R>>,
+    known: &Known,
+    backend: &mut dyn Backend,
+    checked: &(dyn Fn(Checked<'_>) + Sync),
+) -> Result<Findings, BackendError> {
+    let mut findings = Findings::default();
+    loop {
+        let unit = lock(source).next_unit(how);
+        let Some(Work { first, astray, records }) = unit else { return Ok(findings) };
+        let found = check_unit(how, backend, &records)?;
+        let found: Vec<Found> = found
+            .into_iter()
+            .zip(&records)
+            .map(|(found, record)| found.unless_known(record.case(), known))
+            .collect();
+        let different: Vec<bool> = found.iter().map(Found::is_different).collect();
+        let answers = (first..).zip(&records).zip(astray.into_iter().zip(found));
+        for ((number, record), (astray, found)) in answers {
+            let (line, is_astray) = (Some(record.line()), astray.is_some());
+            let found = astray.map_or(found, |mismatch| Found::new(Some(mismatch), None));
+            // A record that answers another case is not shown again by itself: the case is what is wrong.
+            let file = || if is_astray { None } else { report::file_of(&how.header, record) };
+            findings.add(number, line, found, file);
+        }
+        checked(Checked { first, records: &records, different: &different });
+    }
+}
+
+/// The findings of each record, in order.
+fn check_unit(
+    how: &How,
+    backend: &mut dyn Backend,
+    records: &[Record],
+) -> Result<Vec<Found>, BackendError> {
+    match records {
+        [Record::Sweep(row)] => Ok(vec![patches::sweep(backend, row)?]),
+        [Record::Uniform(row)] => Ok(vec![patches::uniform(backend, row)?]),
+        [Record::Locations(row)] => {
+            Ok(vec![Found::new(exhaustive::locations(backend, row)?, None)])
+        }
+        [Record::Factors(row)] => Ok(vec![Found::new(exhaustive::factors(backend, row)?, None)]),
+        records => patches::single(how, backend, records),
+    }
+}

@@ -1,0 +1,203 @@
+//! The shortest explanation of answers that are out of step: the edit distance, and which edits make it.
+//!
+//! ```text
+//! asked    A B C D E        A is answered; B is missing; C is answered; X stands in the place of D; E is answered;
+//! answers  A C X E E        the second E is one too many: three edits, and no other explanation has fewer
+//! ```
+//!
+//! `D[i][j]` is the least number of edits that make the answers from `i` on into what is asked from `j` on:
+//! the lower right corner is 0, and each other entry is the least of its right, lower and lower right neighbour
+//! plus one, or the lower right one where the cases agree. Neighbours differ by at most one, so a row
+//! of the matrix is bits, 64 entries in a word, and a row follows from the one below by a few operations on words
+//! (Myers, "A fast bit-vector algorithm for approximate string matching", 1999; Hyyrö's form). Two bits of each entry
+//! are kept: they say which edit is first.
+
+use crate::case::Case;
+use std::collections::HashMap;
+
+/// What becomes of the next answer, of the next asked case, or of both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Step {
+    /// The answer is to the case.
+    Same,
+    /// The answer is to another case, and stands in the place of this one.
+    Replaced,
+    /// The answer is one more than was asked.
+    Extra,
+    /// The case has no answer.
+    Missing,
+}
+
+/// A row of the matrix, or what is said of each of its entries; bit `j - 1` is that of the last `j` asked cases.
+type Bits = Vec<u64>;
+
+/// The fewest steps that explain `answers` to what was `asked`. Where there is a choice, an answer stands in the
+/// place of the next case. Is it `whole`, every case that is left is missing; if not, those behind the answers
+/// count nothing, as their answers are still to come.
+///
+/// Time: the number of answers times that of words of 64 cases.
+pub(super) fn align(
+    answers: &[Option<Case>],
+    asked: &[Case],
+    whole: bool,
+    said: &mut Said,
+) -> Vec<Step> {
+    let words = asked.len().div_ceil(64);
+    // Where the cases stand that were answered; of others nothing is known, and nothing is allocated.
+    let mut places: HashMap<Case, Bits> =
+        answers.iter().flatten().map(|case| (*case, Bits::new())).collect();
+    for (bit, case) in asked.iter().rev().enumerate() {
+        if let Some(places) = places.get_mut(case) {
+            places.resize(words, 0);
+            places[bit / 64] |= 1 << (bit % 64);
+        }
+    }
+    let none = vec![0; words];
+    let mut row = Row { up: vec![if whole { u64::MAX } else { 0 }; words], down: none.clone() };
+    said.diagonal.clear();
+    said.up.clear();
+    for answer in answers.iter().rev() {
+        let equal = answer.and_then(|case| places.get(&case));
+        row.next(equal.filter(|places| !places.is_empty()).unwrap_or(&none), &mut said.diagonal);
+        said.up.extend_from_slice(&row.up);
+    }
+    trace(answers, asked, whole, said)
+}
+
+/// The differences between an entry of a row and the one for one case fewer: up by one, or down by one.
+struct Row {
+    up: Bits,
+    down: Bits,
+}
+
+/// What is kept of the entries, row by row from the last answer on. Its memory is used again.
+#[derive(Default)]
+pub(super) struct Said {
+    /// Equal to the entry for an answer and a case fewer: so the answer is right, or no replacement.
+    diagonal: Bits,
+    /// One more than the entry for one case fewer: the case may be missing.
+    up: Bits,
+}
+
+impl Row {
+    /// Makes the row for one answer more, which is to the cases `equal`.
+    fn next(&mut self, equal: &Bits, diagonal: &mut Bits) {
+        let (mut carry, mut more_in, mut less_in) = (false, 1, 0);
+        for ((up, down), equal) in self.up.iter_mut().zip(&mut self.down).zip(equal) {
+            let (sum, over) = (equal & *up).overflowing_add(*up);
+            let (sum, over_again) = sum.overflowing_add(u64::from(carry));
+            carry = over || over_again;
+            let same = (sum ^ *up) | equal | *down;
+            // Against the row below: one more, or one less.
+            let (more, less) = (*down | !(same | *up), *up & same);
+            let (more_left, less_left) = (more << 1 | more_in, less << 1 | less_in);
+            (more_in, less_in) = (more >> 63, less >> 63);
+            *up = less_left | !(same | more_left);
+            *down = more_left & same;
+            diagonal.push(same);
+        }
+    }
+}
+
+/// The steps from the first answer and case on.
+fn trace(answers: &[Option<Case>], asked: &[Case], whole: bool, said: &Said) -> Vec<Step> {
+    let mut steps = Vec::with_capacity(answers.len());
+    let (mut i, mut j) = (0, 0);
+    while i < answers.len() {
+        let row = (answers.len() - 1 - i) * asked.len().div_ceil(64);
+        let is_set = |bits: &Bits| {
+            let bit = asked.len() - 1 - j;
+            bits[row + bit / 64] >> (bit % 64) & 1 == 1
+        };
+        let step = if j == asked.len() {
+            Step::Extra
+        } else if answers[i] == Some(asked[j]) {
+            Step::Same
+        } else if !is_set(&said.diagonal) {
+            Step::Replaced
+        } else if is_set(&said.up) {
+            Step::Missing
+        } else {
+            Step::Extra
+        };
+        i += usize::from(step != Step::Missing);
+        j += usize::from(step != Step::Extra);
+        steps.push(step);
+    }
+    let left = if whole { asked.len() - j } else { 0 };
+    steps.extend(std::iter::repeat_n(Step::Missing, left));
+    steps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::generate::SplitMix64;
+
+    fn case(k: u32) -> Case {
+        let line = format!("case isoline integer point ruler 3f800000 {:08x}", 0x3F80_0000 + k);
+        line.parse().expect("a case")
+    }
+
+    /// The matrix entry by entry: how many edits explain the answers, and whatever of what is asked.
+    fn fewest(answers: &[Option<Case>], asked: &[Case], whole: bool) -> usize {
+        let last = |j| if whole { asked.len() - j } else { 0 };
+        let mut row: Vec<usize> = (0..=asked.len()).map(last).collect();
+        for answer in answers.iter().rev() {
+            let mut next = row.clone();
+            next[asked.len()] += 1;
+            for j in (0..asked.len()).rev() {
+                let replaced = row[j + 1] + usize::from(*answer != Some(asked[j]));
+                next[j] = replaced.min(row[j] + 1).min(next[j + 1] + 1);
+            }
+            row = next;
+        }
+        row[0]
+    }
+
+    /// How many edits the steps are, after each is tried.
+    fn edits(steps: &[Step], answers: &[Option<Case>], asked: &[Case], whole: bool) -> usize {
+        let (mut i, mut j) = (0, 0);
+        for step in steps {
+            match step {
+                Step::Same => assert_eq!(answers[i], Some(asked[j]), "{steps:?}"),
+                Step::Replaced => assert_ne!(answers[i], Some(asked[j]), "{steps:?}"),
+                Step::Extra | Step::Missing => {}
+            }
+            i += usize::from(*step != Step::Missing);
+            j += usize::from(*step != Step::Extra);
+        }
+        assert_eq!(i, answers.len(), "every answer: {steps:?}");
+        assert!(if whole { j == asked.len() } else { j <= asked.len() }, "every case: {steps:?}");
+        steps.iter().filter(|step| **step != Step::Same).count()
+    }
+
+    /// Texts of few and of many cases, shorter and longer than a word, equal in long parts or nowhere.
+    #[test]
+    fn no_explanation_is_shorter() {
+        let (mut random, mut said) = (SplitMix64::new(1), Said::default());
+        for round in 0..3000usize {
+            let length = [3, 10, 64, 65, 200][round % 5];
+            let kinds = [2, 4, 1000][round / 5 % 3];
+            let whole = round / 15 % 2 == 0;
+            let mut some = || -> Vec<Case> {
+                let length = random.below(length + 1);
+                (0..length).map(|_| case(random.below(kinds))).collect()
+            };
+            let asked = some();
+            let mut answered = if round % 2 == 0 { some() } else { asked.clone() };
+            for edit in 0..round % 7 {
+                let at = (round * 31 + edit * 17) % (answered.len() + 1);
+                match (round + edit) % 3 {
+                    0 => answered.insert(at, case(7)),
+                    1 if at < answered.len() => drop(answered.remove(at)),
+                    _ => answered.rotate_left(at.min(1)),
+                }
+            }
+            let answers: Vec<Option<Case>> = answered.into_iter().map(Some).collect();
+            let steps = align(&answers, &asked, whole, &mut said);
+            let found = edits(&steps, &answers, &asked, whole);
+            assert_eq!(found, fewest(&answers, &asked, whole), "round {round}: {steps:?}");
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! What was asked, beside what is answered: one dropped, repeated or foreign answer is one difference.
+//!
+//! ```text
+//! asked    A B C D E      A is answered. C is not the next one: the answers and cases ahead are read, and
+//! answers  A C D E        the shortest explanation is that B is missing and everything behind it is in step
+//! ```
+//!
+//! While answers are in step, nothing is read ahead. Where they are not, at most [`WINDOW`] answers are read, and
+//! twice as many cases, and the fewest edits are found that explain these answers (`alignment`). Half of them
+//! are settled; what is best for the rest depends on what comes behind it. So a case is looked for as
+//! far as fewer than [`WINDOW`] are missing, and it is a place to go on from only if what follows agrees.
+
+use super::alignment::{Said, Step, align};
+use super::findings::{Findings, Found};
+use crate::case::Case;
+use crate::check::compare::{Element, Mismatch, Stage};
+use crate::vectors::{Record, VectorError, VectorFile};
+use std::collections::VecDeque;
+use std::io::BufRead;
+
+/// The cases that were asked, in the order in which a file is to answer them.
+pub type Asked<'a> = &'a mut (dyn Iterator<Item = Result<Case, VectorError>> + Send);
+
+/// How many answers are looked through where they are out of step: fewer may be missing, or too many, in one
+/// place. Of answers with more than 4000 points and indices each, fewer are looked through.
+pub const WINDOW: usize = 4096;
+
+/// Points and indices of the answers that are read ahead, at most and one answer more: some 100 MB.
+const ELEMENTS: usize = 4000 * WINDOW;
+
+/// The cases that are still to be answered, and the answers that were read ahead.
+pub(super) struct Expected<'a> {
+    asked: Asked<'a>,
+    /// The next cases, of which the first is due.
+    next: VecDeque<Case>,
+    /// The number of the case that is due, from 1.
+    due: u64,
+    /// The next answers, as far as they were read.
+    ahead: VecDeque<Record>,
+    answers_end: bool,
+    /// What becomes of the first answers and cases, as far as it is settled.
+    steps: VecDeque<Step>,
+    said: Said,
+    missing: Findings,
+}
+
+impl<'a> Expected<'a> {
+    pub(super) fn new(asked: Asked<'a>) -> Self {
+        Self {
+            asked,
+            next: VecDeque::new(),
+            due: 1,
+            ahead: VecDeque::new(),
+            answers_end: false,
+            steps: VecDeque::new(),
+            said: Said::default(),
+            missing: Findings::default(),
+        }
+    }
+
+    /// The next answer, and what is wrong with its place if something is; `None` at the end.
+    ///
+    /// # Errors
+    /// The answers or the asked cases cannot be read.
+    pub(super) fn answer<R: BufRead>(
+        &mut self,
+        file: &mut VectorFile<R>,
+    ) -> Result<Option<(Record, Option<Mismatch>)>, VectorError> {
+        loop {
+            if self.steps.is_empty() {
+                self.read_answers(file, 1)?;
+                self.read_cases(1)?;
+                let Some(record) = self.ahead.front() else { return Ok(None) };
+                if record.case().is_some() && record.case() == self.next.front().copied() {
+                    self.steps.push_back(Step::Same);
+                } else {
+                    self.settle(file)?;
+                }
+            }
+            let step = self.steps.pop_front();
+            if step == Some(Step::Missing) {
+                self.miss();
+            } else if let Some(record) = self.ahead.pop_front() {
+                let expected = self.next.front().copied();
+                let is_wrong = step != Some(Step::Same);
+                if step != Some(Step::Extra) {
+                    self.next.pop_front();
+                    self.due += 1;
+                }
+                let astray = is_wrong.then(|| other_answer(record.case(), expected));
+                return Ok(Some((record, astray)));
+            }
+        }
+    }
+
+    /// Settles the steps of at least one answer.
+    fn settle<R: BufRead>(&mut self, file: &mut VectorFile<R>) -> Result<(), VectorError> {
+        self.read_answers(file, WINDOW)?;
+        self.read_cases(2 * WINDOW)?;
+        let cases_end = self.next.len() < 2 * WINDOW;
+        let answers: Vec<Option<Case>> = self.ahead.iter().map(Record::case).collect();
+        let whole = self.answers_end || cases_end;
+        let steps = align(&answers, self.next.make_contiguous(), whole, &mut self.said);
+        let settled =
+            if self.answers_end && cases_end { answers.len() } else { answers.len().div_ceil(2) };
+        let mut taken = 0;
+        self.steps = steps
+            .into_iter()
+            .take_while(|step| {
+                let is_settled = taken < settled;
+                taken += usize::from(*step != Step::Missing);
+                is_settled
+            })
+            .collect();
+        Ok(())
+    }
+
+    /// The cases without an answer, when there are no more answers.
+    ///
+    /// # Errors
+    /// The asked cases cannot be read.
+    pub(super) fn finish(mut self) -> Result<Findings, VectorError> {
+        loop {
+            self.read_cases(1)?;
+            if self.next.is_empty() {
+                return Ok(self.missing);
+            }
+            self.miss();
+        }
+    }
+
+    fn read_cases(&mut self, cases: usize) -> Result<(), VectorError> {
+        while self.next.len() < cases {
+            let Some(case) = self.asked.next().transpose()? else { break };
+            self.next.push_back(case);
+        }
+        Ok(())
+    }
+
+    fn read_answers<R: BufRead>(
+        &mut self,
+        file: &mut VectorFile<R>,
+        answers: usize,
+    ) -> Result<(), VectorError> {
+        let mut elements: usize = self.ahead.iter().map(size).sum();
+        while self.ahead.len() < answers && elements <= ELEMENTS && !self.answers_end {
+            match file.next().transpose()? {
+                Some(record) => {
+                    elements += size(&record);
+                    self.ahead.push_back(record);
+                }
+                None => self.answers_end = true,
+            }
+        }
+        Ok(())
+    }
+
+    /// The case that is due has no answer.
+    fn miss(&mut self) {
+        if let Some(case) = self.next.pop_front() {
+            let found = Found::Different(missing(), Some(case));
+            self.missing.add(self.due, None, found, || None);
+            self.due += 1;
+        }
+    }
+}
+
+/// Points and indices of a record.
+fn size(record: &Record) -> usize {
+    match record {
+        Record::Listing(listing) => listing.output.points.len() + listing.output.indices.len(),
+        Record::Coordinates(coordinates) => coordinates.vertices.len(),
+        _ => 0,
+    }
+}
+
+fn missing() -> Mismatch {
+    let (observed, expected) = ("none".to_owned(), "an answer".to_owned());
+    Mismatch { element: Element::Record, observed, expected, stage: Stage::Answer }
+}
+
+fn other_answer(observed: Option<Case>, expected: Option<Case>) -> Mismatch {
+    let show = |case: Option<Case>| case.map_or("none".to_owned(), |case| case.to_string());
+    let (observed, expected) = (show(observed), show(expected));
+    Mismatch { element: Element::Case, observed, expected, stage: Stage::Answer }
+}

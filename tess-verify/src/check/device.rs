@@ -1,0 +1,143 @@
+//! Observations of a device under test, compared with the model.
+
+use super::Found;
+use super::report::Explained;
+use crate::case::Case;
+use crate::check::compare::{self, Element, Mismatch, Stage};
+use crate::check::strength::{
+    Alternatives, Difference, Elements, Order, Strength, first_difference, first_stray,
+};
+use crate::check::ways::Way;
+use crate::generate::from_fixed;
+use crate::vectors::Coordinates;
+use tess_core::{Config, PatchFactors, SplitOrder, Tessellation};
+
+/// What is found of a device's output for a case.
+pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) -> Found {
+    match strength.explain(case, observed) {
+        Some(conversions) if conversions.values.is_empty() => Found::Equal,
+        Some(conversions) => Found::Converted(*case, conversions),
+        None => match first_mismatch(case, observed, strength) {
+            Some(mismatch) => {
+                Found::Explained(mismatch, *case, explained(case, observed, strength))
+            }
+            None => Found::Equal,
+        },
+    }
+}
+
+/// What is found of a device's output by coordinates. They have no vertex numbers, so the strictest
+/// order is the model's sequence; third coordinates are compared in any strength.
+pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -> Found {
+    let order = match strength.order {
+        Order::Exact => Order::Sequence,
+        order => order,
+    };
+    let (case, output) = (&coordinates.case, coordinates.output());
+    match (check(case, &output, Strength { order, ..strength }), coordinates.wrong_third()) {
+        (Found::Equal | Found::Converted(..), Some((vertex, observed, expected))) => {
+            let size = case.primitive_size();
+            let element = Element::Third { primitive: vertex / size, position: vertex % size };
+            let mismatch = Mismatch::hex(element, 5, observed, expected, Stage::Location);
+            Found::Different(mismatch, Some(*case))
+        }
+        (found, _) => found,
+    }
+}
+
+/// What explains an output: freedoms that were not granted, and mistakes that turn it round.
+fn explained(case: &Case, observed: &Tessellation, strength: Strength) -> Explained {
+    Way::OF_FILES.map(|way| way.explains(case, observed, strength, 64))
+}
+
+/// The first difference to the output that is the nearest of the legal ones.
+fn first_mismatch(case: &Case, observed: &Tessellation, strength: Strength) -> Option<Mismatch> {
+    let case = nearest(case, observed, strength);
+    let expected = case.patch().tessellate();
+    let found = match (strength.order, strength.elements) {
+        (Order::Exact, Elements::Primitives) => Mismatch::between(&case, observed, &expected),
+        (Order::Sequence, Elements::Primitives) => compare::sequences(&case, observed, &expected)
+            .or_else(|| first_stray(observed, &expected).map(unordered)),
+        (Order::Exact | Order::Sequence, Elements::Points) => {
+            compare::points_alone(observed, &expected)
+        }
+        (Order::Any, elements) => {
+            first_difference(elements, &case, observed, &expected).map(unordered)
+        }
+    };
+    found.map(|found| {
+        let stage = stage(&case, observed, strength, found.stage);
+        Mismatch { stage, ..found }
+    })
+}
+
+/// Of the cases whose output is legal, the one that has the most points in common with the
+/// observed ones: the first difference to that one is the most useful.
+fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
+    let alternatives = Alternatives::new(case, strength.conversion);
+    let wrong_points = |choice: &u64| {
+        let expected = alternatives.case(*choice).patch().tessellate();
+        match strength.order {
+            Order::Exact => {
+                observed.points.iter().zip(&expected.points).filter(|(a, b)| a != b).count()
+            }
+            Order::Sequence | Order::Any => {
+                observed.points.iter().filter(|point| !expected.points.contains(point)).count()
+            }
+        }
+    };
+    let choices = alternatives.choices();
+    let nearest = if choices.end == 1 { Some(0) } else { choices.min_by_key(wrong_points) };
+    alternatives.case(nearest.unwrap_or(0))
+}
+
+fn unordered(difference: Difference) -> Mismatch {
+    let Difference { vertices, observed, expected, instead } = difference;
+    let stage = if vertices.len() == 1 { Stage::Location } else { Stage::Stitch };
+    let times = |count: usize| format!("{count} times");
+    let instead = instead.map(|other| {
+        let Difference { vertices, observed, expected, .. } = *other;
+        format!(" (but {} {observed} times, not {expected})", Element::Vertices(vertices))
+    });
+    let observed = times(observed) + &instead.unwrap_or_default();
+    Mismatch { element: Element::Vertices(vertices), observed, expected: times(expected), stage }
+}
+
+/// The stage that explains a whole output: one that the model reaches with one factor processed
+/// differently, or with the other split order; else the one that the first difference points to.
+fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: Stage) -> Stage {
+    let explains = |strength: Strength, other: &Case| {
+        strength.equal(case, observed, &other.patch().tessellate())
+    };
+    if other_factors(case).iter().any(|other| explains(strength, other)) {
+        return Stage::Factors;
+    }
+    let split = match case.config.split {
+        SplitOrder::Ruler => SplitOrder::Center,
+        SplitOrder::Center => SplitOrder::Ruler,
+    };
+    let other_split = Case { config: Config { split, ..case.config }, ..*case };
+    let points_alone = Strength { elements: Elements::Points, ..strength };
+    if first == Stage::Location && explains(points_alone, &other_split) {
+        return Stage::Context;
+    }
+    first
+}
+
+/// The case with one factor off by a unit in the last place, or by one; and culled.
+fn other_factors(case: &Case) -> Vec<Case> {
+    let mut cases = vec![PatchFactors::uniform(case.domain(), 0.0)];
+    let patch = case.patch();
+    let processed = patch.processed().factors().into_iter().flat_map(|factors| factors.iter());
+    for (position, factor) in processed.enumerate() {
+        let fixed = factor.fixed.to_bits();
+        for other in [fixed - 1, fixed + 1, fixed - 0x1_0000, fixed + 0x1_0000] {
+            let mut at = 0;
+            cases.push(case.factors.map(|raw| {
+                at += 1;
+                if at == position + 1 { from_fixed(other) } else { raw }
+            }));
+        }
+    }
+    cases.into_iter().map(|factors| Case { factors, ..*case }).collect()
+}

@@ -1,0 +1,207 @@
+//! What a check found.
+
+mod group;
+mod origin;
+
+pub use group::Group;
+
+use crate::backend::BackendError;
+use crate::case::Case;
+use crate::check::compare::{Element, Mismatch, Stage};
+use crate::check::ways::Way;
+use crate::names::Named;
+use crate::vectors::{Header, Kind, Record, VectorError};
+use group::Groups;
+use std::collections::BTreeMap;
+use std::fmt;
+
+/// How many differences a report shows in full.
+pub const MAX_DIFFERENCES: usize = 20;
+
+/// The verdict on a vector file.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Report {
+    /// Records that were checked: all of the file.
+    pub cases: u64,
+    /// Records that differ, and are not [`Known`](crate::check::Known).
+    pub mismatches: u64,
+    /// Records that differ and are known.
+    pub known: u64,
+    /// The first differences, at most [`MAX_DIFFERENCES`], in the order of the file.
+    pub differences: Vec<Difference>,
+    groups: Groups,
+    /// What explains every difference so far; `None` if there is none.
+    explained: Option<Explained>,
+}
+
+/// For each of [`Way::OF_FILES`], whether it explains an output.
+pub(super) type Explained = [bool; Way::OF_FILES.len()];
+
+impl Report {
+    /// The one mistake that turns outputs round and explains every difference, if one does.
+    #[must_use]
+    pub fn turn(&self) -> Option<Way> {
+        self.explanation(|way| !way.is_allowed())
+    }
+
+    /// The freedom that was not granted and explains every difference, each on its own, if one does:
+    /// [`Way::options`] says how to grant it.
+    #[must_use]
+    pub fn freedom(&self) -> Option<Way> {
+        self.explanation(Way::is_allowed)
+    }
+
+    /// The differences by stage and configuration, the one with the smallest case first.
+    #[must_use]
+    pub fn groups(&self) -> Vec<Group> {
+        self.groups.sorted()
+    }
+
+    /// How many mismatches point to each stage: the sums of the [groups](Self::groups).
+    #[must_use]
+    pub fn stages(&self) -> BTreeMap<Stage, u64> {
+        self.groups.stages()
+    }
+
+    fn explanation(&self, wanted: impl Fn(Way) -> bool) -> Option<Way> {
+        let ways = Way::OF_FILES.into_iter().zip(self.explained?);
+        ways.filter(|(_, explains)| *explains).map(|(way, _)| way).find(|way| wanted(*way))
+    }
+
+    /// Adds what explains a difference.
+    pub(super) fn explain(&mut self, explained: Explained) {
+        let before = self.explained.unwrap_or([true; Way::OF_FILES.len()]);
+        self.explained = Some(std::array::from_fn(|i| before[i] && explained[i]));
+    }
+
+    /// Whether a difference is one of those that are shown in full: of the first, or the smallest of a group.
+    pub(super) fn shows(&self, difference: &Difference) -> bool {
+        self.differences.len() < MAX_DIFFERENCES || self.groups.has_smallest(difference)
+    }
+
+    /// Adds a difference.
+    pub(super) fn differ(&mut self, difference: Difference) {
+        self.mismatches += 1;
+        self.groups.add(&difference);
+        if self.differences.len() < MAX_DIFFERENCES {
+            self.differences.push(difference);
+        }
+    }
+
+    /// Adds what another worker found.
+    pub(super) fn add(&mut self, other: Self) {
+        if let Some(explained) = other.explained {
+            self.explain(explained);
+        }
+        self.cases += other.cases;
+        self.mismatches += other.mismatches;
+        self.known += other.known;
+        self.groups.join(other.groups);
+        self.differences.extend(other.differences);
+        self.differences.sort_by_key(|difference| difference.number);
+        self.differences.truncate(MAX_DIFFERENCES);
+    }
+}
+
+/// The summary line.
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} cases, {} mismatches", self.cases, self.mismatches)?;
+        if self.known > 0 { write!(f, ", {} known", self.known) } else { Ok(()) }
+    }
+}
+
+/// One record that differs.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Difference {
+    /// Number of the record, from 1.
+    pub number: u64,
+    /// The line of the file that it starts on, if there is a file.
+    pub line: Option<u64>,
+    /// The first wrong element.
+    pub mismatch: Mismatch,
+    /// The patch that shows it, if one does.
+    pub case: Option<Case>,
+    /// The record alone as a vector file; `None` for a listing, which may be long.
+    pub file: Option<String>,
+}
+
+impl Difference {
+    /// Shell commands that show the same again: the record alone through `tess check`, and the
+    /// patch through `tess patch`.
+    #[must_use]
+    pub fn commands(&self, backend: &str) -> Vec<String> {
+        let check = self.file.as_ref().map(|file| {
+            let quoted = |line: &str| format!("'{}'", line.replace('\'', r"'\''"));
+            let lines: Vec<_> = file.lines().map(quoted).collect();
+            format!("printf '%s\\n' {} | tess check - --backend {backend}", lines.join(" "))
+        });
+        let patch = self.case.map(|case| format!("{} --backend {backend}", case.command()));
+        check.into_iter().chain(patch).collect()
+    }
+}
+
+/// A record alone as a vector file; `None` for a listing, which may be long.
+pub(super) fn file_of(header: &Header, record: &Record) -> Option<String> {
+    let (row, columns) = (record.text()?, header.kind.columns()?);
+    let header = Header { count: Some(1), ..header.clone() };
+    Some(format!("{header}\n{}\n{row}\n", columns.join(",")))
+}
+
+/// Number, line, patch and the first wrong element.
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "record {}", self.number)?;
+        if self.mismatch.element == Element::Record {
+            write!(f, " is missing")?;
+        }
+        if let Some(line) = self.line {
+            write!(f, " (line {line})")?;
+        }
+        if let Some(case) = &self.case {
+            write!(f, ": {case}")?;
+        }
+        write!(f, "\n  {}", self.mismatch)
+    }
+}
+
+/// Why there is no verdict.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum CheckError {
+    /// The file is malformed, truncated, too long or empty.
+    Vectors(VectorError),
+    /// Listings were to be tested, and the file's records are of another kind.
+    NoListings(Kind),
+    /// The backend could not run.
+    Backend(BackendError),
+}
+
+impl From<VectorError> for CheckError {
+    fn from(error: VectorError) -> Self {
+        Self::Vectors(error)
+    }
+}
+
+impl From<BackendError> for CheckError {
+    fn from(error: BackendError) -> Self {
+        Self::Backend(error)
+    }
+}
+
+impl fmt::Display for CheckError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Vectors(error) => error.fmt(f),
+            Self::NoListings(kind) => {
+                let kind = kind.name();
+                write!(f, "a device is tested by its listings; this file's kind is {kind}")
+            }
+            Self::Backend(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for CheckError {}

@@ -1,0 +1,101 @@
+//! Differences by stage and configuration.
+
+use super::Difference;
+use crate::case::Case;
+use crate::check::compare::Stage;
+use crate::names::Named;
+use std::collections::BTreeMap;
+use std::fmt;
+use tess_core::{Config, Domain};
+
+/// The differences of one stage in one configuration.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Group {
+    /// The stage that they point to.
+    pub stage: Stage,
+    /// The domain and configuration; `None` for records that are no single patches.
+    pub config: Option<(Domain, Config)>,
+    /// How many they are.
+    pub mismatches: u64,
+    /// The one whose case has the fewest indices in the model, the first of equals.
+    pub smallest: Difference,
+}
+
+/// Number, stage and configuration.
+impl fmt::Display for Group {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { stage, config, mismatches, .. } = self;
+        write!(f, "{mismatches:>8}  {:<12}", stage.to_string())?;
+        let Some((domain, Config { partitioning, output, split })) = config else { return Ok(()) };
+        let (domain, partitioning) = (domain.name(), partitioning.name());
+        write!(f, " {domain} {partitioning} {} {}", output.name(), split.name())
+    }
+}
+
+impl Group {
+    fn of(difference: &Difference) -> Self {
+        let config = difference.case.map(|case| (case.domain(), case.config));
+        let stage = difference.mismatch.stage;
+        Self { stage, config, mismatches: 1, smallest: difference.clone() }
+    }
+
+    fn key(&self) -> (Stage, Option<(Domain, Config)>) {
+        (self.stage, self.config)
+    }
+
+    /// Indices of the smallest case, then its number.
+    fn size(&self) -> (u32, u64) {
+        let indices = |case: Case| case.patch().counts().indices;
+        (self.smallest.case.map_or(0, indices), self.smallest.number)
+    }
+}
+
+/// All groups, in any order. There are at most as many as stages and configurations.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Groups(Vec<Group>);
+
+impl Groups {
+    pub(super) fn add(&mut self, difference: &Difference) {
+        self.insert(Group::of(difference));
+    }
+
+    /// Whether a difference would be the smallest of its group.
+    pub(super) fn has_smallest(&self, difference: &Difference) -> bool {
+        let group = Group::of(difference);
+        let known = self.0.iter().find(|known| known.key() == group.key());
+        known.is_none_or(|known| group.size() < known.size())
+    }
+
+    pub(super) fn join(&mut self, other: Self) {
+        other.0.into_iter().for_each(|group| self.insert(group));
+    }
+
+    fn insert(&mut self, group: Group) {
+        match self.0.iter_mut().find(|known| known.key() == group.key()) {
+            None => self.0.push(group),
+            Some(known) => {
+                known.mismatches += group.mismatches;
+                if group.size() < known.size() {
+                    known.smallest = group.smallest;
+                }
+            }
+        }
+    }
+
+    /// How many differences point to each stage.
+    pub(super) fn stages(&self) -> BTreeMap<Stage, u64> {
+        let mut stages = BTreeMap::new();
+        for group in &self.0 {
+            *stages.entry(group.stage).or_default() += group.mismatches;
+        }
+        stages
+    }
+
+    /// The one with the smallest case first.
+    pub(super) fn sorted(&self) -> Vec<Group> {
+        let mut groups = self.0.clone();
+        groups.sort_by_key(Group::size);
+        groups
+    }
+}

@@ -1,0 +1,58 @@
+//! Which stage of a backend goes wrong on a patch that it gets wrong.
+
+use crate::backend::{Backend, BackendError, all_answered};
+use crate::case::Case;
+use crate::check::compare::{Mismatch, Stage};
+use crate::core_backend::CoreBackend;
+use tess_core::{FactorContext, ProcessedFactor};
+
+/// The same mismatch with the earliest stage that the backend gets wrong on this patch, asked one
+/// by one; the stage stays if all of them are right on their own, or the backend does not answer.
+pub(super) fn trace(backend: &mut dyn Backend, case: &Case, mismatch: Mismatch) -> Mismatch {
+    let patch = case.patch();
+    let processed: Vec<_> =
+        patch.processed().factors().into_iter().flat_map(|f| f.iter()).collect();
+    // A backend that failed, rather than gives whole patches alone, fails on its next patch again.
+    let is_wrong = |agree: Result<bool, BackendError>| agree.is_ok_and(|agree| !agree);
+    let stage = if is_wrong(factors_agree(backend, case)) {
+        Stage::Factors
+    } else if is_wrong(contexts_agree(backend, case, &processed)) {
+        Stage::Context
+    } else if is_wrong(locations_agree(backend, &processed)) {
+        Stage::Location
+    } else {
+        mismatch.stage
+    };
+    Mismatch { stage, ..mismatch }
+}
+
+fn factors_agree(backend: &mut dyn Backend, case: &Case) -> Result<bool, BackendError> {
+    let raw: Vec<f32> = case.factors.iter().collect();
+    let partitioning = case.config.partitioning;
+    let answers = backend.fixed_factors(partitioning, &raw)?;
+    let observed = all_answered(backend, "factors", answers, raw.len())?;
+    Ok(observed == CoreBackend.fixed_factors(partitioning, &raw)?)
+}
+
+fn contexts_agree(
+    backend: &mut dyn Backend,
+    case: &Case,
+    processed: &[ProcessedFactor],
+) -> Result<bool, BackendError> {
+    for factor in processed {
+        let context = factor.context;
+        let answer = backend.contexts(case.config.split, context.parity, &[factor.fixed])?;
+        if answer != [context] {
+            return Ok(false);
+        }
+    }
+    Ok(true)
+}
+
+fn locations_agree(
+    backend: &mut dyn Backend,
+    processed: &[ProcessedFactor],
+) -> Result<bool, BackendError> {
+    let contexts: Vec<FactorContext> = processed.iter().map(|factor| factor.context).collect();
+    Ok(backend.locations(&contexts)? == CoreBackend.locations(&contexts)?)
+}

@@ -1,0 +1,201 @@
+//! Compares units and adds up what was compared.
+
+use super::units::VALUES;
+use super::{Plan, Subject, Unit, Units};
+use crate::backend::{Backend, BackendError, all_answered};
+use crate::case::Case;
+use crate::check::Known;
+use crate::check::compare::{self, Mismatch, Stage};
+use crate::check::sequences::bucket;
+use crate::check::tessellate;
+use crate::core_backend::CoreBackend;
+use crate::names::Named;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
+use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder, Tessellation};
+
+/// What was compared of one subject in one backend.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// The subject.
+    pub subject: Subject,
+    /// Name of the backend.
+    pub backend: &'static str,
+    /// Elements compared: patches, binary32 factors or locations.
+    pub compared: u64,
+    /// Units in which something differed that is not known.
+    pub mismatches: u64,
+    /// How many of them point to each stage, by their first difference.
+    pub stages: BTreeMap<Stage, u64>,
+    /// Patches that differ and are known.
+    pub known: u64,
+    /// The first difference, as text.
+    pub first: Option<String>,
+}
+
+/// Compares everything in the plan's shard.
+///
+/// Give one list of backends for each thread to use, all lists with the same backends. `progress` is
+/// called from any thread with the subject, the number of units that are done, and the number of all.
+///
+/// # Errors
+/// A backend that could not run, or no backend at all.
+pub fn verify(
+    workers: &mut [Vec<Box<dyn Backend>>],
+    plan: &Plan,
+    progress: &(dyn Fn(Subject, u64, u64) + Sync),
+) -> Result<Vec<Row>, BackendError> {
+    verify_known(workers, plan, &Known::default(), progress)
+}
+
+/// [`verify`], where a patch that differs is no mismatch if that is `known`.
+///
+/// # Errors
+/// The errors of [`verify`].
+pub fn verify_known(
+    workers: &mut [Vec<Box<dyn Backend>>],
+    plan: &Plan,
+    known: &Known,
+    progress: &(dyn Fn(Subject, u64, u64) + Sync),
+) -> Result<Vec<Row>, BackendError> {
+    if workers.first().is_none_or(Vec::is_empty) {
+        return Err(BackendError::new("no backend to verify"));
+    }
+    let mut table = Vec::new();
+    for &subject in &plan.subjects {
+        table.extend(verify_subject(workers, plan, known, subject, progress)?);
+    }
+    Ok(table)
+}
+
+fn verify_subject(
+    workers: &mut [Vec<Box<dyn Backend>>],
+    plan: &Plan,
+    known: &Known,
+    subject: Subject,
+    progress: &(dyn Fn(Subject, u64, u64) + Sync),
+) -> Result<Vec<Row>, BackendError> {
+    let units = Units::of(subject);
+    let mine = plan.shard.items(units.count());
+    let names: Vec<&'static str> = workers[0].iter().map(|backend| backend.name()).collect();
+    let rows: Vec<Row> = names.into_iter().map(|backend| Row::new(subject, backend)).collect();
+    let rows = Mutex::new(rows);
+    let (next, done) = (AtomicU64::new(0), AtomicU64::new(0));
+    let work = |backends: &mut Vec<Box<dyn Backend>>| -> Result<(), BackendError> {
+        let next_unit = || plan.shard.item(next.fetch_add(1, Ordering::Relaxed));
+        while let Some(unit) = next_unit().and_then(|number| units.get(number)) {
+            for (column, backend) in backends.iter_mut().enumerate() {
+                let compared = compare_unit(backend.as_mut(), &unit, known)?;
+                rows.lock().unwrap_or_else(PoisonError::into_inner)[column].add(compared);
+            }
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            progress(subject, done, mine);
+        }
+        Ok(())
+    };
+    let results = crate::check::workers::run(workers, work);
+    let panicked = || BackendError::new("a backend panicked");
+    results.into_iter().try_for_each(|result| result.ok_or_else(panicked)?)?;
+    Ok(rows.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
+
+/// What was compared of one unit.
+struct Compared {
+    elements: u64,
+    known: u64,
+    /// The first difference that is not known, as text, and its stage.
+    first: Option<(Stage, String)>,
+}
+
+impl Row {
+    const fn new(subject: Subject, backend: &'static str) -> Self {
+        let stages = BTreeMap::new();
+        Self { subject, backend, compared: 0, mismatches: 0, stages, known: 0, first: None }
+    }
+
+    fn add(&mut self, unit: Compared) {
+        self.compared += unit.elements;
+        self.known += unit.known;
+        if let Some((stage, first)) = unit.first {
+            self.mismatches += 1;
+            *self.stages.entry(stage).or_default() += 1;
+            self.first.get_or_insert(first);
+        }
+    }
+}
+
+impl Compared {
+    /// Elements that are no patches, of which none is known.
+    fn values(elements: u64, name: &str, mismatch: Option<Mismatch>) -> Self {
+        let first = mismatch.map(|mismatch| (mismatch.stage, format!("{name}: {mismatch}")));
+        Self { elements, known: 0, first }
+    }
+}
+
+fn compare_unit(
+    backend: &mut dyn Backend,
+    unit: &Unit,
+    known: &Known,
+) -> Result<Compared, BackendError> {
+    match unit {
+        Unit::Patches(cases) => compare_patches(backend, cases, known),
+        Unit::Random(unit) => compare_patches(backend, &unit.cases(), known),
+        Unit::Values { partitioning, first } => compare_values(backend, *partitioning, *first),
+        Unit::Bucket { split, parity, bucket } => compare_bucket(backend, *split, *parity, *bucket),
+    }
+}
+
+fn compare_patches(
+    backend: &mut dyn Backend,
+    cases: &[Case],
+    known: &Known,
+) -> Result<Compared, BackendError> {
+    let observed = tessellate(backend, cases)?;
+    let mut expected = Tessellation::default();
+    let mut compared = Compared { elements: cases.len() as u64, known: 0, first: None };
+    for (case, observed) in cases.iter().zip(&observed) {
+        expected.points.clear();
+        expected.indices.clear();
+        case.patch().emit(&mut expected);
+        let mismatch = Mismatch::between(case, observed, &expected);
+        if known.excuses(case, mismatch.is_some()) {
+            compared.known += 1;
+        } else if let Some(mismatch) = mismatch {
+            let text = || format!("{case}\n  {mismatch}\n  {}", case.command());
+            compared.first.get_or_insert_with(|| (mismatch.stage, text()));
+        }
+    }
+    Ok(compared)
+}
+
+fn compare_values(
+    backend: &mut dyn Backend,
+    partitioning: Partitioning,
+    first: u32,
+) -> Result<Compared, BackendError> {
+    let values: Vec<f32> = (first..=first + (VALUES - 1)).map(f32::from_bits).collect();
+    let answers = backend.fixed_factors(partitioning, &values)?;
+    let observed = all_answered(backend, "factors", answers, values.len())?;
+    let expected = CoreBackend.fixed_factors(partitioning, &values)?;
+    let mismatch = compare::fixed_factors(&values, &observed, &expected);
+    Ok(Compared::values(u64::from(VALUES), partitioning.name(), mismatch))
+}
+
+fn compare_bucket(
+    backend: &mut dyn Backend,
+    split: SplitOrder,
+    parity: Parity,
+    integer: u32,
+) -> Result<Compared, BackendError> {
+    let factors: Vec<FixedFactor> = bucket(parity, integer).collect();
+    let contexts = CoreBackend.contexts(split, parity, &factors)?;
+    let answers = backend.contexts(split, parity, &factors)?;
+    let observed = all_answered(backend, "contexts", answers, factors.len())?;
+    let expected = CoreBackend.locations(&contexts)?;
+    let locations = backend.locations(&contexts)?;
+    let mismatch = compare::contexts(&factors, &observed, &contexts)
+        .or_else(|| compare::locations(&factors, &contexts, &locations, &expected));
+    let name = format!("{} {}", split.name(), parity.name());
+    Ok(Compared::values(expected.len() as u64, &name, mismatch))
+}

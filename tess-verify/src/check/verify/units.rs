@@ -1,0 +1,197 @@
+//! What there is to compare, cut into units.
+
+use super::subject::{Random, Subject};
+use super::topologies::{interiors, transitions};
+use crate::case::Case;
+use crate::generate::SplitMix64;
+use crate::generate::{GenLevel, Selection, configurations, random_patch};
+use std::collections::HashSet;
+use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder};
+
+/// Random patches of one configuration, drawn from the unit's seed.
+#[derive(Clone, Copy, Debug)]
+pub struct RandomUnit {
+    domain: Domain,
+    config: Config,
+    seed: u64,
+    patches: u64,
+}
+
+impl RandomUnit {
+    /// The patches, always the same.
+    #[must_use]
+    pub fn cases(&self) -> Vec<Case> {
+        let &Self { domain, config, seed, patches } = self;
+        let mut random = SplitMix64::new(seed);
+        let case = |_| Case { config, factors: random_patch(domain, &mut random) };
+        (0..patches).map(case).collect()
+    }
+}
+
+/// A part of a subject.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum Unit {
+    /// Whole patches.
+    Patches(Vec<Case>),
+    /// Random patches of one configuration.
+    Random(RandomUnit),
+    /// Factor processing of the binary32 numbers with 2^20 consecutive bit patterns.
+    Values {
+        /// The partitioning.
+        partitioning: Partitioning,
+        /// The first bits.
+        first: u32,
+    },
+    /// Contexts and locations of all fixed-point factors with one integer part.
+    Bucket {
+        /// Split order.
+        split: SplitOrder,
+        /// Parity.
+        parity: Parity,
+        /// Integer part.
+        bucket: u32,
+    },
+}
+
+/// How many binary32 numbers a unit has.
+pub(super) const VALUES: u32 = 1 << 20;
+/// How many units the binary32 numbers make in one partitioning.
+const VALUE_UNITS: u64 = (1 << 32) / VALUES as u64;
+/// How many patches a unit has at most.
+const PATCHES: usize = 1024;
+/// How many random patches a unit has at most: large batches, as each is one configuration's.
+const RANDOM_PATCHES: u64 = 4096;
+
+/// The units of a subject, always the same in the same order.
+///
+/// A unit is made when it is asked for: there may be more than fit into memory.
+#[derive(Clone, Debug)]
+pub struct Units(Source);
+
+#[derive(Clone, Debug)]
+enum Source {
+    Patches(Vec<Case>),
+    Random { random: Random, configurations: Vec<(Domain, Config)> },
+    Values,
+    Buckets(Vec<(SplitOrder, Parity, u32)>),
+}
+
+impl Units {
+    /// The units of `subject`.
+    #[must_use]
+    pub fn of(subject: Subject) -> Self {
+        Self(match subject {
+            Subject::Level1 => {
+                Source::Patches(Selection::level(GenLevel::One, 1).cases().collect())
+            }
+            Subject::Level2 => Source::Patches(beyond_level_one().collect()),
+            Subject::Factors => Source::Values,
+            Subject::Locations => Source::Buckets(buckets().collect()),
+            Subject::Transitions => Source::Patches(transitions().collect()),
+            Subject::Interiors => Source::Patches(interiors().collect()),
+            Subject::Random(random) => {
+                Source::Random { random, configurations: configurations().collect() }
+            }
+        })
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn count(&self) -> u64 {
+        match &self.0 {
+            Source::Patches(cases) => cases.len().div_ceil(PATCHES) as u64,
+            Source::Random { random, configurations } => {
+                random.units() * configurations.len() as u64
+            }
+            Source::Values => Partitioning::ALL.len() as u64 * VALUE_UNITS,
+            Source::Buckets(buckets) => buckets.len() as u64,
+        }
+    }
+
+    /// Unit `number`; `None` from [`Units::count`] on.
+    #[must_use]
+    pub fn get(&self, number: u64) -> Option<Unit> {
+        let index = usize::try_from(number).ok()?;
+        match &self.0 {
+            Source::Patches(cases) => {
+                cases.chunks(PATCHES).nth(index).map(|cases| Unit::Patches(cases.to_vec()))
+            }
+            Source::Random { random, configurations } => {
+                let of_each = random.units();
+                let configuration = usize::try_from(number.checked_div(of_each)?).ok()?;
+                let &(domain, config) = configurations.get(configuration)?;
+                Some(Unit::Random(random.unit(domain, config, configuration, number % of_each)))
+            }
+            Source::Values => {
+                let &partitioning =
+                    Partitioning::ALL.get(usize::try_from(number / VALUE_UNITS).ok()?)?;
+                let first = u32::try_from(number % VALUE_UNITS).ok()? * VALUES;
+                Some(Unit::Values { partitioning, first })
+            }
+            Source::Buckets(buckets) => {
+                let &(split, parity, bucket) = buckets.get(index)?;
+                Some(Unit::Bucket { split, parity, bucket })
+            }
+        }
+    }
+
+    /// All of them, in order.
+    pub fn iter(&self) -> impl Iterator<Item = Unit> {
+        (0..self.count()).filter_map(|number| self.get(number))
+    }
+}
+
+impl Random {
+    /// How many units the patches of one configuration make.
+    const fn units(self) -> u64 {
+        self.patches.div_ceil(RANDOM_PATCHES)
+    }
+
+    /// Unit `number` of configuration `configuration`: each configuration has a seed drawn from
+    /// this one's, and each of its units a seed drawn from that.
+    fn unit(self, domain: Domain, config: Config, configuration: usize, number: u64) -> RandomUnit {
+        let of_configuration = SplitMix64::after(self.seed, configuration as u64).next_u64();
+        let seed = SplitMix64::after(of_configuration, number).next_u64();
+        let patches = RANDOM_PATCHES.min(self.patches - number * RANDOM_PATCHES);
+        RandomUnit { domain, config, seed, patches }
+    }
+}
+
+/// The cases of level 2, most of which level 1 does not have, without those that it has.
+fn beyond_level_one() -> impl Iterator<Item = Case> {
+    let known: HashSet<Case> = Selection::level(GenLevel::One, 1).cases().collect();
+    Selection::level(GenLevel::Two, 1).cases().filter(move |case| !known.contains(case))
+}
+
+fn buckets() -> impl Iterator<Item = (SplitOrder, Parity, u32)> {
+    let parities = |split| [Parity::Even, Parity::Odd].map(|parity| (split, parity));
+    SplitOrder::ALL.into_iter().flat_map(parities).flat_map(|(split, parity)| {
+        let integers = match parity {
+            Parity::Even => 2..=64,
+            Parity::Odd => 1..=63,
+        };
+        integers.map(move |bucket| (split, parity, bucket))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The units of factors follow each other and reach all bits, one partitioning after another.
+    #[test]
+    fn factors_are_all_there() {
+        let all = Units::of(Subject::Factors);
+        let mut units = all.iter();
+        for expected in Partitioning::ALL {
+            for number in 0..1u64 << 12 {
+                let Some(Unit::Values { partitioning, first }) = units.next() else {
+                    panic!("unit {number} of {expected:?}")
+                };
+                assert_eq!((partitioning, u64::from(first)), (expected, number << 20));
+            }
+        }
+        assert!(units.next().is_none(), "no more");
+    }
+}

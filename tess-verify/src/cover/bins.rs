@@ -1,0 +1,256 @@
+//! Every bin there is, and which of them a configuration can hit.
+
+use crate::generate::configurations;
+use crate::names::Named;
+use std::sync::LazyLock;
+use tess_core::{Config, Domain, Parity, Partitioning};
+
+/// The paths of all bins, in alphabetical order.
+pub(super) fn all() -> &'static [String] {
+    static ALL: LazyLock<Vec<String>> = LazyLock::new(|| of(configurations()));
+    &ALL
+}
+
+/// The paths of the bins that the patches of configurations can hit: each of them and no other, in alphabetical order.
+pub(super) fn of(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Vec<String> {
+    let mut bins = Vec::new();
+    let mut stitched = Vec::new();
+    for (domain, config) in configurations {
+        bins.extend(of_settings(domain, config));
+        let of = (domain, config.partitioning);
+        if !stitched.contains(&of) {
+            stitched.push(of);
+            bins.extend(of_stitches(domain, config.partitioning));
+        }
+    }
+    bins.sort_unstable();
+    bins.dedup();
+    bins
+}
+
+/// Those of a patch's settings and of single factors.
+fn of_settings(domain: Domain, config: Config) -> Vec<String> {
+    let mut bins = Vec::new();
+    configuration(&mut bins, domain, config);
+    cull(&mut bins, domain);
+    for (role, partitioning) in roles(domain, config.partitioning) {
+        factors(&mut bins, role, partitioning);
+        contexts(&mut bins, config, partitioning);
+    }
+    bins
+}
+
+/// Those of rings, transitions and centres, by far the most, which neither output nor split order changes.
+fn of_stitches(domain: Domain, partitioning: Partitioning) -> Vec<String> {
+    let mut bins = Vec::new();
+    if domain != Domain::Isoline {
+        stitches(&mut bins, domain.name(), partitioning);
+        centres(&mut bins, domain, parities(partitioning));
+    }
+    bins
+}
+
+/// The roles that factors have, each with the partitioning that it is processed by: an isoline's density is an
+/// integer.
+fn roles(domain: Domain, partitioning: Partitioning) -> [(&'static str, Partitioning); 2] {
+    match domain {
+        Domain::Isoline => [("outer", Partitioning::Integer), ("outer", partitioning)],
+        Domain::Triangle | Domain::Quad => [("outer", partitioning), ("inside", partitioning)],
+    }
+}
+
+/// The parities that a partitioning can give a factor.
+fn parities(partitioning: Partitioning) -> &'static [Parity] {
+    match partitioning {
+        Partitioning::Integer | Partitioning::Pow2 => &[Parity::Even, Parity::Odd],
+        Partitioning::FractionalOdd => &[Parity::Odd],
+        Partitioning::FractionalEven => &[Parity::Even],
+    }
+}
+
+/// Every pair of an outer and an inside parity.
+fn pairs(of: &[Parity]) -> impl Iterator<Item = (Parity, Parity)> {
+    of.iter().flat_map(|&outer| of.iter().map(move |&inside| (outer, inside)))
+}
+
+fn configuration(bins: &mut Vec<String>, domain: Domain, config: Config) {
+    let [output, split] = [config.output.name(), config.split.name()];
+    let [domain_name, partitioning] = [domain.name(), config.partitioning.name()];
+    bins.push(format!("configuration/{domain_name}/{partitioning}/{output}/{split}"));
+    // Factors of fractional_even are at least 2.
+    if domain != Domain::Isoline && config.partitioning != Partitioning::FractionalEven {
+        bins.push(format!("minimum/{domain_name}/{partitioning}/{output}"));
+    }
+    if domain != Domain::Isoline && config.partitioning == Partitioning::FractionalOdd {
+        let how = ["raised", "all_one", "already_above"];
+        bins.extend(how.map(|how| format!("picture_frame/{how}")));
+    }
+}
+
+fn cull(bins: &mut Vec<String>, domain: Domain) {
+    for factor in &domain.factor_names()[..domain.outer_factors()] {
+        for why in ["zero", "negative", "nan"] {
+            bins.push(format!("cull/{}/{factor}/{why}", domain.name()));
+        }
+        bins.push(format!("denormal/{}/{factor}", domain.name()));
+    }
+}
+
+fn factors(bins: &mut Vec<String>, role: &str, partitioning: Partitioning) {
+    let name = partitioning.name();
+    let clamps = ["below", "within", "above"];
+    bins.extend(clamps.map(|clamp| format!("clamp/{name}/{role}/{clamp}")));
+    if role == "inside" {
+        bins.push(format!("clamp/{name}/inside/nan"));
+    }
+    bins.push(format!("conversion/{role}/exact"));
+    if partitioning.has_integer_factors() {
+        bins.extend(["exact", "up"].map(|how| format!("round/{name}/{role}/{how}")));
+    } else {
+        let inexact = ["down", "up", "tie_down", "tie_up"];
+        bins.extend(inexact.map(|how| format!("conversion/{role}/{how}")));
+    }
+}
+
+/// The contexts of factors that are processed by this partitioning.
+fn contexts(bins: &mut Vec<String>, config: Config, partitioning: Partitioning) {
+    let split = config.split.name();
+    let has_fractions = !partitioning.has_integer_factors();
+    for parity in parities(partitioning) {
+        let name = parity.name();
+        for half_points in 1..=32 {
+            bins.push(format!("context/{split}/{name}/{half_points}/whole"));
+            if has_fractions && half_points > 1 {
+                bins.push(format!("context/{split}/{name}/{half_points}/split"));
+            }
+        }
+        if has_fractions {
+            bins.push(format!("exceptional/{split}/{name}/equal_neighbours"));
+        }
+        if has_fractions && *parity == Parity::Even {
+            bins.push(format!("exceptional/{split}/even/backwards"));
+        }
+    }
+}
+
+fn stitches(bins: &mut Vec<String>, domain: &str, partitioning: Partitioning) {
+    for (outer, inside) in pairs(parities(partitioning)) {
+        let parities = format!("{}x{}", outer.name(), inside.name());
+        bins.push(format!("parities/{domain}/{}/{parities}", partitioning.name()));
+        bins.push(format!("middle/{parities}"));
+        for outer in points(outer) {
+            // An inside row has a picture frame, so at least three points.
+            let inside = points(inside).filter(|inside| *inside >= 3);
+            bins.extend(inside.map(|inside| format!("transition/{outer}x{inside}")));
+        }
+    }
+    for inside in parities(partitioning).iter().flat_map(|parity| points(*parity)) {
+        let rings = u32::div_ceil(inside, 2) - 1;
+        bins.extend((rings > 0).then(|| format!("rings/{domain}/{rings}")));
+    }
+}
+
+/// The numbers of points that an edge can have: an edge of even parity has a point in its middle.
+fn points(parity: Parity) -> impl Iterator<Item = u32> {
+    let first = if parity == Parity::Even { 3 } else { 2 };
+    (first..=65).step_by(2)
+}
+
+fn centres(bins: &mut Vec<String>, domain: Domain, parities: &[Parity]) {
+    let is_quad = domain == Domain::Quad;
+    for parity in parities {
+        match (domain, parity) {
+            (Domain::Quad, Parity::Even) => bins.push("centre/quad/point".to_owned()),
+            (Domain::Quad, Parity::Odd) => bins.push("centre/quad/strip_of_one".to_owned()),
+            (_, Parity::Even) => bins.push("centre/tri/point".to_owned()),
+            (_, Parity::Odd) => bins.push("centre/tri/triangle".to_owned()),
+        }
+    }
+    for (short, long) in pairs(parities).filter(|_| is_quad) {
+        let shape = if short == Parity::Even { "row" } else { "strip" };
+        let along = |axis| format!("centre/quad/{shape}_along_{axis}/{}", long.name());
+        bins.extend(["u", "v"].map(along));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::Case;
+    use crate::cover::observe::observe;
+    use crate::generate::{
+        GenLevel, Selection, boundary_factors, exceptional_factors, special_factors,
+    };
+    use std::collections::BTreeSet;
+    use tess_core::{OutputPrimitive, PatchFactors, SplitOrder};
+
+    /// Factors that hit what a domain's patches can hit: each boundary in each position, every pair of an outer
+    /// and an inside number of points, and the interiors of level 1.
+    fn witnesses(domain: Domain) -> Vec<PatchFactors> {
+        let mut all = Vec::new();
+        let values = [boundary_factors(), exceptional_factors(), special_factors()].concat();
+        for value in values {
+            all.push(PatchFactors::uniform(domain, value));
+            for at in 0..domain.factors() {
+                let others = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0];
+                all.push(PatchFactors::from_fn(
+                    domain,
+                    |i| if i == at { value } else { others[i] },
+                ));
+            }
+        }
+        for inside in (1..=64u8).map(f32::from) {
+            for group in 0..16u8 {
+                let outer = |i| f32::from(group * 4 + [0, 1, 2, 3][i % 4] + 1);
+                let is_outer = |i| i < domain.outer_factors();
+                let pairs = |turn: usize| {
+                    let at = |i: usize| if is_outer(i) { outer(i + turn) } else { inside };
+                    PatchFactors::from_fn(domain, at)
+                };
+                all.extend([pairs(0), pairs(1)]);
+            }
+        }
+        let level = Selection { random: Some(0), ..Selection::level(GenLevel::One, 1) };
+        let of_domain = level.cases().filter(|case| case.domain() == domain);
+        all.extend(of_domain.step_by(7).map(|case| case.factors));
+        all
+    }
+
+    /// What a bin says beside its path is of no use if a patch hits more, or nothing hits it.
+    #[test]
+    fn configurations_hit_these_bins_and_no_others() {
+        for domain in Domain::ALL {
+            let witnesses = witnesses(domain);
+            for (partitioning, split) in
+                Partitioning::ALL.into_iter().flat_map(|p| SplitOrder::ALL.map(|split| (p, split)))
+            {
+                let config = Config { partitioning, output: OutputPrimitive::Line, split };
+                let mut hit = BTreeSet::new();
+                for &factors in &witnesses {
+                    observe(&Case { config, factors }, |bin| _ = hit.insert(bin));
+                }
+                let declared: BTreeSet<String> = of([(domain, config)]).into_iter().collect();
+                let beyond: Vec<_> = hit.difference(&declared).collect();
+                let never: Vec<_> = declared.difference(&hit).collect();
+                assert!(beyond.is_empty(), "{domain:?} {config:?} also hit {beyond:?}");
+                assert!(never.is_empty(), "{domain:?} {config:?} never hit {never:?}");
+            }
+        }
+    }
+
+    /// The output decides nothing but the bins that name it.
+    #[test]
+    fn outputs_differ_in_their_own_bins_alone() {
+        for (domain, config) in configurations() {
+            let line = Config { output: OutputPrimitive::Line, ..config };
+            let renamed = of([(domain, line)])
+                .into_iter()
+                .map(|bin| bin.replace("/line", &format!("/{}", config.output.name())));
+            assert_eq!(
+                of([(domain, config)]),
+                renamed.collect::<Vec<_>>(),
+                "{domain:?} {config:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,215 @@
+//! The named workloads that benches and reports time, as data.
+//!
+//! Every machine times the same patches; a bench compares [`Workload::digest`] before it times
+//! anything.
+
+mod scenes;
+
+use scenes::{
+    UNIFORM_FACTORS, character, meshes, mosaic, mosaic_even, seed_table, single, terrain, uniform,
+    worst,
+};
+
+use crate::vectors::Fnv1a;
+use std::ops::Range;
+use tess_core::Order;
+use tess_core::{Config, Counts, Patch, PatchFactors};
+
+/// Patches of one domain and configuration, with the name that `tess bench --workload` takes.
+#[derive(Clone, Debug)]
+pub struct Workload {
+    /// Name, such as `uniform-16` or `seed-table/isolines`.
+    pub name: String,
+    /// How the patches are tessellated.
+    pub config: Config,
+    /// The patches, all of one domain.
+    pub patches: Vec<PatchFactors>,
+    /// The numbers of the patches at which groups begin, ascending from 0; empty if the patches are
+    /// not grouped.
+    pub groups: Vec<u32>,
+    /// How a consumer hands them over.
+    pub calls: Calls,
+}
+
+/// How many patches a call to the tessellator has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Calls {
+    /// As many as suit what is measured.
+    Batch,
+    /// One patch at a time, as interfaces without batches do.
+    SinglePatch,
+    /// One group at a time, as a renderer does that draws mesh by mesh.
+    Group,
+    /// All groups in one call, whose result says where each group's output lies.
+    AllGroups,
+}
+
+/// Width of the indices in a consumer's buffer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum IndexType {
+    /// 16 bits: enough for any one patch.
+    U16,
+    /// 32 bits.
+    U32,
+}
+
+/// What a workload or a part of it amounts to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Totals {
+    /// Patches.
+    pub patches: u64,
+    /// Domain points.
+    pub points: u64,
+    /// Primitives: triangles, or segments on isolines.
+    pub primitives: u64,
+    /// Indices.
+    pub indices: u64,
+}
+
+impl Totals {
+    fn add(&mut self, counts: Counts) {
+        self.patches += 1;
+        self.points += u64::from(counts.points);
+        self.primitives += u64::from(counts.primitives);
+        self.indices += u64::from(counts.indices);
+    }
+
+    /// Bytes of output: 8 for each point (u and v as 16.16), 2 or 4 for each index.
+    #[must_use]
+    pub const fn bytes(&self, index_type: IndexType) -> u64 {
+        let index = match index_type {
+            IndexType::U16 => 2,
+            IndexType::U32 => 4,
+        };
+        8 * self.points + index * self.indices
+    }
+}
+
+/// Bytes of output that a batch of the working set `cache` has at least.
+pub const CACHE_BATCH_BYTES: u64 = 1 << 20;
+/// Patches that a batch of the working set `cache` has at least.
+const CACHE_BATCH_PATCHES: usize = 8;
+/// Bytes of output of the working set `stream`.
+const STREAM_BYTES: u64 = 1 << 30;
+
+impl Workload {
+    /// Every workload, in the order of reports.
+    #[must_use]
+    pub fn all() -> Vec<Self> {
+        let mut workloads: Vec<_> = UNIFORM_FACTORS.into_iter().map(uniform).collect();
+        workloads.extend(seed_table());
+        workloads.extend([terrain(), character(), mosaic(), mosaic_even()]);
+        workloads.extend(meshes());
+        workloads.extend(single());
+        workloads.push(worst());
+        workloads
+    }
+
+    /// The workloads that a name stands for: the one of that name, or all of a family such as `uniform` or
+    /// `seed-table` or `single`; none for an unknown name.
+    #[must_use]
+    pub fn named(name: &str) -> Vec<Self> {
+        let all = Self::all();
+        if let Some(workload) = all.iter().find(|workload| workload.name == name) {
+            return vec![workload.clone()];
+        }
+        let family = |workload: &Self| {
+            let rest = workload.name.strip_prefix(name);
+            rest.is_some_and(|rest| rest.starts_with(['-', '/']))
+        };
+        all.into_iter().filter(family).collect()
+    }
+
+    fn batch(name: impl Into<String>, config: Config, patches: Vec<PatchFactors>) -> Self {
+        Self { name: name.into(), config, patches, groups: Vec::new(), calls: Calls::Batch }
+    }
+
+    fn single(name: impl Into<String>, config: Config, patches: Vec<PatchFactors>) -> Self {
+        Self { calls: Calls::SinglePatch, ..Self::batch(name, config, patches) }
+    }
+
+    /// The patches of each group, in order; none if the patches are not grouped.
+    pub fn group_ranges(&self) -> impl Iterator<Item = Range<usize>> {
+        let starts = self.groups.iter().map(|&start| start as usize);
+        let ends = starts.clone().skip(1).chain([self.patches.len()]);
+        starts.zip(ends).map(|(start, end)| start..end)
+    }
+
+    /// Output sizes of each patch, from the model.
+    pub fn counts(&self) -> impl Iterator<Item = Counts> {
+        self.patches.iter().map(|&factors| Patch::new(self.config, factors).counts())
+    }
+
+    /// What one pass over the workload amounts to.
+    #[must_use]
+    pub fn totals(&self) -> Totals {
+        let mut totals = Totals::default();
+        self.counts().for_each(|counts| totals.add(counts));
+        totals
+    }
+
+    /// The digest that a correct implementation's output has, chained over all patches as
+    /// [`Fnv1a::patch`] does.
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        self.digest_in(Order::Specification)
+    }
+
+    /// [`Self::digest`] of the output whose triangles are in this order.
+    #[must_use]
+    pub fn digest_in(&self, order: Order) -> u64 {
+        let mut digest = Fnv1a::new();
+        for &factors in &self.patches {
+            digest.patch(&Patch::new(self.config, factors).tessellate_in(order));
+        }
+        digest.finish()
+    }
+
+    /// The working set `cache`: consecutive batches that cover all patches, each of about 1 MiB of
+    /// output and of at least 8 patches; the patches of one call each if the workload says what that
+    /// is.
+    ///
+    /// A remainder that would make a batch of its own too small joins the batch before it.
+    #[must_use]
+    pub fn cache_batches(&self, index_type: IndexType) -> Vec<Range<usize>> {
+        match self.calls {
+            Calls::Batch => self.mebibytes(index_type),
+            Calls::SinglePatch => (0..self.patches.len()).map(|patch| patch..patch + 1).collect(),
+            Calls::Group => self.group_ranges().collect(),
+            Calls::AllGroups => std::iter::once(0..self.patches.len()).collect(),
+        }
+    }
+
+    /// Consecutive batches of about 1 MiB.
+    fn mebibytes(&self, index_type: IndexType) -> Vec<Range<usize>> {
+        let is_full = |range: &Range<usize>, totals: &Totals| {
+            range.len() >= CACHE_BATCH_PATCHES && totals.bytes(index_type) >= CACHE_BATCH_BYTES
+        };
+        let mut batches: Vec<Range<usize>> = Vec::new();
+        let mut batch = 0..0;
+        let mut totals = Totals::default();
+        for (i, counts) in self.counts().enumerate() {
+            batch.end = i + 1;
+            totals.add(counts);
+            if is_full(&batch, &totals) {
+                batches.push(batch.clone());
+                batch = batch.end..batch.end;
+                totals = Totals::default();
+            }
+        }
+        match batches.last_mut() {
+            Some(last) => last.end = batch.end,
+            None => batches.push(batch),
+        }
+        batches
+    }
+
+    /// How often the workload is repeated to write the working set `stream`, 1 GiB of output.
+    #[must_use]
+    pub fn stream_repeats(&self, index_type: IndexType) -> u64 {
+        STREAM_BYTES.div_ceil(self.totals().bytes(index_type).max(1))
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,16 @@
+//! One patch for people: every stage of it ([`Explanation`]), a picture ([`draw`]), and the signals of a circuit
+//! beside the model's ([`compare_signals`]).
+
+mod circuit;
+mod drawing;
+mod explanation;
+mod picture;
+
+pub use circuit::{Part, Signal, SignalDifference, SignalError, compare_signals, signals};
+pub use drawing::{
+    Colours, Differences, DrawOptions, Drawing, differing, draw, fills, has_rings, overlay,
+};
+pub use explanation::{Explanation, FactorReport, PointReport, PrimitiveReport};
+#[cfg(feature = "png")]
+pub use picture::PngError;
+pub use picture::{Colour, Picture, Position, Shape};
