@@ -24,7 +24,7 @@
 // - start_patch.primitives is the patch's count, from tess_factors: it ends the walk, and a culled patch has 0.
 // - Indices are below 4225, so 13 bits hold them; a patch has at most 8192 primitives, so 14 bits count them.
 // - outer_all and inner_all belong to `side` of this clock, outer_begins and inner_begins to the edge that begins next.
-// - Registers of the walk change only where `advance` is 1, so nothing is lost while out_ready is 0 (formal/).
+// - Registers of the walk change only where `advance` is 1, so nothing is lost while out_ready is 0 (rtl/dv/formal).
 `include "tess_fault.svh"
 `include "tess_types.svh"
 module tess_connect (
@@ -338,8 +338,4 @@ module tess_connect (
             out_last  <= is_last;
         end
     end
-
-`ifdef TESS_PROOF
-`include "formal/inside_connect.svh"
-`endif
 endmodule

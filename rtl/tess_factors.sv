@@ -200,8 +200,4 @@ module tess_factors (
             end
         end
     end
-
-`ifdef TESS_PROOF
-`include "formal/inside_factors.svh"
-`endif
 endmodule

@@ -1,7 +1,7 @@
 // Planted faults. `TESS_FAULT(n) is 0 in synthesis and wherever neither of these is defined:
 //   TESS_PLANTED_FAULTS   a bench sets tess_fault_pkg::number to plant fault n
 //   TESS_PROOF_FAULT      the number of the fault itself, for proofs
-// rtl/tb/faults.txt lists the faults.
+// rtl/dv/tb/faults.txt lists the faults.
 `ifndef TESS_FAULT
 `ifdef TESS_PLANTED_FAULTS
 `define TESS_FAULT(n) (tess_fault_pkg::number == n)

@@ -20,8 +20,4 @@ module tess_fork #(
         if (rst || in_ready) took <= '0;
         else                 took <= took | takes;
     end
-
-`ifdef TESS_PROOF
-`include "formal/inside_fork.svh"
-`endif
 endmodule

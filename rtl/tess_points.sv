@@ -258,8 +258,4 @@ module tess_points (
             out_last  <= blend.last;
         end
     end
-
-`ifdef TESS_PROOF
-`include "formal/inside_points.svh"
-`endif
 endmodule

@@ -1,4 +1,4 @@
-"""The circuit's cocotb bench, in rtl/cocotb: it passes in both simulators, finds faults and holes in its coverage."""
+"""The circuit's cocotb bench, in rtl/dv/cocotb: it passes in both simulators, finds faults and holes in its coverage."""
 
 import importlib.util
 import os
@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-BENCH = Path(__file__).resolve().parents[3] / "rtl" / "cocotb"
+BENCH = Path(__file__).resolve().parents[3] / "rtl" / "dv" / "cocotb"
 BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb")) / "top"
 FAULTS = {
     "5": "stage=points module=tess_points signal=v point ",

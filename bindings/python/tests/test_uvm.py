@@ -68,7 +68,7 @@ def test_the_example_elaborates_around_the_circuit(tree: Path) -> None:
         ("example/tess_env.svh", "scoreboard.observed.analysis_export", "scoreboard.seen.analysis_export"),
         ("example/tess_env.svh", "agent.monitor.results", "agent.monitor.patches"),
         ("example/tess_agent.svh", "driver.seq_item_port", "driver.item_port"),
-        ("example/files.f", "../../../rtl/tess_stitch.sv\n", ""),
+        ("example/files.f", "-F ../../../rtl/tess.f\n", ""),
     ],
 )
 def test_faults_of_the_example_are_seen(tree: Path, name: str, right: str, wrong: str) -> None:

@@ -1,21 +1,6 @@
 // The example's files, with paths from this folder: an argument `-F` of Questa, VCS, Xcelium and slang.
 +incdir+.
-+incdir+../../../rtl
-../../../rtl/tess_pkg.sv
-../../../rtl/tess_connect.sv
-../../../rtl/tess_factor.sv
-../../../rtl/tess_factor_context.sv
-../../../rtl/tess_factors.sv
-../../../rtl/tess_fork.sv
-../../../rtl/tess_mask.sv
-../../../rtl/tess_place.sv
-../../../rtl/tess_place_blend.sv
-../../../rtl/tess_place_position.sv
-../../../rtl/tess_points.sv
-../../../rtl/tess_reciprocal.sv
-../../../rtl/tess_rows.sv
-../../../rtl/tess_stitch.sv
-../../../rtl/tess_top.sv
+-F ../../../rtl/tess.f
 tess_if.sv
 tess_example.sv
 tb_example.sv

@@ -73,7 +73,7 @@ usage: cargo xtask <command>
   rtl     lint the circuit and compare it with the model in Verilator: level 1, random patches under back-pressure,
           single stages; plant its faults; print clocks for the workloads of `tess bench`
   rtl --names
-          write the names of signals, stages and modules that the bench prints anew
+          write anew the names of signals, stages and modules that the bench prints, and the lists of sources
   rtl --long | --prove | --synth
           compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
           where it stopped; prove handshakes and placement; print what the circuit costs

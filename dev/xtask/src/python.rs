@@ -158,7 +158,7 @@ impl Environment {
             "tests",
             "python/tess_model/examples",
             "benches",
-            "../../rtl/cocotb",
+            "../../rtl/dv/cocotb",
         ]))
     }
 }

@@ -156,7 +156,7 @@ fn evidence(quoted: &str, read: impl Fn(&str) -> Result<String, String>) -> Resu
     let found = match path {
         "docs/rules.md" => text.contains(&format!("\n| `{item}` | ")),
         _ if item.is_empty() => {
-            path.starts_with("golden/") || path.starts_with("rtl/formal/prove_")
+            path.starts_with("golden/") || path.starts_with("rtl/dv/formal/prove_")
         }
         _ => is_test(&text, item),
     };
@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     const PAGE: &str = "# Page\n\n## 1. One\n\nIt is. <!-- r:1/1 --> So. And so. <!-- r:- -->\n\n1. Item one: <!-- r:1/2 -->\n\n   | a |\n   | --- |\n   <!-- r:1/3 -->\n\n```\ncode. More\n```\n<!-- r:1/4 -->\n";
-    const TABLE: &str = "| mark | demands | seen by |\n| --- | --- | --- |\n| 1/1 | a | `t.rs::one` |\n| 1/2 | b | `golden/a.csv`, `t.rs::one` |\n| 1/3 | c | `docs/rules.md::same` |\n| 1/4 | d | `rtl/formal/prove_place.sv` |\n";
+    const TABLE: &str = "| mark | demands | seen by |\n| --- | --- | --- |\n| 1/1 | a | `t.rs::one` |\n| 1/2 | b | `golden/a.csv`, `t.rs::one` |\n| 1/3 | c | `docs/rules.md::same` |\n| 1/4 | d | `rtl/dv/formal/prove_place.sv` |\n";
 
     fn errors(page: &str, table: &str) -> Vec<String> {
         let read = |path: &str| match path {
@@ -184,7 +184,7 @@ mod tests {
                     .to_owned())
             }
             "docs/rules.md" => Ok("\n| `same` | x |".to_owned()),
-            "golden/a.csv" | "rtl/formal/prove_place.sv" => Ok(String::new()),
+            "golden/a.csv" | "rtl/dv/formal/prove_place.sv" => Ok(String::new()),
             _ => Err(format!("{path}: no file")),
         };
         check(page, table, read).1

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use tess_verify::generate::{GenLevel, Selection};
 
 /// The planted faults: number, the stage and the signal that are named first, and what is wrong.
-const FAULTS: &str = include_str!("../../../../rtl/tb/faults.txt");
+const FAULTS: &str = include_str!("../../../../rtl/dv/tb/faults.txt");
 
 /// Faults that an assertion of the design sees too, with its stage and signal.
 const ASSERTED: &[(&str, &str)] =
@@ -23,7 +23,7 @@ fn bench() -> Result<PathBuf, String> {
 
 fn build() -> Result<PathBuf, String> {
     let folder = build_folder().join("rtl");
-    let mut script = Command::new(crate_folder().join("../../rtl/run"));
+    let mut script = Command::new(crate_folder().join("../../rtl/dv/run"));
     script.env("TESS_LIBRARY", libraries()?.archive).env("TESS_VERILOG_BUILD", &folder);
     let said = run(script.args(["+random=100", "+resets=10"]))?;
     verdict(&said, 100)?;
@@ -84,7 +84,7 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
 
 /// Single stages equal the model at the ends of their ranges, and a planted fault is found there.
 pub(crate) fn stages_equal_model() -> Result<(), Failed> {
-    let mut script = Command::new(crate_folder().join("../../rtl/run"));
+    let mut script = Command::new(crate_folder().join("../../rtl/dv/run"));
     script.env("TESS_LIBRARY", libraries()?.archive);
     script.env("TESS_VERILOG_BUILD", build_folder().join("rtl"));
     let said = run(script.args(["--stages", "+first=4194177", "+factors=128"]))?;

@@ -1,4 +1,4 @@
-//! The bench of the circuit in Verilator: `rtl/run` builds it, and runs here read its verdict.
+//! The bench of the circuit in Verilator: `rtl/dv/run` builds it, and runs here read its verdict.
 
 use super::{lines, sources};
 use crate::command::{self, cargo, in_file, target};
@@ -74,7 +74,7 @@ impl Bench {
     pub(crate) fn built() -> Result<Self, String> {
         setup::provide(&[setup::VERILATOR])?;
         let folder = target().join("rtl");
-        let mut script = Command::new(sources().join("run"));
+        let mut script = Command::new(sources().join("dv/run"));
         script.arg("--build").env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", &folder);
         command::run(&mut script)?;
         Ok(Self { program: folder.join("Vtb_tess"), folder })

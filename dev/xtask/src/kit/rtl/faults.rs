@@ -1,4 +1,4 @@
-//! The planted faults of `rtl/tb/faults.txt`: each must be found, by the stage and the signal that stand there.
+//! The planted faults of `rtl/dv/tb/faults.txt`: each must be found, by the stage and the signal that stand there.
 
 use super::bench::Bench;
 use crate::command::workspace;
@@ -21,7 +21,7 @@ struct Fault<'a> {
 /// # Errors
 /// One is not found, or another stage or signal is named first.
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
-    let file = workspace().join("rtl/tb/faults.txt");
+    let file = workspace().join("rtl/dv/tb/faults.txt");
     let text = std::fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
     println!("\nplanted faults, each found by random patches:");
     for fault in read(&text)? {
@@ -67,7 +67,8 @@ mod tests {
 
     #[test]
     fn the_list_is_read() {
-        let text = std::fs::read_to_string(workspace().join("rtl/tb/faults.txt")).expect("a file");
+        let text =
+            std::fs::read_to_string(workspace().join("rtl/dv/tb/faults.txt")).expect("a file");
         let faults = read(&text).expect("lines");
         assert!(faults.len() >= 12, "all faults");
         assert!(faults.iter().zip(1..).all(|(fault, n)| fault.number == n.to_string()), "in order");

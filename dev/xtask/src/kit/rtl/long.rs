@@ -66,7 +66,7 @@ fn shards(level_2: usize) -> Vec<Shard> {
 /// A digest of the design and of its benches.
 fn digest() -> Result<u64, String> {
     let mut files = Vec::new();
-    for folder in [sources(), sources().join("tb")] {
+    for folder in [sources(), sources().join("dv/tb")] {
         let entries = fs::read_dir(&folder).map_err(|error| in_file(&folder, &error))?;
         let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
         let is_source = |path: &PathBuf| path.extension().is_some_and(|e| e == "sv" || e == "svh");

@@ -1,9 +1,10 @@
-//! The names that the bench in Verilator prints, written from the signals of `tess-verify`.
+//! Files that are written from others: the names that the bench in Verilator prints, from the signals of `tess-verify`; the
+//! lists of the design's files for Bender and `FuseSoC`, from `rtl/tess.f`.
 
 use super::sources;
 use crate::command::in_file;
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use tess_verify::show::{Signal, signals};
 
 const HEAD: &str = "\
@@ -12,19 +13,48 @@ const HEAD: &str = "\
 // the signal describes.
 ";
 
-/// Writes the file anew.
+/// Writes the files anew.
 ///
 /// # Errors
-/// It cannot be written.
+/// One cannot be read or written.
 pub(crate) fn write() -> Result<(), String> {
-    std::fs::write(file(), text()).map_err(|error| in_file(&file(), &error))
+    for (file, text) in files()? {
+        std::fs::write(&file, text).map_err(|error| in_file(&file, &error))?;
+    }
+    Ok(())
 }
 
-fn file() -> PathBuf {
-    sources().join("tb/tess_names.svh")
+/// Each file, and its text.
+fn files() -> Result<[(PathBuf, String); 3], String> {
+    let read = |name: &str| {
+        let file = sources().join(name);
+        let text = std::fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
+        Ok::<_, String>((file, text))
+    };
+    let (_, list) = read("tess.f")?;
+    let listed = |name: &str| read(name).map(|(file, text)| (file, with_list(&text, &list)));
+    let names = (sources().join("dv/tb/tess_names.svh"), text());
+    Ok([names, listed("Bender.yml")?, listed("tess.core")?])
 }
 
-/// The file.
+/// The text with these sources in place of those that it lists.
+fn with_list(text: &str, list: &str) -> String {
+    let is_source = |line: &str| Path::new(line).extension().is_some_and(|end| end == "sv");
+    let mut sources: Vec<&str> = list.lines().filter(|line| is_source(line)).collect();
+    let mut lines = Vec::new();
+    for line in text.lines() {
+        match line.split_once("- ").filter(|(_, file)| file.starts_with("tess_") && is_source(file))
+        {
+            Some((indent, _)) => {
+                lines.extend(sources.drain(..).map(|source| format!("{indent}- {source}")));
+            }
+            None => lines.push(line.to_owned()),
+        }
+    }
+    lines.join("\n") + "\n"
+}
+
+/// The names.
 fn text() -> String {
     let signals: Vec<(&str, &Signal)> = signals().collect();
     let mut text = HEAD.to_owned();
@@ -50,9 +80,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_file_is_up_to_date() {
-        let found = std::fs::read_to_string(file()).expect("the names");
-        assert!(found == text(), "tess_names.svh is stale: run `cargo xtask rtl --names`");
+    fn the_files_are_up_to_date() {
+        for (file, text) in files().expect("files") {
+            let found = std::fs::read_to_string(&file).expect("a file");
+            assert!(found == text, "{} is stale: run `cargo xtask rtl --names`", file.display());
+        }
+        let listed =
+            with_list("a:\n  - tess_b.sv\n  - tess_c.sv\n  - dv/x.sv\n", "tess_d.sv\ntess_b.sv\n");
+        assert_eq!(
+            listed, "a:\n  - tess_d.sv\n  - tess_b.sv\n  - dv/x.sv\n",
+            "in the list's place and order"
+        );
     }
 
     /// Each module is a file of that name, and has the signal.

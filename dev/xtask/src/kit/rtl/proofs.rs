@@ -1,8 +1,10 @@
 //! Proofs with Yosys and an SMT solver: for all inputs and any number of clocks, not for those of a test.
 
 use super::sources;
-use crate::command::{self, target};
+use crate::command::{self, in_file, target};
 use crate::setup;
+use std::fs;
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
@@ -11,7 +13,7 @@ struct Proof {
     /// The module, and what holds.
     says: &'static str,
     top: &'static str,
-    /// Its sources in `rtl`, `tess_pkg.sv` apart.
+    /// Its sources in `rtl` and `rtl/dv/formal`, `tess_pkg.sv` apart.
     files: &'static [&'static str],
     /// Clocks of the base case and of the induction step; 0 for circuits without state.
     depth: u32,
@@ -25,7 +27,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_fork hands each patch to each stage exactly once",
         top: "tess_fork",
-        files: &["tess_fork", "formal/prove_fork"],
+        files: &["tess_fork", "prove_fork"],
         depth: 6,
         is_asked_once: false,
         fault: Some("TESS_PROOF_FAULT=13"),
@@ -38,7 +40,7 @@ const PROOFS: &[Proof] = &[
             "tess_factor",
             "tess_factor_context",
             "tess_factors",
-            "formal/prove_factors",
+            "prove_factors",
         ],
         depth: 4,
         is_asked_once: false,
@@ -52,8 +54,8 @@ const PROOFS: &[Proof] = &[
             "tess_place_position",
             "tess_place_blend",
             "tess_points",
-            "formal/ledger",
-            "formal/prove_points",
+            "ledger",
+            "prove_points",
         ],
         depth: 4,
         is_asked_once: false,
@@ -67,8 +69,8 @@ const PROOFS: &[Proof] = &[
             "tess_stitch",
             "tess_mask",
             "tess_connect",
-            "formal/ledger",
-            "formal/prove_connect",
+            "ledger",
+            "prove_connect",
         ],
         depth: 4,
         is_asked_once: false,
@@ -77,7 +79,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_place_position equals the first half of the formula of section 5",
         top: "prove_place_position",
-        files: &["tess_place_position", "formal/prove_place"],
+        files: &["tess_place_position", "prove_place"],
         depth: 0,
         is_asked_once: false,
         fault: Some("TESS_PROOF_FLIP_FAULT=1"),
@@ -85,7 +87,7 @@ const PROOFS: &[Proof] = &[
     Proof {
         says: "tess_place_blend equals the second half of the formula of section 5",
         top: "prove_place_blend",
-        files: &["tess_place_blend", "formal/prove_place_blend"],
+        files: &["tess_place_blend", "prove_place_blend"],
         depth: 0,
         is_asked_once: true,
         fault: Some("TESS_PROOF_ROUNDING_FAULT=1"),
@@ -98,6 +100,7 @@ const PROOFS: &[Proof] = &[
 /// A tool is missing, a proof fails, or one holds although a fault is planted.
 pub(crate) fn run() -> Result<(), String> {
     setup::provide(&[setup::YOSYS, setup::SOLVER])?;
+    copy()?;
     for proof in PROOFS {
         let began = Instant::now();
         proof.write(None)?;
@@ -115,26 +118,52 @@ pub(crate) fn run() -> Result<(), String> {
     Ok(())
 }
 
+fn folder() -> PathBuf {
+    target().join("rtl/proof")
+}
+
+/// Copies the design and the proofs to one folder. Proofs of a module's registers go to its end, as Yosys binds nothing.
+fn copy() -> Result<(), String> {
+    fs::create_dir_all(folder()).map_err(|error| in_file(&folder(), &error))?;
+    let formal = sources().join("dv/formal");
+    for from in [sources(), formal.clone()] {
+        for entry in fs::read_dir(&from).map_err(|error| in_file(&from, &error))? {
+            let file = entry.map_err(|error| in_file(&from, &error))?.path();
+            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if name.ends_with(".sv") || name.ends_with(".svh") {
+                let mut text = fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
+                let inside = formal.join(name.replace("tess_", "inside_") + "h");
+                if name.starts_with("tess_")
+                    && let Ok(inside) = fs::read_to_string(inside)
+                {
+                    text = text.replace("\nendmodule", &format!("\n{inside}endmodule"));
+                }
+                fs::write(folder().join(&name), text).map_err(|error| in_file(&file, &error))?;
+            }
+        }
+    }
+    Ok(())
+}
+
 impl Proof {
-    fn file(&self) -> std::path::PathBuf {
-        target().join("rtl").join(format!("{}.smt2", self.top))
+    fn file(&self) -> PathBuf {
+        folder().join(format!("{}.smt2", self.top))
     }
 
     /// Has Yosys write what is to be proved.
     fn write(&self, define: Option<&str>) -> Result<(), String> {
         let define = define.map(|define| format!("-D {define} ")).unwrap_or_default();
         let files: Vec<String> = self.files.iter().map(|name| format!("{name}.sv")).collect();
-        std::fs::create_dir_all(target().join("rtl")).map_err(|error| error.to_string())?;
         // Outputs that no property looks at go, and the multipliers behind them.
         let script = format!(
-            "read_verilog -sv -formal -D TESS_PROOF {define}-I . tess_pkg.sv {}; hierarchy -top {}; proc; flatten; \
+            "read_verilog -sv -formal {define}-I . tess_pkg.sv {}; hierarchy -top {}; proc; flatten; \
              delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
             files.join(" "),
             self.top,
             self.file().display()
         );
         let mut yosys = Command::new("yosys");
-        command::quiet_output(yosys.args(["-q", "-p", &script]).current_dir(sources())).map(|_| ())
+        command::quiet_output(yosys.args(["-q", "-p", &script]).current_dir(folder())).map(|_| ())
     }
 
     /// Why it cannot be proved; `None` if it is.

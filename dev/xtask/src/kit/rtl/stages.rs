@@ -64,7 +64,7 @@ impl Stages {
     /// # Errors
     /// Verilator fails.
     pub(crate) fn built(folder: &Path) -> Result<Self, String> {
-        let mut script = Command::new(sources().join("run"));
+        let mut script = Command::new(sources().join("dv/run"));
         script.args(["--stages", "--build"]);
         script.env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", folder);
         command::run(&mut script)?;

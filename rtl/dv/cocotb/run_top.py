@@ -4,7 +4,7 @@
                       [--testcase NAME] [--build FOLDER] [--coverage FILE]
 
 Exit status: 0 equal, and every hole in the code coverage is named in holes.txt; 1 otherwise. `--fault` takes a design
-with a planted fault of rtl/tb/faults.txt. `--elements` bounds the systematic part, 0 leaves it out: 10 million have all
+with a planted fault of rtl/dv/tb/faults.txt. `--elements` bounds the systematic part, 0 leaves it out: 10 million have all
 of it, and then the functional coverage must be whole. Code is covered in Verilator alone.
 """
 
@@ -19,9 +19,9 @@ import code_coverage  # beside this file
 from tess_model import Coverage
 
 HERE = Path(__file__).resolve().parent
-RTL = HERE.parent
+RTL = HERE.parents[1]
 WHOLE = 10_000_000
-LEFT_OUT = ("tess_pkg.sv", "tess_placer.sv")  # the first stands first; the other is a design of its own
+FILES = [line for line in (RTL / "tess.f").read_text().splitlines() if line.endswith(".sv")]
 
 
 def arguments() -> argparse.Namespace:
@@ -42,8 +42,7 @@ def simulate(options: argparse.Namespace, build: Path) -> bool:
     is_verilator = options.sim == "verilator"
     runner = get_runner(options.sim)
     runner.build(
-        verilog_sources=[RTL / "tess_pkg.sv"]
-        + sorted(file for file in RTL.glob("tess_*.sv") if file.name not in LEFT_OUT),
+        verilog_sources=[RTL / file for file in FILES],
         includes=[RTL],
         defines={"TESS_PROOF_FAULT": options.fault} if options.fault else {},
         build_args=["--coverage-line", "--coverage-toggle", "-Wno-fatal"] if is_verilator else [],

@@ -1,4 +1,4 @@
-// Stands at the end of tess_connect when TESS_PROOF is defined.
+// Stands at the end of tess_connect in the copy that is proved.
 prove_connect proof (
     .clk(clk), .rst(rst), .starts(start_valid && start_ready), .active(active),
     .start_primitives(start_patch.primitives), .patch_primitives(patch.primitives), .number(number),

@@ -7,7 +7,7 @@
 //   +gaps           random gaps between patches, random back-pressure on each stream
 //   +resets=N       N resets, each in the middle of a patch, before anything is checked
 //   +alone          each patch waits until the one before is out: latencies
-//   +fault=N        plants fault N of the design (rtl/tb/faults.txt), which must then be found
+//   +fault=N        plants fault N of the design (rtl/dv/tb/faults.txt), which must then be found
 // Exit: PASS, or $fatal. Each difference prints the patch as a line that `tess explain` and +stimuli take.
 module tb_tess;
     import tess_dpi::*;

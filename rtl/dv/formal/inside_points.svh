@@ -1,4 +1,4 @@
-// Stands at the end of tess_points when TESS_PROOF is defined.
+// Stands at the end of tess_points in the copy that is proved.
 prove_points proof (
     .clk(clk), .rst(rst), .starts(start_valid && start_ready), .active(active),
     .start_points(start_patch.points), .patch_points(patch.points), .index(index),

@@ -1,0 +1,19 @@
+// The design, in the order in which files need each other: the one list of its files. Paths are from this folder:
+// `verilator -F rtl/tess.f --top-module tess_top`. Bender.yml and tess.core are written from it by `cargo xtask rtl --names`.
++incdir+.
+tess_pkg.sv
+tess_reciprocal.sv
+tess_factor.sv
+tess_factor_context.sv
+tess_factors.sv
+tess_fork.sv
+tess_place_position.sv
+tess_place_blend.sv
+tess_place.sv
+tess_points.sv
+tess_mask.sv
+tess_rows.sv
+tess_stitch.sv
+tess_connect.sv
+tess_top.sv
+tess_axis.sv
