@@ -1,6 +1,7 @@
 //! What the project's own tests need beside `tess-verify`: backends with planted faults, which every
-//! comparison must notice, the invariants of spec section 12, and options crossed by pairs.
+//! comparison must notice, lists of faults in sources, the invariants of spec section 12, and options crossed by pairs.
 
 pub mod faults;
 pub mod invariants;
+pub mod listed;
 pub mod pairs;

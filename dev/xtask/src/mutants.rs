@@ -2,6 +2,10 @@
 
 mod built;
 mod fault;
+// The testkit's parser alone, as this program is built before the libraries.
+#[path = "../../testkit/src/listed.rs"]
+#[expect(unreachable_pub, reason = "it is public in the testkit")]
+mod listed;
 mod planted;
 
 use crate::command::{cargo, shown, workspace};

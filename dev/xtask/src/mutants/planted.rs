@@ -6,7 +6,8 @@
 //! build than the one that is published.
 
 use super::built;
-use super::fault::{self, Fault, Planted};
+use super::fault::{self, Planted};
+use super::listed::ListedFault;
 use crate::command::{self, in_file, workspace};
 use crate::suite::{self, Tree};
 use crate::tally::Job;
@@ -50,14 +51,14 @@ pub(super) fn run(words: &[&str]) -> Result<(), String> {
     let files = files()?;
     let faults = chosen(words)?;
     let places: Vec<String> =
-        faults.iter().filter_map(|fault| fault.plant(&workspace(), &files).err()).collect();
+        faults.iter().filter_map(|fault| fault::plant(fault, &workspace(), &files).err()).collect();
     if !places.is_empty() {
         return Err(places.join("\n"));
     }
     let mut rig = Rig { files, copied: None, sound: BTreeSet::new() };
     let mut wrong = Vec::new();
     for (number, fault) in (1..).zip(&faults) {
-        let planted = fault.plant(&workspace(), &rig.files)?;
+        let planted = fault::plant(fault, &workspace(), &rig.files)?;
         let fate = match rig.in_programs(fault, &planted)? {
             Some(fate) => fate,
             None => rig.in_sources(fault, &planted)?,
@@ -88,7 +89,11 @@ struct Rig {
 
 impl Rig {
     /// What becomes of a shader's fault, planted in the workspace's own programs; `None` if they cannot take it.
-    fn in_programs(&mut self, fault: &Fault, planted: &Planted) -> Result<Option<Fate>, String> {
+    fn in_programs(
+        &mut self,
+        fault: &ListedFault,
+        planted: &Planted,
+    ) -> Result<Option<Fate>, String> {
         if !planted.is_shader() {
             return Ok(None);
         }
@@ -107,7 +112,7 @@ impl Rig {
     }
 
     /// What becomes of a fault that is planted in the copy of the tree, which is then as it was.
-    fn in_sources(&mut self, fault: &Fault, planted: &Planted) -> Result<Fate, String> {
+    fn in_sources(&mut self, fault: &ListedFault, planted: &Planted) -> Result<Fate, String> {
         let tree = match self.copied.take() {
             Some(tree) => tree,
             None => copy(&self.files)?,
@@ -123,7 +128,7 @@ impl Rig {
     }
 
     /// Runs the tests of a fault once without it.
-    fn expect_sound(&mut self, tree: &Tree, fault: &Fault) -> Result<(), String> {
+    fn expect_sound(&mut self, tree: &Tree, fault: &ListedFault) -> Result<(), String> {
         let tests = (tree.root.clone(), fault.tests.clone(), fault.filters.clone());
         if !self.sound.insert(tests) {
             return Ok(());
@@ -137,18 +142,18 @@ impl Rig {
 }
 
 /// The faults that one of these words selects.
-fn chosen(words: &[&str]) -> Result<Vec<Fault>, String> {
+fn chosen(words: &[&str]) -> Result<Vec<ListedFault>, String> {
     let mut faults = fault::read(&workspace().join(LISTS))?;
     faults.retain(|fault| {
-        let Fault { folder, tests, filters, name, .. } = fault;
-        let shown = format!("{} {tests} {} {name}", folder.display(), filters.join(" "));
+        let ListedFault { folder, tests, filters, name, .. } = fault;
+        let shown = format!("{folder} {tests} {} {name}", filters.join(" "));
         words.is_empty() || words.iter().any(|word| shown.contains(word))
     });
     if faults.is_empty() { Err(format!("no fault has one of {words:?}")) } else { Ok(faults) }
 }
 
 /// Whether the tests of a fault see what is in the tree.
-fn fate(tree: &Tree, fault: &Fault) -> Result<Fate, String> {
+fn fate(tree: &Tree, fault: &ListedFault) -> Result<Fate, String> {
     let Ok(jobs) = suite::programs(tree, &fault.tests) else { return Ok(Fate::Refused) };
     fate_of(fault, own_programs(&jobs))
 }
@@ -160,7 +165,7 @@ fn own_programs(jobs: &[Job]) -> impl Iterator<Item = (&Job, &Path)> {
 
 /// Whether one of these programs, each run as its job says, sees a fault.
 fn fate_of<'a>(
-    fault: &Fault,
+    fault: &ListedFault,
     programs: impl Iterator<Item = (&'a Job, &'a Path)>,
 ) -> Result<Fate, String> {
     let mut fate = Fate::Survived;
@@ -175,7 +180,7 @@ fn fate_of<'a>(
         let output = limited.output().map_err(|error| format!("cannot run `timeout`: {error}"))?;
         let text = String::from_utf8_lossy(&output.stdout);
         if output.status.success() && text.contains("running 0 tests") {
-            return Err(format!("{}: no test has the name {:?}", fault.tests, fault.filters));
+            return Err(format!("{}: no test has the name {:?}", fault.tests, &fault.filters));
         }
         if !output.status.success() {
             fate = Fate::Seen;
@@ -253,7 +258,7 @@ mod tests {
         let files = files().expect("files");
         let mut wrong = Vec::new();
         for fault in chosen(&[]).expect("faults") {
-            wrong.extend(fault.plant(&workspace(), &files).err());
+            wrong.extend(fault::plant(&fault, &workspace(), &files).err());
             if !workspace().join(&fault.tests).exists() {
                 wrong.push(format!("{}: there is no {}", fault.name, fault.tests));
             }

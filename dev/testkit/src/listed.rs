@@ -1,0 +1,102 @@
+//! Lists of faults: a text of a source, and a wrong one in its place.
+//!
+//! ```text
+//! in tess-gpu/shaders                            the folder of the sources
+//! seen by tess-wgpu/tests/exact.rs boundaries    a file of tests, and words that select some of them
+//! fault half factors are rounded down := (factor + 1u) >> 1u ==> factor >> 1u
+//! equivalent: REASON                             no test can see the fault
+//!
+//! fault two lines are missing
+//! <<<
+//! the text, of any number of lines
+//! ===
+//! the new text
+//! >>>
+//! ```
+//!
+//! `in` and `seen by` hold until the next one. A text on the line of its fault has no space at its ends, and the new one
+//! may be empty. `cargo xtask mutants planted` and tests of the shaders read such lists.
+
+/// One wrong text.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ListedFault {
+    /// What is wrong.
+    pub name: String,
+    /// The folder of the source, from the root of the repository.
+    pub folder: String,
+    /// The file of the tests that must see it.
+    pub tests: String,
+    /// Words that select some of these tests; none are all.
+    pub filters: Vec<String>,
+    /// Why no test can see it.
+    pub equivalent: Option<String>,
+    right: String,
+    wrong: String,
+}
+
+impl ListedFault {
+    /// The number of places of the text in `source`.
+    #[must_use]
+    pub fn places(&self, source: &str) -> usize {
+        source.matches(&self.right).count()
+    }
+
+    /// `source` with the fault in every place of the text; `None` if it has none.
+    #[must_use]
+    pub fn planted(&self, source: &str) -> Option<String> {
+        source.contains(&self.right).then(|| source.replace(&self.right, &self.wrong))
+    }
+}
+
+/// The faults of a list.
+///
+/// # Errors
+/// The number of a line that is none of a list.
+pub fn parse(list: &str) -> Result<Vec<ListedFault>, String> {
+    let (mut folder, mut seen_by, mut faults) = (None, None, Vec::new());
+    let mut lines = (1..).zip(list.lines()).peekable();
+    while let Some((number, line)) = lines.next() {
+        let wrong = |what: &str| format!("line {number}: {what}");
+        if let Some(path) = line.strip_prefix("in ") {
+            folder = Some(path.to_owned());
+        } else if let Some(words) = line.strip_prefix("seen by ") {
+            let mut words = words.split(' ').map(str::to_owned);
+            seen_by = words.next().map(|tests| (tests, words.collect::<Vec<_>>()));
+        } else if let Some(fault) = line.strip_prefix("fault ") {
+            let reason = lines.next_if(|(_, line)| line.starts_with("equivalent: "));
+            let (name, right, new) = match fault.split_once(" := ") {
+                Some((name, texts)) => {
+                    let (right, new) = texts.split_once(" ==>").ok_or(wrong("it has no ` ==>`"))?;
+                    (name, right.to_owned(), new.trim_start().to_owned())
+                }
+                None => {
+                    let block = lines.by_ref().map(|(_, line)| line);
+                    let (right, new) =
+                        texts(block).ok_or(wrong("`fault` goes on with `<<<`, `===`, `>>>`"))?;
+                    (fault, right, new)
+                }
+            };
+            let (tests, filters) = seen_by.clone().ok_or(wrong("no `seen by` before it"))?;
+            faults.push(ListedFault {
+                name: name.to_owned(),
+                folder: folder.clone().ok_or(wrong("no `in` before it"))?,
+                tests,
+                filters,
+                equivalent: reason.map(|(_, line)| line["equivalent: ".len()..].to_owned()),
+                right,
+                wrong: new,
+            });
+        } else if !line.is_empty() && !line.starts_with('#') {
+            return Err(wrong(&format!("`{line}` is neither `in`, `seen by` nor `fault`")));
+        }
+    }
+    Ok(faults)
+}
+
+/// The two texts of a block, which ends with `>>>`.
+fn texts<'a>(mut lines: impl Iterator<Item = &'a str>) -> Option<(String, String)> {
+    lines.next().filter(|line| *line == "<<<")?;
+    let block: Vec<&str> = lines.take_while(|line| *line != ">>>").collect();
+    let middle = block.iter().position(|line| *line == "===")?;
+    Some((block[..middle].join("\n"), block[middle + 1..].join("\n")))
+}

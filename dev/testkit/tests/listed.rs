@@ -1,0 +1,45 @@
+//! Lists of faults are read as they stand.
+
+use tess_testkit::listed::parse;
+
+const LIST: &str = "# A list\nin src\nseen by a/tests/b.rs one two\nfault first := x + 1 ==> x - 1\n\
+    equivalent: nobody asks\n\nseen by a/tests/c.rs\nfault second: y\n<<<\ny\nz\n===\n>>>\nfault third := y; ==>\n";
+
+#[test]
+fn a_list_has_its_faults() {
+    let faults = parse(LIST).expect("a list");
+    let [first, second, third] = &faults[..] else { panic!("{} faults", faults.len()) };
+    assert_eq!(
+        (first.name.as_str(), second.name.as_str(), third.folder.as_str()),
+        ("first", "second: y", "src"),
+        "names and folder"
+    );
+    assert_eq!(
+        (first.tests.as_str(), &first.filters[..]),
+        ("a/tests/b.rs", &["one".to_owned(), "two".to_owned()][..]),
+        "tests"
+    );
+    assert_eq!((third.tests.as_str(), third.filters.len()), ("a/tests/c.rs", 0), "tests");
+    assert_eq!(first.equivalent.as_deref(), Some("nobody asks"), "the reason");
+    assert_eq!((&second.equivalent, &third.equivalent), (&None, &None), "no reason");
+    assert_eq!(first.planted("x + 1, x + 1").as_deref(), Some("x - 1, x - 1"), "one line");
+    assert_eq!(first.places("x + 1, x + 1"), 2, "places");
+    assert_eq!(second.planted("a\ny\nz\n").as_deref(), Some("a\n\n"), "two lines go");
+    assert_eq!(third.planted("y;").as_deref(), Some(""), "a line goes");
+    assert_eq!(third.planted("y"), None, "no such text");
+}
+
+#[test]
+fn what_is_no_list_is_refused_with_its_line() {
+    for (wrong, line) in [
+        ("fault a := x ==> y\n", 1),
+        ("in src\nfault a := x ==> y\n", 2),
+        ("in src\nseen by t\nfault a := x = y\n", 3),
+        ("in src\nseen by t\nfault a\nx\n===\ny\n>>>\n", 3),
+        ("in src\nseen by t\nfault a\n<<<\nx\n>>>\n", 3),
+        ("\nwhat", 2),
+    ] {
+        let message = parse(wrong).expect_err(wrong);
+        assert!(message.starts_with(&format!("line {line}: ")), "{wrong}: {message}");
+    }
+}
