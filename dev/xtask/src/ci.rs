@@ -21,6 +21,7 @@ pub(crate) fn run() -> Result<(), String> {
         cargo("doc --workspace --no-deps --all-features").env("RUSTDOCFLAGS", "-D warnings"),
     )?;
     features::check(&[])?;
+    command::lock_versions(&command::workspace(), "fuzz")?;
     command::run(&mut cargo("test --manifest-path fuzz/Cargo.toml"))?;
     fuzz::run_in_ci()?;
     ports::run(&["msrv", "s390x", "wasm", "miri"], Extent::Brief)?;

@@ -1,5 +1,6 @@
 //! Running programs in the workspace, saying first what is run.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
@@ -45,6 +46,20 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command.args(arguments.split_whitespace()).current_dir(workspace());
     command
+}
+
+/// Gives a separate workspace the versions of the lock file at `root`; cargo adds to its copy what is missing there, and
+/// removes the rest.
+///
+/// # Errors
+/// The file cannot be copied.
+pub(crate) fn lock_versions(root: &Path, separate: &str) -> Result<(), String> {
+    let (from, to) = (root.join("Cargo.lock"), root.join(separate).join("Cargo.lock"));
+    let time = |path: &Path| fs::metadata(path).and_then(|file| file.modified()).ok();
+    if time(&to) < time(&from) {
+        fs::copy(&from, &to).map_err(|error| in_file(&to, &error))?;
+    }
+    Ok(())
 }
 
 /// The interpreter that the variable `PYTHON` names, or the system's.

@@ -72,7 +72,8 @@ fn flags() -> Result<String, String> {
 
 /// Writes the JavaScript module of a WebAssembly file of the target folder.
 fn bind(file: &str, folder: &Path) -> Result<(), String> {
-    let mut bindgen = cargo("run --quiet --locked --manifest-path");
+    command::lock_versions(&workspace(), "tools/explorer/bindgen")?;
+    let mut bindgen = cargo("run --quiet --manifest-path");
     bindgen.arg(source().join("bindgen/Cargo.toml"));
     bindgen.arg("--target-dir").arg(target().join("explorer-bindgen")).arg("--");
     command::run(bindgen.arg(target().join(TARGET).join(file)).arg(folder))

@@ -52,6 +52,7 @@ struct Integration {
 
 impl Integration {
     fn open(folder: &str) -> Result<Self, String> {
+        command::lock_versions(&workspace(), folder)?;
         let folder = workspace().join(folder);
         let path = folder.join("rust-toolchain.toml");
         let text = std::fs::read_to_string(&path).map_err(|error| in_file(&path, &error))?;

@@ -40,6 +40,7 @@ pub(crate) fn in_a_process(program: &Path) -> Result<Command, String> {
 /// Makes everything ready, and gives the command that runs the tests, which compare with this program `tess`.
 fn tests(program: &Path) -> Result<Command, String> {
     setup::provide(&[PYTHON, ICARUS])?;
+    command::lock_versions(&workspace(), "bindings/python")?;
     lint()?;
     let environment = Environment::fresh()?;
     environment.install(TOOLS)?;
@@ -67,7 +68,8 @@ pub(crate) fn of_tree(root: &Path, target: &Path, file: &str) -> Result<Job, Str
         environment.install(FOR_FAULTS)?;
     }
     let sources = root.join("bindings/python");
-    let mut build = cargo("build --locked");
+    command::lock_versions(root, "bindings/python")?;
+    let mut build = cargo("build");
     command::quiet_output(build.current_dir(&sources).env("CARGO_TARGET_DIR", target))?;
     let built = target.join("package/tess_model");
     fs::create_dir_all(&built).map_err(|error| in_file(&built, &error))?;
@@ -133,7 +135,7 @@ impl Environment {
         if folder.exists() {
             fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))?;
         }
-        let mut build = self.python(&["-m", "maturin", "build", "--release", "--locked", "--out"]);
+        let mut build = self.python(&["-m", "maturin", "build", "--release", "--out"]);
         command::run(build.arg(&folder))?;
         let entries = fs::read_dir(&folder).map_err(|error| in_file(&folder, &error))?;
         let files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
