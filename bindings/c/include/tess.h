@@ -235,6 +235,16 @@
 #define TESS_LEVEL_AVX512 3
 
 /**
+ * Triangle order: the specification's.
+ */
+#define TESS_TRIANGLES_SPECIFIED 0
+
+/**
+ * Triangle order: the same triangles and points, in columns that suit vertex caches of GPUs.
+ */
+#define TESS_TRIANGLES_VERTEX_CACHE 1
+
+/**
  * Point format: `TessPoint`, a pair of unsigned 16.16 numbers.
  */
 #define TESS_POINT_FIXED 0
@@ -660,6 +670,48 @@ typedef struct TessBatchOutput {
 } TessBatchOutput;
 
 /**
+ * A point or a direction.
+ */
+typedef struct TessVec3 {
+  /**
+   * First coordinate.
+   */
+  float x;
+  /**
+   * Second coordinate.
+   */
+  float y;
+  /**
+   * Third coordinate.
+   */
+  float z;
+} TessVec3;
+
+/**
+ * A corner of a point-normal triangle or quad.
+ */
+typedef struct TessCorner {
+  /**
+   * Its position.
+   */
+  struct TessVec3 position;
+  /**
+   * Its normal, of length 1.
+   */
+  struct TessVec3 normal;
+} TessCorner;
+
+/**
+ * A matrix, by columns: `columns[4 * c + r]` is in row r of column c.
+ */
+typedef struct TessMat4 {
+  /**
+   * Four columns of four numbers.
+   */
+  float columns[16];
+} TessMat4;
+
+/**
  * A tessellator under test: it writes the points and indices of one patch and their counts.
  *
  * `points` has room for `TESS_MAX_POINTS` points and `indices` for `TESS_MAX_INDICES` indices; both and
@@ -1016,6 +1068,31 @@ void tess_batch_free(struct TessBatch *batch);
 TessStatus tess_batch_reserve(struct TessBatch *batch);
 
 /**
+ * Sets the order in which later calls write triangles, `TESS_TRIANGLES_...`; at first it is the specification's.
+ *
+ * `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two to four times as
+ * long with it. What the batch learned of patches is forgotten.
+ *
+ * The caller must ensure:
+ * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+ */
+TessStatus tess_batch_set_triangles(struct TessBatch *batch,
+                                    uint32_t order);
+
+/**
+ * Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads` threads; at first it is
+ * one. 0 gives `TESS_OUT_OF_RANGE`. The output stays the same.
+ *
+ * A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share. Each thread
+ * takes up to 1.1 MB. What the batch learned of patches is forgotten.
+ *
+ * The caller must ensure:
+ * - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+ */
+TessStatus tess_batch_set_threads(struct TessBatch *batch,
+                                  uint32_t threads);
+
+/**
  * Says at which CPU level, `TESS_LEVEL_...`, a batch runs.
  *
  * The caller must ensure:
@@ -1124,6 +1201,60 @@ TessStatus tess_batch_patch(struct TessBatch *batch,
                             const float *factors,
                             const struct TessBatchOutput *output,
                             struct TessCounts *counts);
+
+/**
+ * A factor for segments of `segment` pixels on the straight edge from `a` to `b`. `pixels_per_unit` is how many pixels
+ * a length of 1 covers at distance 1: for a picture of height h and field of view f, h / (2 tan(f / 2)).
+ */
+float tess_edge_by_screen_size(struct TessVec3 a,
+                               struct TessVec3 b,
+                               struct TessVec3 eye,
+                               float pixels_per_unit,
+                               float segment);
+
+/**
+ * `scale` divided by the distance from the eye to the middle of the straight edge from `a` to `b`.
+ */
+float tess_edge_by_distance(struct TessVec3 a, struct TessVec3 b, struct TessVec3 eye, float scale);
+
+/**
+ * A factor that keeps equal segments within `tolerance`, in units of the positions, of the point-normal edge between
+ * two corners.
+ */
+float tess_edge_by_curvature(struct TessCorner a,
+                             struct TessCorner b,
+                             float tolerance);
+
+/**
+ * The inside factor of a triangle with these factors on its edges: their mean.
+ */
+float tess_inside_triangle(float u0, float v0, float w0);
+
+/**
+ * An inside factor of a quad with these factors on the two edges that run the same way: their mean. Factor U is that of
+ * the edges V=0 and V=1, factor V that of U=0 and U=1.
+ */
+float tess_inside_quad(float one,
+                       float other);
+
+/**
+ * Whether a ball is wholly outside one of the six planes of a projection with z from 0 to w, as in Direct3D, Vulkan,
+ * Metal and WebGPU: 1 or 0. The ball must hold the whole patch, its displacement included. A patch that is outside
+ * gets factors of 0.
+ */
+uint32_t tess_is_outside(struct TessMat4 clip_from_world,
+                         struct TessVec3 center,
+                         float radius);
+
+/**
+ * Whether all of a surface turns its back to the eye: 1 or 0. The surface lies in a ball, and its normals are within an
+ * angle of the unit vector `axis`, less than 90 degrees; `sine` is that angle's sine.
+ */
+uint32_t tess_faces_away(struct TessVec3 center,
+                         float radius,
+                         struct TessVec3 axis,
+                         float sine,
+                         struct TessVec3 eye);
 
 /**
  * Compares a tessellator with the model on the patch that a fuzzer's bytes stand for.

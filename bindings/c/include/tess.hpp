@@ -115,6 +115,10 @@ public:
     /// Allocates all memory that later calls need.
     void reserve() { check(tess_batch_reserve(batch.get())); }
 
+    /// TESS_TRIANGLES_SPECIFIED or TESS_TRIANGLES_VERTEX_CACHE.
+    void set_triangles(uint32_t order) { check(tess_batch_set_triangles(batch.get(), order)); }
+    void set_threads(uint32_t threads) { check(tess_batch_set_threads(batch.get(), threads)); }
+
     template <class Factors>
     TessBatchCounts count(const Factors &factors) {
         TessBatchCounts counts;

@@ -22,7 +22,7 @@ use crate::types::{TessConfig, listed};
 use input::Patches;
 use output::in_formats;
 use run::run;
-use tess_core::{Domain, DomainPoint};
+use tess_core::{Domain, DomainPoint, Order};
 use tess_simd::{Error, Level, PatchRange, Tessellator, group_ranges};
 
 /// CPU level: the most capable one of this machine.
@@ -100,6 +100,62 @@ pub unsafe extern "C" fn tess_batch_reserve(batch: *mut TessBatch) -> TessStatus
         batch.tessellator.reserve();
         Ok(())
     })
+}
+
+/// Triangle order: the specification's.
+pub const TESS_TRIANGLES_SPECIFIED: u32 = 0;
+/// Triangle order: the same triangles and points, in columns that suit vertex caches of GPUs.
+pub const TESS_TRIANGLES_VERTEX_CACHE: u32 = 1;
+
+/// Sets the order in which later calls write triangles, `TESS_TRIANGLES_...`; at first it is the specification's.
+///
+/// `TESS_TRIANGLES_VERTEX_CACHE` is for renderers. Patches of more than about 300 points take two to four times as
+/// long with it. What the batch learned of patches is forgotten.
+///
+/// # Safety
+/// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_batch_set_triangles(batch: *mut TessBatch, order: u32) -> TessStatus {
+    answer(|| {
+        let order = listed(&[Order::Specification, Order::VertexCache], order)?;
+        // SAFETY: as this function asks for it.
+        unsafe { remade(batch, |tessellator| tessellator.order(order)) }
+    })
+}
+
+/// Spreads later calls of `tess_batch_run` with `TESS_MEMORY_INITIALISED` over up to `threads` threads; at first it is
+/// one. 0 gives `TESS_OUT_OF_RANGE`. The output stays the same.
+///
+/// A batch uses one thread for each 256 KiB of its output, of a pool that all batches of the process share. Each thread
+/// takes up to 1.1 MB. What the batch learned of patches is forgotten.
+///
+/// # Safety
+/// - `batch` is null or came from `tess_batch_create`, and is in no other call at the same time.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn tess_batch_set_threads(batch: *mut TessBatch, threads: u32) -> TessStatus {
+    answer(|| {
+        if threads == 0 {
+            return Err(TESS_OUT_OF_RANGE);
+        }
+        let threads = usize::try_from(threads).map_err(|_| TESS_OUT_OF_RANGE)?;
+        // SAFETY: as this function asks for it.
+        unsafe { remade(batch, |tessellator| tessellator.threads(threads)) }
+    })
+}
+
+/// Exchanges a batch's tessellator for another one.
+///
+/// # Safety
+/// - As for [`tess_batch_reserve`].
+unsafe fn remade(
+    batch: *mut TessBatch,
+    make: impl FnOnce(Tessellator) -> Tessellator,
+) -> Result<(), TessStatus> {
+    boundary::check(batch)?;
+    // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
+    let batch = unsafe { &mut *batch };
+    batch.tessellator = make(batch.tessellator.clone());
+    Ok(())
 }
 
 /// Says at which CPU level, `TESS_LEVEL_...`, a batch runs.

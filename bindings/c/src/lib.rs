@@ -12,5 +12,6 @@ pub mod probe;
 pub mod process;
 pub mod rules;
 pub mod status;
+pub mod surface;
 pub mod types;
 pub mod version;

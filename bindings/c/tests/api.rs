@@ -13,4 +13,5 @@ mod api {
     mod rules;
     mod samples;
     mod single;
+    mod surface;
 }

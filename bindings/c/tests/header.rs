@@ -14,6 +14,7 @@ const SOURCES: &[&str] = &[
     "batch",
     "batch/output",
     "batch/single",
+    "surface",
     "device",
     "fuzz",
     "rules",

@@ -29,6 +29,10 @@ pub(crate) enum Call {
     Free,
     /// `tess_batch_reserve`.
     Reserve,
+    /// `tess_batch_set_triangles`.
+    Triangles { order: u32 },
+    /// `tess_batch_set_threads`.
+    Pool { threads: u32 },
     /// `tess_batch_level`.
     Level,
     /// `tess_batch_count`.

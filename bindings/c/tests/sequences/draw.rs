@@ -31,6 +31,8 @@ fn calls() -> impl Strategy<Value = Call> {
         2 => right_create(),
         1 => (uniform4(0..5u32), 0..6u32).prop_map(|(config, level)| Call::Create { config, level }),
         1 => Just(Call::Reserve),
+        2 => (0..3u32).prop_map(|order| Call::Triangles { order }),
+        1 => (0..4u32).prop_map(|threads| Call::Pool { threads }),
         1 => Just(Call::Level),
         1 => Just(Call::Free),
     ]

@@ -2,7 +2,7 @@
 
 use super::calls::{Base, Bits};
 use tess_capi::batch::TessRange;
-use tess_core::{Config, Domain, PatchFactors, Tessellation};
+use tess_core::{Config, Domain, Order, PatchFactors, Tessellation};
 use tess_verify::Case;
 
 /// Where batches are cut off, so that a sequence takes milliseconds.
@@ -17,12 +17,12 @@ pub(crate) struct Model {
 pub(crate) type Part<'a> = (usize, &'a Case, &'a Tessellation, TessRange);
 
 impl Model {
-    pub(crate) fn new(config: Config, domain: Domain, runs: &[(u8, Bits)]) -> Self {
+    pub(crate) fn new(config: Config, domain: Domain, order: Order, runs: &[(u8, Bits)]) -> Self {
         let mut points = 0;
         let run = |&(times, Bits(bits)): &(u8, Bits)| {
             let factors = PatchFactors::from_fn(domain, |i| f32::from_bits(bits[i]));
             let case = Case { config, factors };
-            let output = case.patch().tessellate();
+            let output = case.patch().tessellate_in(order);
             let most = (MOST_POINTS - MOST_POINTS.min(points)).div_ceil(output.points.len().max(1));
             let times = usize::from(times).min(most);
             points += times * output.points.len();

@@ -9,14 +9,14 @@ use std::ptr::null_mut;
 use tess_capi::batch::{
     TESS_POINT_F32_APART, TessBatch, TessRange, tess_batch_count, tess_batch_create,
     tess_batch_free, tess_batch_groups, tess_batch_level, tess_batch_patch, tess_batch_reserve,
-    tess_batch_run,
+    tess_batch_run, tess_batch_set_threads, tess_batch_set_triangles,
 };
 use tess_capi::status::{
     TESS_BUFFER_TOO_SMALL, TESS_LEVEL_UNAVAILABLE, TESS_NULL_POINTER, TESS_OK, TESS_OUT_OF_RANGE,
     TESS_UNKNOWN_VALUE, TessStatus,
 };
 use tess_capi::types::TessConfig;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
+use tess_core::{Config, Domain, Order, OutputPrimitive, Partitioning, SplitOrder};
 use tess_simd::Level;
 
 /// Elements behind the output that a call on one patch may overwrite.
@@ -36,6 +36,7 @@ pub(crate) struct Slot {
     batch: *mut TessBatch,
     config: Config,
     domain: Domain,
+    order: Order,
     level: u32,
     buffers: Buffers,
     /// The ranges of the batch that was run last.
@@ -59,6 +60,7 @@ impl Slot {
             batch: null_mut(),
             config: Config::new(Partitioning::Integer, OutputPrimitive::Point),
             domain: Domain::Quad,
+            order: Order::Specification,
             level: 0,
             buffers: std::array::from_fn(|_| Memory::default()),
             ranges: Vec::new(),
@@ -78,6 +80,12 @@ impl Slot {
             }
             Call::Reserve => {
                 self.there_or_null("tess_batch_reserve", unsafe { tess_batch_reserve(self.batch) })
+            }
+            Call::Triangles { order } => self.set_triangles(*order),
+            Call::Pool { threads } => {
+                let status = unsafe { tess_batch_set_threads(self.batch, *threads) };
+                let expected = if *threads == 0 { TESS_OUT_OF_RANGE } else { self.if_there() };
+                answered("tess_batch_set_threads", status, expected)
             }
             Call::Level => self.ask_level(),
             Call::Count { patches: Patches(runs), wrong } => {
@@ -115,6 +123,7 @@ impl Slot {
         if status == TESS_OK {
             unsafe { tess_batch_free(self.batch) };
             (self.batch, self.level, self.domain) = (made, level, Domain::ALL[domain as usize]);
+            self.order = Order::Specification;
             self.config = Config {
                 partitioning: Partitioning::ALL[partitioning as usize],
                 output: OutputPrimitive::ALL[output as usize],
@@ -138,13 +147,23 @@ impl Slot {
         Err(format!("level {level}, asked was {}", self.level))
     }
 
-    fn there_or_null(&self, name: &str, status: TessStatus) -> Result<TessStatus, String> {
-        let expected = if self.batch.is_null() { TESS_NULL_POINTER } else { TESS_OK };
-        if status == expected {
-            Ok(status)
-        } else {
-            Err(format!("{name}: status {status}, not {expected}"))
+    fn set_triangles(&mut self, number: u32) -> Result<TessStatus, String> {
+        let order = [Order::Specification, Order::VertexCache].get(number as usize);
+        let status = unsafe { tess_batch_set_triangles(self.batch, number) };
+        let expected = order.map_or(TESS_UNKNOWN_VALUE, |_| self.if_there());
+        if let (Some(&order), TESS_OK) = (order, status) {
+            self.order = order;
         }
+        answered("tess_batch_set_triangles", status, expected)
+    }
+
+    /// The status of a call that nothing but a missing batch makes fail.
+    fn if_there(&self) -> TessStatus {
+        if self.batch.is_null() { TESS_NULL_POINTER } else { TESS_OK }
+    }
+
+    fn there_or_null(&self, name: &str, status: TessStatus) -> Result<TessStatus, String> {
+        answered(name, status, self.if_there())
     }
 
     /// Counts or tessellates.
@@ -155,7 +174,7 @@ impl Slot {
         to: &To,
         wrong: Wrong,
     ) -> Result<TessStatus, String> {
-        let model = Model::new(self.config, self.domain, runs);
+        let model = Model::new(self.config, self.domain, self.order, runs);
         let given = Arguments::new(way, &model, to, wrong, &mut self.buffers);
         let mut expected: Vec<Image> = self.buffers.iter().map(Memory::image).collect();
         let [factors, _, _, _, counts, output] = given.at;
@@ -262,5 +281,13 @@ impl Slot {
             return Err(format!("status {status}, not {right}, or other groups"));
         }
         Ok(status)
+    }
+}
+
+fn answered(name: &str, status: TessStatus, expected: TessStatus) -> Result<TessStatus, String> {
+    if status == expected {
+        Ok(status)
+    } else {
+        Err(format!("{name}: status {status}, not {expected}"))
     }
 }
