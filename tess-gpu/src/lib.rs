@@ -1,8 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 mod bindings;
-#[cfg(feature = "taps")]
-mod faults;
 pub mod layout;
 mod plan;
 mod room;
@@ -13,8 +11,6 @@ pub mod surfaces;
 mod tables;
 
 pub use bindings::{Access, Binding, Resource};
-#[cfg(feature = "taps")]
-pub use faults::Fault;
 pub use plan::{Dispatch, Plan, Workgroups, Written};
 pub use room::{Capacity, Limits, Span};
 pub use setup::{Copies, IndexType, Numbering, PointFormat, Setup};

@@ -8,7 +8,8 @@ use naga::{AddressSpace, Module, ScalarKind, TypeInner};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
 use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, Patch, PatchFactors};
-use tess_gpu::{Access, Binding, Counting, Fault, Pull, Resource, Setup, Stage, Tap, layout};
+use tess_gpu::{Access, Binding, Counting, Pull, Resource, Setup, Stage, Tap, layout};
+use tess_testkit::shader_faults;
 
 #[test]
 fn every_shader_is_valid_in_every_setup() {
@@ -54,7 +55,10 @@ fn stages() -> &'static [(Stage, String, Module)] {
 #[test]
 fn every_fault_can_be_planted() {
     let setups = all_setups();
-    for fault in Fault::all() {
+    let faults = shader_faults::all();
+    let names: BTreeSet<&str> = faults.iter().map(|fault| fault.name.as_str()).collect();
+    assert_eq!((names.len(), faults.len()), (90, 90), "each name stands once");
+    for fault in faults {
         let with_fault = setups.iter().step_by(7).find_map(|&setup| {
             Stage::ALL.iter().find_map(|stage| fault.planted(&stage.source(setup)))
         });

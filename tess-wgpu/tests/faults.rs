@@ -4,8 +4,9 @@ mod common;
 
 use common::device::Machine;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
+use tess_gpu::Setup;
 use tess_gpu::sizes::SHORT_PATCHES;
-use tess_gpu::{Fault, Setup};
+use tess_testkit::shader_faults;
 use tess_verify::generate::SplitMix64;
 
 #[test]
@@ -38,12 +39,12 @@ fn every_fault_of_the_list_is_planted() {
     let files = std::fs::read_dir(folder).expect(folder).map(|entry| entry.expect(folder).path());
     let texts: Vec<String> = files.filter_map(|path| std::fs::read_to_string(path).ok()).collect();
     let is_planted = |name: &str| texts.iter().any(|text| text.contains(&format!("\"{name}\"")));
-    let forgotten: Vec<_> =
-        Fault::all().map(Fault::name).filter(|name| !is_planted(name)).collect();
+    let names = shader_faults::all().into_iter().map(|fault| fault.name);
+    let forgotten: Vec<_> = names.filter(|name| !is_planted(name)).collect();
     assert!(forgotten.is_empty(), "no test plants {forgotten:?}");
 }
 
-/// Faults of `tess-gpu/src/faults.txt` by name.
+/// Faults of shaders by name.
 const FAULTS: &[(Domain, Partitioning, &[&str])] = &[
     (
         Domain::Quad,

@@ -5,3 +5,4 @@ pub mod faults;
 pub mod invariants;
 pub mod listed;
 pub mod pairs;
+pub mod shader_faults;

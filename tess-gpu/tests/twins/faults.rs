@@ -3,16 +3,17 @@
 use super::cases::{catalogued, cut_up, of, runs, setup, too_many};
 use super::run::{Batch, Machine};
 use tess_core::{Domain, Partitioning};
-use tess_gpu::{Fault, Limits, Resource, Stage};
+use tess_gpu::{Limits, Resource, Stage};
+use tess_testkit::shader_faults;
 
-/// Plants faults of `src/faults.txt` and demands that the first difference is in this pass and buffer.
+/// Plants faults by name and demands that the first difference is in this pass and buffer.
 fn assert_named(batch: &Batch, faults: &[(&str, Stage, Resource)]) {
     let mut machine = Machine::open();
     if let Err(difference) = machine.run(batch) {
         panic!("without a fault: {difference}");
     }
     for &(name, stage, resource) in faults {
-        let fault = Fault::named(name).unwrap_or_else(|| panic!("no fault is called {name}"));
+        let fault = shader_faults::named(name);
         let seen = machine.run_with(batch, |_, source| fault.planted(source)).err();
         let seen = seen.unwrap_or_else(|| panic!("{name} went unnoticed"));
         assert_eq!((seen.stage, seen.resource), (stage, resource), "{name}: {seen}");

@@ -3,7 +3,8 @@
 use super::expected::Expected;
 use tess_core::PatchFactors;
 use tess_gpu::layout::{DrawIndexed, Status, factor_words};
-use tess_gpu::{Fault, Limits, Setup, Stage};
+use tess_gpu::{Limits, Setup, Stage};
+use tess_testkit::shader_faults;
 use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
 use wgpu::BufferUsages as Usage;
 
@@ -40,12 +41,12 @@ impl Machine {
         Self { gpu, tessellator }
     }
 
-    /// Plants a fault in the shaders, of which at least one must have its right line.
+    /// Plants a fault in the shaders, of which at least one must have its text.
     pub(crate) fn plant(&mut self, setup: Setup, name: &str) {
-        let fault = Fault::named(name).unwrap_or_else(|| panic!("no fault is called {name}"));
+        let fault = shader_faults::named(name);
         let sources = Stage::ALL.map(|stage| stage.source(setup));
         let takes_it = |source: &String| fault.planted(source).is_some();
-        assert!(sources.iter().any(takes_it), "{name}: no shader has its right line");
+        assert!(sources.iter().any(takes_it), "{name}: no shader has its text");
         let edit = move |_, source: String| fault.planted(&source).unwrap_or(source);
         self.tessellator = Tessellator::with_edit(&self.gpu.device, edit);
     }

@@ -2,7 +2,7 @@
 //!
 //! Bits are compared where two patches meet and where WGSL leaves no freedom. Elsewhere WGSL lets a device fuse a
 //! multiplication with an addition, and divide and take roots with errors of some units in the last place; each table
-//! says how many it allows. Every fault of `faults.rs` is seen.
+//! says how many it allows. Every fault of `list.faults` is seen.
 
 #![expect(clippy::float_arithmetic, reason = "the helpers compute in floats")]
 
@@ -11,10 +11,10 @@ mod beziers;
 mod culling;
 mod device;
 mod factors;
-mod faults;
 mod points;
 
 use device::Device;
+use tess_testkit::listed::{ListedFault, parse};
 
 /// The arguments of a call.
 pub(crate) type Args = [[f32; 4]; 5];
@@ -113,12 +113,17 @@ fn helpers_are_the_functions_of_the_cpu() {
 #[test]
 fn planted_faults_are_seen() {
     let (device, tables) = (Device::open(), tables());
-    let is_unseen = |fault: &&faults::Fault| {
-        let table = tables.iter().find(|table| table.name == fault.helper);
-        let table = table.unwrap_or_else(|| panic!("{} has a table", fault.helper));
-        let results = device.run(|source| fault.plant(source), table);
-        table.compare(&results).is_ok()
+    let is_unseen = |fault: &&ListedFault| {
+        let table = tables.iter().find(|table| table.name == fault.name);
+        let table = table.unwrap_or_else(|| panic!("{} has a table", fault.name));
+        let plant = |source: &str| {
+            assert_eq!(fault.places(source), 1, "{fault:?} has one place");
+            fault.planted(source).unwrap_or_default()
+        };
+        table.compare(&device.run(plant, table)).is_ok()
     };
-    let unseen: Vec<_> = faults::ALL.iter().filter(is_unseen).collect();
-    assert!(unseen.is_empty(), "of {} faults these are not seen: {unseen:#?}", faults::ALL.len());
+    let faults = parse(include_str!("list.faults")).expect("a list");
+    assert_eq!(faults.len(), 80, "faults");
+    let unseen: Vec<_> = faults.iter().filter(is_unseen).collect();
+    assert!(unseen.is_empty(), "of {} faults these are not seen: {unseen:#?}", faults.len());
 }
