@@ -2,16 +2,15 @@
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};
-use crate::{circles, features, fuzz, levels, public, publish, test, traceability};
+use crate::{features, fuzz, levels, public, publish, test, traceability};
 
-/// Formatting, circles of imports, traceability, unused public items, lints, documentation, features, the fuzz targets, other
+/// Formatting, traceability, unused public items, lints, documentation, features, the fuzz targets, other
 /// compilers and processors, packages, then every test.
 pub(crate) fn run() -> Result<(), String> {
     if cfg!(target_arch = "x86_64") && !levels::required().contains(&"avx2") {
         return Err("continuous integration on x86-64 needs a processor with AVX2".into());
     }
     command::run(&mut cargo("fmt --all --check"))?;
-    circles::run(&[])?;
     traceability::run()?;
     public::run()?;
     command::run(

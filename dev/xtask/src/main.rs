@@ -2,9 +2,9 @@
 //!
 //! ```text
 //! what a developer runs      test -> setup, suite (builds, selects, one job for each program), tally (runs, counts)
-//! what guards a change       ci -> circles, features, fuzz, ports (a file for each system), publish, then test
+//! what guards a change       ci -> features, fuzz, ports (a file for each system), publish, then test
 //! tests that are not Rust    python, explorer, integrations (Bevy), mesa (build, compare, piglit)
-//! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/), coverage (lines)
+//! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! results of measurements    records (take: bench -> JSON; performance: JSON -> tables and charts)
 //! for users                  install (header, libraries, tess.pc)
 //! with the kit compiled in   kit/rtl (the circuit: bench, stages, faults, proofs, cost)
@@ -17,9 +17,7 @@
 #![expect(clippy::print_stdout, clippy::print_stderr, reason = "a program talks to its user")]
 
 mod ci;
-mod circles;
 mod command;
-mod coverage;
 mod explorer;
 mod features;
 mod fuzz;
@@ -55,7 +53,7 @@ usage: cargo xtask <command>
           of which only those whose names have one of the words
   test all
           run every test: Python, the browser, OpenGL, a window, simulators, the explorer and benches too
-  ci      what continuous integration runs: formatting, `circles`, `traceability`, `public`, lints, documentation, `features`,
+  ci      what continuous integration runs: formatting, `traceability`, `public`, lints, documentation, `features`,
           the fuzz targets' oracles on their seeds, `fuzz` for seconds and without the GPU,
           `ports brief` (msrv, s390x, wasm, miri), `publish`, `deny` if cargo-deny is installed, then `test all`
   setup   only set up: drivers of Vulkan and OpenGL, C and C++ and shader compilers, Verilator,
@@ -86,8 +84,6 @@ usage: cargo xtask <command>
           docs/hosts/mesa.md. Takes half an hour on two cores, most of it to compare. `test` runs the tests of
           Vulkan and OpenGL on the patched drivers. The version is that of this machine's Debian: 22.3.6 on 12
           (bookworm), 25.0.7 on 13 (trixie); the other one may be asked for
-  circles [FOLDER...]
-          show the modules that import each other in a circle, in all crates or those in these folders
   public  name the public items of the published libraries that nothing outside uses
   traceability
           compare the marks of docs/specification.md with docs/traceability.md, and that with the tests it names
@@ -104,8 +100,6 @@ usage: cargo xtask <command>
   mutants planted [WORD...]
           plant the faults of dev/xtask/faults, or those with one of these words, in a copy of the tree; fails
           if the test beside one does not see it (each compiles a crate again: hours for all)
-  coverage
-          line coverage of the tests (needs cargo-llvm-cov)
   publish pack and build every published package as a registry would get it; send nothing
   deny [advisories]
           check the licences and sources of dependencies, and known vulnerabilities on request
@@ -141,7 +135,6 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["test", ref arguments @ ..] => test::run(arguments),
         ["ci"] => after_setup(&ci::run),
         ["setup"] => setup::run(),
-        ["circles", ref names @ ..] => circles::run(names),
         ["public"] => public::run(),
         ["traceability"] => traceability::run(),
         ["features", ref names @ ..] => features::check(names),
@@ -151,7 +144,6 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["fuzz", seconds] => after_setup(&|| fuzz::run(seconds)),
         ["mutants", "planted", ref words @ ..] => mutants::planted(words),
         ["mutants", package, ref rest @ ..] => mutants::run(package, rest),
-        ["coverage"] => coverage::run(),
         ["publish"] => publish::dry_run(),
         ["python"] => after_setup(&python::run),
         ["python", "--program", program] => python::run_with(program.as_ref()),
