@@ -6,7 +6,7 @@ use super::report::{FORMAT, Report, State};
 use super::shard::Placed;
 use crate::failure::{Exit, Failure};
 use crate::output::ending::{self, Guard};
-use crate::output::{OutputArgs, OutputFile, Role, write_while_ending};
+use crate::output::{OutputArgs, OutputFile, Role};
 use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -41,7 +41,7 @@ impl ReportArgs {
     /// Begins to record a run.
     ///
     /// # Errors
-    /// Places that cannot be written or are no files; signals that cannot be listened to.
+    /// Places that cannot be written or are no files.
     pub(crate) fn begin(
         &self,
         invocation: &Invocation,
@@ -70,7 +70,7 @@ impl ReportArgs {
             };
             Ok((live, Box::new(interrupted)))
         })
-        .map_err(|error| Failure::bad_input(format!("cannot listen to signals: {error}")))?;
+        .map_err(|error| Failure::bad_input(error.to_string()))?;
         Ok(Recorder { files, live, _guard: Some(guard) })
     }
 
@@ -85,7 +85,7 @@ impl ReportArgs {
         let report = live.ended(State::Interrupted);
         for (path, text) in self.contents(&report) {
             // Nobody is left to be told; `tess merge` says that the report is missing.
-            _ = write_while_ending(path, text.as_bytes());
+            _ = OutputArgs { file: path.to_owned() }.write(text.as_bytes());
         }
     }
 }

@@ -14,7 +14,7 @@ pub(crate) struct Role<'a> {
     standard: Standard,
 }
 
-/// What `-` stands for.
+/// The meaning of `-`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Standard {
     Input,

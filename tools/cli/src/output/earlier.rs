@@ -100,7 +100,7 @@ fn named(words: &[OsString], at: usize, forms: &'static [Form]) -> Vec<Named> {
     forms.iter().filter_map(named).collect()
 }
 
-/// What follows the first `=` of a word.
+/// The text behind the first `=` of a word.
 #[cfg(unix)]
 fn value(word: &OsStr) -> Option<&OsStr> {
     use std::os::unix::ffi::OsStrExt;

@@ -8,7 +8,7 @@ use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile};
 
-/// What a path given to `-o` stands for.
+/// The kind of place that a path given to `-o` names.
 #[derive(Debug)]
 pub(super) enum Destination {
     /// Standard output.
@@ -88,7 +88,7 @@ pub(super) fn permissions(mode: u32) -> fs::Permissions {
 pub(super) struct Partial {
     file: NamedTempFile,
     path: PathBuf,
-    guard: Guard,
+    _guard: Guard,
 }
 
 impl Partial {
@@ -103,7 +103,7 @@ impl Partial {
             let temporary = file.path().to_owned();
             Ok((file, Box::new(move || _ = fs::remove_file(temporary))))
         })?;
-        Ok(Self { file, path: path.to_owned(), guard })
+        Ok(Self { file, path: path.to_owned(), _guard: guard })
     }
 
     fn create(path: &Path, replaced: Option<&Metadata>) -> io::Result<NamedTempFile> {
@@ -177,17 +177,6 @@ pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()>
     }
 }
 
-/// Writes a whole file from a cleanup, where no [`Guard`] can be made.
-///
-/// # Errors
-/// The place cannot be written; a file that was there is then as it was.
-pub(crate) fn write_while_ending(path: &Path, content: &[u8]) -> io::Result<()> {
-    let path = follow(path)?;
-    let mut file = Partial::create(&path, path.metadata().ok().as_ref())?;
-    file.write_all(content)?;
-    persist(file, &path)
-}
-
 /// An output that is written in any order and put in its place at the end.
 #[derive(Debug)]
 pub(crate) struct OutputFile {
@@ -251,26 +240,6 @@ impl OutputFile {
             Content::Partial(partial) => partial.persist(),
             Content::Spool(file, Some(mut stream)) => copy(file, &mut stream),
             Content::Spool(file, None) => copy(file, &mut stdout()),
-        }
-    }
-
-    /// Puts two files in their places that belong together, without a signal in between.
-    ///
-    /// # Errors
-    /// One of them cannot be put there.
-    pub(crate) fn finish_both(first: Self, second: Self) -> io::Result<()> {
-        match (first.content, second.content) {
-            (Content::Partial(first), Content::Partial(second)) => {
-                let (_first, _second) = (first.guard, second.guard);
-                ending::undisturbed(|| {
-                    persist(first.file, &first.path)?;
-                    persist(second.file, &second.path)
-                })
-            }
-            (first, second) => {
-                Self { content: first }.finish()?;
-                Self { content: second }.finish()
-            }
         }
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 /// A form that files can have; its names on the command line are extensions of files.
 pub(crate) trait Form: ValueEnum + PartialEq {
-    /// What a file without a telling name gets; `None` if it must be asked for.
+    /// The form of a file without a telling name; `None` if it must be asked for.
     const DEFAULT: Option<Self>;
 
     /// Extensions that belong to [`Self::DEFAULT`] but that files of other forms may have too.

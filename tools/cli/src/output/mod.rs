@@ -10,7 +10,6 @@ pub(crate) mod ending;
 mod file;
 mod folder;
 pub(crate) mod form;
-mod rows;
 mod stdout;
 
 use crate::failure::Failure;
@@ -18,14 +17,13 @@ use crate::threads::startable;
 pub(crate) use distinct::{Role, refuse_shared};
 pub(crate) use earlier::remove_earlier;
 use file::Destination;
-pub(crate) use file::{OutputFile, create_unless_there, write_while_ending};
+pub(crate) use file::{OutputFile, create_unless_there};
 pub(crate) use folder::{NewFolder, refuse_stdout};
 use indicatif::{ProgressBar, ProgressStyle};
-pub(crate) use rows::{Frame, Rows};
 use std::io::{self, BufWriter, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
-pub(crate) use stdout::{stdout, stop_when_reader_leaves};
+pub(crate) use stdout::stdout;
 
 /// The `-o` option.
 #[derive(Clone, Debug, clap::Args)]
@@ -123,6 +121,19 @@ pub(crate) fn progress(length: u64, unit: &str) -> ProgressBar {
         bar.enable_steady_tick(Duration::from_millis(200));
     }
     bar
+}
+
+/// Prints results to stdout as soon as they are ready, with the progress bar out of their way.
+///
+/// # Errors
+/// Stdout cannot be written.
+pub(crate) fn print(bar: &ProgressBar, text: &str) -> Result<(), Failure> {
+    let print = || {
+        let mut out = stdout();
+        out.write_all(text.as_bytes())?;
+        out.flush()
+    };
+    bar.suspend(print).map_err(|error| Failure::write(Path::new("-"), error))
 }
 
 /// A number with what it counts: `1 point`, `2 points`.

@@ -11,10 +11,9 @@ mod table;
 
 use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
-use crate::output::{self, Frame, Rows, note};
+use crate::output::{self, note, print};
 use measure::{Plan, measure};
 use runner::{Runner, RunnerOptions, WorkingSet};
-use std::path::Path;
 use table::heading;
 use tess_simd::Order;
 use tess_verify::generate::Workload;
@@ -141,30 +140,24 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 /// Measures and prints row by row. What cannot be measured is left out and named at the end; the
 /// first such row says the exit code.
 fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Result<Exit, Failure> {
-    let unwritten = |error| Failure::write(Path::new("-"), error);
-    output::stop_when_reader_leaves();
-    let frame = if json {
-        Frame { opening: "[\n".to_owned(), between: ",\n", closing: "\n]\n", empty: "[]\n" }
-    } else {
-        Frame { opening: heading(runner), ..Frame::default() }
-    };
-    let rows = Rows::new(frame, plans.iter().map(Plan::to_string)).map_err(unwritten)?;
+    let mut before = if json { "[\n".to_owned() } else { heading(runner) };
     let bar = output::progress(plans.len() as u64, "measurements");
     let mut left_out = Vec::new();
     for plan in plans {
         bar.set_message(plan.to_string());
         match measure(runner, *plan) {
-            Ok(row) if json => rows.print(&bar, &row.json()).map_err(unwritten)?,
-            Ok(row) => rows.print(&bar, &row.line()).map_err(unwritten)?,
-            Err(failure) => {
-                rows.skip();
-                left_out.push((plan, failure));
+            Ok(row) => {
+                print(&bar, &(before + &if json { row.json() } else { row.line() }))?;
+                before = if json { ",\n".to_owned() } else { String::new() };
             }
+            Err(failure) => left_out.push((plan, failure)),
         }
         bar.inc(1);
     }
     bar.finish_and_clear();
-    rows.finish().map_err(unwritten)?;
+    if json {
+        print(&bar, if left_out.len() == plans.len() { "[]\n" } else { "\n]\n" })?;
+    }
     for (plan, failure) in &left_out {
         note(&format!("left out {plan}: {failure}"));
     }

@@ -14,7 +14,7 @@ use crate::campaign::{Baseline, Invocation, KnownArgs, Recorder, ReportArgs, Sha
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
 use crate::input::{self, Reader};
-use crate::output::{Role, counted, progress, refuse_shared, stdout, stop_when_reader_leaves};
+use crate::output::{Role, counted, progress, refuse_shared, stdout};
 use failures::Failures;
 use indicatif::ProgressBar;
 use std::io::{self, Write};
@@ -134,10 +134,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
         .into_iter()
         .for_each(|asked| recorder.update(|report| record::add_asked(report, asked)));
     let ended = match args.rules {
-        Some(specification) => {
-            stop_when_reader_leaves();
-            rules::run(file, specification, &recorder)
-        }
+        Some(specification) => rules::run(file, specification, &recorder),
         None => {
             backends.and_then(|backends| compare(args, file, asked, &known, backends, &recorder))
         }
@@ -159,7 +156,6 @@ fn compare(
     let coverage = args.coverage(file.header().kind)?;
     let failures = args.failures.as_deref().map(|path| Failures::new(path, file.header()));
     let failures = failures.transpose()?;
-    stop_when_reader_leaves();
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
     let asked = asked.as_mut().map(|asked| asked as _);
     let report = check::check_known(file, asked, &known.cases, &mut backends, tested, &|checked| {
@@ -210,7 +206,7 @@ impl Args {
         Ok([Role::input("FILE", &self.file), Role::stdout()].into_iter().chain(others).collect())
     }
 
-    /// What messages call the file.
+    /// The file's name in messages.
     fn name(&self) -> String {
         input::name(&self.file)
     }

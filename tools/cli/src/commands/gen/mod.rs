@@ -8,10 +8,7 @@ use crate::campaign::report::Part;
 use crate::campaign::{Invocation, Placed, Recorder, ReportArgs};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
-use crate::output::{
-    NewFolder, OutputArgs, Role, note, progress, refuse_shared, refuse_stdout,
-    stop_when_reader_leaves,
-};
+use crate::output::{NewFolder, OutputArgs, Role, note, progress, refuse_shared, refuse_stdout};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
 use stages::Block;
@@ -125,7 +122,7 @@ fn generate(args: &Args, placed: Placed, recorder: &Recorder) -> Result<Exit, Fa
     Ok(Exit::Done)
 }
 
-/// What was generated, for the report.
+/// The report's part of what was generated.
 fn part(cases: u64) -> Part {
     Part { name: "vectors".to_owned(), cases, ..Part::default() }
 }
@@ -213,11 +210,8 @@ impl Args {
 
     /// A bar for this many cases, out of the way of vectors that go to the same terminal.
     fn progress(&self, count: u64) -> ProgressBar {
-        if self.output.is_stdout() {
-            stop_when_reader_leaves();
-            if io::stdout().is_terminal() {
-                return ProgressBar::hidden();
-            }
+        if self.output.is_stdout() && io::stdout().is_terminal() {
+            return ProgressBar::hidden();
         }
         progress(count, "cases")
     }

@@ -6,9 +6,8 @@ use crate::backends::{BackendName, BackendOptions};
 use crate::campaign::report::{First, Part, Report};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, ShardArgs};
 use crate::failure::{Exit, Failure};
-use crate::output::{Frame, Role, Rows, note, progress, refuse_shared, stop_when_reader_leaves};
+use crate::output::{Role, note, print, progress, refuse_shared};
 use std::fmt::Write;
-use std::path::Path;
 use std::time::Instant;
 use tess_core::SplitOrder;
 use tess_verify::check::{Known, Plan, Random, Row, SecondFormulation, Subject, verify_known};
@@ -107,12 +106,8 @@ impl Args {
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
         let Plan { subjects, shard } = self.plan(placed);
-        let unwritten = |error| Failure::write(Path::new("-"), error);
-        stop_when_reader_leaves();
-        let names = subjects.iter().map(|subject| subject.name().to_owned());
-        let rows = Rows::new(Frame { opening: heading(), ..Frame::default() }, names);
-        let rows = rows.map_err(unwritten)?;
         let bar = progress(0, "units");
+        print(&bar, &heading())?;
         let started = Instant::now();
         let mut all_equal = true;
         for &subject in &subjects {
@@ -125,12 +120,11 @@ impl Args {
             let table = table.inspect_err(|_| bar.finish_and_clear())?;
             recorder.update(|report| record(report, &table));
             all_equal &= table.iter().all(|row| row.mismatches == 0);
-            rows.print(&bar, &lines(&table)).map_err(unwritten)?;
+            print(&bar, &lines(&table))?;
             bar.suspend(|| report_empty(&table, placed));
         }
         bar.finish_and_clear();
-        rows.print(&bar, &format!("in {} s\n", started.elapsed().as_secs())).map_err(unwritten)?;
-        rows.finish().map_err(unwritten)?;
+        print(&bar, &format!("in {} s\n", started.elapsed().as_secs()))?;
         Ok(if all_equal { Exit::Done } else { Exit::Different })
     }
 
@@ -149,7 +143,6 @@ impl Args {
         let split = Some(SplitOrder::Ruler);
         let selection = Selection { split, ..Selection::level(GenLevel::Rules, 1) };
         let cases: Vec<_> = selection.cases().collect();
-        stop_when_reader_leaves();
         let mut exit = Exit::Done;
         for &name in self.backends() {
             let mut backend = self.options.select(name)?;

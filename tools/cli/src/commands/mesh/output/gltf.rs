@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 /// Both files while the binary part grows.
 pub(super) struct Gltf {
     path: PathBuf,
-    /// What the JSON calls the binary part.
+    /// The JSON's name of the binary part.
     uri: String,
     json: OutputFile,
     binary: Binary,
@@ -80,6 +80,6 @@ impl Sink for Gltf {
         let (binary, layout) = binary.finish().map_err(failure)?;
         let document = crate::output::json(&layout.document(Some(&uri)));
         json.write_all(document.as_bytes()).map_err(failure)?;
-        OutputFile::finish_both(binary, json).map_err(failure)
+        binary.finish().and_then(|()| json.finish()).map_err(failure)
     }
 }
