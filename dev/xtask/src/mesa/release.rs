@@ -166,20 +166,6 @@ mod tests {
     use crate::command;
 
     #[test]
-    fn mesa_22_is_set_up_as_it_was_measured() {
-        let release = Release::of_version("22.3.6").expect("it is known");
-        let mut options: Vec<&str> = release.options().collect();
-        options.sort_unstable();
-        let expected = "-Dbuild-tests=false -Dbuildtype=release -Degl=enabled -Dgallium-drivers=swrast \
-             -Dgallium-omx=disabled -Dgallium-va=disabled -Dgallium-vdpau=disabled -Dgallium-xa=disabled \
-             -Dgbm=disabled -Dgles1=disabled -Dgles2=enabled -Dglvnd=true -Dglx=disabled -Dlibunwind=disabled \
-             -Dllvm=enabled -Dlmsensors=disabled -Dmicrosoft-clc=disabled -Dopengl=true \
-             -Dplatforms=x11,wayland -Dshader-cache=disabled -Dshared-glapi=enabled -Dshared-llvm=enabled \
-             -Dvalgrind=disabled -Dvideo-codecs= -Dvulkan-drivers=swrast -Dzstd=disabled";
-        assert_eq!(options, expected.split(' ').collect::<Vec<_>>(), "options of meson");
-    }
-
-    #[test]
     fn every_release_is_named_once_and_has_its_patches() {
         for release in &RELEASES {
             assert_eq!(Release::of_version(release.version), Some(release), "by its version");

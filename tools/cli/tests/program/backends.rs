@@ -85,7 +85,6 @@ fn narrow_indices_where_there_are_none() {
     let patch = tess("patch quad --outer 3,4,5,6 --inner 4,7").stdout;
     for (words, input, why) in [
         ("check - --index-type u16", &patch, "--backend simd or gpu"),
-        ("verify --backend core --index-type u16", &patch, "--backend simd or gpu"),
         ("check - --backend simd --index-type u8", &patch, "u16 or u32"),
     ] {
         let run = tess_with_input(words, input);
@@ -157,7 +156,7 @@ fn verify_compares_what_it_says() {
     factors_are_equal("simd");
 }
 
-/// So many random patches of each of 96 configurations.
+/// Random patches of each of 96 configurations.
 fn random_patches_are_equal(backend: &str, patches: usize) {
     let run = tess(&format!("verify --backend {backend} --random {patches}"));
     assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
@@ -169,17 +168,17 @@ fn random_patches_are_equal(backend: &str, patches: usize) {
 
 #[test]
 fn simd_random_patches_are_equal() {
-    random_patches_are_equal("simd", 100_000);
+    random_patches_are_equal("simd", 20_000);
 }
 
-/// Half a minute of processor time on a software driver.
+/// Seven seconds of processor time on a software driver.
 #[cfg(feature = "gpu")]
 #[test]
 fn gpu_random_patches_are_equal() {
-    random_patches_are_equal("gpu", 20_000);
+    random_patches_are_equal("gpu", 5000);
 }
 
-/// What `verify` cannot do with these words: exit code 2 and why.
+/// Words that exclude each other: exit code 2 and why.
 #[test]
 fn verify_refuses_what_does_not_go_together() {
     for (words, why) in [

@@ -11,7 +11,7 @@ pub(crate) fn json(path: &Path) -> Value {
     serde_json::from_str(&text).expect("it is JSON")
 }
 
-/// What an earlier run may have left.
+/// A report that an earlier run may have left.
 const EARLIER: &str = "{\"format\":\"tess-report 1\"}\n";
 
 /// Runs `tess` in a folder.
@@ -127,7 +127,7 @@ fn failed_runs_have_a_report() {
     assert!(xml.contains(" errors=\"1\" ") && xml.contains("<error message=\"failed\""), "{xml}");
 }
 
-/// What an earlier run left does not look like the result of one that was killed.
+/// A report of an earlier run does not look like the result of one that was killed.
 #[cfg(unix)]
 #[test]
 fn interrupted_and_killed_runs() {

@@ -240,21 +240,3 @@ fn right_of(text: &str) -> &str {
     let line = text.lines().find_map(|line| line.strip_prefix("case "));
     line.expect("a case line")
 }
-
-/// What is kept and what is left out are all the differences.
-#[test]
-fn failures_are_counted() {
-    let folder = directory("failures_are_counted");
-    let [asked, failing] = ["asked.txt", "failing.txt"].map(|name| folder.join(name));
-    write(&asked, format!("{TRI}\n{TRI}\n{TRI}\n{QUAD}\n")).expect("written");
-    let right = tess_with_input("patch --cases -", &format!("{TRI}\n{TRI}\n{TRI}\n")).stdout;
-    let wrong = right.replacen("\n00000 10000\n", "\n00000 0ffff\n", 2);
-    let words = format!("check - --cases {} --failures {}", asked.display(), failing.display());
-    let run = tess_with_input(&words, &wrong);
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.ends_with("4 cases, 3 mismatches\n"), "{}", run.stdout);
-    let note = format!("tess: 1 difference left out of {}", failing.display());
-    assert!(run.stderr.starts_with(&note), "{}", run.stderr);
-    let kept = read_to_string(&failing).expect("written");
-    assert_eq!(kept.matches("\ncase ").count(), 2, "{kept}");
-}

@@ -154,20 +154,6 @@ fn listings_of_a_device() {
     }
 }
 
-/// A strength is for a device.
-#[test]
-fn strengths_where_no_device_is_tested() {
-    let patch = tess("patch quad --outer 3,4,5,6 --inner 4,7").stdout;
-    for (words, input, why) in [
-        ("check - --order any --backend simd", &patch, "leave out --backend"),
-        ("check - --points", &excerpt("patches.csv", 3), "its kind is patches"),
-    ] {
-        let run = tess_with_input(words, input);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
-    }
-}
-
 /// A point that no primitive uses is seen in any order.
 #[test]
 fn unused_points_in_any_order() {

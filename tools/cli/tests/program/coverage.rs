@@ -3,7 +3,7 @@
 use crate::support::{directory, shell};
 use std::fs;
 
-/// What could fill the memory, or wait for ever, is refused.
+/// A file that could fill the memory, or wait for ever, is refused.
 #[test]
 fn other_than_coverage_files() {
     let folder = directory("other_than_coverage_files");

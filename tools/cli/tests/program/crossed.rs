@@ -22,7 +22,7 @@ struct Crossed {
     excluded: Vec<Excluded>,
 }
 
-/// What is dear to run, as the values begin.
+/// The values that are dear to run, by their beginnings.
 const SELDOM: [&str; 2] = ["--backend gpu", "--report"];
 
 /// Domain, partitioning, output and split order.
@@ -155,7 +155,7 @@ fn patches_are_the_models_whatever_the_options() {
     );
 }
 
-/// What `tess patch` printed in this form is the model's result.
+/// The output of `tess patch` in this form is the model's result.
 fn is_model(form: &str, printed: &str, case: Case, backend: &str, said: &str) {
     let model = Listing::of_model(case);
     let expected = match form {

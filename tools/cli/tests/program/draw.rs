@@ -140,7 +140,7 @@ fn overlays_of_coordinates() {
     assert!(run.stderr.contains(": 1 point and 1 primitive\n"), "{}", run.stderr);
 }
 
-/// What cannot be drawn is marked in red and named.
+/// A primitive that cannot be drawn is marked in red and named.
 #[test]
 fn overlays_mark_what_cannot_be_drawn() {
     let directory = directory("overlays_mark");

@@ -1,4 +1,4 @@
-//! What an earlier run left is no result of one that ends early.
+//! Files of an earlier run are no result of one that ends early.
 
 use crate::campaigns::tess_in;
 use crate::support::{Folder, Run, directory, shell, tess};

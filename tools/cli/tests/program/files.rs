@@ -109,7 +109,7 @@ fn long_names() {
     assert_eq!(names(&folder).len(), 3, "nothing else");
 }
 
-/// What cannot be written: exit code 2 and why, and what was there stays.
+/// Places that cannot be written: exit code 2 and why, and what was there stays.
 #[test]
 fn failures_change_nothing() {
     let folder = directory("failures_change_nothing");
@@ -189,7 +189,7 @@ fn the_bin_of_a_gltf() {
     assert_eq!((run.code, run.stderr.contains("--format glb")), (Some(2), true), "{}", run.stderr);
 }
 
-/// What has a meaning in a URI is encoded, and such a file reads back.
+/// Characters with a meaning in a URI are encoded, and such a file reads back.
 #[test]
 fn uris_are_encoded() {
     let folder = directory("uris_are_encoded");

@@ -102,7 +102,7 @@ fn every_fault_is_listed() {
     assert!(run.stdout.contains("and more shards\n"), "the text says that it is not all");
 }
 
-/// What no report shows is not guessed; what ran before runs again as it did.
+/// A command that no report shows is not guessed; one that ran before runs again as it did.
 #[test]
 fn commands_that_are_certain() {
     let folder = directory("commands_that_are_certain");

@@ -101,7 +101,7 @@ fn no_cracks_in_files() {
     assert_eq!(open_edges(&out), 3, "a missing triangle leaves three open edges");
 }
 
-/// What was written reads back: meshes as quads and triangles, with the counts that were stated.
+/// Outputs read back: meshes as quads and triangles, with the counts that were stated.
 #[test]
 fn outputs_are_inputs() {
     let folder = directory("mesh_round");

@@ -59,7 +59,7 @@ fn obj_lines_that_are_no_obj_are_named() {
     );
 }
 
-/// What other programs write around the same cube.
+/// Lines that other programs write around the same cube.
 #[test]
 fn obj_files_that_say_the_same() {
     let folder = directory("mesh_obj_same");

@@ -10,8 +10,6 @@ fn options_without_effect_are_refused() {
     let out = |name: &str| folder.join(name).display().to_string();
     let (jpg, png, obj, glb) = (out("a.jpg"), out("a.png"), out("a.obj"), out("a.glb"));
     for (words, why) in [
-        ("verify --backend core --cpu-level avx2 --random 1".to_owned(), "--backend simd"),
-        ("verify --backend gpu --cpu-level avx2 --random 1".to_owned(), "--backend simd"),
         (format!("draw {PATCH} --against core"), "with itself"),
         (format!("draw {PATCH} --backend simd --against simd"), "with itself"),
         (format!("draw {PATCH} -o {jpg}"), ".svg, .png"),

@@ -1,6 +1,6 @@
 //! `tess patch`: its formats, its errors and where its output goes.
 
-use crate::support::{directory, tess, tess_with_input};
+use crate::support::{directory, tess};
 use serde_json::Value;
 use std::fs;
 use tess_verify::vectors::{Record, VectorFile};
@@ -25,34 +25,6 @@ fn golden_cases_are_reproduced() {
         compared += 1;
     }
     assert_eq!(compared, 51, "listings compared");
-}
-
-/// Text and csv go back in; a changed index does not pass.
-#[test]
-fn vector_formats_can_be_checked() {
-    let patch = "patch tri --outer 2.5,3,1 --inner 3.25 --partitioning fractional_odd";
-    for format in ["text", "csv"] {
-        let output = tess(&format!("{patch} --format {format}")).stdout;
-        let run = tess_with_input("check -", &output);
-        assert_eq!(run.code, Some(0), "{format}: {}{}", run.stdout, run.stderr);
-    }
-    let text = tess(patch).stdout;
-    let faulty = text.replacen("\n0 1 ", "\n1 0 ", 1);
-    assert_ne!(text, faulty, "a fault is planted");
-    assert_eq!(tess_with_input("check -", &faulty).code, Some(1), "the fault is seen");
-}
-
-/// A CPU level is of the simd backend alone; the others don't ignore it.
-#[test]
-fn a_level_goes_with_simd() {
-    let patch = "quad --outer 1,1,1,1 --inner 1,1 --cpu-level baseline --backend";
-    for command in ["patch", "draw"] {
-        for (backend, code) in [("simd", 0), ("core", 2)] {
-            let run = tess(&format!("{command} {patch} {backend}"));
-            assert_eq!(run.code, Some(code), "{command} {backend}: {}", run.stderr);
-            assert_eq!(run.stderr.contains("--backend simd"), code == 2, "{}", run.stderr);
-        }
-    }
 }
 
 #[test]
@@ -91,13 +63,6 @@ fn obj_has_vertices_and_elements() {
     }
     let text = tess("patch quad --outer 2,2,2,2 --inner 2,2 --format obj").stdout;
     assert!(text.contains("\nv 0.5 0.5 0\n"), "the middle point:\n{text}");
-}
-
-#[test]
-fn culled_patches_are_done() {
-    let run = tess("patch quad --outer 1,0,1,1 --inner 1,1");
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(run.stdout.ends_with("points 0\nindices 0\nend\n"), "{}", run.stdout);
 }
 
 #[test]

@@ -52,7 +52,7 @@ fn shards_without_cases_are_done() {
     assert!(merged.stdout.contains("2 of 2 shards ran once: 1 cases"), "{}", merged.stdout);
 }
 
-/// What cannot be written is refused before the device is asked, which is not there.
+/// A place that cannot be written is refused before the device is asked, which is not there.
 #[test]
 fn outputs_are_tried_first() {
     for (option, why) in [

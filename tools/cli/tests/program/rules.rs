@@ -2,7 +2,7 @@
 
 use crate::support::{tess, tess_with_input};
 
-/// What the model breaks of Vulkan's rules on three lines, and what it does not.
+/// The rules of Vulkan that the model breaks on three lines, and those that it does not.
 #[test]
 fn a_capture_is_judged() {
     let lines = "case tri integer triangle_cw ruler 40800000 40a00000 40400000 40a00000\n\

@@ -1,4 +1,4 @@
-//! What is run: factors with the words that the model gives for them.
+//! Batches: factors with the words that the model gives for them.
 
 use tess_core::{Config, Domain, PatchFactors};
 use tess_verify::generate::{SplitMix64, random_patch};
@@ -74,7 +74,7 @@ impl Batch {
         factors.flat_map(|factor| factor.to_bits().to_le_bytes()).collect()
     }
 
-    /// What the model gives.
+    /// The model's output.
     pub(crate) fn expected(&self, form: Form) -> Expected {
         let (mut points, mut indices) = (Vec::new(), Vec::new());
         let (mut base, mut count) = (0u32, 0u32);

@@ -1,4 +1,4 @@
-//! What `tess shaders` writes, in the hands of others: compilers that are not naga, and the host in C
+//! The files of `tess shaders` in the hands of others: compilers that are not naga, and the host in C
 //! of `bindings/vulkan`, whose output must be the model's.
 //!
 //! Where a tool is missing, its tests are reported as ignored, with the tool's name; with the

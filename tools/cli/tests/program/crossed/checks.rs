@@ -36,7 +36,7 @@ const CHECKED_BY: [&str; 5] = [
 
 const RULES: (usize, &str) = (11, "--rules d3d11");
 
-/// What excludes `--rules`, which judges listings without a backend.
+/// The options that exclude `--rules`, which judges listings without a backend.
 const NOT_JUDGED: [(usize, &str); 9] = [
     (2, "--order sequence"),
     (2, "--order any"),
