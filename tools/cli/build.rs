@@ -48,7 +48,7 @@ fn checked_out() -> Option<String> {
     Some(if changes.is_empty() { commit } else { commit + "+changes" })
 }
 
-/// What git answers, without the newline at the end; `None` if there is no git or no clone.
+/// The answer of git, without the newline at the end; `None` if there is no git or no clone.
 fn git(words: &[&str]) -> Option<String> {
     let answer = Command::new("git").args(words).output().ok()?;
     let text = String::from_utf8(answer.stdout).ok()?;

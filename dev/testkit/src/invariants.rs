@@ -1,4 +1,4 @@
-//! What holds for every output (spec section 12), whoever made it and in whatever way.
+//! The invariants of every output (spec section 12), whoever made it and in whatever way.
 //!
 //! Each function takes a case and an output for it, as one implementation gave it, and describes
 //! the first violation. None looks at the coordinates or the connectivity that the model gives for
@@ -23,7 +23,7 @@ use tess_verify::{Case, Named};
 pub struct Violation {
     /// Which one, as spec section 12 calls it.
     pub invariant: &'static str,
-    /// What is wrong.
+    /// The fault.
     pub message: String,
 }
 

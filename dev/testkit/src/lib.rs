@@ -1,4 +1,4 @@
-//! What the project's own tests need beside `tess-verify`: backends with planted faults, which every
+//! Tools of the project's own tests beside `tess-verify`: backends with planted faults, which every
 //! comparison must notice, lists of faults in sources, the invariants of spec section 12, and options crossed by pairs.
 
 pub mod faults;

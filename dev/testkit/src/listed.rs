@@ -20,7 +20,7 @@
 /// One wrong text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ListedFault {
-    /// What is wrong.
+    /// The fault.
     pub name: String,
     /// The folder of the source, from the root of the repository.
     pub folder: String,

@@ -1,4 +1,4 @@
-//! What continuous integration runs, in the order of what fails fastest.
+//! The steps of continuous integration, in the order of what fails fastest.
 
 use crate::command::{self, cargo};
 use crate::ports::{self, Extent};

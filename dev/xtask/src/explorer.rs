@@ -17,7 +17,7 @@ const LARGEST: u64 = 1_550_000;
 /// The version of the library that drives the browser.
 const PLAYWRIGHT: &str = "playwright-core@1.65.1";
 
-/// What the browser tests need beyond what the build installs.
+/// Needs of the browser tests beyond what the build installs.
 const BROWSER: &[Need] = &[
     Need {
         what: "Node.js with npm (drives the browser)",
@@ -102,7 +102,7 @@ pub(crate) fn test() -> Result<(), String> {
     tally::run([tests(&program()?)?])
 }
 
-/// What the tests lack and this system cannot install; `None` if they can run.
+/// The need that the tests lack and this system cannot install; `None` if they can run.
 pub(crate) fn lacking() -> Option<String> {
     setup::provide(BROWSER).err()
 }

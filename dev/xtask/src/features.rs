@@ -26,7 +26,7 @@ pub(crate) fn check(names: &[&str]) -> Result<(), String> {
     Ok(())
 }
 
-/// What a package's features turn on: other features of its own, those of dependencies, dependencies.
+/// A package's features, each with what it turns on: other features of its own, those of dependencies, dependencies.
 type Features = BTreeMap<String, Vec<String>>;
 
 /// None, each, and all, each list with commas. Of several that turn the same features on, the first.

@@ -14,7 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What a Rust static library needs from the system.
+/// System libraries that a Rust static library needs.
 const SYSTEM_LIBRARIES: &str = "-lpthread -ldl -lm";
 
 /// Has cargo list what it built on its standard output.

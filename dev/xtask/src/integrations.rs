@@ -75,7 +75,7 @@ impl Integration {
         self.folder.join("target")
     }
 
-    /// What the example draws with these options.
+    /// The example's picture with these options.
     fn draw(&self, name: &str, options: &str) -> Result<Picture, String> {
         let file = self.target().join(format!("{name}.png"));
         let mut command = Command::new(self.target().join("debug/examples/flight"));

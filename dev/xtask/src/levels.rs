@@ -33,7 +33,7 @@ pub(crate) fn required() -> Vec<&'static str> {
     vec!["baseline"]
 }
 
-/// What the tests cannot compare on this processor, in one sentence.
+/// The levels that the tests cannot compare on this processor, in one sentence.
 pub(crate) fn not_compared() -> Option<String> {
     sentence(&required())
 }

@@ -36,7 +36,7 @@ impl Variant {
         self as usize
     }
 
-    /// What it is called in the table, and the folder of what it is built to.
+    /// Its name in the table, and the folder of its build.
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Unpatched => "unpatched",
@@ -136,7 +136,7 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     }
 }
 
-/// What to do, and with which release where the words name one.
+/// The part of the work, and the release where the words name one.
 fn parse(words: &[&str]) -> Result<(Part, Option<&'static Release>), String> {
     let (part, rest) = match words {
         ["build", rest @ ..] => (Part::Build, rest),

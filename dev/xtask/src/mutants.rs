@@ -150,7 +150,7 @@ pub(crate) fn run(package: &str, rest: &[&str]) -> Result<(), String> {
 struct Missed(Vec<String>);
 
 impl Missed {
-    /// What one more pass missed and what it saw, line by line.
+    /// Adds one more pass: the faults that it missed and those that it saw, line by line.
     fn add(&mut self, missed: &str, seen: &str) {
         self.0.retain(|fault| seen.lines().all(|line| line != fault));
         let new: Vec<_> =

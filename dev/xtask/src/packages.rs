@@ -14,7 +14,7 @@ pub(crate) struct Package {
     /// The registries that take it; `None` means any.
     publish: Option<Vec<String>>,
     pub(crate) targets: Vec<Target>,
-    /// What each feature turns on.
+    /// The features, each with what it turns on.
     pub(crate) features: BTreeMap<String, Vec<String>>,
 }
 

@@ -70,7 +70,7 @@ fn items(text: &str) -> impl Iterator<Item = (usize, &str, &str)> {
         .filter_map(|(line, text)| item(text).map(|(kind, name)| (line, kind, name)))
 }
 
-/// What signatures and fields name: what stands behind `->` or the `:` of a public line, or is an error type.
+/// Types in signatures and fields: the text behind `->` or the `:` of a public line, or an error type.
 fn signatures(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter_map(|line| {
         let is_public = line.trim_start().starts_with("pub ");

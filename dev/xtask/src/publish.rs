@@ -1,4 +1,4 @@
-//! What publishing needs: packages that build on their own, licences, compatible changes.
+//! Conditions of publishing: packages that build on their own, licences, compatible changes.
 
 use crate::command::{self, cargo, workspace};
 use crate::{packages, setup};
@@ -34,7 +34,7 @@ fn forget_packages() -> Result<(), String> {
     Ok(())
 }
 
-/// What is in a folder under names that begin so; nothing if there is no such folder.
+/// The entries of a folder whose names begin so; none if there is no such folder.
 fn entries(folder: &Path, prefix: &str) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let named = entries.filter(|e| e.file_name().to_string_lossy().starts_with(prefix));
@@ -61,7 +61,7 @@ pub(crate) fn deny(advisories: bool) -> Result<(), String> {
     command::run(&mut deny)
 }
 
-/// What continuous integration does of [`deny`]: nothing where cargo-deny, which takes minutes to
+/// The part of [`deny`] in continuous integration: nothing where cargo-deny, which takes minutes to
 /// compile, is not installed; it says so.
 pub(crate) fn deny_if_installed() -> Result<(), String> {
     if setup::has_subcommand("deny") {
@@ -86,7 +86,7 @@ pub(crate) fn semver(baseline: &str) -> Result<(), String> {
     command::run(&mut checks)
 }
 
-/// What a registry shows of a package, by the manifest's key.
+/// The keys of a manifest that a registry shows.
 const SHOWN: &[&str] = &[
     "description",
     "repository",
@@ -99,7 +99,7 @@ const SHOWN: &[&str] = &[
 /// Copies of the licences, as each package is an archive of its own.
 const LICENCES: &[&str] = &["LICENSE-APACHE", "LICENSE-MIT"];
 
-/// What published packages lack: a file or a key of the manifest, one line for each.
+/// Files and keys of the manifest that published packages lack, one line for each.
 fn lacking() -> Result<Vec<String>, String> {
     let mut lacking = Vec::new();
     for package in packages::published()? {

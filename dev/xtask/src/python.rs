@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// What the virtual environment gets beside the wheel; the wheel's extras name the rest.
+/// Packages of the virtual environment beside the wheel; the wheel's extras name the rest.
 const TOOLS: &[&str] = &["maturin>=1.9,<2"];
 
 /// Checks and tests the package; the last line printed is the tally.
@@ -52,7 +52,7 @@ fn tests(program: &Path) -> Result<Command, String> {
     Ok(tests)
 }
 
-/// What the tests import that see planted faults.
+/// Imports of the tests that see planted faults.
 const FOR_FAULTS: &[&str] = &["numpy>=1.21", "hypothesis>=6", "pytest>=7"];
 
 /// Builds the package of the tree at `root` as `cargo build` does, which takes less time than a wheel, and gives the

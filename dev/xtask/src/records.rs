@@ -16,7 +16,7 @@ use std::path::PathBuf;
 /// One object of `tess bench --json`, or of another program that measures.
 type Row = Map<String, Value>;
 
-/// What one command printed on one machine.
+/// The rows that one command printed on one machine.
 #[derive(Clone, Debug, Deserialize, Serialize)]
 #[serde(deny_unknown_fields)]
 struct Record {

@@ -12,7 +12,7 @@ use std::process::{Command, Stdio};
 /// Something that a command needs from the system.
 #[derive(Clone, Copy)]
 pub(crate) struct Need {
-    /// What it is, and what for.
+    /// Its name, and its purpose.
     pub(crate) what: &'static str,
     /// Debian packages that bring it.
     pub(crate) packages: &'static [&'static str],
@@ -104,7 +104,7 @@ pub(crate) fn target(target: &str) -> Result<(), String> {
     toolchain(&current, &[(Part::Target, target)])
 }
 
-/// What a toolchain can be extended by.
+/// An extension of a toolchain.
 #[derive(Clone, Copy)]
 pub(crate) enum Part {
     Component,

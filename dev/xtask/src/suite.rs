@@ -73,7 +73,7 @@ struct Profile {
     test: bool,
 }
 
-/// What `cargo xtask test` was asked for: paths of tests, and words of which a test's name must have one.
+/// Arguments of `cargo xtask test`: paths of tests, and words of which a test's name must have one.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(crate) struct Part<'a> {
     pub(crate) paths: Vec<&'a str>,

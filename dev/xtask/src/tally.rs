@@ -66,7 +66,7 @@ impl Job {
     }
 }
 
-/// What commands ran, and which of them failed.
+/// A tally of the tests that commands ran, and the commands that failed.
 #[derive(Default)]
 pub(crate) struct Report {
     all: Tally,
@@ -175,14 +175,14 @@ pub(crate) fn run(commands: impl IntoIterator<Item = Command>) -> Result<(), Str
     report.finish()
 }
 
-/// What is heard of a job.
+/// News of a job.
 enum News {
     /// The line of a test that has ended, without its first word.
     Test(String),
     Ended(Result<Output, String>),
 }
 
-/// What else a command printed on both of its outputs.
+/// The rest of what a command printed on both of its outputs.
 struct Output {
     text: String,
     status: ExitStatus,

@@ -4,7 +4,7 @@ use crate::suite::{self, Extent, Part};
 use crate::tally::{Job, Report};
 use crate::{command, explorer, levels, python, setup};
 
-/// What is done where no browser can be had.
+/// The rule where no browser can be had.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Browser {
     /// The tests of the explorer fail.

@@ -10,7 +10,7 @@ const NOTHING: &str = "-";
 /// Compares the specification, the table and what the table names.
 ///
 /// # Errors
-/// What is missing, doubled or unknown, a line each.
+/// Marks and names that are missing, doubled or unknown, a line each.
 pub(crate) fn run() -> Result<(), String> {
     let read = |path: &str| {
         let found = std::fs::read_to_string(workspace().join(path));
@@ -147,7 +147,7 @@ fn sentences(text: &str) -> usize {
     ends.count() + 1
 }
 
-/// What a row names: a test, a recorded result, a rule or a proof.
+/// The evidence that a row names: a test, a recorded result, a rule or a proof.
 fn evidence(quoted: &str, read: impl Fn(&str) -> Result<String, String>) -> Result<(), String> {
     let name = quoted.strip_prefix('`').and_then(|name| name.strip_suffix('`'));
     let name = name.ok_or_else(|| format!("`{quoted}` is no name in backticks"))?;

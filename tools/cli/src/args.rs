@@ -1,4 +1,4 @@
-//! What several commands take: a patch (domain, factors and configuration), generated cases, names.
+//! Arguments of several commands: a patch (domain, factors and configuration), generated cases, names.
 
 use crate::campaign::{Placed, ShardArgs};
 use crate::failure::Failure;
@@ -118,7 +118,7 @@ impl SelectionArgs {
         }
     }
 
-    /// What the cases depend on, so that a file says how it was made. Each note has the name of its
+    /// The options that the cases depend on, so that a file says how it was made. Each note has the name of its
     /// option, but for `--count`, whose note is `random`.
     pub(crate) fn notes(&self, placed: Placed) -> Vec<(String, String)> {
         let pair = |key: &str, value: String| (key.to_owned(), value);

@@ -11,7 +11,7 @@ use tess_verify::cover::Coverage;
 #[derive(Debug)]
 pub(crate) struct CoverageFile {
     path: PathBuf,
-    /// What this command adds.
+    /// The hits that this command adds.
     pub(crate) coverage: Coverage,
 }
 
@@ -36,7 +36,7 @@ impl CoverageFile {
     /// turns, so that no hit is lost.
     ///
     /// # Errors
-    /// What `report` says; a file that cannot be locked, read or written, which is then as it was.
+    /// Those of `report`; a file that cannot be locked, read or written, which is then as it was.
     pub(crate) fn add(
         self,
         report: impl FnOnce(&Coverage) -> Result<(), Failure>,

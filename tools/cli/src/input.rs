@@ -1,4 +1,4 @@
-//! What commands read: a file, or stdin where the path is `-`.
+//! Input of commands: a file, or stdin where the path is `-`.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
@@ -7,7 +7,7 @@ use std::path::Path;
 /// A text that comes from a file or from stdin.
 pub(crate) type Reader = Box<dyn BufRead + Send>;
 
-/// What messages call a path.
+/// The name of a path in messages.
 pub(crate) fn name(path: &Path) -> String {
     if path.as_os_str() == "-" { "stdin".to_owned() } else { path.display().to_string() }
 }

@@ -1,4 +1,4 @@
-//! What a device makes of patches: `gl_TessCoord` of each vertex, bit for bit.
+//! A device's output for patches: `gl_TessCoord` of each vertex, bit for bit.
 
 use crate::draws::{DRAW_VERTICES, Draw, draws, words_of};
 use crate::error::Error;
@@ -13,7 +13,7 @@ use std::sync::Arc;
 use tess_core::{Config, Domain, PatchFactors, SplitOrder};
 use tess_verify::Case;
 
-/// What is captured.
+/// The elements that are captured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
@@ -23,7 +23,7 @@ pub enum Method {
     Points,
 }
 
-/// What a device made of one patch.
+/// A device's output for one patch.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Captured {
     /// `gl_TessCoord` of each vertex as the bits of binary32 numbers, primitive after primitive; or
@@ -121,19 +121,19 @@ impl Prober {
         })
     }
 
-    /// What the device is called.
+    /// The device's name.
     #[must_use]
     pub fn info(&self) -> &Info {
         &self.gpu.info
     }
 
-    /// What is captured.
+    /// The elements that are captured.
     #[must_use]
     pub const fn method(&self) -> Method {
         self.method
     }
 
-    /// What the device makes of patches of one domain, in their order.
+    /// The device's output for patches of one domain, in their order.
     ///
     /// # Errors
     /// The device fails, or gives something that no tessellator gives.
@@ -367,7 +367,7 @@ impl Prober {
     }
 }
 
-/// What a pipeline depends on: Vulkan has one split order.
+/// The key of a pipeline: Vulkan has one split order.
 fn relevant(config: Config) -> Config {
     Config { split: SplitOrder::Ruler, ..config }
 }

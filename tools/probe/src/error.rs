@@ -1,4 +1,4 @@
-//! What can go wrong with a device.
+//! Errors of a device.
 
 use ash::vk;
 use std::fmt;
@@ -26,7 +26,7 @@ pub enum Error {
     Call {
         /// The call.
         call: &'static str,
-        /// What it gave.
+        /// Its answer.
         result: String,
     },
     /// A capture cannot be what a device gives; the text says why.

@@ -1,4 +1,4 @@
-//! What a device is called and what it can do.
+//! A device's name and abilities.
 
 use serde::Serialize;
 use std::fmt;

@@ -18,9 +18,9 @@ use tess_verify::{Case, Named};
 pub struct Judge {
     info: Info,
     method: Method,
-    /// What counts as equal.
+    /// The strength of the comparison.
     strength: Strength,
-    /// What may differ all the same.
+    /// The cases that may differ all the same.
     known: Arc<Known>,
     rows: Vec<(Row, Digests)>,
     different: u64,
@@ -169,7 +169,7 @@ impl Judge {
         &mut self.rows[at]
     }
 
-    /// What all patches showed.
+    /// The observations of all patches.
     #[must_use]
     pub fn finish(self) -> Report {
         let explanations = Way::ALL.into_iter().zip(self.ways).filter(|&(_, patches)| patches > 0);

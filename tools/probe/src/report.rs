@@ -1,4 +1,4 @@
-//! What a probe found. docs/probe.md explains each entry of its JSON.
+//! The report of a probe. docs/probe.md explains each entry of its JSON.
 
 use crate::capture::Captured;
 use crate::digests::Digests;
@@ -18,7 +18,7 @@ use tess_verify::check::Way;
 pub struct Report {
     /// The device.
     pub device: Info,
-    /// What was captured: `primitives`, or `points` alone.
+    /// The captured elements: `primitives`, or `points` alone.
     pub method: &'static str,
     /// Patches that were compared.
     pub patches: u64,
@@ -32,7 +32,7 @@ pub struct Report {
     pub first_different: Option<First>,
     /// Patches that are not the model's in any order.
     pub odd: u64,
-    /// What explains some of the odd ones.
+    /// The freedoms that explain some of the odd ones.
     pub explanations: Vec<Explanation>,
     /// Odd patches that no freedom of the specification explains.
     pub unexplained: Unexplained,
@@ -46,7 +46,7 @@ pub struct Report {
 pub struct Explanation {
     /// Which.
     pub way: Way,
-    /// What the device does.
+    /// The device's behaviour.
     pub words: &'static str,
     /// Whether the specification leaves it to a device.
     pub is_allowed: bool,
@@ -56,7 +56,7 @@ pub struct Explanation {
     pub is_all: bool,
 }
 
-/// What no freedom explains.
+/// A difference that no freedom explains.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
 pub struct Unexplained {
@@ -81,13 +81,13 @@ pub struct First {
     /// The case.
     #[serde(skip)]
     pub case: Case,
-    /// What the device gave.
+    /// The device's answer.
     #[serde(skip)]
     pub captured: Captured,
 }
 
 impl First {
-    /// What the device gave as an output; `None` if a coordinate is no 16.16 number.
+    /// The device's answer as an output; `None` if a coordinate is no 16.16 number.
     #[must_use]
     pub fn output(&self) -> Option<Tessellation> {
         output(&self.captured)
@@ -178,7 +178,7 @@ impl Row {
     }
 }
 
-/// What stands above the columns of numbers.
+/// The heads of the columns of numbers.
 const COLUMNS: [&str; 9] = [
     "patches",
     "in order",

@@ -54,7 +54,7 @@ pub(crate) fn verdict(
     }
 }
 
-/// What is kept of the order of the model's primitives.
+/// The extent to which the order of the model's primitives is kept.
 fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Verdict {
     let sequence = Strength { order: Order::Sequence, ..Strength::default() };
     if sequence.equal(case, observed, expected) {

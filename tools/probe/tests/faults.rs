@@ -26,7 +26,7 @@ fn info() -> &'static Info {
     INFO.get_or_init(|| Info::named("a device", 64))
 }
 
-/// What an exact device gives.
+/// The answer of an exact device.
 fn exact(case: &Case) -> Captured {
     let output = case.patch().tessellate();
     let third = |[u, v]: [u32; 2]| match case.domain() {
@@ -53,7 +53,7 @@ fn any() -> Strength {
     Strength { order: Order::Any, ..Strength::default() }
 }
 
-/// What is said of one patch after a fault is planted in its capture.
+/// The verdict on one patch after a fault is planted in its capture.
 fn judged(line: &str, strength: Strength, fault: impl FnOnce(&mut Captured)) -> Report {
     let case = case(line);
     let mut captured = exact(&case);
@@ -181,7 +181,7 @@ fn flushed_denormals_are_explained_and_may_be_asked_for() {
     assert_eq!((explained(&report), report.unexplained.patches), (vec![], 1), "{LINE}: {report}");
 }
 
-/// What explains every odd patch is told from what explains some.
+/// A freedom that explains every odd patch is told from one that explains some.
 #[test]
 fn explanations_of_all_and_of_some() {
     let report = |lines: &[&str]| {

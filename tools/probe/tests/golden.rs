@@ -1,4 +1,4 @@
-//! What was captured from devices, against the model of today: `golden/devices`.
+//! Captures of devices, against the model of today: `golden/devices`.
 
 use serde_json::Value;
 use std::collections::BTreeMap;

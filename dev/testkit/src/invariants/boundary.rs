@@ -11,7 +11,7 @@ use tess_verify::Case;
 /// 12.5: the points on an outer edge are those of that edge's factor, whatever the other factors
 /// and whichever edge it is, and one minus themselves walked from the other side.
 ///
-/// What a factor's points are is asked of an isoline patch, which has no other factor.
+/// An isoline patch, which has no other factor, says which points a factor has.
 ///
 /// # Errors
 /// The edge whose points are others.

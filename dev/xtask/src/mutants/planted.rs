@@ -23,7 +23,7 @@ const LISTS: &str = "dev/xtask/faults";
 /// Seconds after which tests that do not end have seen a fault.
 const PATIENCE: &str = "600";
 
-/// What became of a fault.
+/// The fate of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fate {
     Seen,
@@ -88,7 +88,7 @@ struct Rig {
 }
 
 impl Rig {
-    /// What becomes of a shader's fault, planted in the workspace's own programs; `None` if they cannot take it.
+    /// The fate of a shader's fault, planted in the workspace's own programs; `None` if they cannot take it.
     fn in_programs(
         &mut self,
         fault: &ListedFault,
@@ -111,7 +111,7 @@ impl Rig {
         fate_of(fault, jobs.iter().zip(programs.iter().map(PathBuf::as_path))).map(Some)
     }
 
-    /// What becomes of a fault that is planted in the copy of the tree, which is then as it was.
+    /// The fate of a fault that is planted in the copy of the tree, which is then as it was.
     fn in_sources(&mut self, fault: &ListedFault, planted: &Planted) -> Result<Fate, String> {
         let tree = match self.copied.take() {
             Some(tree) => tree,

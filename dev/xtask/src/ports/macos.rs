@@ -5,7 +5,7 @@ use crate::setup;
 
 const TARGET: &str = "aarch64-apple-darwin";
 
-/// What compiles no C code, for which Apple's compiler would be needed.
+/// Packages without C code, for which Apple's compiler would be needed.
 const PACKAGES: &[&str] = &[
     "tess-core",
     "tess-simd",

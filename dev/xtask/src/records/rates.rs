@@ -7,7 +7,7 @@ use serde_json::Value;
 pub(super) struct Column {
     pub(super) title: &'static str,
     pub(super) key: &'static str,
-    /// What a value is divided by.
+    /// The divisor of a value.
     pub(super) unit: f64,
 }
 

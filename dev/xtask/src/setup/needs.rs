@@ -1,11 +1,11 @@
-//! What the tests need from the system.
+//! Needs of the tests from the system.
 
 use super::{Need, has_program};
 use crate::command;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// What `cargo xtask test` needs.
+/// Needs of `cargo xtask test`.
 pub(super) const COMPARISONS: &[Need] = &[
     Need {
         what: "a Vulkan driver (GPU tests run on the software driver lavapipe)",
@@ -27,7 +27,7 @@ pub(super) const COMPARISONS: &[Need] = &[
     },
 ];
 
-/// What `cargo xtask test all` needs beyond it, the browser apart.
+/// Needs of `cargo xtask test all` beyond it, the browser apart.
 pub(super) const BEYOND: &[Need] = &[
     Need {
         what: "an OpenGL driver through EGL (tests of wgpu's OpenGL backend)",

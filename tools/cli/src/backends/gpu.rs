@@ -45,7 +45,7 @@ impl GpuBackend {
     }
 }
 
-/// What the program runs: indices of each patch's own points, as in the model.
+/// The setup that the program runs: indices of each patch's own points, as in the model.
 pub(crate) fn setup_of(domain: Domain, config: Config, index_type: IndexType) -> Setup {
     let index_type = match index_type {
         IndexType::U16 => tess_gpu::IndexType::U16,
@@ -107,7 +107,7 @@ impl Backend for GpuBackend {
     }
 }
 
-/// What tess-wgpu says, as an error of the backend.
+/// A message of tess-wgpu as an error of the backend.
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
 pub(crate) fn device_error(error: tess_wgpu::Error) -> BackendError {
     BackendError::new(error.to_string())

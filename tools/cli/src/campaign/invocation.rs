@@ -1,4 +1,4 @@
-//! What was run: the words, the options that decide what is compared, and the program itself.
+//! The run: the words, the options that decide what is compared, and the program itself.
 
 use clap::{ArgMatches, Command};
 use std::collections::BTreeMap;

@@ -25,7 +25,7 @@ pub(crate) struct KnownArgs {
 #[derive(Debug, Default)]
 pub(crate) struct Baseline {
     pub(crate) cases: Arc<Known>,
-    /// What the report says of the file, before anything is compared.
+    /// The report's entry of the file, before anything is compared.
     file: Option<KnownCases>,
 }
 
@@ -50,7 +50,7 @@ impl KnownArgs {
     /// The baseline, of no cases without the option.
     ///
     /// # Errors
-    /// What `read` says.
+    /// Those of `read`.
     pub(crate) fn read<I, E>(
         &self,
         read: impl FnOnce(&Path) -> Result<I, Failure>,

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What a report calls its own form.
+/// The name of a report's form.
 pub(crate) const FORMAT: &str = "tess-report 1";
 
 /// One run of a command on one shard.
@@ -23,7 +23,7 @@ pub(crate) struct Report {
     pub(crate) command: String,
     /// The words of the command line, the program first.
     pub(crate) words: Vec<String>,
-    /// What decides what is compared, by option.
+    /// The options that decide what is compared.
     pub(crate) options: BTreeMap<String, Vec<String>>,
     #[serde(default)]
     pub(crate) seed: Option<u64>,
@@ -46,7 +46,7 @@ pub(crate) struct Report {
     pub(crate) stages: BTreeMap<String, u64>,
     #[serde(default)]
     pub(crate) first: Option<First>,
-    /// What became of the baseline, if there is one.
+    /// The fate of the baseline, if there is one.
     #[serde(default)]
     pub(crate) known: Option<KnownCases>,
     /// The cases and mismatches again, in parts.
@@ -77,7 +77,7 @@ pub(crate) enum State {
 pub(crate) struct First {
     /// The case line, if one patch shows it.
     pub(crate) case: Option<String>,
-    /// What differs.
+    /// The difference.
     pub(crate) difference: String,
 }
 
@@ -158,7 +158,7 @@ impl Report {
         serde_json::to_string(self).expect("keys are text") + "\n"
     }
 
-    /// What a line says.
+    /// The report of a line.
     ///
     /// # Errors
     /// It is no report of this form, or contradicts itself; why.

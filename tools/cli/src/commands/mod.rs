@@ -23,7 +23,7 @@ use crate::failure::{Exit, Failure};
 use clap::Subcommand;
 pub(crate) use patch::without_patch_if_cases;
 
-/// What the program can be asked for.
+/// The commands of the program.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Patch(patch::Args),

@@ -83,13 +83,13 @@ impl OnePatch {
         }
     }
 
-    /// What was tessellated.
+    /// The patch.
     #[must_use]
     pub(crate) const fn case(&self) -> &Case {
         &self.listing.case
     }
 
-    /// What came out.
+    /// The output.
     #[must_use]
     pub(crate) const fn output(&self) -> &Tessellation {
         &self.listing.output

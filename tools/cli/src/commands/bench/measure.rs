@@ -15,7 +15,7 @@ use tess_simd::Order;
 use tess_verify::BackendError;
 use tess_verify::generate::Workload;
 
-/// What is measured.
+/// A measurement.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Plan<'a> {
     /// The patches.
@@ -27,7 +27,7 @@ pub(crate) struct Plan<'a> {
 }
 
 impl Plan<'_> {
-    /// What a row of this runner is called.
+    /// The name of a row of this runner.
     fn name(&self, runner: &dyn Runner) -> String {
         let order = match runner.order() {
             Order::Specification => "",

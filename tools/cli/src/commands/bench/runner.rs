@@ -1,4 +1,4 @@
-//! What a backend must offer to be timed.
+//! The interface of a backend that is timed.
 
 use clap::ValueEnum;
 use std::iter::Sum;
@@ -27,7 +27,7 @@ impl WorkingSet {
     }
 }
 
-/// What one run of a part amounts to.
+/// The amount of work of one run of a part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Amount {
     /// Patches tessellated.
@@ -69,7 +69,7 @@ pub(crate) trait Runner {
         false
     }
 
-    /// What follows the workload's name in a row.
+    /// The text behind the workload's name in a row.
     fn remark(&self) -> String {
         String::new()
     }
@@ -119,7 +119,7 @@ pub(crate) trait Runner {
     fn fill(&mut self, part: usize) -> Result<Duration, BackendError>;
 }
 
-/// What a runner is made for.
+/// The options of a runner.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RunnerOptions {
     /// CPU level of the simd backend, one that this machine has.

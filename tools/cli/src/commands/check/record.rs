@@ -1,4 +1,4 @@
-//! What a check adds to the report of its run.
+//! Entries that a check adds to the report of its run.
 
 use crate::campaign::report::{First, Part, Report};
 use crate::campaign::{Placed, ShardArgs, shard};

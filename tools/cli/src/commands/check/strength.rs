@@ -56,7 +56,7 @@ pub(crate) enum DenormalsName {
 }
 
 impl StrengthArgs {
-    /// What is tested with a file of this kind and a backend, if one was asked for.
+    /// The side that is tested with a file of this kind and a backend, if one was asked for.
     ///
     /// # Errors
     /// A weaker strength than identity where no device is tested.

@@ -129,7 +129,7 @@ impl Args {
         }
     }
 
-    /// What the device cannot hit.
+    /// The bins that the device cannot hit.
     fn exclusions(&self) -> Result<Exclusions, Failure> {
         let Self { domain, partitioning, output, split, .. } = self;
         let has = configurations_among(domain, partitioning, output, split);

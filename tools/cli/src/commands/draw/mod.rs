@@ -43,7 +43,7 @@ pub(crate) struct Args {
     output: OutputArgs,
 }
 
-/// What a picture shows beside the primitives and points themselves.
+/// Additions to a picture beside the primitives and points themselves.
 #[derive(Clone, Copy, Debug, clap::Args)]
 struct DrawArgs {
     /// Number the points

@@ -81,7 +81,7 @@ impl Args {
         point.or(self.factor.map(Part::Factor)).unwrap_or(Part::Patch)
     }
 
-    /// What differs from what was observed, if something was.
+    /// The differences from what was observed, if something was.
     fn circuit(&self, case: &Case, part: Part) -> Result<Option<Vec<SignalDifference>>, Failure> {
         if self.observed.is_empty() {
             return Ok(None);

@@ -15,7 +15,7 @@ pub(super) struct Pattern<'a> {
     sample: &'a Report,
     /// The places of the words that have the shard in them.
     numbered: Vec<usize>,
-    /// What the numbers in the words are less than the shard: 1 where they are counted from 0.
+    /// The shard minus the number in the words: 1 where they are counted from 0.
     less: u64,
 }
 

@@ -25,7 +25,7 @@ pub(super) struct Campaign {
     pub(super) strangers: Vec<(String, String)>,
 }
 
-/// What is wrong with a shard.
+/// A fault of a shard.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Fault {
     /// It has no report.
@@ -36,7 +36,7 @@ pub(super) enum Fault {
     Double(String),
 }
 
-/// What all reports of a campaign have in common.
+/// The entries that all reports of a campaign have in common.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Identity<'a> {
     version: &'a str,
@@ -69,7 +69,7 @@ impl<'a> Identity<'a> {
         }
     }
 
-    /// What it has, by name, in words that are equal only if it is; the options are left out.
+    /// Its entries by name, in words that are equal only if they are; the options are left out.
     fn words(&self) -> [(&'static str, String); 6] {
         let executable = self.executable.map(|digest| format!(" (file {digest})"));
         let baseline = if self.has_baseline { "given" } else { "not given" };
@@ -153,7 +153,7 @@ fn of_one_baseline(reports: Vec<Found>) -> (Vec<Found>, Vec<(String, String)>) {
     split(reports, is_usual, why)
 }
 
-/// What occurs most often, the first of equals.
+/// The item that occurs most often, the first of equals.
 ///
 /// # Panics
 /// There is nothing.
@@ -224,7 +224,7 @@ impl Campaign {
         self.shards.get(&shard)?.first().map(|one| &one.report)
     }
 
-    /// What is wrong with which shard, in the order of the shards.
+    /// The faults of the shards, in their order.
     pub(super) fn faults(&self) -> impl Iterator<Item = (u64, Fault)> {
         (1..=self.of).filter_map(|shard| Some((shard, self.fault(shard)?)))
     }

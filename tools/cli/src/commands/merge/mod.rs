@@ -45,7 +45,7 @@ pub(crate) struct Args {
 /// Runs the command.
 ///
 /// # Errors
-/// What is no report; files that cannot be read or written; shards without coverage where it is asked for.
+/// A file that is no report; files that cannot be read or written; shards without coverage where it is asked for.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     refuse_shared(&args.roles())?;
     for path in args.outputs().filter_map(|(_, path)| path) {

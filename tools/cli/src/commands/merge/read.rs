@@ -16,7 +16,7 @@ pub(super) struct Found {
     pub(super) report: Report,
 }
 
-/// What the files have.
+/// The content of the files.
 #[derive(Debug, Default)]
 pub(super) struct Reports {
     pub(super) reports: Vec<Found>,

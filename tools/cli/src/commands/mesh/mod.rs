@@ -246,7 +246,7 @@ impl Args {
         Ok(form)
     }
 
-    /// What the camera must have in its picture; nothing if there is no use for a camera.
+    /// The points that the camera must have in its picture; none if there is no use for a camera.
     fn outline(&self, form: ResultForm, model: &Model) -> Vec<Vec3> {
         let reach = if self.displace.is_some() { self.height.abs() } else { 0.0 };
         let looks = form == ResultForm::Png || self.rule.looks();

@@ -22,7 +22,7 @@ const VERTEX_BLOCK: f32 = 1_048_576.0;
 /// Patches that a thread takes at a time.
 const PATCHES_PER_TASK: usize = 32;
 
-/// What is done to a model.
+/// The steps that a model takes.
 #[derive(Debug)]
 pub(crate) struct Job<'a> {
     /// The patches.
@@ -52,7 +52,7 @@ struct Stream<'a> {
 /// Sends every patch of the model through all stages into `sink`.
 ///
 /// # Errors
-/// What the sink reports.
+/// Those of the sink.
 pub(crate) fn run(
     job: &Job<'_>,
     sink: &mut dyn Sink,

@@ -1,4 +1,4 @@
-//! What was done and how long each stage took.
+//! The amount of work and the time of each stage.
 
 use crate::output::counted;
 use std::fmt;

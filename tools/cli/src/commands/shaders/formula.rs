@@ -4,7 +4,7 @@ use serde::{Serialize, Serializer};
 use tess_gpu::sizes::{BLOCK, SECTION, TILE};
 use tess_verify::generate::SplitMix64;
 
-/// What sizes depend on.
+/// The variables of sizes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub(super) enum Variable {

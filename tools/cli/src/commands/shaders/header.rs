@@ -7,7 +7,7 @@ use super::structures::Structure;
 use std::fmt::{Display, Write};
 use tess_gpu::Resource;
 
-/// What stands in front of the tables: it does not depend on the setup.
+/// The text in front of the tables, which does not depend on the setup.
 const DECLARATIONS: &str = include_str!("declarations.h");
 
 /// The header.

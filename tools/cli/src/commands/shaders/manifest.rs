@@ -79,7 +79,7 @@ pub(super) struct Sizes {
     pub(super) of_bindings: Vec<u32>,
 }
 
-/// What the host does with a buffer.
+/// The use that the host makes of a buffer.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Role {
     #[serde(serialize_with = "lower_case")]

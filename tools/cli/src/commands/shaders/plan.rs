@@ -1,4 +1,4 @@
-//! What a batch of one portion and one window runs, as formulas: everything that `tess_gpu::Plan` says.
+//! The dispatches of a batch of one portion and one window, as formulas: everything that `tess_gpu::Plan` says.
 
 use super::formula::{Batch, Bounds, Formula};
 use serde::Serialize;
@@ -100,7 +100,7 @@ pub(super) fn variants(setup: Setup) -> Result<Vec<Variant>, String> {
     Ok(variants)
 }
 
-/// What runs for this many patches: stages, jobs, and whether the arguments are indirect.
+/// The dispatches for this many patches: stages, jobs, and whether the arguments are indirect.
 fn shape(setup: Setup, patches: u32) -> Vec<(Stage, u32, bool)> {
     let plan = with(setup, [patches, 1, 1, u32::MAX]);
     plan.dispatches()

@@ -19,7 +19,7 @@ fn small() -> Setup {
     Setup::new(Domain::Quad, Config::new(Partitioning::Pow2, OutputPrimitive::Line))
 }
 
-/// What the manifest says of a batch, against what the plan says under a device's limits.
+/// The manifest's account of a batch, against the plan's under a device's limits.
 #[test]
 fn the_manifest_says_what_the_plan_says() {
     let mut random = SplitMix64::new(7);

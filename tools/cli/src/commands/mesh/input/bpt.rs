@@ -8,7 +8,7 @@ use super::text::{number, quoted, without_mark};
 use glam::{Vec3, Vec4};
 use tess_surface::BezierPatch;
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Bpt {
     /// The patches.

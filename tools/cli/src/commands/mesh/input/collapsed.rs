@@ -8,7 +8,7 @@ use glam::Vec3;
 use rayon::prelude::*;
 use tess_surface::{Face, Fault, PolygonMesh, Sides};
 
-/// What [`repair`] did.
+/// The result of [`repair`].
 #[derive(Debug, Default)]
 pub(super) struct Collapsed {
     /// Dropped faces with corners in the same place.
@@ -27,7 +27,7 @@ impl Collapsed {
         self.originals.get(face).copied().unwrap_or(face)
     }
 
-    /// What was done, a sentence each.
+    /// The repairs, a sentence each.
     pub(super) fn notes(&self) -> Vec<String> {
         let Self { repeated, straight, narrowed, .. } = self;
         let mut notes = Vec::new();

@@ -11,7 +11,7 @@ pub type Heights = (usize, usize, Vec<f32>);
 /// Reads an OBJ file.
 ///
 /// # Errors
-/// What is wrong and where.
+/// The fault and its place.
 pub fn obj(bytes: &[u8]) -> Result<PolygonMesh, String> {
     obj::parse(bytes).map(|obj| obj.mesh)
 }
@@ -19,7 +19,7 @@ pub fn obj(bytes: &[u8]) -> Result<PolygonMesh, String> {
 /// Reads a glTF or GLB file of at most `most` vertices and triangles, without files beside it.
 ///
 /// # Errors
-/// What is wrong and where.
+/// The fault and its place.
 pub fn gltf(bytes: &[u8], most: usize) -> Result<PolygonMesh, String> {
     gltf::parse(bytes, None, most).map(|scene| scene.mesh)
 }
@@ -27,7 +27,7 @@ pub fn gltf(bytes: &[u8], most: usize) -> Result<PolygonMesh, String> {
 /// Reads a Bezier patch file.
 ///
 /// # Errors
-/// What is wrong and where.
+/// The fault and its place.
 pub fn bpt(bytes: &[u8]) -> Result<Vec<BezierPatch>, String> {
     bpt::parse(bytes).map(|bpt| bpt.patches)
 }
@@ -35,7 +35,7 @@ pub fn bpt(bytes: &[u8]) -> Result<Vec<BezierPatch>, String> {
 /// Reads a PNG of at most `most` pixels as heights.
 ///
 /// # Errors
-/// What is wrong.
+/// The fault.
 pub fn height_png(bytes: &[u8], most: u64) -> Result<Heights, String> {
     let heights = height::decode(Cursor::new(bytes), most)?;
     Ok((heights.width, heights.height, heights.texels))

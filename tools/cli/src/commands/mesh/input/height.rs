@@ -35,7 +35,7 @@ pub(crate) fn load(path: &Path, most: u64) -> Result<HeightMap, Failure> {
 /// Decodes a PNG. Grey images keep up to 16 bits; of colours the Rec. 709 luma is taken.
 ///
 /// # Errors
-/// What is malformed, or the size and the limit.
+/// The malformed part, or the size and the limit.
 pub(crate) fn decode(file: impl BufRead + Seek, most: u64) -> Result<Heights, String> {
     let mut decoder = Decoder::new_with_limits(file, Limits { bytes: MOST_BESIDE });
     decoder.set_transformations(Transformations::EXPAND);

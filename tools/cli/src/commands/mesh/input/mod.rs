@@ -33,7 +33,7 @@ pub(crate) struct Input {
     pub(crate) model: Model,
     /// Which way is up.
     pub(crate) up: Up,
-    /// What was left out, for the user to know.
+    /// Notes for the user on what was left out.
     pub(crate) notes: Vec<String>,
     /// The files beside the model's own that were read.
     pub(crate) files: Vec<PathBuf>,

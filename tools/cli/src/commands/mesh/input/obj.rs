@@ -16,7 +16,7 @@ const SKIPPED: &str = "o g s mg usemtl mtllib usemap maplib lod bevel c_interp d
 const FREE_FORM: &str = "vp cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con \
      ctech stech bsp bzp cdc cdp res";
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Obj {
     /// The faces of all objects and groups, every index within its list.

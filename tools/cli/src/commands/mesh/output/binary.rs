@@ -38,7 +38,7 @@ pub(super) struct Binary {
     indices: u64,
 }
 
-/// What the JSON says of the binary part.
+/// The JSON's description of the binary part.
 #[derive(Clone, Copy)]
 pub(super) struct Layout {
     totals: Totals,

@@ -3,7 +3,7 @@
 use glam::{Mat4, Vec2, Vec3, Vec4};
 use tess_surface::Sample;
 
-/// What a pixel sees.
+/// The point of a surface that a pixel shows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Fragment {
     /// Unit normal of the surface, interpolated.

@@ -11,7 +11,7 @@ use std::path::{Component, Path, PathBuf};
 /// Most bytes that all buffers of a model may have together: what a GLB file can hold.
 const MOST: u64 = 1 << 32;
 
-/// What [`load`] found.
+/// The result of [`load`].
 pub(super) struct Buffers<'a> {
     /// Every buffer's content, exactly as long as the buffer says.
     pub(super) contents: Vec<Cow<'a, [u8]>>,

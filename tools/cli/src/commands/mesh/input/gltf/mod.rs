@@ -23,7 +23,7 @@ use tess_surface::PolygonMesh;
 /// have any number of them; this many take about 8 GiB.
 pub(crate) const MOST: usize = 1 << 26;
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Scene {
     /// The triangles of all nodes, in the scene's coordinates.
