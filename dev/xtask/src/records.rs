@@ -8,8 +8,8 @@ pub(crate) mod take;
 mod targets;
 
 use crate::command::workspace;
-use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
 use std::fs;
 use std::path::PathBuf;
 
@@ -17,7 +17,7 @@ use std::path::PathBuf;
 type Row = Map<String, Value>;
 
 /// The rows that one command printed on one machine.
-#[derive(Clone, Debug, Deserialize, Serialize)]
+#[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Record {
     /// The command, as it is typed in the workspace's folder.
@@ -29,9 +29,25 @@ struct Record {
     /// Commit that was measured.
     commit: String,
     /// Keys of the rows in the order of the table; empty for the rows of `tess bench`.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     columns: Vec<String>,
     rows: Vec<Row>,
+}
+
+impl Record {
+    /// The file: a line for each key and for each row.
+    fn text(&self) -> String {
+        let Self { command, machine, date, commit, columns, rows } = self;
+        let text = [("command", command), ("machine", machine), ("date", date), ("commit", commit)];
+        let mut lines =
+            text.map(|(key, text)| format!("  {}: {}", json!(key), json!(text))).to_vec();
+        if !columns.is_empty() {
+            lines.push(format!("  \"columns\": {}", json!(columns)));
+        }
+        let rows: Vec<String> = rows.iter().map(|row| format!("    {}", json!(row))).collect();
+        lines.push(format!("  \"rows\": [\n{}\n  ]", rows.join(",\n")));
+        format!("{{\n{}\n}}\n", lines.join(",\n"))
+    }
 }
 
 /// The folder of the records.
@@ -70,4 +86,17 @@ fn names() -> Result<Vec<String>, String> {
     let mut names: Vec<String> = entries.filter_map(name).collect();
     names.sort();
     Ok(names)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn records_are_as_they_are_written() {
+        for name in names().expect("names") {
+            let text = fs::read_to_string(file(&name)).expect("text");
+            assert!(read(&name).expect("record").text() == text, "{name}: another layout");
+        }
+    }
 }

@@ -41,11 +41,9 @@ pub(crate) fn run(arguments: &[&str]) -> Result<(), String> {
     let date = command::output(Command::new("date").args(["-u", "+%F"]))?.trim().to_owned();
     let command = format!("cargo {}", bench.replace(" --quiet", ""));
     let record = Record { command, machine, date, commit, columns: vec![], rows };
-    let mut json = serde_json::to_string_pretty(&record).map_err(|error| error.to_string())?;
-    json.push('\n');
     fs::create_dir_all(folder()).map_err(|error| error.to_string())?;
     let path = file(request.name);
-    fs::write(&path, json).map_err(|error| format!("{}: {error}", path.display()))?;
+    fs::write(&path, record.text()).map_err(|error| format!("{}: {error}", path.display()))?;
     println!("wrote {}", path.display());
     performance::run()
 }
