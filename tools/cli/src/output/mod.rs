@@ -148,12 +148,32 @@ pub(crate) fn note(message: &str) {
     _ = writeln!(io::stderr(), "tess: {message}");
 }
 
-/// A document as indented JSON with a newline at its end.
+/// Characters of the longest line of JSON that [`json`] joins.
+const LONGEST_ROW: usize = 400;
+
+/// A document as indented JSON with a newline at its end. An object or a list that has no other inside is one line.
 ///
 /// # Panics
 /// If the document has a map whose keys are not text; none of this program's has.
 pub(crate) fn json(document: &impl serde::Serialize) -> String {
-    let mut text = serde_json::to_string_pretty(document).expect("keys are text");
-    text.push('\n');
-    text
+    let pretty = serde_json::to_string_pretty(document).expect("keys are text");
+    let mut lines: Vec<String> = Vec::new();
+    let mut opened = 0;
+    for line in pretty.lines() {
+        lines.push(line.to_owned());
+        if line.ends_with(['{', '[']) {
+            opened = lines.len();
+        } else if line.trim_start().starts_with(['}', ']']) && opened > 0 {
+            let close = lines.pop().unwrap_or_default();
+            let inside: Vec<&str> = lines[opened..].iter().map(|line| line.trim_start()).collect();
+            let row = lines[opened - 1].clone() + &inside.join(" ") + close.trim_start();
+            if row.len() <= LONGEST_ROW {
+                lines.splice(opened - 1.., [row]);
+            } else {
+                lines.push(close);
+            }
+            opened = 0;
+        }
+    }
+    lines.join("\n") + "\n"
 }
