@@ -100,7 +100,8 @@ usage: cargo xtask <command>
   mutants planted [WORD...]
           plant the faults of dev/xtask/faults, or those with one of these words, in a copy of the tree; fails
           if the test beside one does not see it (each compiles a crate again: hours for all)
-  publish pack and build every published package as a registry would get it; send nothing
+  publish [send]
+          pack and build every published package as a registry would get it; without `send`, send nothing
   deny [advisories]
           check the licences and sources of dependencies, and known vulnerabilities on request
   semver REVISION
@@ -145,6 +146,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["mutants", "planted", ref words @ ..] => mutants::planted(words),
         ["mutants", package, ref rest @ ..] => mutants::run(package, rest),
         ["publish"] => publish::dry_run(),
+        ["publish", "send"] => publish::send(),
         ["python"] => after_setup(&python::run),
         ["python", "--program", program] => python::run_with(program.as_ref()),
         ["explorer"] => explorer::build(),

@@ -1,9 +1,38 @@
 //! Conditions of publishing: packages that build on their own, licences, compatible changes.
 
-use crate::command::{self, cargo, workspace};
+use crate::command::{self, cargo, in_file, workspace};
 use crate::{packages, setup};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Publishes every published package.
+///
+/// # Errors
+/// Sources that no commit has, or what cargo says.
+pub(crate) fn send() -> Result<(), String> {
+    let mut status = Command::new("git");
+    let changed = command::output(status.args(["status", "--porcelain"]).current_dir(workspace()))?;
+    if !changed.is_empty() {
+        return Err(format!("a published version is a commit; commit these first:\n{changed}"));
+    }
+    // The copies of the licences are no commit's.
+    with_licences(&mut cargo("publish --workspace --allow-dirty"))
+}
+
+/// Runs a command while each published package has a copy of the licences, as each is an archive of its own.
+fn with_licences(command: &mut Command) -> Result<(), String> {
+    let copies = |act: &dyn Fn(&Path, &Path) -> std::io::Result<()>| {
+        packages::published()?.iter().try_for_each(|package| {
+            LICENCES.iter().try_for_each(|licence| {
+                let copy = package.folder().join(licence);
+                act(&workspace().join(licence), &copy).map_err(|error| in_file(&copy, &error))
+            })
+        })
+    };
+    let ran = copies(&|from, to| fs::copy(from, to).map(drop)).and_then(|()| command::run(command));
+    copies(&|_, to| fs::remove_file(to)).and(ran)
+}
 
 /// Packs and builds every published package as the registry would get it, without sending it.
 pub(crate) fn dry_run() -> Result<(), String> {
@@ -16,7 +45,7 @@ pub(crate) fn dry_run() -> Result<(), String> {
     // Whether it builds is asked, with every dependency; nobody runs or debugs the result.
     publish.env("CARGO_PROFILE_DEV_DEBUG", "0");
     // A developer's changes are packed too; what is published comes from a clean checkout.
-    command::run(publish.arg("--allow-dirty"))
+    with_licences(publish.arg("--allow-dirty"))
 }
 
 /// Removes what an earlier dry run left of the packages. Cargo takes them from a registry that is a
@@ -96,7 +125,7 @@ const SHOWN: &[&str] = &[
     "[package.metadata.docs.rs]",
 ];
 
-/// Copies of the licences, as each package is an archive of its own.
+/// The texts of the licences, in the workspace's folder.
 const LICENCES: &[&str] = &["LICENSE-APACHE", "LICENSE-MIT"];
 
 /// Files and keys of the manifest that published packages lack, one line for each.
@@ -108,11 +137,6 @@ fn lacking() -> Result<Vec<String>, String> {
         let has = |key: &&str| manifest.lines().any(|line| line.starts_with(key));
         let mut add = |what: String| lacking.push(format!("{}: {what}", package.name));
         SHOWN.iter().filter(|key| !has(key)).for_each(|key| add(format!("no {key} in Cargo.toml")));
-        for licence in LICENCES {
-            if read(licence).ok() != Some(self::read(&workspace().join(licence))?) {
-                add(format!("{licence} is not a copy of the workspace's"));
-            }
-        }
         if read("README.md").is_err() {
             add("no README.md".into());
         }
