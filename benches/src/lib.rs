@@ -26,7 +26,7 @@ pub struct Case {
     pub workload: Workload,
     /// The patches that are timed.
     pub batch: Range<usize>,
-    /// What they amount to.
+    /// Sizes of the output.
     pub totals: Totals,
     points: Vec<DomainPoint>,
     indices: Vec<u32>,

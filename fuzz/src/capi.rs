@@ -15,7 +15,7 @@ use crate::input::Bytes;
 /// Makes one call of a function that the first byte chooses.
 ///
 /// # Errors
-/// What was answered wrongly or written.
+/// Description of the wrong answer or write.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let mut bytes = Bytes(data);
     match bytes.byte() % 4 {

@@ -1,4 +1,4 @@
-//! What the fuzz targets share: cases from bytes, and one oracle for each target.
+//! Cases from bytes, and one oracle for each fuzz target.
 //!
 //! An oracle takes what libFuzzer made and describes the first difference, ending with the case as a
 //! line that `tess check -` reads back and as a `tess patch` command. The targets in `fuzz_targets`

@@ -8,7 +8,7 @@ use tess_verify::vectors::{Coordinates, Listing, Record, VectorFile};
 /// where it says nothing, or an error that names a line of the file; and what it read says the same when written and read again.
 ///
 /// # Errors
-/// What was broken.
+/// Description of the broken promise.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let lines = data.split(|&byte| byte == b'\n').count() as u64 + 1;
     let mut file = match VectorFile::new("fuzz", data) {

@@ -24,7 +24,7 @@ const ORACLES: &[(&str, Oracle)] = &[
     ("gpu", tess_fuzz::gpu::check),
 ];
 
-/// What a reader of mesh files and its oracle may allocate.
+/// Bytes that a reader of mesh files and its oracle may allocate.
 const MOST_BYTES: u64 = 64 << 20;
 
 /// Whether the reader takes a file.

@@ -9,7 +9,7 @@ use tess_core::{
     OutputPrimitive, Partitioning, Patch, PatchFactors, QuadFactors,
 };
 
-/// The value of unwritten elements.
+/// Value of unwritten elements.
 const POINT: DomainPoint = DomainPoint::from_bits(0xDEAD_BEEF, 0xDEAD_BEEF);
 const INDEX: u32 = 0xDEAD_BEEF;
 

@@ -170,7 +170,7 @@ fn coarse_places_exceed_a_half_by_what_is_said() {
     }
 }
 
-/// Properties that only exceptions have.
+/// Fields that only exceptions have.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Damage {
     zero_areas: bool,

@@ -125,7 +125,7 @@ pub struct DisplacedPatch<'a> {
     sides: Sides<Side>,
 }
 
-/// What is shared at one edge and at the corner of the same number.
+/// Data shared at one edge and at the corner of the same number.
 #[derive(Clone, Debug)]
 struct Side {
     corner: Anchor,

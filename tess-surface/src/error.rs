@@ -11,7 +11,7 @@ use tess_core::Domain;
 /// that, positions would be infinite or NaN.
 pub const MAX_COORDINATE: f32 = 1e16;
 
-/// What is wrong with one face or patch.
+/// Fault of one face or patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fault {
@@ -66,7 +66,7 @@ pub enum MeshError {
     Face {
         /// Its number, from 0.
         face: usize,
-        /// What is wrong with it.
+        /// Its fault.
         fault: Fault,
     },
 }

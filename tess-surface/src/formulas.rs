@@ -99,7 +99,7 @@ impl<'a> Formulas<'a> {
         Self { patch, net }
     }
 
-    /// What the points of `vertices` have by the formulas of the inside.
+    /// Values at the points of `vertices` by the formulas of the inside.
     #[inline(always)]
     pub(crate) fn inside(&self, vertices: &mut Vertices) {
         match (self.patch.surface(), &self.net) {

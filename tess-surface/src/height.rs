@@ -15,7 +15,7 @@ pub struct HeightMap {
     address: Address,
 }
 
-/// What lies beyond the image, with the names that samplers have for it.
+/// Heights beyond the image, by the names that samplers have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Address {
     /// The image again.

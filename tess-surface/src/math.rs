@@ -110,7 +110,7 @@ fn is_positive(x: f32) -> bool {
     (x > 0.0) & (x < f32::INFINITY)
 }
 
-/// What can be interpolated.
+/// Values that can be interpolated.
 pub(crate) trait Vector:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<f32, Output = Self>
 {

@@ -42,7 +42,7 @@ impl Model {
     /// coordinates, whatever their indices.
     ///
     /// # Errors
-    /// What [`PolygonMesh::check`] finds, and edges of more than two faces, unless as many of them
+    /// Faults that [`PolygonMesh::check`] finds, and edges of more than two faces, unless as many of them
     /// run one way along the edge as the other ([`Model::crowded_edges`]).
     pub fn polygons(mut mesh: PolygonMesh, style: Style) -> Result<Self, MeshError> {
         mesh.check()?;

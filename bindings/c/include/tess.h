@@ -357,7 +357,7 @@
 typedef struct TessBatch TessBatch;
 
 /**
- * What every function returns: `TESS_OK` or the reason why it did nothing.
+ * Status that every function returns: `TESS_OK` or the reason why it did nothing.
  */
 typedef uint32_t TessStatus;
 
@@ -472,7 +472,7 @@ typedef struct TessProcessedFactor {
 } TessProcessedFactor;
 
 /**
- * What factor processing makes of a patch.
+ * Result of factor processing for a patch.
  */
 typedef struct TessProcessedPatch {
   /**
@@ -728,7 +728,7 @@ typedef int32_t (*TessDevice)(void *user,
                               struct TessCounts *counts);
 
 /**
- * What counts as equal, and which configurations are asked for.
+ * Strength of the comparison, and the configurations that are asked for.
  */
 typedef struct TessFuzzOptions {
   /**
@@ -855,7 +855,7 @@ uint32_t tess_version(void);
 const char *tess_version_string(void);
 
 /**
- * What a status means, in English, without a newline.
+ * Meaning of a status, in English, without a newline.
  *
  * Never null: a number that is no status gives "unknown status". The text lives as long as the
  * program and must not be freed.
@@ -1040,7 +1040,7 @@ TessStatus tess_prepare(const struct TessPreparation *preparation,
  * gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
  * millisecond, later ones a microsecond. What a batch learns of patches takes memory as it is used,
  * 1.1 MB at most. `tess_batch_reserve` takes all of it before.
- * What is stored in `batch` is to be given to `tess_batch_free`.
+ * Pass the handle stored in `batch` to `tess_batch_free` in the end.
  *
  * The caller must ensure:
  * Pointers that are not null and aligned must be valid:

@@ -47,7 +47,7 @@ pub struct TessBatch {
 /// gives `TESS_LEVEL_UNAVAILABLE`. The first call in a process with a configuration takes about a
 /// millisecond, later ones a microsecond. What a batch learns of patches takes memory as it is used,
 /// 1.1 MB at most. `tess_batch_reserve` takes all of it before.
-/// What is stored in `batch` is to be given to `tess_batch_free`.
+/// Pass the handle stored in `batch` to `tess_batch_free` in the end.
 ///
 /// # Safety
 /// Pointers that are not null and aligned must be valid:

@@ -103,7 +103,7 @@ pub(crate) unsafe fn room<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), len) })
 }
 
-/// What is known of a caller's output arrays.
+/// A caller's output arrays, checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Memory {
     is_initialised: bool,

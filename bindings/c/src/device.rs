@@ -28,7 +28,7 @@ pub type TessDevice = Option<
     ) -> i32,
 >;
 
-/// What became of a question to a device.
+/// Outcome of a question to a device.
 pub(crate) enum Asked {
     /// It gave an output.
     Output(Tessellation),

@@ -1,4 +1,4 @@
-//! What `verilog/tess_dpi.sv` imports: scalars and bit patterns alone.
+//! Functions that `verilog/tess_dpi.sv` imports: scalars and bit patterns alone.
 //!
 //! In `SystemVerilog` every argument is an `int unsigned`, outputs included, or the `chandle` of a patch
 //! that is held, so that calls are the same in every simulator. The functions are declared and documented in that file, with

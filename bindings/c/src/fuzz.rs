@@ -35,7 +35,7 @@ const ORDERS: [Order; 3] = [Order::Exact, Order::Sequence, Order::Any];
 const DENORMALS: [Denormals; 2] = [Denormals::Keep, Denormals::Flush];
 const CONVERSIONS: [Conversion; 2] = [Conversion::Exact, Conversion::Within06Ulp];
 
-/// What counts as equal, and which configurations are asked for.
+/// Strength of the comparison, and the configurations that are asked for.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TessFuzzOptions {
@@ -55,7 +55,7 @@ pub struct TessFuzzOptions {
     pub split: u32,
 }
 
-/// What a null pointer to options means.
+/// Options that a null pointer stands for.
 impl Default for TessFuzzOptions {
     fn default() -> Self {
         Self {

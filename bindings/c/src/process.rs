@@ -26,7 +26,7 @@ pub struct TessProcessedFactor {
     pub context: TessContext,
 }
 
-/// What factor processing makes of a patch.
+/// Result of factor processing for a patch.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct TessProcessedPatch {

@@ -1,4 +1,4 @@
-//! What a standard demands of a tessellator's output, judged without the model.
+//! Rules of a standard for a tessellator's output, judged without the model.
 
 use crate::boundary;
 use crate::device::{Asked, TessDevice, ask, write};

@@ -1,8 +1,8 @@
-//! What the functions answer: a number, and what it means.
+//! Status numbers of the functions, and their meanings.
 
 use std::ffi::{CStr, c_char};
 
-/// What every function returns: `TESS_OK` or the reason why it did nothing.
+/// Status that every function returns: `TESS_OK` or the reason why it did nothing.
 pub type TessStatus = u32;
 
 /// Done.
@@ -55,7 +55,7 @@ const MESSAGES: [&CStr; 15] = [
     c"nothing was compared",
 ];
 
-/// What a status means, in English, without a newline.
+/// Meaning of a status, in English, without a newline.
 ///
 /// Never null: a number that is no status gives "unknown status". The text lives as long as the
 /// program and must not be freed.

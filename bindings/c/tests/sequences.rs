@@ -47,7 +47,7 @@ const SEQUENCES: u32 = 100;
 /// How often each status was answered.
 type Tally = BTreeMap<TessStatus, u64>;
 
-/// What runs now: a panic inside the library ends the program, and this is what is known then.
+/// The sequence that runs now: a panic inside the library ends the program, and the hook prints this.
 static RUNNING: Mutex<String> = Mutex::new(String::new());
 
 /// Makes the calls of a sequence.
@@ -193,7 +193,7 @@ fn planted_faults_are_found_and_shrunk() {
     }
 }
 
-/// What was wrong in `tess-simd` where batches had no ranges: a chunk that begins with equal patches. It is also what a
+/// A chunk that begins with equal patches, once wrong in `tess-simd` where batches had no ranges. It is also what a
 /// printed sequence looks like.
 #[test]
 fn equal_patches_before_others() {

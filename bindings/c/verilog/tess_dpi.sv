@@ -20,7 +20,7 @@ package tess_dpi;
     typedef enum int unsigned { EVEN = 0, ODD = 1 } parity_e;
     typedef enum int unsigned { CULLED = 0, MINIMUM = 1, REGULAR = 2 } outcome_e;
 
-    // What the tessellator is set to.
+    // The tessellator's settings.
     typedef struct {
         domain_e       domain;
         partitioning_e partitioning;
@@ -69,7 +69,7 @@ package tess_dpi;
     // The library's version, major << 16 | minor << 8 | patch.
     import "DPI-C" function int unsigned tess_version();
 
-    // What a status means.
+    // Meaning of a status.
     import "DPI-C" function string tess_status_message(input int unsigned status);
 
     // Converts binary32 bits to a 15.16 number (specification, section 2). Cannot fail.
@@ -209,7 +209,7 @@ package tess_dpi;
         return r;
     endfunction
 
-    // What holds a patch of a configuration. Give it to tess_dpi_close in the end.
+    // Handle that holds a patch of a configuration. Give it to tess_dpi_close in the end.
     function automatic chandle model_open(input config_t cfg);
         chandle held;
         require_ok(tess_dpi_open(cfg.domain, cfg.partitioning, cfg.out, cfg.split_order, held), "open");

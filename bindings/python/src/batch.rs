@@ -162,7 +162,7 @@ impl Tessellator {
     /// Lends a tessellator that no other call uses, and the threads for it.
     ///
     /// # Errors
-    /// What `borrow` gives; no thread can be started.
+    /// Errors of `borrow`; no thread can be started.
     fn with<T>(
         &self,
         borrow: impl FnOnce(&mut tess_simd::Tessellator, &Threads) -> PyResult<T>,
@@ -221,7 +221,7 @@ enum Indices<'py> {
     Short(Array1<'py, u16>),
 }
 
-/// What a batch is written to.
+/// Arrays that a batch is written to.
 struct Arrays<'py> {
     points: Points<'py>,
     indices: Indices<'py>,
@@ -341,7 +341,7 @@ impl<'py> Arrays<'py> {
         }
     }
 
-    /// What was written, as views where the arrays are larger.
+    /// The written elements, as views where the arrays are larger.
     fn result(self, py: Python<'py>, counts: BatchCounts) -> PyResult<Bound<'py, PyAny>> {
         let points = match self.points {
             Points::Float(array) => array.into_any(),

@@ -264,7 +264,7 @@ impl Patch {
         Ok(self.report(part(point, primitive, factor)?)?.0)
     }
 
-    /// What a circuit gave for a point, a primitive, a factor or (without either) the patch's counts, compared
+    /// A circuit's value for a point, a primitive, a factor or (without either) the patch's counts, compared
     /// with the model: a :class:`SignalDifference` for each signal that differs, in the order in which each
     /// feeds the next. ``observed`` has the signals' names, which ``tess explain --help`` lists, and values.
     ///
@@ -437,7 +437,7 @@ impl Patch {
     }
 }
 
-/// What is asked for.
+/// The element that is asked for.
 fn part(point: Option<u32>, primitive: Option<u32>, factor: Option<u32>) -> PyResult<Part> {
     match (point, primitive, factor) {
         (None, None, None) => Ok(Part::Patch),

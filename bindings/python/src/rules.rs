@@ -1,4 +1,4 @@
-//! What a standard demands of output, judged without the model.
+//! Rules of a standard for output, judged without the model.
 
 use crate::errors::{self, argument, file_format};
 use crate::names::named;

@@ -102,7 +102,7 @@ impl Read for Watched {
 /// for ever, is left to end by itself.
 ///
 /// # Errors
-/// What a handler of a signal raised; no thread can be started; the work panicked.
+/// A signal handler's error; no thread can be started; the work panicked.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(Arc<AtomicBool>) -> T + Send + 'static,

@@ -8,7 +8,7 @@ use tess_verify::check::{Conversion, Denormals, Elements, Order, Strength};
 const ORDERS: [(&str, Order); 3] =
     [("exact", Order::Exact), ("sequence", Order::Sequence), ("any", Order::Any)];
 
-/// What `tess check` takes as `--order`, `--points`, `--conversion` and `--denormals`.
+/// Values that `tess check` takes as `--order`, `--points`, `--conversion` and `--denormals`.
 pub(crate) fn strength(
     order: &str,
     elements: &str,

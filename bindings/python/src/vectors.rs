@@ -159,7 +159,7 @@ fn patches_of(patches: &Bound<'_, PyAny>) -> PyResult<Vec<Case>> {
 /// truncated, too long or malformed raises :class:`FileFormatError`.
 #[pyclass(frozen, module = "tess_model")]
 pub(crate) struct VectorFile {
-    /// What the records are: ``listings``, ``patches``, ``sweep``, ...
+    /// Kind of the records: ``listings``, ``patches``, ``sweep``, ...
     #[pyo3(get)]
     kind: &'static str,
     /// How many records there are; ``None`` if the file marks its end instead.
@@ -398,7 +398,7 @@ pub(crate) fn check_device<'py>(
     values::report(py, &report)
 }
 
-/// What a device answered, at least once.
+/// Answers of a device, at least one.
 pub(crate) fn device_answers(answers: &Bound<'_, PyAny>) -> PyResult<Vec<(Case, Tessellation)>> {
     let mut watch = Watch::default();
     let answers: Vec<(Case, Tessellation)> = answers

@@ -9,7 +9,7 @@ from typing import Callable
 
 
 def in_a_child(work: "Callable[[], bytes]", patience: float = 60) -> bytes:
-    """What the work gives in a forked child.
+    """Result of the work in a forked child.
 
     Fails if the child raises, or has not ended in so many seconds.
     """

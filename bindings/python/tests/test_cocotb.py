@@ -65,7 +65,7 @@ def test_planted_faults_are_found(tmp_path: Path, fault: int) -> None:
 
 
 def test_the_wheel_has_the_example() -> None:
-    """What runs is what was installed, not what lies in the repository."""
+    """The installed example runs, not the one in the repository."""
     repository = Path(__file__).resolve().parents[1] / "python" / "tess_model" / "examples" / "cocotb"
     assert EXAMPLE != repository
     for file in sorted(repository.rglob("*.*")):

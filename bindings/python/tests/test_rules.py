@@ -1,4 +1,4 @@
-"""What the standards demand: as the program says, in Python."""
+"""Rules of the standards give the program's verdicts in Python."""
 
 from pathlib import Path
 

@@ -66,7 +66,7 @@ def of_core(domain: str, row: "tuple[int, ...]", config: "tuple[str, str, str]")
 
 
 class Expected:
-    """What the core says of a batch."""
+    """A batch's output by the core."""
 
     def __init__(self, domain: str, runs: "Runs", config: "dict[str, str]") -> None:
         count = sum(DOMAINS[domain])
@@ -272,7 +272,7 @@ class Calls(RuleBasedStateMachine):
 
 
 def on_threads(call: "Callable[[], Any]", count: int) -> "list[Any]":
-    """What a call gives in so many threads that begin together, each a few times."""
+    """Results of a call in ``count`` threads that begin together, each a few times."""
     results: "list[Any]" = []
     begin = threading.Barrier(count)
 

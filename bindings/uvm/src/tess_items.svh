@@ -176,7 +176,7 @@ class tess_patch_item extends uvm_sequence_item;
     endfunction
 endclass
 
-// What comes out for a patch: 16.16 points, and indices, one after another.
+// Output of a patch: 16.16 points, and indices, one after another.
 class tess_result_item extends uvm_sequence_item;
     tess_patch_item patch;
     int unsigned    u[$];

@@ -12,7 +12,7 @@ use tess_verify::Case;
 /// The words that buffers hold before a call.
 pub(super) const CANARY: u32 = 0xC0DE_C0DE;
 
-/// What is wrong with a call: the statuses that explain a refusal.
+/// Statuses that explain a refusal of a call.
 #[derive(Debug, Default)]
 pub(super) struct Wrongs(Vec<TessStatus>);
 

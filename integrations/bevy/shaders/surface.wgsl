@@ -1,4 +1,4 @@
-// What hull and domain functions call. Everything about an edge is the same from both sides.
+// Functions for hull and domain functions. Everything about an edge is the same from both sides.
 
 // The instance of each patch.
 @group(TESS_GROUP) @binding(2) var<storage, read> tess_owners: array<u32>;

@@ -1,4 +1,4 @@
-// What the plugin binds and what a domain function returns. The bind group's number is put in for TESS_GROUP.
+// The plugin's bindings and the structure that a domain function returns. The bind group's number is put in for TESS_GROUP.
 // render/layout.rs has the structs TessView and TessInstance too.
 
 struct TessView {

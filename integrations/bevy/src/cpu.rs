@@ -78,7 +78,7 @@ pub(crate) fn mesh(of: Tessellation, topology: PrimitiveTopology) -> Mesh {
         .with_inserted_indices(Indices::U32(indices))
 }
 
-/// What an entity's mesh was made from. When it changes, the mesh is replaced.
+/// Source of an entity's mesh. When it changes, the mesh is replaced.
 #[derive(Clone, Component, Debug)]
 pub(crate) struct Fallback {
     eye: Eye,

@@ -5,7 +5,7 @@ use bevy::math::{Affine3A, Mat4, Vec3};
 use bevy::transform::components::GlobalTransform;
 use tess_surface::{culling, factors, glam};
 
-/// What a camera sees the world by.
+/// View and size of a camera's picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct View {
     pub(crate) clip_from_world: Mat4,

@@ -125,7 +125,7 @@ impl HeightField {
         self.raised(place, self.height(place))
     }
 
-    // What follows is height_field.wgsl in Rust, function by function.
+    // The rest is height_field.wgsl in Rust, function by function.
 
     fn height(&self, place: Vec2) -> f32 {
         self.heights.height_at(glam::Vec2::from_array(place.to_array()))

@@ -13,7 +13,7 @@ use tess_wgpu::TessellationStage;
 const TYPES: &str = include_str!("../shaders/types.wgsl");
 const SURFACE: &str = include_str!("../shaders/surface.wgsl");
 const FRAGMENT: &str = include_str!("../shaders/fragment.wesl");
-/// What fragment.wesl uses of Bevy. In one line, in front of the shape's first.
+/// Bevy's items that fragment.wesl uses, in one line in front of the shape's first.
 const IMPORTS: &str = "import bevy_pbr::render::pbr_types as tess_pbr_types; \
                        import bevy_pbr::render::pbr_functions as tess_pbr_functions; \
                        import bevy_pbr::render::mesh_types as tess_mesh_types; ";
@@ -23,7 +23,7 @@ const HULL_GROUP: &str = "0";
 /// The plugin's bind group in the render pass, in the place of Bevy's group for meshes.
 pub(crate) const DRAW_GROUP: usize = 2;
 
-/// What the entities of one call have in common.
+/// Properties that the entities of one call share.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct Key {
     pub(crate) domain: Domain,
@@ -49,7 +49,7 @@ impl Key {
         format!("{}\n{own}", self.surface)
     }
 
-    /// What the stage's hull pass is compiled from.
+    /// Source of the stage's hull pass.
     pub(crate) fn hull_source(&self) -> String {
         self.joined(HULL_GROUP)
     }

@@ -1,4 +1,4 @@
-//! What a shape is: its patches, its WGSL, and the Rust form of it.
+//! Shapes: their patches, their WGSL, and the Rust form of it.
 
 use crate::eye::Eye;
 use bevy::camera::primitives::Aabb;
@@ -51,10 +51,10 @@ pub trait Shape: Debug + Send + Sync + 'static {
 
 /// The Rust form of a shape's functions.
 pub trait CpuShape {
-    /// What `hull` does: the factors of a patch.
+    /// `hull` in Rust: the factors of a patch.
     fn factors(&self, patch: u32, eye: &Eye) -> PatchFactors;
 
-    /// What `domain` does, in local space: appends a vertex for each of these domain points of a patch.
+    /// `domain` in Rust, in local space: appends a vertex for each of these domain points of a patch.
     fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>);
 }
 

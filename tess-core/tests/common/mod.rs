@@ -1,4 +1,4 @@
-//! Helpers that the tests of the core share.
+//! Helpers of the core's tests.
 
 use proptest::prelude::*;
 use tess_core::{

@@ -83,7 +83,7 @@ impl<'a> Lines<'a> {
         Self(text.lines())
     }
 
-    /// The text behind `start` on the next line that starts so.
+    /// Rest of the next line that begins with `start`.
     pub(crate) fn next_starting(&mut self, start: &str) -> Option<&'a str> {
         self.0.find_map(|line| line.strip_prefix(start))
     }

@@ -1,4 +1,4 @@
-//! What is refused, and with which words.
+//! Refused inputs, and the words of each error.
 
 use crate::models::{cube, mesh};
 use glam::{Vec2, Vec3};

@@ -114,7 +114,7 @@ fn is_finite(sample: &Sample) -> bool {
     sample.position.is_finite() && sample.texcoord.is_finite()
 }
 
-/// What the bound is for: unchecked, these corners give no position.
+/// The bound is needed: unchecked, these corners give no position.
 #[test]
 fn coordinates_out_of_range_overflow() {
     let corners = [Vec3::splat(3e38), Vec3::splat(-3e38), Vec3::splat(3e38), Vec3::ZERO];

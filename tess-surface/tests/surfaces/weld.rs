@@ -90,7 +90,7 @@ fn uses(edges: impl Iterator<Item = EdgeKey>) -> BTreeMap<EdgeKey, u32> {
     uses
 }
 
-/// What welding positions of equal bits leaves to complain about: `None` if the edges with an odd
+/// Faults left after welding positions of equal bits: `None` if the edges with an odd
 /// number of triangles are those that the border passes an odd number of times. (Where a coarse
 /// tessellation lays two edges into the same segment, four triangles meet.)
 pub(crate) fn complaint(out: &Tessellated) -> Option<String> {

@@ -1,4 +1,4 @@
-//! What can be chosen, and factors as people write them.
+//! Choices of the page, and factors as people write them.
 
 use crate::{json, thrown};
 use serde::Serialize;

@@ -13,7 +13,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// More differences make a link that is too long for some programs.
 const MOST: usize = 200;
 
-/// What differs from the model, in words; nothing if it is too much for a link.
+/// Differences from the model, in words; nothing if they are too many for a link.
 #[wasm_bindgen]
 #[must_use]
 pub fn difference_words(expected: &PatchView, observed: &PatchView) -> Option<String> {

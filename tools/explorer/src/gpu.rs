@@ -1,4 +1,4 @@
-//! What a page needs to run the shaders of `tess-gpu` on WebGPU, and the verdict on what they wrote.
+//! The shaders of `tess-gpu` for a page with WebGPU, and the verdict on their output.
 
 use crate::{json, thrown};
 use serde::Serialize;
@@ -44,7 +44,7 @@ pub fn shader_sources(line: &str) -> Result<String, JsError> {
     Ok(json(&Stage::ALL.map(source).into_iter().collect::<BTreeMap<_, _>>()))
 }
 
-/// What the page has made: packed points, and indices that count from each patch's first point.
+/// Output on the page: packed points, and indices that count from each patch's first point.
 fn setup(domain: Domain, config: Config) -> Setup {
     Setup { numbering: Numbering::PerPatch, ..Setup::new(domain, config) }
 }
@@ -151,7 +151,7 @@ impl GpuBatch {
         None
     }
 
-    /// What the shaders wrote for the batch's first patch, as a listing.
+    /// Output of the shaders for the batch's first patch, as a listing.
     #[must_use]
     pub fn listing(&self, points: &[u32], indices: &[u32]) -> String {
         let points = points.as_chunks::<2>().0.iter().map(unpacked).collect();

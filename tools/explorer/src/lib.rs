@@ -1,4 +1,4 @@
-//! What the explorer's page asks the libraries for.
+//! Functions of the libraries for the explorer's page.
 //!
 //! The page shows nothing that is not computed here, by the code that `tess` uses: patches, texts,
 //! pictures, comparisons, and the shaders of `tess-gpu`. Structured answers are JSON.

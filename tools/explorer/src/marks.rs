@@ -1,4 +1,4 @@
-//! What the page marks: areas of triangles, middles and splits of edges.
+//! Marks of the page: areas of triangles, middles and splits of edges.
 
 use tess_core::{FactorContext, OutputPrimitive, Patch, PatchFactors, PointOrigin, place};
 use tess_verify::vectors::Listing;

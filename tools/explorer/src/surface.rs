@@ -111,7 +111,7 @@ impl SurfaceView {
         factor_words(&self.factors)
     }
 
-    /// What the WGSL of [`Self::wgsl`] reads: 16 control points of each patch, x, y, z and 1, rows along
+    /// Words that the WGSL of [`Self::wgsl`] reads: 16 control points of each patch, x, y, z and 1, rows along
     /// v; then, where there are any, 4 corner and 4 edge normals of each patch, with a fourth number of 0.
     #[must_use]
     pub fn nets(&self) -> Vec<f32> {

@@ -26,7 +26,7 @@ const DRAWING = [
 const browsers = new Map();
 const tests = [];
 
-// What `run` gives is printed beside the test's name.
+// The result of `run` is printed beside the test's name.
 export function test(name, run) {
   tests.push({ name, run });
 }
@@ -65,7 +65,7 @@ export async function close(page) {
   if (problems.length > 0) throw new Error(`the page complained:\n${problems.join("\n")}`);
 }
 
-// What `tess` prints.
+// The output of `tess`.
 export function tess(...words) {
   return execFileSync(need("TESS_PROGRAM"), words, { maxBuffer: 1 << 26 });
 }
@@ -83,7 +83,7 @@ export async function enter(page, line) {
   await page.waitForFunction((wanted) => document.documentElement.dataset.drawn === wanted, line);
 }
 
-// What a part of the page looks like: width, height and its pixels, four numbers each.
+// Picture of a part of the page: width, height and its pixels, four numbers each.
 export async function pixels(page, id) {
   const shot = await page.locator(`#${id}`).screenshot();
   const { size, text } = await page.evaluate(async (base64) => {

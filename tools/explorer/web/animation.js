@@ -1,4 +1,4 @@
-// What moves by itself: a factor over a range, and the patch built primitive by primitive.
+// Animations: a factor over a range, and the patch built primitive by primitive.
 
 import { element, set, state } from "./state.js";
 import { change, changeFactor, toBits } from "./controls.js";

@@ -4,7 +4,7 @@ import { element, set, state } from "./state.js";
 import { patch } from "./patch.js";
 import { over } from "./picture.js";
 
-// What each section of the explanation is about, by how its heading begins.
+// Subjects of the explanation's sections, by how their headings begin.
 const ABOUT = {
   "Factors": "Each factor is clamped to the partitioning's range, rounded if the partitioning wants integers, and made a 15.16 fixed-point number. Floating point ends here.",
   "Decisions": "Whether the patch is culled, and every special rule that applied.",
@@ -33,7 +33,7 @@ export function update(keys) {
   show();
 }
 
-// What is under the pointer, else what was picked.
+// The element under the pointer, else the one that was picked.
 function show() {
   const pick = over.hover || state.pick;
   const number = Number(pick.slice(1));

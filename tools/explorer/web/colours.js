@@ -1,4 +1,4 @@
-// What the colours of triangles say.
+// Colours of triangles, by their meaning.
 
 import { colourOf } from "./mesh.js";
 

@@ -107,7 +107,7 @@ async function gpuBadge() {
   else if (state.against === "gpu") show(), draw();
 }
 
-// What the shaders got wrong in the patches of these case lines; nothing if every bit is equal.
+// Errors of the shaders in the patches of these case lines; nothing if every bit is equal.
 async function differenceOf(device, lines, hasFault) {
   const batch = new GpuBatch(lines);
   try {

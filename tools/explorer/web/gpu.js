@@ -2,7 +2,7 @@
 
 import { GpuTables } from "./tess_explorer.js";
 
-// What a planted fault changes in the shaders' `place`: where factors are fractional, and where they are integers.
+// Lines of the shaders' `place` that a planted fault changes: where factors are fractional, and where they are integers.
 const FAULTS = [
   ["fraction_of(context) + HALF) >> 16u", "fraction_of(context) + HALF + HALF) >> 16u"],
   ["min(position, mirror) * context.y", "min(position, mirror) * context.y + 1u"],
@@ -127,7 +127,7 @@ class Gpu {
     for (const [name, buffer] of Object.entries(buffers)) if (name !== "Tables") buffer.destroy();
   }
 
-  // What the shaders write for a batch: the points, two words each, and the indices.
+  // Output of the shaders for a batch: the points, two words each, and the indices.
   async tessellate(batch, hasFault = false) {
     this.device.pushErrorScope("validation");
     const prepared = await this.prepare(batch, hasFault);

@@ -46,7 +46,7 @@ function startTheme() {
     set({ theme: document.documentElement.dataset.theme === "dark" ? "light" : "dark" }));
 }
 
-// What the first picture does without is fetched and started after it.
+// Parts that the first picture does not need are fetched and started after it.
 const LATER = ["compare", "animation", "ask", "share", "learn", "surface", "measure"];
 
 async function start() {

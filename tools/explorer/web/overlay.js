@@ -1,4 +1,4 @@
-// What lies above the triangles: the domain's outline, lines, points, numbers, marks and differences.
+// The layer above the triangles: the domain's outline, lines, points, numbers, marks and differences.
 
 import { state } from "./state.js";
 import { patch } from "./patch.js";
@@ -141,7 +141,7 @@ function marks(paint, places) {
   });
 }
 
-// What is asked about: a ring around a point, a thick outline of a primitive, with a light rim.
+// The element that is asked about: a ring around a point, a thick outline of a primitive, with a light rim.
 function highlight(paint, places, pick, colour, width) {
   if (!pick) return;
   const number = Number(pick.slice(1));

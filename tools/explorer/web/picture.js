@@ -12,7 +12,7 @@ const overlay = element("overlay");
 let mesh = null;
 let uploaded = "";
 export let view = new View(new Layout("quad"));
-// What else is laid over the picture: `points`, `indices` and `size` of another result, and the numbers of
+// Overlay of the picture: `points`, `indices` and `size` of another result, and the numbers of
 // its points and primitives that differ.
 export const over = { other: null, hover: "" };
 

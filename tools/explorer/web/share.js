@@ -3,7 +3,7 @@
 import { element, link, state } from "./state.js";
 import { patch } from "./patch.js";
 
-// What can be copied: its name and the text.
+// Texts that can be copied, each with its name.
 const COPIES = [
   ["link", "Link to this view", () => link()],
   ["line", "Case line for tess check", () => patch.line],

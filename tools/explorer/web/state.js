@@ -1,4 +1,4 @@
-// What the page shows, as one object that the address holds.
+// State of the page, as one object that the address holds.
 
 import { choices } from "./tess_explorer.js";
 

@@ -92,7 +92,7 @@ function say(by, text) {
   element("surface-note").textContent = text;
 }
 
-// What both ways draw by.
+// Settings of both ways of drawing.
 function scene() {
   const eye = eyeOf(orbit(), sphere);
   const width = state.wire ? 0.5 * (devicePixelRatio || 1) : 0;

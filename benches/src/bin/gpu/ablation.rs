@@ -18,7 +18,7 @@ use variant::Variant;
 /// Runs whose median is taken.
 const SAMPLES: usize = 7;
 
-/// What to measure.
+/// The measurements to take.
 #[derive(Args, Debug)]
 pub(crate) struct Arguments {
     /// Folder of edits, one `*.edit` file for each variant of the shaders

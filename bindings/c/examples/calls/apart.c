@@ -1,5 +1,5 @@
 /*
- * What points in two arrays cost beside points in pairs: TESS_POINT_F32_APART and TESS_POINT_F32.
+ * The cost of points in two arrays beside points in pairs: TESS_POINT_F32_APART and TESS_POINT_F32.
  *
  *   cc -O2 -I bindings/c/include bindings/c/examples/calls/apart.c bindings/c/examples/calls/clock.c
  *      target/release/libtess_capi.a -lpthread -ldl -lm -o apart && ./apart

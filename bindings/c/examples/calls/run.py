@@ -48,7 +48,7 @@ def build(target):
 
 
 def timed(command):
-    """What a program says: each factor's times."""
+    """Times of each factor, as a program prints them."""
     said = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     rows = [line.split() for line in said.splitlines() if line[:1].isdigit()]
     return {int(row[0]): [float(figure) for figure in row[1:]] for row in rows}

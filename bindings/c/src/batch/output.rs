@@ -89,7 +89,7 @@ pub struct TessBatchOutput {
 }
 
 impl TessBatchOutput {
-    /// What the caller says of the buffers' memory.
+    /// The buffers' memory, as the caller describes it.
     ///
     /// # Safety
     /// - With `TESS_MEMORY_INITIALISED` the buffers are initialised, up to their capacities.

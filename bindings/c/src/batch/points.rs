@@ -52,7 +52,7 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
     ) -> Result<Counts, Error>;
 }
 
-/// What a patch may write of a room in which its output has this length.
+/// Part of a room that a patch may write if its output has this length.
 pub(super) fn with_overrun<T>(room: &mut [T], length: u32) -> &mut [T] {
     let end = room.len().min(length as usize + CountedPatch::OVERRUN);
     &mut room[..end]

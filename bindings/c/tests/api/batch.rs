@@ -383,7 +383,7 @@ fn one_patch_a_call() {
     }
 }
 
-/// What is refused, and that nothing but the sizes is written then.
+/// Refused calls write nothing but the sizes.
 #[test]
 fn one_patch_is_refused() {
     let config = TessConfig { domain: 2, partitioning: 0, output: 2, split: 0 };

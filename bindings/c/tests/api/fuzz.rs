@@ -17,7 +17,7 @@ use tess_capi::types::{
     TessConfig, TessCounts, TessPoint,
 };
 
-/// What is done to the model's answer.
+/// Change to the model's answer.
 type Fault = fn(&mut TessCounts, *mut u32) -> i32;
 
 /// Every configuration, and an order.

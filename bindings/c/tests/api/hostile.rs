@@ -1,4 +1,4 @@
-//! What must be refused: null, misaligned, unknown, too small, too large, overlapping.
+//! Refused arguments: null, misaligned, unknown, too small, too large, overlapping.
 
 use std::ptr::{null, null_mut};
 use tess_capi::patch::{tess_count, tess_patch};

@@ -10,7 +10,7 @@ use tess_capi::status::{
 };
 use tess_capi::types::{TESS_DOMAIN_ISOLINE, TESS_OUTPUT_LINE, TessConfig, TessCounts, TessPoint};
 
-/// What a device does: an answer without an output, or none and the model's output is changed.
+/// Fault of a device: an answer without an output, or none and the model's output is changed.
 type Fault = fn(&TessConfig, &mut TessCounts) -> i32;
 
 unsafe extern "C" fn device(

@@ -7,7 +7,7 @@ use std::process::Command;
 use tess_verify::Case;
 
 pub(crate) const STRICT: &[&str] = &["-Wall", "-Wextra", "-pedantic", "-Werror"];
-/// What a Rust static library needs from the system.
+/// System libraries that a Rust static library needs.
 pub(crate) const SYSTEM_LIBRARIES: &[&str] = &["-lpthread", "-ldl", "-lm"];
 
 pub(crate) fn header_is_c99() -> Result<(), Failed> {

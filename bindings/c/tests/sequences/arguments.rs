@@ -1,4 +1,4 @@
-//! What a call is given, and which refusals explain what is wrong with it.
+//! Arguments of a call, and the refusals that explain what is wrong with them.
 
 use super::calls::{Part, Room, To, Wrong};
 use super::memory::Memory;
@@ -38,9 +38,9 @@ pub(crate) struct Arguments {
     /// Bytes of an element of each part.
     pub(crate) sizes: [usize; 6],
     pub(crate) base_vertex: u32,
-    /// What refuses the call before anything is counted.
+    /// Statuses that refuse the call before anything is counted.
     refused: Vec<TessStatus>,
-    /// What refuses it then.
+    /// Statuses that refuse it then.
     unfit: Vec<TessStatus>,
 }
 

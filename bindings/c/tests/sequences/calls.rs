@@ -83,7 +83,7 @@ impl To {
 /// The capacity of a buffer.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Room {
-    /// What is needed.
+    /// As many elements as are needed.
     Exact,
     /// So many elements more.
     More(u8),
@@ -103,7 +103,7 @@ pub(crate) enum Base {
     Limit(i8),
 }
 
-/// What a call is given.
+/// Arguments of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Part {
     Factors,
@@ -114,7 +114,7 @@ pub(crate) enum Part {
     Output,
 }
 
-/// What is wrong with a call's pointers.
+/// Fault of a call's pointers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wrong {
     Nothing,

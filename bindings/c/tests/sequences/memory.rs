@@ -9,7 +9,7 @@ const GUARD: usize = 2048;
 #[derive(Default)]
 pub(crate) struct Memory(Vec<u64>);
 
-/// What a buffer and its guards hold.
+/// Bytes of a buffer and its guards.
 #[derive(Clone, PartialEq, Eq)]
 pub(crate) struct Image(Vec<u8>);
 

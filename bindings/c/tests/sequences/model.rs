@@ -1,4 +1,4 @@
-//! What the model says of a batch.
+//! A batch's output by the model.
 
 use super::calls::{Base, Bits};
 use tess_capi::batch::TessRange;

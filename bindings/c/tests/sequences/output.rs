@@ -1,4 +1,4 @@
-//! What a call writes, put into images of its buffers, and where a buffer differs from that.
+//! Output of a call, put into images of its buffers, and the first difference of a buffer from it.
 
 use super::arguments::{Arguments, Way};
 use super::calls::{Part, To};

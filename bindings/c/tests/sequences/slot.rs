@@ -221,7 +221,7 @@ impl Slot {
         Ok(status)
     }
 
-    /// What lies behind the output of one patch is any.
+    /// Anything may lie behind the output of one patch.
     fn leave_overrun(&self, expected: &mut [Image], given: &Arguments, model: &Model, to: &To) {
         let arrays = match to.point_format {
             TESS_POINT_F32_APART => {

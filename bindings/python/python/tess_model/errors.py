@@ -1,4 +1,4 @@
-"""What the package raises. Every error says what was wrong and what would be right."""
+"""Errors of the package. Every error says what was wrong and what would be right."""
 
 
 class TessError(ValueError):

@@ -127,7 +127,7 @@ class Scoreboard:
         return max(len(stream.patches) for stream in self._streams.values())
 
     def missing(self) -> "Iterator[str]":
-        """What each stream waits for."""
+        """The item that each stream waits for."""
         for name, stream in self._streams.items():
             if stream.patches:
                 yield f"{name} {stream.next} of {stream.patches[0][0].case}"

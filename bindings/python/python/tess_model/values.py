@@ -161,11 +161,11 @@ class Difference(NamedTuple):
     case: Optional[str]
     """The patch, as ``Patch.from_case`` takes it."""
     element: str
-    """What differs, such as ``point 7 u``."""
+    """Name of the element that differs, such as ``point 7 u``."""
     observed: str
-    """What was found there: hex, or a decimal count."""
+    """Value found there: hex, or a decimal count."""
     expected: str
-    """What is right there."""
+    """Value that is right there."""
     stage: str
     """The stage of the specification that it points to."""
     text: str
@@ -182,9 +182,9 @@ class SignalDifference(NamedTuple):
     signal: str
     """Its name."""
     observed: int
-    """What the circuit gave."""
+    """Value from the circuit."""
     expected: int
-    """What the model gives."""
+    """Value from the model."""
 
     def __str__(self) -> str:
         return (
@@ -199,11 +199,11 @@ class RuleExample(NamedTuple):
     cases: "tuple[str, ...]"
     """One patch or two, as ``Patch.from_case`` takes them."""
     what: str
-    """What is wrong."""
+    """Description of the violation."""
 
 
 class RuleRow(NamedTuple):
-    """What became of one rule of a standard."""
+    """Outcome of one rule of a standard."""
 
     rule: str
     """Its name, as docs/rules.md has it."""

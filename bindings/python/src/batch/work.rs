@@ -29,7 +29,7 @@ pub(super) enum How<'a> {
     },
 }
 
-/// What is known of a batch that is counted.
+/// A batch that is counted.
 #[derive(Clone, Copy)]
 pub(super) struct Sizes {
     pub(super) counts: BatchCounts,

@@ -1,6 +1,6 @@
 // A stub of the parts of UVM that tess_uvm uses, so that a simulator without UVM compiles and runs it
 // in this project's tests. It is no UVM: no factory, no phases but by hand, a sequencer has one sequence, reports are lines.
-// What the example uses besides is declared, so that it can be elaborated, and does nothing.
+// Other names that the example uses are declared, so that it can be elaborated, and do nothing.
 package uvm_pkg;
     typedef enum bit { UVM_PASSIVE = 0, UVM_ACTIVE = 1 } uvm_active_passive_enum;
 
@@ -115,7 +115,7 @@ package uvm_pkg;
         endfunction
     endclass
 
-    // What an analysis port writes to.
+    // Target of an analysis port.
     virtual class uvm_port_base #(type T = int) extends uvm_component;
         function new(string name, uvm_component parent);
             super.new(name, parent);

@@ -17,7 +17,7 @@ Options:
 
 Keys: w wireframe, c CPU or GPU, + and - finer and coarser, Escape ends.";
 
-/// What the user wants.
+/// Options of the command line.
 #[derive(Clone, Debug, Resource)]
 pub(crate) struct Args {
     pub(crate) screenshot: Option<PathBuf>,

@@ -23,7 +23,7 @@ pub(crate) fn set_up(mut commands: Commands, args: Res<Args>, mut images: ResMut
     commands.insert_resource(Target(images.add(image)));
 }
 
-/// What was seen so far.
+/// Frames seen so far.
 #[derive(Debug, Default)]
 pub(crate) struct Progress {
     frames: u32,

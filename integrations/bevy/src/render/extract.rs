@@ -1,4 +1,4 @@
-//! What the render world knows of the surfaces of a frame.
+//! The render world's copy of a frame's surfaces.
 
 use crate::component::{TessSettings, Tessellated};
 use crate::detail::LevelOfDetail;

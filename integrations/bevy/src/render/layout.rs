@@ -1,4 +1,4 @@
-//! What the shaders bind: types.wgsl and surface.wgsl in Rust.
+//! Bindings of the shaders: types.wgsl and surface.wgsl in Rust.
 
 use super::extract::Item;
 use crate::detail::LevelOfDetail;

@@ -52,7 +52,7 @@ pub(crate) struct Prepared {
     content: Option<Content>,
     stage: Option<(TessellationStage, u32)>,
     drawn: Option<Drawn>,
-    /// What went wrong is logged once; the program is then not drawn until its entities change.
+    /// An error is logged once; the program is then not drawn until its entities change.
     has_failed: bool,
     is_used: bool,
 }

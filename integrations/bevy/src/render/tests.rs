@@ -177,7 +177,7 @@ fn wrong_wgsl_is_not_drawn_and_ends_nothing() {
     assert_eq!(middle(&mut app), [0, 255, 0, 255], "the other one is drawn");
 }
 
-/// What a stage left of points: patch, u and v.
+/// Points of a stage: patch, u and v.
 fn points_of(app: &App, stage: &TessellationStage, count: usize) -> Vec<(u32, [f32; 2])> {
     let world = app.sub_app(RenderApp).world();
     let device = world.resource::<RenderDevice>().wgpu_device().clone();

@@ -9,13 +9,13 @@ use tess_wgpu::{Gpu, TessellationStage};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// What came out of the stage.
+/// Output of the stage.
 #[wasm_bindgen]
 #[derive(Debug)]
 pub struct Report {
     /// Frames until everything fitted.
     pub frames: u32,
-    /// What the factors were scaled by in the first frame, whose room was too little.
+    /// Scale of the factors in the first frame, whose room was too little.
     pub first_scale: f32,
     /// Points of the last frame.
     pub points: u32,
@@ -46,7 +46,7 @@ impl Report {
 /// a planted fault.
 ///
 /// # Errors
-/// What the stage says.
+/// The stage's error, in words.
 #[wasm_bindgen]
 pub async fn draw_terrain(wgsl_fault: String, is_wrong: bool) -> Result<Report, JsError> {
     let gpu = Gpu::open().await.map_err(thrown)?;

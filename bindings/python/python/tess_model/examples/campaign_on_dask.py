@@ -90,7 +90,7 @@ def main() -> int:
 
 
 def merge(folder: Path, name: str) -> int:
-    """What `tess merge` says of one campaign's reports; its exit code."""
+    """Verdict of `tess merge` on one campaign's reports; its exit code."""
     reports = [str(folder / f"{name}-{shard}.jsonl") for shard in range(1, SHARDS + 1)]
     sys.stdout.flush()
     return subprocess.run(["tess", "merge", *reports]).returncode
