@@ -9,7 +9,7 @@ pub mod obj;
 pub mod seeds;
 
 use crate::fault_is_planted;
-use tess_surface::{Fault, MeshError, Model, PolygonMesh, Style};
+use tess_surface::{MeshFault, MeshError, Model, PolygonMesh, Style};
 
 /// Checks one reading: `names_a_place` judges the message of a refusal, `independent` reads again.
 fn check<T>(
@@ -69,7 +69,7 @@ fn mesh_words(mesh: &PolygonMesh) -> Vec<u32> {
 fn models(mut mesh: PolygonMesh) -> Result<(), String> {
     tess_program::fuzzing::without_collapsed(&mut mesh);
     for style in [Style::Flat, Style::PointNormal] {
-        if let Err(MeshError::Face { face, fault: Fault::RepeatedCorner }) =
+        if let Err(MeshError::Face { face, fault: MeshFault::RepeatedCorner }) =
             Model::polygons(mesh.clone(), style)
         {
             return Err(format!("face {face} still has corners in the same place"));

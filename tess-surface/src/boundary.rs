@@ -1,8 +1,8 @@
 //! Vertices on edges and corners, eight at a time.
 //!
 //! A point on an edge must be computed from the edge alone, or else two patches that share it round differently and a
-//! crack opens; so [`Patch::boundary`] replaces what the formulas of the inside gave there. `Formulas::evaluate` calls it
-//! once for each eight points, after the inside; `Patch::sample` has the same rules for one point, with branches.
+//! crack opens; so [`SurfacePatch::boundary`] replaces what the formulas of the inside gave there. `Formulas::evaluate` calls it
+//! once for each eight points, after the inside; `SurfacePatch::sample` has the same rules for one point, with branches.
 //!
 //! # The data
 //!
@@ -38,12 +38,12 @@
 //!
 //! ```
 //! use tess_surface::glam::Vec3;
-//! use tess_surface::{Patch, Sample, Surface};
+//! use tess_surface::{SurfacePatch, Sample, Surface};
 //!
 //! let corners = [[0., 0., 0.], [4., 0., 0.], [4., 4., 2.], [0., 4., 0.]].map(Vec3::from_array);
 //! let points = [[0.5, 0.5], [0., 0.25], [1., 0.25], [0.5, 0.], [1., 1.], [0.5, 1.], [1., 0.75], [0.25, 0.5]];
 //! let mut samples = [Sample::default(); 8];
-//! Patch::new(Surface::Bilinear(corners)).samples(&points, &mut samples);
+//! SurfacePatch::new(Surface::Bilinear(corners)).samples(&points, &mut samples);
 //! assert_eq!(samples.map(|sample| sample.position.to_array()), [
 //!     [2., 2., 0.5], [0., 1., 0.], [4., 1., 0.5], [2., 0., 0.],
 //!     [4., 4., 2.], [2., 4., 1.], [4., 3., 1.5], [1., 2., 0.25],
@@ -65,14 +65,14 @@
 //!
 //! # The simpler form
 //!
-//! Point by point, as `Patch::sample`: then the inside ran in lanes and every point of an edge alone. At factor 8, where
+//! Point by point, as `SurfacePatch::sample`: then the inside ran in lanes and every point of an edge alone. At factor 8, where
 //! 32 of 81 points are on the boundary, that took 27 ns a vertex on bicubic patches and 29 on PN triangles; with edges in
 //! lanes it takes 17 and 12 (docs/experiments.md, "Evaluation in lanes"). Corners are still one by one: a patch has three or four.
 
 use crate::curve::{Curve, Direction, Edge};
 use crate::lanes::{LANES, Lanes, Vertices};
 use crate::math::{Homogeneous, de_casteljau, lerp, plain_zero, select, unit_or_not};
-use crate::patch::{Patch, Surface, along_edge, normal_in_direction};
+use crate::patch::{Surface, SurfacePatch, along_edge, normal_in_direction};
 use crate::sides::{Sides, edge_corners};
 use glam::{Vec3, Vec4};
 
@@ -165,7 +165,7 @@ impl Vertices {
     }
 }
 
-impl Patch {
+impl SurfacePatch {
     /// Replaces what points on edges and corners have from those alone.
     #[inline(always)]
     pub(crate) fn boundary(&self, vertices: &mut Vertices) {

@@ -1,7 +1,7 @@
 //! Evaluation at a CPU level: each kernel is compiled once for every level, and one is chosen at run time.
 
 use crate::displaced::{self, DisplacedPatch};
-use crate::patch::{Patch, Sample};
+use crate::patch::{Sample, SurfacePatch};
 use crate::samples;
 #[cfg(target_arch = "x86_64")]
 use multiversion::target::match_target;
@@ -56,7 +56,7 @@ struct Job<'a, P> {
     samples: &'a mut [Sample],
 }
 
-impl Kernel for Job<'_, Patch> {
+impl Kernel for Job<'_, SurfacePatch> {
     #[inline(always)]
     fn run(self) {
         samples::samples(self.patch, self.points, self.samples);
@@ -70,14 +70,14 @@ impl Kernel for Job<'_, DisplacedPatch<'_>> {
     }
 }
 
-impl Patch {
-    /// The vertices at these domain points: the bits of [`Patch::sample`] at each, several times as fast. Vertices or
+impl SurfacePatch {
+    /// The vertices at these domain points: the bits of [`SurfacePatch::sample`] at each, several times as fast. Vertices or
     /// points that the other slice has no partner for are left alone.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
         at_level(Level::detect(), Job { patch: self, points, samples });
     }
 
-    /// [`Patch::samples`] with the instructions of a CPU level, which gives the same bits as every other.
+    /// [`SurfacePatch::samples`] with the instructions of a CPU level, which gives the same bits as every other.
     ///
     /// # Errors
     /// [`LevelUnavailable`] if this machine cannot run the level.

@@ -15,7 +15,7 @@ use crate::height::Displacement;
 use crate::lanes::{INSIDE, LANES, Lanes2, Lanes3, Vertices};
 use crate::math::{length, plain_zero, select, unit, unit_or_not};
 use crate::model::Model;
-use crate::patch::{Patch, Sample};
+use crate::patch::{Sample, SurfacePatch};
 use crate::sides::{Place, Sides, corner_coordinates, edge_corners};
 use crate::topology::{HalfEdge, weld};
 use alloc::vec;
@@ -121,7 +121,7 @@ impl<'a> DisplacedModel<'a> {
 #[derive(Clone, Debug)]
 pub struct DisplacedPatch<'a> {
     displacement: &'a Displacement,
-    patch: Patch,
+    patch: SurfacePatch,
     sides: Sides<Side>,
 }
 
@@ -130,7 +130,7 @@ pub struct DisplacedPatch<'a> {
 struct Side {
     corner: Anchor,
     /// The patch beyond the edge, and the edge's number there.
-    beyond: Option<(Patch, usize)>,
+    beyond: Option<(SurfacePatch, usize)>,
     /// Whether the edge has this patch's texture coordinates, not those of the patch beyond.
     leads: bool,
 }

@@ -14,7 +14,7 @@ pub const MAX_COORDINATE: f32 = 1e16;
 /// Fault of one face or patch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Fault {
+pub enum MeshFault {
     /// An index points beyond its list.
     OutOfRange {
         /// The name of the list's elements.
@@ -67,7 +67,7 @@ pub enum MeshError {
         /// Its number, from 0.
         face: usize,
         /// Its fault.
-        fault: Fault,
+        fault: MeshFault,
     },
 }
 
@@ -113,12 +113,12 @@ pub enum HeightError {
 }
 
 impl MeshError {
-    pub(crate) const fn face(face: usize, fault: Fault) -> Self {
+    pub(crate) const fn face(face: usize, fault: MeshFault) -> Self {
         Self::Face { face, fault }
     }
 }
 
-impl fmt::Display for Fault {
+impl fmt::Display for MeshFault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::OutOfRange { what, count } => {
@@ -188,5 +188,5 @@ impl fmt::Display for HeightError {
 
 impl core::error::Error for HeightError {}
 impl core::error::Error for WrongDomain {}
-impl core::error::Error for Fault {}
+impl core::error::Error for MeshFault {}
 impl core::error::Error for MeshError {}

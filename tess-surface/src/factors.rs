@@ -19,7 +19,7 @@ use crate::bend::Bend;
 use crate::curve::Curve;
 use crate::math::sqrt;
 use crate::model::Model;
-use crate::patch::Patch;
+use crate::patch::SurfacePatch;
 use crate::pn::{PnCorner, edge_bend};
 use crate::sides::Sides;
 use crate::topology::HalfEdge;
@@ -195,7 +195,7 @@ impl FactorRule {
     }
 
     /// The bend of a patch, which only one rule looks at.
-    fn bend(&self, patch: &Patch) -> Bend {
+    fn bend(&self, patch: &SurfacePatch) -> Bend {
         if matches!(self, Self::Flatness { .. }) { Bend::of(patch.surface()) } else { Bend::ZERO }
     }
 

@@ -7,7 +7,7 @@ use crate::bezier::{Net, PolynomialNet, RationalNet};
 use crate::frame::{Frame, Tangents};
 use crate::lanes::{LANES, Vertices};
 use crate::math::{normal_or_not, plain_zero, unit_or_not};
-use crate::patch::{Patch, Surface, bilinear_frame, flat_frame};
+use crate::patch::{Surface, SurfacePatch, bilinear_frame, flat_frame};
 use crate::pn::{PnQuad, PnTriangle};
 use glam::Vec3;
 
@@ -83,14 +83,14 @@ impl Normals for PnQuad {
 /// The formulas of a patch, ready for many points.
 #[derive(Debug)]
 pub(crate) struct Formulas<'a> {
-    patch: &'a Patch,
+    patch: &'a SurfacePatch,
     /// The control points of a bicubic surface.
     net: Option<Net>,
 }
 
 impl<'a> Formulas<'a> {
     #[inline(always)]
-    pub(crate) fn of(patch: &'a Patch) -> Self {
+    pub(crate) fn of(patch: &'a SurfacePatch) -> Self {
         let net = match patch.surface() {
             Surface::Bezier(patch) => Some(patch.net()),
             Surface::PnQuad(quad) => Some(quad.patch.net()),
@@ -155,7 +155,7 @@ impl Vertices {
     }
 }
 
-impl Patch {
+impl SurfacePatch {
     /// The normals that the formulas do not give.
     fn other_normals(&self, vertices: &mut Vertices) {
         for lane in 0..LANES {

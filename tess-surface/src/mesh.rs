@@ -1,6 +1,6 @@
 //! Triangles and quads with indices, as a model file holds them.
 
-use crate::error::{Fault, MeshError};
+use crate::error::{MeshError, MeshFault};
 use crate::math::{is_in_range, unit};
 use crate::sides::{Sides, edge_corners};
 use alloc::vec;
@@ -39,7 +39,7 @@ impl PolygonMesh {
     /// Checks every face. Positions and normals that no face uses may be anything.
     ///
     /// # Errors
-    /// The first face with a [`Fault`], save edges of more than two faces, which [`Model::polygons`]
+    /// The first face with a [`MeshFault`], save edges of more than two faces, which [`Model::polygons`]
     /// finds; a mesh with no face or with 2^30.
     ///
     /// [`Model::polygons`]: crate::Model::polygons
@@ -61,8 +61,8 @@ impl PolygonMesh {
     /// Checks one face, of this mesh or made for it.
     ///
     /// # Errors
-    /// Its first [`Fault`].
-    pub fn check_face(&self, face: &Face) -> Result<(), Fault> {
+    /// Its first [`MeshFault`].
+    pub fn check_face(&self, face: &Face) -> Result<(), MeshFault> {
         let corners = face.positions.as_slice().len();
         let positions = gather(&self.positions, face.positions, corners, "position")?;
         for position in positions.as_slice() {
@@ -71,7 +71,7 @@ impl PolygonMesh {
         if let Some(normals) = face.normals {
             let normals = gather(&self.normals, normals, corners, "normal")?;
             if normals.as_slice().iter().any(|&normal| unit(normal).is_none()) {
-                return Err(Fault::NotFinite("normal"));
+                return Err(MeshFault::NotFinite("normal"));
             }
         }
         if let Some(texcoords) = face.texcoords {
@@ -112,10 +112,10 @@ impl PolygonMesh {
     }
 }
 
-fn check_vector(what: &'static str, is_finite: bool, is_in_range: bool) -> Result<(), Fault> {
+fn check_vector(what: &'static str, is_finite: bool, is_in_range: bool) -> Result<(), MeshFault> {
     match (is_finite, is_in_range) {
-        (false, _) => Err(Fault::NotFinite(what)),
-        (true, false) => Err(Fault::TooLarge(what)),
+        (false, _) => Err(MeshFault::NotFinite(what)),
+        (true, false) => Err(MeshFault::TooLarge(what)),
         (true, true) => Ok(()),
     }
 }
@@ -126,12 +126,12 @@ fn gather<T: Copy>(
     indices: Sides<u32>,
     corners: usize,
     what: &'static str,
-) -> Result<Sides<T>, Fault> {
+) -> Result<Sides<T>, MeshFault> {
     let found = indices.as_slice().len();
     if found != corners {
-        return Err(Fault::WrongCount { what, found, corners });
+        return Err(MeshFault::WrongCount { what, found, corners });
     }
-    let fault = Fault::OutOfRange { what, count: values.len() };
+    let fault = MeshFault::OutOfRange { what, count: values.len() };
     let known = |index: &u32| (*index as usize) < values.len();
     if !indices.as_slice().iter().all(known) {
         return Err(fault);
@@ -141,10 +141,10 @@ fn gather<T: Copy>(
 
 /// Refuses two neighbouring corners with one position, and an area that vanishes against the
 /// product of the diagonals.
-fn check_area(corners: &Sides<Vec3>) -> Result<(), Fault> {
+fn check_area(corners: &Sides<Vec3>) -> Result<(), MeshFault> {
     let points = corners.as_slice();
     if edge_corners(corners).iter().any(|&[a, b]| points[a] == points[b]) {
-        return Err(Fault::RepeatedCorner);
+        return Err(MeshFault::RepeatedCorner);
     }
     let [a, b] = match corners {
         Sides::Triangle([a, b, c]) => [[a, b], [a, c]],
@@ -154,7 +154,7 @@ fn check_area(corners: &Sides<Vec3>) -> Result<(), Fault> {
     // 2^-22: below it, the rounding of binary32 coordinates decides about the area.
     const LEAST_SINE: f64 = 1.0 / 4_194_304.0;
     if a.cross(b).length() <= LEAST_SINE * a.length() * b.length() {
-        return Err(Fault::NoArea);
+        return Err(MeshFault::NoArea);
     }
     Ok(())
 }

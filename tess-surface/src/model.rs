@@ -2,10 +2,10 @@
 
 use crate::bezier::BezierPatch;
 use crate::curve::{Direction, Edge};
-use crate::error::{Fault, MeshError};
+use crate::error::{MeshError, MeshFault};
 use crate::math::{is_in_range, unit};
 use crate::mesh::{Face, PolygonMesh};
-use crate::patch::{Patch, Surface};
+use crate::patch::{Surface, SurfacePatch};
 use crate::pn::{PnCorner, PnQuad, PnTriangle, edge_points};
 use crate::sides::{Sides, edge_corners, runs_onwards};
 use crate::topology::{HalfEdge, Topology, check_count, hash, weld};
@@ -73,7 +73,7 @@ impl Model {
     ///
     /// # Errors
     /// The first patch with a control point that is not finite or too large to be evaluated
-    /// ([`Fault::TooLarge`]), with a weight that is not greater than zero, with no area, or with an
+    /// ([`MeshFault::TooLarge`]), with a weight that is not greater than zero, with no area, or with an
     /// edge of two other patches, unless as many run one way along it as the other
     /// ([`Model::crowded_edges`]); no patch, or 2^30. A boundary collapsed to a point is no error, and
     /// no edge.
@@ -143,16 +143,16 @@ impl Model {
     /// # Panics
     /// If there is no such patch.
     #[must_use]
-    pub fn patch(&self, number: usize) -> Patch {
+    pub fn patch(&self, number: usize) -> SurfacePatch {
         match &self.source {
-            Source::Bezier(patches) => Patch::new(Surface::Bezier(patches[number])),
+            Source::Bezier(patches) => SurfacePatch::new(Surface::Bezier(patches[number])),
             Source::Polygons { mesh, style, .. } => {
                 let face = &mesh.faces[number];
                 let surface = match style {
                     Style::Flat => flat(mesh.corners(face)),
                     Style::PointNormal => self.point_normal(number),
                 };
-                let patch = Patch::new(surface);
+                let patch = SurfacePatch::new(surface);
                 let Some(indices) = face.texcoords else { return patch };
                 let texcoords = indices.map(|index| mesh.texcoords[index as usize]);
                 patch.with_texcoords(texcoords).unwrap_or(patch) // the mesh was checked
@@ -235,13 +235,13 @@ fn flat(corners: Sides<Vec3>) -> Surface {
     }
 }
 
-fn check_patch(patch: &BezierPatch) -> Result<(), Fault> {
+fn check_patch(patch: &BezierPatch) -> Result<(), MeshFault> {
     let points = patch.points.as_flattened();
     if points.iter().any(|point| !point.is_finite()) {
-        return Err(Fault::NotFinite("control point"));
+        return Err(MeshFault::NotFinite("control point"));
     }
     if points.iter().any(|point| point.w <= 0.0) {
-        return Err(Fault::Weight);
+        return Err(MeshFault::Weight);
     }
     let positions = points.iter().map(|&point| crate::math::project(point));
     // Tangents are the positions' differences, times a quotient of weights.
@@ -249,11 +249,11 @@ fn check_patch(patch: &BezierPatch) -> Result<(), Fault> {
     let (least, greatest) = weights.fold((f32::MAX, 0.0f32), |(l, g), w| (l.min(w), g.max(w)));
     let evaluable = positions.clone().all(|p| is_in_range((p * (greatest / least)).as_ref()));
     if !evaluable || !points.iter().all(|point| is_in_range(point.as_ref())) {
-        return Err(Fault::TooLarge("control point"));
+        return Err(MeshFault::TooLarge("control point"));
     }
     let mut directions = positions.map(|point| point - crate::math::project(patch.points[0][0]));
-    let first = directions.by_ref().find_map(unit).ok_or(Fault::NoArea)?;
+    let first = directions.by_ref().find_map(unit).ok_or(MeshFault::NoArea)?;
     let mut others = directions.filter_map(unit);
     let spans = others.any(|other| first.cross(other).length_squared() > 1e-12);
-    if spans { Ok(()) } else { Err(Fault::NoArea) }
+    if spans { Ok(()) } else { Err(MeshFault::NoArea) }
 }

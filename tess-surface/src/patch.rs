@@ -43,13 +43,13 @@ pub struct Sample {
 
 /// A surface over a triangle or quad domain, with its edges in canonical direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Patch {
+pub struct SurfacePatch {
     surface: Surface,
     edges: Sides<Edge>,
     texcoords: Sides<Vec2>,
 }
 
-impl Patch {
+impl SurfacePatch {
     /// Makes a patch of a surface. Its texture coordinates are its domain coordinates.
     ///
     /// Control points are not checked here, as [`Model`](crate::Model) does: coordinates beyond
@@ -116,14 +116,14 @@ impl Patch {
         }
     }
 
-    /// The position of [`Patch::sample`] alone.
+    /// The position of [`SurfacePatch::sample`] alone.
     #[must_use]
     pub fn position(&self, [u, v]: [f32; 2]) -> Vec3 {
         let place = self.place(u, v);
         self.boundary_position(place).unwrap_or_else(|| self.frame(u, v).position)
     }
 
-    /// The unit normal of [`Patch::sample`] alone.
+    /// The unit normal of [`SurfacePatch::sample`] alone.
     #[must_use]
     pub fn normal(&self, [u, v]: [f32; 2]) -> Vec3 {
         self.normal_in(|| self.frame(u, v).tangents, self.place(u, v), u, v)

@@ -1,15 +1,15 @@
-//! The kernel of [`Patch::samples`]: many vertices of a patch, eight at a time.
+//! The kernel of [`SurfacePatch::samples`]: many vertices of a patch, eight at a time.
 //!
-//! A vertex has the bits that [`Patch::sample`] gives it: the same formulas run in every lane, and what belongs to an edge
+//! A vertex has the bits that [`SurfacePatch::sample`] gives it: the same formulas run in every lane, and what belongs to an edge
 //! or a corner alone is computed from those alone.
 
 use crate::formulas::Formulas;
 use crate::lanes::{LANES, Vertices};
-use crate::patch::{Patch, Sample};
+use crate::patch::{Sample, SurfacePatch};
 
-/// [`Patch::samples`], compiled for the level of the function that it is inlined into.
+/// [`SurfacePatch::samples`], compiled for the level of the function that it is inlined into.
 #[inline(always)]
-pub(crate) fn samples(patch: &Patch, points: &[[f32; 2]], samples: &mut [Sample]) {
+pub(crate) fn samples(patch: &SurfacePatch, points: &[[f32; 2]], samples: &mut [Sample]) {
     let formulas = Formulas::of(patch);
     for (points, samples) in points.chunks(LANES).zip(samples.chunks_mut(LANES)) {
         let mut vertices = Vertices::at(points);

@@ -1,6 +1,6 @@
 //! Finding which edges of a model's patches are the same edge.
 
-use crate::error::{Fault, MeshError};
+use crate::error::{MeshError, MeshFault};
 use alloc::vec;
 use alloc::vec::Vec;
 use glam::Vec3;
@@ -94,7 +94,7 @@ impl Topology {
         let (forward, backward): (Vec<_>, Vec<_>) =
             sides.iter().partition(|&&half| is_forward(half));
         if forward.len() != backward.len() {
-            let fault = Fault::NonManifold { others: [first.patch, second.patch] };
+            let fault = MeshFault::NonManifold { others: [first.patch, second.patch] };
             return Err(MeshError::face(third.patch, fault));
         }
         self.crowded += 1;

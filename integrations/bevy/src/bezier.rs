@@ -9,7 +9,7 @@ use std::fmt;
 use tess_core::{Domain, PatchFactors, QuadFactors};
 use tess_surface::factors::inside_quad;
 use tess_surface::glam;
-use tess_surface::{BezierPatch, Patch, Surface};
+use tess_surface::{BezierPatch, SurfacePatch, Surface};
 use tess_wgpu::tess_gpu::surfaces;
 
 /// The control points of a bicubic patch: rows along v, columns along u.
@@ -105,7 +105,7 @@ impl CpuShape for BezierPatches {
 
     fn vertices(&self, patch: u32, points: &[[f32; 2]], vertices: &mut Vec<ShapeVertex>) {
         let net = self.0[patch as usize].map(|row| row.map(glam::Vec3::from));
-        let patch = Patch::new(Surface::Bezier(BezierPatch::polynomial(net)));
+        let patch = SurfacePatch::new(Surface::Bezier(BezierPatch::polynomial(net)));
         vertices.extend(points.iter().map(|&uv| {
             let sample = patch.sample(uv);
             ShapeVertex {

@@ -10,7 +10,7 @@ use tess_core::{Domain, PatchFactors, TriangleFactors};
 use tess_surface::factors::inside_triangle;
 use tess_surface::glam;
 use tess_surface::pn::edge_points;
-use tess_surface::{Patch, PnCorner, PnTriangle, Surface};
+use tess_surface::{SurfacePatch, PnCorner, PnTriangle, Surface};
 use tess_wgpu::tess_gpu::surfaces;
 
 /// A mesh whose triangles become point-normal triangles: curved, with smooth normals.
@@ -135,7 +135,7 @@ impl PointNormalMesh {
         let [a, b, c] = corners;
         let edges = [edge_points(c, b), edge_points(c, a), edge_points(b, a)];
         let triangle = PnTriangle::new(corners, edges);
-        let patch = Patch::new(Surface::PnTriangle(triangle));
+        let patch = SurfacePatch::new(Surface::PnTriangle(triangle));
         let of = |at: glam::Vec3| Vec3::from(at.to_array());
         let sample = |&uv: &[f32; 2]| {
             let sample = patch.sample(uv);

@@ -4,7 +4,7 @@ use glam::{Vec3, Vec4};
 use tess_surface::pn::edge_normal;
 use tess_surface::sides::{Place, corner_coordinates};
 use tess_surface::{
-    BezierPatch, Curve, Direction, Edge, Model, Patch, PnCorner, Sample, Sides, Surface,
+    BezierPatch, Curve, Direction, Edge, Model, PnCorner, Sample, Sides, Surface, SurfacePatch,
 };
 
 /// Control points that read the same backwards, polynomial and rational; no coordinate is a short binary number.
@@ -29,8 +29,8 @@ fn ends_of_weighted_edges_are_their_corners() {
         std::array::from_fn(|i| Vec3::new(i as f32 + 1.0, j as f32 * 2.0 - 5.0, (i * j) as f32))
     });
     let weights = std::array::from_fn(|j| std::array::from_fn(|i| 2.0 + ((i + 2 * j) % 3) as f32));
-    let patch = Patch::new(Surface::Bezier(BezierPatch::rational(points, weights)));
-    let mirrored = Patch::new(Surface::Bezier(BezierPatch::rational(
+    let patch = SurfacePatch::new(Surface::Bezier(BezierPatch::rational(points, weights)));
+    let mirrored = SurfacePatch::new(Surface::Bezier(BezierPatch::rational(
         points.map(|[a, b, c, d]| [d, c, b, a]),
         weights.map(|[a, b, c, d]| [d, c, b, a]),
     )));
@@ -81,12 +81,12 @@ fn patches_agree_on_palindromic_edges() {
         let patches = [net(0.4), other];
         let model = Model::bezier(patches.to_vec()).expect("a model");
         assert!(model.twin(tess_surface::HalfEdge { patch: 0, edge: 0 }).is_some(), "one edge");
-        let [one, other] = patches.map(|patch| Patch::new(Surface::Bezier(patch)));
+        let [one, other] = patches.map(|patch| SurfacePatch::new(Surface::Bezier(patch)));
         for [t, back] in places() {
             let [ours, theirs] = [one.position([0.0, t]), other.position([0.0, back])];
             assert_eq!(bits(ours), bits(theirs), "{edge:?} at {t}");
         }
-        let samples = |patch: &Patch, of: usize| {
+        let samples = |patch: &SurfacePatch, of: usize| {
             let points: Vec<_> = places().iter().map(|t| [0.0, t[of]]).collect();
             let mut samples = vec![Sample::default(); points.len()];
             patch.samples(&points, &mut samples);

@@ -3,7 +3,9 @@
 use crate::models::{cube, mesh};
 use glam::{Vec2, Vec3};
 use tess_core::Domain;
-use tess_surface::{BezierPatch, Fault, HalfEdge, MeshError, Model, Patch, PolygonMesh, Sides};
+use tess_surface::{
+    BezierPatch, HalfEdge, MeshError, MeshFault, Model, PolygonMesh, Sides, SurfacePatch,
+};
 use tess_surface::{PnCorner, PnTriangle, Style, Surface, WrongDomain, teapot};
 
 fn refused(mesh: PolygonMesh) -> MeshError {
@@ -17,38 +19,46 @@ fn polygons() {
 
     let mut nan = cube();
     nan.positions[6].y = f32::NAN;
-    assert_eq!(refused(nan), at(1, Fault::NotFinite("position")), "the first face with corner 6");
+    assert_eq!(
+        refused(nan),
+        at(1, MeshFault::NotFinite("position")),
+        "the first face with corner 6"
+    );
 
     let mut beyond = cube();
     beyond.faces[2].positions = Sides::Quad([0, 1, 5, 8]);
-    let fault = Fault::OutOfRange { what: "position", count: 8 };
+    let fault = MeshFault::OutOfRange { what: "position", count: 8 };
     assert_eq!(refused(beyond), at(2, fault), "an index too large");
 
     let mut no_normal = cube();
     no_normal.normals = vec![Vec3::ZERO];
     no_normal.faces[3].normals = Some(Sides::Quad([0; 4]));
-    assert_eq!(refused(no_normal), at(3, Fault::NotFinite("normal")), "a normal of length zero");
+    assert_eq!(
+        refused(no_normal),
+        at(3, MeshFault::NotFinite("normal")),
+        "a normal of length zero"
+    );
 
     let mut too_few = cube();
     too_few.normals = vec![Vec3::Z];
     too_few.faces[4].normals = Some(Sides::Triangle([0; 3]));
-    let fault = Fault::WrongCount { what: "normal", found: 3, corners: 4 };
+    let fault = MeshFault::WrongCount { what: "normal", found: 3, corners: 4 };
     assert_eq!(refused(too_few), at(4, fault), "three normals for four corners");
 
     let points =
         [[0., 0., 0.], [1., 0., 0.], [2., 0., 0.], [0., 1., 0.], [0., 0., 0.], [0., 0., 1.]];
     let on_a_line = mesh(&points, &[&[0, 1, 3], &[0, 1, 2]]);
-    assert_eq!(refused(on_a_line), at(1, Fault::NoArea), "three corners on a line");
+    assert_eq!(refused(on_a_line), at(1, MeshFault::NoArea), "three corners on a line");
     let repeated = mesh(&points, &[&[0, 1, 3], &[0, 4, 3]]);
-    assert_eq!(refused(repeated), at(1, Fault::RepeatedCorner), "two positions, one place");
+    assert_eq!(refused(repeated), at(1, MeshFault::RepeatedCorner), "two positions, one place");
 
     let fan = mesh(&points, &[&[0, 1, 3], &[1, 4, 5], &[3, 2, 1], &[0, 2, 5]]);
     assert!(Model::polygons(fan, Style::Flat).is_ok(), "two faces at an edge are right");
     let three = mesh(&points, &[&[0, 1, 3], &[1, 4, 5], &[3, 2, 1], &[3, 0, 5], &[0, 3, 2]]);
-    let fault = Fault::NonManifold { others: [0, 3] };
+    let fault = MeshFault::NonManifold { others: [0, 3] };
     assert_eq!(refused(three), at(4, fault), "the third face at an edge");
     let four = mesh(&points, &[&[0, 1, 3], &[3, 0, 5], &[0, 3, 2], &[3, 0, 1], &[1, 2, 5]]);
-    let fault = Fault::NonManifold { others: [0, 1] };
+    let fault = MeshFault::NonManifold { others: [0, 1] };
     assert_eq!(refused(four), at(2, fault), "three one way, one the other");
 }
 
@@ -90,34 +100,34 @@ fn patches() {
     };
     assert_eq!(tampered(|_| ()), Ok(32), "as it is");
     let nan = tampered(|patch| patch.points[1][2].z = f32::NAN);
-    assert_eq!(nan, at(Fault::NotFinite("control point")), "NaN");
+    assert_eq!(nan, at(MeshFault::NotFinite("control point")), "NaN");
     let huge = tampered(|patch| patch.points[1][2].z = 1.2e38);
-    assert_eq!(huge, at(Fault::TooLarge("control point")), "a coordinate");
+    assert_eq!(huge, at(MeshFault::TooLarge("control point")), "a coordinate");
     let small = tampered(|patch| patch.points.as_flattened_mut()[6] *= 1e-17);
     assert_eq!(
         small,
-        at(Fault::TooLarge("control point")),
+        at(MeshFault::TooLarge("control point")),
         "a tangent grows by the weights' ratio"
     );
     let weightless = tampered(|patch| patch.points[0][0].w = 0.0);
-    assert_eq!(weightless, at(Fault::Weight), "weight 0");
+    assert_eq!(weightless, at(MeshFault::Weight), "weight 0");
     let line = tampered(|patch| {
         patch.points = [patch.points[0]; 4].map(|row| [row[0], row[3], row[0], row[3]])
     });
-    assert_eq!(line, at(Fault::NoArea), "all points on a line");
+    assert_eq!(line, at(MeshFault::NoArea), "all points on a line");
     let doubled = tampered(|_| ()).and_then(|_| {
         let mut patches = teapot::patches();
         patches.push(patches[5]);
         Model::bezier(patches).map(|model| model.len())
     });
     let crowded =
-        matches!(doubled, Err(MeshError::Face { face: 32, fault: Fault::NonManifold { .. } }));
+        matches!(doubled, Err(MeshError::Face { face: 32, fault: MeshFault::NonManifold { .. } }));
     assert!(crowded, "a patch twice: {doubled:?}");
 }
 
 #[test]
 fn texture_coordinates_of_another_domain() {
-    let patch = Patch::new(Surface::Bilinear([Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y]));
+    let patch = SurfacePatch::new(Surface::Bilinear([Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y]));
     let wrong = patch.with_texcoords(Sides::Triangle([Vec2::ZERO; 3])).expect_err("a quad");
     assert_eq!(wrong, WrongDomain { found: Domain::Triangle, expected: Domain::Quad });
     let words = "the values belong to a Triangle patch, but the surface is a Quad";
@@ -137,9 +147,9 @@ fn edges_that_do_not_exist_have_no_other_side() {
 
 #[test]
 fn messages() {
-    let error = MeshError::Face { face: 3, fault: Fault::NoArea };
+    let error = MeshError::Face { face: 3, fault: MeshFault::NoArea };
     assert_eq!(error.to_string(), "face 3: it has zero area", "which and what");
-    let fault = Fault::OutOfRange { what: "normal", count: 5 };
+    let fault = MeshFault::OutOfRange { what: "normal", count: 5 };
     assert_eq!(fault.to_string(), "a normal index is out of range: there are 5", "what and why");
 }
 
@@ -190,6 +200,6 @@ fn zeros_of_either_sign_are_one_place() {
     let corners = [-Vec3::ONE, -Vec3::ONE - Vec3::X, -Vec3::ZERO];
     let corners = corners.map(|position| PnCorner { position, normal: Vec3::Z });
     let surface = Surface::PnTriangle(PnTriangle::new(corners, [[-Vec3::ONE; 2]; 3]));
-    let position = Patch::new(surface).frame(0.0, 0.0).position;
+    let position = SurfacePatch::new(surface).frame(0.0, 0.0).position;
     assert_eq!(position.to_array().map(f32::to_bits), [0; 3], "no negative zeros: {position:?}");
 }

@@ -3,7 +3,7 @@
 
 use crate::models::{models, rational_ball};
 use glam::{DVec3, Vec3, Vec4};
-use tess_surface::{BezierPatch, Patch, Surface, Tangents, teapot};
+use tess_surface::{BezierPatch, Surface, SurfacePatch, Tangents, teapot};
 use tess_verify::generate::SplitMix64;
 
 fn bernstein(t: f64) -> [f64; 4] {
@@ -225,7 +225,7 @@ fn normals_are_unit_vectors_everywhere() {
     let places = [0.0, 0.25, 0.5, 1.0];
     for (name, model) in &models() {
         for number in 0..model.len() {
-            let patch: Patch = model.patch(number);
+            let patch: SurfacePatch = model.patch(number);
             let is_triangle = patch.edges().as_slice().len() == 3;
             for [u, v] in places.into_iter().flat_map(|u| places.map(|v| [u, v])) {
                 if is_triangle && u + v > 1.0 {
@@ -239,7 +239,7 @@ fn normals_are_unit_vectors_everywhere() {
             }
         }
     }
-    let flat = Patch::new(Surface::FlatTriangle([Vec3::X, Vec3::Y, Vec3::ZERO]));
+    let flat = SurfacePatch::new(Surface::FlatTriangle([Vec3::X, Vec3::Y, Vec3::ZERO]));
     assert_eq!(flat.sample([0.25, 0.5]).normal, Vec3::Z, "counter-clockwise is up");
 }
 

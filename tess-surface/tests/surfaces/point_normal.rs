@@ -3,7 +3,9 @@
 use crate::models::{cube, mesh, octahedron};
 use glam::Vec3;
 use tess_surface::pn::edge_points;
-use tess_surface::{Model, Patch, PnCorner, PnQuad, PnTriangle, PolygonMesh, Style, Surface};
+use tess_surface::{
+    Model, PnCorner, PnQuad, PnTriangle, PolygonMesh, Style, Surface, SurfacePatch,
+};
 
 /// Domain points of a grid, inside and on the border.
 fn grid(is_triangle: bool) -> Vec<[f32; 2]> {
@@ -60,7 +62,7 @@ fn corners_and_their_normals_are_met() {
     ];
     let edges = [edge_points(w, v), edge_points(w, u), edge_points(v, u)];
     let triangle = PnTriangle::new([u, v, w], edges);
-    let patch = Patch::new(Surface::PnTriangle(triangle));
+    let patch = SurfacePatch::new(Surface::PnTriangle(triangle));
     for (at, corner) in [([1.0, 0.0], u), ([0.0, 1.0], v), ([0.0, 0.0], w)] {
         let sample = patch.sample(at);
         assert_eq!(sample.position, corner.position, "corner {at:?}");
@@ -101,8 +103,8 @@ fn planar_quads_stay_as_they_are() {
         .map(|p| PnCorner { position: Vec3::from_array(p), normal: Vec3::Z });
     let [a, b, c, d] = corners;
     let edges = [edge_points(a, d), edge_points(a, b), edge_points(b, c), edge_points(d, c)];
-    let pn = Patch::new(Surface::PnQuad(PnQuad::new(corners, edges)));
-    let bilinear = Patch::new(Surface::Bilinear(corners.map(|c| c.position)));
+    let pn = SurfacePatch::new(Surface::PnQuad(PnQuad::new(corners, edges)));
+    let bilinear = SurfacePatch::new(Surface::Bilinear(corners.map(|c| c.position)));
     for at in grid(false) {
         let gap = pn.position(at).distance(bilinear.position(at));
         assert!(gap < 1e-6, "at {at:?}: {gap}");

@@ -4,8 +4,8 @@ use crate::models::{creased_cube, cube, torus};
 use glam::{Vec2, Vec3};
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors};
 use tess_surface::{
-    DisplacedModel, Displacement, FactorRule, Fault, HeightMap, MAX_COORDINATE, MeshError, Model,
-    Patch, PolygonMesh, Sample, Sides, Style, Surface, teapot,
+    DisplacedModel, Displacement, FactorRule, HeightMap, MAX_COORDINATE, MeshError, MeshFault,
+    Model, PolygonMesh, Sample, Sides, Style, Surface, SurfacePatch, teapot,
 };
 
 /// A mesh in units so small that its coordinates are this many times as large.
@@ -100,11 +100,11 @@ fn larger_coordinates_are_refused() {
             }
             let found = Model::polygons(mesh, Style::Flat).err();
             let face = if position { 1 } else { 0 };
-            let expected = MeshError::Face { face, fault: Fault::TooLarge(what) };
+            let expected = MeshError::Face { face, fault: MeshFault::TooLarge(what) };
             assert_eq!(found, is_refused.then_some(expected), "{what} times {scale}");
         }
     }
-    let error = MeshError::Face { face: 2, fault: Fault::TooLarge("position") };
+    let error = MeshError::Face { face: 2, fault: MeshFault::TooLarge("position") };
     let words = "face 2: a position is too large to be evaluated: coordinates must lie within \
                  1e16 of 0";
     assert_eq!(error.to_string(), words, "which and why");
@@ -118,9 +118,9 @@ fn is_finite(sample: &Sample) -> bool {
 #[test]
 fn coordinates_out_of_range_overflow() {
     let corners = [Vec3::splat(3e38), Vec3::splat(-3e38), Vec3::splat(3e38), Vec3::ZERO];
-    let sample = Patch::new(Surface::Bilinear(corners)).sample([0.5, 0.5]);
+    let sample = SurfacePatch::new(Surface::Bilinear(corners)).sample([0.5, 0.5]);
     assert!(!is_finite(&sample), "{sample:?}");
-    let ordinary = Patch::new(Surface::Bilinear([Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y]));
+    let ordinary = SurfacePatch::new(Surface::Bilinear([Vec3::ZERO, Vec3::X, Vec3::ONE, Vec3::Y]));
     assert!(is_finite(&ordinary.sample([0.0, 0.5])), "an ordinary patch");
     let sides = Sides::Quad([Vec2::splat(3e38), Vec2::ZERO, Vec2::ONE, Vec2::splat(-3e38)]);
     let patch = ordinary.with_texcoords(sides).expect("a quad");

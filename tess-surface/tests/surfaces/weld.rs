@@ -64,7 +64,7 @@ fn border_edges(model: &Model, number: usize) -> Vec<usize> {
 }
 
 /// The domain points on an edge, in order.
-fn points_on(patch: &tess_surface::Patch, edge: usize, at: &[[f32; 2]]) -> Vec<[f32; 2]> {
+fn points_on(patch: &tess_surface::SurfacePatch, edge: usize, at: &[[f32; 2]]) -> Vec<[f32; 2]> {
     let on_edge = |&[u, v]: &[f32; 2]| match (patch.domain(), edge) {
         (_, 0) => u == 0.0,
         (_, 1) => v == 0.0,

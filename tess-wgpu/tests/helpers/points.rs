@@ -6,7 +6,7 @@ use crate::{Case, Expected, Table, ULP, args, one, vec};
 use glam::{Vec2, Vec3};
 use tess_surface::pn::edge_points;
 use tess_surface::sides::edge_corners;
-use tess_surface::{Address, Curve, Edge, HeightMap, Patch, PnCorner, Sides, Surface};
+use tess_surface::{Address, Curve, Edge, HeightMap, PnCorner, Sides, Surface, SurfacePatch};
 use tess_verify::generate::SplitMix64;
 
 /// Errors of a position, in ulps of the largest coordinate: a fused operation rounds once where the CPU rounds twice.
@@ -115,8 +115,8 @@ fn on_edge(sides: &Sides<()>, edge: usize, t: f32) -> [f32; 2] {
 }
 
 /// A patch with these corners, of which a triangle has three.
-fn patch(sides: &Sides<()>, [a, b, c, d]: [Vec3; 4]) -> Patch {
-    Patch::new(match sides {
+fn patch(sides: &Sides<()>, [a, b, c, d]: [Vec3; 4]) -> SurfacePatch {
+    SurfacePatch::new(match sides {
         Sides::Triangle(_) => Surface::FlatTriangle([a, b, c]),
         Sides::Quad(_) => Surface::Bilinear([a, b, c, d]),
     })

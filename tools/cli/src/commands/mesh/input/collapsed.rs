@@ -6,7 +6,7 @@
 
 use glam::Vec3;
 use rayon::prelude::*;
-use tess_surface::{Face, Fault, PolygonMesh, Sides};
+use tess_surface::{Face, MeshFault, PolygonMesh, Sides};
 
 /// The result of [`repair`].
 #[derive(Debug, Default)]
@@ -51,8 +51,9 @@ impl Collapsed {
 /// fault stay as they are.
 pub(super) fn repair(mesh: &mut PolygonMesh) -> Collapsed {
     let mut collapsed = Collapsed::default();
-    let without_area =
-        |face: &Face| matches!(mesh.check_face(face), Err(Fault::RepeatedCorner | Fault::NoArea));
+    let without_area = |face: &Face| {
+        matches!(mesh.check_face(face), Err(MeshFault::RepeatedCorner | MeshFault::NoArea))
+    };
     if !mesh.faces.par_iter().any(without_area) {
         return collapsed;
     }
@@ -71,11 +72,11 @@ impl Collapsed {
     /// The face without repeated corners; `None`, and counted, if it has no area.
     fn repaired(&mut self, mesh: &PolygonMesh, face: Face) -> Option<Face> {
         match mesh.check_face(&face) {
-            Err(Fault::NoArea) => {
+            Err(MeshFault::NoArea) => {
                 self.straight += 1;
                 None
             }
-            Err(Fault::RepeatedCorner) => {
+            Err(MeshFault::RepeatedCorner) => {
                 let Some(narrow) = without_repeats(&mesh.positions, &face) else {
                     self.repeated += 1;
                     return None;

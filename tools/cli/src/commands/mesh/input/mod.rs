@@ -15,7 +15,7 @@ mod text;
 use crate::failure::Failure;
 use std::fs;
 use std::path::{Path, PathBuf};
-use tess_surface::{Fault, MeshError, Model, PolygonMesh, Style, teapot};
+use tess_surface::{MeshError, MeshFault, Model, PolygonMesh, Style, teapot};
 
 /// Which way is up in a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -149,7 +149,7 @@ fn polygons(mut mesh: PolygonMesh, places: &Places, style: Option<Style>) -> Res
 /// The message about a model whose faces are named by `place`, such as `line 12`.
 fn refused(error: MeshError, place: impl Fn(usize) -> String) -> String {
     match error {
-        MeshError::Face { face, fault: Fault::NonManifold { others: [a, b] } } => format!(
+        MeshError::Face { face, fault: MeshFault::NonManifold { others: [a, b] } } => format!(
             "{}: an edge of this face belongs to two other faces already ({} and {}); \
              a mesh must be manifold, or as many faces must run one way along an edge as the other",
             place(face),
