@@ -9,7 +9,7 @@ pub mod obj;
 pub mod seeds;
 
 use crate::fault_is_planted;
-use tess_surface::{MeshFault, MeshError, Model, PolygonMesh, Style};
+use tess_surface::{MeshError, MeshFault, Model, PolygonMesh, Style};
 
 /// Checks one reading: `names_a_place` judges the message of a refusal, `independent` reads again.
 fn check<T>(

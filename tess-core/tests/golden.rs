@@ -5,7 +5,7 @@ mod recorded;
 #[path = "common/shown.rs"]
 mod shown;
 
-use recorded::{Lines, config, digest, factors, hex_words, text};
+use recorded::{RecordedLines, config, digest, factors, hex_words, text};
 use shown::shown;
 use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{
@@ -51,7 +51,7 @@ fn first_difference(patch: &Patch, observed: &Elements, expected: &Elements) -> 
 #[test]
 fn whole_outputs() {
     let text = text("cases.txt");
-    let mut lines = Lines::new(&text);
+    let mut lines = RecordedLines::new(&text);
     let mut cases = 0;
     while let Some(case) = lines.next_starting("case ") {
         let fields: Vec<&str> = case.split(' ').collect();

@@ -83,13 +83,13 @@ trait Along {
 }
 
 /// The ends.
-struct Line([Vec3; 2]);
+struct EdgeLine([Vec3; 2]);
 /// The control points of a cubic whose weights are all 1.
 struct Polynomial([Vec3; 4]);
 /// The control points of any cubic.
 struct Rational([Homogeneous; 4]);
 
-impl Along for Line {
+impl Along for EdgeLine {
     #[inline(always)]
     fn position(&self, t: f32) -> Vec3 {
         let [a, b] = self.0;
@@ -244,7 +244,7 @@ impl SurfacePatch {
 fn curve_positions(vertices: &mut Vertices, number: usize, edge: &Edge, t: &Lanes) {
     let is_one = |point: &Vec4| point.w.to_bits() == 1.0f32.to_bits();
     match edge.curve {
-        Curve::Line(ends) => along(vertices, number, edge.direction, t, &Line(ends)),
+        Curve::Line(ends) => along(vertices, number, edge.direction, t, &EdgeLine(ends)),
         Curve::Cubic(points) if points.iter().all(is_one) => {
             let curve = Polynomial(points.map(Vec4::truncate));
             along(vertices, number, edge.direction, t, &curve);

@@ -50,20 +50,20 @@ fn at_level(level: Level, kernel: impl Kernel) {
 }
 
 /// Points of a patch, and where their vertices go.
-struct Job<'a, P> {
+struct SampleJob<'a, P> {
     patch: &'a P,
     points: &'a [[f32; 2]],
     samples: &'a mut [Sample],
 }
 
-impl Kernel for Job<'_, SurfacePatch> {
+impl Kernel for SampleJob<'_, SurfacePatch> {
     #[inline(always)]
     fn run(self) {
         samples::samples(self.patch, self.points, self.samples);
     }
 }
 
-impl Kernel for Job<'_, DisplacedPatch<'_>> {
+impl Kernel for SampleJob<'_, DisplacedPatch<'_>> {
     #[inline(always)]
     fn run(self) {
         displaced::samples(self.patch, self.points, self.samples);
@@ -74,7 +74,7 @@ impl SurfacePatch {
     /// The vertices at these domain points: the bits of [`SurfacePatch::sample`] at each, several times as fast. Vertices or
     /// points that the other slice has no partner for are left alone.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
-        at_level(Level::detect(), Job { patch: self, points, samples });
+        at_level(Level::detect(), SampleJob { patch: self, points, samples });
     }
 
     /// [`SurfacePatch::samples`] with the instructions of a CPU level, which gives the same bits as every other.
@@ -88,7 +88,7 @@ impl SurfacePatch {
         samples: &mut [Sample],
     ) -> Result<(), LevelUnavailable> {
         level.require()?;
-        at_level(level, Job { patch: self, points, samples });
+        at_level(level, SampleJob { patch: self, points, samples });
         Ok(())
     }
 }
@@ -105,7 +105,7 @@ impl DisplacedPatch<'_> {
     /// The displaced vertices at these domain points: the bits of [`DisplacedPatch::sample`] at each, several times as
     /// fast. Vertices or points that the other slice has no partner for are left alone.
     pub fn samples(&self, points: &[[f32; 2]], samples: &mut [Sample]) {
-        at_level(Level::detect(), Job { patch: self, points, samples });
+        at_level(Level::detect(), SampleJob { patch: self, points, samples });
     }
 
     /// [`DisplacedPatch::samples`] with the instructions of a CPU level, which gives the same bits as every other.
@@ -119,7 +119,7 @@ impl DisplacedPatch<'_> {
         samples: &mut [Sample],
     ) -> Result<(), LevelUnavailable> {
         level.require()?;
-        at_level(level, Job { patch: self, points, samples });
+        at_level(level, SampleJob { patch: self, points, samples });
         Ok(())
     }
 }

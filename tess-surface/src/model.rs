@@ -26,12 +26,12 @@ pub enum Style {
 /// Methods that take a number panic beyond the last patch, as slices do.
 #[derive(Clone, Debug)]
 pub struct Model {
-    source: Source,
+    source: ModelSource,
     topology: Topology,
 }
 
 #[derive(Clone, Debug)]
-enum Source {
+enum ModelSource {
     Polygons { mesh: PolygonMesh, vertices: Vec<u32>, normals: Vec<Vec3>, style: Style },
     Bezier(Vec<BezierPatch>),
 }
@@ -65,7 +65,7 @@ impl Model {
             ends(half).is_sorted() == onwards
         };
         let topology = Topology::pair(mesh.faces.len(), hashes, |_, _| true, is_forward)?;
-        Ok(Self { source: Source::Polygons { mesh, vertices, normals, style }, topology })
+        Ok(Self { source: ModelSource::Polygons { mesh, vertices, normals, style }, topology })
     }
 
     /// Makes a model of bicubic patches. Patches are neighbours where their boundary control points
@@ -97,7 +97,7 @@ impl Model {
             (edge(half).direction == Direction::Along) == onwards
         };
         let topology = Topology::pair(patches.len(), hashes, same, is_forward)?;
-        Ok(Self { source: Source::Bezier(patches), topology })
+        Ok(Self { source: ModelSource::Bezier(patches), topology })
     }
 
     /// The number of patches, at least 1.
@@ -105,8 +105,8 @@ impl Model {
     #[expect(clippy::len_without_is_empty, reason = "a model is never empty")]
     pub const fn len(&self) -> usize {
         match &self.source {
-            Source::Polygons { mesh, .. } => mesh.faces.len(),
-            Source::Bezier(patches) => patches.len(),
+            ModelSource::Polygons { mesh, .. } => mesh.faces.len(),
+            ModelSource::Bezier(patches) => patches.len(),
         }
     }
 
@@ -133,8 +133,8 @@ impl Model {
     #[must_use]
     pub fn sides(&self, number: usize) -> Sides<()> {
         match &self.source {
-            Source::Polygons { mesh, .. } => mesh.faces[number].positions.map(drop),
-            Source::Bezier(_) => Sides::Quad([(); 4]),
+            ModelSource::Polygons { mesh, .. } => mesh.faces[number].positions.map(drop),
+            ModelSource::Bezier(_) => Sides::Quad([(); 4]),
         }
     }
 
@@ -145,8 +145,8 @@ impl Model {
     #[must_use]
     pub fn patch(&self, number: usize) -> SurfacePatch {
         match &self.source {
-            Source::Bezier(patches) => SurfacePatch::new(Surface::Bezier(patches[number])),
-            Source::Polygons { mesh, style, .. } => {
+            ModelSource::Bezier(patches) => SurfacePatch::new(Surface::Bezier(patches[number])),
+            ModelSource::Polygons { mesh, style, .. } => {
                 let face = &mesh.faces[number];
                 let surface = match style {
                     Style::Flat => flat(mesh.corners(face)),
@@ -167,11 +167,11 @@ impl Model {
         let empty = (Vec3::INFINITY, Vec3::NEG_INFINITY);
         let grow = |(low, high): (Vec3, Vec3), p: Vec3| (low.min(p), high.max(p));
         match &self.source {
-            Source::Polygons { mesh, .. } => {
+            ModelSource::Polygons { mesh, .. } => {
                 let corners = mesh.faces.iter().map(|face| mesh.corners(face));
                 corners.fold(empty, |b, c| c.as_slice().iter().copied().fold(b, grow))
             }
-            Source::Bezier(patches) => {
+            ModelSource::Bezier(patches) => {
                 let points = patches.iter().flat_map(|patch| patch.points.as_flattened());
                 points.map(|&point| crate::math::project(point)).fold(empty, grow)
             }
@@ -209,7 +209,7 @@ impl Model {
     }
 
     fn pn_corners(&self, number: usize) -> Sides<PnCorner> {
-        let Source::Polygons { mesh, vertices, normals, .. } = &self.source else {
+        let ModelSource::Polygons { mesh, vertices, normals, .. } = &self.source else {
             unreachable!("only polygons have point-normal surfaces");
         };
         let face = &mesh.faces[number];

@@ -103,13 +103,13 @@ pub(crate) unsafe fn room<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts_mut(pointer.cast(), len) })
 }
 
-/// A caller's output arrays, checked.
+/// Whether a caller's output arrays hold values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Memory {
+pub(crate) struct MemoryState {
     is_initialised: bool,
 }
 
-impl Memory {
+impl MemoryState {
     /// Nothing is known.
     pub(crate) const ANY: Self = Self { is_initialised: false };
 
@@ -130,7 +130,7 @@ impl Memory {
 /// An initialised array: unless the caller's memory is, `value` is written to every element.
 pub(crate) fn initialised<T: Copy>(
     room: &mut [MaybeUninit<T>],
-    memory: Memory,
+    memory: MemoryState,
     value: T,
 ) -> &mut [T] {
     if !memory.is_initialised {

@@ -80,18 +80,18 @@ pub unsafe extern "C" fn tess_patch(
         let indices = unsafe { boundary::room(indices, index_capacity) }?;
         // SAFETY: `counts` is writable, as the caller promises, and apart from the buffers.
         unsafe { boundary::write(counts, needed.into()) }?;
-        patch.emit(&mut Room { points: points.iter_mut(), indices: indices.iter_mut() });
+        patch.emit(&mut PatchRoom { points: points.iter_mut(), indices: indices.iter_mut() });
         Ok(())
     })
 }
 
 /// Fills a caller's buffers, which have room for the patch.
-struct Room<'a> {
+struct PatchRoom<'a> {
     points: std::slice::IterMut<'a, MaybeUninit<TessPoint>>,
     indices: std::slice::IterMut<'a, MaybeUninit<u32>>,
 }
 
-impl Sink for Room<'_> {
+impl Sink for PatchRoom<'_> {
     fn point(&mut self, point: DomainPoint) {
         if let Some(slot) = self.points.next() {
             slot.write(point.into());

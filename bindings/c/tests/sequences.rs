@@ -26,7 +26,7 @@ mod sequences {
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
 use sequences::calls::{
-    Base::*, Bits, Call::*, Part::*, Patches, Room::*, Threads::*, To, Wrong::*,
+    Base::*, Bits, Call::*, Part::*, PatchRuns, Room::*, Threads::*, To, Wrong::*,
 };
 use sequences::calls::{Call, Sequence, Threads};
 use sequences::draw;
@@ -213,9 +213,9 @@ fn equal_patches_before_others() {
         One,
         &[
             (0, Create { config: [2, 0, 2, 0], level: 0 }),
-            (0, Run { patches: Patches(patches.clone()), to, wrong: Nothing }),
-            (0, Run { patches: Patches(patches.clone()), to: enough, wrong: Nothing }),
-            (0, Count { patches: Patches(patches), wrong: Null(Counts) }),
+            (0, Run { patches: PatchRuns(patches.clone()), to, wrong: Nothing }),
+            (0, Run { patches: PatchRuns(patches.clone()), to: enough, wrong: Nothing }),
+            (0, Count { patches: PatchRuns(patches), wrong: Null(Counts) }),
             (0, Groups { starts: [0, 8, 65] }),
             (0, Single { factors: Bits([0x4000_0000; 6]), to: enough, wrong: Nothing }),
         ],

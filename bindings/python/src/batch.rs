@@ -16,7 +16,7 @@ use std::sync::{Mutex, PoisonError};
 use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
 use tess_simd::{BatchCounts, Numbering, OutputPoint, PatchRange};
 use tess_verify::Named;
-use work::{How, Room, Sizes, Work};
+use work::{ArrayRoom, How, Sizes, Work};
 
 /// Tessellates batches in one configuration, on the CPU's vector units.
 ///
@@ -331,12 +331,12 @@ impl<'py> Arrays<'py> {
             Indices::Long(indices) => {
                 let mut indices: Flat<'py, u32> = writable("indices", indices)?;
                 let indices = indices.as_slice_mut().map_err(output)?;
-                work.write(py, Room { points, indices, ranges })
+                work.write(py, ArrayRoom { points, indices, ranges })
             }
             Indices::Short(indices) => {
                 let mut indices: Flat<'py, u16> = writable("indices", indices)?;
                 let indices = indices.as_slice_mut().map_err(output)?;
-                work.write(py, Room { points, indices, ranges })
+                work.write(py, ArrayRoom { points, indices, ranges })
             }
         }
     }

@@ -23,7 +23,7 @@ const NO_RANGE: TessRange =
     TessRange { first_point: CANARY, points: CANARY, first_index: CANARY, indices: CANARY };
 
 /// A batch's own memory.
-struct Memory {
+struct BatchMemory {
     points: Vec<TessPoint>,
     indices: Vec<u32>,
     ranges: Vec<TessRange>,
@@ -64,7 +64,7 @@ fn output(
     bytes: &mut Bytes<'_>,
     wrongs: &mut Wrongs,
     model: &[Tessellation],
-) -> (TessBatchOutput, Memory) {
+) -> (TessBatchOutput, BatchMemory) {
     let mut sized = |needed: usize, size: usize| {
         let (capacity, room) = capacity(bytes, needed);
         wrongs.add_if(capacity < needed, TESS_BUFFER_TOO_SMALL);
@@ -76,7 +76,7 @@ fn output(
     let (point_capacity, points) = sized(model.iter().map(|patch| patch.points.len()).sum(), 8);
     let (index_capacity, indices) = sized(model.iter().map(|patch| patch.indices.len()).sum(), 4);
     let (range_capacity, ranges) = sized(model.len(), 16);
-    let mut memory = Memory {
+    let mut memory = BatchMemory {
         points: vec![NO_POINT; points],
         indices: vec![CANARY; indices],
         ranges: vec![NO_RANGE; ranges],
@@ -163,7 +163,7 @@ fn compare(
     config: Config,
     patches: &[PatchFactors],
     model: &[Tessellation],
-    memory: &Memory,
+    memory: &BatchMemory,
 ) -> Result<(), String> {
     for ((&factors, model), range) in patches.iter().zip(model).zip(&memory.ranges) {
         let case = Case { config, factors };

@@ -76,9 +76,9 @@ pub(crate) fn digest(words: impl IntoIterator<Item = u32>) -> String {
 }
 
 /// The lines of a file of listings.
-pub(crate) struct Lines<'a>(std::str::Lines<'a>);
+pub(crate) struct RecordedLines<'a>(std::str::Lines<'a>);
 
-impl<'a> Lines<'a> {
+impl<'a> RecordedLines<'a> {
     pub(crate) fn new(text: &'a str) -> Self {
         Self(text.lines())
     }

@@ -10,7 +10,7 @@ use tess_verify::Case;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 #[derive(Serialize)]
-struct Group {
+struct CuriosityGroup {
     name: &'static str,
     cases: Vec<Curiosity>,
 }
@@ -26,10 +26,13 @@ struct Curiosity {
 #[must_use]
 pub fn curiosities() -> String {
     json(&[
-        Group { name: "Transitions", cases: transitions() },
-        Group { name: "Picture frame and centres", cases: centres() },
-        Group { name: "Culled and special", cases: special() },
-        Group { name: "Locations that go backwards (fractional_even)", cases: backwards() },
+        CuriosityGroup { name: "Transitions", cases: transitions() },
+        CuriosityGroup { name: "Picture frame and centres", cases: centres() },
+        CuriosityGroup { name: "Culled and special", cases: special() },
+        CuriosityGroup {
+            name: "Locations that go backwards (fractional_even)",
+            cases: backwards(),
+        },
     ])
 }
 

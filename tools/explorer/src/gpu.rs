@@ -66,7 +66,7 @@ struct Manifest {
     /// Bytes by resource.
     buffers: BTreeMap<String, u64>,
     stages: BTreeMap<&'static str, Shader>,
-    dispatches: Vec<Step>,
+    dispatches: Vec<PassStep>,
 }
 
 #[derive(Serialize)]
@@ -77,7 +77,7 @@ struct Shader {
 }
 
 #[derive(Serialize)]
-struct Step {
+struct PassStep {
     stage: &'static str,
     /// Resource, offset and size, binding by binding.
     bindings: Vec<(String, u64, u64)>,
@@ -211,14 +211,14 @@ impl GpuBatch {
     }
 }
 
-fn to_step(dispatch: &tess_gpu::Dispatch) -> Step {
+fn to_step(dispatch: &tess_gpu::Dispatch) -> PassStep {
     let (workgroups, indirect) = match dispatch.workgroups() {
         Workgroups::Direct(along) => (Some(along), None),
         Workgroups::Indirect(at) => (None, Some(at)),
     };
     let bindings = dispatch.bindings().map(|(of, span)| (name(of), span.offset, span.size));
     let stage = dispatch.stage().entry_point();
-    Step { stage, bindings: bindings.collect(), workgroups, indirect }
+    PassStep { stage, bindings: bindings.collect(), workgroups, indirect }
 }
 
 fn name(resource: Resource) -> String {

@@ -13,14 +13,14 @@ use tess_gpu::{Numbering, Setup, Stage};
 use tess_verify::generate::{IndexType, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
-use variant::Variant;
+use variant::ShaderVariant;
 
 /// Runs whose median is taken.
 const SAMPLES: usize = 7;
 
 /// The measurements to take.
 #[derive(Args, Debug)]
-pub(crate) struct Arguments {
+pub(crate) struct AblationArguments {
     /// Folder of edits, one `*.edit` file for each variant of the shaders
     folder: PathBuf,
     /// Workloads of `tess bench`, for example uniform-16
@@ -35,12 +35,12 @@ pub(crate) struct Arguments {
 }
 
 /// Prints a line for each workload and variant.
-pub(crate) fn run(arguments: &Arguments) -> Result<()> {
+pub(crate) fn run(arguments: &AblationArguments) -> Result<()> {
     // For variants that use them.
     let features = Stopwatch::FEATURES | wgpu::Features::SUBGROUP;
     let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, features))?;
     let stopwatch = Stopwatch::new(&gpu)?;
-    let variants = Variant::read_all(&arguments.folder)?;
+    let variants = ShaderVariant::read_all(&arguments.folder)?;
     println!("{}", gpu.name());
     let mut selected = Vec::new();
     for name in &arguments.workloads {
@@ -103,7 +103,7 @@ impl<'a> Bench<'a> {
     }
 
     /// Triangles a second, the time of each stage in microseconds, and whether the bits are right.
-    fn line(&self, gpu: &Gpu, stopwatch: &Stopwatch, variant: &Variant) -> Result<String> {
+    fn line(&self, gpu: &Gpu, stopwatch: &Stopwatch, variant: &ShaderVariant) -> Result<String> {
         let sources = Stage::ALL.map(|stage| stage.source(self.setup));
         if let Some(missing) = variant.missing(&sources) {
             return Err(format!("{}: no shader has the text\n{missing}", variant.name).into());

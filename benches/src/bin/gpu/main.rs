@@ -37,7 +37,7 @@ enum Command {
     /// Compare many meshes in one batch with as many batches
     Groups,
     /// Time each stage with parts of the shaders changed or left out
-    Ablation(ablation::Arguments),
+    Ablation(ablation::AblationArguments),
 }
 
 fn main() -> Result<()> {

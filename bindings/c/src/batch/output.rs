@@ -1,6 +1,6 @@
 //! The buffers and formats that the output of a batch is written in.
 
-use crate::boundary::Memory;
+use crate::boundary::MemoryState;
 use crate::status::{TESS_UNKNOWN_VALUE, TessStatus};
 use std::ffi::c_void;
 use std::mem::{align_of, offset_of, size_of};
@@ -93,11 +93,11 @@ impl TessBatchOutput {
     ///
     /// # Safety
     /// - With `TESS_MEMORY_INITIALISED` the buffers are initialised, up to their capacities.
-    pub(super) const unsafe fn memory(&self) -> Result<Memory, TessStatus> {
+    pub(super) const unsafe fn memory(&self) -> Result<MemoryState, TessStatus> {
         match self.memory {
-            TESS_MEMORY_ANY => Ok(Memory::ANY),
+            TESS_MEMORY_ANY => Ok(MemoryState::ANY),
             // SAFETY: as the caller promises.
-            TESS_MEMORY_INITIALISED => Ok(unsafe { Memory::initialised() }),
+            TESS_MEMORY_INITIALISED => Ok(unsafe { MemoryState::initialised() }),
             _ => Err(TESS_UNKNOWN_VALUE),
         }
     }

@@ -1,6 +1,6 @@
 //! How points lie in a caller's buffer: in pairs of coordinates, or with all u before all v.
 
-use crate::boundary::{self, Memory};
+use crate::boundary::{self, MemoryState};
 use crate::status::{TESS_TOO_LARGE, TessStatus};
 use std::ffi::c_void;
 use std::fmt::Debug;
@@ -34,7 +34,7 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
     /// Those of [`Counted::write`].
     fn batch<I: IndexFormat>(
         self,
-        memory: Memory,
+        memory: MemoryState,
         counted: &mut Counted<'_>,
         numbering: Numbering,
         rest: (&mut [I], &mut [PatchRange]),
@@ -46,7 +46,7 @@ pub(super) trait PointRoom<'a>: Debug + Sized {
     /// Those of [`CountedPatch::write`].
     fn patch<I: IndexFormat>(
         self,
-        memory: Memory,
+        memory: MemoryState,
         counted: &mut CountedPatch<'_>,
         indices: &mut [I],
     ) -> Result<Counts, Error>;
@@ -80,7 +80,7 @@ impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
 
     fn batch<I: IndexFormat>(
         self,
-        memory: Memory,
+        memory: MemoryState,
         counted: &mut Counted<'_>,
         numbering: Numbering,
         (indices, ranges): (&mut [I], &mut [PatchRange]),
@@ -91,7 +91,7 @@ impl<'a, P: OutputPoint + Debug> PointRoom<'a> for Together<'a, P> {
 
     fn patch<I: IndexFormat>(
         self,
-        memory: Memory,
+        memory: MemoryState,
         counted: &mut CountedPatch<'_>,
         indices: &mut [I],
     ) -> Result<Counts, Error> {
@@ -129,7 +129,7 @@ impl<'a> PointRoom<'a> for Apart<'a> {
 
     fn batch<I: IndexFormat>(
         self,
-        memory: Memory,
+        memory: MemoryState,
         counted: &mut Counted<'_>,
         numbering: Numbering,
         (indices, ranges): (&mut [I], &mut [PatchRange]),
@@ -140,7 +140,7 @@ impl<'a> PointRoom<'a> for Apart<'a> {
 
     fn patch<I: IndexFormat>(
         self,
-        memory: Memory,
+        memory: MemoryState,
         counted: &mut CountedPatch<'_>,
         indices: &mut [I],
     ) -> Result<Counts, Error> {

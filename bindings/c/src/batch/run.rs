@@ -6,18 +6,18 @@ use super::{
     TESS_NUMBERING_PER_BATCH, TESS_NUMBERING_PER_PATCH, TessBatch, TessBatchCounts,
     TessBatchOutput, status_of,
 };
-use crate::boundary::{self, Memory};
+use crate::boundary::{self, MemoryState};
 use crate::status::{TESS_BUFFER_TOO_SMALL, TESS_INDEX_TOO_LARGE, TESS_UNKNOWN_VALUE, TessStatus};
 use std::mem::{MaybeUninit, size_of};
 use tess_simd::{BatchCounts, Counted, IndexFormat, Numbering, PatchRange, Tessellator};
 
 /// The caller's buffers, which need not be initialised.
 #[derive(Debug)]
-struct Room<'a, P, I> {
+struct BatchRoom<'a, P, I> {
     points: P,
     indices: &'a mut [MaybeUninit<I>],
     ranges: &'a mut [MaybeUninit<PatchRange>],
-    memory: Memory,
+    memory: MemoryState,
 }
 
 /// Tessellates a batch in one pair of formats.
@@ -49,7 +49,7 @@ pub(super) unsafe fn run<'a, P: PointRoom<'a>, I: IndexFormat>(
     let patches = unsafe { Patches::new(batch.domain, factors, factor_count) }?;
     // SAFETY: the buffers are as the caller promises.
     let memory = unsafe { output.memory() }?;
-    let room = Room {
+    let room = BatchRoom {
         // SAFETY: writable, as the caller promises, and apart from all else, as was just checked.
         points: unsafe { P::new(output.points, points.1) }?,
         // SAFETY: as above.
@@ -90,7 +90,7 @@ fn write<'a, P: PointRoom<'a>, I: IndexFormat>(
     tessellator: &mut Tessellator,
     patches: Patches<'_>,
     numbering: Numbering,
-    mut room: Room<'a, P, I>,
+    mut room: BatchRoom<'a, P, I>,
     needed: BatchCounts,
 ) -> Result<(), TessStatus> {
     let bytes = needed.points * size_of::<P::Point>() + needed.indices * size_of::<I>();
@@ -125,7 +125,7 @@ fn shift(ranges: &mut [PatchRange], first: PatchRange) -> PatchRange {
     end
 }
 
-impl<'a, P: PointRoom<'a>, I: IndexFormat> Room<'a, P, I> {
+impl<'a, P: PointRoom<'a>, I: IndexFormat> BatchRoom<'a, P, I> {
     /// Has a counted batch written into room of exactly its sizes. Gives the ranges.
     fn receive(
         self,

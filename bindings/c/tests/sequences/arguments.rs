@@ -1,7 +1,7 @@
 //! Arguments of a call, and the refusals that explain what is wrong with them.
 
 use super::calls::{Part, Room, To, Wrong};
-use super::memory::Memory;
+use super::memory::GuardedMemory;
 use super::model::Model;
 use std::ffi::c_void;
 use std::ptr::null_mut;
@@ -17,18 +17,18 @@ use tess_capi::types::TessCounts;
 
 /// The function that is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum BatchCall {
     Count,
     Batch,
     Single,
 }
 
 /// Every part's buffer, by the number of the part.
-pub(crate) type Buffers = [Memory; 6];
+pub(crate) type Buffers = [GuardedMemory; 6];
 
 /// The arguments of a call.
 pub(crate) struct Arguments {
-    pub(crate) way: Way,
+    pub(crate) way: BatchCall,
     /// Where each part is said to lie.
     pub(crate) at: [*mut c_void; 6],
     /// Floats that there are said to be.
@@ -47,14 +47,17 @@ pub(crate) struct Arguments {
 impl Arguments {
     /// Makes the buffers ready.
     pub(crate) fn new(
-        way: Way,
+        way: BatchCall,
         model: &Model,
         to: &To,
         wrong: Wrong,
         buffers: &mut Buffers,
     ) -> Self {
-        let counts =
-            if way == Way::Single { size_of::<TessCounts>() } else { size_of::<TessBatchCounts>() };
+        let counts = if way == BatchCall::Single {
+            size_of::<TessCounts>()
+        } else {
+            size_of::<TessBatchCounts>()
+        };
         let index = if to.index_type == TESS_INDEX_U16 { 2 } else { 4 };
         let sizes = [4, 8, index, 16, counts, size_of::<TessBatchOutput>()];
         let needed = model.sizes();
@@ -78,7 +81,7 @@ impl Arguments {
                 1..4 if matches!(to.room[i - 1], Room::Absent) => null_mut(),
                 _ => buffers[i].start(),
             }),
-            floats: factors.len() - usize::from(way == Way::Single && wrong == Wrong::Floats),
+            floats: factors.len() - usize::from(way == BatchCall::Single && wrong == Wrong::Floats),
             capacities,
             sizes,
             base_vertex: model.base(to.base, largest_index(to)),
@@ -98,9 +101,9 @@ impl Arguments {
     fn parts(&self) -> &'static [Part] {
         use Part::{Counts, Factors, Indices, Output, Points, Ranges};
         match self.way {
-            Way::Count => &[Factors, Counts],
-            Way::Batch => &[Factors, Points, Indices, Ranges, Counts, Output],
-            Way::Single => &[Factors, Points, Indices, Counts, Output],
+            BatchCall::Count => &[Factors, Counts],
+            BatchCall::Batch => &[Factors, Points, Indices, Ranges, Counts, Output],
+            BatchCall::Single => &[Factors, Points, Indices, Counts, Output],
         }
     }
 
@@ -124,12 +127,14 @@ impl Arguments {
             }
             Wrong::Shared(one, other) if one != other && used(one) && used(other) => {
                 let read_alone = |part| part == Part::Output;
-                if self.way != Way::Count && !read_alone(one) && !read_alone(other) {
+                if self.way != BatchCall::Count && !read_alone(one) && !read_alone(other) {
                     self.at[one as usize] = self.at[other as usize];
                     self.refused.push(TESS_OVERLAP);
                 }
             }
-            Wrong::Floats if self.way != Way::Single => self.refused.push(TESS_WRONG_FACTOR_COUNT),
+            Wrong::Floats if self.way != BatchCall::Single => {
+                self.refused.push(TESS_WRONG_FACTOR_COUNT)
+            }
             _ => {}
         }
     }
@@ -138,7 +143,7 @@ impl Arguments {
         for &part in self.parts() {
             let (elements, size) = (self.elements(part), self.sizes[part as usize]);
             let alignment = match part {
-                Part::Counts if self.way == Way::Single => 4,
+                Part::Counts if self.way == BatchCall::Single => 4,
                 Part::Counts | Part::Output => 8,
                 _ => size.min(4),
             };
@@ -157,8 +162,8 @@ impl Arguments {
     }
 
     fn judge_numbers(&mut self, to: &To) {
-        let batch = self.way == Way::Batch && to.numbering > 1;
-        if self.way != Way::Count
+        let batch = self.way == BatchCall::Batch && to.numbering > 1;
+        if self.way != BatchCall::Count
             && (to.point_format > 2 || to.index_type > 1 || to.memory > 1 || batch)
         {
             self.refused.push(TESS_UNKNOWN_VALUE);
@@ -168,16 +173,16 @@ impl Arguments {
     fn judge_sizes(&mut self, model: &Model, to: &To) {
         let needed = model.sizes();
         let asked = match self.way {
-            Way::Count => 0,
-            Way::Batch => 3,
-            Way::Single => 2,
+            BatchCall::Count => 0,
+            BatchCall::Batch => 3,
+            BatchCall::Single => 2,
         };
         if self.capacities[..asked].iter().zip(needed).any(|(&capacity, needed)| capacity < needed)
         {
             self.unfit.push(TESS_BUFFER_TOO_SMALL);
         }
         let end = u64::from(self.base_vertex) + needed[0] as u64;
-        let is_numbered = self.way == Way::Batch && to.numbering == TESS_NUMBERING_PER_BATCH;
+        let is_numbered = self.way == BatchCall::Batch && to.numbering == TESS_NUMBERING_PER_BATCH;
         if is_numbered && needed[0] > 0 && end - 1 > u64::from(largest_index(to)) {
             self.unfit.push(TESS_INDEX_TOO_LARGE);
         }

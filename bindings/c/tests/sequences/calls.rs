@@ -36,9 +36,9 @@ pub(crate) enum Call {
     /// `tess_batch_level`.
     Level,
     /// `tess_batch_count`.
-    Count { patches: Patches, wrong: Wrong },
+    Count { patches: PatchRuns, wrong: Wrong },
     /// `tess_batch_run`.
-    Run { patches: Patches, to: To, wrong: Wrong },
+    Run { patches: PatchRuns, to: To, wrong: Wrong },
     /// `tess_batch_patch`.
     Single { factors: Bits, to: To, wrong: Wrong },
     /// `tess_batch_groups`, of the batch that was run last.
@@ -51,7 +51,7 @@ pub(crate) struct Bits(pub(crate) [u32; 6]);
 
 /// Runs of equal patches: how many, and their factors.
 #[derive(Clone)]
-pub(crate) struct Patches(pub(crate) Vec<(u8, Bits)>);
+pub(crate) struct PatchRuns(pub(crate) Vec<(u8, Bits)>);
 
 /// Where the output goes.
 #[derive(Clone, Copy, Debug)]
@@ -134,9 +134,9 @@ impl fmt::Debug for Bits {
     }
 }
 
-impl fmt::Debug for Patches {
+impl fmt::Debug for PatchRuns {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Patches(vec!{:?})", self.0)
+        write!(f, "PatchRuns(vec!{:?})", self.0)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Sequences at random.
 
-use super::calls::{Base, Bits, Call, Part, Patches, Room, Sequence, Threads, To, Wrong};
+use super::calls::{Base, Bits, Call, Part, PatchRuns, Room, Sequence, Threads, To, Wrong};
 use proptest::array::{uniform3, uniform4};
 use proptest::collection::vec;
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
@@ -49,9 +49,9 @@ fn right_create() -> impl Strategy<Value = Call> {
     )
 }
 
-fn patches() -> impl Strategy<Value = Patches> {
+fn patches() -> impl Strategy<Value = PatchRuns> {
     let times = prop_oneof![3 => Just(1), 2 => 1..5u8, 2 => 1..100u8];
-    vec((times, factors()), 0..7).prop_map(Patches)
+    vec((times, factors()), 0..7).prop_map(PatchRuns)
 }
 
 /// Factors of a patch: alike, or each of its own kind.

@@ -7,13 +7,13 @@ const GUARD: usize = 2048;
 
 /// A buffer, aligned to 8 bytes, of any number of bytes.
 #[derive(Default)]
-pub(crate) struct Memory(Vec<u64>);
+pub(crate) struct GuardedMemory(Vec<u64>);
 
 /// Bytes of a buffer and its guards.
 #[derive(Clone, PartialEq, Eq)]
 pub(crate) struct Image(Vec<u8>);
 
-impl Memory {
+impl GuardedMemory {
     /// Makes it this large. What it held is kept, or everything is filled with numbers that differ.
     pub(crate) fn fit(&mut self, bytes: usize, keep: bool) {
         if !keep {

@@ -1,6 +1,6 @@
 //! Output of a call, put into images of its buffers, and the first difference of a buffer from it.
 
-use super::arguments::{Arguments, Way};
+use super::arguments::{Arguments, BatchCall};
 use super::calls::{Part, To};
 use super::memory::Image;
 use super::model::Model;
@@ -13,9 +13,9 @@ pub(crate) fn put_words<const N: usize>(image: &mut Image, first: usize, words: 
     }
 }
 
-pub(crate) fn put_counts(image: &mut Image, way: Way, model: &Model) {
+pub(crate) fn put_counts(image: &mut Image, way: BatchCall, model: &Model) {
     let [points, indices, patches] = model.sizes();
-    if way == Way::Single {
+    if way == BatchCall::Single {
         let (_, case, ..) = model.parts().next().expect("one patch");
         let TessCounts { points, primitives, indices } = case.patch().counts().into();
         return put_words(image, 0, [points, primitives, indices]);
@@ -37,7 +37,7 @@ pub(crate) fn put_output(images: &mut [Image], given: &Arguments, model: &Model,
                 *images[Part::Points as usize].element(at) = word.to_ne_bytes();
             }
         }
-        let is_numbered = given.way == Way::Batch && to.numbering == TESS_NUMBERING_PER_BATCH;
+        let is_numbered = given.way == BatchCall::Batch && to.numbering == TESS_NUMBERING_PER_BATCH;
         let base = if is_numbered { given.base_vertex.wrapping_add(range.first_point) } else { 0 };
         for (i, index) in output.indices.iter().enumerate() {
             let (at, index) = (range.first_index as usize + i, base.wrapping_add(*index));
@@ -49,7 +49,7 @@ pub(crate) fn put_output(images: &mut [Image], given: &Arguments, model: &Model,
                 _ => *image.element(at) = index.to_ne_bytes(),
             }
         }
-        if given.way == Way::Batch {
+        if given.way == BatchCall::Batch {
             let TessRange { first_point, points, first_index, indices } = range;
             let image = &mut images[Part::Ranges as usize];
             put_words(image, 4 * number, [first_point, points, first_index, indices]);
@@ -89,7 +89,7 @@ pub(crate) fn described(
                 .checked_sub(range.first_index as usize)
                 .filter(|&i| i < output.indices.len())
                 .map(|i| format!("its index {i}")),
-            Part::Ranges if given.way == Way::Batch => {
+            Part::Ranges if given.way == BatchCall::Batch => {
                 (element / 4 == number).then(|| format!("word {} of its range", element % 4))
             }
             _ => None,

@@ -1,8 +1,8 @@
 //! A batch, and its calls compared with the model.
 
-use super::arguments::{Arguments, Buffers, Way};
-use super::calls::{Bits, Call, Part, Patches, To, Wrong};
-use super::memory::{Image, Memory};
+use super::arguments::{Arguments, BatchCall, Buffers};
+use super::calls::{Bits, Call, Part, PatchRuns, To, Wrong};
+use super::memory::{GuardedMemory, Image};
 use super::model::Model;
 use super::output::{described, put_counts, put_output, put_words};
 use std::ptr::null_mut;
@@ -62,7 +62,7 @@ impl Slot {
             domain: Domain::Quad,
             order: Order::Specification,
             level: 0,
-            buffers: std::array::from_fn(|_| Memory::default()),
+            buffers: std::array::from_fn(|_| GuardedMemory::default()),
             ranges: Vec::new(),
             fault,
             was_refused: false,
@@ -88,14 +88,14 @@ impl Slot {
                 answered("tess_batch_set_threads", status, expected)
             }
             Call::Level => self.ask_level(),
-            Call::Count { patches: Patches(runs), wrong } => {
-                self.call(Way::Count, runs, &To::NOTHING, *wrong)
+            Call::Count { patches: PatchRuns(runs), wrong } => {
+                self.call(BatchCall::Count, runs, &To::NOTHING, *wrong)
             }
-            Call::Run { patches: Patches(runs), to, wrong } => {
-                self.call(Way::Batch, runs, to, *wrong)
+            Call::Run { patches: PatchRuns(runs), to, wrong } => {
+                self.call(BatchCall::Batch, runs, to, *wrong)
             }
             Call::Single { factors, to, wrong } => {
-                self.call(Way::Single, &[(1, *factors)], to, *wrong)
+                self.call(BatchCall::Single, &[(1, *factors)], to, *wrong)
             }
             Call::Groups { starts } => self.groups(*starts),
         };
@@ -169,28 +169,28 @@ impl Slot {
     /// Counts or tessellates.
     fn call(
         &mut self,
-        way: Way,
+        way: BatchCall,
         runs: &[(u8, Bits)],
         to: &To,
         wrong: Wrong,
     ) -> Result<TessStatus, String> {
         let model = Model::new(self.config, self.domain, self.order, runs);
         let given = Arguments::new(way, &model, to, wrong, &mut self.buffers);
-        let mut expected: Vec<Image> = self.buffers.iter().map(Memory::image).collect();
+        let mut expected: Vec<Image> = self.buffers.iter().map(GuardedMemory::image).collect();
         let [factors, _, _, _, counts, output] = given.at;
         let status = unsafe {
             match way {
-                Way::Count => {
+                BatchCall::Count => {
                     tess_batch_count(self.batch, factors.cast(), given.floats, counts.cast())
                 }
-                Way::Batch => tess_batch_run(
+                BatchCall::Batch => tess_batch_run(
                     self.batch,
                     factors.cast(),
                     given.floats,
                     output.cast(),
                     counts.cast(),
                 ),
-                Way::Single => {
+                BatchCall::Single => {
                     tess_batch_patch(self.batch, factors.cast(), output.cast(), counts.cast())
                 }
             }
@@ -199,14 +199,14 @@ impl Slot {
         if matches!(status, TESS_OK | TESS_BUFFER_TOO_SMALL) {
             put_counts(&mut expected[Part::Counts as usize], way, &model);
         }
-        if status == TESS_OK && way != Way::Count {
+        if status == TESS_OK && way != BatchCall::Count {
             put_output(&mut expected, &given, &model, to);
             self.plant(&given, &model);
         }
-        if status == TESS_OK && way == Way::Single {
+        if status == TESS_OK && way == BatchCall::Single {
             self.leave_overrun(&mut expected, &given, &model, to);
         }
-        if status == TESS_OK && way == Way::Batch {
+        if status == TESS_OK && way == BatchCall::Batch {
             self.ranges = model.parts().map(|(.., range)| range).collect();
         }
         for part in
@@ -245,7 +245,7 @@ impl Slot {
             Some(Fault::IndexAfterRefusal) if self.was_refused && indices > 0 => {
                 self.buffers[Part::Indices as usize].flip(0);
             }
-            Some(Fault::BehindExact) if given.way == Way::Batch => {
+            Some(Fault::BehindExact) if given.way == BatchCall::Batch => {
                 self.buffers[Part::Points as usize].flip(8 * given.capacities[0]);
             }
             _ => {}

@@ -62,7 +62,7 @@ impl Work<'_> {
     pub(super) fn write<P: OutputPoint, I: IndexFormat>(
         self,
         py: Python<'_>,
-        mut room: Room<'_, P, I>,
+        mut room: ArrayRoom<'_, P, I>,
     ) -> PyResult<()> {
         let Self { threads, numbering, how } = self;
         let (tessellator, batch, sizes) = match how {
@@ -117,7 +117,7 @@ fn write_part<P: OutputPoint, I: IndexFormat>(
     part: Batch<'_>,
     numbering: Numbering,
     first: PatchRange,
-    room: Room<'_, P, I>,
+    room: ArrayRoom<'_, P, I>,
 ) -> Result<Option<BatchCounts>, Error> {
     let mut counted = tessellator.count(part)?;
     let counts = counted.counts();
@@ -130,7 +130,7 @@ fn write_part<P: OutputPoint, I: IndexFormat>(
         }
         Numbering::PerPatch => numbering,
     };
-    let Room { points, indices, ranges } = room;
+    let ArrayRoom { points, indices, ranges } = room;
     counted.write(numbering, Buffers::new(points, indices).with_ranges(&mut *ranges))?;
     for range in &mut ranges[..counts.patches] {
         range.first_point += first.first_point;
@@ -140,13 +140,13 @@ fn write_part<P: OutputPoint, I: IndexFormat>(
 }
 
 /// The buffers of a batch.
-pub(super) struct Room<'a, P, I> {
+pub(super) struct ArrayRoom<'a, P, I> {
     pub(super) points: &'a mut [P],
     pub(super) indices: &'a mut [I],
     pub(super) ranges: &'a mut [PatchRange],
 }
 
-impl<'a, P: OutputPoint, I: IndexFormat> Room<'a, P, I> {
+impl<'a, P: OutputPoint, I: IndexFormat> ArrayRoom<'a, P, I> {
     fn buffers(&mut self) -> Buffers<'_, P, I> {
         Buffers::new(self.points, self.indices).with_ranges(self.ranges)
     }
@@ -168,9 +168,9 @@ impl<'a, P: OutputPoint, I: IndexFormat> Room<'a, P, I> {
     }
 
     /// The room of what is left of a batch that has all of this.
-    fn rest(&mut self, sizes: Sizes, left: BatchCounts) -> Room<'_, P, I> {
+    fn rest(&mut self, sizes: Sizes, left: BatchCounts) -> ArrayRoom<'_, P, I> {
         let BatchCounts { patches, points, indices } = sizes.counts;
-        Room {
+        ArrayRoom {
             points: &mut self.points[points - left.points..],
             indices: &mut self.indices[indices - left.indices..],
             ranges: &mut self.ranges[patches - left.patches..],

@@ -12,7 +12,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 /// Output of the stage.
 #[wasm_bindgen]
 #[derive(Debug)]
-pub struct Report {
+pub struct StageReport {
     /// Frames until everything fitted.
     pub frames: u32,
     /// Scale of the factors in the first frame, whose room was too little.
@@ -26,7 +26,7 @@ pub struct Report {
 }
 
 #[wasm_bindgen]
-impl Report {
+impl StageReport {
     /// The first difference between what the stage stored and the model; nothing if every bit is equal.
     #[must_use]
     pub fn difference(&self) -> String {
@@ -48,7 +48,7 @@ impl Report {
 /// # Errors
 /// The stage's error, in words.
 #[wasm_bindgen]
-pub async fn draw_terrain(wgsl_fault: String, is_wrong: bool) -> Result<Report, JsError> {
+pub async fn draw_terrain(wgsl_fault: String, is_wrong: bool) -> Result<StageReport, JsError> {
     let gpu = Gpu::open().await.map_err(thrown)?;
     let source = wgsl_fault + terrain::WGSL;
     let stage = TessellationStage::builder(&source, Domain::Quad, config(), terrain::PATCHES)

@@ -4,13 +4,13 @@ use std::path::Path;
 
 /// Replacements in the shaders' text.
 #[derive(Clone)]
-pub(crate) struct Variant {
+pub(crate) struct ShaderVariant {
     /// The file's name.
     pub(crate) name: String,
     edits: Vec<(String, String)>,
 }
 
-impl Variant {
+impl ShaderVariant {
     /// All variants of a folder by name, behind the unedited shaders.
     pub(crate) fn read_all(folder: &Path) -> Result<Vec<Self>, Box<dyn std::error::Error>> {
         let mut all = vec![Self { name: "as they are".to_owned(), edits: Vec::new() }];
@@ -62,7 +62,7 @@ mod tests {
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
         let sources = Stage::ALL.map(|stage| stage.source(Setup::new(Domain::Quad, config)));
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/edits");
-        let variants = Variant::read_all(folder.as_ref()).expect("edits");
+        let variants = ShaderVariant::read_all(folder.as_ref()).expect("edits");
         assert!(variants.len() > 5, "{} variants", variants.len());
         for variant in &variants {
             assert_eq!(variant.missing(&sources), None, "{}", variant.name);
