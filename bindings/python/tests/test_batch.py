@@ -1,4 +1,4 @@
-"""Batches: equal to single patches, in every format, into given arrays, from any thread."""
+"""Batches of factors in any strides, what they refuse, and threads meanwhile; test_sequences.py compares their output."""
 
 import sys
 import threading
@@ -7,62 +7,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
-from hypothesis.extra import numpy as arrays
 
-from tess_model import ArgumentError, OutputError, Patch, Tessellator, TessError, tessellate
-
-FACTORS = {"isoline": 2, "tri": 4, "quad": 6}
-PARTITIONINGS = ["integer", "pow2", "fractional_odd", "fractional_even"]
-OUTPUTS = ["point", "line", "triangle_cw", "triangle_ccw"]
-
-any_bits = st.one_of(
-    st.floats(width=32).map(lambda x: int(np.array(x, np.float32).view(np.uint32))),
-    st.floats(1, 8, width=32).map(lambda x: int(np.array(x, np.float32).view(np.uint32))),
-    st.integers(0, 2**32 - 1),
-)
-
-
-def equals_single_patches(domain: str, bits: "np.ndarray[Any, Any]", batch: Any, **config: str) -> None:
-    assert batch.ranges.shape == (len(bits), 4)
-    first_point = first_index = 0
-    for row, found in zip(bits, batch.ranges):
-        outer = FACTORS[domain] - {"isoline": 0, "tri": 1, "quad": 2}[domain]
-        patch = Patch.from_bits(domain, row[:outer], row[outer:], **config)
-        points, indices = patch.points, patch.indices.ravel()
-        assert tuple(found) == (first_point, len(points), first_index, len(indices)), patch.case
-        first_point, first_index = first_point + len(points), first_index + len(indices)
-        here = batch.points[found[0] : first_point]
-        exact = here if here.dtype == np.uint32 else here * 65536
-        np.testing.assert_array_equal(exact, points, err_msg=patch.case)
-        np.testing.assert_array_equal(batch.indices[found[2] : first_index], indices, err_msg=patch.case)
-    assert (len(batch.points), len(batch.indices)) == (first_point, first_index)
-
-
-@settings(deadline=None, max_examples=60)
-@given(data=st.data())
-def test_any_bits_in_any_configuration(data: st.DataObject) -> None:
-    domain = data.draw(st.sampled_from(sorted(FACTORS)))
-    config = {
-        "partitioning": data.draw(st.sampled_from(PARTITIONINGS)),
-        "output": data.draw(st.sampled_from(OUTPUTS)),
-        "split": data.draw(st.sampled_from(["ruler", "center"])),
-    }
-    shape = (data.draw(st.integers(0, 5)), FACTORS[domain])
-    bits = data.draw(arrays.arrays(np.uint32, shape, elements=any_bits))
-    batch = tessellate(
-        domain,
-        bits,
-        points=data.draw(st.sampled_from(["float32", "fixed"])),
-        indices=data.draw(st.sampled_from(["uint32", "uint16"])),
-        threads=data.draw(st.sampled_from([1, 2])),
-        **config,  # type: ignore[arg-type]
-    )
-    equals_single_patches(domain, bits, batch, **config)
-    # The bits, whatever numpy does to signalling NaNs when it computes.
-    same = tessellate(domain, bits.view(np.float32), **config)  # type: ignore[arg-type]
-    np.testing.assert_array_equal(same.ranges, batch.ranges)
+from tess_model import ArgumentError, OutputError, Tessellator, TessError, tessellate
 
 
 def quads(count: int = 50) -> "np.ndarray[Any, Any]":
@@ -82,37 +28,6 @@ def test_any_strides() -> None:
         for one, other in zip(tessellate("quad", same), expected):
             np.testing.assert_array_equal(one, other)
     assert not np.array_equal(tessellate("quad", factors[::-1]).points, expected.points)
-
-
-def test_numbering_through_the_batch() -> None:
-    factors = quads()
-    per_patch, batch = tessellate("quad", factors), tessellate("quad", factors, base_vertex=7)
-    for first_point, _, first_index, indices in batch.ranges.astype(int):
-        here = slice(first_index, first_index + indices)
-        np.testing.assert_array_equal(batch.indices[here], per_patch.indices[here] + first_point + 7)
-    from_0 = tessellate("quad", factors, base_vertex=0)
-    np.testing.assert_array_equal(from_0.indices + np.uint32(7), batch.indices)
-    with pytest.raises(ArgumentError, match="indices end at 65535"):
-        tessellate("quad", factors, base_vertex=65535, indices="uint16")
-
-
-def test_given_arrays_are_written_in_place() -> None:
-    factors = quads()
-    tessellator = Tessellator()
-    counts = tessellator.count("quad", factors)
-    expected = tessellator.tessellate("quad", factors, points="fixed", indices="uint16")
-    points = np.full((counts.points + 3, 2), 0xDEAD, np.uint32)
-    indices = np.full(counts.indices + 5, 0xDEAD, np.uint16)
-    ranges = np.full((counts.patches + 1, 4), 0xDEAD, np.uint32)
-    for out in [(points, indices), (points, indices, ranges)]:
-        batch = tessellator.tessellate("quad", factors, out=out)
-        for one, other in zip(batch, expected):
-            np.testing.assert_array_equal(one, other)
-        assert np.shares_memory(batch.points, points) and np.shares_memory(batch.indices, indices)
-    assert np.shares_memory(batch.ranges, ranges) and ranges[-1, 0] == 0xDEAD
-    assert (points[counts.points :] == 0xDEAD).all() and (indices[counts.indices :] == 0xDEAD).all()
-    exact = (points[: counts.points], indices[: counts.indices], ranges[:-1])
-    assert tessellator.tessellate("quad", factors, out=exact).points.base is points
 
 
 def out_arrays(factors: "np.ndarray[Any, Any]") -> "list[np.ndarray[Any, Any]]":
@@ -230,34 +145,6 @@ def test_a_batch_that_32_bits_cannot_count() -> None:
     huge = np.broadcast_to(np.float32(64), (1_100_000, 6))
     with pytest.raises(ArgumentError, match="at most 4294967295"):
         Tessellator().count("quad", huge)
-
-
-def test_empty_batches() -> None:
-    for domain, factors in FACTORS.items():
-        batch = tessellate(domain, np.zeros((0, factors), np.float32))
-        assert [array.shape for array in batch] == [(0, 2), (0,), (0, 4)]
-
-
-def test_many_threads_with_one_tessellator() -> None:
-    factors = quads(500)
-    tessellator = Tessellator("fractional_odd", threads=2)
-    expected = tessellator.tessellate("quad", factors)
-    wrong: "list[str]" = []
-
-    def work(seed: int) -> None:
-        mine = np.roll(factors, seed, axis=0)
-        for _ in range(5):
-            batch = tessellator.tessellate("quad", mine)
-            first = batch.ranges[seed, 0]
-            if not np.array_equal(batch.points[first:], expected.points[: len(batch.points) - first]):
-                wrong.append(f"thread {seed}")
-
-    threads = [threading.Thread(target=work, args=(seed,)) for seed in range(8)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert wrong == []
 
 
 def test_the_interpreter_goes_on_meanwhile() -> None:
