@@ -5,7 +5,7 @@ use crate::mesh;
 use std::io;
 use std::path::Path;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
-use tess_verify::generate::{SplitMix64, boundary_factors, exceptional_factors, special_factors};
+use tess_verify::generate::{SplitMix64, boundary_factors};
 
 /// Every target.
 pub const TARGETS: [&str; 11] = [
@@ -164,7 +164,7 @@ fn first_records(text: &str) -> Option<String> {
 /// Every interesting factor, on an edge, inside or everywhere in a patch, and `size` patches to a
 /// batch.
 fn batches(size: usize) -> Vec<(Domain, Config, Vec<PatchFactors>)> {
-    let factors = [boundary_factors(), exceptional_factors(), special_factors()].concat();
+    let factors = boundary_factors();
     let batch = |(i, factors): (usize, &[f32])| {
         let domain = Domain::ALL[i % 3];
         let config = Config {

@@ -22,8 +22,7 @@ pub fn check(data: &[u8]) -> Result<(), String> {
             Err(error) => return names_a_line(&error.to_string(), lines),
             Ok(Record::Listing(listing)) => listing_survives(&listing)?,
             Ok(Record::Coordinates(coordinates)) => coordinates_survive(&coordinates)?,
-            Ok(Record::Patch(row)) => case_survives(&row.row.case)?,
-            Ok(_) => {}
+            Ok(record) => record.case().map_or(Ok(()), |case| case_survives(&case))?,
         }
         records += 1;
     }

@@ -18,19 +18,19 @@ mod verify;
 mod ways;
 mod workers;
 
-pub use asked::{Asked, WINDOW};
+pub use asked::Asked;
 pub use compare::{Element, Mismatch, Stage};
 pub use known::Known;
 pub(crate) use patches::tessellate;
 pub use report::{CheckError, Difference, Group, MAX_DIFFERENCES, Report};
 pub use second::SecondFormulation;
 pub use strength::{Conversion, Denormals, Elements, Order, Strength, flushed, vertices};
-pub use verify::{Plan, Random, RandomUnit, Row, Subject, Unit, Units, verify, verify_known};
+pub use verify::{Plan, Row, Subject, verify};
 pub use ways::Way;
 
 use crate::backend::{Backend, BackendError};
 use crate::case::Case;
-use crate::vectors::{Header, Kind, Record, VectorError, VectorFile};
+use crate::vectors::{CsvRow, Header, Kind, Record, Values, VectorError, VectorFile};
 use asked::Expected;
 use findings::{Findings, Found};
 use std::io::BufRead;
@@ -77,32 +77,18 @@ pub fn check<R: BufRead + Send>(
     tested: Tested,
     checked: &(dyn Fn(Checked<'_>) + Sync),
 ) -> Result<Report, CheckError> {
-    check_asked(file, None, backends, tested, checked)
+    check_asked(file, None, &Known::default(), backends, tested, checked)
 }
 
-/// [`check`], and the records must answer the cases that were `asked`, one for one and in this order: a
+/// [`check`], where a record that differs from what is right for its case is no mismatch if that is `known`, and
+/// the records must answer the cases that were `asked`, one for one and in this order: a
 /// record that answers another case is a difference, and so is a case without a record. The fewest
 /// differences count that explain what is there: the comparison is in step again behind them, if
-/// fewer than [`WINDOW`] cases in a row have no record.
+/// fewer than 4096 cases in a row have no record.
 ///
 /// # Errors
 /// The errors of [`check`] and of reading `asked`.
 pub fn check_asked<R: BufRead + Send>(
-    file: VectorFile<R>,
-    asked: Option<Asked<'_>>,
-    backends: &mut [Box<dyn Backend>],
-    tested: Tested,
-    checked: &(dyn Fn(Checked<'_>) + Sync),
-) -> Result<Report, CheckError> {
-    check_known(file, asked, &Known::default(), backends, tested, checked)
-}
-
-/// [`check_asked`], where a record that differs from what is right for its case is no mismatch if that is `known`.
-/// A record that answers another case than was asked is one all the same.
-///
-/// # Errors
-/// The errors of [`check_asked`].
-pub fn check_known<R: BufRead + Send>(
     file: VectorFile<R>,
     asked: Option<Asked<'_>>,
     known: &Known,
@@ -286,13 +272,14 @@ fn check_unit(
     backend: &mut dyn Backend,
     records: &[Record],
 ) -> Result<Vec<Found>, BackendError> {
-    match records {
-        [Record::Sweep(row)] => Ok(vec![patches::sweep(backend, row)?]),
-        [Record::Uniform(row)] => Ok(vec![patches::uniform(backend, row)?]),
-        [Record::Locations(row)] => {
-            Ok(vec![Found::new(exhaustive::locations(backend, row)?, None)])
-        }
-        [Record::Factors(row)] => Ok(vec![Found::new(exhaustive::factors(backend, row)?, None)]),
-        records => patches::single(how, backend, records),
+    let [Record::Row(CsvRow { values, .. })] = records else {
+        return patches::single(how, backend, records);
+    };
+    match values {
+        Values::Sweep(row) => Ok(vec![patches::sweep(backend, row)?]),
+        Values::Uniform(row) => Ok(vec![patches::uniform(backend, row)?]),
+        Values::Locations(row) => Ok(vec![Found::new(exhaustive::locations(backend, row)?, None)]),
+        Values::Factors(row) => Ok(vec![Found::new(exhaustive::factors(backend, row)?, None)]),
+        Values::Patch(_) | Values::Preparation(_) => patches::single(how, backend, records),
     }
 }

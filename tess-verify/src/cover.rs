@@ -17,7 +17,6 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::io;
 use tess_core::{FactorContext, SplitOrder};
-pub use ucis::UcisError;
 
 /// How often each bin was hit. A bin is a path such as `middle/oddxeven`; the part before the
 /// first `/` is its group.
@@ -51,36 +50,23 @@ pub struct Group {
     pub excluded: usize,
 }
 
+/// All bins, none of them hit.
 impl Default for Coverage {
     fn default() -> Self {
-        Self::new()
+        Self { hits: bins::all().iter().map(|bin| (bin.clone(), 0)).collect() }
     }
 }
 
 impl Coverage {
-    /// All bins, none of them hit.
-    #[must_use]
-    pub fn new() -> Self {
-        Self { hits: bins::all().iter().map(|bin| (bin.clone(), 0)).collect() }
-    }
-
     /// Counts the bins that a case hits.
     ///
     /// # Panics
     /// In debug builds, if a case hits a bin that was not declared: a fault of this module.
     pub fn record(&mut self, case: &Case) {
-        self.record_new(case);
-    }
-
-    /// As [`Coverage::record`]; gives how many of the bins were hit for the first time.
-    pub fn record_new(&mut self, case: &Case) -> usize {
-        let mut fresh = 0;
         observe::observe(case, |bin| {
-            let before = self.count(&bin, 1);
-            debug_assert!(before.is_some(), "bin {bin} is not declared ({case})");
-            fresh += usize::from(before == Some(0));
+            let declared = self.add(&bin, 1);
+            debug_assert!(declared, "bin {bin} is not declared ({case})");
         });
-        fresh
     }
 
     /// Counts the bins that one factor's context hits, for the bench of a stage that sees no patch:
@@ -97,22 +83,16 @@ impl Coverage {
 
     /// Adds to the hits of a bin, up to the largest `u64`; whether there is such a bin.
     pub fn add(&mut self, bin: &str, more: u64) -> bool {
-        self.count(bin, more).is_some()
-    }
-
-    /// As [`Self::add`]; gives the hits before.
-    fn count(&mut self, bin: &str, more: u64) -> Option<u64> {
-        let hits = self.hits.get_mut(bin)?;
-        let before = *hits;
-        *hits = before.saturating_add(more);
-        Some(before)
+        let Some(hits) = self.hits.get_mut(bin) else { return false };
+        *hits = hits.saturating_add(more);
+        true
     }
 
     /// Coverage with these hits, a number for each bin in the order of [`Coverage::bins`]; `None` if there
     /// are more or fewer bins.
     #[must_use]
     pub fn from_hits(hits: &[u64]) -> Option<Self> {
-        let mut coverage = Self::new();
+        let mut coverage = Self::default();
         let is_whole = coverage.hits.len() == hits.len();
         coverage.hits.values_mut().zip(hits).for_each(|(own, hits)| *own = *hits);
         is_whole.then_some(coverage)
@@ -136,18 +116,10 @@ impl Coverage {
         ucis::write(self)
     }
 
-    /// Reads what [`Coverage::to_ucis`] gave.
+    /// Reads what [`Coverage::to_ucis`] gave. A file that is longer is not read to its end.
     ///
     /// # Errors
-    /// Any other text, and files of a version with other bins: [`UcisError`] names the line.
-    pub fn from_ucis(text: &str) -> Result<Self, UcisError> {
-        ucis::read(text)
-    }
-
-    /// Reads a file of what [`Coverage::to_ucis`] gave. A file that is longer is not read to its end.
-    ///
-    /// # Errors
-    /// What the reader says; [`io::ErrorKind::InvalidData`] with a [`UcisError`] for any other text.
+    /// What the reader says; [`io::ErrorKind::InvalidData`] for any other text, and for files of a version with other bins, with the line.
     pub fn read_ucis(reader: impl io::Read) -> io::Result<Self> {
         ucis::read_bounded(reader)
     }
@@ -237,22 +209,22 @@ mod tests {
     /// The bins of a case, counted in three ways; once all are hit, no more are new.
     #[test]
     fn a_case_hits_its_bins() {
-        let mut coverage = Coverage::new();
-        let fresh = coverage.record_new(&case());
-        assert_eq!(coverage.missed().count() + fresh, coverage.bins().count(), "{coverage}");
-        assert_eq!(coverage.record_new(&case()), 0, "the second time");
+        let mut coverage = Coverage::default();
+        coverage.record(&case());
+        coverage.record(&case());
         let bins: Vec<&str> = coverage.bins().map(|(bin, _)| bin).collect();
         let mut hits = vec![0; bins.len()];
         bins_hit(&case()).into_iter().for_each(|number| hits[number] += 2);
         assert_eq!(Coverage::from_hits(&hits), Some(coverage.clone()), "by number");
         assert_eq!(coverage.hits("middle/oddxodd"), Some(8), "four edges, twice");
-        assert_eq!(Coverage::from_ucis(&coverage.to_ucis()), Ok(coverage.clone()), "by file");
+        let read = Coverage::read_ucis(coverage.to_ucis().as_bytes()).expect("its own file");
+        assert_eq!(read, coverage, "by file");
         assert_eq!(coverage.to_string(), coverage.report(&Exclusions::default()));
     }
 
     #[test]
     fn a_context_hits_the_bins_of_contexts() {
-        let mut coverage = Coverage::new();
+        let mut coverage = Coverage::default();
         let factor = FixedFactor::from_bits(0x3_8000);
         let context = FactorContext::new(factor, Parity::Odd, SplitOrder::Ruler);
         coverage.record_context(SplitOrder::Ruler, &context);

@@ -16,12 +16,13 @@ mod random;
 mod related;
 mod workloads;
 
-pub use boundaries::{boundary_factors, exceptional_factors, special_factors};
+pub use boundaries::boundary_factors;
+use boundaries::{exceptional_factors, ordinary_factors, special_factors};
 #[cfg(feature = "arbitrary")]
 pub(crate) use patches::{factor_up_to, patch_of};
 pub use patches::{random_factor, random_patch};
 pub use random::SplitMix64;
-pub use workloads::{CACHE_BATCH_BYTES, Calls, IndexType, Totals, Workload};
+pub use workloads::{Calls, IndexType, Totals, Workload};
 
 use crate::case::Case;
 use random::Draw;

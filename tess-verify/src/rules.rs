@@ -33,7 +33,7 @@
 //! ```
 //!
 //! - A patch whose indices name no points is judged by [`Rule::Range`] alone.
-//! - Lengths that a standard calls equal may differ by [`TOLERANCE`], as coordinates are rounded; everything
+//! - Lengths that a standard calls equal may differ by 16/65536, as coordinates are rounded; everything
 //!   else is compared bit for bit.
 //! - Where a standard allows two results, a patch that shows either does not count as judged.
 
@@ -45,7 +45,6 @@ mod mesh;
 mod report;
 mod standard;
 
-pub use edge::TOLERANCE;
 pub use report::{Example, Row, RulesReport, Verdict};
 pub use standard::{Rule, Specification};
 

@@ -6,11 +6,11 @@ mod drawing;
 mod explanation;
 mod picture;
 
-pub use circuit::{Part, Signal, SignalDifference, SignalError, compare_signals, signals};
+pub use circuit::{Part, SignalDifference, SignalError, compare_signals};
 pub use drawing::{
     Colours, Differences, DrawOptions, Drawing, differing, draw, fills, has_rings, overlay,
 };
-pub use explanation::{Explanation, FactorReport, PointReport, PrimitiveReport};
+pub use explanation::Explanation;
+pub(crate) use explanation::{PointReport, PrimitiveReport};
 #[cfg(feature = "png")]
 pub use picture::PngError;
-pub use picture::{Colour, Picture, Position, Shape};

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, OutputPrimitive, Tessellation};
 use tess_verify::check::{
-    CheckError, Elements, Order, Report, Strength, Tested, Way, check, check_asked, vertices,
+    CheckError, Elements, Known, Order, Report, Strength, Tested, Way, check, check_asked, vertices,
 };
 use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::vectors::{Cases, Listing, Record, VectorFile};
@@ -293,7 +293,8 @@ fn answered_wrongly(asked: &str, records: &str) -> Vec<bool> {
     let checked = |checked: tess_verify::check::Checked<'_>| {
         seen.lock().expect("no panic").extend_from_slice(checked.different);
     };
-    check_asked(file, Some(&mut cases), &mut one, tested, &checked).expect("a verdict");
+    check_asked(file, Some(&mut cases), &Known::default(), &mut one, tested, &checked)
+        .expect("a verdict");
     seen.into_inner().expect("no panic")
 }
 
@@ -302,7 +303,7 @@ fn asked(asked: &str, records: &str) -> Result<Report, CheckError> {
     let file = VectorFile::new("capture", text.as_bytes())?;
     let mut cases = Cases::new("asked", asked.as_bytes())?;
     let mut one: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
-    check_asked(file, Some(&mut cases), &mut one, Tested::Listings(ANY), &|_| ())
+    check_asked(file, Some(&mut cases), &Known::default(), &mut one, Tested::Listings(ANY), &|_| ())
 }
 
 #[test]

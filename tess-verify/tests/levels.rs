@@ -18,7 +18,7 @@ fn digest(cases: impl IntoIterator<Item = Case>) -> String {
     fn place<T: PartialEq>(all: &[T], of: &T) -> u32 {
         (0..).zip(all).find(|(_, one)| *one == of).expect("one of them").0
     }
-    let mut digest = Fnv1a::new();
+    let mut digest = Fnv1a::default();
     for Case { config, factors } in cases {
         digest.words([
             place(&Domain::ALL, &factors.domain()),
@@ -79,7 +79,7 @@ fn configurations_can_be_some() {
 
 #[test]
 fn level_1_hits_every_bin() {
-    let mut coverage = Coverage::new();
+    let mut coverage = Coverage::default();
     level(GenLevel::One).iter().for_each(|case| coverage.record(case));
     let missed: Vec<_> = coverage.missed().collect();
     assert!(missed.is_empty(), "{} bins missed: {missed:#?}", missed.len());
@@ -113,7 +113,7 @@ fn level_1_has_patches_beside_minimum_ones() {
 /// Random patches reach every bin too, but for some of the transitions; and they stay small.
 #[test]
 fn random_patches_reach_what_there_is() {
-    let (mut coverage, mut points, mut cases) = (Coverage::new(), 0, 0);
+    let (mut coverage, mut points, mut cases) = (Coverage::default(), 0, 0);
     let mut random = SplitMix64::new(1);
     for (domain, config) in configurations() {
         for _ in 0..4000 {
@@ -135,7 +135,7 @@ fn random_patches_reach_what_there_is() {
 #[test]
 fn level_2_has_both_split_orders_everywhere() {
     use std::collections::HashSet;
-    use tess_verify::generate::{boundary_factors, exceptional_factors, special_factors};
+    use tess_verify::generate::boundary_factors;
 
     let mut seen = HashSet::new();
     for case in (Selection { random: Some(0), ..Selection::level(GenLevel::Two, 1) }).cases() {
@@ -144,7 +144,7 @@ fn level_2_has_both_split_orders_everywhere() {
             seen.insert((domain, config.partitioning, config.split, position, factor.to_bits()));
         }
     }
-    for value in [boundary_factors(), exceptional_factors(), special_factors()].concat() {
+    for value in boundary_factors() {
         for domain in Domain::ALL {
             for position in 0..domain.factors() {
                 for (partitioning, split) in Partitioning::ALL
@@ -223,7 +223,7 @@ fn cases_hit_the_bins_that_they_are_of() {
     for (text, hit, not) in TABLE {
         let words: Vec<&str> = text.splitn(3, ' ').collect();
         let line = format!("case {} {} triangle_cw ruler {}", words[0], words[1], words[2]);
-        let mut coverage = Coverage::new();
+        let mut coverage = Coverage::default();
         coverage.record(&line.parse().expect("a case"));
         for bin in hit {
             assert!(coverage.hits(bin).is_some_and(|hits| hits > 0), "{line} hits {bin}");
@@ -242,7 +242,7 @@ fn cases_hit_the_bins_that_they_are_of() {
 
 #[test]
 fn coverage_notices_what_is_missing() {
-    let mut coverage = Coverage::new();
+    let mut coverage = Coverage::default();
     assert!(coverage.groups().iter().all(|group| group.hit == 0), "nothing is hit at first");
     level(GenLevel::One).iter().take(100).for_each(|case| coverage.record(case));
     let missed = coverage.missed().filter(|bin| bin.starts_with("transition/")).count();

@@ -178,14 +178,6 @@ fn a_sequence_is_never_weaker_than_any_order() {
     }
 }
 
-#[test]
-fn only_what_gives_no_freedom_is_the_strictest() {
-    assert!(Strength::default().is_strictest(), "identical sequences");
-    assert!(!any_order().is_strictest(), "any order");
-    let points = Strength { elements: Elements::Points, ..Strength::default() };
-    assert!(!points.is_strictest(), "points alone");
-}
-
 /// Where points are the primitives, one that is drawn twice is wrong in any order.
 #[test]
 fn a_point_is_drawn_once() {

@@ -44,7 +44,7 @@ impl Coverage {
     /// time, so that a bench can choose the patches that are worth their clocks.
     fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<usize> {
         if let Ok(patch) = patches.cast::<Patch>() {
-            return Ok(self.lock().record_new(&patch.get().case));
+            return Ok(record(&mut self.lock(), &[patch.get().case]));
         }
         let mut fresh = 0;
         let mut patches = patches.try_iter()?;
@@ -57,10 +57,7 @@ impl Coverage {
                 return Ok(fresh);
             }
             py.check_signals()?;
-            fresh += py.detach(|| {
-                let mut coverage = self.lock();
-                cases.iter().map(|case| coverage.record_new(case)).sum::<usize>()
-            });
+            fresh += py.detach(|| record(&mut self.lock(), &cases));
         }
     }
 
@@ -149,7 +146,7 @@ impl Coverage {
     /// Reads what :meth:`to_ucis` gave, or ``tess gen --coverage FILE`` wrote.
     #[staticmethod]
     fn from_ucis(text: &str) -> PyResult<Self> {
-        let read = tess_verify::cover::Coverage::from_ucis(text);
+        let read = tess_verify::cover::Coverage::read_ucis(text.as_bytes());
         read.map(|coverage| Self(Arc::new(Mutex::new(coverage)))).map_err(file_format)
     }
 
@@ -244,4 +241,11 @@ impl Coverage {
     pub(crate) fn lock(&self) -> MutexGuard<'_, tess_verify::cover::Coverage> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Counts the bins that patches hit; gives how many of them were hit for the first time.
+fn record(coverage: &mut tess_verify::cover::Coverage, cases: &[Case]) -> usize {
+    let missed = coverage.missed().count();
+    cases.iter().for_each(|case| coverage.record(case));
+    missed - coverage.missed().count()
 }

@@ -10,8 +10,7 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use tess_core::{Config, Domain, DomainPoint, ProcessedPatch, Tessellation};
 use tess_verify::show::{
-    self, Colours, DrawOptions, Explanation, FactorReport, Part, PointReport, PrimitiveReport,
-    SignalError, draw, has_rings,
+    self, Colours, DrawOptions, Explanation, Part, SignalError, draw, has_rings,
 };
 use tess_verify::vectors::Listing;
 use tess_verify::{Case, Named};
@@ -395,7 +394,7 @@ impl Patch {
 
     fn draw(&self, options: &DrawOptions) -> String {
         let listing = Listing { line: 0, case: self.case, output: self.tessellate() };
-        draw(&listing, options).picture.to_svg()
+        draw(&listing, options).to_svg()
     }
 
     fn missing(&self, part: Part) -> PyErr {
@@ -414,26 +413,8 @@ impl Patch {
 
     /// An explanation as text and as JSON.
     fn report(&self, part: Part) -> PyResult<(String, Value)> {
-        let patch = self.case.patch();
-        let (text, json) = match part {
-            Part::Point(i) => {
-                let report = PointReport::new(&patch, i).ok_or_else(|| self.missing(part))?;
-                (report.to_string(), serde_json::to_value(report))
-            }
-            Part::Primitive(t) => {
-                let report = PrimitiveReport::new(&patch, t).ok_or_else(|| self.missing(part))?;
-                (report.to_string(), serde_json::to_value(report))
-            }
-            Part::Factor(k) => {
-                let report = FactorReport::new(&self.case, k).ok_or_else(|| self.missing(part))?;
-                (report.to_string(), serde_json::to_value(report))
-            }
-            _ => {
-                let report = Explanation::new(&self.case);
-                (report.to_string(), serde_json::to_value(report))
-            }
-        };
-        Ok((text, json.map_err(argument)?))
+        let report = Explanation::new(&self.case, part).ok_or_else(|| self.missing(part))?;
+        Ok((report.to_string(), serde_json::to_value(report).map_err(argument)?))
     }
 }
 

@@ -75,8 +75,7 @@ pub(crate) fn signal_difference<'py>(
     py: Python<'py>,
     found: &SignalDifference,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let signal = found.signal;
-    let elements = (signal.stage, signal.module, signal.name, found.observed, found.expected);
+    let elements = (found.stage, found.module, found.name, found.observed, found.expected);
     value(py, "SignalDifference", elements)
 }
 

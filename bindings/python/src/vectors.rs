@@ -16,9 +16,9 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use tess_core::{DomainPoint, Tessellation};
-use tess_verify::check::{CheckError, Report, Tested, check_asked};
+use tess_verify::check::{CheckError, Known, Report, Strength, Tested, check_asked};
 use tess_verify::generate::{GenLevel, Selection, Shard};
-use tess_verify::vectors::{Header, Kind, Listing, VectorError, write_listings, write_patches};
+use tess_verify::vectors::{Header, Kind, Listing, VectorError, write_cases};
 use tess_verify::{Backend, Case, CoreBackend, Named};
 
 /// Cases; `None` for one of another shard.
@@ -131,10 +131,7 @@ pub(crate) fn write_vectors(
         let file = Watched::new(File::create(path)?, Arc::clone(&stop));
         let mut file = BufWriter::new(file);
         let cases = cases.into_iter().take_while(|_| !stop.load(Ordering::Relaxed));
-        match kind {
-            Kind::Listings => write_listings(&mut file, &header, cases)?,
-            _ => write_patches(&mut file, &header, cases)?,
-        }
+        write_cases(&mut file, &header, cases)?;
         file.flush()
     });
     Ok(written??)
@@ -322,7 +319,7 @@ pub(crate) fn check<'py>(
         let (file, _) = open(&path, stop).map_err(NotOpen::into_error)?;
         let tested = if file.header().kind == Kind::Listings && !model {
             Tested::Listings(strength)
-        } else if strength.is_strictest() {
+        } else if strength == Strength::default() {
             Tested::Backend
         } else {
             return Err(argument(
@@ -346,7 +343,7 @@ fn run_check(
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let mut backends: Vec<Box<dyn Backend>> =
         (0..threads).map(|_| Box::new(CoreBackend) as Box<dyn Backend>).collect();
-    check_asked(file, asked, &mut backends, tested, &|checked| {
+    check_asked(file, asked, &Known::default(), &mut backends, tested, &|checked| {
         if let Some(coverage) = coverage {
             let mut coverage = coverage.lock();
             let cases = checked.records.iter().filter_map(tess_verify::vectors::Record::case);

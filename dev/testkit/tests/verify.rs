@@ -2,12 +2,12 @@
 
 use std::sync::atomic::Ordering;
 use tess_testkit::faults::{Fault, Faulty};
-use tess_verify::check::{Known, Plan, Random, Row, Subject, verify, verify_known};
+use tess_verify::check::{Known, Plan, Row, Subject, verify};
 use tess_verify::generate::Shard;
 use tess_verify::{Backend, CoreBackend};
 
 fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &Plan) -> Vec<Row> {
-    verify(workers, plan, &|_, _, _| {}).expect("the backends run")
+    verify(workers, plan, &Known::default(), &|_, _, _| {}).expect("the backends run")
 }
 
 /// The faults that a subject's units must see, and a plan of few of them.
@@ -22,13 +22,14 @@ fn faulty_plan(subject: Subject) -> (Vec<Fault>, Plan) {
 
 #[test]
 fn every_subject_sees_every_fault() {
-    let random = Subject::Random(Random { patches: 300, seed: 1 });
+    let random = Subject::Random { patches: 300, seed: 1 };
     for subject in Subject::ALL.into_iter().chain([random]) {
         let (faults, plan) = faulty_plan(subject);
         for fault in faults {
             let faulty = Faulty::new(CoreBackend, fault, 0);
             let committed = faulty.committed();
-            let result = verify(&mut [vec![Box::new(faulty)]], &plan, &|_, _, _| {});
+            let result =
+                verify(&mut [vec![Box::new(faulty)]], &plan, &Known::default(), &|_, _, _| {});
             assert!(committed.load(Ordering::Relaxed), "{fault:?} was committed");
             if fault == Fault::ShortAnswer {
                 assert!(result.is_err(), "{subject:?}: an answer too few");
@@ -54,7 +55,8 @@ fn differences_are_told_apart_by_backend() {
 /// A single bit of a single random patch, somewhere in the middle.
 #[test]
 fn one_bit_of_one_random_patch() {
-    let plan = Plan::random(Random { patches: 5000, seed: 3 });
+    let plan =
+        Plan { subjects: vec![Subject::Random { patches: 5000, seed: 3 }], shard: Shard::WHOLE };
     for fault in [Fault::PointU, Fault::LastPoint] {
         let rows = run(&mut [vec![Box::new(Faulty::new(CoreBackend, fault, 101))]], &plan);
         let [row] = &rows[..] else { panic!("one row: {rows:?}") };
@@ -68,7 +70,8 @@ fn one_bit_of_one_random_patch() {
 /// The patch that differs is excused, and no other; the stage of what is not is counted.
 #[test]
 fn a_known_difference_is_no_mismatch() {
-    let plan = Plan::random(Random { patches: 100, seed: 3 });
+    let plan =
+        Plan { subjects: vec![Subject::Random { patches: 100, seed: 3 }], shard: Shard::WHOLE };
     let faulty = || -> Vec<Vec<Box<dyn Backend>>> {
         vec![vec![Box::new(Faulty::new(CoreBackend, Fault::PointU, 20))]]
     };
@@ -76,7 +79,7 @@ fn a_known_difference_is_no_mismatch() {
     assert_eq!(row.stages.values().sum::<u64>(), 1, "{row:?}");
     let line = row.first.as_deref().and_then(|first| first.lines().next()).expect("a case line");
     let with = |known: Known| {
-        let rows = verify_known(&mut faulty(), &plan, &known, &|_, _, _| {});
+        let rows = verify(&mut faulty(), &plan, &known, &|_, _, _| {});
         let row = rows.expect("the backend runs").remove(0);
         (row.mismatches, row.known, known.gone().len())
     };

@@ -1,4 +1,4 @@
-// Written by `cargo xtask rtl --names` from tess_verify::show::signals. Do not edit.
+// Written by `cargo xtask rtl --names` from rtl/stages.tsv. Do not edit.
 // The bench includes it: the number of each signal, then names by number. OPTIONS chooses in `tess explain` what
 // the signal describes.
 localparam int unsigned FACTORS_CULLED = 0;

@@ -23,7 +23,7 @@ pub type Asked<'a> = &'a mut (dyn Iterator<Item = Result<Case, VectorError>> + S
 
 /// How many answers are looked through where they are out of step: fewer may be missing, or too many, in one
 /// place. Of answers with more than 4000 points and indices each, fewer are looked through.
-pub const WINDOW: usize = 4096;
+const WINDOW: usize = 4096;
 
 /// Points and indices of the answers that are read ahead, at most and one answer more: some 100 MB.
 const ELEMENTS: usize = 4000 * WINDOW;

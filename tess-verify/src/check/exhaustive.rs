@@ -18,7 +18,7 @@ pub(super) fn locations(
     let contexts = CoreBackend.contexts(row.split, row.parity, &factors)?;
     let answers = backend.contexts(row.split, row.parity, &factors)?;
     let observed = all_answered(backend, "contexts", answers, factors.len())?;
-    let mut digest = Fnv1a::new();
+    let mut digest = Fnv1a::default();
     observed.iter().for_each(|context| digest.context(context));
     // The digest leaves the parity out.
     if digest.finish() != row.contexts_digest || observed != contexts {
@@ -47,11 +47,11 @@ pub(super) fn factors(
     backend: &mut dyn Backend,
     row: &FactorsRow,
 ) -> Result<Option<Mismatch>, BackendError> {
-    let (mut outer, mut inside) = (Fnv1a::new(), Fnv1a::new());
+    let (mut outer, mut inside) = (Fnv1a::default(), Fnv1a::default());
     for start in (0..BINADE_SIZE).step_by(CHUNK as usize) {
         for [of_edge, of_inside] in chunk(backend, row, start)?.1 {
-            outer.word(of_edge.to_bits());
-            inside.word(of_inside.to_bits());
+            outer.words([of_edge.to_bits()]);
+            inside.words([of_inside.to_bits()]);
         }
     }
     let (outer, inside) = (outer.finish(), inside.finish());

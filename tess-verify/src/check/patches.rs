@@ -8,7 +8,7 @@ use crate::check::compare::{self, Element, Mismatch, Stage};
 use crate::check::strength::Strength;
 use crate::core_backend::CoreBackend;
 use crate::vectors::Fnv1a;
-use crate::vectors::{ChainRow, PreparationRow, Record, Sizes};
+use crate::vectors::{ChainRow, PreparationRow, Record, Sizes, Values};
 use tess_core::prepare::prepare;
 use tess_core::{Config, Domain, PatchFactors, Tessellation};
 
@@ -54,12 +54,14 @@ fn compare_one(
         Record::Coordinates(coordinates) => {
             Ok(compare::sequences(case, output, &coordinates.output()))
         }
-        Record::Patch(row) => sizes(backend, case, output, &row.output),
-        Record::Preparation(row) => match prepared(row) {
-            Some(mismatch) => Ok(Some(mismatch)),
-            None => sizes(backend, case, output, &row.output),
+        Record::Row(row) => match &row.values {
+            Values::Patch(row) => sizes(backend, case, output, &row.output),
+            Values::Preparation(row) => match prepared(row) {
+                Some(mismatch) => Ok(Some(mismatch)),
+                None => sizes(backend, case, output, &row.output),
+            },
+            _ => Ok(None),
         },
-        _ => Ok(None),
     }
 }
 
@@ -153,7 +155,7 @@ fn chain(
     patches: &[PatchFactors],
 ) -> Result<Found, BackendError> {
     let observed = batch(backend, row.config, patches)?;
-    let mut digest = Fnv1a::new();
+    let mut digest = Fnv1a::default();
     observed.iter().for_each(|patch| digest.patch(patch));
     if digest.finish() == row.chain {
         return Ok(Found::Equal);

@@ -123,12 +123,6 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// Whether this is the comparison for identical sequences.
-    #[must_use]
-    pub fn is_strictest(self) -> bool {
-        self == Self::default()
-    }
-
     /// Whether this strength accepts an output for a case, looking at nothing but the case.
     ///
     /// [`super::check`] demands more of a whole file: with [`Conversion::Within06Ulp`], one

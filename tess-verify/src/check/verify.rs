@@ -8,9 +8,9 @@ mod subject;
 mod topologies;
 mod units;
 
-pub use run::{Row, verify, verify_known};
-pub use subject::{Random, Subject};
-pub use units::{RandomUnit, Unit, Units};
+pub use run::{Row, verify};
+pub use subject::Subject;
+use units::{Unit, Units};
 
 use crate::generate::Shard;
 
@@ -23,22 +23,5 @@ pub struct Plan {
     pub shard: Shard,
 }
 
-impl Plan {
-    /// Levels 1 and 2, what they have in common once.
-    #[must_use]
-    pub fn levels() -> Self {
-        Self { subjects: vec![Subject::Level1, Subject::Level2], shard: Shard::WHOLE }
-    }
-
-    /// Random patches of every configuration, and nothing else.
-    #[must_use]
-    pub fn random(random: Random) -> Self {
-        Self { subjects: vec![Subject::Random(random)], shard: Shard::WHOLE }
-    }
-
-    /// Everything that is finite.
-    #[must_use]
-    pub fn exhaustive() -> Self {
-        Self { subjects: Subject::ALL.to_vec(), shard: Shard::WHOLE }
-    }
-}
+#[cfg(test)]
+mod tests;

@@ -178,9 +178,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
     use crate::cover::observe::observe;
-    use crate::generate::{
-        GenLevel, Selection, boundary_factors, exceptional_factors, special_factors,
-    };
+    use crate::generate::{GenLevel, Selection, boundary_factors};
     use std::collections::BTreeSet;
     use tess_core::{OutputPrimitive, PatchFactors, SplitOrder};
 
@@ -188,7 +186,7 @@ mod tests {
     /// and an inside number of points, and the interiors of level 1.
     fn witnesses(domain: Domain) -> Vec<PatchFactors> {
         let mut all = Vec::new();
-        let values = [boundary_factors(), exceptional_factors(), special_factors()].concat();
+        let values = boundary_factors();
         for value in values {
             all.push(PatchFactors::uniform(domain, value));
             for at in 0..domain.factors() {

@@ -127,7 +127,7 @@ mod tests {
             split: Some(SplitOrder::Ruler),
             ..Selection::level(GenLevel::One, 1)
         };
-        let mut coverage = Coverage::new();
+        let mut coverage = Coverage::default();
         one.cases().for_each(|case| coverage.record(&case));
         let exclusions = Exclusions::outside(one.configurations());
         for (bin, hits) in coverage.bins().filter(|(bin, _)| exclusions.has(bin)) {
@@ -140,7 +140,7 @@ mod tests {
     fn all_configurations_exclude_nothing_and_none_exclude_all() {
         assert_eq!(Exclusions::outside(configurations()), Exclusions::default());
         let all = Exclusions::outside([]);
-        assert_eq!(all.bins().count(), Coverage::new().bins().count());
+        assert_eq!(all.bins().count(), Coverage::default().bins().count());
     }
 
     #[test]
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(count(""), Ok(0), "nothing");
         assert_eq!(count("# all\n\n  middle # a group\nmiddle/oddxodd\n"), Ok(4), "each once");
         assert_eq!(count("configuration/*/pow2"), Ok(24), "the first parts");
-        assert_eq!(count("*"), Ok(Coverage::new().bins().count()), "every group");
+        assert_eq!(count("*"), Ok(Coverage::default().bins().count()), "every group");
         for (text, line) in
             [("middle\nmidle", 2), ("middle/", 1), ("middle/oddxodd/x", 1), ("mid", 1)]
         {

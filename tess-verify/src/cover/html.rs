@@ -131,7 +131,7 @@ mod tests {
 
     /// Two hits, one of them in an excluded group.
     fn example() -> (Coverage, Exclusions) {
-        let (mut coverage, mut exclusions) = (Coverage::new(), Exclusions::default());
+        let (mut coverage, mut exclusions) = (Coverage::default(), Exclusions::default());
         exclusions.add("rings").expect("a group");
         assert!(coverage.add("rings/tri/1", 1) && coverage.add("middle/oddxodd", 1), "bins");
         (coverage, exclusions)
@@ -180,7 +180,7 @@ mod tests {
     #[test]
     fn long_lists_are_folded() {
         for (hit, head) in [(36, "<details open>"), (35, "<details>")] {
-            let mut coverage = Coverage::new();
+            let mut coverage = Coverage::default();
             let bins: Vec<String> = coverage.bins().map(|(bin, _)| bin.to_owned()).collect();
             let own = bins.iter().filter(|bin| bin.starts_with("configuration/"));
             own.take(hit).for_each(|bin| assert!(coverage.add(bin, 1), "{bin}"));

@@ -93,19 +93,19 @@ mod tests {
         let line =
             "case quad integer line ruler 40400000 40400000 40400000 40400000 40a00000 40400000";
         let case: Case = line.parse().expect("a case");
-        let mut coverage = Coverage::new();
+        let mut coverage = Coverage::default();
         coverage.record(&case);
         (coverage, Exclusions::outside([(case.domain(), case.config)]))
     }
 
     #[test]
     fn every_group_has_one_stage() {
-        for group in Coverage::new().groups() {
+        for group in Coverage::default().groups() {
             let stages = STAGES.iter().filter(|(_, _, groups)| groups.contains(&&*group.name));
             assert_eq!(stages.count(), 1, "{}", group.name);
         }
         let named: usize = STAGES.iter().map(|(_, _, groups)| groups.len()).sum();
-        assert_eq!(named, Coverage::new().groups().len(), "and there is no other name");
+        assert_eq!(named, Coverage::default().groups().len(), "and there is no other name");
     }
 
     #[test]
@@ -137,7 +137,7 @@ mod tests {
     /// One row a group, one more for each stage with several groups, and one for all.
     #[test]
     fn stages_with_several_groups_have_a_sum() {
-        let text = Coverage::new().report(&Exclusions::default());
+        let text = Coverage::default().report(&Exclusions::default());
         let rows = text.lines().skip(1).take_while(|line| !line.starts_with("missed "));
         let stages: Vec<&str> = rows
             .filter(|row| row.split_whitespace().nth(1) == Some("all"))
@@ -151,7 +151,7 @@ mod tests {
             }
         }
         let table = text.lines().take_while(|line| !line.starts_with("missed ")).count();
-        let groups = Coverage::new().groups().len();
+        let groups = Coverage::default().groups().len();
         assert_eq!(table, 1 + groups + stages.len(), "{text}");
     }
 }

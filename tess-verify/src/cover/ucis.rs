@@ -85,8 +85,8 @@ pub(super) fn read_bounded(reader: impl Read) -> io::Result<Coverage> {
 }
 
 /// Reads a file that [`write`] wrote.
-pub(super) fn read(text: &str) -> Result<Coverage, UcisError> {
-    let mut coverage = Coverage::new();
+fn read(text: &str) -> Result<Coverage, UcisError> {
+    let mut coverage = Coverage::default();
     let empty = coverage.clone();
     let mut found = text.lines();
     let mut number = 0;
@@ -125,12 +125,11 @@ pub(super) fn read(text: &str) -> Result<Coverage, UcisError> {
 
 /// A text is no coverage file of this program, or one of a version with other bins.
 #[derive(Clone, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct UcisError {
+struct UcisError {
     /// Line, from 1.
-    pub line: usize,
+    line: usize,
     /// What was expected there.
-    pub expected: String,
+    expected: String,
 }
 
 impl fmt::Display for UcisError {
@@ -148,7 +147,7 @@ mod tests {
     use crate::generate::{GenLevel, Selection};
 
     fn some(seed: u64) -> Coverage {
-        let mut coverage = Coverage::new();
+        let mut coverage = Coverage::default();
         let selection = Selection { random: Some(200), ..Selection::level(GenLevel::Three, seed) };
         selection.cases().for_each(|case| coverage.record(&case));
         coverage
@@ -157,7 +156,7 @@ mod tests {
     /// A file with the largest hits fits the bound, and what is endless ends there.
     #[test]
     fn files_are_bounded() {
-        let mut full = Coverage::new();
+        let mut full = Coverage::default();
         let bins: Vec<String> = full.bins().map(|(bin, _)| bin.to_owned()).collect();
         bins.iter().for_each(|bin| assert!(full.add(bin, u64::MAX), "{bin}"));
         let text = write(&full);
@@ -171,7 +170,7 @@ mod tests {
 
     #[test]
     fn files_round_trip() {
-        for coverage in [Coverage::new(), some(1)] {
+        for coverage in [Coverage::default(), some(1)] {
             assert_eq!(read(&write(&coverage)), Ok(coverage), "the same hits");
         }
     }
@@ -207,7 +206,7 @@ mod tests {
     /// The bins of a coverpoint are numbered from 0, and each group is one coverpoint.
     #[test]
     fn bins_are_numbered_within_their_coverpoint() {
-        let text = write(&Coverage::new());
+        let text = write(&Coverage::default());
         let (mut next, mut coverpoints) = (0, 0);
         for line in text.lines() {
             if line.starts_with("<coverpoint ") {
@@ -218,7 +217,7 @@ mod tests {
                 next += 1;
             }
         }
-        assert_eq!(coverpoints, Coverage::new().groups().len());
+        assert_eq!(coverpoints, Coverage::default().groups().len());
         assert_eq!(text.matches("</coverpoint>").count(), coverpoints, "each ends");
         let error = read(&format!("{text}x")).expect_err("a tail");
         assert_eq!(error.line, text.lines().count() + 1, "{error}");

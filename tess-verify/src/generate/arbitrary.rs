@@ -3,7 +3,7 @@
 use super::random::Draw;
 use crate::case::Case;
 use crate::generate::{
-    boundary_factors, exceptional_factors, factor_up_to, from_fixed, patch_of, pick,
+    exceptional_factors, factor_up_to, from_fixed, ordinary_factors, patch_of, pick,
 };
 use arbitrary::{Arbitrary, Result, Unstructured};
 use std::sync::LazyLock;
@@ -35,7 +35,7 @@ impl<'a> Arbitrary<'a> for Case {
 
 /// Every finite boundary of level 1, ascending: the special ones are a kind of [`factor_up_to`].
 static BOUNDARIES: LazyLock<Vec<f32>> = LazyLock::new(|| {
-    let mut factors = [boundary_factors(), exceptional_factors()].concat();
+    let mut factors = [ordinary_factors(), exceptional_factors()].concat();
     factors.sort_by(f32::total_cmp);
     factors
 });
@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn coverage_is_whole_but_for_what_large_patches_have() {
-        let mut coverage = Coverage::new();
+        let mut coverage = Coverage::default();
         cases(100_000).for_each(|case| coverage.record(&case));
         let is_large = |bin: &&str| bin.starts_with("transition/") || bin.starts_with("rings/");
         let missed: Vec<_> = coverage.missed().filter(|bin| !is_large(bin)).collect();

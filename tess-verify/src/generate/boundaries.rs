@@ -2,10 +2,15 @@
 
 use super::from_fixed;
 
-/// Every integer and half from 1 to 64, each with its neighbours at 2^-16 and at one unit in the
-/// last place, and the ties of the fixed-point conversion beside every integer.
+/// Every factor at which something changes: boundaries of levels 1 and 2, exceptional and special ones.
 #[must_use]
 pub fn boundary_factors() -> Vec<f32> {
+    [ordinary_factors(), exceptional_factors(), special_factors()].concat()
+}
+
+/// Every integer and half from 1 to 64, each with its neighbours at 2^-16 and at one unit in the
+/// last place, and the ties of the fixed-point conversion beside every integer.
+pub(super) fn ordinary_factors() -> Vec<f32> {
     let mut factors = Vec::new();
     for half in 2..=128 {
         let fixed = half << 15;
@@ -33,8 +38,7 @@ fn tie_above(fixed: u32) -> f32 {
 }
 
 /// Numbers that are no factors, and those at the edges of the format.
-#[must_use]
-pub fn special_factors() -> Vec<f32> {
+pub(super) fn special_factors() -> Vec<f32> {
     [
         0x0000_0000, // 0
         0x8000_0000, // -0
@@ -61,8 +65,7 @@ pub fn special_factors() -> Vec<f32> {
 
 /// Factors just above an integer, where rounded reciprocals make neighbouring locations coincide
 /// or, further up, change places (spec section 12).
-#[must_use]
-pub fn exceptional_factors() -> Vec<f32> {
+pub(super) fn exceptional_factors() -> Vec<f32> {
     let mut factors = Vec::new();
     for integer in 2..=62 {
         for excess in [1, 2, 5, 0x40, 0xB2, 0x19E, 0x300] {

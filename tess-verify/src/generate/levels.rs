@@ -1,6 +1,8 @@
 //! The systematic parts of levels 1 and 2.
 
-use super::{boundary_factors, configurations, exceptional_factors, special_factors};
+use super::{
+    boundary_factors, configurations, exceptional_factors, ordinary_factors, special_factors,
+};
 use crate::case::Case;
 use tess_core::{
     Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, SplitOrder,
@@ -15,7 +17,7 @@ pub(super) fn one() -> Vec<Case> {
     let mut cases = Vec::new();
     for (domain, partitioning) in combinations() {
         let factors = domain.factors();
-        let values = [boundary_factors(), exceptional_factors()].concat();
+        let values = [ordinary_factors(), exceptional_factors()].concat();
         for (i, &value) in values.iter().enumerate() {
             // Outer factors and inside factors in turn, so that each value takes both roles.
             cases.push(one_value(domain, partitioning, i, i % factors, value));
@@ -35,7 +37,7 @@ pub(super) fn one() -> Vec<Case> {
 pub(super) fn two() -> Vec<Case> {
     let mut cases = one();
     for (domain, partitioning) in combinations() {
-        let values = [boundary_factors(), exceptional_factors(), special_factors()].concat();
+        let values = boundary_factors();
         for position in 0..domain.factors() {
             for (i, &value) in values.iter().enumerate() {
                 for turn in [i, i + 4] {

@@ -80,7 +80,7 @@ mod tests {
     fn random_patches_are_the_recorded_ones() {
         let digests = Domain::ALL.map(|domain| {
             let mut random = SplitMix64::new(7);
-            let mut digest = Fnv1a::new();
+            let mut digest = Fnv1a::default();
             for _ in 0..5000 {
                 digest.words(random_patch(domain, &mut random).iter().map(f32::to_bits));
             }

@@ -45,8 +45,7 @@ impl SplitMix64 {
     }
 
     /// The generator of a seed after `numbers` calls of [`Self::next_u64`], in constant time.
-    #[must_use]
-    pub const fn after(seed: u64, numbers: u64) -> Self {
+    pub(crate) const fn after(seed: u64, numbers: u64) -> Self {
         Self { state: seed.wrapping_add(STEP.wrapping_mul(numbers)) }
     }
 

@@ -86,7 +86,7 @@ impl Totals {
 }
 
 /// Bytes of output that a batch of the working set `cache` has at least.
-pub const CACHE_BATCH_BYTES: u64 = 1 << 20;
+const CACHE_BATCH_BYTES: u64 = 1 << 20;
 /// Patches that a batch of the working set `cache` has at least.
 const CACHE_BATCH_PATCHES: usize = 8;
 /// Bytes of output of the working set `stream`.
@@ -148,17 +148,11 @@ impl Workload {
         totals
     }
 
-    /// The digest that a correct implementation's output has, chained over all patches as
+    /// The digest that a correct implementation's output has, its triangles in this order, chained over all patches as
     /// [`Fnv1a::patch`] does.
     #[must_use]
-    pub fn digest(&self) -> u64 {
-        self.digest_in(Order::Specification)
-    }
-
-    /// [`Self::digest`] of the output whose triangles are in this order.
-    #[must_use]
-    pub fn digest_in(&self, order: Order) -> u64 {
-        let mut digest = Fnv1a::new();
+    pub fn digest(&self, order: Order) -> u64 {
+        let mut digest = Fnv1a::default();
         for &factors in &self.patches {
             digest.patch(&Patch::new(self.config, factors).tessellate_in(order));
         }

@@ -10,7 +10,7 @@ use tess_core::{Domain, Partitioning};
 /// How far a vertex may lie from where equal lengths put it, in units of 2^-16. No standard gives a number: the
 /// model's largest deviation from k/n is 12.26 units, at n = 53. A length has two ends, so it may be off by twice
 /// as much.
-pub const TOLERANCE: u32 = 16;
+pub(super) const TOLERANCE: u32 = 16;
 
 /// A subdivided line of a patch.
 pub(super) struct Line {
@@ -168,4 +168,17 @@ pub(super) fn is_fractional(answer: &Answer<'_>, line: &Line) -> bool {
     let is_density = answer.case.domain() == Domain::Isoline && line.position == 0;
     matches!(partitioning, Partitioning::FractionalOdd | Partitioning::FractionalEven)
         && !is_density
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What docs/rules.md says of lengths.
+    #[test]
+    fn the_tolerance_is_the_documented_one() {
+        let page = include_str!("../../../docs/rules.md");
+        assert!(page.contains(&format!("A vertex may lie {TOLERANCE}/65536")));
+        assert!(page.contains(&format!("may be off by {}/65536", 2 * TOLERANCE)));
+    }
 }

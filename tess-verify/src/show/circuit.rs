@@ -32,63 +32,31 @@ pub enum Part {
     Primitive(u32),
 }
 
-/// A signal of the circuit.
+/// A signal, by the stage and the name that benches give it, and the module of the circuit that makes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
-#[non_exhaustive]
-pub struct Signal {
-    /// The stage, as benches name it.
-    pub stage: &'static str,
-    /// Its name.
-    #[cfg_attr(feature = "serde", serde(rename = "signal"))]
-    pub name: &'static str,
-    /// The module of `rtl/` that makes it, in a file of that name.
-    pub module: &'static str,
+struct Signal {
+    /// The option of `tess explain` that chooses what it describes.
+    option: &'static str,
+    stage: &'static str,
+    name: &'static str,
+    module: &'static str,
 }
 
-const fn signal(stage: &'static str, name: &'static str, module: &'static str) -> Signal {
-    Signal { stage, name, module }
-}
+/// The signals of the circuit, those of each option in the order in which each feeds the next.
+const STAGES: &str = include_str!("stages.tsv");
+const _: () = assert!(
+    STAGES.as_bytes()[0] == b'#',
+    "stages.tsv is a symbolic link; git leaves its target's path without core.symlinks"
+);
 
-/// Those of a factor, in the order in which each feeds the next.
-const FACTOR: [Signal; 9] = [
-    signal("factors", "culled", "tess_factors"),
-    signal("factors", "fixed", "tess_factor"),
-    signal("factors", "odd", "tess_factor"),
-    signal("factor_context", "fraction", "tess_factor_context"),
-    signal("factor_context", "half_points", "tess_factor_context"),
-    signal("factor_context", "points", "tess_factor_context"),
-    signal("factor_context", "split", "tess_factor_context"),
-    signal("factor_context", "inv_floor", "tess_factor_context"),
-    signal("factor_context", "inv_ceil", "tess_factor_context"),
-];
-/// Those of a patch.
-const COUNTS: [Signal; 2] =
-    [signal("counts", "points", "tess_factors"), signal("counts", "primitives", "tess_factors")];
-/// Those of a point.
-const POINT: [Signal; 4] = [
-    signal("points", "valid", "tess_points"),
-    signal("points", "u", "tess_points"),
-    signal("points", "v", "tess_points"),
-    signal("points", "last", "tess_points"),
-];
-/// Those of a primitive.
-const PRIMITIVE: [Signal; 6] = [
-    signal("connect", "valid", "tess_connect"),
-    signal("connect", "size", "tess_connect"),
-    signal("connect", "i0", "tess_connect"),
-    signal("connect", "i1", "tess_connect"),
-    signal("connect", "i2", "tess_connect"),
-    signal("connect", "last", "tess_connect"),
-];
-
-/// All signals, each with the option of `tess explain` that chooses what it describes (empty for the patch).
-pub fn signals() -> impl Iterator<Item = (&'static str, &'static Signal)> {
-    let of = |option, signals: &'static [Signal]| signals.iter().map(move |one| (option, one));
-    of("factor", &FACTOR)
-        .chain(of("", &COUNTS))
-        .chain(of("point", &POINT))
-        .chain(of("primitive", &PRIMITIVE))
+/// The signals of an option.
+fn signals(option: &str) -> impl Iterator<Item = Signal> {
+    let rows = STAGES.lines().filter(|line| !line.starts_with('#'));
+    let signals = rows.filter_map(|row| {
+        let [option, stage, name, module] = row.split('\t').collect::<Vec<_>>().try_into().ok()?;
+        Some(Signal { option, stage, name, module })
+    });
+    signals.filter(move |signal| signal.option == option)
 }
 
 /// A signal that differs from the model.
@@ -96,9 +64,13 @@ pub fn signals() -> impl Iterator<Item = (&'static str, &'static Signal)> {
 #[cfg_attr(feature = "serde", derive(Serialize))]
 #[non_exhaustive]
 pub struct SignalDifference {
-    /// The signal.
-    #[cfg_attr(feature = "serde", serde(flatten))]
-    pub signal: &'static Signal,
+    /// The stage, as benches name it.
+    pub stage: &'static str,
+    /// Its name.
+    #[cfg_attr(feature = "serde", serde(rename = "signal"))]
+    pub name: &'static str,
+    /// The module of `rtl/` that makes it, in a file of that name.
+    pub module: &'static str,
     /// What the circuit gave.
     pub observed: u32,
     /// What the model gives.
@@ -107,7 +79,7 @@ pub struct SignalDifference {
 
 impl fmt::Display for SignalDifference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { signal: Signal { stage, name, module }, observed, expected } = self;
+        let Self { stage, name, module, observed, expected } = self;
         write!(
             f,
             "{name} of stage {stage} (module {module}): observed {observed:#x}, expected {expected:#x}"
@@ -160,40 +132,44 @@ pub fn compare_signals(
     let differences = expected.into_iter().flat_map(|(signal, expected)| {
         let seen =
             observed.iter().filter(move |(name, value)| *name == signal.name && *value != expected);
-        seen.map(move |&(_, observed)| SignalDifference { signal, observed, expected })
+        let Signal { stage, name, module, .. } = signal;
+        seen.map(move |&(_, observed)| SignalDifference { stage, name, module, observed, expected })
     });
     Ok(differences.collect())
 }
 
 /// What the model gives for each signal of a part; `None` if the patch has no such part.
-fn values(case: &Case, part: Part) -> Option<Vec<(&'static Signal, u32)>> {
+fn values(case: &Case, part: Part) -> Option<Vec<(Signal, u32)>> {
     let patch = case.patch();
     let counts = patch.counts();
-    let (signals, values): (&'static [Signal], Vec<u32>) = match part {
-        Part::Patch => (&COUNTS, vec![counts.points, counts.primitives]),
+    let (option, values): (&str, Vec<u32>) = match part {
+        Part::Patch => ("patch", vec![counts.points, counts.primitives]),
         Part::Factor(k) => {
             let factors = patch.processed().factors();
             let number = usize::try_from(k).ok().filter(|k| *k < case.domain().factors())?;
             (
-                &FACTOR,
+                "factor",
                 factors.map_or(Some(vec![1]), |all| all.iter().nth(number).map(|x| factor(&x)))?,
             )
         }
         Part::Point(i) => {
             let point = patch.point(i)?;
-            (&POINT, vec![1, point.u.to_bits(), point.v.to_bits(), (i + 1 == counts.points).into()])
+            (
+                "point",
+                vec![1, point.u.to_bits(), point.v.to_bits(), (i + 1 == counts.points).into()],
+            )
         }
         Part::Primitive(t) => {
             let primitive = patch.primitive(t)?;
             let index = |i: usize| primitive.indices().get(i).copied().unwrap_or(0);
             let last = (t + 1 == counts.primitives).into();
-            (&PRIMITIVE, vec![1, primitive.size(), index(0), index(1), index(2), last])
+            ("primitive", vec![1, primitive.size(), index(0), index(1), index(2), last])
         }
     };
-    Some(signals.iter().zip(values).collect())
+    Some(signals(option).zip(values).collect())
 }
 
-/// In the order of `FACTOR`.
+/// In the order of the signals of `factor`.
 fn factor(factor: &ProcessedFactor) -> Vec<u32> {
     let c = &factor.context;
     let odd = u32::from(c.parity == Parity::Odd);
@@ -231,7 +207,9 @@ mod tests {
             for (i, (signal, expected)) in right.into_iter().enumerate() {
                 let mut wrong = observed.clone();
                 wrong[i].1 ^= 1;
-                let difference = SignalDifference { signal, observed: expected ^ 1, expected };
+                let Signal { stage, name, module, .. } = signal;
+                let observed = expected ^ 1;
+                let difference = SignalDifference { stage, name, module, observed, expected };
                 assert_eq!(
                     compare_signals(&case, part, &wrong),
                     Ok(vec![difference]),

@@ -1,6 +1,6 @@
 //! A patch as a picture: what `tess draw` and the picture formats of `tess patch` show.
 //!
-//! [`draw`] makes shapes of a listing; [`Picture::to_svg`] writes them.
+//! [`draw`] makes shapes of a listing; [`Drawing::to_svg`] writes them.
 
 mod colours;
 mod labels;
@@ -8,6 +8,8 @@ mod layout;
 mod overlay;
 mod rings;
 
+#[cfg(feature = "png")]
+use crate::show::picture::PngError;
 use crate::show::picture::{Colour, Picture, Position, Shape};
 use crate::vectors::Listing;
 use colours::{GRID, INK, PAPER, POINT};
@@ -55,8 +57,7 @@ pub const fn has_rings(domain: Domain, output: OutputPrimitive) -> bool {
 /// A picture and how many numbers it had no room for.
 #[derive(Clone, Debug)]
 pub struct Drawing {
-    /// The picture.
-    pub picture: Picture,
+    picture: Picture,
     /// Numbers asked for that would have been too small to read.
     pub labels_left_out: usize,
 }
@@ -84,6 +85,21 @@ pub fn draw(patch: &Listing, options: &DrawOptions) -> Drawing {
 }
 
 impl Drawing {
+    /// The picture as an SVG file.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        self.picture.to_svg()
+    }
+
+    /// The picture as a PNG file.
+    ///
+    /// # Errors
+    /// A size of 0, or one that memory does not hold.
+    #[cfg(feature = "png")]
+    pub fn to_png(&self) -> Result<Vec<u8>, PngError> {
+        self.picture.to_png()
+    }
+
     /// An empty picture with the outline of the domain.
     fn new(patch: &Listing, options: &DrawOptions, layout: &Layout) -> Self {
         let mut outline = layout.corners();
@@ -95,7 +111,7 @@ impl Drawing {
 
     /// Fills first, edges over all of them.
     fn primitives(&mut self, patch: &Listing, options: &DrawOptions, points: &[Position]) {
-        let fills = fills(patch, options.colours);
+        let fills = colours_of(patch, options.colours);
         let shapes = &mut self.picture.shapes;
         let edge_width = layout::edge_width(points.len());
         for (primitive, &fill) in patch.primitives().zip(&fills) {
@@ -150,7 +166,7 @@ impl Drawing {
     /// The points in the order of the primitives that they are.
     fn ordered_points(&mut self, patch: &Listing, options: &DrawOptions, points: &[Position]) {
         let (mut places, mut colours) = (Vec::new(), Vec::new());
-        for (primitive, fill) in patch.primitives().zip(fills(patch, options.colours)) {
+        for (primitive, fill) in patch.primitives().zip(colours_of(patch, options.colours)) {
             if let Some([place]) = corners(primitive, points).as_deref() {
                 places.push(*place);
                 colours.push(fill);
@@ -181,9 +197,16 @@ impl Drawing {
     }
 }
 
-/// A colour for each primitive, as [`draw`] fills it.
+/// A colour for each primitive, as [`draw`] fills it: red, green and blue.
 #[must_use]
-pub fn fills(patch: &Listing, colours: Colours) -> Vec<Colour> {
+pub fn fills(patch: &Listing, colours: Colours) -> Vec<[u8; 3]> {
+    colours_of(patch, colours)
+        .into_iter()
+        .map(|Colour(red, green, blue)| [red, green, blue])
+        .collect()
+}
+
+fn colours_of(patch: &Listing, colours: Colours) -> Vec<Colour> {
     let count = patch.primitives().count();
     match colours {
         Colours::Plain => vec![colours::PLAIN; count],

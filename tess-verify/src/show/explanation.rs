@@ -8,15 +8,55 @@ mod primitive;
 mod structure;
 mod text;
 
+use super::Part;
 use crate::case::Case;
 use crate::names::Named;
-pub use factors::FactorReport;
-pub use point::PointReport;
-pub use primitive::PrimitiveReport;
+use factors::FactorReport;
+pub(crate) use point::PointReport;
+pub(crate) use primitive::PrimitiveReport;
 #[cfg(feature = "serde")]
 use serde::Serialize;
+use std::fmt;
 use structure::{PointRun, Stitch};
 use tess_core::ProcessedPatch;
+
+/// Where a part of a patch comes from, or every stage of the patch: text, and JSON with the feature `serde`.
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize))]
+pub struct Explanation(Report);
+
+#[derive(Clone, Debug)]
+#[cfg_attr(feature = "serde", derive(Serialize), serde(untagged))]
+enum Report {
+    Patch(Box<PatchReport>),
+    Factor(FactorReport),
+    Point(PointReport),
+    Primitive(PrimitiveReport),
+}
+
+impl Explanation {
+    /// Explains a part; `None` if the patch has no such part.
+    #[must_use]
+    pub fn new(case: &Case, part: Part) -> Option<Self> {
+        Some(Self(match part {
+            Part::Patch => Report::Patch(Box::new(PatchReport::new(case))),
+            Part::Factor(k) => Report::Factor(FactorReport::new(case, k)?),
+            Part::Point(i) => Report::Point(PointReport::new(&case.patch(), i)?),
+            Part::Primitive(t) => Report::Primitive(PrimitiveReport::new(&case.patch(), t)?),
+        }))
+    }
+}
+
+impl fmt::Display for Explanation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.0 {
+            Report::Patch(report) => report.fmt(f),
+            Report::Factor(report) => report.fmt(f),
+            Report::Point(report) => report.fmt(f),
+            Report::Primitive(report) => report.fmt(f),
+        }
+    }
+}
 
 /// Every stage of one patch.
 #[derive(Clone, Debug)]
@@ -25,7 +65,7 @@ use tess_core::ProcessedPatch;
     not(feature = "serde"),
     expect(dead_code, reason = "the text repeats them in its command")
 )]
-pub struct Explanation {
+struct PatchReport {
     command: String,
     domain: &'static str,
     partitioning: &'static str,
@@ -42,10 +82,8 @@ pub struct Explanation {
     stitches: Vec<Stitch>,
 }
 
-impl Explanation {
-    /// Explains a patch.
-    #[must_use]
-    pub fn new(case: &Case) -> Self {
+impl PatchReport {
+    fn new(case: &Case) -> Self {
         let (patch, raw, config) = (&case.patch(), &case.factors, case.config);
         let counts = patch.counts();
         Self {

@@ -9,15 +9,15 @@ mod svg;
 pub use png::PngError;
 
 /// A position in pixels, y down.
-pub type Position = [f64; 2];
+pub(super) type Position = [f64; 2];
 
 /// A colour, opaque red, green and blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Colour(pub u8, pub u8, pub u8);
+pub(super) struct Colour(pub(super) u8, pub(super) u8, pub(super) u8);
 
 /// What is drawn, in painter's order.
 #[derive(Clone, Debug)]
-pub enum Shape {
+pub(super) enum Shape {
     /// A filled polygon.
     Polygon {
         /// Its corners.
@@ -49,18 +49,18 @@ pub enum Shape {
 
 /// A square drawing.
 #[derive(Clone, Debug)]
-pub struct Picture {
+pub(super) struct Picture {
     /// Width and height in pixels.
-    pub size: u32,
+    pub(super) size: u32,
     /// What it shows, for people who cannot see it.
-    pub title: String,
+    pub(super) title: String,
     /// The shapes, back to front.
-    pub shapes: Vec<Shape>,
+    pub(super) shapes: Vec<Shape>,
 }
 
 impl Picture {
     /// A number, centred at a position; its digits are `height` pixels high.
-    pub fn number(&mut self, number: u32, centre: Position, height: f64, stroke: Colour) {
+    pub(super) fn number(&mut self, number: u32, centre: Position, height: f64, stroke: Colour) {
         let strokes = digits::strokes(number, centre, height);
         let width = digits::stroke_width(height);
         let lines = strokes.into_iter().map(|points| Shape::Line { points, width, stroke });
@@ -68,8 +68,7 @@ impl Picture {
     }
 
     /// The picture as an SVG file.
-    #[must_use]
-    pub fn to_svg(&self) -> String {
+    pub(super) fn to_svg(&self) -> String {
         svg::render(self)
     }
 
@@ -78,13 +77,12 @@ impl Picture {
     /// # Errors
     /// A size of 0, or one that memory does not hold.
     #[cfg(feature = "png")]
-    pub fn to_png(&self) -> Result<Vec<u8>, PngError> {
+    pub(super) fn to_png(&self) -> Result<Vec<u8>, PngError> {
         png::render(self)
     }
 }
 
 /// Width of a number's bounding box, for digits of this height.
-#[must_use]
-pub(crate) fn number_width(number: u32, height: f64) -> f64 {
+pub(super) fn number_width(number: u32, height: f64) -> f64 {
     digits::width(number, height)
 }

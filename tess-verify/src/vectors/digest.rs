@@ -6,21 +6,16 @@ use tess_core::{DomainPoint, FactorContext, Tessellation};
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fnv1a(u64);
 
+/// The digest of no data: the offset basis.
 impl Default for Fnv1a {
     fn default() -> Self {
-        Self::new()
+        Self(0xCBF2_9CE4_8422_2325)
     }
 }
 
 impl Fnv1a {
-    /// The digest of no data: the offset basis.
-    #[must_use]
-    pub const fn new() -> Self {
-        Self(0xCBF2_9CE4_8422_2325)
-    }
-
     /// Continues over one word.
-    pub const fn word(&mut self, word: u32) {
+    const fn word(&mut self, word: u32) {
         let [a, b, c, d] = word.to_le_bytes();
         self.byte(a);
         self.byte(b);
@@ -51,7 +46,7 @@ impl Fnv1a {
     }
 
     /// Continues over the six numbers of a context, in the order of spec section 4's list.
-    pub fn context(&mut self, context: &FactorContext) {
+    pub(crate) fn context(&mut self, context: &FactorContext) {
         self.words([
             context.inv_floor,
             context.inv_ceil,
@@ -70,17 +65,15 @@ impl Fnv1a {
 }
 
 /// The digest of points alone.
-#[must_use]
 pub(crate) fn points_digest(points: &[DomainPoint]) -> u64 {
-    let mut digest = Fnv1a::new();
+    let mut digest = Fnv1a::default();
     digest.points(points);
     digest.finish()
 }
 
 /// The digest of indices, or of any words.
-#[must_use]
-pub fn words_digest(words: &[u32]) -> u64 {
-    let mut digest = Fnv1a::new();
+pub(crate) fn words_digest(words: &[u32]) -> u64 {
+    let mut digest = Fnv1a::default();
     digest.words(words.iter().copied());
     digest.finish()
 }
@@ -98,7 +91,7 @@ mod tests {
     /// Published values: the empty string, and the bytes "foob" as one little-endian word.
     #[test]
     fn published_values() {
-        assert_eq!(Fnv1a::new().finish(), 0xCBF2_9CE4_8422_2325, "offset basis");
+        assert_eq!(Fnv1a::default().finish(), 0xCBF2_9CE4_8422_2325, "offset basis");
         let foob = words_digest(&[u32::from_le_bytes(*b"foob")]);
         assert_eq!(foob, 0xDD12_0E79_0C25_12AF, "foob: {foob:#x}");
     }

@@ -6,7 +6,9 @@ use super::header::Kind;
 use super::lines::Lines;
 use super::listing::{self, Listing};
 use super::row::Row;
-use super::rows::{ChainRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Recorded, Sizes};
+use super::rows::{
+    ChainRow, CsvRow, FactorsRow, LocationsRow, PatchRow, PreparationRow, Sizes, Values,
+};
 use crate::case::{Case, CaseError};
 use std::fmt;
 use std::io::BufRead;
@@ -22,18 +24,8 @@ pub enum Record {
     Listing(Listing),
     /// Of the kind `listings`, by coordinates.
     Coordinates(Coordinates),
-    /// Of the kind `patches`.
-    Patch(Recorded<PatchRow>),
-    /// Of the kind `sweep`.
-    Sweep(Recorded<ChainRow>),
-    /// Of the kind `uniform`.
-    Uniform(Recorded<ChainRow>),
-    /// Of the kind `locations`.
-    Locations(Recorded<LocationsRow>),
-    /// Of the kind `factors`.
-    Factors(Recorded<FactorsRow>),
-    /// Of the kind `preparation`.
-    Preparation(Recorded<PreparationRow>),
+    /// Of any other kind.
+    Row(CsvRow),
 }
 
 impl Record {
@@ -43,11 +35,7 @@ impl Record {
         match self {
             Self::Listing(listing) => listing.line,
             Self::Coordinates(coordinates) => coordinates.line,
-            Self::Patch(row) => row.line,
-            Self::Sweep(row) | Self::Uniform(row) => row.line,
-            Self::Locations(row) => row.line,
-            Self::Factors(row) => row.line,
-            Self::Preparation(row) => row.line,
+            Self::Row(row) => row.line,
         }
     }
 
@@ -57,11 +45,13 @@ impl Record {
         match self {
             Self::Listing(listing) => Some(listing.case),
             Self::Coordinates(coordinates) => Some(coordinates.case),
-            Self::Patch(row) => Some(row.row.case),
-            Self::Preparation(row) => {
-                Some(Case { config: row.row.config, factors: row.row.prepared.rounded })
-            }
-            Self::Sweep(_) | Self::Uniform(_) | Self::Locations(_) | Self::Factors(_) => None,
+            Self::Row(row) => match &row.values {
+                Values::Patch(row) => Some(row.case),
+                Values::Preparation(row) => {
+                    Some(Case { config: row.config, factors: row.prepared.rounded })
+                }
+                _ => None,
+            },
         }
     }
 
@@ -70,11 +60,7 @@ impl Record {
     pub fn text(&self) -> Option<&str> {
         match self {
             Self::Listing(_) | Self::Coordinates(_) => None,
-            Self::Patch(row) => Some(&row.text),
-            Self::Sweep(row) | Self::Uniform(row) => Some(&row.text),
-            Self::Locations(row) => Some(&row.text),
-            Self::Factors(row) => Some(&row.text),
-            Self::Preparation(row) => Some(&row.text),
+            Self::Row(row) => Some(&row.text),
         }
     }
 }
@@ -85,7 +71,7 @@ impl fmt::Display for Record {
         match self {
             Self::Listing(listing) => listing.fmt(f),
             Self::Coordinates(coordinates) => coordinates.fmt(f),
-            row => writeln!(f, "{}", row.text().unwrap_or_default()),
+            Self::Row(row) => writeln!(f, "{}", row.text),
         }
     }
 }
@@ -104,22 +90,19 @@ pub(super) fn read_listing<R: BufRead>(lines: &mut Lines<R>) -> Result<Record, V
 
 /// Reads one row of a CSV kind.
 pub(super) fn read_row(kind: Kind, row: &Row<'_>) -> Result<Record, VectorError> {
-    fn recorded<T>(row: &Row<'_>, parsed: T) -> Recorded<T> {
-        Recorded { line: row.line(), text: row.text(), row: parsed }
-    }
-    Ok(match kind {
+    let values = match kind {
         // Listings have no rows.
         Kind::Listings => return Err(row.error("kind", "listings are not rows")),
-        Kind::Patches => Record::Patch(recorded(row, patch_row(row)?)),
-        Kind::Sweep => Record::Sweep(recorded(row, chain_row(row, 1..=64, |_| 64)?)),
+        Kind::Patches => Values::Patch(patch_row(row)?),
+        Kind::Sweep => Values::Sweep(chain_row(row, 1..=64, |_| 64)?),
         Kind::Uniform => {
-            let cases = |row| if row == 65 { 1 } else { 100 };
-            Record::Uniform(recorded(row, chain_row(row, 0..=65, cases)?))
+            Values::Uniform(chain_row(row, 0..=65, |row| if row == 65 { 1 } else { 100 })?)
         }
-        Kind::Locations => Record::Locations(recorded(row, locations_row(row)?)),
-        Kind::Factors => Record::Factors(recorded(row, factors_row(row)?)),
-        Kind::Preparation => Record::Preparation(recorded(row, preparation_row(row)?)),
-    })
+        Kind::Locations => Values::Locations(locations_row(row)?),
+        Kind::Factors => Values::Factors(factors_row(row)?),
+        Kind::Preparation => Values::Preparation(preparation_row(row)?),
+    };
+    Ok(Record::Row(CsvRow { line: row.line(), text: row.text(), values }))
 }
 
 fn patch_row(row: &Row<'_>) -> Result<PatchRow, VectorError> {

@@ -7,51 +7,50 @@ use std::fmt;
 use tess_core::prepare::{Prepared, Reduction, Request};
 use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder, Tessellation};
 
-/// A row of a CSV kind with the text that it was read from.
+/// A row of a CSV kind: its values, and the text that they were read from.
 #[derive(Clone, Debug)]
-pub struct Recorded<T> {
-    /// The line of the file.
-    pub line: u64,
-    /// The row as it stands there.
-    pub text: String,
-    /// Its values.
-    pub row: T,
+pub struct CsvRow {
+    pub(super) line: u64,
+    pub(super) text: String,
+    pub(crate) values: Values,
 }
 
-impl<T> std::ops::Deref for Recorded<T> {
-    type Target = T;
-
-    fn deref(&self) -> &T {
-        &self.row
-    }
+/// The values of a row, by the kind of its file.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Values {
+    Patch(PatchRow),
+    Sweep(ChainRow),
+    Uniform(ChainRow),
+    Locations(LocationsRow),
+    Factors(FactorsRow),
+    Preparation(PreparationRow),
 }
 
 /// Counts and digests of a patch's output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sizes {
+pub(crate) struct Sizes {
     /// Number of points.
-    pub points: u64,
+    pub(crate) points: u64,
     /// Number of indices.
-    pub indices: u64,
+    pub(crate) indices: u64,
     /// Digest of the points.
-    pub points_digest: u64,
+    pub(crate) points_digest: u64,
     /// Digest of the indices.
-    pub indices_digest: u64,
+    pub(crate) indices_digest: u64,
 }
 
 /// Counts and digests of one patch.
 #[derive(Clone, Copy, Debug)]
-pub struct PatchRow {
+pub(crate) struct PatchRow {
     /// What was tessellated.
-    pub case: Case,
+    pub(crate) case: Case,
     /// What came out.
-    pub output: Sizes,
+    pub(crate) output: Sizes,
 }
 
 impl Sizes {
     /// Counts and digests of an output.
-    #[must_use]
-    pub fn of(output: &Tessellation) -> Self {
+    pub(crate) fn of(output: &Tessellation) -> Self {
         Self {
             points: output.points.len() as u64,
             indices: output.indices.len() as u64,
@@ -76,58 +75,58 @@ impl fmt::Display for PatchRow {
 
 /// A digest chained over a sequence of patches.
 #[derive(Clone, Copy, Debug)]
-pub struct ChainRow {
+pub(crate) struct ChainRow {
     /// Domain of the patches.
-    pub domain: Domain,
+    pub(crate) domain: Domain,
     /// Configuration of the patches; the split order is ruler.
-    pub config: Config,
+    pub(crate) config: Config,
     /// Which sequence: `golden/README.md` in the repository describes them.
-    pub row: u8,
+    pub(crate) row: u8,
     /// The digest.
-    pub chain: u64,
+    pub(crate) chain: u64,
 }
 
 /// Digests over all fractions of a factor's integer part.
 #[derive(Clone, Copy, Debug)]
-pub struct LocationsRow {
+pub(crate) struct LocationsRow {
     /// Split order.
-    pub split: SplitOrder,
+    pub(crate) split: SplitOrder,
     /// Parity.
-    pub parity: Parity,
+    pub(crate) parity: Parity,
     /// Integer part of the factors.
-    pub bucket: u32,
+    pub(crate) bucket: u32,
     /// Digest of the contexts.
-    pub contexts_digest: u64,
+    pub(crate) contexts_digest: u64,
     /// Digest of the locations.
-    pub locations_digest: u64,
+    pub(crate) locations_digest: u64,
     /// How many locations.
-    pub locations: u64,
+    pub(crate) locations: u64,
 }
 
 /// Digests over the processed factors of all binary32 of a binade.
 #[derive(Clone, Copy, Debug)]
-pub struct FactorsRow {
+pub(crate) struct FactorsRow {
     /// Partitioning.
-    pub partitioning: Partitioning,
+    pub(crate) partitioning: Partitioning,
     /// The binade [2^exponent, 2^(exponent + 1)).
-    pub exponent: i32,
+    pub(crate) exponent: i32,
     /// Digest of the u = 0 factors.
-    pub outer_digest: u64,
+    pub(crate) outer_digest: u64,
     /// Digest of the inside factors.
-    pub inside_digest: u64,
+    pub(crate) inside_digest: u64,
 }
 
 /// A factor preparation and the tessellation of its rounded factors.
 #[derive(Clone, Copy, Debug)]
-pub struct PreparationRow {
+pub(crate) struct PreparationRow {
     /// Configuration; the split order is ruler.
-    pub config: Config,
+    pub(crate) config: Config,
     /// How inside factors are made.
-    pub reduction: Reduction,
+    pub(crate) reduction: Reduction,
     /// What is prepared.
-    pub request: Request,
+    pub(crate) request: Request,
     /// What comes out of the preparation.
-    pub prepared: Prepared,
+    pub(crate) prepared: Prepared,
     /// What comes out of the tessellator.
-    pub output: Sizes,
+    pub(crate) output: Sizes,
 }

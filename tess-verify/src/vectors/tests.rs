@@ -37,8 +37,9 @@ fn error(text: &str, from: &str, to: &str) -> String {
 #[test]
 fn well_formed_files_are_read() {
     let records = read(PATCHES).expect("patches");
-    let [_, Record::Patch(row)] = &records[..] else { panic!("two patches: {records:?}") };
-    assert_eq!((row.line, row.output.points), (4, 6), "line and points");
+    let [_, Record::Row(row)] = &records[..] else { panic!("two patches: {records:?}") };
+    let Values::Patch(values) = row.values else { panic!("a patch: {row:?}") };
+    assert_eq!((row.line, values.output.points), (4, 6), "line and points");
     assert!(row.text.ends_with("784cb2b8c713b205,ac6313d97a44af34"), "its text: {}", row.text);
     let [Record::Listing(listing)] = &read(LISTING).expect("listing")[..] else { panic!("one") };
     let body = LISTING.split_once('\n').map_or("", |(_, body)| body);

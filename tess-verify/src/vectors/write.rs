@@ -2,59 +2,56 @@
 
 use super::{Header, Kind, Listing, PatchRow, Sizes};
 use crate::case::Case;
+use crate::names::Named;
 use std::io::{self, Write};
 
-/// Writes a file of the kind `patches`: a row of counts and digests for each case.
+/// Writes a vector file of the header's kind: `patches`, a row of counts and digests for each case, or `listings`, every
+/// point and primitive.
 ///
 /// # Errors
-/// Those of the writer.
-pub fn write_patches(
+/// Those of the writer; [`io::ErrorKind::InvalidInput`] for another kind.
+pub fn write_cases(
     out: &mut dyn Write,
     header: &Header,
-    cases: impl Iterator<Item = Case>,
+    mut cases: impl Iterator<Item = Case>,
 ) -> io::Result<()> {
-    let header = Header { kind: Kind::Patches, ..header.clone() };
-    writeln!(out, "{header}\n{}", Kind::Patches.columns().unwrap_or_default().join(","))?;
-    for case in cases {
-        let output = Sizes::of(&case.patch().tessellate());
-        writeln!(out, "{}", PatchRow { case, output })?;
+    match header.kind {
+        Kind::Patches => {
+            writeln!(out, "{header}\n{}", Kind::Patches.columns().unwrap_or_default().join(","))?;
+            cases.try_for_each(|case| {
+                let output = Sizes::of(&case.patch().tessellate());
+                writeln!(out, "{}", PatchRow { case, output })
+            })
+        }
+        Kind::Listings => {
+            writeln!(out, "{header}")?;
+            cases.try_for_each(|case| write!(out, "{}", Listing::of_model(case)))
+        }
+        other => {
+            let message = format!("cases are no {}: patches or listings", other.name());
+            Err(io::Error::new(io::ErrorKind::InvalidInput, message))
+        }
     }
-    Ok(())
-}
-
-/// Writes a file of the kind `listings`: every point and primitive of each case.
-///
-/// # Errors
-/// Those of the writer.
-pub fn write_listings(
-    out: &mut dyn Write,
-    header: &Header,
-    cases: impl Iterator<Item = Case>,
-) -> io::Result<()> {
-    let header = Header { kind: Kind::Listings, ..header.clone() };
-    writeln!(out, "{header}")?;
-    for case in cases {
-        write!(out, "{}", Listing::of_model(case))?;
-    }
-    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// What is written decides the kind, whatever the header says.
     #[test]
-    fn files_are_of_the_kind_that_is_written() {
+    fn files_are_of_the_kind_of_their_header() {
         let line = "case tri integer triangle_cw ruler 3f800000 3f800000 3f800000 3f800000";
         let case: Case = line.parse().expect("a case");
-        for kind in [Kind::Patches, Kind::Listings] {
+        let write = |kind| {
             let header = Header { kind, count: Some(1), source: "test".into(), notes: Vec::new() };
-            let [mut rows, mut listings] = [Vec::new(), Vec::new()];
-            write_patches(&mut rows, &header, [case].into_iter()).expect("vectors grow");
-            write_listings(&mut listings, &header, [case].into_iter()).expect("vectors grow");
-            assert!(rows.starts_with(b"# tess-vectors 1 kind=patches count=1 "), "{kind:?}");
-            assert!(listings.starts_with(b"# tess-vectors 1 kind=listings count=1 "), "{kind:?}");
-        }
+            let mut text = Vec::new();
+            write_cases(&mut text, &header, [case].into_iter())?;
+            Ok::<_, io::Error>(String::from_utf8(text).expect("ASCII"))
+        };
+        let rows = write(Kind::Patches).expect("vectors grow");
+        assert_eq!(rows.lines().count(), 3, "head, columns and row: {rows}");
+        let listing = write(Kind::Listings).expect("vectors grow");
+        assert!(listing.contains(&format!("\n{line}\npoints 3")), "{listing}");
+        assert!(write(Kind::Sweep).is_err(), "rows that are no cases");
     }
 }

@@ -233,11 +233,3 @@ fn the_smallest_example_is_kept() {
     assert!(size(LINES) < size(QUAD), "fewer vertices");
     assert_eq!(kept(&[QUAD, LINES, &other]), Some(vec![case(LINES)]), "the smallest");
 }
-
-/// What docs/rules.md says of lengths.
-#[test]
-fn the_tolerance_is_the_documented_one() {
-    let page = include_str!("../../../docs/rules.md");
-    assert!(page.contains(&format!("A vertex may lie {}/65536", tess_verify::rules::TOLERANCE)));
-    assert!(page.contains(&format!("may be off by {}/65536", 2 * tess_verify::rules::TOLERANCE)));
-}

@@ -29,7 +29,7 @@ impl CoverageFile {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             found => drop(read(&path, found)?),
         }
-        Ok(Self { path, coverage: Coverage::new() })
+        Ok(Self { path, coverage: Coverage::default() })
     }
 
     /// Adds the hits to the file, after `report` took the sum. Processes that add to one file take
@@ -146,5 +146,5 @@ fn locked_beside(path: &Path) -> io::Result<File> {
 
 /// Makes an empty file, unless it is there by now.
 fn create(path: &Path) -> io::Result<()> {
-    create_unless_there(path, Coverage::new().to_ucis().as_bytes())
+    create_unless_there(path, Coverage::default().to_ucis().as_bytes())
 }

@@ -3,10 +3,7 @@
 use crate::{json, marks, thrown};
 use tess_core::{DomainPoint, Patch, Tessellation};
 use tess_verify::Case;
-use tess_verify::show::{
-    Colour, Colours, DrawOptions, Drawing, Explanation, PointReport, PrimitiveReport, draw, fills,
-    has_rings,
-};
+use tess_verify::show::{Colours, DrawOptions, Drawing, Explanation, Part, draw, fills, has_rings};
 use tess_verify::vectors::Listing;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -34,6 +31,10 @@ impl PatchView {
             "rings" | "plain" => Ok(Colours::Plain),
             other => Err(thrown(format!("unknown colours {other}: plain, order or rings"))),
         }
+    }
+
+    fn explanation(&self, part: Part) -> Option<Explanation> {
+        Explanation::new(&self.listing.case, part)
     }
 
     fn drawing(&self, colours: &str, indices: bool, size: u32) -> Result<Drawing, JsError> {
@@ -87,31 +88,31 @@ impl PatchView {
     /// Every stage as `tess explain` prints it.
     #[must_use]
     pub fn explain(&self) -> String {
-        Explanation::new(&self.listing.case).to_string()
+        self.explanation(Part::Patch).map_or_else(String::new, |report| report.to_string())
     }
 
     /// Where a point comes from, as `tess explain --point` prints it.
     #[must_use]
     pub fn point_text(&self, i: u32) -> Option<String> {
-        PointReport::new(&self.patch, i).map(|report| report.to_string())
+        self.explanation(Part::Point(i)).map(|report| report.to_string())
     }
 
     /// The same as JSON.
     #[must_use]
     pub fn point_json(&self, i: u32) -> Option<String> {
-        PointReport::new(&self.patch, i).map(|report| json(&report))
+        self.explanation(Part::Point(i)).map(|report| json(&report))
     }
 
     /// Where a primitive comes from, as `tess explain --primitive` prints it.
     #[must_use]
     pub fn primitive_text(&self, t: u32) -> Option<String> {
-        PrimitiveReport::new(&self.patch, t).map(|report| report.to_string())
+        self.explanation(Part::Primitive(t)).map(|report| report.to_string())
     }
 
     /// The same as JSON.
     #[must_use]
     pub fn primitive_json(&self, t: u32) -> Option<String> {
-        PrimitiveReport::new(&self.patch, t).map(|report| json(&report))
+        self.explanation(Part::Primitive(t)).map(|report| json(&report))
     }
 
     /// The listing alone, as it stands in a vector file.
@@ -143,7 +144,7 @@ impl PatchView {
     /// # Errors
     /// Unknown colours.
     pub fn svg(&self, colours: &str, indices: bool, size: u32) -> Result<String, JsError> {
-        Ok(self.drawing(colours, indices, size)?.picture.to_svg())
+        Ok(self.drawing(colours, indices, size)?.to_svg())
     }
 
     /// The same as a PNG file.
@@ -151,7 +152,7 @@ impl PatchView {
     /// # Errors
     /// Unknown colours, or a size that cannot be drawn.
     pub fn png(&self, colours: &str, indices: bool, size: u32) -> Result<Vec<u8>, JsError> {
-        self.drawing(colours, indices, size)?.picture.to_png().map_err(thrown)
+        self.drawing(colours, indices, size)?.to_png().map_err(thrown)
     }
 
     /// Red, green and blue of each primitive, as the pictures have them; `colours` is plain, order or
@@ -161,7 +162,7 @@ impl PatchView {
     /// Unknown colours.
     pub fn fills(&self, colours: &str) -> Result<Vec<u8>, JsError> {
         let fills = fills(&self.listing, self.colours(colours)?);
-        Ok(fills.into_iter().flat_map(|Colour(red, green, blue)| [red, green, blue]).collect())
+        Ok(fills.concat())
     }
 
     /// Twice the signed area of each triangle in units of 2^-32: positive as the output primitive

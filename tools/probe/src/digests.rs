@@ -53,7 +53,7 @@ impl Digests {
 const NONE: u64 = u64::MAX;
 
 fn add(digest: &mut Fnv1a, primitives: &[[u64; 3]], size: usize) {
-    digest.word(u32::try_from(primitives.len()).unwrap_or(u32::MAX));
+    digest.words([u32::try_from(primitives.len()).unwrap_or(u32::MAX)]);
     let places = primitives.iter().flat_map(|primitive| primitive.iter().take(size));
     digest.words(places.flat_map(|place| [(place >> 32) as u32, (place & 0xFFFF_FFFF) as u32]));
 }

@@ -91,7 +91,7 @@ impl<'a> Bench<'a> {
             setup,
             totals,
             repeats,
-            digest: workload.digest(),
+            digest: workload.digest(tess_core::Order::Specification),
             factors: gpu.upload("factors", bytemuck::cast_slice(&words), usage)?,
             points: gpu.buffer("points", 8 * totals.points * repeats, usage)?,
             indices: gpu.buffer(
@@ -142,7 +142,7 @@ impl<'a> Bench<'a> {
         let output = tessellator.tessellate(gpu, self.setup, &self.workload.patches).ok()?;
         let each = self.setup.indices_per_primitive() as usize;
         let mut ends = output.begins.iter().skip(1).map(|begin| begin.map(|at| at as usize));
-        let mut digest = Fnv1a::new();
+        let mut digest = Fnv1a::default();
         for begin in &output.begins {
             let begin = begin.map(|at| at as usize);
             let end = ends.next().unwrap_or([output.points.len(), output.indices.len() / each]);

@@ -154,11 +154,11 @@ unsafe fn elements(
 /// The numbers of the bins give the coverage that the verification kit counts.
 #[test]
 fn coverage_bins() {
-    let names: Vec<String> = Coverage::new().bins().map(|(bin, _)| bin.to_owned()).collect();
+    let names: Vec<String> = Coverage::default().bins().map(|(bin, _)| bin.to_owned()).collect();
     for s in samples() {
         let TessConfig { domain, partitioning, output, split } = s.config;
         let [f0, f1, f2, f3, f4, f5] = bits(&s);
-        let mut observed = Coverage::new();
+        let mut observed = Coverage::default();
         for i in 0.. {
             let mut bin = 0;
             #[rustfmt::skip]
@@ -175,7 +175,7 @@ fn coverage_bins() {
         }
         let factors = PatchFactors::from_slice(Domain::ALL[domain as usize], &s.factors);
         let case = Case { config: s.patch.config(), factors: factors.expect("all factors") };
-        let mut expected = Coverage::new();
+        let mut expected = Coverage::default();
         expected.record(&case);
         assert_eq!(observed, expected, "{case}");
     }

@@ -34,7 +34,7 @@ pub struct Row {
     pub first: Option<String>,
 }
 
-/// Compares everything in the plan's shard.
+/// Compares everything in the plan's shard. A patch that differs is no mismatch if that is `known`.
 ///
 /// Give one list of backends for each thread to use, all lists with the same backends. `progress` is
 /// called from any thread with the subject, the number of units that are done, and the number of all.
@@ -42,18 +42,6 @@ pub struct Row {
 /// # Errors
 /// A backend that could not run, or no backend at all.
 pub fn verify(
-    workers: &mut [Vec<Box<dyn Backend>>],
-    plan: &Plan,
-    progress: &(dyn Fn(Subject, u64, u64) + Sync),
-) -> Result<Vec<Row>, BackendError> {
-    verify_known(workers, plan, &Known::default(), progress)
-}
-
-/// [`verify`], where a patch that differs is no mismatch if that is `known`.
-///
-/// # Errors
-/// The errors of [`verify`].
-pub fn verify_known(
     workers: &mut [Vec<Box<dyn Backend>>],
     plan: &Plan,
     known: &Known,

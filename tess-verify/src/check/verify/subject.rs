@@ -18,8 +18,15 @@ pub enum Subject {
     Transitions,
     /// All pairs of inside factors, and all isolines.
     Interiors,
-    /// Random patches.
-    Random(Random),
+    /// Random patches of every configuration: every domain, partitioning, output and split order.
+    ///
+    /// Each unit has its own seed, so a larger number of patches begins with the same patches.
+    Random {
+        /// Number of patches of each configuration.
+        patches: u64,
+        /// Seed of all of them.
+        seed: u64,
+    },
 }
 
 impl Subject {
@@ -49,15 +56,4 @@ impl Named for Subject {
         let finite = Self::NAMES.iter().find(|(_, subject)| *subject == self);
         finite.map_or("random", |(name, _)| name)
     }
-}
-
-/// Random patches of every configuration: every domain, partitioning, output and split order.
-///
-/// Each unit has its own seed, so a larger number of patches begins with the same patches.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Random {
-    /// How many patches of each configuration.
-    pub patches: u64,
-    /// Seed of all of them.
-    pub seed: u64,
 }

@@ -1,6 +1,6 @@
 //! What there is to compare, cut into units.
 
-use super::subject::{Random, Subject};
+use super::subject::Subject;
 use super::topologies::{interiors, transitions};
 use crate::case::Case;
 use crate::generate::SplitMix64;
@@ -10,7 +10,7 @@ use tess_core::{Config, Domain, Parity, Partitioning, SplitOrder};
 
 /// Random patches of one configuration, drawn from the unit's seed.
 #[derive(Clone, Copy, Debug)]
-pub struct RandomUnit {
+pub(super) struct RandomUnit {
     domain: Domain,
     config: Config,
     seed: u64,
@@ -19,8 +19,7 @@ pub struct RandomUnit {
 
 impl RandomUnit {
     /// The patches, always the same.
-    #[must_use]
-    pub fn cases(&self) -> Vec<Case> {
+    pub(super) fn cases(&self) -> Vec<Case> {
         let &Self { domain, config, seed, patches } = self;
         let mut random = SplitMix64::new(seed);
         let case = |_| Case { config, factors: random_patch(domain, &mut random) };
@@ -30,8 +29,7 @@ impl RandomUnit {
 
 /// A part of a subject.
 #[derive(Clone, Debug)]
-#[non_exhaustive]
-pub enum Unit {
+pub(super) enum Unit {
     /// Whole patches.
     Patches(Vec<Case>),
     /// Random patches of one configuration.
@@ -67,20 +65,19 @@ const RANDOM_PATCHES: u64 = 4096;
 ///
 /// A unit is made when it is asked for: there may be more than fit into memory.
 #[derive(Clone, Debug)]
-pub struct Units(Source);
+pub(super) struct Units(Source);
 
 #[derive(Clone, Debug)]
 enum Source {
     Patches(Vec<Case>),
-    Random { random: Random, configurations: Vec<(Domain, Config)> },
+    Random { patches: u64, seed: u64, configurations: Vec<(Domain, Config)> },
     Values,
     Buckets(Vec<(SplitOrder, Parity, u32)>),
 }
 
 impl Units {
     /// The units of `subject`.
-    #[must_use]
-    pub fn of(subject: Subject) -> Self {
+    pub(super) fn of(subject: Subject) -> Self {
         Self(match subject {
             Subject::Level1 => {
                 Source::Patches(Selection::level(GenLevel::One, 1).cases().collect())
@@ -90,19 +87,18 @@ impl Units {
             Subject::Locations => Source::Buckets(buckets().collect()),
             Subject::Transitions => Source::Patches(transitions().collect()),
             Subject::Interiors => Source::Patches(interiors().collect()),
-            Subject::Random(random) => {
-                Source::Random { random, configurations: configurations().collect() }
+            Subject::Random { patches, seed } => {
+                Source::Random { patches, seed, configurations: configurations().collect() }
             }
         })
     }
 
     /// How many there are.
-    #[must_use]
-    pub fn count(&self) -> u64 {
+    pub(super) fn count(&self) -> u64 {
         match &self.0 {
             Source::Patches(cases) => cases.len().div_ceil(PATCHES) as u64,
-            Source::Random { random, configurations } => {
-                random.units() * configurations.len() as u64
+            Source::Random { patches, configurations, .. } => {
+                patches.div_ceil(RANDOM_PATCHES) * configurations.len() as u64
             }
             Source::Values => Partitioning::ALL.len() as u64 * VALUE_UNITS,
             Source::Buckets(buckets) => buckets.len() as u64,
@@ -110,18 +106,20 @@ impl Units {
     }
 
     /// Unit `number`; `None` from [`Units::count`] on.
-    #[must_use]
-    pub fn get(&self, number: u64) -> Option<Unit> {
+    pub(super) fn get(&self, number: u64) -> Option<Unit> {
         let index = usize::try_from(number).ok()?;
         match &self.0 {
             Source::Patches(cases) => {
                 cases.chunks(PATCHES).nth(index).map(|cases| Unit::Patches(cases.to_vec()))
             }
-            Source::Random { random, configurations } => {
-                let of_each = random.units();
+            Source::Random { patches, seed, configurations } => {
+                let of_each = patches.div_ceil(RANDOM_PATCHES);
                 let configuration = usize::try_from(number.checked_div(of_each)?).ok()?;
                 let &(domain, config) = configurations.get(configuration)?;
-                Some(Unit::Random(random.unit(domain, config, configuration, number % of_each)))
+                let number = number % of_each;
+                let seed = seed_of_unit(*seed, configuration, number);
+                let patches = RANDOM_PATCHES.min(patches - number * RANDOM_PATCHES);
+                Some(Unit::Random(RandomUnit { domain, config, seed, patches }))
             }
             Source::Values => {
                 let &partitioning =
@@ -135,27 +133,13 @@ impl Units {
             }
         }
     }
-
-    /// All of them, in order.
-    pub fn iter(&self) -> impl Iterator<Item = Unit> {
-        (0..self.count()).filter_map(|number| self.get(number))
-    }
 }
 
-impl Random {
-    /// How many units the patches of one configuration make.
-    const fn units(self) -> u64 {
-        self.patches.div_ceil(RANDOM_PATCHES)
-    }
-
-    /// Unit `number` of configuration `configuration`: each configuration has a seed drawn from
-    /// this one's, and each of its units a seed drawn from that.
-    fn unit(self, domain: Domain, config: Config, configuration: usize, number: u64) -> RandomUnit {
-        let of_configuration = SplitMix64::after(self.seed, configuration as u64).next_u64();
-        let seed = SplitMix64::after(of_configuration, number).next_u64();
-        let patches = RANDOM_PATCHES.min(self.patches - number * RANDOM_PATCHES);
-        RandomUnit { domain, config, seed, patches }
-    }
+/// The seed of a unit of a configuration: each configuration has a seed drawn from the subject's, and each of its units
+/// a seed drawn from that.
+fn seed_of_unit(seed: u64, configuration: usize, number: u64) -> u64 {
+    let of_configuration = SplitMix64::after(seed, configuration as u64).next_u64();
+    SplitMix64::after(of_configuration, number).next_u64()
 }
 
 /// The cases of level 2, most of which level 1 does not have, without those that it has.
@@ -173,25 +157,4 @@ fn buckets() -> impl Iterator<Item = (SplitOrder, Parity, u32)> {
         };
         integers.map(move |bucket| (split, parity, bucket))
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The units of factors follow each other and reach all bits, one partitioning after another.
-    #[test]
-    fn factors_are_all_there() {
-        let all = Units::of(Subject::Factors);
-        let mut units = all.iter();
-        for expected in Partitioning::ALL {
-            for number in 0..1u64 << 12 {
-                let Some(Unit::Values { partitioning, first }) = units.next() else {
-                    panic!("unit {number} of {expected:?}")
-                };
-                assert_eq!((partitioning, u64::from(first)), (expected, number << 20));
-            }
-        }
-        assert!(units.next().is_none(), "no more");
-    }
 }

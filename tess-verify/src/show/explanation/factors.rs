@@ -24,7 +24,7 @@ impl Float {
 /// One factor on its way. A culled patch has raw factors alone.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(Serialize))]
-pub struct FactorReport {
+pub(crate) struct FactorReport {
     pub(super) name: &'static str,
     pub(super) raw: Float,
     #[cfg_attr(feature = "serde", serde(flatten))]
@@ -33,8 +33,7 @@ pub struct FactorReport {
 
 impl FactorReport {
     /// Explains factor `k`; `None` if the patch has no such factor.
-    #[must_use]
-    pub fn new(case: &Case, k: u32) -> Option<Self> {
+    pub(crate) fn new(case: &Case, k: u32) -> Option<Self> {
         let number = usize::try_from(k).ok()?;
         reports(&case.patch(), &case.factors).get(number).copied()
     }

@@ -13,7 +13,7 @@ use tess_core::{ProcessedFactor, QuadFactors, TriangleFactors};
 /// One point: its place in the walk, and the placements that its coordinates are made of.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(Serialize))]
-pub struct PointReport {
+pub(crate) struct PointReport {
     point: u32,
     location: String,
     u: Fixed,
@@ -25,8 +25,7 @@ pub struct PointReport {
 
 impl PointReport {
     /// Explains point `i`; `None` if the patch has no such point.
-    #[must_use]
-    pub fn new(patch: &Patch, i: u32) -> Option<Self> {
+    pub(crate) fn new(patch: &Patch, i: u32) -> Option<Self> {
         let location = patch.locate_point(i)?;
         let point = patch.point(i)?;
         let (placements, rule) = match patch.processed().factors()? {

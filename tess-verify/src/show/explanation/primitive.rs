@@ -9,7 +9,7 @@ use tess_core::{Patch, PrimitiveOrigin};
 /// One primitive: its place in the walk, and its vertices.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(Serialize))]
-pub struct PrimitiveReport {
+pub(crate) struct PrimitiveReport {
     primitive: u32,
     location: String,
     /// Number of the primitive within its line, stitch or centre.
@@ -19,8 +19,7 @@ pub struct PrimitiveReport {
 
 impl PrimitiveReport {
     /// Explains primitive `t`; `None` if the patch has no such primitive.
-    #[must_use]
-    pub fn new(patch: &Patch, t: u32) -> Option<Self> {
+    pub(crate) fn new(patch: &Patch, t: u32) -> Option<Self> {
         let location = patch.locate_primitive(t)?;
         let primitive = patch.primitive(t)?;
         let vertices = primitive.indices().iter().map(|&index| PointReport::new(patch, index));

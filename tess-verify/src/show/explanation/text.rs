@@ -1,10 +1,10 @@
 //! An explanation as text for people.
 
-use super::Explanation;
+use super::PatchReport;
 use super::factors::FactorReport;
 use std::fmt;
 
-impl fmt::Display for Explanation {
+impl fmt::Display for PatchReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}\n", self.command)?;
         self.write_factors(f)?;
@@ -20,7 +20,7 @@ impl fmt::Display for Explanation {
     }
 }
 
-impl Explanation {
+impl PatchReport {
     fn write_factors(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "Factors (spec sections 2 and 3; hex bits and value)")?;
         writeln!(

@@ -6,7 +6,7 @@ use crate::failure::Failure;
 use crate::output::form::Form;
 use clap::ValueEnum;
 use tess_core::Tessellation;
-use tess_verify::show::{DrawOptions, Picture, draw};
+use tess_verify::show::{DrawOptions, Drawing, draw};
 use tess_verify::vectors::Listing;
 use tess_verify::{Backend, Case};
 
@@ -50,10 +50,10 @@ impl PictureFormat {
     ///
     /// # Errors
     /// The pixels cannot be encoded.
-    pub(crate) fn render(self, picture: &Picture) -> Result<Vec<u8>, Failure> {
+    pub(crate) fn render(self, drawing: &Drawing) -> Result<Vec<u8>, Failure> {
         match self {
-            Self::Svg => Ok(picture.to_svg().into_bytes()),
-            Self::Png => picture.to_png().map_err(|error| Failure::bad_input(error.to_string())),
+            Self::Svg => Ok(drawing.to_svg().into_bytes()),
+            Self::Png => drawing.to_png().map_err(|error| Failure::bad_input(error.to_string())),
         }
     }
 }
@@ -107,12 +107,12 @@ impl Format {
             Self::Csv => patch.listing.to_csv(patch.backend).into_bytes(),
             Self::Json => json::render(patch).into_bytes(),
             Self::Obj => patch.listing.to_obj().into_bytes(),
-            Self::Svg => PictureFormat::Svg.render(&picture(patch))?,
-            Self::Png => PictureFormat::Png.render(&picture(patch))?,
+            Self::Svg => PictureFormat::Svg.render(&drawing(patch))?,
+            Self::Png => PictureFormat::Png.render(&drawing(patch))?,
         })
     }
 }
 
-fn picture(patch: &OnePatch) -> Picture {
-    draw(&patch.listing, &DrawOptions::default()).picture
+fn drawing(patch: &OnePatch) -> Drawing {
+    draw(&patch.listing, &DrawOptions::default())
 }

@@ -161,7 +161,7 @@ fn is_model(form: &str, printed: &str, case: Case, backend: &str, said: &str) {
     let expected = match form {
         "csv" => model.to_csv(backend),
         "obj" => model.to_obj(),
-        "svg" => draw(&model, &DrawOptions::default()).picture.to_svg(),
+        "svg" => draw(&model, &DrawOptions::default()).to_svg(),
         "json" => {
             let printed: Value = serde_json::from_str(printed).expect("JSON");
             let of = |values: &Value, key: &str| -> Vec<Value> {

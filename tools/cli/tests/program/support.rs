@@ -5,7 +5,7 @@ use std::ops::Deref;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
-use tess_verify::vectors::words_digest;
+use tess_verify::vectors::Fnv1a;
 
 /// The result of a run of the program.
 pub(crate) struct Run {
@@ -31,8 +31,9 @@ pub(crate) fn tess(words: &str) -> Run {
 
 /// A digest of what was printed.
 pub(crate) fn digest(text: &str) -> String {
-    let bytes: Vec<u32> = text.bytes().map(u32::from).collect();
-    format!("{:016x}", words_digest(&bytes))
+    let mut digest = Fnv1a::default();
+    digest.words(text.bytes().map(u32::from));
+    format!("{:016x}", digest.finish())
 }
 
 /// The command of `tess` with these words.

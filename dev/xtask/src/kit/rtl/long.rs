@@ -73,7 +73,7 @@ fn digest() -> Result<u64, String> {
         files.extend(paths.filter(is_source));
     }
     files.sort();
-    let mut digest = Fnv1a::new();
+    let mut digest = Fnv1a::default();
     for file in files {
         let bytes = fs::read(&file).map_err(|error| in_file(&file, &error))?;
         digest.words(bytes.into_iter().map(u32::from));

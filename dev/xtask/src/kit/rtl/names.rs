@@ -1,17 +1,39 @@
-//! Files that are written from others: the names that the bench in Verilator prints, from the signals of `tess-verify`; the
-//! lists of the design's files for Bender and `FuseSoC`, from `rtl/tess.f`.
+//! Files that are written from others: the names that the bench in Verilator prints, from `rtl/stages.tsv`; the lists of
+//! the design's files for Bender and `FuseSoC`, from `rtl/tess.f`.
 
 use super::sources;
 use crate::command::in_file;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
-use tess_verify::show::{Signal, signals};
 
 const HEAD: &str = "\
-// Written by `cargo xtask rtl --names` from tess_verify::show::signals. Do not edit.
+// Written by `cargo xtask rtl --names` from rtl/stages.tsv. Do not edit.
 // The bench includes it: the number of each signal, then names by number. OPTIONS chooses in `tess explain` what
 // the signal describes.
 ";
+
+/// The signals that benches and `tess explain --observed` compare, in the order in which each feeds the next.
+const STAGES: &str = include_str!("../../../../../rtl/stages.tsv");
+
+/// A signal of the circuit.
+pub(crate) struct Signal {
+    /// The option of `tess explain` that chooses what it describes, `patch` without one.
+    option: &'static str,
+    /// The stage, as benches name it.
+    pub(crate) stage: &'static str,
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// The module that makes it, in a file of that name.
+    module: &'static str,
+}
+
+/// All signals.
+pub(crate) fn signals() -> impl Iterator<Item = Signal> {
+    STAGES.lines().filter(|line| !line.starts_with('#')).filter_map(|row| {
+        let [option, stage, name, module] = row.split('\t').collect::<Vec<_>>().try_into().ok()?;
+        Some(Signal { option, stage, name, module })
+    })
+}
 
 /// Writes the files anew.
 ///
@@ -56,22 +78,22 @@ fn with_list(text: &str, list: &str) -> String {
 
 /// The names.
 fn text() -> String {
-    let signals: Vec<(&str, &Signal)> = signals().collect();
+    let signals: Vec<Signal> = signals().collect();
     let mut text = HEAD.to_owned();
     // Writing to a String does not fail.
-    for (number, (_, Signal { stage, name, .. })) in signals.iter().enumerate() {
+    for (number, Signal { stage, name, .. }) in signals.iter().enumerate() {
         let constant = format!("{stage}_{name}").to_uppercase();
         _ = writeln!(text, "localparam int unsigned {constant} = {number};");
     }
-    let mut array = |title: &str, name: &dyn Fn(&(&str, &Signal)) -> String| {
+    let mut array = |title: &str, name: &dyn Fn(&Signal) -> &str| {
         let names: Vec<String> =
             signals.iter().map(|one| format!("    \"{}\"", name(one))).collect();
         _ = writeln!(text, "string {title}[{}] = '{{\n{}\n}};", names.len(), names.join(",\n"));
     };
-    array("STAGES", &|(_, signal)| signal.stage.to_owned());
-    array("SIGNALS", &|(_, signal)| signal.name.to_owned());
-    array("MODULES", &|(_, signal)| signal.module.to_owned());
-    array("OPTIONS", &|(option, _)| (*option).to_owned());
+    array("STAGES", &|signal| signal.stage);
+    array("SIGNALS", &|signal| signal.name);
+    array("MODULES", &|signal| signal.module);
+    array("OPTIONS", &|signal| if signal.option == "patch" { "" } else { signal.option });
     text
 }
 
@@ -81,6 +103,11 @@ mod tests {
 
     #[test]
     fn the_files_are_up_to_date() {
+        assert_eq!(
+            signals().count(),
+            STAGES.lines().count() - 2,
+            "every row but the head is a signal"
+        );
         for (file, text) in files().expect("files") {
             let found = std::fs::read_to_string(&file).expect("a file");
             assert!(found == text, "{} is stale: run `cargo xtask rtl --names`", file.display());
@@ -96,12 +123,12 @@ mod tests {
     /// Each module is a file of that name, and has the signal.
     #[test]
     fn modules_have_their_signals() {
-        for (_, Signal { name, module, .. }) in signals() {
+        for Signal { name, module, .. } in signals() {
             let file = sources().join(format!("{module}.sv"));
             let source = std::fs::read_to_string(&file).expect("a module");
             assert!(source.contains(&format!("module {module} ")), "{module}");
             let is_there = source.split(|c: char| !c.is_alphanumeric() && c != '_');
-            let names = [(*name).to_owned(), format!("out_{name}"), format!("is_{name}")];
+            let names = [name.to_owned(), format!("out_{name}"), format!("is_{name}")];
             assert!(
                 is_there.into_iter().any(|word| names.iter().any(|name| name == word)),
                 "{module} {name}"

@@ -114,7 +114,7 @@ impl Runner for CoreRunner {
     }
 
     fn digest(&mut self) -> Result<u64, BackendError> {
-        let mut digest = Fnv1a::new();
+        let mut digest = Fnv1a::default();
         let mut left = self.patches.len();
         for batch in 0..self.batches.len() {
             if left == 0 {
@@ -122,8 +122,8 @@ impl Runner for CoreRunner {
             }
             left -= self.batches[batch].patches.len();
             self.tessellate(batch, |points, indices| {
-                digest.word(u32::try_from(points.len()).unwrap_or(u32::MAX));
-                digest.word(u32::try_from(indices.len()).unwrap_or(u32::MAX));
+                digest.words([u32::try_from(points.len()).unwrap_or(u32::MAX)]);
+                digest.words([u32::try_from(indices.len()).unwrap_or(u32::MAX)]);
                 digest.points(points);
                 digest.words(indices.iter().copied());
             })?;

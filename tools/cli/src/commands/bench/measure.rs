@@ -94,7 +94,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
 }
 
 fn check_digest(runner: &mut dyn Runner, workload: &Workload) -> Result<(), Failure> {
-    let (expected, observed) = (workload.digest_in(runner.order()), runner.digest()?);
+    let (expected, observed) = (workload.digest(runner.order()), runner.digest()?);
     if expected == observed {
         return Ok(());
     }
@@ -259,7 +259,7 @@ mod tests {
     fn ratios_and_digests() {
         let workload = &Workload::named("uniform-1")[0];
         let plan = Plan { workload, working_set: WorkingSet::Cache, samples: 1 };
-        let digest = workload.digest_in(Order::Specification);
+        let digest = workload.digest(Order::Specification);
         let row = measure(&mut Slow { digest }, plan).expect("it is right");
         let patches = workload.patches.len() as f64;
         assert_eq!(row.patches_per_s.to_bits(), patches.to_bits(), "a second for all");

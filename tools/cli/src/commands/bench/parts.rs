@@ -1,7 +1,9 @@
 //! How a workload is cut into parts on a CPU.
 
 use std::ops::Range;
-use tess_verify::generate::CACHE_BATCH_BYTES;
+
+/// Bytes of output that a part has at least, if there is so much.
+const MIB: u64 = 1 << 20;
 
 /// Consecutive batches that together have about a mebibyte of output, from the bytes of each.
 ///
@@ -12,7 +14,7 @@ pub(crate) fn parts(batch_bytes: &[u64]) -> Vec<Range<usize>> {
     let (mut start, mut bytes) = (0, 0);
     for (batch, more) in batch_bytes.iter().enumerate() {
         bytes += more;
-        if bytes >= CACHE_BATCH_BYTES {
+        if bytes >= MIB {
             parts.push(start..batch + 1);
             (start, bytes) = (batch + 1, 0);
         }
@@ -29,7 +31,6 @@ mod tests {
 
     #[test]
     fn parts_cover_all_batches() {
-        const MIB: u64 = CACHE_BATCH_BYTES;
         assert_eq!(parts(&[]), [], "nothing");
         assert_eq!(parts(&[1, 2]).len(), 1, "small ones together");
         assert_eq!(parts(&[MIB, MIB + 1]), [0..1, 1..2], "large ones alone");

@@ -130,8 +130,8 @@ impl<I: Index> SimdRunner<I> {
         let points = &self.points[batch.start.0..];
         let indices = &self.indices[batch.start.1..];
         for range in &self.ranges[..patches] {
-            digest.word(range.points);
-            digest.word(range.indices);
+            digest.words([range.points]);
+            digest.words([range.indices]);
             let points = &points[range.first_point as usize..][..range.points as usize];
             let exact =
                 |&[u, v]: &[f32; 2]| DomainPoint { u: U16F16::from_num(u), v: U16F16::from_num(v) };
@@ -229,7 +229,7 @@ impl<I: Index> Runner for SimdRunner<I> {
     }
 
     fn digest(&mut self) -> Result<u64, BackendError> {
-        let mut digest = Fnv1a::new();
+        let mut digest = Fnv1a::default();
         let mut batch = 0;
         while let Some(Prepared { once, batches, .. }) = &self.prepared {
             let Some(next) = batches.get(batch).cloned() else { break };

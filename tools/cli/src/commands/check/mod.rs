@@ -158,7 +158,7 @@ fn compare(
     let failures = failures.transpose()?;
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
     let asked = asked.as_mut().map(|asked| asked as _);
-    let report = check::check_known(file, asked, &known.cases, &mut backends, tested, &|checked| {
+    let report = check::check_asked(file, asked, &known.cases, &mut backends, tested, &|checked| {
         bar.inc(checked.records.len() as u64);
         recorder.update(|report| record::add(report, checked));
         if let Some(failures) = &failures {

@@ -69,7 +69,7 @@ impl StrengthArgs {
         if kind == Kind::Listings && backend.is_none() {
             return Ok(Tested::Listings(strength));
         }
-        if strength.is_strictest() {
+        if strength == Strength::default() {
             return Ok(Tested::Backend);
         }
         let why = match backend {

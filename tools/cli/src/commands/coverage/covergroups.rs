@@ -12,7 +12,7 @@ const HEAD: &str = "\
 
 /// A class in SystemVerilog with a covergroup for each group; `sample` takes the number of a bin.
 pub(super) fn text() -> String {
-    let coverage = Coverage::new();
+    let coverage = Coverage::default();
     let bins: Vec<(&str, &str)> =
         coverage.bins().map(|(bin, _)| bin.split_once('/').unwrap_or((bin, bin))).collect();
     let groups: Vec<String> = coverage.groups().into_iter().map(|group| group.name).collect();
@@ -48,7 +48,7 @@ mod tests {
     /// `sample` takes the numbers of a group to be consecutive, and every bin to have one.
     #[test]
     fn every_bin_is_in_its_group() {
-        let (text, coverage) = (text(), Coverage::new());
+        let (text, coverage) = (text(), Coverage::default());
         let group = |line: &str| line.trim().strip_prefix("cp_").map(|rest| rest.to_owned());
         let mut names = Vec::new();
         let mut at = String::new();

@@ -89,7 +89,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let outputs = [&args.merged, &args.html].into_iter().flatten().chain([&args.report.file]);
     outputs.cloned().try_for_each(|file| OutputArgs { file }.require_writable())?;
     let exclusions = args.exclusions()?;
-    let mut sum = Coverage::new();
+    let mut sum = Coverage::default();
     for file in &args.files {
         sum.merge(&coverage_file::read_from(file)?);
     }

@@ -91,7 +91,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         None => (show::draw(&patch.listing, &args.options.options()), Exit::Done),
     };
     report_left_out(&drawing);
-    args.output.write(&format.render(&drawing.picture)?)?;
+    args.output.write(&format.render(&drawing)?)?;
     Ok(exit)
 }
 

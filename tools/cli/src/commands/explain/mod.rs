@@ -5,11 +5,8 @@ use crate::failure::{Exit, Failure};
 use crate::output::{self, OutputArgs};
 use serde::Serialize;
 use std::fmt::{self, Display};
-use tess_core::Patch;
 use tess_verify::Case;
-use tess_verify::show::{
-    self, Explanation, FactorReport, Part, PointReport, PrimitiveReport, SignalDifference,
-};
+use tess_verify::show::{self, Explanation, Part, SignalDifference};
 
 const OBSERVED: &str = "\
 Compare what a circuit gave there, name the stage, module and signal that differ, and end with 1 if any does
@@ -93,18 +90,26 @@ impl Args {
     }
 }
 
-fn report(case: &Case, part: Part) -> Result<Report, Failure> {
-    let patch = case.patch();
-    Ok(match part {
-        Part::Point(i) => Report::Point(found(PointReport::new(&patch, i), &patch, "point", i)?),
-        Part::Primitive(t) => {
-            Report::Primitive(found(PrimitiveReport::new(&patch, t), &patch, "primitive", t)?)
-        }
-        Part::Factor(k) => Report::Factor(FactorReport::new(case, k).ok_or_else(|| {
-            let factors = output::counted(case.domain().factors() as u64, "factor");
-            Failure::bad_input(format!("there is no factor {k}: the patch has {factors}, from 0"))
-        })?),
-        _ => Report::Patch(Explanation::new(case)),
+/// What explains a part of a patch.
+fn report(case: &Case, part: Part) -> Result<Explanation, Failure> {
+    Explanation::new(case, part).ok_or_else(|| {
+        let counts = case.patch().counts();
+        let points_and_primitives = format!(
+            "{} and {}",
+            output::counted(counts.points.into(), "point"),
+            output::counted(counts.primitives.into(), "primitive")
+        );
+        let (what, number, there_are) = match part {
+            Part::Factor(k) => {
+                ("factor", k, output::counted(case.domain().factors() as u64, "factor"))
+            }
+            Part::Point(i) => ("point", i, points_and_primitives),
+            Part::Primitive(t) => ("primitive", t, points_and_primitives),
+            _ => ("patch", 0, points_and_primitives),
+        };
+        Failure::bad_input(format!(
+            "there is no {what} {number}: the patch has {there_are}, from 0"
+        ))
     })
 }
 
@@ -112,7 +117,7 @@ fn report(case: &Case, part: Part) -> Result<Report, Failure> {
 #[derive(Serialize)]
 struct Explained {
     #[serde(flatten)]
-    report: Report,
+    report: Explanation,
     #[serde(rename = "differences", skip_serializing_if = "Option::is_none")]
     circuit: Option<Vec<SignalDifference>>,
 }
@@ -126,35 +131,4 @@ impl Display for Explained {
             Some(all) => all.iter().try_for_each(|one| writeln!(f, "differs: {one}")),
         }
     }
-}
-
-#[derive(Serialize)]
-#[serde(untagged)]
-enum Report {
-    Patch(Explanation),
-    Point(PointReport),
-    Primitive(PrimitiveReport),
-    Factor(FactorReport),
-}
-
-impl Display for Report {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Patch(report) => report.fmt(f),
-            Self::Point(report) => report.fmt(f),
-            Self::Primitive(report) => report.fmt(f),
-            Self::Factor(report) => report.fmt(f),
-        }
-    }
-}
-
-fn found<T>(report: Option<T>, patch: &Patch, what: &str, number: u32) -> Result<T, Failure> {
-    let counts = patch.counts();
-    report.ok_or_else(|| {
-        Failure::bad_input(format!(
-            "there is no {what} {number}: the patch has {} and {}, from 0",
-            output::counted(counts.points.into(), "point"),
-            output::counted(counts.primitives.into(), "primitive")
-        ))
-    })
 }

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use tess_core::SplitOrder;
 use tess_verify::cover::{Coverage, Exclusions};
 use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::vectors::{Header, Kind, write_listings, write_patches};
+use tess_verify::vectors::{Header, Kind, write_cases};
 use tess_verify::{Case, Named};
 
 /// Generate test vectors with expected results; same arguments, same bytes
@@ -112,8 +112,7 @@ fn generate(args: &Args, placed: Placed, recorder: &Recorder) -> Result<Exit, Fa
     let bar = args.progress(count);
     let cases = bar.wrap_iter(args.cases(placed));
     let written = match args.format {
-        Format::Csv => args.output.stream(|out| write_patches(out, &header, cases)),
-        Format::Listing => args.output.stream(|out| write_listings(out, &header, cases)),
+        Format::Csv | Format::Listing => args.output.stream(|out| write_cases(out, &header, cases)),
         Format::Readmemh => write_folder(&args.output.file, cases),
     };
     bar.finish_and_clear();
@@ -181,7 +180,7 @@ impl Args {
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
         let mut file = file.map(CoverageFile::open).transpose()?;
-        let mut alone = Coverage::new();
+        let mut alone = Coverage::default();
         let coverage = file.as_mut().map_or(&mut alone, |file| &mut file.coverage);
         let bar = self.progress(count);
         bar.wrap_iter(self.cases(placed)).for_each(|case| coverage.record(&case));
@@ -230,7 +229,8 @@ impl Args {
         }
         notes.extend(self.split.map(|split| ("split".to_owned(), split.name().to_owned())));
         let source = "tess-core".to_owned();
-        Header { kind: Kind::Patches, count: Some(count), source, notes }
+        let kind = if self.format == Format::Listing { Kind::Listings } else { Kind::Patches };
+        Header { kind, count: Some(count), source, notes }
     }
 }
 

@@ -314,7 +314,7 @@ impl Campaign {
     /// # Errors
     /// A report without hits, or with those of other bins.
     pub(super) fn coverage(&self) -> Result<Coverage, Failure> {
-        let mut sum = Coverage::new();
+        let mut sum = Coverage::default();
         for Found { place, report } in self.done() {
             let hits = report.coverage.as_deref().unwrap_or_default();
             let coverage = Coverage::from_hits(hits).ok_or_else(|| {

@@ -294,6 +294,6 @@ impl Picture {
         let expected = listing(case.patch().tessellate());
         let options = DrawOptions { size: 800, ..DrawOptions::default() };
         let (drawing, _) = show::overlay(&expected, &listing(output), &options);
-        self.output.write(&self.format.render(&drawing.picture)?)
+        self.output.write(&self.format.render(&drawing)?)
     }
 }

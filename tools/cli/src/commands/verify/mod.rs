@@ -10,7 +10,7 @@ use crate::output::{Role, note, print, progress, refuse_shared};
 use std::fmt::Write;
 use std::time::Instant;
 use tess_core::SplitOrder;
-use tess_verify::check::{Known, Plan, Random, Row, SecondFormulation, Subject, verify_known};
+use tess_verify::check::{Known, Plan, Row, SecondFormulation, Subject, verify};
 use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::rules::{Specification, check_rules};
 use tess_verify::{Backend, Named};
@@ -112,7 +112,7 @@ impl Args {
         let mut all_equal = true;
         for &subject in &subjects {
             let one = Plan { subjects: vec![subject], shard };
-            let table = verify_known(&mut workers, &one, known, &|subject, done, all| {
+            let table = verify(&mut workers, &one, known, &|subject, done, all| {
                 bar.set_length(all);
                 bar.set_message(subject.name());
                 bar.set_position(done);
@@ -129,12 +129,12 @@ impl Args {
     }
 
     fn plan(&self, placed: Placed) -> Plan {
-        let plan = match self.random {
-            Some(patches) => Plan::random(Random { patches, seed: self.seed }),
-            None if self.exhaustive => Plan::exhaustive(),
-            None => Plan::levels(),
+        let subjects = match self.random {
+            Some(patches) => vec![Subject::Random { patches, seed: self.seed }],
+            None if !self.subject.is_empty() => self.subject.clone(),
+            None if self.exhaustive => Subject::ALL.to_vec(),
+            None => vec![Subject::Level1, Subject::Level2],
         };
-        let subjects = if self.subject.is_empty() { plan.subjects } else { self.subject.clone() };
         Plan { subjects, shard: placed.shard }
     }
 

@@ -220,7 +220,7 @@ impl Runner for GpuRunner {
         let (setup, patches) =
             self.workload.as_ref().ok_or_else(|| BackendError::new("nothing is prepared"))?;
         let output = self.tessellator.tessellate(&self.gpu, *setup, patches);
-        let mut digest = Fnv1a::new();
+        let mut digest = Fnv1a::default();
         for patch in split_by_patch(&output.map_err(device_error)?, *setup)? {
             digest.patch(&patch);
         }

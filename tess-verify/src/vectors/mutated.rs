@@ -1,9 +1,9 @@
 //! Vector files that were damaged at random: an error that says where, or a file that reads back
 //! equal; never a panic, nor more memory than a record needs.
 
+use super::{Listing, Record, Values, VectorError, VectorFile};
 use proptest::prelude::*;
 use std::fs::read_to_string;
-use tess_verify::vectors::{Listing, PatchRow, Record, VectorError, VectorFile};
 
 /// What reading a file of a few kilobytes may take: a record of the largest patch is 130 KB.
 const MOST_BYTES: u64 = 2 << 20;
@@ -134,11 +134,11 @@ fn read(bytes: &[u8]) -> Result<String, VectorError> {
     for record in file.by_ref() {
         match record? {
             Record::Listing(listing) => text += &Listing { line: 0, ..listing }.to_string(),
-            Record::Patch(row) => {
-                let PatchRow { case, output } = row.row;
-                text += &format!("{}\n", PatchRow { case, output });
-            }
-            other => text += &format!("{}\n", other.text().expect("a row")),
+            Record::Row(row) => match row.values {
+                Values::Patch(values) => text += &format!("{values}\n"),
+                _ => text += &format!("{}\n", row.text),
+            },
+            Record::Coordinates(_) => panic!("the files have none"),
         }
     }
     Ok(text)
