@@ -18,9 +18,10 @@ mod workloads;
 
 pub use boundaries::boundary_factors;
 use boundaries::{exceptional_factors, ordinary_factors, special_factors};
+use patches::random_factor;
+pub use patches::random_patch;
 #[cfg(feature = "arbitrary")]
 pub(crate) use patches::{factor_up_to, patch_of};
-pub use patches::{random_factor, random_patch};
 pub use random::SplitMix64;
 pub use workloads::{Calls, IndexType, Totals, Workload};
 
@@ -74,8 +75,7 @@ impl Shard {
     }
 
     /// The number of this part's item `n` among all items; `None` beyond 2^64.
-    #[must_use]
-    pub const fn item(&self, n: u64) -> Option<u64> {
+    pub(crate) const fn item(&self, n: u64) -> Option<u64> {
         match n.checked_mul(self.of) {
             Some(before) => before.checked_add(self.part),
             None => None,
@@ -252,7 +252,31 @@ pub(crate) fn pick<T: Copy>(random: &mut impl Draw, from: &[T]) -> T {
     clippy::float_arithmetic,
     reason = "exact: 24 significant bits, scaled by a power of two"
 )]
-#[must_use]
-pub fn from_fixed(bits: u32) -> f32 {
+pub(crate) fn from_fixed(bits: u32) -> f32 {
     bits as f32 / 65536.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shards_have_their_items_by_number() {
+        for part in 0..7 {
+            let shard = Shard { part, of: 7 };
+            let mine: Vec<u64> = (0..1000).filter(|&i| shard.has(i)).collect();
+            let numbered: Option<Vec<u64>> =
+                (0..shard.items(1000)).map(|n| shard.item(n)).collect();
+            assert_eq!(numbered, Some(mine), "part {part}, item by item");
+        }
+    }
+
+    #[test]
+    fn fixed_factors_beyond_24_bits_are_rounded() {
+        for (bits, expected) in
+            [(0x00FF_FFFF, 255.999_98), (0x0100_0001, 256.0), (u32::MAX, 65536.0)]
+        {
+            assert_eq!(from_fixed(bits).to_bits(), f32::to_bits(expected), "{bits:#x}");
+        }
+    }
 }

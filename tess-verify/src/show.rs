@@ -8,9 +8,7 @@ mod picture;
 
 pub use circuit::{Part, SignalDifference, SignalError, compare_signals};
 pub use drawing::{
-    Colours, Differences, DrawOptions, Drawing, differing, draw, fills, has_rings, overlay,
+    Colours, Differences, DrawOptions, Drawing, differing, draw, has_rings, overlay,
 };
 pub use explanation::Explanation;
 pub(crate) use explanation::{PointReport, PrimitiveReport};
-#[cfg(feature = "png")]
-pub use picture::PngError;

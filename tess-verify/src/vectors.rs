@@ -21,7 +21,7 @@ mod write;
 
 pub use cases::Cases;
 pub use coordinate::fixed;
-pub use coordinates::{Coordinates, Vertex};
+pub use coordinates::Coordinates;
 pub use digest::Fnv1a;
 pub(crate) use digest::words_digest;
 pub use error::VectorError;

@@ -34,6 +34,11 @@ fn run_tested(text: &str, tested: Tested) -> Result<Report, CheckError> {
     check(file, &mut [Box::new(CoreBackend)], tested, &|_| ())
 }
 
+/// The mistake that turns outputs round and explains every difference.
+fn turn(report: &Report) -> Option<Way> {
+    report.ways().into_iter().find(|way| !way.is_allowed())
+}
+
 /// The verdict on records, in a file that marks its end.
 fn verdict(records: &str, strength: Strength) -> Report {
     run(&format!("{HEADER}{records}# end\n"), strength).expect("a verdict")
@@ -361,13 +366,13 @@ fn one_mistake_that_explains_everything_is_named() {
     };
     let report = turned(ANY, reversed);
     assert!(report.mismatches > 30, "{report}");
-    assert_eq!(report.turn(), Some(Way::Reversed));
+    assert_eq!(turn(&report), Some(Way::Reversed));
     // Points keep their numbers, and triangles their vertices: a mirrored picture, in order.
     for strength in [EXACT, SEQUENCE, ANY] {
         let transposed = |case: &Case| with_points(case, |[u, v]| [v, u]);
         let report = turned(strength, transposed);
         assert!(report.mismatches > 30, "{report}");
-        assert_eq!(report.turn(), Some(Way::TransposedReversed), "{strength:?}");
+        assert_eq!(turn(&report), Some(Way::TransposedReversed), "{strength:?}");
     }
 }
 
@@ -381,6 +386,6 @@ fn one_other_difference_and_no_mistake_explains_everything() {
         output
     });
     assert!(report.mismatches > 30, "{report}");
-    assert_eq!(report.turn(), None, "not all");
-    assert_eq!(turned(ANY, |case| case.patch().tessellate()).turn(), None, "nothing differs");
+    assert_eq!(turn(&report), None, "not all");
+    assert_eq!(turn(&turned(ANY, |case| case.patch().tessellate())), None, "nothing differs");
 }

@@ -320,7 +320,7 @@ fn a_value_that_does_not_show_is_not_decided() {
     // The two split orders move other points, so that their locations round at other values.
     let shows = "case isoline fractional_even point ruler 3f800000 VALUE";
     let at = |line: &str, fixed: u32| {
-        let bits = tess_verify::generate::from_fixed(fixed).to_bits();
+        let bits = DomainPoint::from_bits(fixed, 0).to_f32()[0].to_bits();
         line.replace("VALUE", &format!("{bits:08x}"))
     };
     let hides = shows.replace("ruler", "center");
@@ -332,7 +332,7 @@ fn a_value_that_does_not_show_is_not_decided() {
         .expect("a value that shows here and not there");
     let tie = |line: &str| {
         let [low, high] =
-            [value, value + 1].map(|fixed| tess_verify::generate::from_fixed(fixed).to_bits());
+            [value, value + 1].map(|fixed| DomainPoint::from_bits(fixed, 0).to_f32()[0].to_bits());
         let bits = u32::midpoint(low, high);
         case(&line.replace("VALUE", &format!("{bits:08x}")))
     };
@@ -364,7 +364,7 @@ fn the_stage_of_a_wrong_factor() {
         for (position, &fixed) in fixed.iter().enumerate() {
             for other in [fixed - 1, fixed + 1, fixed - 0x1_0000, fixed + 0x1_0000] {
                 let mut words: Vec<String> = line.split_whitespace().map(str::to_owned).collect();
-                let bits = tess_verify::generate::from_fixed(other).to_bits();
+                let bits = DomainPoint::from_bits(other, 0).to_f32()[0].to_bits();
                 words[5 + position] = format!("{bits:08x}");
                 let output = right(&words.join(" "));
                 let is_seen = output != patch.tessellate();
@@ -393,7 +393,7 @@ fn a_value_has_one_conversion_in_a_patch() {
 /// In any order too: the first difference is the moved point, not one of those that the other conversion moves.
 #[test]
 fn differences_beside_a_legal_conversion_in_any_order() {
-    let bits = |fixed| tess_verify::generate::from_fixed(fixed).to_bits();
+    let bits = |fixed| DomainPoint::from_bits(fixed, 0).to_f32()[0].to_bits();
     let at = |bits: u32| format!("case isoline fractional_even point ruler 3f800000 {bits:08x}");
     let low = (0xA_0001..0xB_0000)
         .find(|&low| {

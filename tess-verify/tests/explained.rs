@@ -42,7 +42,7 @@ fn moved(line: &str) -> (Case, Tessellation) {
 fn freedom(answers: &[(Case, Tessellation)]) -> Option<&'static str> {
     let report = check_device(answers.iter().cloned(), ANY);
     assert_eq!(report.mismatches, answers.len() as u64, "{report}");
-    report.freedom().map(Way::options)
+    report.ways().into_iter().find(|way| way.is_allowed()).map(Way::options)
 }
 
 #[test]
@@ -53,7 +53,7 @@ fn a_freedom_that_explains_all() {
     let both = "--denormals flush --conversion 0.6ulp";
     assert_eq!(freedom(&[rounded_up(), flushed()]), Some(both), "one of each");
     assert_eq!(freedom(&[flushed(), wrong]), None, "and one that nothing explains");
-    assert_eq!(check_device([], ANY).freedom(), None, "nothing to explain");
+    assert_eq!(check_device([], ANY).ways(), [], "nothing to explain");
 }
 
 /// A device whose triangles come from the last to the first.
@@ -70,7 +70,7 @@ fn another_order_explains_all() {
     let freedom = |answers: &[(Case, Tessellation)]| {
         let report = check_device(answers.iter().cloned(), Strength::default());
         assert_eq!(report.mismatches, answers.len() as u64, "{report}");
-        report.freedom().map(Way::options)
+        report.ways().into_iter().find(|way| way.is_allowed()).map(Way::options)
     };
     assert_eq!(freedom(&[reversed(line)]), Some("--order any"), "in order only");
     assert_eq!(freedom(&[reversed(line), moved(line)]), None, "and a point elsewhere");
@@ -130,8 +130,6 @@ fn differences_are_counted_by_stage_and_configuration() {
     let counts: Vec<_> = groups.iter().map(|group| (group.stage, group.mismatches)).collect();
     let [lines, culled, tri] = &groups[..] else { panic!("{counts:?}") };
     assert_eq!(counts, [(Stage::Location, 1), (Stage::Factors, 1), (Stage::Location, 31)]);
-    let stages: Vec<_> = report.stages().into_iter().collect();
-    assert_eq!(stages, [(Stage::Factors, 1), (Stage::Location, 32)], "the sums of the groups");
     assert_eq!((lines.smallest.number, culled.smallest.number), (1, 2), "by size");
     assert_eq!(
         tri.smallest.number, 4,

@@ -7,7 +7,7 @@ use tess_gpu::{
     Capacity, Copies, IndexType, Limits, Numbering, Order, PointFormat, Resource, Setup, Stage,
     Written,
 };
-use tess_verify::generate::{SplitMix64, random_factor};
+use tess_verify::generate::{SplitMix64, random_patch};
 
 /// Limits that cut after 65536 patches, a few hundred tiles and 5 workgroups.
 const LOW: Limits = Limits { storage_binding: 4 << 20, workgroups: 5 };
@@ -19,8 +19,7 @@ pub(crate) fn setup(domain: Domain, partitioning: Partitioning) -> Setup {
 /// Random patches, boundary values, culled and degenerate ones, and one of factor 1.
 fn random(domain: Domain, count: u32) -> Vec<PatchFactors> {
     let mut random = SplitMix64::new(u64::from(count));
-    let mut all: Vec<_> =
-        (1..count).map(|_| PatchFactors::from_fn(domain, |_| random_factor(&mut random))).collect();
+    let mut all: Vec<_> = (1..count).map(|_| random_patch(domain, &mut random)).collect();
     all.push(PatchFactors::uniform(domain, 1.0));
     all
 }

@@ -9,9 +9,8 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 use proptest::sample::select;
 use proptest_state_machine::ReferenceStateMachine;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors};
+use tess_core::{Config, Domain, DomainPoint, OutputPrimitive, Partitioning, Patch, PatchFactors};
 use tess_simd::{Level, Order};
-use tess_verify::generate::from_fixed;
 
 /// What calls are drawn by: those before.
 #[derive(Clone, Debug)]
@@ -159,7 +158,7 @@ fn raw() -> impl Strategy<Value = f32> + Clone {
     ];
     prop_oneof![
         8 => (1..=6_u8).prop_map(f32::from),
-        4 => (8..64_u32).prop_map(|eighths| from_fixed(eighths << 13)),
+        4 => (8..64_u32).prop_map(|eighths| DomainPoint::from_bits(eighths << 13, 0).to_f32()[0]),
         2 => 1.0..20.0_f32,
         1 => 1.0..64.0_f32,
         1 => select(SPECIAL.to_vec()),

@@ -22,10 +22,9 @@ struct Seen {
     different: AtomicBool,
 }
 
-impl Known {
-    /// A baseline of these cases; a case that is given twice counts once.
-    #[must_use]
-    pub fn new(cases: impl IntoIterator<Item = Case>) -> Self {
+/// A baseline of these cases; a case that is given twice counts once.
+impl FromIterator<Case> for Known {
+    fn from_iter<T: IntoIterator<Item = Case>>(cases: T) -> Self {
         let mut known = Self::default();
         for case in cases {
             let next = known.entries.len();
@@ -35,7 +34,9 @@ impl Known {
         }
         known
     }
+}
 
+impl Known {
     /// Notes whether a case differs. True if it does and may.
     pub fn excuses(&self, case: &Case, is_different: bool) -> bool {
         let Some(&place) = self.places.get(case) else { return false };
@@ -79,7 +80,7 @@ mod tests {
             line.parse().expect("a case")
         };
         let [differs, gone, both, unasked, other] = [1, 2, 3, 4, 5].map(case);
-        let known = Known::new([differs, both, gone, unasked, gone]);
+        let known = Known::from_iter([differs, both, gone, unasked, gone]);
         assert!(known.excuses(&differs, true), "it may differ");
         assert!(!known.excuses(&gone, false), "equal needs no excuse");
         assert!(!known.excuses(&both, false) && known.excuses(&both, true), "asked twice");

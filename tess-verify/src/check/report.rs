@@ -7,12 +7,11 @@ pub use group::Group;
 
 use crate::backend::BackendError;
 use crate::case::Case;
-use crate::check::compare::{Element, Mismatch, Stage};
+use crate::check::compare::{Element, Mismatch};
 use crate::check::ways::Way;
 use crate::names::Named;
 use crate::vectors::{Header, Kind, Record, VectorError};
 use group::Groups;
-use std::collections::BTreeMap;
 use std::fmt;
 
 /// How many differences a report shows in full.
@@ -39,34 +38,18 @@ pub struct Report {
 pub(super) type Explained = [bool; Way::OF_FILES.len()];
 
 impl Report {
-    /// The one mistake that turns outputs round and explains every difference, if one does.
+    /// What explains every difference, each on its own, if something does: freedoms that were not granted first
+    /// ([`Way::options`] says how to grant them), then mistakes that turn outputs round.
     #[must_use]
-    pub fn turn(&self) -> Option<Way> {
-        self.explanation(|way| !way.is_allowed())
-    }
-
-    /// The freedom that was not granted and explains every difference, each on its own, if one does:
-    /// [`Way::options`] says how to grant it.
-    #[must_use]
-    pub fn freedom(&self) -> Option<Way> {
-        self.explanation(Way::is_allowed)
+    pub fn ways(&self) -> Vec<Way> {
+        let all = Way::OF_FILES.into_iter().zip(self.explained.into_iter().flatten());
+        all.filter(|(_, explains)| *explains).map(|(way, _)| way).collect()
     }
 
     /// The differences by stage and configuration, the one with the smallest case first.
     #[must_use]
     pub fn groups(&self) -> Vec<Group> {
         self.groups.sorted()
-    }
-
-    /// How many mismatches point to each stage: the sums of the [groups](Self::groups).
-    #[must_use]
-    pub fn stages(&self) -> BTreeMap<Stage, u64> {
-        self.groups.stages()
-    }
-
-    fn explanation(&self, wanted: impl Fn(Way) -> bool) -> Option<Way> {
-        let ways = Way::OF_FILES.into_iter().zip(self.explained?);
-        ways.filter(|(_, explains)| *explains).map(|(way, _)| way).find(|way| wanted(*way))
     }
 
     /// Adds what explains a difference.

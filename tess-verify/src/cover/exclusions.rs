@@ -26,7 +26,7 @@ impl Exclusions {
     ///
     /// # Errors
     /// No bin begins with it.
-    pub fn add(&mut self, pattern: &str) -> Result<(), UnknownBin> {
+    pub(super) fn add(&mut self, pattern: &str) -> Result<(), UnknownBin> {
         let fits = |bin: &str| {
             let mut found = bin.split('/');
             pattern
@@ -75,8 +75,7 @@ impl Exclusions {
     }
 
     /// Whether a bin is excluded.
-    #[must_use]
-    pub fn has(&self, bin: &str) -> bool {
+    pub(super) fn has(&self, bin: &str) -> bool {
         self.bins.contains(bin)
     }
 

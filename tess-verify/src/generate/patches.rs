@@ -15,8 +15,7 @@ const UP_TO_ONE: [f32; 5] =
 
 /// A factor drawn from what finds faults: anywhere in range, small, at and near integers and
 /// halves, special, and any bits at all.
-#[must_use]
-pub fn random_factor(random: &mut SplitMix64) -> f32 {
+pub(super) fn random_factor(random: &mut SplitMix64) -> f32 {
     factor_up_to(MAXIMUM, random)
 }
 

@@ -71,7 +71,7 @@ impl SplitMix64 {
 
     /// A multiple of 2^-24 in `0..1`, evenly distributed.
     #[expect(clippy::float_arithmetic, reason = "exact: 24 bits times a power of two")]
-    pub fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         f64::from(self.next_u32() >> 8) / f64::from(1 << 24)
     }
 }

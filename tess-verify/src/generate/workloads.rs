@@ -129,7 +129,7 @@ impl Workload {
     }
 
     /// The patches of each group, in order; none if the patches are not grouped.
-    pub fn group_ranges(&self) -> impl Iterator<Item = Range<usize>> {
+    fn group_ranges(&self) -> impl Iterator<Item = Range<usize>> {
         let starts = self.groups.iter().map(|&start| start as usize);
         let ends = starts.clone().skip(1).chain([self.patches.len()]);
         starts.zip(ends).map(|(start, end)| start..end)

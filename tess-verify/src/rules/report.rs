@@ -73,8 +73,7 @@ pub struct RulesReport {
 
 impl RulesReport {
     /// How many rules have a verdict.
-    #[must_use]
-    pub fn count(&self, verdict: Verdict) -> usize {
+    fn count(&self, verdict: Verdict) -> usize {
         self.rows.iter().filter(|row| row.verdict() == verdict).count()
     }
 }

@@ -8,8 +8,6 @@ mod layout;
 mod overlay;
 mod rings;
 
-#[cfg(feature = "png")]
-use crate::show::picture::PngError;
 use crate::show::picture::{Colour, Picture, Position, Shape};
 use crate::vectors::Listing;
 use colours::{GRID, INK, PAPER, POINT};
@@ -58,6 +56,8 @@ pub const fn has_rings(domain: Domain, output: OutputPrimitive) -> bool {
 #[derive(Clone, Debug)]
 pub struct Drawing {
     picture: Picture,
+    /// The colour of each primitive: red, green and blue.
+    pub fills: Vec<[u8; 3]>,
     /// Numbers asked for that would have been too small to read.
     pub labels_left_out: usize,
 }
@@ -96,7 +96,7 @@ impl Drawing {
     /// # Errors
     /// A size of 0, or one that memory does not hold.
     #[cfg(feature = "png")]
-    pub fn to_png(&self) -> Result<Vec<u8>, PngError> {
+    pub fn to_png(&self) -> std::io::Result<Vec<u8>> {
         self.picture.to_png()
     }
 
@@ -106,7 +106,9 @@ impl Drawing {
         outline.extend(outline.first().copied());
         let shapes = vec![Shape::Line { points: outline, width: 1.0, stroke: GRID }];
         let picture = Picture { size: options.size, title: patch.case.command(), shapes };
-        Self { picture, labels_left_out: 0 }
+        let fills = colours_of(patch, options.colours);
+        let fills = fills.into_iter().map(|Colour(red, green, blue)| [red, green, blue]).collect();
+        Self { picture, fills, labels_left_out: 0 }
     }
 
     /// Fills first, edges over all of them.
@@ -197,15 +199,7 @@ impl Drawing {
     }
 }
 
-/// A colour for each primitive, as [`draw`] fills it: red, green and blue.
-#[must_use]
-pub fn fills(patch: &Listing, colours: Colours) -> Vec<[u8; 3]> {
-    colours_of(patch, colours)
-        .into_iter()
-        .map(|Colour(red, green, blue)| [red, green, blue])
-        .collect()
-}
-
+/// A colour for each primitive.
 fn colours_of(patch: &Listing, colours: Colours) -> Vec<Colour> {
     let count = patch.primitives().count();
     match colours {

@@ -5,9 +5,6 @@ mod digits;
 mod png;
 mod svg;
 
-#[cfg(feature = "png")]
-pub use png::PngError;
-
 /// A position in pixels, y down.
 pub(super) type Position = [f64; 2];
 
@@ -77,7 +74,7 @@ impl Picture {
     /// # Errors
     /// A size of 0, or one that memory does not hold.
     #[cfg(feature = "png")]
-    pub(super) fn to_png(&self) -> Result<Vec<u8>, PngError> {
+    pub(super) fn to_png(&self) -> std::io::Result<Vec<u8>> {
         png::render(self)
     }
 }

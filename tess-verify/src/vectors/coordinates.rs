@@ -24,18 +24,18 @@ pub struct Coordinates {
     /// What was tessellated.
     pub case: Case,
     /// The vertices, as many for each primitive as it has.
-    pub vertices: Vec<Vertex>,
+    pub(crate) vertices: Vec<Vertex>,
 }
 
 /// Coordinates of a vertex: 16.16 numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Vertex {
+pub(crate) struct Vertex {
     /// First coordinate.
-    pub u: u32,
+    pub(crate) u: u32,
     /// Second coordinate.
-    pub v: u32,
+    pub(crate) v: u32,
     /// Third coordinate, if it was captured.
-    pub w: Option<u32>,
+    pub(crate) w: Option<u32>,
 }
 
 impl Coordinates {

@@ -184,7 +184,7 @@ fn where_rounding_ends() {
         case(&line).patch().tessellate().points
     };
     let above_1 =
-        |k: u32| format!("{:08x}", tess_verify::generate::from_fixed(0x1_0000 + k).to_bits());
+        |k: u32| format!("{:08x}", DomainPoint::from_bits(0x1_0000 + k, 0).to_f32()[0].to_bits());
     let is_on_tri = |point: &DomainPoint| {
         let [u, v] = [point.u.to_bits(), point.v.to_bits()];
         u == 0 || v == 0 || u + v == ONE

@@ -1,9 +1,9 @@
 //! Patches to test with.
 
 use tess_core::{Domain, PatchFactors};
-use tess_verify::generate::{SplitMix64, random_factor};
+use tess_verify::generate::{SplitMix64, random_patch};
 
 /// Random patches, boundary values, culled and degenerate ones included.
 pub(crate) fn random(domain: Domain, count: u32, random: &mut SplitMix64) -> Vec<PatchFactors> {
-    (0..count).map(|_| PatchFactors::from_fn(domain, |_| random_factor(random))).collect()
+    (0..count).map(|_| random_patch(domain, random)).collect()
 }

@@ -125,7 +125,8 @@ fn near(factor: f32, ulps: f32) -> Expected {
 /// A number from `low` up to `high`.
 #[expect(clippy::cast_possible_truncation, reason = "it is rounded")]
 pub(crate) fn number(random: &mut SplitMix64, low: f64, high: f64) -> f32 {
-    (low + (high - low) * random.unit()) as f32
+    let part = f64::from(random.below(1 << 24)) / f64::from(1 << 24);
+    (low + (high - low) * part) as f32
 }
 
 /// A point within `size` of 0 along each axis.

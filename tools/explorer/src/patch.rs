@@ -3,7 +3,7 @@
 use crate::{json, marks, thrown};
 use tess_core::{DomainPoint, Patch, Tessellation};
 use tess_verify::Case;
-use tess_verify::show::{Colours, DrawOptions, Drawing, Explanation, Part, draw, fills, has_rings};
+use tess_verify::show::{Colours, DrawOptions, Drawing, Explanation, Part, draw, has_rings};
 use tess_verify::vectors::Listing;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
@@ -161,8 +161,7 @@ impl PatchView {
     /// # Errors
     /// Unknown colours.
     pub fn fills(&self, colours: &str) -> Result<Vec<u8>, JsError> {
-        let fills = fills(&self.listing, self.colours(colours)?);
-        Ok(fills.concat())
+        Ok(self.drawing(colours, false, 64)?.fills.concat())
     }
 
     /// Twice the signed area of each triangle in units of 2^-32: positive as the output primitive

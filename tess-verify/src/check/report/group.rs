@@ -4,7 +4,6 @@ use super::Difference;
 use crate::case::Case;
 use crate::check::compare::Stage;
 use crate::names::Named;
-use std::collections::BTreeMap;
 use std::fmt;
 use tess_core::{Config, Domain};
 
@@ -81,15 +80,6 @@ impl Groups {
                 }
             }
         }
-    }
-
-    /// How many differences point to each stage.
-    pub(super) fn stages(&self) -> BTreeMap<Stage, u64> {
-        let mut stages = BTreeMap::new();
-        for group in &self.0 {
-            *stages.entry(group.stage).or_default() += group.mismatches;
-        }
-        stages
     }
 
     /// The one with the smallest case first.

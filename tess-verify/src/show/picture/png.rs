@@ -1,28 +1,17 @@
 //! A picture as PNG.
 
 use super::{Colour, Picture, Position, Shape};
-use std::fmt;
+use std::io;
 use tiny_skia::{FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, Stroke, Transform};
 
-/// A picture cannot be made.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PngError(String);
-
-impl fmt::Display for PngError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-impl std::error::Error for PngError {}
-
-pub(super) fn render(picture: &Picture) -> Result<Vec<u8>, PngError> {
+pub(super) fn render(picture: &Picture) -> io::Result<Vec<u8>> {
     let size = picture.size;
-    let mut pixels = Pixmap::new(size, size)
-        .ok_or_else(|| PngError(format!("a picture of {size} x {size} pixels cannot be made")))?;
+    let mut pixels = Pixmap::new(size, size).ok_or_else(|| {
+        io::Error::other(format!("a picture of {size} x {size} pixels cannot be made"))
+    })?;
     pixels.fill(tiny_skia::Color::WHITE);
     picture.shapes.iter().for_each(|shape| draw(&mut pixels, shape));
-    pixels.encode_png().map_err(|error| PngError(format!("cannot write PNG: {error}")))
+    pixels.encode_png().map_err(|error| io::Error::other(format!("cannot write PNG: {error}")))
 }
 
 /// Draws a shape; one without any extent leaves no mark.

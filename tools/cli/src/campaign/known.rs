@@ -66,7 +66,7 @@ impl KnownArgs {
         let cases: Result<Vec<Case>, E> = read(path)?.into_iter().collect();
         let cases = cases.map_err(|error| Failure::bad_input(error.to_string()))?;
         let digest = Some(digest_of(&cases));
-        let cases = Arc::new(Known::new(cases));
+        let cases = Arc::new(Known::from_iter(cases));
         let (file, entries) = (Some(path.to_string_lossy().into_owned()), cases.entries() as u64);
         let file = Some(KnownCases { file, digest, entries, ..KnownCases::default() });
         Ok(Baseline { cases, file })

@@ -290,7 +290,7 @@ fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
     if report.mismatches > 0 {
         writeln!(out, "{sides}")?;
     }
-    let turn = report.turn();
+    let turn = report.ways().into_iter().find(|way| !way.is_allowed());
     if let Some(way) = turn {
         writeln!(
             out,
@@ -314,7 +314,7 @@ fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
     if hidden > 0 {
         writeln!(out, "and {hidden} more")?;
     }
-    if let Some(way) = report.freedom() {
+    if let Some(way) = report.ways().into_iter().find(|way| way.is_allowed()) {
         let all = counted(report.mismatches, "difference");
         writeln!(out, "{} would accept all {all}: {}", way.options(), way.words())?;
     }

@@ -48,7 +48,7 @@ pub(super) fn finish(report: &mut Report, found: &check::Report) {
     // The threads of a check take turns in no order.
     report.parts.sort_by(|a, b| a.name.cmp(&b.name));
     report.first = found.differences.first().map(first);
-    report.add_stages(found.stages());
+    report.add_stages(found.groups().iter().map(|group| (group.stage, group.mismatches)));
 }
 
 fn first(difference: &Difference) -> First {

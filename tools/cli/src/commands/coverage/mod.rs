@@ -147,7 +147,7 @@ impl Args {
 
     fn judge(&self, sum: &Coverage, exclusions: &Exclusions) -> Exit {
         let holes = sum.holes(exclusions).count() as u64;
-        let wrong = sum.hit_though_excluded(exclusions).count() as u64;
+        let wrong = (exclusions.bins().count() - exclusions.not_hit(sum).bins().count()) as u64;
         if wrong > 0 {
             note(&format!("{} hit though excluded", counted(wrong, "bin")));
         }

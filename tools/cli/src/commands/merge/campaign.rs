@@ -317,15 +317,16 @@ impl Campaign {
         let mut sum = Coverage::default();
         for Found { place, report } in self.done() {
             let hits = report.coverage.as_deref().unwrap_or_default();
-            let coverage = Coverage::from_hits(hits).ok_or_else(|| {
-                Failure::bad_input(format!(
+            let bins: Vec<String> = sum.bins().map(|(bin, _)| bin.to_owned()).collect();
+            if bins.len() != hits.len() {
+                return Err(Failure::bad_input(format!(
                     "{place}: it has the hits of {} coverage bins, not of {}; run the shards with \
                      --coverage FILE",
                     hits.len(),
-                    sum.bins().count()
-                ))
-            })?;
-            sum.merge(&coverage);
+                    bins.len()
+                )));
+            }
+            bins.iter().zip(hits).for_each(|(bin, &hits)| _ = sum.add(bin, hits));
         }
         Ok(sum)
     }
