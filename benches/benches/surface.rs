@@ -10,14 +10,14 @@ use tess_core::{
 };
 use tess_surface::glam::Vec3;
 use tess_surface::{
-    DisplacedModel, Displacement, HeightMap, Level, Model, Patch, PnCorner, PnTriangle, Sample,
-    Surface, pn, teapot,
+    DisplacedModel, Displacement, HeightMap, Level, Model, PnCorner, PnTriangle, Sample, Surface,
+    SurfacePatch, pn, teapot,
 };
 
 /// The domain points of a patch of these factors.
 fn domain_points(factors: PatchFactors) -> Vec<[f32; 2]> {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-    let patch = tess_core::Patch::new(config, factors).tessellate();
+    let patch = tess_core::SurfacePatch::new(config, factors).tessellate();
     patch.points.iter().map(|point| point.to_f32()).collect()
 }
 
@@ -36,8 +36,8 @@ fn pn_triangle() -> Surface {
 fn surface(criterion: &mut Criterion) {
     let quad = domain_points(QuadFactors::uniform(8.0).into());
     let triangle = domain_points(TriangleFactors::uniform(8.0).into());
-    let bicubic = Patch::new(Surface::Bezier(teapot::patches()[4]));
-    let pn = Patch::new(pn_triangle());
+    let bicubic = SurfacePatch::new(Surface::Bezier(teapot::patches()[4]));
+    let pn = SurfacePatch::new(pn_triangle());
     let model = Model::bezier(teapot::patches()).expect("the teapot is a model");
     let texels = (0..64 * 64_u16).map(|i| f32::from(i % 97) / 97.0).collect();
     let map = HeightMap::new(64, 64, texels).expect("as many texels");

@@ -117,7 +117,7 @@ impl Case {
     /// The digest of what the buffers hold: all points, then all indices.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        let mut digest = Fnv1a::new();
+        let mut digest = Fnv1a::default();
         digest.points(&self.points);
         digest.words(self.indices.iter().copied());
         digest.finish()
@@ -129,7 +129,7 @@ impl Case {
     pub fn expected_digest(&self) -> u64 {
         let patches = &self.workload.patches[self.batch.clone()];
         let patches = || patches.iter().map(|&factors| Patch::new(self.workload.config, factors));
-        let mut digest = Fnv1a::new();
+        let mut digest = Fnv1a::default();
         for patch in patches() {
             digest.points(&patch.points().collect::<Vec<_>>());
         }
