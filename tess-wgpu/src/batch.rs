@@ -27,15 +27,14 @@ pub struct Batch {
 
 impl Batch {
     pub(crate) fn new(
-        pipelines: &mut Pipelines,
+        (pipelines, limits): (&mut Pipelines, Limits),
         setup: Setup,
         patches: Patches<'_>,
         outputs: Outputs<'_>,
     ) -> Result<Self, Error> {
         let Patches { count, groups, factors } = patches;
         limits::check(pipelines.device())?;
-        let plan = plan(setup, count, outputs, pipelines.limits())
-            .with_groups(check_groups(count, groups)?);
+        let plan = plan(setup, count, outputs, limits).with_groups(check_groups(count, groups)?);
         check(&plan, factors, outputs)?;
         let buffers = Buffers::new(pipelines, &plan, setup, patches, outputs)?;
         let dispatches = dispatches(pipelines, setup, &plan, &buffers)?;

@@ -1,6 +1,6 @@
 //! A device, and moving bytes to and from it.
 
-use crate::error::{Error, checked};
+use crate::error::{Error, StageError, checked};
 use crate::open::{self, Wanted};
 use std::fmt;
 use std::future::Future;
@@ -243,6 +243,16 @@ pub(crate) fn poll(device: &wgpu::Device, kind: wgpu::PollType) -> Result<(), Er
             resume_unwind(panic)
         }
     }
+}
+
+/// Records commands. wgpu panics if the encoder is of another instance, which does not know the buffers; one of another
+/// device of the same instance is its error when the encoder is finished.
+pub(crate) fn recorded(device: &wgpu::Device, record: impl FnOnce()) -> Result<(), Error> {
+    if catch_unwind(AssertUnwindSafe(record)).is_ok() {
+        return Ok(());
+    }
+    check_alive(device)?;
+    Err(StageError::OtherDevice.into())
 }
 
 /// An error if the device is lost. wgpu does not say so when it makes objects or takes commands, but

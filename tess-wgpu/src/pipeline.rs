@@ -3,10 +3,15 @@
 use tess_gpu::{Access, Binding, Resource, Stage};
 
 /// The pipeline of a stage's source.
-pub(crate) fn of_stage(device: &wgpu::Device, stage: Stage, source: &str) -> wgpu::ComputePipeline {
+pub(crate) fn of_stage(
+    device: &wgpu::Device,
+    stage: Stage,
+    source: &str,
+    cache: Option<&wgpu::PipelineCache>,
+) -> wgpu::ComputePipeline {
     let label = Some(stage.entry_point());
     let entries: Vec<_> = entries(stage.bindings()).collect();
-    compute_pipeline(device, label, source, &entries)
+    compute_pipeline(device, label, source, &entries, cache)
 }
 
 /// The pipeline of a tap's source: it binds the input, the output and the tables.
@@ -15,7 +20,7 @@ pub(crate) fn of_tap(device: &wgpu::Device, source: &str) -> wgpu::ComputePipeli
     let accesses = [Access::Read, Access::ReadWrite, Access::Read];
     let bindings = accesses.map(|access| Binding(Resource::Tables, access));
     let entries: Vec<_> = entries(&bindings).collect();
-    compute_pipeline(device, Some("taps"), source, &entries)
+    compute_pipeline(device, Some("taps"), source, &entries, None)
 }
 
 fn compute_pipeline(
@@ -23,6 +28,7 @@ fn compute_pipeline(
     label: Option<&str>,
     source: &str,
     entries: &[wgpu::BindGroupLayoutEntry],
+    cache: Option<&wgpu::PipelineCache>,
 ) -> wgpu::ComputePipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label,
@@ -45,7 +51,7 @@ fn compute_pipeline(
             zero_initialize_workgroup_memory: false,
             ..Default::default()
         },
-        cache: None,
+        cache,
     })
 }
 

@@ -4,54 +4,96 @@ use crate::error::{Error, checked};
 use crate::{gpu, limits, pipeline};
 use std::collections::HashMap;
 use std::fmt;
+use std::sync::{Arc, Weak};
 use tess_core::SplitOrder;
 #[cfg(feature = "measure")]
 use tess_gpu::Tap;
-use tess_gpu::{Limits, Setup, Stage, tables};
+use tess_gpu::{Setup, Stage, tables};
 
 /// What changes a shader's source before it is compiled.
 pub(crate) type Edit = Box<dyn Fn(Stage, String) -> String + Send + Sync>;
 
-/// Pipelines by stage and by the part of the setup that the stage depends on; those of taps; tables by split order.
+/// Pipelines by stage and by the part of the setup that the stage depends on; those of taps; tables by split order;
+/// and what tessellation stages share.
 pub(crate) struct Pipelines {
     device: wgpu::Device,
-    limits: Limits,
+    /// wgpu's, for pipelines to come.
+    pub(crate) cache: Option<wgpu::PipelineCache>,
     edit: Option<Edit>,
     pipelines: HashMap<(Stage, Setup), wgpu::ComputePipeline>,
     #[cfg(feature = "measure")]
     taps: HashMap<(Tap, Setup), wgpu::ComputePipeline>,
     tables: HashMap<SplitOrder, wgpu::Buffer>,
+    layouts: HashMap<Vec<wgpu::BindGroupLayoutEntry>, wgpu::BindGroupLayout>,
+    pub(crate) passes: Shared<wgpu::ComputePipeline>,
+    pub(crate) draws: Shared<wgpu::RenderPipeline>,
+}
+
+/// All that a pipeline of tessellation stages depends on.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct PipelineKey {
+    /// What the entry points reach of the WGSL, and the render state.
+    pub(crate) text: String,
+    pub(crate) entry_point: &'static str,
+    pub(crate) layouts: Vec<wgpu::BindGroupLayout>,
+    /// Names of pipeline constants, and the bits of their values.
+    pub(crate) constants: Vec<(String, u64)>,
+}
+
+/// Pipelines that live as long as a stage has them.
+pub(crate) struct Shared<P>(HashMap<PipelineKey, Weak<P>>);
+
+impl<P> Shared<P> {
+    pub(crate) fn find(&self, key: &PipelineKey) -> Option<Arc<P>> {
+        self.0.get(key).and_then(Weak::upgrade)
+    }
+
+    pub(crate) fn keep(&mut self, key: PipelineKey, made: P) -> Arc<P> {
+        let made = Arc::new(made);
+        self.0.retain(|_, one| one.strong_count() > 0);
+        self.0.insert(key, Arc::downgrade(&made));
+        made
+    }
 }
 
 impl Pipelines {
     /// None yet.
     pub(crate) fn new(device: &wgpu::Device, edit: Option<Edit>) -> Self {
-        let limits = Limits {
-            storage_binding: device.limits().max_storage_buffer_binding_size,
-            workgroups: device.limits().max_compute_workgroups_per_dimension,
-        };
         Self {
             device: device.clone(),
-            limits,
+            cache: None,
             edit,
             pipelines: HashMap::new(),
             #[cfg(feature = "measure")]
             taps: HashMap::new(),
             tables: HashMap::new(),
+            layouts: HashMap::new(),
+            passes: Shared(HashMap::new()),
+            draws: Shared(HashMap::new()),
         }
-    }
-
-    /// Keeps to these limits instead of the device's.
-    pub(crate) const fn limit(&mut self, limits: Limits) {
-        self.limits = limits;
-    }
-
-    pub(crate) const fn limits(&self) -> Limits {
-        self.limits
     }
 
     pub(crate) const fn device(&self) -> &wgpu::Device {
         &self.device
+    }
+
+    /// The layout of these entries, made when it is first asked for.
+    pub(crate) fn layout(
+        &mut self,
+        label: &str,
+        entries: Vec<wgpu::BindGroupLayoutEntry>,
+    ) -> Result<wgpu::BindGroupLayout, Error> {
+        if let Some(layout) = self.layouts.get(&entries) {
+            return Ok(layout.clone());
+        }
+        let layout = checked(&self.device, || {
+            self.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                label: Some(label),
+                entries: &entries,
+            })
+        })?;
+        self.layouts.insert(entries, layout.clone());
+        Ok(layout)
     }
 
     /// The pipeline of a stage, made when it is first asked for.
@@ -68,7 +110,9 @@ impl Pipelines {
         if let Some(edit) = &self.edit {
             source = edit(stage, source);
         }
-        let pipeline = checked(&self.device, || pipeline::of_stage(&self.device, stage, &source))?;
+        let pipeline = checked(&self.device, || {
+            pipeline::of_stage(&self.device, stage, &source, self.cache.as_ref())
+        })?;
         self.pipelines.insert(key, pipeline.clone());
         Ok(pipeline)
     }
@@ -107,10 +151,9 @@ impl Pipelines {
 
 impl fmt::Debug for Pipelines {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { device, limits, pipelines, tables, .. } = self;
+        let Self { device, pipelines, tables, .. } = self;
         let mut all = f.debug_struct("Pipelines");
-        all.field("device", device).field("limits", limits);
-        all.field("pipelines", pipelines).field("tables", tables);
+        all.field("device", device).field("pipelines", pipelines).field("tables", tables);
         all.finish_non_exhaustive()
     }
 }

@@ -26,8 +26,8 @@ use feedback::Feedbacks;
 use fit::Fit;
 use origin::Origin;
 use output::Output;
-use room::Form;
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use room::{Form, Lull};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tess_core::{Config, Domain, PatchFactors};
 use tess_gpu::Capacity;
 use tess_gpu::layout::factor_words;
@@ -60,8 +60,9 @@ pub struct TessellationStage {
     tessellator: Tessellator,
     form: Form,
     room: Room,
+    lull: Lull,
     groups: Vec<u32>,
-    bind_groups: Vec<wgpu::BindGroup>,
+    bind_groups: Vec<UserGroup>,
     /// The raw factors of the frame, as the batch reads them.
     factors: wgpu::Buffer,
     /// The number of patches of the frame.
@@ -70,13 +71,16 @@ pub struct TessellationStage {
     fit: Option<Fit>,
     pulled: Option<wgpu::BindGroupLayout>,
     /// None if the caller draws with its own.
-    pipeline: Option<wgpu::RenderPipeline>,
+    pipeline: Option<Arc<wgpu::RenderPipeline>>,
     output: Output,
     /// Other groups and their output, from the next frame on.
     next: Option<(Vec<u32>, Output)>,
     feedback: Mutex<Feedbacks>,
     frame: u64,
 }
+
+/// A bind group of the user's, and its dynamic offsets.
+type UserGroup = (wgpu::BindGroup, Vec<wgpu::DynamicOffset>);
 
 /// The buffers of a frame, for an engine that records its own draws. Draws are indexed, with indices of 32 bits.
 /// Primitives are triangles unless the configuration's output says otherwise.
@@ -110,6 +114,9 @@ impl TessellationStage {
 
     /// Draws all patches of the last frame that was prepared. A stage without a pipeline draws with the pass's pipeline
     /// and bind groups, which must be set.
+    ///
+    /// A render bundle would keep buffers that [`Self::prepare`] may replace, so there is no call that draws in one.
+    /// Record your own with [`Self::buffers`], anew whenever [`Self::capacity`] changes.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>) {
         self.draw_as(pass, None);
     }
@@ -130,8 +137,8 @@ impl TessellationStage {
         let mut number = 0;
         if let Some(pipeline) = &self.pipeline {
             pass.set_pipeline(pipeline);
-            for own in &self.bind_groups {
-                pass.set_bind_group(number, own, &[]);
+            for (own, offsets) in &self.bind_groups {
+                pass.set_bind_group(number, own, offsets);
                 number += 1;
             }
         }
@@ -168,24 +175,39 @@ impl TessellationStage {
 
     /// Replaces one of the user's bind groups, by its number, from the next call of `prepare` or `draw` on.
     ///
-    /// A group of another layout than the builder got, or with dynamic offsets, which the stage does not set, is an error
-    /// of wgpu's when the frame's encoder is finished. It names the group's number and the binding.
+    /// A group of another layout than the builder got is an error of wgpu's when the frame's encoder is finished. It
+    /// names the group's number and the binding.
     ///
     /// # Errors
     /// [`StageError::NoSuchBindGroup`]. The bind groups are then what they were.
     pub fn set_bind_group(&mut self, number: u32, group: &wgpu::BindGroup) -> Result<(), Error> {
+        self.user_group(number)?.0.clone_from(group);
+        Ok(())
+    }
+
+    /// The dynamic offsets of one of the user's bind groups, in bytes and in the order of its bindings, from the next
+    /// call of `prepare` or `draw` on. At first there are none. Too many or too few are an error of wgpu's when the
+    /// frame's encoder is finished.
+    ///
+    /// # Errors
+    /// [`StageError::NoSuchBindGroup`]. The offsets are then what they were.
+    pub fn set_dynamic_offsets(&mut self, number: u32, offsets: &[u32]) -> Result<(), Error> {
+        self.user_group(number)?.1 = offsets.to_vec();
+        Ok(())
+    }
+
+    fn user_group(&mut self, number: u32) -> Result<&mut UserGroup, Error> {
         let groups = self.bind_groups.len();
         let own = self.bind_groups.get_mut(number as usize);
-        *own.ok_or(StageError::NoSuchBindGroup { number, groups })? = group.clone();
-        Ok(())
+        Ok(own.ok_or(StageError::NoSuchBindGroup { number, groups })?)
     }
 
     /// Records new factors from the host for the first `patches.len()` patches. Patches that never had
     /// factors are culled.
     ///
     /// # Errors
-    /// [`StageError::NotHostFactors`], [`StageError::TooManyPatches`], [`Error::WrongDomain`]; and
-    /// [`Error::OutOfMemory`].
+    /// [`StageError::NotHostFactors`], [`StageError::TooManyPatches`], [`StageError::OtherDevice`],
+    /// [`Error::WrongDomain`], [`Error::OutOfMemory`].
     pub fn set_factors(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -203,8 +225,9 @@ impl TessellationStage {
             return Ok(());
         }
         let staging = gpu::filled(&self.device, "new factors", bytes, Usage::COPY_SRC)?;
-        encoder.copy_buffer_to_buffer(&staging, 0, host, 0, bytes.len() as u64);
-        Ok(())
+        gpu::recorded(&self.device, || {
+            encoder.copy_buffer_to_buffer(&staging, 0, host, 0, bytes.len() as u64);
+        })
     }
 
     /// What the latest frame needed whose numbers have arrived; `None` at first. Numbers arrive a frame or two after
@@ -237,6 +260,12 @@ impl TessellationStage {
     pub const fn inside(&self) -> (&crate::Batch, [Option<&wgpu::Buffer>; 2]) {
         let Output { batch, stored, .. } = &self.output;
         (batch, [stored.points.as_ref(), stored.indices.as_ref()])
+    }
+
+    /// Gives room back after so many frames that use little of it.
+    #[cfg(feature = "measure")]
+    pub const fn shrink_after(&mut self, frames: u64) {
+        self.lull.patience = frames;
     }
 
     /// A user's WGSL with the stage's types and helpers, and `own` behind it.

@@ -28,9 +28,9 @@ impl Tessellator {
         let buffers = [
             gpu.upload("input", bytemuck::cast_slice(input), Usage::STORAGE)?,
             output.clone(),
-            self.pipelines.tables(setup.config.split)?,
+            self.pipelines().tables(setup.config.split)?,
         ];
-        let pipeline = self.pipelines.tap(tap, setup)?;
+        let pipeline = self.pipelines().tap(tap, setup)?;
         let entries: Vec<_> = (0..)
             .zip(&buffers)
             .map(|(binding, buffer)| wgpu::BindGroupEntry {
@@ -45,7 +45,7 @@ impl Tessellator {
                 entries: &entries,
             })
         })?;
-        let most = self.pipelines.limits().workgroups;
+        let most = self.limits().workgroups;
         // A buffer of more input would be too large.
         let workgroups = u32::try_from(count.div_ceil(u64::from(WORKGROUP))).unwrap_or(u32::MAX);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());

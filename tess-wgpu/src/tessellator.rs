@@ -3,15 +3,22 @@
 use crate::Batch;
 use crate::error::Error;
 use crate::outputs::{Outputs, Patches};
-use crate::pipelines::Pipelines;
+use crate::pipelines::{Edit, Pipelines};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 #[cfg(feature = "measure")]
 use tess_gpu::Stage;
 use tess_gpu::{Limits, Setup};
 
 /// Makes batches for one device, and keeps the pipelines and tables that they share.
-#[derive(Debug)]
+///
+/// A clone shares them too, so that nothing is compiled twice: for [`StageBuilder::tessellator`], or another thread.
+///
+/// [`StageBuilder::tessellator`]: crate::stage::StageBuilder::tessellator
+#[derive(Clone, Debug)]
 pub struct Tessellator {
-    pub(crate) pipelines: Pipelines,
+    device: wgpu::Device,
+    shared: Arc<Mutex<Pipelines>>,
+    limits: Limits,
 }
 
 impl Tessellator {
@@ -20,7 +27,39 @@ impl Tessellator {
     /// Nothing is compiled yet: a [`Batch`] makes the pipelines that are missing.
     #[must_use]
     pub fn new(device: &wgpu::Device) -> Self {
-        Self { pipelines: Pipelines::new(device, None) }
+        Self::of(device, None)
+    }
+
+    fn of(device: &wgpu::Device, edit: Option<Edit>) -> Self {
+        let limits = device.limits();
+        let limits = Limits {
+            storage_binding: limits.max_storage_buffer_binding_size,
+            workgroups: limits.max_compute_workgroups_per_dimension,
+        };
+        let shared = Arc::new(Mutex::new(Pipelines::new(device, edit)));
+        Self { device: device.clone(), shared, limits }
+    }
+
+    /// The same; pipelines that are made from now on, also by clones and stages, go through wgpu's cache, which a program
+    /// can keep in a file.
+    #[must_use]
+    pub fn with_pipeline_cache(self, cache: &wgpu::PipelineCache) -> Self {
+        self.pipelines().cache = Some(cache.clone());
+        self
+    }
+
+    pub(crate) const fn device(&self) -> &wgpu::Device {
+        &self.device
+    }
+
+    /// What clones share.
+    pub(crate) fn pipelines(&self) -> MutexGuard<'_, Pipelines> {
+        self.shared.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    #[cfg(feature = "measure")]
+    pub(crate) const fn limits(&self) -> Limits {
+        self.limits
     }
 
     /// The same, with every shader edited before it is compiled: for tests that plant faults and
@@ -31,13 +70,13 @@ impl Tessellator {
         device: &wgpu::Device,
         edit: impl Fn(Stage, String) -> String + Send + Sync + 'static,
     ) -> Self {
-        Self { pipelines: Pipelines::new(device, Some(Box::new(edit))) }
+        Self::of(device, Some(Box::new(edit)))
     }
 
     /// The same, keeping to these limits instead of the device's, which are higher.
     #[must_use]
     pub const fn limited(mut self, limits: Limits) -> Self {
-        self.pipelines.limit(limits);
+        self.limits = limits;
         self
     }
 
@@ -77,6 +116,7 @@ impl Tessellator {
         factors: &wgpu::Buffer,
         outputs: Outputs<'_>,
     ) -> Result<Batch, Error> {
-        Batch::new(&mut self.pipelines, setup, Patches { count: patches, groups, factors }, outputs)
+        let patches = Patches { count: patches, groups, factors };
+        Batch::new((&mut self.pipelines(), self.limits), setup, patches, outputs)
     }
 }

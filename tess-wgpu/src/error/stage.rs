@@ -43,6 +43,15 @@ pub enum StageError {
         /// The functions with the attribute `@fragment`.
         found: Vec<String>,
     },
+    /// The user's WGSL declares no pipeline constant (`override`) of this name.
+    NoSuchConstant {
+        /// The name that [`StageBuilder::constants`](crate::stage::StageBuilder::constants) got.
+        name: String,
+        /// Names that the WGSL declares.
+        found: Vec<String>,
+    },
+    /// The tessellator or the encoder belongs to another device than the stage. Make it with the stage's device.
+    OtherDevice,
     /// A member of `Vertex` is `@interpolate(flat)`, which takes the value of a primitive's first vertex, and OpenGL
     /// takes the last vertex's. Write `@interpolate(flat, either)` if a primitive's vertices share the value,
     /// for example a value of their patch; otherwise draw with Vulkan, Metal or Direct3D.
@@ -109,6 +118,14 @@ impl fmt::Display for StageError {
             Self::Wgsl { line: None, message } => {
                 write!(f, "your WGSL does not go with the stage ({message}); {}", Self::NEEDED)
             }
+            Self::NoSuchConstant { name, found } => write!(
+                f,
+                "your WGSL declares no `override {name}`; it declares {}",
+                if found.is_empty() { "none".to_owned() } else { found.join(", ") }
+            ),
+            Self::OtherDevice => f.write_str(
+                "the tessellator or the encoder belongs to another device; make it with the stage's device",
+            ),
             Self::UnclearFragment { asked, found } => unclear(f, asked.as_deref(), found),
             Self::FlatOfFirstVertex { member } => write!(
                 f,

@@ -3,6 +3,8 @@
 use super::choices::{Factors, Overflow, Points, Room};
 use super::room::Form;
 use super::source;
+use super::wgsl::Declaration;
+use crate::Tessellator;
 use tess_core::{Config, Domain};
 use tess_gpu::{Order, Setup};
 
@@ -26,6 +28,8 @@ pub struct StageBuilder<'a> {
     pub(super) render: Render<'a>,
     /// Whether the stage makes the render pipeline; if not, the caller does.
     pub(super) makes_pipeline: bool,
+    pub(super) constants: &'a [(&'a str, f64)],
+    pub(super) tessellator: Option<&'a Tessellator>,
 }
 
 /// The state of the render pipeline that is the user's.
@@ -76,16 +80,37 @@ impl<'a> StageBuilder<'a> {
                 },
             },
             makes_pipeline: true,
+            constants: &[],
+            tessellator: None,
         }
     }
 
     /// The user's next bind group: the first call is `@group(0)`, the second `@group(1)`, and so on. The device's limit
     /// is 4 by default, and the stage takes one of them. The layout is visible to the stages that use
-    /// it: `COMPUTE` for `hull`, `VERTEX` for `domain`. It has no dynamic offsets. wgpu looks at the group when a frame's
+    /// it: `COMPUTE` for `hull`, `VERTEX` for `domain`. Dynamic offsets are set with
+    /// [`set_dynamic_offsets`](super::TessellationStage::set_dynamic_offsets). wgpu looks at the group when a frame's
     /// encoder is finished: see [`set_bind_group`](super::TessellationStage::set_bind_group).
     pub fn bind_group(mut self, layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup) -> Self {
         self.layouts.push(layout.clone());
         self.bind_groups.push(group.clone());
+        self
+    }
+
+    /// Shares pipelines with other stages: those that were made with the same tessellator, or with clones of it. The
+    /// tessellation's own depend on domain, configuration and order, `hull`'s on what it reaches of the WGSL, the render
+    /// pipeline on all of the WGSL and the state. So a stage for another material makes one pipeline.
+    /// [`Tessellator::with_pipeline_cache`] gives them a cache of wgpu's.
+    ///
+    /// wgpu has no call that makes pipelines without waiting. Where a frame must not wait, build stages on another
+    /// thread: a stage, its builder and a tessellator are `Send`.
+    pub const fn tessellator(mut self, shared: &'a Tessellator) -> Self {
+        self.tessellator = Some(shared);
+        self
+    }
+
+    /// Values of constants that the WGSL declares with `override`, by name.
+    pub const fn constants(mut self, values: &'a [(&'a str, f64)]) -> Self {
+        self.constants = values;
         self
     }
 
@@ -186,6 +211,15 @@ impl<'a> StageBuilder<'a> {
         let without_indices = self.points == Points::PullWithoutIndices;
         let default = if without_indices { Order::Specification } else { Order::VertexCache };
         Setup { order: self.order.unwrap_or(default), ..Setup::new(self.domain, self.config) }
+    }
+
+    /// The pipeline constants: a constant with the attribute `@id` goes by its number.
+    pub(super) fn constants_of(&self, declared: &[Declaration<'_>]) -> Vec<(String, u64)> {
+        let key = |name: &str| {
+            let declared = declared.iter().find(|one| one.name == name);
+            declared.and_then(|one| one.attribute("id")).unwrap_or(name).to_owned()
+        };
+        self.constants.iter().map(|&(name, value)| (key(name), value.to_bits())).collect()
     }
 
     /// The number of the stage's own bind group: the one behind the user's.

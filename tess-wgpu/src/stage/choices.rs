@@ -44,9 +44,10 @@ pub enum Room {
     Bytes(u64),
     /// Exactly this.
     Exactly(Capacity),
-    /// Enough for all patches at factor 4 at first. When a frame needs more, a later one has it: the stage learns
-    /// what was needed without waiting and makes larger buffers. Room never shrinks, and once the budget
-    /// is used it stays as it is.
+    /// Enough for all patches at factor 4 at first. When a frame needs more than 7/8 of it, a later one has twice as
+    /// much or more: the stage learns what was needed without waiting and makes larger buffers, within the budget.
+    /// Output that rises by up to 4 % a frame therefore always fits. Room of which 1024 frames use a fifth or less
+    /// shrinks.
     ///
     /// The first frames can therefore be coarser than asked for, or empty, as [`Overflow`] says. For a picture that
     /// is drawn once, call [`TessellationStage::make_room`](super::TessellationStage::make_room) first,

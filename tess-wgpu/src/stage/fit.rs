@@ -54,7 +54,9 @@
 
 use super::passes;
 use crate::error::Error;
-use crate::gpu;
+use crate::pipelines::PipelineKey;
+use crate::{Tessellator, gpu};
+use std::sync::Arc;
 use tess_gpu::{Access, Capacity, Counting, Setup};
 use wgpu::BufferUsages as Usage;
 
@@ -98,19 +100,20 @@ pub(crate) struct Fit {
     bound: wgpu::BindGroup,
     decided: wgpu::BindGroup,
     workgroups: [u32; 2],
-    count_whole: wgpu::ComputePipeline,
-    decide: wgpu::ComputePipeline,
-    if_too_much: [wgpu::ComputePipeline; 3],
+    count_whole: Arc<wgpu::ComputePipeline>,
+    decide: Arc<wgpu::ComputePipeline>,
+    if_too_much: [Arc<wgpu::ComputePipeline>; 3],
 }
 
 impl Fit {
     pub(crate) fn new(
-        device: &wgpu::Device,
+        tessellator: &Tessellator,
         setup: Setup,
         patches: u32,
         factors: &wgpu::Buffer,
         room: Capacity,
     ) -> Result<Self, Error> {
+        let device = tessellator.device();
         let workgroups = passes::workgroups(device, patches);
         let mut words = vec![room.points, room.primitives, workgroups[0], workgroups[1]];
         words.extend(ladder().into_iter().map(f32::to_bits));
@@ -126,19 +129,15 @@ impl Fit {
         let arguments = gpu::empty(device, "fit arguments", 12, usage)?;
         let buffers =
             [(factors, Access::ReadWrite), (&state, Access::ReadWrite), (&terms, Access::Read)];
-        let (layout, bound) = passes::bind(device, "fit", &buffers)?;
+        let (layout, bound) = passes::bind(tessellator, "fit", &buffers)?;
         let (layout_of_decided, decided) =
-            passes::bind(device, "fit arguments", &[(&arguments, Access::ReadWrite)])?;
-        let module = passes::module(device, "fit", source(setup))?;
-        let pipeline = |entry_point| passes::pipeline(device, &module, entry_point, &[&layout]);
+            passes::bind(tessellator, "fit arguments", &[(&arguments, Access::ReadWrite)])?;
+        let [count_whole, decide, coarse, fine, scale] =
+            pipelines(tessellator, setup, layout, layout_of_decided)?;
         Ok(Self {
-            count_whole: pipeline("count_whole")?,
-            decide: passes::pipeline(device, &module, "decide", &[&layout, &layout_of_decided])?,
-            if_too_much: [
-                pipeline("count_coarse")?,
-                pipeline("count_fine")?,
-                pipeline("scale_factors")?,
-            ],
+            count_whole,
+            decide,
+            if_too_much: [coarse, fine, scale],
             state,
             arguments,
             terms,
@@ -180,6 +179,35 @@ impl Fit {
     pub(crate) const fn state(&self) -> &wgpu::Buffer {
         &self.state
     }
+}
+
+/// The pipelines of the passes, in order.
+fn pipelines(
+    tessellator: &Tessellator,
+    setup: Setup,
+    layout: wgpu::BindGroupLayout,
+    of_decided: wgpu::BindGroupLayout,
+) -> Result<[Arc<wgpu::ComputePipeline>; 5], Error> {
+    let text = source(setup);
+    let mut module = None;
+    let mut pipeline = |entry_point, layouts| {
+        let key = PipelineKey { text: text.clone(), entry_point, layouts, constants: Vec::new() };
+        passes::pipeline(tessellator, key, || match &module {
+            Some(made) => Ok(wgpu::ShaderModule::clone(made)),
+            None => {
+                let made = passes::module(tessellator.device(), "fit", text.clone())?;
+                Ok(module.insert(made).clone())
+            }
+        })
+    };
+    let one = vec![layout.clone()];
+    Ok([
+        pipeline("count_whole", one.clone())?,
+        pipeline("decide", vec![layout, of_decided])?,
+        pipeline("count_coarse", one.clone())?,
+        pipeline("count_fine", one.clone())?,
+        pipeline("scale_factors", one)?,
+    ])
 }
 
 /// Bytes of the room in `Terms` of fit.wgsl.

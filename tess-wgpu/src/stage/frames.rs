@@ -1,4 +1,4 @@
-//! Recording frames, and growing between them.
+//! Recording frames, and other room between them.
 
 use super::feedback::{self, Feedback};
 use super::output::{Output, Stored};
@@ -13,10 +13,12 @@ impl TessellationStage {
     /// stage, with the same encoder or with one that is submitted earlier. The passes' time depends on what
     /// is drawn and, a little, on the most patches that the stage was made for.
     ///
-    /// The encoder may be dropped instead of submitted; later frames do not depend on it.
+    /// The encoder may be dropped instead of submitted; later frames do not depend on it. It is of the stage's device:
+    /// one of another device is refused here if it is also of another instance, and otherwise when it is finished.
     ///
     /// # Errors
     /// [`StageError::TooManyPatches`] or [`StageError::BadPatchCount`] for this number of patches;
+    /// [`StageError::OtherDevice`];
     /// [`Error::OutOfMemory`] or [`Error::DeviceLost`]. Nothing is recorded then, and what was prepared last can still
     /// be drawn.
     pub fn prepare<'a>(
@@ -39,16 +41,18 @@ impl TessellationStage {
             self.groups = groups;
             self.output = output;
         }
-        self.grow()?;
-        encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
-        self.origin.encode(encoder, &self.bind_groups);
-        if let Some(fit) = &self.fit {
-            fit.encode(encoder);
-        }
-        let batch = &self.output.batch;
-        batch.encode(encoder);
-        let of = (batch, self.fit.as_ref());
-        locked(&self.feedback).record(encoder, of, self.frame);
+        self.adapt()?;
+        gpu::recorded(&self.device, || {
+            encoder.copy_buffer_to_buffer(&count, offset, &self.count, 0, 4);
+            self.origin.encode(encoder, &self.bind_groups);
+            if let Some(fit) = &self.fit {
+                fit.encode(encoder);
+            }
+            let batch = &self.output.batch;
+            batch.encode(encoder);
+            let of = (batch, self.fit.as_ref());
+            locked(&self.feedback).record(encoder, of, self.frame);
+        })?;
         self.frame += 1;
         Ok(())
     }
@@ -98,7 +102,7 @@ impl TessellationStage {
         let of = (&self.output.batch, self.fit.as_ref());
         let found = feedback::wait(gpu, of, frame).await?;
         locked(&self.feedback).arrived(Some(found));
-        self.grow()?;
+        self.adapt()?;
         Ok(found)
     }
 
@@ -114,14 +118,15 @@ impl TessellationStage {
         Output::new(&mut self.tessellator, self.form, (room, stored), of_batch, pulled)
     }
 
-    /// Makes more room if a frame needed it and the stage may.
-    fn grow(&mut self) -> Result<(), Error> {
+    /// Makes more room if a frame needed nearly all of it and the stage may, or gives back what many did not need.
+    fn adapt(&mut self) -> Result<(), Error> {
         let last = locked(&self.feedback).last();
-        let Some(Feedback { points, primitives, .. }) = last else { return Ok(()) };
-        let needed = [points, primitives];
-        let Some(room) = self.form.grown(self.room, self.output.room, needed) else {
-            return Ok(());
-        };
+        let Some(Feedback { frame, points, primitives, .. }) = last else { return Ok(()) };
+        let (form, room, now, needed) =
+            (self.form, self.room, self.output.room, [points, primitives]);
+        let grown = form.grown(room, now, needed);
+        let changed = grown.or_else(|| self.lull.shrunk((form, room, now), (frame, needed)));
+        let Some(room) = changed else { return Ok(()) };
         match self.make_output(room) {
             Ok(()) => Ok(()),
             // What there is still serves; asking again each frame would not help.

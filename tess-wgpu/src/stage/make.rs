@@ -3,11 +3,16 @@
 use super::builder::{Render, StageBuilder};
 use super::choices::{Factors, Overflow, Points};
 use super::output::{Output, Stored};
-use super::{Fit, Origin, StageError, TessellationStage, gl, modules, origin, source, wgsl};
+use super::room::Lull;
+use super::wgsl::Declaration;
+use super::{Fit, Origin, StageError, TessellationStage};
+use super::{gl, modules, origin, passes, source, wgsl};
 use crate::error::{Error, checked};
+use crate::pipelines::PipelineKey;
 use crate::{Tessellator, gpu, limits, pipeline};
 use std::future::Future;
 use std::pin::pin;
+use std::sync::Arc;
 use std::task::{Context, Poll, Waker};
 use tess_gpu::{Access, Binding, Pull, Setup};
 use wgpu::BufferUsages as Usage;
@@ -19,6 +24,8 @@ impl StageBuilder<'_> {
     /// - For the user's WGSL: [`StageError::Wgsl`], [`StageError::UnclearFragment`], and on OpenGL
     ///   [`StageError::FlatOfFirstVertex`].
     /// - For bind groups: [`StageError::TooManyBindGroups`].
+    /// - For pipeline constants: [`StageError::NoSuchConstant`].
+    /// - For a tessellator of another device: [`StageError::OtherDevice`].
     /// - If the device does not allow this many patches: [`Error::TooManyPatches`], [`StageError::TooManyFactors`],
     ///   [`Error::TooManyToPull`], [`Error::BufferTooLarge`], [`Error::OutOfMemory`].
     /// - If the device allows no stage at all: [`Error::LimitTooLow`].
@@ -57,20 +64,24 @@ async fn stage(
     let StageBuilder { patches, points, room, overflow, .. } = builder;
     let form = builder.form(device);
     let setup = form.setup;
-    let mut tessellator = Tessellator::new(device);
+    let mut tessellator = match builder.tessellator {
+        Some(shared) if shared.device() == device => shared.clone(),
+        Some(_) => return Err(StageError::OtherDevice.into()),
+        None => Tessellator::new(device),
+    };
     let usage = Usage::STORAGE | Usage::COPY_DST;
     let size = form.factor_bytes();
     let factors = gpu::empty(device, "factors of the stage", size, usage | Usage::COPY_SRC)?;
     let count = gpu::empty(device, "number of patches", 4, usage)?;
-    let origin = Origin::new(&builder, form, device, [&factors, &count]).await?;
-    let pulled = pulled_layout(device, setup, points)?;
+    let origin = Origin::new(&builder, (form, &tessellator), [&factors, &count]).await?;
+    let pulled = pulled_layout(&tessellator, setup, points)?;
     let pipeline = match builder.makes_pipeline {
-        true => Some(render_pipeline(&builder, device, pulled.as_ref()).await?),
+        true => Some(render_pipeline(&builder, &tessellator, pulled.as_ref()).await?),
         false => None,
     };
     let capacity = form.initial(room);
     let fit = (overflow == Overflow::Coarser)
-        .then(|| Fit::new(device, setup, patches, &factors, capacity))
+        .then(|| Fit::new(&tessellator, setup, patches, &factors, capacity))
         .transpose()?;
     let output = Output::new(
         &mut tessellator,
@@ -84,8 +95,9 @@ async fn stage(
         tessellator,
         form,
         room,
+        lull: Lull::NEW,
         groups: builder.groups,
-        bind_groups: builder.bind_groups,
+        bind_groups: builder.bind_groups.into_iter().map(|group| (group, Vec::new())).collect(),
         factors,
         count,
         origin,
@@ -121,63 +133,134 @@ fn check(builder: &StageBuilder<'_>, device: &wgpu::Device) -> Result<(), Error>
         origin::check(given, needed)?;
     }
     source::check_names(builder.source, builder.setup(), builder.points)?;
-    if builder.makes_pipeline { check_fragment(builder) } else { Ok(()) }
+    let declared = wgsl::declarations(builder.source);
+    let mut entries = if matches!(builder.factors, Factors::Hull) { vec!["hull"] } else { vec![] };
+    if builder.makes_pipeline {
+        entries.push("domain");
+        entries.extend(check_fragment(builder, &declared)?);
+    }
+    check_groups(&wgsl::reached(&declared, &entries), builder.own_group())?;
+    check_constants(&declared, builder.constants)
 }
 
-/// Refuses a fragment shader that is not there, or one of several that is not named.
-fn check_fragment(builder: &StageBuilder<'_>) -> Result<(), Error> {
+/// Refuses a binding in a group that the builder did not get.
+fn check_groups(reached: &[Declaration<'_>], groups: u32) -> Result<(), Error> {
+    // Ways to write it that are no number are left to wgpu.
+    let is_there = |one: &Declaration<'_>| {
+        let group = one
+            .attribute("group")
+            .and_then(|group| group.trim_end_matches(['i', 'u']).parse::<u32>().ok());
+        group.is_none_or(|group| group < groups)
+    };
+    match reached.iter().find(|one| !is_there(one)) {
+        None => Ok(()),
+        Some(one) => Err(StageError::Wgsl {
+            line: Some(one.line),
+            message: format!(
+                "`{}` is in a bind group that the builder did not get: it got {groups}, numbered from 0; call \
+                 `bind_group` for each, in order",
+                one.name
+            ),
+        }
+        .into()),
+    }
+}
+
+/// Refuses a pipeline constant that is not there, and one without a value.
+fn check_constants(declared: &[Declaration<'_>], given: &[(&str, f64)]) -> Result<(), Error> {
+    let overrides: Vec<_> = declared.iter().filter(|one| one.keyword == "override").collect();
+    let is_given = |name: &str| given.iter().any(|one| one.0 == name);
+    for &(name, _) in given {
+        if !overrides.iter().any(|one| one.name == name) {
+            let found = overrides.iter().map(|one| one.name.to_owned()).collect();
+            return Err(StageError::NoSuchConstant { name: name.to_owned(), found }.into());
+        }
+    }
+    match overrides.iter().find(|one| one.has_no_value() && !is_given(one.name)) {
+        None => Ok(()),
+        Some(Declaration { name, line, .. }) => Err(StageError::Wgsl {
+            line: Some(*line),
+            message: format!("`{name}` has no value; give one with `constants`"),
+        }
+        .into()),
+    }
+}
+
+/// The fragment shader, if there are targets. Refuses one that is not there, or several of which none is named.
+fn check_fragment<'a>(
+    builder: &StageBuilder<'_>,
+    declared: &[Declaration<'a>],
+) -> Result<Option<&'a str>, Error> {
     let Render { fragment, targets, .. } = &builder.render;
     if targets.is_empty() {
-        return Ok(());
+        return Ok(None);
     }
-    let declared = wgsl::declarations(builder.source).into_iter();
-    let found: Vec<_> = declared.filter(|one| one.is_fragment).map(|one| one.name).collect();
-    let is_clear = match fragment {
-        Some(name) => found.contains(name),
-        None => found.len() == 1,
+    let found: Vec<_> = declared.iter().filter(|one| one.is_fragment).map(|one| one.name).collect();
+    let chosen = match (fragment, &found[..]) {
+        (Some(name), _) => found.iter().find(|one| *one == name),
+        (None, [one]) => Some(one),
+        _ => None,
     };
-    if is_clear {
-        return Ok(());
+    if let Some(&chosen) = chosen {
+        return Ok(Some(chosen));
     }
     let found = found.into_iter().map(str::to_owned).collect();
     Err(StageError::UnclearFragment { asked: fragment.map(str::to_owned), found }.into())
 }
 
-/// What a vertex shader binds that computes its points.
+/// The bindings of a vertex shader that computes its points.
 fn pulled_layout(
-    device: &wgpu::Device,
+    tessellator: &Tessellator,
     setup: Setup,
     points: Points,
 ) -> Result<Option<wgpu::BindGroupLayout>, Error> {
     if points == Points::Stored {
         return Ok(None);
     }
-    let entries: Vec<_> = Pull { group: 0, first_binding: 0 }
+    let entries = Pull { group: 0, first_binding: 0 }
         .bindings(setup)
         .map(|(number, resource)| {
             let binding = Binding(resource, Access::Read);
             pipeline::entry(number, binding, wgpu::ShaderStages::VERTEX)
         })
         .collect();
-    let label = Some("pulled");
-    checked(device, || {
-        let entries = &entries;
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries })
-    })
-    .map(Some)
+    tessellator.pipelines().layout("pulled", entries).map(Some)
 }
 
+/// The render pipeline, which stages of the same text and state share.
 async fn render_pipeline(
     builder: &StageBuilder<'_>,
-    device: &wgpu::Device,
+    tessellator: &Tessellator,
     pulled: Option<&wgpu::BindGroupLayout>,
-) -> Result<wgpu::RenderPipeline, Error> {
-    let StageBuilder { source: user, layouts, render, .. } = builder;
+) -> Result<Arc<wgpu::RenderPipeline>, Error> {
+    let (user, device) = (builder.source, tessellator.device());
     let shader = builder.vertex_shader();
+    let mut key = PipelineKey {
+        text: format!("{shader}\n{:?}", (&builder.render, builder.setup(), builder.points)),
+        entry_point: "tess_vertex",
+        layouts: builder.layouts.clone(),
+        constants: builder.constants_of(&wgsl::declarations(user)),
+    };
+    key.layouts.extend(pulled.cloned());
+    if let Some(pipeline) = tessellator.pipelines().draws.find(&key) {
+        return Ok(pipeline);
+    }
     let module = modules::user_module(device, "domain", user, shader.clone()).await?;
     gl::check_flat_members(device, &shader)?;
-    let layouts: Vec<_> = layouts.iter().chain(pulled).map(Some).collect();
-    let has_points = pulled.is_none();
+    let layout = passes::pipeline_layout(device, "tessellation stage", &key.layouts)?;
+    let mut pipelines = tessellator.pipelines();
+    let cache = pipelines.cache.as_ref();
+    let made = new_render_pipeline(builder, device, (&module, &layout), (&key, cache))?;
+    Ok(pipelines.draws.keep(key, made))
+}
+
+fn new_render_pipeline(
+    builder: &StageBuilder<'_>,
+    device: &wgpu::Device,
+    (module, layout): (&wgpu::ShaderModule, &wgpu::PipelineLayout),
+    (key, cache): (&PipelineKey, Option<&wgpu::PipelineCache>),
+) -> Result<wgpu::RenderPipeline, Error> {
+    let has_points = builder.points == Points::Stored;
     let attributes = gl::attributes(device);
     let buffer = wgpu::VertexBufferLayout {
         array_stride: if has_points { 8 } else { 0 },
@@ -186,34 +269,29 @@ async fn render_pipeline(
     };
     let buffers = [Some(buffer)];
     let buffers = if has_points || gl::is_gl(device) { &buffers[..] } else { &[] };
-    let Render { fragment, targets, depth, multisample, primitive } = render;
-    let layout = checked(device, || {
-        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("tessellation stage"),
-            bind_group_layouts: &layouts,
-            immediate_size: 0,
-        })
-    })?;
+    let Render { fragment, targets, depth, multisample, primitive } = &builder.render;
+    let constants = passes::constants(key);
+    let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     let descriptor = wgpu::RenderPipelineDescriptor {
         label: Some("tessellation stage"),
-        layout: Some(&layout),
+        layout: Some(layout),
         vertex: wgpu::VertexState {
-            module: &module,
-            entry_point: Some("tess_vertex"),
-            compilation_options: Default::default(),
+            module,
+            entry_point: Some(key.entry_point),
+            compilation_options: options.clone(),
             buffers,
         },
         primitive: wgpu::PrimitiveState { topology: topology(builder.setup()), ..*primitive },
         depth_stencil: depth.clone(),
         multisample: *multisample,
         fragment: (!targets.is_empty()).then_some(wgpu::FragmentState {
-            module: &module,
+            module,
             entry_point: *fragment,
-            compilation_options: Default::default(),
+            compilation_options: options,
             targets,
         }),
         multiview_mask: None,
-        cache: None,
+        cache,
     };
     checked(device, || device.create_render_pipeline(&descriptor))
 }

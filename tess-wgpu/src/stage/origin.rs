@@ -4,16 +4,18 @@ use super::builder::StageBuilder;
 use super::choices::Factors;
 use super::passes;
 use super::room::Form;
-use super::{modules, source};
+use super::{UserGroup, modules, source, wgsl};
 use crate::error::Error;
-use crate::gpu;
-use tess_gpu::{Access, Resource};
+use crate::pipelines::PipelineKey;
+use crate::{Tessellator, gpu};
+use std::sync::Arc;
+use tess_gpu::{Access, Resource, Setup};
 use wgpu::BufferUsages as Usage;
 
 /// The pass that writes the raw factors of a frame.
 #[derive(Debug)]
 pub(super) struct Origin {
-    pipeline: wgpu::ComputePipeline,
+    pipeline: Arc<wgpu::ComputePipeline>,
     /// Its own bindings and their group.
     own: wgpu::BindGroup,
     own_group: u32,
@@ -37,22 +39,17 @@ impl Origin {
     /// `factors` and `count` are the stage's: the pass reads the number of patches and writes the factors.
     pub(super) async fn new(
         builder: &StageBuilder<'_>,
-        form: Form,
-        device: &wgpu::Device,
+        (form, tessellator): (Form, &Tessellator),
         [factors, count]: [&wgpu::Buffer; 2],
     ) -> Result<Self, Error> {
-        let StageBuilder { source: user, patches, layouts, .. } = builder;
-        let setup = form.setup;
+        let (setup, device) = (form.setup, tessellator.device());
         let mut own = vec![(factors, Access::ReadWrite), (count, Access::Read)];
-        let workgroups = passes::workgroups(device, *patches);
+        let workgroups = passes::workgroups(device, builder.patches);
         let given = match builder.factors {
             Factors::Hull => {
+                let (layout, own) = passes::bind(tessellator, "hull", &own)?;
+                let pipeline = hull(builder, setup, tessellator, layout).await?;
                 let own_group = builder.own_group();
-                let joined = source::of_hull(user, setup.domain, own_group);
-                let module = modules::user_module(device, "hull", user, joined).await?;
-                let (layout, own) = passes::bind(device, "hull", &own)?;
-                let layouts: Vec<_> = layouts.iter().chain([&layout]).collect();
-                let pipeline = passes::pipeline(device, &module, "tess_hull", &layouts)?;
                 return Ok(Self { pipeline, own, own_group, workgroups, host: None });
             }
             Factors::Host => {
@@ -63,26 +60,55 @@ impl Origin {
             Factors::Buffer(given) => given.clone(),
         };
         own.push((&given, Access::Read));
-        let (layout, own) = passes::bind(device, "copy factors", &own)?;
-        let source = include_str!("../../shaders/copy_factors.wgsl")
+        let (layout, own) = passes::bind(tessellator, "copy factors", &own)?;
+        let text = include_str!("../../shaders/copy_factors.wgsl")
             .replace("FACTORS", &format!("{}u", setup.factors()));
-        let module = passes::module(device, "copy factors", source)?;
-        let pipeline = passes::pipeline(device, &module, "copy_factors", &[&layout])?;
+        let (layouts, constants) = (vec![layout], Vec::new());
+        let key = PipelineKey { text, entry_point: "copy_factors", layouts, constants };
+        let text = key.text.clone();
+        let pipeline =
+            passes::pipeline(tessellator, key, || passes::module(device, "copy factors", text))?;
         let host = matches!(builder.factors, Factors::Host).then_some(given);
         Ok(Self { pipeline, own, own_group: 0, workgroups, host })
     }
 
     /// Records the pass; `user` are the user's bind groups.
-    pub(super) fn encode(&self, encoder: &mut wgpu::CommandEncoder, user: &[wgpu::BindGroup]) {
+    pub(super) fn encode(&self, encoder: &mut wgpu::CommandEncoder, user: &[UserGroup]) {
         let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
             label: Some("factors"),
             timestamp_writes: None,
         });
         pass.set_pipeline(&self.pipeline);
-        for (number, group) in (0..self.own_group).zip(user) {
-            pass.set_bind_group(number, group, &[]);
+        for (number, (group, offsets)) in (0..self.own_group).zip(user) {
+            pass.set_bind_group(number, group, offsets);
         }
         pass.set_bind_group(self.own_group, &self.own, &[]);
         pass.dispatch_workgroups(self.workgroups[0], self.workgroups[1], 1);
     }
+}
+
+/// The pipeline of the user's function `hull`. Stages share it whose texts differ only in what the function does not
+/// reach.
+async fn hull(
+    builder: &StageBuilder<'_>,
+    setup: Setup,
+    tessellator: &Tessellator,
+    layout: wgpu::BindGroupLayout,
+) -> Result<Arc<wgpu::ComputePipeline>, Error> {
+    let (user, own_group) = (builder.source, builder.own_group());
+    let declared = wgsl::declarations(user);
+    let reached = wgsl::reached(&declared, &["hull"]).into_iter().map(|one| one.text);
+    let mut key = PipelineKey {
+        text: source::of_hull(&reached.collect::<String>(), setup.domain, own_group),
+        entry_point: "tess_hull",
+        layouts: builder.layouts.clone(),
+        constants: builder.constants_of(&declared),
+    };
+    key.layouts.push(layout);
+    if let Some(pipeline) = tessellator.pipelines().passes.find(&key) {
+        return Ok(pipeline);
+    }
+    let joined = source::of_hull(user, setup.domain, own_group);
+    let module = modules::user_module(tessellator.device(), "hull", user, joined).await?;
+    passes::pipeline(tessellator, key, || Ok(module))
 }

@@ -105,12 +105,12 @@ impl Output {
 
 /// The bindings of `Pull::source_for_drawing`.
 fn bind(
-    tessellator: &mut Tessellator,
+    tessellator: &Tessellator,
     form: Form,
     layout: &wgpu::BindGroupLayout,
     batch: &Batch,
 ) -> Result<wgpu::BindGroup, Error> {
-    let tables = tessellator.pipelines.tables(form.setup.config.split)?;
+    let tables = tessellator.pipelines().tables(form.setup.config.split)?;
     let bound = |resource| match resource {
         Resource::Job => wgpu::BindingResource::Buffer(wgpu::BufferBinding {
             buffer: batch.jobs(),
@@ -127,7 +127,7 @@ fn bind(
         .bindings(form.setup)
         .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: bound(resource) })
         .collect();
-    let device = tessellator.pipelines.device();
+    let device = tessellator.device();
     checked(device, || {
         device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("pulled"),

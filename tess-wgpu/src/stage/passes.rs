@@ -1,6 +1,9 @@
 //! Compute pipelines of the stage, and how their threads are laid out.
 
+use crate::Tessellator;
 use crate::error::{Error, checked};
+use crate::pipelines::PipelineKey;
+use std::sync::Arc;
 use tess_gpu::Access;
 
 /// The threads of a workgroup of the stage's own passes.
@@ -18,12 +21,11 @@ pub(crate) type Binding<'a> = (&'a wgpu::Buffer, Access);
 
 /// The layout and the bind group of these buffers, bindings 0, 1, ...
 pub(crate) fn bind(
-    device: &wgpu::Device,
+    tessellator: &Tessellator,
     label: &str,
     buffers: &[Binding<'_>],
 ) -> Result<(wgpu::BindGroupLayout, wgpu::BindGroup), Error> {
-    let label = Some(label);
-    let entries: Vec<_> = (0..)
+    let entries = (0..)
         .zip(buffers)
         .map(|(binding, (_, access))| wgpu::BindGroupLayoutEntry {
             binding,
@@ -36,50 +38,66 @@ pub(crate) fn bind(
             count: None,
         })
         .collect();
-    checked(device, || {
-        let entries = &entries;
-        let layout =
-            device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries });
-        let entries: Vec<_> = (0..)
-            .zip(buffers)
-            .map(|(binding, (buffer, _))| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
-            .collect();
-        let entries = &entries;
-        let layout_of = &layout;
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label,
-            layout: layout_of,
-            entries,
-        });
-        (layout, group)
-    })
+    let layout = tessellator.pipelines().layout(label, entries)?;
+    let entries: Vec<_> = (0..)
+        .zip(buffers)
+        .map(|(binding, (buffer, _))| wgpu::BindGroupEntry {
+            binding,
+            resource: buffer.as_entire_binding(),
+        })
+        .collect();
+    let (label, device) = (Some(label), tessellator.device());
+    let descriptor = wgpu::BindGroupDescriptor { label, layout: &layout, entries: &entries };
+    let group = checked(device, || device.create_bind_group(&descriptor))?;
+    Ok((layout, group))
 }
 
-/// A compute pipeline of a module.
+/// The compute pipeline of a key, from `module` unless there is one.
 pub(crate) fn pipeline(
-    device: &wgpu::Device,
-    module: &wgpu::ShaderModule,
-    entry_point: &str,
-    layouts: &[&wgpu::BindGroupLayout],
-) -> Result<wgpu::ComputePipeline, Error> {
-    let label = Some(entry_point);
-    let layouts: Vec<_> = layouts.iter().map(|&layout| Some(layout)).collect();
-    checked(device, || {
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label,
-            bind_group_layouts: &layouts,
-            immediate_size: 0,
-        });
+    tessellator: &Tessellator,
+    key: PipelineKey,
+    module: impl FnOnce() -> Result<wgpu::ShaderModule, Error>,
+) -> Result<Arc<wgpu::ComputePipeline>, Error> {
+    if let Some(pipeline) = tessellator.pipelines().passes.find(&key) {
+        return Ok(pipeline);
+    }
+    let (module, device) = (module()?, tessellator.device());
+    let label = Some(key.entry_point);
+    let layout = pipeline_layout(device, key.entry_point, &key.layouts)?;
+    let constants = constants(&key);
+    let mut pipelines = tessellator.pipelines();
+    let made = checked(device, || {
         device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label,
             layout: Some(&layout),
-            module,
+            module: &module,
             entry_point: label,
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..Default::default()
+            },
+            cache: pipelines.cache.as_ref(),
+        })
+    })?;
+    Ok(pipelines.passes.keep(key, made))
+}
+
+/// The pipeline constants of a key, as wgpu takes them.
+pub(crate) fn constants(key: &PipelineKey) -> Vec<(&str, f64)> {
+    key.constants.iter().map(|(name, bits)| (name.as_str(), f64::from_bits(*bits))).collect()
+}
+
+pub(crate) fn pipeline_layout(
+    device: &wgpu::Device,
+    label: &str,
+    layouts: &[wgpu::BindGroupLayout],
+) -> Result<wgpu::PipelineLayout, Error> {
+    let layouts: Vec<_> = layouts.iter().map(Some).collect();
+    checked(device, || {
+        device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some(label),
+            bind_group_layouts: &layouts,
+            immediate_size: 0,
         })
     })
 }

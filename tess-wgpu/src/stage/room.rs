@@ -2,7 +2,8 @@
 //!
 //! A stage's buffers of points and indices are made before anybody knows how much its frames give. This file decides
 //! their sizes: once when the stage is made ([`Form::initial`]), and for [`Room::Automatic`] again when a frame
-//! needed more ([`Form::grown`]), which the stage learns from its feedback.
+//! needed nearly all of it ([`Form::grown`]) or many needed little ([`Lull::shrunk`]). The stage learns both from its
+//! feedback.
 //!
 //! # The data
 //!
@@ -12,7 +13,10 @@
 //! | points x 8 B | primitives x 12 B  | points x 8 B | primitives  |
 //!
 //! initial:  least = all patches at factor 1     beyond = up to factor 4 (Automatic), in the proportion of 8 (Bytes)
-//! grown:    least = the room that there is      beyond = up to 5/4 of what the frame needed
+//! grown:    least = the room that there is      beyond = up to 5/2 of what a frame needed
+//! shrunk:   least = the first room              beyond = up to 5/2 of what 1024 frames needed
+//!
+//! room, as a frame uses it:    0 ... 1/5 shrinks after 1024 frames ... 2/5 after a change ... 7/8 grows at once ... 1
 //! ```
 //!
 //! A point takes 8 bytes, or none where the vertex shader computes it. A primitive takes 4 bytes for each of its
@@ -21,16 +25,17 @@
 //! # One stage
 //!
 //! Ten quads, `Automatic` with a budget of 100 000 bytes. At factor 4 they give 250 points and 320 triangles, which
-//! take 5840 bytes: that is the first room. A frame needs 300 points, so the next room is 375 points and, for 5/4 of
-//! 320, 400 triangles. Then a frame needs 40 000 points and 80 000 triangles, 1.3 MB: what is left of the budget is
-//! divided as 5/4 of these are, and from then on the room stays. The test
-//! `automatic_room_grows_to_what_was_needed_and_no_further` computes this.
+//! take 5840 bytes: that is the first room. A frame needs 219 points, more than 7/8, so the next room is 547 points
+//! and, for 5/2 of 280, 700 triangles. Then a frame needs 40 000 points and 80 000 triangles, 1.3 MB: what is left of
+//! the budget is divided as 5/2 of these are, and from then on the room stays until frames need little. The test
+//! `automatic_room_grows_ahead_and_no_further` computes this.
 //!
 //! # What must hold
 //!
-//! - Room never shrinks in either dimension: what fitted once fits for ever.
-//! - Room grows by a quarter at least in the dimension that was short, or to the end of the budget. So buffers are made
-//!   a logarithmic number of times; a room that followed every frame's proportion was replaced in 59 of 60 frames.
+//! - Room grows ahead of frames whose output rises by up to 4 % each, with two on their way: 1.04^3 < 8/7.
+//! - Room at least doubles in a dimension that was short, or reaches the end of the budget or the most that a frame can
+//!   need. So buffers are made a logarithmic number of times.
+//! - Room shrinks by half at least, and never below the first room.
 //! - Once the budget is used, nothing grows.
 //! - If the budget holds all patches at factor 1, the room does. [`Overflow::Coarser`](super::Overflow::Coarser) scales
 //!   factors down to 1, so every frame is drawn then.
@@ -66,18 +71,26 @@ impl Form {
         }
     }
 
-    /// The room for frames that need this many points and primitives, if it is another.
+    /// The room ahead of frames that need this many points and primitives, if it is another.
     pub(crate) fn grown(self, room: Room, now: Capacity, needed: [u64; 2]) -> Option<Capacity> {
         let Room::Automatic { most_bytes } = room else { return None };
-        let [points, primitives] = needed;
-        let fits = points <= u64::from(now.points) && primitives <= u64::from(now.primitives);
-        if fits || self.uses(most_bytes, now) {
+        let most = self.possible(Capacity { points: u32::MAX, primitives: u32::MAX });
+        let is_short = |needed: u64, now: u32, most: u32| {
+            now < most && needed.saturating_mul(8) > u64::from(now) * 7
+        };
+        let is_short = is_short(needed[0], now.points, most.points)
+            || is_short(needed[1], now.primitives, most.primitives);
+        if !is_short || self.uses(most_bytes, now) {
             return None;
         }
-        let more = |needed: u64| u32::try_from(needed.saturating_mul(5) / 4).unwrap_or(u32::MAX);
-        let wanted = self.possible(Capacity { points: more(points), primitives: more(primitives) });
-        let grown = self.at_most(most_bytes, now, wanted);
+        let grown = self.at_most(most_bytes, now, self.ample(needed));
         (grown != now).then_some(grown)
+    }
+
+    /// A room of which such frames use two fifths.
+    fn ample(self, needed: [u64; 2]) -> Capacity {
+        let more = |needed: u64| u32::try_from(needed.saturating_mul(5) / 2).unwrap_or(u32::MAX);
+        self.possible(Capacity { points: more(needed[0]), primitives: more(needed[1]) })
     }
 
     /// Whether a room leaves less of a budget than one point and one primitive take.
@@ -158,6 +171,39 @@ impl Form {
     }
 }
 
+/// The frames since one used more than a fifth of its room.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lull {
+    /// Frames after which room is given back.
+    pub(crate) patience: u64,
+    since: u64,
+    most: [u64; 2],
+}
+
+impl Lull {
+    /// 1024 frames take 17 seconds on most screens.
+    pub(crate) const NEW: Self = Self { patience: 1024, since: 0, most: [0; 2] };
+
+    /// The room for what frames needed of late, if it is another: `frame` is the latest and what it needed.
+    pub(crate) fn shrunk(
+        &mut self,
+        (form, room, now): (Form, Room, Capacity),
+        (frame, needed): (u64, [u64; 2]),
+    ) -> Option<Capacity> {
+        let Room::Automatic { most_bytes } = room else { return None };
+        let most = [self.most[0].max(needed[0]), self.most[1].max(needed[1])];
+        let is_little = |needed: u64, now: u32| needed.saturating_mul(5) <= u64::from(now);
+        let is_lull = is_little(most[0], now.points) && is_little(most[1], now.primitives);
+        self.most = most;
+        if is_lull && frame.saturating_sub(self.since) < self.patience {
+            return None;
+        }
+        (self.since, self.most) = (frame, [0; 2]);
+        let shrunk = form.at_most(most_bytes, form.initial(room), form.ample(most));
+        (is_lull && shrunk != now).then_some(shrunk)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -182,27 +228,61 @@ mod tests {
     }
 
     #[test]
-    fn automatic_room_grows_to_what_was_needed_and_no_further() {
+    fn automatic_room_grows_ahead_and_no_further() {
         let form = form(Points::Stored);
         let room = Room::Automatic { most_bytes: 100_000 };
         let first = form.initial(room);
         assert_eq!(first, Capacity { points: 250, primitives: 320 }, "factor 4");
-        assert_eq!(form.grown(room, first, [250, 320]), None, "it fits");
-        let more = form.grown(room, first, [300, 320]).expect("it does not fit");
-        assert_eq!(more, Capacity { points: 375, primitives: 400 }, "a quarter more");
-        let one = form.grown(room, more, [10, 1000]).expect("primitives do not fit");
-        assert_eq!(one, Capacity { points: 375, primitives: 1250 }, "room never shrinks");
-        let other = form.grown(room, one, [3000, 10]).expect("points do not fit");
+        assert_eq!(form.grown(room, first, [218, 280]), None, "7/8 are not exceeded");
+        let more = form.grown(room, first, [219, 280]).expect("points are nearly used");
+        assert_eq!(more, Capacity { points: 547, primitives: 700 }, "5/2 of what was needed");
         assert_eq!(
-            other,
-            Capacity { points: 3750, primitives: 1250 },
-            "nor in the other dimension"
+            form.grown(room, first, [218, 281]),
+            Some(Capacity { points: 545, primitives: 702 })
         );
+        let one = form.grown(room, more, [10, 1000]).expect("primitives do not fit");
+        assert_eq!(one, Capacity { points: 547, primitives: 2500 }, "no dimension shrinks");
+        let other = form.grown(room, one, [3000, 10]).expect("points do not fit");
+        assert_eq!(other, Capacity { points: 7500, primitives: 2500 }, "nor the other");
         let most = form.grown(room, more, [40_000, 80_000]).expect("nor does this");
         let used = 8 * u64::from(most.points) + 12 * u64::from(most.primitives);
         assert!(used <= 100_000 && used + 20 > 100_000, "{most:?}");
         assert_eq!(form.grown(room, most, [40_000, 80_000]), None, "there is no more");
         assert_eq!(form.grown(Room::Bytes(9), first, [300, 320]), None, "only if asked for");
+    }
+
+    #[test]
+    fn a_dimension_that_can_grow_no_further_leaves_the_other_alone() {
+        let form = form(Points::Stored);
+        let room = Room::Automatic { most_bytes: 1 << 30 };
+        let worst = Capacity::worst_case(form.setup, 10);
+        let now = Capacity { primitives: 1000, ..worst };
+        for primitives in 500..=875 {
+            assert_eq!(form.grown(room, now, [worst.points.into(), primitives]), None);
+        }
+    }
+
+    #[test]
+    fn room_shrinks_after_a_long_lull() {
+        let form = form(Points::Stored);
+        let room = Room::Automatic { most_bytes: 100_000 };
+        let first = form.initial(room);
+        let now = Capacity { points: 3000, primitives: 4000 };
+        let shrunk = |frames: &[(u64, [u64; 2])]| {
+            let mut lull = Lull::NEW;
+            let all = frames.iter().map(|&frame| lull.shrunk((form, room, now), frame));
+            all.last().expect("some frames")
+        };
+        let half = Capacity { points: 1500, primitives: 2000 };
+        assert_eq!(shrunk(&[(3, [600, 10]), (1023, [5, 800])]), None, "too soon");
+        assert_eq!(shrunk(&[(3, [600, 10]), (1024, [5, 800])]), Some(half), "the most of each");
+        assert_eq!(shrunk(&[(3, [601, 10]), (1026, [5, 800])]), None, "since the third frame");
+        let later = Some(Capacity { points: 250, primitives: 2000 });
+        assert_eq!(shrunk(&[(3, [601, 10]), (1027, [5, 800])]), later, "which counts no longer");
+        assert_eq!(shrunk(&[(3, [10, 801]), (1024, [5, 80])]), None, "nor is this little");
+        assert_eq!(shrunk(&[(1024, [0, 0])]), Some(first), "no less than the first room");
+        let of_first = |room| Lull::NEW.shrunk((form, room, first), (5000, [0, 0]));
+        assert_eq!([of_first(room), of_first(Room::WorstCase)], [None; 2], "nothing to give back");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! What a WGSL text declares at module scope, by name and line; found without a compiler, as a browser's says little
+//! The declarations of a WGSL text at module scope, by name and line; found without a compiler, as a browser's says little
 //! and says it late.
 
 /// Something that a text declares at module scope.
@@ -7,8 +7,25 @@ pub(super) struct Declaration<'a> {
     pub(super) name: &'a str,
     /// From 1 on.
     pub(super) line: u32,
+    /// `fn`, `override`, ...
+    pub(super) keyword: &'a str,
     /// Whether it is a function with the attribute `@fragment`.
     pub(super) is_fragment: bool,
+    /// All of it, from the end of the declaration in front on.
+    pub(super) text: &'a str,
+}
+
+impl<'a> Declaration<'a> {
+    pub(super) fn has_no_value(&self) -> bool {
+        tokens(self.text).all(|(_, token)| token != "=")
+    }
+
+    /// The first word in the parentheses of an attribute.
+    pub(super) fn attribute(&self, name: &str) -> Option<&'a str> {
+        let words: Vec<_> = tokens(self.text).map(|(_, token)| token).take(16).collect();
+        let mut four = words.windows(4);
+        four.find(|four| four[..3] == ["@", name, "("]).map(|four| four[3])
+    }
 }
 
 /// The words and signs of a text without comments, each with its line.
@@ -69,30 +86,53 @@ fn block_comment(text: &str) -> usize {
     at
 }
 
-/// What a text declares.
+/// The declarations of a text, in order. Directives and assertions have no name.
 pub(super) fn declarations(text: &str) -> Vec<Declaration<'_>> {
     let mut all = Vec::new();
     let (mut depth, mut is_fragment, mut previous) = (0_u32, false, "");
+    let (mut begin, mut open) = (0, None);
     let mut tokens = tokens(text);
-    while let Some((_, token)) = tokens.next() {
+    while let Some((line, token)) = tokens.next() {
         match token {
             "{" => depth += 1,
             "}" => depth = depth.saturating_sub(1),
             "fragment" if previous == "@" => is_fragment = true,
-            "fn" | "const" | "override" | "alias" | "struct" | "var" if depth == 0 => {
+            "fn" | "const" | "override" | "alias" | "struct" | "var"
+                if depth == 0 && open.is_none() =>
+            {
                 let mut name = tokens.next();
                 if name.is_some_and(|(_, word)| word == "<") {
                     tokens.find(|&(_, word)| word == ">");
                     name = tokens.next();
                 }
-                all.extend(name.map(|(line, name)| Declaration { name, line, is_fragment }));
-                is_fragment = false;
+                open = name.map(|(line, name)| (line, name, token));
             }
             _ => {}
+        }
+        if depth == 0 && [";", "}"].contains(&token) || tokens.rest.is_empty() {
+            let end = text.len() - tokens.rest.len();
+            let (line, name, keyword) = open.take().unwrap_or((line, "", ""));
+            all.push(Declaration { name, line, keyword, is_fragment, text: &text[begin..end] });
+            (begin, is_fragment) = (end, false);
         }
         previous = token;
     }
     all
+}
+
+/// What such functions use, in the order of the text, and what has no name. A name that a local hides counts as used.
+pub(super) fn reached<'a>(all: &[Declaration<'a>], entries: &[&'a str]) -> Vec<Declaration<'a>> {
+    let mut is_reached = vec![false; all.len()];
+    let mut names = [entries, &[""]].concat();
+    while let Some(name) = names.pop() {
+        for (one, is_reached) in all.iter().zip(&mut is_reached) {
+            if one.name == name && !*is_reached {
+                *is_reached = true;
+                names.extend(tokens(one.text).map(|(_, token)| token));
+            }
+        }
+    }
+    all.iter().zip(is_reached).filter(|one| one.1).map(|one| *one.0).collect()
 }
 
 /// WGSL's own types that the stage's text names; it has no aliases of them.
@@ -139,7 +179,9 @@ mod tests {
                     @must_use fn h(i: u32) -> f32 {\n    const j = 1; var k = 2; return f32(i);\n}\n\
                     @fragment\nfn l() -> @location(0) vec4f { return vec4f(); }\n\
                     @compute @workgroup_size(1) fn m() {}\nconst_assert true;";
-        let found: Vec<_> = declarations(text).iter().map(|one| (one.name, one.line)).collect();
+        let all = declarations(text);
+        let named = all.iter().filter(|one| !one.name.is_empty());
+        let found: Vec<_> = named.map(|one| (one.name, one.line)).collect();
         let expected = [
             ("a", 2),
             ("b", 3),
@@ -152,13 +194,36 @@ mod tests {
             ("m", 12),
         ];
         assert_eq!(found, expected, "and no others");
-        let fragments: Vec<_> =
-            declarations(text).into_iter().filter(|one| one.is_fragment).collect();
+        let fragments: Vec<_> = all.iter().filter(|one| one.is_fragment).collect();
         assert_eq!(fragments.len(), 1, "{fragments:?}");
+        let whole: String = all.iter().map(|one| one.text).collect();
+        assert_eq!(whole, text, "nothing is in no declaration");
         assert_eq!(declarations("/* fn a() {} "), [], "a comment without an end");
         let apart = declarations("/* a */ fn /* ! */ a() {} /* b */ const c = fragment; fn b() {}");
         let found: Vec<_> = apart.iter().map(|one| (one.name, one.is_fragment)).collect();
         assert_eq!(found, [("a", false), ("c", false), ("b", false)], "between comments");
+    }
+
+    #[test]
+    fn a_function_reaches_what_it_names() {
+        let text = "enable f16;\n@group(2) @binding(0) var<uniform> a: A;\nstruct A { b: B }\nalias B = f32;\n\
+                    @id(7) override c: u32;\nfn d() -> u32 { return c + e(); }\nfn e() -> u32 { return 1u; }\n\
+                    fn hull(n: u32) -> f32 { return a.b; }\n@fragment fn f() { let x = d(); }";
+        let all = declarations(text);
+        let of = |entry| reached(&all, &[entry]).iter().map(|one| one.name).collect::<Vec<_>>();
+        assert_eq!(of("hull"), ["", "a", "A", "B", "hull"]);
+        assert_eq!(of("f"), ["", "c", "d", "e", "f"]);
+        assert_eq!(of("g"), [""], "nothing of this name");
+        let attribute = |at: usize, name| all[at].attribute(name);
+        assert_eq!(
+            [attribute(1, "group"), attribute(4, "id"), attribute(5, "id")],
+            [Some("2"), Some("7"), None]
+        );
+        assert_eq!(
+            all.iter().map(Declaration::has_no_value).filter(|&none| none).count(),
+            8,
+            "all but two"
+        );
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Errors have a type, and the user's line.
 
 use crate::drawing::scene;
+use crate::model::compare;
 use crate::scene::{PATCHES, Scene, source};
 use tess_core::{Domain, Partitioning, PatchFactors};
-use tess_wgpu::stage::{Factors, PatchCount, Points, StageError};
+use tess_wgpu::stage::{Factors, PatchCount, Points, Room, StageError};
 use tess_wgpu::{Error, Gpu, Stopwatch, TessellationStage, Tessellator};
 use wgpu::BufferUsages as Usage;
 
@@ -304,11 +305,149 @@ fn what_cannot_be_made_is_refused() {
         .target(wgpu::TextureFormat::Rgba32Uint)
         .build(device);
     let error = built.map(|_| ()).expect_err("without its bind group");
-    assert!(error.to_string().contains("in the groups that the builder got"), "{error}");
+    assert!(error.to_string().contains("a bind group that the builder did not get"), "{error}");
     let mut stage = scene.build(scene.builder().factors(Factors::Host));
     let mut encoder = device.create_command_encoder(&Default::default());
     let triangles = [PatchFactors::uniform(Domain::Triangle, 2.0)];
     let refused = stage.set_factors(&mut encoder, &triangles).err();
     let (expected, got) = (Domain::Quad, Domain::Triangle);
     assert_eq!(refused, Some(Error::WrongDomain { patch: 0, expected, got }));
+}
+
+#[test]
+fn type_errors_say_what_the_user_wrote() {
+    let scene = quads();
+    let right = source(Domain::Quad);
+    let sum = "let at = place(number) + uv;";
+    for (from, to, culprit, says) in [
+        (
+            sum,
+            "let at = place(number) + number;",
+            "place(number) + number",
+            "(vec2<f32>) and (vec2<u32>)",
+        ),
+        (sum, "let at = place(uv) + uv;", "place(uv)", "Argument 0"),
+        (sum, "let at = place(number, uv) + uv;", "place(number, uv)", "Requires 1 arguments"),
+        (
+            "fn hull(number: u32) -> QuadFactors {",
+            "fn hull(number: u32) -> QuadFactors { given[0] = 1.0;",
+            "given[0]",
+            "store",
+        ),
+        (
+            "return Vertex(vec4<f32>(0.5",
+            "return Vertex(vec3<f32>(0.5",
+            "vec3<f32>(0.5",
+            "expects 3 components",
+        ),
+        (
+            "6u * number;",
+            "6u * number; for (var i = 0; i < 4u; i++) {}",
+            "i < 4u",
+            "(i32) and (u32)",
+        ),
+    ] {
+        let wrong = right.replace(from, to);
+        assert_ne!(wrong, right, "{from}");
+        let error = refusal(&scene, &wrong, Points::Stored).to_string();
+        let begin = format!("line {} of your WGSL: in `{culprit}", line_of(&wrong, to));
+        assert!(error.starts_with(&begin) && error.contains(says), "{error}, not {begin}");
+        let has_number =
+            error.as_bytes().windows(2).any(|two| two[0] == b'[' && two[1].is_ascii_digit());
+        assert!(!has_number || culprit == "given[0]", "{error}");
+    }
+}
+
+#[test]
+fn bindings_without_a_bind_group_are_named() {
+    let scene = quads();
+    let right = source(Domain::Quad);
+    let sun = "\n@group(1) @binding(0) var<uniform> sun: vec4<f32>;\n";
+    let unused = right.clone() + sun;
+    let build = |source: &str| {
+        TessellationStage::builder(source, scene.domain, scene.config, PATCHES)
+            .bind_group(&scene.layout, &scene.group)
+            .target(wgpu::TextureFormat::Rgba32Uint)
+            .build(&scene.gpu.device)
+    };
+    assert_eq!(build(&unused).err(), None, "nothing reads it");
+    for user in ["let at = 6u * number", "let at = place(number)", "return vec4<u32>(bitcast"] {
+        let wrong = unused.replace(user, &format!("let light = sun.x; {user}"));
+        let error = build(&wrong).map(|_| ()).expect_err("there is no group 1").to_string();
+        let line = line_of(&wrong, sun.trim());
+        let says = format!(
+            "line {line} of your WGSL: `sun` is in a bind group that the builder did not get"
+        );
+        assert!(error.starts_with(&says), "{error}");
+    }
+}
+
+#[test]
+fn pipeline_constants_reach_every_function_or_are_refused() {
+    let scene = quads();
+    let declared = "override ONE: f32; @id(7) override mark: u32 = 3u; override scale = 0.0;";
+    let source = source(Domain::Quad)
+        .replace("const ONE = 1.0;", declared)
+        .replace("given[at], ", "scale * given[at], ")
+        .replace("vertex.number, 1u", "vertex.number, mark");
+    let build = |constants: &[(&str, f64)]| {
+        TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
+            .bind_group(&scene.layout, &scene.group)
+            .target(crate::scene::FORMAT)
+            .room(Room::WorstCase)
+            .constants(constants)
+            .build(&scene.gpu.device)
+    };
+    let mut stage =
+        build(&[("mark", 1.0), ("ONE", 1.0), ("scale", 1.0)]).expect("they are declared");
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    assert_eq!(
+        compare(&observed, &scene.pixels(&scene.patches)),
+        Ok(()),
+        "as with these numbers in the text"
+    );
+    let error = build(&[("scale", 1.0)]).map(|_| ()).expect_err("ONE has no value");
+    let line = line_of(&source, "override ONE");
+    assert_eq!(
+        error.to_string(),
+        format!("line {line} of your WGSL: `ONE` has no value; give one with `constants`")
+    );
+    let error = build(&[("ONE", 1.0), ("on", 1.0)]).map(|_| ()).expect_err("there is no `on`");
+    let found = ["ONE", "mark", "scale"].map(str::to_owned).to_vec();
+    assert_eq!(error, StageError::NoSuchConstant { name: "on".to_owned(), found }.into());
+    assert!(
+        error.to_string().contains("no `override on`; it declares ONE, mark, scale"),
+        "{error}"
+    );
+}
+
+#[test]
+fn encoders_and_tessellators_of_other_devices_are_refused() {
+    let scene = quads();
+    // Further instances know fewer buffers, so that wgpu cannot take one for another.
+    let other = limited(wgpu::Limits::default());
+    let mut stage = scene.build(scene.builder().factors(Factors::Host));
+    for _ in 0..2 {
+        let mut encoder = other.device.create_command_encoder(&Default::default());
+        let refused = stage.prepare(&mut encoder, PATCHES).err();
+        assert_eq!(refused, Some(StageError::OtherDevice.into()), "a frame");
+        let mut encoder = other.device.create_command_encoder(&Default::default());
+        let refused = stage.set_factors(&mut encoder, &scene.patches).err();
+        assert_eq!(refused, Some(StageError::OtherDevice.into()), "factors");
+    }
+    let mut encoder = scene.gpu.device.create_command_encoder(&Default::default());
+    stage.set_factors(&mut encoder, &scene.patches).expect("it is the stage's");
+    scene.gpu.run(encoder).expect("the device finishes");
+    let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
+    assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "the stage goes on");
+    // Another device of the stage's own instance; devices of two instances can have one number.
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let open = async || {
+        let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
+        adapter.request_device(&Default::default()).await.expect("a device").0
+    };
+    let [first, second] = [0; 2].map(|_| pollster::block_on(open()));
+    let shared = Tessellator::new(&first);
+    let built = scene.builder().tessellator(&shared).build(&second);
+    assert_eq!(built.err(), Some(StageError::OtherDevice.into()), "a tessellator");
 }

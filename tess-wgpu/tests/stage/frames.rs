@@ -165,30 +165,37 @@ fn a_lost_device_is_an_error() {
     }
 }
 
+/// A layout of one buffer, and a group of it; whether it has a dynamic offset, and its type.
+fn bound(
+    scene: &Scene,
+    (has_dynamic_offset, ty): (bool, wgpu::BufferBindingType),
+    buffer: &wgpu::Buffer,
+) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
+    let device = &scene.gpu.device;
+    let entries = &[wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility: wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
+        count: None,
+    }];
+    let layout =
+        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+    });
+    (layout, group)
+}
+
 #[test]
 fn bind_groups_of_other_layouts_are_errors_of_wgpus() {
     let scene = scene(Domain::Quad, Partitioning::Integer);
     let device = &scene.gpu.device;
     let uniform = scene.gpu.buffer("uniform", 256, Usage::UNIFORM).expect("there is room");
-    let bind = |has_dynamic_offset, ty, buffer: &wgpu::Buffer| {
-        let entries = &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX,
-            ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
-            count: None,
-        }];
-        let layout = device
-            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries });
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
-        });
-        (layout, group)
-    };
-    let (_, other) = bind(false, wgpu::BufferBindingType::Uniform, &uniform);
+    let (_, other) = bound(&scene, (false, wgpu::BufferBindingType::Uniform), &uniform);
     let read = wgpu::BufferBindingType::Storage { read_only: true };
-    let (dynamic, of_dynamic) = bind(true, read, &scene.factors);
+    let (dynamic, of_dynamic) = bound(&scene, (true, read), &scene.factors);
     let build = |layout: &wgpu::BindGroupLayout, group: &wgpu::BindGroup| {
         let source = crate::scene::source(Domain::Quad);
         TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
@@ -218,6 +225,46 @@ fn bind_groups_of_other_layouts_are_errors_of_wgpus() {
     stage.set_bind_group(0, &scene.group).expect("there is one of this number");
     assert_eq!(complaint(&mut stage), None);
     assert_exact(&scene, &mut stage, "with the group that it had");
+}
+
+#[test]
+fn dynamic_offsets_choose_factors() {
+    let mut scene = scene(Domain::Quad, Partitioning::Integer);
+    let reversed: Vec<_> = scene.patches.iter().rev().copied().collect();
+    let mut words = tess_gpu::layout::factor_words(&scene.patches);
+    let size = std::num::NonZeroU64::new(4 * words.len() as u64);
+    words.resize(64, 0);
+    words.extend(tess_gpu::layout::factor_words(&reversed));
+    let both =
+        scene.gpu.upload("both", bytemuck::cast_slice(&words), Usage::STORAGE).expect("room");
+    let ty = wgpu::BufferBindingType::Storage { read_only: true };
+    let (layout, _) = bound(&scene, (true, ty), &both);
+    let group = scene.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: None,
+        layout: &layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                buffer: &both,
+                offset: 0,
+                size,
+            }),
+        }],
+    });
+    let source = crate::scene::source(Domain::Quad);
+    let mut stage = TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
+        .bind_group(&layout, &group)
+        .target(crate::scene::FORMAT)
+        .room(Room::WorstCase)
+        .build(&scene.gpu.device)
+        .expect("it is right");
+    for offset in [0, 256, 0] {
+        stage.set_dynamic_offsets(0, &[offset]).expect("there is one of this number");
+        assert_exact(&scene, &mut stage, &format!("from byte {offset}"));
+        scene.patches.reverse();
+    }
+    let none = StageError::NoSuchBindGroup { number: 1, groups: 1 };
+    assert_eq!(stage.set_dynamic_offsets(1, &[0]).err(), Some(none.into()));
 }
 
 #[test]

@@ -8,16 +8,17 @@ mod own;
 
 use crate::hold::{self, equal};
 use crate::scene::PATCHES;
-use calls::Call::{self, Again, Frame, Give, Group, MakeRoom, Move, Use};
+use calls::Call::{self, Again, Frame, Give, Group, MakeRoom, Move, Rebuild, Use};
 use calls::{Count, Draw, Form, Source, Then};
-use own::{Own, fits};
+use own::Own;
 use std::collections::BTreeMap;
 use tess_core::{Domain, Order, Partitioning};
-use tess_wgpu::Gpu;
 use tess_wgpu::stage::{Overflow, Points, Room};
+use tess_wgpu::{Gpu, Tessellator};
 
 struct World<'a> {
     gpu: &'a Gpu,
+    shared: &'a Tessellator,
     forms: &'a [Form],
     stages: BTreeMap<usize, Own>,
     used: usize,
@@ -31,9 +32,16 @@ impl World<'_> {
             return Ok(());
         }
         let (gpu, form) = (self.gpu, self.forms[self.used]);
-        let own = self.stages.entry(self.used).or_insert_with(|| Own::new(gpu, form));
+        let new = || Own::new((gpu, self.shared), form, 0);
+        let own = self.stages.entry(self.used).or_insert_with(new);
         match call {
             Use { .. } => {}
+            Rebuild { variant, is_alone: false } => {
+                *own = Own::new((gpu, self.shared), form, variant);
+            }
+            Rebuild { variant, is_alone: true } => {
+                *own = Own::new((gpu, &Tessellator::new(&gpu.device)), form, variant);
+            }
             Give { seed, is_dropped } => own.give(gpu, seed, is_dropped),
             Move { by, is_bound } => own.shift(gpu, by, is_bound),
             Group { groups } => own.regroup(groups),
@@ -58,7 +66,8 @@ impl World<'_> {
                 }
             }
             MakeRoom { count } => {
-                let before = own.stage.capacity();
+                // What was heard before makes room first. A budget that is then used is not checked.
+                let middle = own.next_room(own.stage.capacity());
                 let count = count.min(PATCHES);
                 own.drawn = None;
                 let found = own.stage.make_room(&gpu.queue, count);
@@ -71,11 +80,8 @@ impl World<'_> {
                     [found.points, found.primitives],
                     [needed.points, needed.primitives].map(u64::from),
                 )?;
-                let known = own.heard;
                 own.heard = Some((own.frame - 1, needed));
-                // An earlier frame's room may have been made first.
-                let is_first = known.is_none_or(|(_, known)| fits(known, before));
-                return if is_first { own.check_room(before) } else { Ok(()) };
+                return own.check_room(middle.unwrap_or_else(|| own.stage.capacity()));
             }
             Again { draw } if own.drawn.is_some() => {
                 let encoder = gpu.device.create_command_encoder(&Default::default());
@@ -123,8 +129,12 @@ impl World<'_> {
 }
 
 /// Does the calls on new stages; returns how many words and pixels were compared.
-fn replayed(gpu: &Gpu, forms: &[Form], calls: &[Call]) -> Result<u64, String> {
-    let mut world = World { gpu, forms, stages: BTreeMap::new(), used: 0, words: 0 };
+fn replayed(
+    (gpu, shared): (&Gpu, &Tessellator),
+    forms: &[Form],
+    calls: &[Call],
+) -> Result<u64, String> {
+    let mut world = World { gpu, shared, forms, stages: BTreeMap::new(), used: 0, words: 0 };
     for (number, &call) in calls.iter().enumerate() {
         world.call(call).map_err(|wrong| {
             format!("call {number}, {call:?}, stage {:?}: {wrong}", forms[world.used])
@@ -140,22 +150,35 @@ fn forms() -> Vec<Form> {
 
 /// Does a sequence that was found. One of the long run needs its variable.
 fn replay(calls: &[Call]) {
+    replay_on(&forms(), calls);
+}
+
+/// Does a sequence on stages of these forms.
+fn replay_on(forms: &[Form], calls: &[Call]) {
+    let (gpu, shared) = device();
+    replayed((&gpu, &shared), forms, calls).unwrap_or_else(|wrong| panic!("{wrong}"));
+}
+
+/// A device, and the tessellator that stages share.
+fn device() -> (Gpu, Tessellator) {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
-    replayed(&gpu, &forms(), calls).unwrap_or_else(|wrong| panic!("{wrong}"));
+    let shared = Tessellator::new(&gpu.device);
+    (gpu, shared)
 }
 
 #[test]
 fn any_sequence_of_frames_gives_the_models_pictures() {
-    let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+    let (gpu, shared) = device();
     let forms = forms();
     let names = "calls::{Call::*, Count::*, Draw::*, Then::*, Wrong::*}";
-    hold::hold(names, (25, 30), calls::call(forms.len()), |calls| replayed(&gpu, &forms, calls));
+    hold::hold(names, (25, 30), calls::call(forms.len()), |calls| {
+        replayed((&gpu, &shared), &forms, calls)
+    });
 }
 
 /// A frame that runs late needs the room of the factors that its buffer has then.
 #[test]
 fn a_late_frame_reads_later_factors() {
-    let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     let form = Form {
         domain: Domain::Quad,
         partitioning: Partitioning::Integer,
@@ -172,7 +195,7 @@ fn a_late_frame_reads_later_factors() {
         Call::Late,
         frame(Then::Submit),
     ];
-    replayed(&gpu, &[form], &calls).unwrap_or_else(|wrong| panic!("{wrong}"));
+    replay_on(&[form], &calls);
 }
 
 /// Groups wait for the frame in which the room grows.
@@ -191,4 +214,21 @@ fn groups_and_room_change_in_one_frame() {
         MakeRoom { count: 5 },
         Frame { count: 3, from: Count::Device, draw: Draw::AmongOthers, then: Then::Submit },
     ]);
+}
+
+/// Room that was given back grows again, also for a stage that takes the other's place.
+#[test]
+fn room_shrinks_and_grows_again() {
+    let frame =
+        |count| Frame { count, from: Count::Host, draw: Draw::Everything, then: Then::Submit };
+    let use_and_fill =
+        |seed| [Use { stage: 0 }, Give { seed, is_dropped: false }, MakeRoom { count: 8 }];
+    let calls = [
+        &use_and_fill(1)[..],
+        &[frame(8), frame(0), frame(0), frame(0), frame(0), frame(8), frame(8)],
+        &[Rebuild { variant: 3, is_alone: false }],
+        &use_and_fill(2),
+        &[frame(8), frame(0), frame(1), frame(0), frame(0), frame(8), frame(8)],
+    ];
+    replay(&calls.concat());
 }

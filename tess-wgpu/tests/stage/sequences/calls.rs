@@ -12,6 +12,9 @@ use tess_wgpu::stage::{Overflow, Points, Room};
 pub(crate) enum Call {
     /// Another stage is used, which is built if it has not been.
     Use { stage: usize },
+    /// Another stage takes the place of the one in use: of another hull or fragment shader, and on a tessellator of its
+    /// own or on the one that all share.
+    Rebuild { variant: u32, is_alone: bool },
     /// The patches get other factors, by a seed. What records them may be dropped.
     Give { seed: u64, is_dropped: bool },
     /// The patches are moved on by so many places of the grid, through the uniform or another bind group.
@@ -148,6 +151,8 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = Call> + Clone {
     let wrong = vec![Wrong::Count, Wrong::Offset, Wrong::Groups, Wrong::BindGroup, Wrong::Factors];
     prop_oneof![
         2 => (0..stages).prop_map(|stage| Call::Use { stage }),
+        1 => (0..4_u32, prop::bool::weighted(0.2))
+            .prop_map(|(variant, is_alone)| Call::Rebuild { variant, is_alone }),
         5 => (any::<u64>(), prop::bool::weighted(0.2))
             .prop_map(|(seed, is_dropped)| Call::Give { seed, is_dropped }),
         2 => (0..8_u32, any::<bool>()).prop_map(|(by, is_bound)| Call::Move { by, is_bound }),

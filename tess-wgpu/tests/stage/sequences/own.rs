@@ -11,7 +11,7 @@ use tess_core::{Config, OutputPrimitive, Patch, PatchFactors};
 use tess_gpu::layout::{Status, factor_words};
 use tess_gpu::{Capacity, Setup};
 use tess_wgpu::stage::{Factors, Feedback, Overflow, PatchCount, Points, Room, StageError};
-use tess_wgpu::{Error, Gpu, TessellationStage};
+use tess_wgpu::{Error, Gpu, TessellationStage, Tessellator};
 use wgpu::BufferUsages as Usage;
 
 /// The groups that a stage is made with.
@@ -20,6 +20,11 @@ const GROUPS: [u32; 4] = [0, 3, 3, 6];
 /// A stage, what it reads, and the model's state of it.
 pub(super) struct Own {
     pub(super) form: Form,
+    variant: u32,
+    /// The room at first.
+    first: Capacity,
+    /// The frame since which little was needed, and the most that was needed since.
+    lull: (u64, Capacity),
     pub(super) scene: Scene,
     pub(super) stage: TessellationStage,
     pub(super) given: wgpu::Buffer,
@@ -37,17 +42,25 @@ pub(super) struct Own {
     pub(super) kept: VecDeque<(wgpu::CommandEncoder, u64, u32, Capacity)>,
 }
 
-/// The scene's WGSL with a grid that a uniform turns.
-fn source(form: Form) -> String {
+/// Frames of little output after which a stage gives room back.
+const PATIENCE: u64 = 2;
+
+/// The scene's WGSL with a grid that a uniform turns. A variant exchanges patches in `hull`, or writes another number
+/// in the fragment shader, or both.
+fn source(form: Form, variant: u32) -> String {
     let place = "return vec2<f32>(f32(number % 4u), f32(number / 4u));";
     let text = scene::source(form.domain);
     assert!(text.contains(place), "{text}");
     let moved = "let cell = (number + camera.x) % 8u;\n    return vec2<f32>(f32(cell % 4u), f32(cell / 4u));";
-    text.replace(place, moved) + "\n@group(1) @binding(0) var<uniform> camera: vec4<u32>;\n"
+    let (turn, mark) = (variant & 1, 1 + variant / 2);
+    let text = text.replace("u * number;", "u * turned(number);");
+    let text = text.replace("vertex.number, 1u);", &format!("vertex.number, {mark}u);"));
+    let turned = format!("\nfn turned(number: u32) -> u32 {{\n    return number ^ {turn}u;\n}}\n");
+    text.replace(place, moved) + &turned + "@group(1) @binding(0) var<uniform> camera: vec4<u32>;\n"
 }
 
 impl Own {
-    pub(super) fn new(gpu: &Gpu, form: Form) -> Self {
+    pub(super) fn new((gpu, shared): (&Gpu, &Tessellator), form: Form, variant: u32) -> Self {
         let config = Config::new(form.partitioning, OutputPrimitive::TriangleCw);
         let culled = vec![PatchFactors::uniform(form.domain, 0.0); PATCHES as usize];
         let scene = Scene::on(gpu.clone(), form.domain, config, culled.clone());
@@ -70,12 +83,13 @@ impl Own {
                 count: None,
             }],
         });
-        let source = source(form);
+        let source = source(form, variant);
         let builder = TessellationStage::builder(&source, form.domain, config, PATCHES)
             .bind_group(&scene.layout, &scene.group)
             .bind_group(&cameras, &bind(gpu, &cameras, &camera))
             .target(FORMAT)
             .groups(&GROUPS)
+            .tessellator(shared)
             .points(form.points)
             .room(form.room)
             .overflow(form.overflow)
@@ -85,9 +99,13 @@ impl Own {
                 Source::Host => Factors::Host,
                 Source::Buffer => Factors::Buffer(&given),
             });
-        let stage = scene.build(builder);
+        let mut stage = scene.build(builder);
+        stage.shrink_after(PATIENCE);
         Self {
             form,
+            variant,
+            first: stage.capacity(),
+            lull: Default::default(),
             scene,
             stage,
             given,
@@ -130,31 +148,52 @@ impl Own {
         point * u64::from(room.points) + primitive * u64::from(room.primitives)
     }
 
-    /// The room that a frame has, when the room was `before` and the stage has heard of all that ran.
-    pub(super) fn check_room(&self, before: Capacity) -> Result<(), String> {
-        let now = self.stage.capacity();
-        let (Room::Automatic { most_bytes }, Some((_, needed))) = (self.form.room, self.heard)
+    /// The room behind `before`, when the stage has heard of all that ran; `None` where the budget decides.
+    pub(super) fn next_room(&mut self, before: Capacity) -> Option<Capacity> {
+        let (Room::Automatic { most_bytes }, Some((frame, needed))) = (self.form.room, self.heard)
         else {
-            return equal("room", now, before);
+            return Some(before);
         };
-        if fits(needed, before) {
-            return equal("room", now, before);
-        }
-        let is_larger = now.points >= before.points && now.primitives >= before.primitives;
-        if !is_larger || self.bytes(now) > most_bytes.max(self.bytes(before)) {
-            return Err(format!("room {now:?} after {before:?}, {needed:?} were needed"));
-        }
         let worst = Capacity::worst_case(self.setup(), PATCHES);
-        let more = |needed: u32, worst: u32, before: u32| (needed * 5 / 4).min(worst).max(before);
-        let wanted = Capacity {
-            points: more(needed.points, worst.points, before.points),
-            primitives: more(needed.primitives, worst.primitives, before.primitives),
+        let ample = |needed: Capacity, least: Capacity| Capacity {
+            points: (needed.points * 5 / 2).min(worst.points).max(least.points),
+            primitives: (needed.primitives * 5 / 2).min(worst.primitives).max(least.primitives),
         };
-        let is_used = self.bytes(before) + 20 > most_bytes;
-        if self.bytes(wanted) <= most_bytes && !is_used {
-            return equal("room that grew", now, wanted);
+        let is_short = |needed, room, worst| room < worst && 8 * needed > 7 * room;
+        let is_short = is_short(needed.points, before.points, worst.points)
+            || is_short(needed.primitives, before.primitives, worst.primitives);
+        let one = self.bytes(Capacity { points: 1, primitives: 1 });
+        let is_used = one > 0 && self.bytes(before) + one > most_bytes;
+        let wanted = ample(needed, before);
+        if is_short && !is_used && wanted != before {
+            return (self.bytes(wanted) <= most_bytes).then_some(wanted);
         }
-        Ok(())
+        let (since, most) = self.lull;
+        let most = Capacity {
+            points: most.points.max(needed.points),
+            primitives: most.primitives.max(needed.primitives),
+        };
+        let is_lull = 5 * most.points <= before.points && 5 * most.primitives <= before.primitives;
+        if is_lull && frame < since + PATIENCE {
+            self.lull = (since, most);
+            return Some(before);
+        }
+        self.lull = (frame, Capacity::default());
+        Some(if is_lull { ample(most, self.first) } else { before })
+    }
+
+    /// The room that a frame has, when it was `before`.
+    pub(super) fn check_room(&mut self, before: Capacity) -> Result<(), String> {
+        let now = self.stage.capacity();
+        if let Some(expected) = self.next_room(before) {
+            return equal("room", now, expected);
+        }
+        let (Room::Automatic { most_bytes } | Room::Bytes(most_bytes)) = self.form.room else {
+            return Err(format!("{:?} has no budget", self.form.room));
+        };
+        let is_larger = now.points >= before.points && now.primitives >= before.primitives;
+        let is_right = is_larger && self.bytes(now) <= most_bytes.max(self.bytes(before));
+        if is_right { Ok(()) } else { Err(format!("room {now:?} after {before:?}")) }
     }
 
     /// Gives the patches other factors.
@@ -163,7 +202,9 @@ impl Own {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         match self.form.source {
             Source::Hull => {
-                let group = self.scene.bind(&patches);
+                let turn = self.variant as usize & 1;
+                let turned: Vec<_> = (0..patches.len()).map(|at| patches[at ^ turn]).collect();
+                let group = self.scene.bind(&turned);
                 self.stage.set_bind_group(0, &group).expect("it goes with the layout");
             }
             Source::Host => {
@@ -295,7 +336,7 @@ impl Own {
         let mut placed = patches.to_vec();
         placed.rotate_right(self.moved as usize);
         let number = |[u, v, cell, is_drawn]: Pixel| match is_drawn {
-            1 => [u, v, (cell + PATCHES - self.moved) % PATCHES, 1],
+            1 => [u, v, (cell + PATCHES - self.moved) % PATCHES, 1 + self.variant / 2],
             _ => [0; 4],
         };
         self.scene.pixels(&placed).into_iter().map(|pixel| pixel.map(number)).collect()

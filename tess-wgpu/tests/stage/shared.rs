@@ -1,0 +1,96 @@
+//! Stages with one tessellator share the pipelines that do not depend on what differs. Sequences compare their output.
+
+use crate::scene::{FORMAT, PATCHES, source};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
+use tess_wgpu::stage::StageBuilder;
+use tess_wgpu::{Gpu, TessellationStage, Tessellator};
+
+/// Pipelines that there are in an instance: compute, render.
+fn pipelines(instance: &wgpu::Instance) -> [usize; 2] {
+    let report = instance.generate_report().expect("natively");
+    let hub = report.hub_report();
+    [&hub.compute_pipelines, &hub.render_pipelines].map(|one| one.num_kept_from_user)
+}
+
+#[test]
+fn a_stage_makes_the_pipelines_that_no_other_has() {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
+    let opened = async {
+        let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
+        let (device, queue) = adapter.request_device(&Default::default()).await.expect("a device");
+        Gpu { device, queue, info: adapter.get_info() }
+    };
+    let gpu = pollster::block_on(opened);
+    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
+    let scene = crate::scene::Scene::on(gpu, Domain::Quad, config, Vec::new());
+    let shared = Tessellator::new(&scene.gpu.device);
+    let right = source(Domain::Quad);
+    let build = |text: &str, change: fn(StageBuilder<'_>) -> StageBuilder<'_>| {
+        let builder = TessellationStage::builder(text, Domain::Quad, config, PATCHES)
+            .bind_group(&scene.layout, &scene.group)
+            .target(FORMAT)
+            .tessellator(&shared);
+        let before = pipelines(&instance);
+        let stage = change(builder).build(&scene.gpu.device);
+        let after = pipelines(&instance);
+        (stage.unwrap_or_else(|error| panic!("{error}")), [0, 1].map(|at| after[at] - before[at]))
+    };
+    let (first, [compute, render]) = build(&right, |builder| builder);
+    assert!(compute > 7 && render == 1, "{compute} compute pipelines and {render}");
+    let other_fragment = right.replace("vertex.number, 1u", "vertex.number, 2u");
+    let other_hull = right.replace("6u * number", "6u * (number ^ 1u)");
+    let with_constant = right.clone() + "override a = 1.0;";
+    let mut all = Vec::new();
+    for (what, text, change, expected) in [
+        (
+            "nothing",
+            &right,
+            (|builder| builder) as fn(StageBuilder<'_>) -> StageBuilder<'_>,
+            [0, 0],
+        ),
+        ("the fragment shader", &other_fragment, |builder| builder, [0, 1]),
+        ("the same again", &other_fragment, |builder| builder, [0, 0]),
+        ("the hull", &other_hull, |builder| builder, [1, 1]),
+        (
+            "culling",
+            &right,
+            |builder| {
+                let cull_mode = Some(wgpu::Face::Back);
+                builder.primitive(wgpu::PrimitiveState { cull_mode, ..Default::default() })
+            },
+            [0, 1],
+        ),
+        (
+            "the most bytes",
+            &right,
+            |builder| builder.room(tess_wgpu::stage::Room::Bytes(9000)),
+            [0, 0],
+        ),
+        ("a constant's declaration", &with_constant, |builder| builder, [0, 1]),
+        ("a constant's value", &with_constant, |builder| builder.constants(&[("a", 2.0)]), [1, 1]),
+        ("its own pipeline", &right, |builder| builder.without_pipeline(), [0, 0]),
+    ] {
+        let (stage, made) = build(text, change);
+        assert_eq!(made, expected, "another stage that differs in {what}");
+        all.push(stage);
+    }
+    drop((first, all));
+    let left = pipelines(&instance);
+    let (_, made) = build(&right, |builder| builder);
+    assert!(left[1] == 0 && made == [compute - left[0], 1], "{left:?} were left, {made:?} made");
+}
+
+#[test]
+fn stages_can_be_built_on_another_thread() {
+    const fn is_send<T: Send>(_: &T) {}
+    let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
+    let text = source(Domain::Quad);
+    let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
+    let shared = Tessellator::new(&gpu.device);
+    let build = || TessellationStage::builder(&text, Domain::Quad, config, 1).tessellator(&shared);
+    is_send(&build().build_async(&gpu.device));
+    let refused =
+        std::thread::scope(|scope| scope.spawn(|| build().build(&gpu.device).err()).join());
+    let told = refused.expect("it ends").expect("it lacks its bind group").to_string();
+    assert!(told.contains("`given` is in a bind group"), "{told}");
+}
