@@ -125,7 +125,7 @@ fn reason(report: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::headline;
+    use super::{headline, marked, reason};
 
     #[test]
     fn reports_are_shortened() {

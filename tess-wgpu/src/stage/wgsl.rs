@@ -221,7 +221,7 @@ mod tests {
         );
         assert_eq!(
             all.iter().map(Declaration::has_no_value).filter(|&none| none).count(),
-            8,
+            7,
             "all but two"
         );
     }
