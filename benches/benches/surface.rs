@@ -17,7 +17,7 @@ use tess_surface::{
 /// The domain points of a patch of these factors.
 fn domain_points(factors: PatchFactors) -> Vec<[f32; 2]> {
     let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
-    let patch = tess_core::SurfacePatch::new(config, factors).tessellate();
+    let patch = tess_core::Patch::new(config, factors).tessellate();
     patch.points.iter().map(|point| point.to_f32()).collect()
 }
 

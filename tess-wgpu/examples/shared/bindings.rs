@@ -1,8 +1,8 @@
-//! Bind groups of read-only things.
+//! Bind groups of what shaders read.
 
 use tess_wgpu::Gpu;
 
-/// What is bound.
+/// Something that is bound.
 #[derive(Clone, Copy, Debug)]
 #[allow(dead_code, reason = "each example binds its own")]
 pub(crate) enum Bound<'a> {
@@ -10,20 +10,31 @@ pub(crate) enum Bound<'a> {
     Read(&'a wgpu::Buffer),
     /// A texture that is loaded from, not sampled.
     Texture(&'a wgpu::TextureView),
+    /// 16 bytes at a dynamic offset.
+    Dynamic(&'a wgpu::Buffer),
+    Depth(&'a wgpu::TextureView),
+    Comparison(&'a wgpu::Sampler),
 }
 
 /// The layout and the bind group of these, bindings 0, 1, ..., for all stages.
 pub(crate) fn bind(gpu: &Gpu, all: &[Bound<'_>]) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
-    let buffer =
-        |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+    let buffer = |ty, has_dynamic_offset| wgpu::BindingType::Buffer {
+        ty,
+        has_dynamic_offset,
+        min_binding_size: None,
+    };
+    let texture = |sample_type| wgpu::BindingType::Texture {
+        sample_type,
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
     let kind = |bound: &Bound<'_>| match bound {
-        Bound::Uniform(_) => buffer(wgpu::BufferBindingType::Uniform),
-        Bound::Read(_) => buffer(wgpu::BufferBindingType::Storage { read_only: true }),
-        Bound::Texture(_) => wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        },
+        Bound::Uniform(_) => buffer(wgpu::BufferBindingType::Uniform, false),
+        Bound::Dynamic(_) => buffer(wgpu::BufferBindingType::Uniform, true),
+        Bound::Read(_) => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false),
+        Bound::Texture(_) => texture(wgpu::TextureSampleType::Float { filterable: false }),
+        Bound::Depth(_) => texture(wgpu::TextureSampleType::Depth),
+        Bound::Comparison(_) => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
     };
     let visibility = wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX_FRAGMENT;
     let layouts: Vec<_> = (0..)
@@ -45,7 +56,15 @@ pub(crate) fn bind(gpu: &Gpu, all: &[Bound<'_>]) -> (wgpu::BindGroupLayout, wgpu
             binding,
             resource: match *bound {
                 Bound::Uniform(buffer) | Bound::Read(buffer) => buffer.as_entire_binding(),
-                Bound::Texture(view) => wgpu::BindingResource::TextureView(view),
+                Bound::Texture(view) | Bound::Depth(view) => {
+                    wgpu::BindingResource::TextureView(view)
+                }
+                Bound::Comparison(sampler) => wgpu::BindingResource::Sampler(sampler),
+                Bound::Dynamic(buffer) => wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+                    buffer,
+                    offset: 0,
+                    size: std::num::NonZeroU64::new(16),
+                }),
             },
         })
         .collect();

@@ -183,18 +183,19 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// Leaves the render pipeline to an engine that makes its own, from [`Self::vertex_shader`] and its own
-    /// fragment shader. Only `hull` uses the bind groups then, the render state is not used, and
-    /// the engine draws with [`TessellationStage::buffers`](super::TessellationStage::buffers).
+    /// Leaves the render pipelines to an engine that makes its own, from [`Self::vertex_shader`] and its own
+    /// fragment shaders: for a shadow map, a depth prepass, several cameras. Only `hull` uses the bind groups then, the
+    /// render state is not used, and the engine draws with [`TessellationStage::draw`](super::TessellationStage::draw) or
+    /// [`TessellationStage::buffers`](super::TessellationStage::buffers). Points are [`Points::Stored`].
     pub const fn without_pipeline(mut self) -> Self {
         self.makes_pipeline = false;
         self
     }
 
     /// The WGSL of the vertex shader, for an engine that makes the render pipeline: the user's text, line by
-    /// line as it is, and the stage's behind it. The entry point is `tess_vertex`. With [`Points::Stored`] it
-    /// takes one vertex buffer of 8 bytes a point, `Uint32x2` at location 0; otherwise the stage's
-    /// bindings are in the group behind the user's.
+    /// line as it is, and the stage's behind it. The entry point is `tess_vertex`. It takes one vertex buffer of 8 bytes
+    /// a point, `Uint32x2` at location 0. With points that are pulled the text is of no use outside of the stage, which
+    /// keeps what it binds to itself.
     #[must_use]
     pub fn vertex_shader(&self) -> String {
         source::of_vertices(self.source, self.setup(), self.points, self.own_group())

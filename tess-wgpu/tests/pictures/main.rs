@@ -16,6 +16,9 @@ mod bindings;
 #[path = "../../examples/shared/camera.rs"]
 mod camera;
 #[allow(dead_code, reason = "only its picture is used here")]
+#[path = "../../examples/passes/show.rs"]
+mod passes;
+#[allow(dead_code, reason = "only its picture is used here")]
 #[path = "../../examples/quickstart/show.rs"]
 mod quickstart;
 #[allow(dead_code, reason = "the picture does not say more")]
@@ -77,6 +80,18 @@ fn the_sea_of_the_quickstart_is_the_cpus() {
     assert!(found <= PER_MILLE, "{found} pixels of a thousand differ");
     let found = difference(&observed, &reference::sea(SIZE, 0.9));
     assert!(found > PER_MILLE, "lower waves differ in only {found}");
+}
+
+#[test]
+fn passes_draw_what_was_prepared_once() {
+    let gpu = gpu();
+    let of = |prepass| picture::<passes::Passes>(&gpu, &Args::default().with("prepass", prepass));
+    let observed = of("on");
+    assert!(observed == of("off"), "depths that are equal are the nearest");
+    let found = difference(&observed, &reference::hills(SIZE, true));
+    assert!(found <= PER_MILLE / 2, "{found} pixels of a thousand differ");
+    let found = difference(&observed, &reference::hills(SIZE, false));
+    assert!(found > PER_MILLE, "hills without shadows differ in only {found}");
 }
 
 /// Where points come from makes no difference to a single pixel.

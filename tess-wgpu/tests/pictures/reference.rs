@@ -2,9 +2,9 @@
 
 use crate::camera::Camera;
 use crate::raster::{Fragment, Raster};
-use crate::{app, teapot};
+use crate::{app, passes, teapot};
 use glam::{Mat4, Vec2, Vec3};
-use tess_core::{Config, OutputPrimitive, Partitioning, Patch, PatchFactors, QuadFactors};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, Patch, PatchFactors, QuadFactors};
 use tess_surface::{Model, Sample};
 
 fn byte(channel: f32) -> u8 {
@@ -119,4 +119,43 @@ pub(crate) fn sea(size: [u32; 2], height: f32) -> Vec<[u8; 3]> {
         draw(&mut raster, (config, PatchFactors::Quad(factors)), sample, shade);
     }
     raster.pixels().to_vec()
+}
+
+/// The function `height` of hills.wgsl.
+fn height(at: Vec2) -> f32 {
+    let top = at - Vec2::new(4.0, 3.5);
+    0.25 * libm::sinf(1.7 * at.x) * libm::sinf(1.9 * at.y) + 1.8 * libm::expf(-1.5 * top.dot(top))
+}
+
+/// The example `passes`: two pictures side by side, with shadows or without.
+pub(crate) fn hills([width, rows]: [u32; 2], has_shadows: bool) -> Vec<[u8; 3]> {
+    let sun = passes::toward_sun();
+    let is_lit = |from: Vec3| {
+        let mut ray = (1..400_u16).map(|step| from + sun * (0.02 * f32::from(step)));
+        !ray.any(|at| at.max_element() < 8.0 && at.z < height(at.truncate()) - 0.02)
+    };
+    let shade = |fragment: &Fragment| {
+        let at = fragment.position.truncate();
+        let slope = [Vec2::X, Vec2::Y].map(|axis| (height(at + 0.01 * axis) - height(at)) / 0.01);
+        let normal = Vec3::new(-slope[0], -slope[1], 1.0).normalize();
+        let lit = !has_shadows || is_lit(fragment.position);
+        let light = if lit { 0.3 + 0.7 * normal.dot(sun).max(0.0) } else { 0.3 };
+        colour(light * Vec3::new(0.55, 0.62, 0.40))
+    };
+    let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
+    let half = passes::cameras(0.5 * width as f32 / rows as f32).map(|clip| {
+        let mut raster = blank([width / 2, rows], clip);
+        for number in 0..64_u16 {
+            let corner = Vec2::new(f32::from(number % 8), f32::from(number / 8));
+            let sample = |uv: [f32; 2]| {
+                let at = corner + Vec2::from(uv);
+                Sample { position: at.extend(height(at)), normal: Vec3::Z, ..Sample::default() }
+            };
+            draw(&mut raster, (config, PatchFactors::uniform(Domain::Quad, 16.0)), sample, shade);
+        }
+        raster
+    });
+    let rows = half.each_ref().map(|raster| raster.pixels().chunks(width as usize / 2));
+    let [left, right] = rows;
+    left.zip(right).flat_map(|(left, right)| [left, right].concat()).collect()
 }
