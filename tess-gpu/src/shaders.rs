@@ -15,8 +15,6 @@ mod pull;
 mod taps;
 
 pub use counting::Counting;
-#[cfg(all(test, feature = "taps"))]
-pub(crate) use files::texts;
 pub use pull::Pull;
 #[cfg(feature = "taps")]
 pub use taps::Tap;

@@ -170,12 +170,6 @@ fn first_line(file: &'static str) -> (&'static str, &'static str) {
     line.split_once("; bindings: ").unwrap_or((line, ""))
 }
 
-/// The text of every file.
-#[cfg(all(test, feature = "taps"))]
-pub(crate) fn texts() -> impl Iterator<Item = &'static str> {
-    FILES.iter().map(|&(_, text)| text)
-}
-
 fn text(file: &str) -> &'static str {
     let found = FILES.iter().find(|(name, _)| *name == file);
     found.map(|&(_, text)| text).unwrap_or_else(|| panic!("{file}.wgsl is no file of shaders/"))
