@@ -16,7 +16,7 @@
 use std::ops::Range;
 use tess_core::{BufferTooSmall, DomainPoint, Patch};
 use tess_simd::{Buffers, Level, Numbering, OwnedBatch, PatchRange, Tessellator};
-use tess_verify::generate::{IndexType, Totals, Workload};
+use tess_verify::generate::{IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
 
 /// Patches to tessellate and buffers of the right size.
@@ -49,7 +49,7 @@ pub fn cases() -> Vec<Case> {
 
 impl Case {
     fn new(workload: Workload) -> Self {
-        let batch = workload.cache_batches(IndexType::U32).swap_remove(0);
+        let batch = workload.cache_batches(IndexWidth::U32).swap_remove(0);
         let part =
             Workload { patches: workload.patches[batch.clone()].to_vec(), ..workload.clone() };
         let totals = part.totals();
@@ -111,7 +111,7 @@ impl Case {
     /// Bytes that a run writes, the ranges of patches left out.
     #[must_use]
     pub const fn bytes(&self) -> u64 {
-        self.totals.bytes(IndexType::U32)
+        self.totals.bytes(IndexWidth::U32)
     }
 
     /// The digest of what the buffers hold: all points, then all indices.

@@ -19,13 +19,13 @@ mod ways;
 mod workers;
 
 pub use asked::Asked;
-pub use compare::{Element, Mismatch, Stage};
+pub use compare::{Element, Mismatch, SpecStage};
 pub use known::Known;
 pub(crate) use patches::tessellate;
-pub use report::{CheckError, Difference, Group, MAX_DIFFERENCES, Report};
+pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report};
 pub use second::SecondFormulation;
 pub use strength::{Conversion, Denormals, Elements, Order, Strength, flushed, vertices};
-pub use verify::{Plan, Row, Subject, verify};
+pub use verify::{Subject, SubjectRow, VerifyPlan, verify};
 pub use ways::Way;
 
 use crate::backend::{Backend, BackendError};

@@ -37,7 +37,7 @@ pub fn bins_hit(case: &Case) -> Vec<usize> {
 /// How many bins of a group were hit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Group {
+pub struct BinGroup {
     /// Name of the group.
     pub name: String,
     /// The stage of the specification that its bins tell of, such as `context`.
@@ -139,17 +139,17 @@ impl Coverage {
 
     /// The groups, in alphabetical order.
     #[must_use]
-    pub fn groups(&self) -> Vec<Group> {
+    pub fn groups(&self) -> Vec<BinGroup> {
         self.groups_without(&Exclusions::default())
     }
 
     /// The groups, in alphabetical order, with the bins that are excluded.
     #[must_use]
-    pub(crate) fn groups_without(&self, exclusions: &Exclusions) -> Vec<Group> {
-        let mut groups: BTreeMap<&str, Group> = BTreeMap::new();
+    pub(crate) fn groups_without(&self, exclusions: &Exclusions) -> Vec<BinGroup> {
+        let mut groups: BTreeMap<&str, BinGroup> = BTreeMap::new();
         for (bin, hits) in self.bins() {
             let name = bin.split('/').next().unwrap_or(bin);
-            let group = groups.entry(name).or_insert_with(|| Group {
+            let group = groups.entry(name).or_insert_with(|| BinGroup {
                 name: name.to_owned(),
                 stage: report::stage(name),
                 hit: 0,

@@ -23,7 +23,7 @@ pub use patches::random_patch;
 #[cfg(feature = "arbitrary")]
 pub(crate) use patches::{factor_up_to, patch_of};
 pub use random::SplitMix64;
-pub use workloads::{Calls, IndexType, Totals, Workload};
+pub use workloads::{Calls, IndexWidth, Totals, Workload};
 
 use crate::case::Case;
 use random::Draw;

@@ -45,7 +45,7 @@ mod mesh;
 mod report;
 mod standard;
 
-pub use report::{Example, Row, RulesReport, Verdict};
+pub use report::{Example, RuleRow, RulesReport, Verdict};
 pub use standard::{Rule, Specification};
 
 use crate::backend::{Backend, BackendError};

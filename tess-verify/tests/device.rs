@@ -2,8 +2,8 @@
 
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::check::{
-    CheckError, Conversion, Denormals, Element, Elements, Order, Report, Stage, Strength, Tested,
-    check,
+    CheckError, Conversion, Denormals, Element, Elements, Order, Report, SpecStage, Strength,
+    Tested, check,
 };
 use tess_verify::vectors::{Listing, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend};
@@ -40,7 +40,7 @@ fn observe_all(
 }
 
 /// The stage that a wrong output points to.
-fn stage(line: &str, output: Tessellation) -> Stage {
+fn stage(line: &str, output: Tessellation) -> SpecStage {
     let report = observe(case(line), output, Strength::default());
     assert_eq!((report.cases, report.mismatches), (1, 1), "the difference is seen");
     report.differences[0].mismatch.stage
@@ -59,24 +59,24 @@ fn a_right_device_passes() {
 #[test]
 fn stages_of_a_device_are_told_apart() {
     let truncated = right(&TRIANGLE.replace("40733333", "40733300"));
-    assert_eq!(stage(TRIANGLE, truncated), Stage::Factors, "converted by truncation");
+    assert_eq!(stage(TRIANGLE, truncated), SpecStage::Factors, "converted by truncation");
     let center = right(&TRIANGLE.replace("ruler", "center"));
     let mut reordered = center.clone();
     reordered.indices.rotate_left(3);
-    assert_eq!(stage(TRIANGLE, center), Stage::Context, "split in another order");
-    assert_eq!(stage(TRIANGLE, reordered), Stage::Context, "and triangles in another order");
+    assert_eq!(stage(TRIANGLE, center), SpecStage::Context, "split in another order");
+    assert_eq!(stage(TRIANGLE, reordered), SpecStage::Context, "and triangles in another order");
     let mut moved = right(TRIANGLE);
     moved.points[3] = DomainPoint::from_bits(0, 1);
-    assert_eq!(stage(TRIANGLE, moved), Stage::Location, "a point in the wrong place");
+    assert_eq!(stage(TRIANGLE, moved), SpecStage::Location, "a point in the wrong place");
     let mut swapped = right(TRIANGLE);
     swapped.points.swap(2, 9);
-    assert_eq!(stage(TRIANGLE, swapped), Stage::PointOrder, "points in another order");
+    assert_eq!(stage(TRIANGLE, swapped), SpecStage::PointOrder, "points in another order");
     let clockwise = right(&TRIANGLE.replace("ccw", "cw"));
-    assert_eq!(stage(TRIANGLE, clockwise), Stage::Stitch, "the other winding");
-    assert_eq!(stage(TRIANGLE, Tessellation::default()), Stage::Factors, "culled");
+    assert_eq!(stage(TRIANGLE, clockwise), SpecStage::Stitch, "the other winding");
+    assert_eq!(stage(TRIANGLE, Tessellation::default()), SpecStage::Factors, "culled");
     let mut short = right(TRIANGLE);
     short.indices.truncate(6);
-    assert_eq!(stage(TRIANGLE, short), Stage::Counts, "too few indices");
+    assert_eq!(stage(TRIANGLE, short), SpecStage::Counts, "too few indices");
 }
 
 #[test]
@@ -117,11 +117,11 @@ fn sequences_are_compared_by_coordinates() {
     };
     let turned = differs(&|device| device.indices[3..6].rotate_left(1));
     assert!(turned.to_string().starts_with("index 0 of primitive 1: observed ("), "{turned}");
-    assert_eq!(turned.stage, Stage::Stitch, "another leading vertex");
+    assert_eq!(turned.stage, SpecStage::Stitch, "another leading vertex");
     let moved = differs(&|device| device.points[4] = DomainPoint::from_bits(0x123, 0x456));
-    assert_eq!(moved.stage, Stage::Location, "a point that the model does not have");
+    assert_eq!(moved.stage, SpecStage::Location, "a point that the model does not have");
     let lost = differs(&|device| device.indices.truncate(3));
-    assert_eq!(lost.stage, Stage::Counts, "too few primitives");
+    assert_eq!(lost.stage, SpecStage::Counts, "too few primitives");
     let nowhere = differs(&|device| device.indices[1] = 9999);
     assert!(nowhere.to_string().contains("no point"), "{nowhere}");
 }
@@ -140,7 +140,7 @@ fn points_alone() {
     assert!(shown.starts_with("point 3 v: observed"), "{shown}");
     device.points.pop();
     let report = observe(case(TRIANGLE), device, strength);
-    assert_eq!(report.differences[0].mismatch.stage, Stage::Counts, "a point too few");
+    assert_eq!(report.differences[0].mismatch.stage, SpecStage::Counts, "a point too few");
 }
 
 const ANY: Strength = Strength {
@@ -244,13 +244,13 @@ fn stages_in_any_order() {
     };
     let mut moved = right(TRIANGLE);
     moved.points[9] = DomainPoint::from_bits(moved.points[9].u.to_bits() ^ 1, 0x4000);
-    assert_eq!(stage(&moved), Stage::Location, "a point in the wrong place");
+    assert_eq!(stage(&moved), SpecStage::Location, "a point in the wrong place");
     let truncated = right(&TRIANGLE.replace("40733333", "40733300"));
-    assert_eq!(stage(&truncated), Stage::Factors, "converted by truncation");
+    assert_eq!(stage(&truncated), SpecStage::Factors, "converted by truncation");
     let center = right(&TRIANGLE.replace("ruler", "center"));
-    assert_eq!(stage(&center), Stage::Context, "split in another order");
+    assert_eq!(stage(&center), SpecStage::Context, "split in another order");
     let clockwise = right(&TRIANGLE.replace("ccw", "cw"));
-    assert_eq!(stage(&clockwise), Stage::Stitch, "the other winding");
+    assert_eq!(stage(&clockwise), SpecStage::Stitch, "the other winding");
 }
 
 /// With `--points`, wrong indices explain nothing.
@@ -260,7 +260,7 @@ fn stages_of_points_alone() {
     truncated.indices.clear();
     let strength = Strength { elements: Elements::Points, ..Strength::default() };
     let report = observe(case(TRIANGLE), truncated, strength);
-    assert_eq!(report.differences[0].mismatch.stage, Stage::Factors, "{report:?}");
+    assert_eq!(report.differences[0].mismatch.stage, SpecStage::Factors, "{report:?}");
 }
 
 const WITHIN_06_ULP: Strength = Strength { conversion: Conversion::Within06Ulp, ..ANY };
@@ -289,7 +289,7 @@ fn a_value_has_one_conversion_through_the_file() {
         let report = observe_all("device", &outputs, WITHIN_06_ULP, threads);
         assert_eq!((report.cases, report.mismatches), (600, 2), "{threads} threads");
         let first = &report.differences[0];
-        assert_eq!((first.number, first.mismatch.stage), (401, Stage::Factors), "{first}");
+        assert_eq!((first.number, first.mismatch.stage), (401, SpecStage::Factors), "{first}");
         assert_eq!(
             first.mismatch.to_string(),
             "fixed-point number of factor 0x40400020: observed 0x030001, expected 0x030000, as \
@@ -370,13 +370,13 @@ fn the_stage_of_a_wrong_factor() {
                 let is_seen = output != patch.tessellate();
                 assert!(is_seen || fixed.abs_diff(other) == 1, "{words:?}");
                 if is_seen {
-                    assert_eq!(stage(line, output), Stage::Factors, "{words:?}");
+                    assert_eq!(stage(line, output), SpecStage::Factors, "{words:?}");
                 }
             }
         }
-        assert_eq!(stage(line, Tessellation::default()), Stage::Factors, "culled");
+        assert_eq!(stage(line, Tessellation::default()), SpecStage::Factors, "culled");
         let center = right(&line.replace("ruler", "center"));
-        assert_eq!(stage(line, center), Stage::Context, "the other split order");
+        assert_eq!(stage(line, center), SpecStage::Context, "the other split order");
     }
 }
 

@@ -4,7 +4,7 @@
 use tess_core::{Domain, DomainPoint, Tessellation};
 use tess_verify::Case;
 use tess_verify::check::{
-    Conversion, Denormals, Elements, Order, Report, Stage, Strength, Way, check_device,
+    Conversion, Denormals, Elements, Order, Report, SpecStage, Strength, Way, check_device,
 };
 
 const ANY: Strength = Strength {
@@ -129,7 +129,10 @@ fn differences_are_counted_by_stage_and_configuration() {
     let groups = report.groups();
     let counts: Vec<_> = groups.iter().map(|group| (group.stage, group.mismatches)).collect();
     let [lines, culled, tri] = &groups[..] else { panic!("{counts:?}") };
-    assert_eq!(counts, [(Stage::Location, 1), (Stage::Factors, 1), (Stage::Location, 31)]);
+    assert_eq!(
+        counts,
+        [(SpecStage::Location, 1), (SpecStage::Factors, 1), (SpecStage::Location, 31)]
+    );
     assert_eq!((lines.smallest.number, culled.smallest.number), (1, 2), "by size");
     assert_eq!(
         tri.smallest.number, 4,

@@ -1,19 +1,19 @@
 //! Verification of backends: it compares what it says, in any number of shards and threads.
 
 use tess_verify::Backend;
-use tess_verify::check::{Known, Plan, Row, SecondFormulation, Subject, verify};
+use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, VerifyPlan, verify};
 use tess_verify::generate::Shard;
 
 /// One part in 61 of every subject (and far less of the largest).
-fn small_plan() -> Plan {
-    Plan { subjects: Subject::ALL.to_vec(), shard: Shard { part: 3, of: 61 } }
+fn small_plan() -> VerifyPlan {
+    VerifyPlan { subjects: Subject::ALL.to_vec(), shard: Shard { part: 3, of: 61 } }
 }
 
-fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &Plan) -> Vec<Row> {
+fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &VerifyPlan) -> Vec<SubjectRow> {
     verify(workers, plan, &Known::default(), &|_, _, _| {}).expect("the backends run")
 }
 
-fn without_factors(mut plan: Plan) -> Plan {
+fn without_factors(mut plan: VerifyPlan) -> VerifyPlan {
     plan.subjects.retain(|subject| *subject != Subject::Factors);
     plan
 }
@@ -36,7 +36,7 @@ fn both_formulations_agree_on_any_number_of_threads() {
 #[test]
 fn progress_ends_with_the_last_unit() {
     let subjects = vec![Subject::Transitions, Subject::Interiors];
-    let plan = Plan { subjects, shard: Shard { part: 1, of: 4 } };
+    let plan = VerifyPlan { subjects, shard: Shard { part: 1, of: 4 } };
     let calls = std::sync::Mutex::new(Vec::new());
     let note = |subject, done, all| calls.lock().expect("no panic").push((subject, done, all));
     verify(&mut [vec![Box::new(SecondFormulation)]], &plan, &Known::default(), &note)
@@ -58,7 +58,7 @@ fn factors_agree_with_binary64() {
     let shard = Shard { part: 1016, of: 4096 };
     let rows = run(
         &mut [vec![Box::new(SecondFormulation)]],
-        &Plan { subjects: vec![Subject::Factors], shard },
+        &VerifyPlan { subjects: vec![Subject::Factors], shard },
     );
     assert_eq!((rows[0].compared, rows[0].first.as_deref()), (4 << 20, None), "four units");
 }
@@ -74,7 +74,7 @@ fn no_backend_is_an_error() {
 #[test]
 fn as_many_random_patches_as_there_are_numbers() {
     let subjects = vec![Subject::Random { patches: u64::MAX, seed: 1 }];
-    let plan = Plan { subjects, shard: Shard { part: 5, of: 96 << 51 } };
+    let plan = VerifyPlan { subjects, shard: Shard { part: 5, of: 96 << 51 } };
     let rows = run(&mut [vec![Box::new(SecondFormulation)]], &plan);
     assert_eq!((rows[0].compared, rows[0].first.as_deref()), (2 * 4096, None), "two units");
 }

@@ -10,7 +10,7 @@ use pyo3::types::{PyString, PyTuple};
 use std::path::PathBuf;
 use tess_core::Tessellation;
 use tess_verify::check::CheckError;
-use tess_verify::rules::{Checker, Row, RulesReport, Specification};
+use tess_verify::rules::{Checker, RuleRow, RulesReport, Specification};
 use tess_verify::vectors::{Kind, Record};
 use tess_verify::{Case, Named};
 
@@ -89,7 +89,7 @@ fn report<'py>(py: Python<'py>, found: &RulesReport) -> PyResult<Bound<'py, PyAn
 fn row<'py>(
     py: Python<'py>,
     specification: Specification,
-    row: &Row,
+    row: &RuleRow,
 ) -> PyResult<Bound<'py, PyAny>> {
     let example = row.smallest.as_ref().map(|example| {
         let cases = PyTuple::new(py, example.cases.iter().map(ToString::to_string))?;

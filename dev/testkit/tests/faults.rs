@@ -5,7 +5,7 @@ use std::sync::atomic::Ordering;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::check::{
-    CheckError, Conversion, Element, MAX_DIFFERENCES, Order, Report, Stage, Strength, Tested,
+    CheckError, Conversion, Element, MAX_DIFFERENCES, Order, Report, SpecStage, Strength, Tested,
     check, check_device,
 };
 use tess_verify::vectors::VectorFile;
@@ -46,24 +46,25 @@ fn run_core(text: &str) -> Report {
 }
 
 /// Whether a difference in `element` and `stage` is what a fault of patches looks like.
-fn looks_like(fault: Fault, element: &Element, stage: Stage) -> bool {
+fn looks_like(fault: Fault, element: &Element, stage: SpecStage) -> bool {
     let first = |wanted| matches!(element, Element::Point { index: 0, coordinate } if *coordinate == wanted);
     match fault {
-        Fault::PointU => first("u") && stage == Stage::Location,
-        Fault::PointV => first("v") && stage == Stage::Location,
+        Fault::PointU => first("u") && stage == SpecStage::Location,
+        Fault::PointV => first("v") && stage == SpecStage::Location,
         Fault::LastPoint => {
-            matches!(element, Element::Point { coordinate: "v", .. }) && stage == Stage::Location
+            matches!(element, Element::Point { coordinate: "v", .. })
+                && stage == SpecStage::Location
         }
-        Fault::SwappedPoints => (first("u") || first("v")) && stage == Stage::PointOrder,
+        Fault::SwappedPoints => (first("u") || first("v")) && stage == SpecStage::PointOrder,
         Fault::DroppedPoint | Fault::ExtraPoint | Fault::StrayPoint | Fault::EmptyPatch => {
-            *element == Element::Count("points") && stage == Stage::Counts
+            *element == Element::Count("points") && stage == SpecStage::Counts
         }
         Fault::SwappedIndices => {
-            *element == Element::Index { primitive: 0, position: 0 } && stage == Stage::Stitch
+            *element == Element::Index { primitive: 0, position: 0 } && stage == SpecStage::Stitch
         }
-        Fault::LastIndex => matches!(element, Element::Index { .. }) && stage == Stage::Stitch,
+        Fault::LastIndex => matches!(element, Element::Index { .. }) && stage == SpecStage::Stitch,
         Fault::DroppedIndex | Fault::ExtraIndex => {
-            *element == Element::Count("indices") && stage == Stage::Counts
+            *element == Element::Count("indices") && stage == SpecStage::Counts
         }
         _ => true,
     }
@@ -105,9 +106,10 @@ fn faults_of_contexts_and_locations() {
     let text = excerpt("place.csv", |i, _| i % 60 == 2 || i == 63);
     let rows = run_core(&text).cases;
     assert_eq!(rows, 6, "rows of the excerpt");
-    for (faults, stage) in
-        [(&Fault::OF_CONTEXTS[..], Stage::Context), (&Fault::OF_LOCATIONS[..], Stage::Location)]
-    {
+    for (faults, stage) in [
+        (&Fault::OF_CONTEXTS[..], SpecStage::Context),
+        (&Fault::OF_LOCATIONS[..], SpecStage::Location),
+    ] {
         for &fault in faults {
             let result = run_faulty(&text, fault, 4);
             if fault == Fault::ShortAnswer {
@@ -118,7 +120,7 @@ fn faults_of_contexts_and_locations() {
             assert_eq!((report.cases, report.mismatches), (rows, rows - 4), "{fault:?}");
             let mismatch = &report.differences[0].mismatch;
             let counted = fault == Fault::DroppedLocation;
-            let stage = if counted { Stage::Counts } else { stage };
+            let stage = if counted { SpecStage::Counts } else { stage };
             assert_eq!(mismatch.stage, stage, "{fault:?}: {mismatch}");
             let found = matches!(
                 (fault, mismatch.element.clone()),
@@ -140,7 +142,7 @@ fn faults_of_factors() {
         let report = run_faulty(&text, fault, 127).expect("a verdict");
         assert_eq!(report.mismatches, 1, "{fault:?}");
         let mismatch = &report.differences[0].mismatch;
-        assert_eq!(mismatch.stage, Stage::Factors, "{fault:?}: {mismatch}");
+        assert_eq!(mismatch.stage, SpecStage::Factors, "{fault:?}: {mismatch}");
         let found = matches!(mismatch.element, Element::Factor { role, .. } if role == expected);
         assert!(found, "{fault:?} looks like {mismatch}");
     }
@@ -153,10 +155,10 @@ fn faults_of_factors() {
 fn stages_are_told_apart() {
     let text = excerpt("patches.csv", |i, _| i < 40);
     for (fault, stage) in [
-        (Fault::OuterFactor, Stage::Factors),
-        (Fault::InsideFactor, Stage::Factors),
-        (Fault::OF_CONTEXTS[3], Stage::Context),
-        (Fault::LastLocation, Stage::Location),
+        (Fault::OuterFactor, SpecStage::Factors),
+        (Fault::InsideFactor, SpecStage::Factors),
+        (Fault::OF_CONTEXTS[3], SpecStage::Context),
+        (Fault::LastLocation, SpecStage::Location),
     ] {
         let patch_fault = Faulty::new(CoreBackend, Fault::DroppedPoint, 0);
         let backend = Faulty::new(patch_fault, fault, 0);

@@ -2,22 +2,22 @@
 
 use std::sync::atomic::Ordering;
 use tess_testkit::faults::{Fault, Faulty};
-use tess_verify::check::{Known, Plan, Row, Subject, verify};
+use tess_verify::check::{Known, Subject, SubjectRow, VerifyPlan, verify};
 use tess_verify::generate::Shard;
 use tess_verify::{Backend, CoreBackend};
 
-fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &Plan) -> Vec<Row> {
+fn run(workers: &mut [Vec<Box<dyn Backend>>], plan: &VerifyPlan) -> Vec<SubjectRow> {
     verify(workers, plan, &Known::default(), &|_, _, _| {}).expect("the backends run")
 }
 
 /// The faults that a subject's units must see, and a plan of few of them.
-fn faulty_plan(subject: Subject) -> (Vec<Fault>, Plan) {
+fn faulty_plan(subject: Subject) -> (Vec<Fault>, VerifyPlan) {
     let (faults, of) = match subject {
         Subject::Factors => (Fault::OF_FACTORS.to_vec(), 16384),
         Subject::Locations => ([&Fault::OF_CONTEXTS[..], &Fault::OF_LOCATIONS].concat(), 252),
         _ => (Fault::OF_PATCHES.to_vec(), 31),
     };
-    (faults, Plan { subjects: vec![subject], shard: Shard { part: 1, of } })
+    (faults, VerifyPlan { subjects: vec![subject], shard: Shard { part: 1, of } })
 }
 
 #[test]
@@ -45,7 +45,8 @@ fn every_subject_sees_every_fault() {
 /// A difference is counted for the backend that has it, not for the one beside it.
 #[test]
 fn differences_are_told_apart_by_backend() {
-    let plan = Plan { subjects: vec![Subject::Transitions], shard: Shard { part: 1, of: 31 } };
+    let plan =
+        VerifyPlan { subjects: vec![Subject::Transitions], shard: Shard { part: 1, of: 31 } };
     let faulty = Faulty::new(CoreBackend, Fault::LastIndex, 0);
     let rows = run(&mut [vec![Box::new(CoreBackend), Box::new(faulty)]], &plan);
     let mismatches: Vec<u64> = rows.iter().map(|row| row.mismatches).collect();
@@ -55,8 +56,10 @@ fn differences_are_told_apart_by_backend() {
 /// A single bit of a single random patch, somewhere in the middle.
 #[test]
 fn one_bit_of_one_random_patch() {
-    let plan =
-        Plan { subjects: vec![Subject::Random { patches: 5000, seed: 3 }], shard: Shard::WHOLE };
+    let plan = VerifyPlan {
+        subjects: vec![Subject::Random { patches: 5000, seed: 3 }],
+        shard: Shard::WHOLE,
+    };
     for fault in [Fault::PointU, Fault::LastPoint] {
         let rows = run(&mut [vec![Box::new(Faulty::new(CoreBackend, fault, 101))]], &plan);
         let [row] = &rows[..] else { panic!("one row: {rows:?}") };
@@ -70,8 +73,10 @@ fn one_bit_of_one_random_patch() {
 /// The patch that differs is excused, and no other; the stage of what is not is counted.
 #[test]
 fn a_known_difference_is_no_mismatch() {
-    let plan =
-        Plan { subjects: vec![Subject::Random { patches: 100, seed: 3 }], shard: Shard::WHOLE };
+    let plan = VerifyPlan {
+        subjects: vec![Subject::Random { patches: 100, seed: 3 }],
+        shard: Shard::WHOLE,
+    };
     let faulty = || -> Vec<Vec<Box<dyn Backend>>> {
         vec![vec![Box::new(Faulty::new(CoreBackend, Fault::PointU, 20))]]
     };

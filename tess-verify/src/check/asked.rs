@@ -13,7 +13,7 @@
 use super::alignment::{Said, Step, align};
 use super::findings::{Findings, Found};
 use crate::case::Case;
-use crate::check::compare::{Element, Mismatch, Stage};
+use crate::check::compare::{Element, Mismatch, SpecStage};
 use crate::vectors::{Record, VectorError, VectorFile};
 use std::collections::VecDeque;
 use std::io::BufRead;
@@ -176,11 +176,11 @@ fn size(record: &Record) -> usize {
 
 fn missing() -> Mismatch {
     let (observed, expected) = ("none".to_owned(), "an answer".to_owned());
-    Mismatch { element: Element::Record, observed, expected, stage: Stage::Answer }
+    Mismatch { element: Element::Record, observed, expected, stage: SpecStage::Answer }
 }
 
 fn other_answer(observed: Option<Case>, expected: Option<Case>) -> Mismatch {
     let show = |case: Option<Case>| case.map_or("none".to_owned(), |case| case.to_string());
     let (observed, expected) = (show(observed), show(expected));
-    Mismatch { element: Element::Case, observed, expected, stage: Stage::Answer }
+    Mismatch { element: Element::Case, observed, expected, stage: SpecStage::Answer }
 }

@@ -2,7 +2,7 @@
 
 mod mismatch;
 
-pub use mismatch::{Element, Mismatch, Stage};
+pub use mismatch::{Element, Mismatch, SpecStage};
 
 use super::strength::vertices;
 use crate::case::Case;
@@ -43,7 +43,7 @@ pub(crate) fn sequences(
         let at = observed.iter().zip(&expected).position(|(o, e)| o != e)?;
         let known: BTreeSet<_> = expected.iter().collect();
         let is_moved = observed.iter().any(|place| !known.contains(place));
-        let stage = if is_moved { Stage::Location } else { Stage::Stitch };
+        let stage = if is_moved { SpecStage::Location } else { SpecStage::Stitch };
         let element = Element::Index { primitive: at / size, position: at % size };
         let show = |place: Option<[u32; 2]>| match place {
             Some([u, v]) => format!("({u:05x}, {v:05x})"),
@@ -62,7 +62,7 @@ fn points(observed: &[DomainPoint], expected: &[DomainPoint]) -> Option<Mismatch
     let index =
         observed.iter().zip(expected).position(|(observed, expected)| observed != expected)?;
     let same_set = sorted(observed) == sorted(expected);
-    let stage = if same_set { Stage::PointOrder } else { Stage::Location };
+    let stage = if same_set { SpecStage::PointOrder } else { SpecStage::Location };
     let (observed, expected) = (observed[index], expected[index]);
     let (coordinate, observed, expected) = if observed.u == expected.u {
         ("v", observed.v, expected.v)
@@ -82,7 +82,7 @@ fn sorted(points: &[DomainPoint]) -> Vec<(u32, u32)> {
 fn indices(size: usize, observed: &[u32], expected: &[u32]) -> Option<Mismatch> {
     let at = observed.iter().zip(expected).position(|(observed, expected)| observed != expected)?;
     let element = Element::Index { primitive: at / size, position: at % size };
-    Some(Mismatch::hex(element, 1, observed[at], expected[at], Stage::Stitch))
+    Some(Mismatch::hex(element, 1, observed[at], expected[at], SpecStage::Stitch))
 }
 
 /// The first difference between contexts of `factors`, all three lists being equally long.
@@ -96,7 +96,7 @@ pub(crate) fn contexts(
         let mut different = fields.filter(|(observed, expected)| observed != expected);
         different.next().map(|((field, observed), (_, expected))| {
             let element = Element::Context { factor, field };
-            Mismatch::hex(element, 1, observed, expected, Stage::Context)
+            Mismatch::hex(element, 1, observed, expected, SpecStage::Context)
         })
     };
     factors.iter().zip(observed).zip(expected).find_map(of_one)
@@ -135,7 +135,7 @@ pub(crate) fn locations(
                     5,
                     observed[at],
                     expected[at],
-                    Stage::Location,
+                    SpecStage::Location,
                 ));
             }
             before += context.points as usize;
@@ -155,7 +155,7 @@ pub(crate) fn fixed_factors(
         if observed[at][0] == expected[at][0] { ("inside", 1) } else { ("outer", 0) };
     let element = Element::Factor { x: values[at].to_bits(), role };
     let [observed, expected] = [observed, expected].map(|factors| factors[at][which].to_bits());
-    Some(Mismatch::hex(element, 6, observed, expected, Stage::Factors))
+    Some(Mismatch::hex(element, 6, observed, expected, SpecStage::Factors))
 }
 
 #[cfg(test)]

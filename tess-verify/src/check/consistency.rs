@@ -6,7 +6,7 @@
 use super::report::Explained;
 use super::{Difference, Report};
 use crate::case::Case;
-use crate::check::compare::{Element, Mismatch, Stage};
+use crate::check::compare::{Element, Mismatch, SpecStage};
 use crate::check::strength::{Ambiguous, Conversions};
 use std::collections::HashMap;
 
@@ -69,7 +69,7 @@ fn mismatch(value: Ambiguous, number: usize, record: u64) -> Mismatch {
         element: Element::Conversion(value.value),
         observed: format!("0x{observed:06x}"),
         expected: format!("0x{expected:06x}, as in record {record}"),
-        stage: Stage::Factors,
+        stage: SpecStage::Factors,
     }
 }
 

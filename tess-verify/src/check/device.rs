@@ -3,7 +3,7 @@
 use super::Found;
 use super::report::Explained;
 use crate::case::Case;
-use crate::check::compare::{self, Element, Mismatch, Stage};
+use crate::check::compare::{self, Element, Mismatch, SpecStage};
 use crate::check::strength::{
     Alternatives, Difference, Elements, Order, Strength, first_difference, first_stray,
 };
@@ -38,7 +38,7 @@ pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -
         (Found::Equal | Found::Converted(..), Some((vertex, observed, expected))) => {
             let size = case.primitive_size();
             let element = Element::Third { primitive: vertex / size, position: vertex % size };
-            let mismatch = Mismatch::hex(element, 5, observed, expected, Stage::Location);
+            let mismatch = Mismatch::hex(element, 5, observed, expected, SpecStage::Location);
             Found::Different(mismatch, Some(*case))
         }
         (found, _) => found,
@@ -93,7 +93,7 @@ fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
 
 fn unordered(difference: Difference) -> Mismatch {
     let Difference { vertices, observed, expected, instead } = difference;
-    let stage = if vertices.len() == 1 { Stage::Location } else { Stage::Stitch };
+    let stage = if vertices.len() == 1 { SpecStage::Location } else { SpecStage::Stitch };
     let times = |count: usize| format!("{count} times");
     let instead = instead.map(|other| {
         let Difference { vertices, observed, expected, .. } = *other;
@@ -105,12 +105,12 @@ fn unordered(difference: Difference) -> Mismatch {
 
 /// The stage that explains a whole output: one that the model reaches with one factor processed
 /// differently, or with the other split order; else the one that the first difference points to.
-fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: Stage) -> Stage {
+fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: SpecStage) -> SpecStage {
     let explains = |strength: Strength, other: &Case| {
         strength.equal(case, observed, &other.patch().tessellate())
     };
     if other_factors(case).iter().any(|other| explains(strength, other)) {
-        return Stage::Factors;
+        return SpecStage::Factors;
     }
     let split = match case.config.split {
         SplitOrder::Ruler => SplitOrder::Center,
@@ -118,8 +118,8 @@ fn stage(case: &Case, observed: &Tessellation, strength: Strength, first: Stage)
     };
     let other_split = Case { config: Config { split, ..case.config }, ..*case };
     let points_alone = Strength { elements: Elements::Points, ..strength };
-    if first == Stage::Location && explains(points_alone, &other_split) {
-        return Stage::Context;
+    if first == SpecStage::Location && explains(points_alone, &other_split) {
+        return SpecStage::Context;
     }
     first
 }

@@ -1,7 +1,7 @@
 //! The kinds that cover everything there is: all fixed-point factors, all binary32 of a binade.
 
 use crate::backend::{Backend, BackendError, all_answered};
-use crate::check::compare::{self, Mismatch, Stage};
+use crate::check::compare::{self, Mismatch, SpecStage};
 use crate::check::sequences::{BINADE_SIZE, binade, bucket};
 use crate::core_backend::CoreBackend;
 use crate::vectors::{FactorsRow, LocationsRow};
@@ -24,7 +24,7 @@ pub(super) fn locations(
     if digest.finish() != row.contexts_digest || observed != contexts {
         let digest = || {
             let (observed, expected) = (digest.finish(), row.contexts_digest);
-            Mismatch::digest("contexts", observed, expected, Stage::Context)
+            Mismatch::digest("contexts", observed, expected, SpecStage::Context)
         };
         return Ok(compare::contexts(&factors, &observed, &contexts).or_else(digest));
     }
@@ -36,7 +36,9 @@ pub(super) fn locations(
     let expected = CoreBackend.locations(&contexts)?;
     Ok(compare::locations(&factors, &contexts, &observed, &expected)
         .or_else(|| Mismatch::count("locations", count, row.locations))
-        .or_else(|| Mismatch::digest("locations", digest, row.locations_digest, Stage::Location)))
+        .or_else(|| {
+            Mismatch::digest("locations", digest, row.locations_digest, SpecStage::Location)
+        }))
 }
 
 /// How many binary32 are handed over at once.
@@ -67,7 +69,7 @@ pub(super) fn factors(
         }
     }
     let digest =
-        |what, observed, expected| Mismatch::digest(what, observed, expected, Stage::Factors);
+        |what, observed, expected| Mismatch::digest(what, observed, expected, SpecStage::Factors);
     Ok(digest("outer factors", outer, row.outer_digest)
         .or_else(|| digest("inside factors", inside, row.inside_digest)))
 }

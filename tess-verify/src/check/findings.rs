@@ -105,7 +105,7 @@ impl Findings {
 mod tests {
     use super::*;
     use crate::check::MAX_DIFFERENCES;
-    use crate::check::compare::Stage;
+    use crate::check::compare::SpecStage;
 
     /// A record is kept as a file for the first differences, and for one that is the smallest so far.
     #[test]
@@ -118,7 +118,7 @@ mod tests {
             let detail = if number == first + 3 { 1.0 } else { 1.0 + number as f32 };
             let line = format!("case isoline integer line ruler 3f800000 {:08x}", detail.to_bits());
             let mismatch = Mismatch::count("points", 1, 2).expect("they differ");
-            assert_eq!(mismatch.stage, Stage::Counts);
+            assert_eq!(mismatch.stage, SpecStage::Counts);
             let found = Found::Different(mismatch, Some(line.parse().expect("a case")));
             findings.add(number, None, found, || {
                 made.push(number);

@@ -4,7 +4,7 @@ use super::sequences;
 use super::{Found, How, Tested, device, stages};
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::Case;
-use crate::check::compare::{self, Element, Mismatch, Stage};
+use crate::check::compare::{self, Element, Mismatch, SpecStage};
 use crate::check::strength::Strength;
 use crate::core_backend::CoreBackend;
 use crate::vectors::Fnv1a;
@@ -116,9 +116,11 @@ fn sizes(
     let digest = Mismatch::digest;
     Ok(Mismatch::count("points", sizes.points, expected.points)
         .or_else(|| Mismatch::count("indices", sizes.indices, expected.indices))
-        .or_else(|| digest("points", sizes.points_digest, expected.points_digest, Stage::Location))
         .or_else(|| {
-            digest("indices", sizes.indices_digest, expected.indices_digest, Stage::Stitch)
+            digest("points", sizes.points_digest, expected.points_digest, SpecStage::Location)
+        })
+        .or_else(|| {
+            digest("indices", sizes.indices_digest, expected.indices_digest, SpecStage::Stitch)
         }))
 }
 
@@ -134,7 +136,7 @@ fn prepared(row: &PreparationRow) -> Option<Mismatch> {
         let mut named = expected.domain().factor_names().iter().zip(bits);
         let (&factor, (observed, expected)) = named.find(|(_, (o, e))| o != e)?;
         let element = Element::Prepared { result, factor };
-        Some(Mismatch::hex(element, 8, observed, expected, Stage::Preparation))
+        Some(Mismatch::hex(element, 8, observed, expected, SpecStage::Preparation))
     })
 }
 
@@ -167,6 +169,7 @@ fn chain(
             return Ok(Found::Different(stages::trace(backend, &case, mismatch), Some(case)));
         }
     }
-    let mismatch = Mismatch::digest("chained patches", digest.finish(), row.chain, Stage::Unknown);
+    let mismatch =
+        Mismatch::digest("chained patches", digest.finish(), row.chain, SpecStage::Unknown);
     Ok(Found::new(mismatch, None))
 }

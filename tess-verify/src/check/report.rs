@@ -3,7 +3,7 @@
 mod group;
 mod origin;
 
-pub use group::Group;
+pub use group::MismatchGroup;
 
 use crate::backend::BackendError;
 use crate::case::Case;
@@ -48,7 +48,7 @@ impl Report {
 
     /// The differences by stage and configuration, the one with the smallest case first.
     #[must_use]
-    pub fn groups(&self) -> Vec<Group> {
+    pub fn groups(&self) -> Vec<MismatchGroup> {
         self.groups.sorted()
     }
 

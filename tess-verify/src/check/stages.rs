@@ -2,7 +2,7 @@
 
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::Case;
-use crate::check::compare::{Mismatch, Stage};
+use crate::check::compare::{Mismatch, SpecStage};
 use crate::core_backend::CoreBackend;
 use tess_core::{FactorContext, ProcessedFactor};
 
@@ -15,11 +15,11 @@ pub(super) fn trace(backend: &mut dyn Backend, case: &Case, mismatch: Mismatch) 
     // A backend that failed, rather than gives whole patches alone, fails on its next patch again.
     let is_wrong = |agree: Result<bool, BackendError>| agree.is_ok_and(|agree| !agree);
     let stage = if is_wrong(factors_agree(backend, case)) {
-        Stage::Factors
+        SpecStage::Factors
     } else if is_wrong(contexts_agree(backend, case, &processed)) {
-        Stage::Context
+        SpecStage::Context
     } else if is_wrong(locations_agree(backend, &processed)) {
-        Stage::Location
+        SpecStage::Location
     } else {
         mismatch.stage
     };

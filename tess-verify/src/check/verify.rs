@@ -8,7 +8,7 @@ mod subject;
 mod topologies;
 mod units;
 
-pub use run::{Row, verify};
+pub use run::{SubjectRow, verify};
 pub use subject::Subject;
 use units::{Unit, Units};
 
@@ -16,7 +16,7 @@ use crate::generate::Shard;
 
 /// What to compare.
 #[derive(Clone, Debug)]
-pub struct Plan {
+pub struct VerifyPlan {
     /// The subjects, in order.
     pub subjects: Vec<Subject>,
     /// The part of each subject's units to do.

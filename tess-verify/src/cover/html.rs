@@ -1,7 +1,7 @@
 //! Coverage as one HTML file that needs no other.
 
 use super::report::{by_stage, percent, sum};
-use super::{Coverage, Exclusions, Group};
+use super::{BinGroup, Coverage, Exclusions};
 use crate::quote::escape;
 use std::fmt::Write;
 
@@ -56,7 +56,7 @@ fn wrong(page: &mut String, coverage: &Coverage, exclusions: &Exclusions) {
     }
 }
 
-fn table(page: &mut String, coverage: &Coverage, exclusions: &Exclusions, all: &Group) {
+fn table(page: &mut String, coverage: &Coverage, exclusions: &Exclusions, all: &BinGroup) {
     page.push_str(
         "<table>\n<thead>\n<tr><th>stage (section of the specification)</th><th>group</th>",
     );
@@ -76,11 +76,11 @@ fn table(page: &mut String, coverage: &Coverage, exclusions: &Exclusions, all: &
         page.push_str("</tbody>\n");
     }
     page.push_str("<tbody class=\"stage\">\n");
-    row(page, "all", &Group { name: String::new(), ..all.clone() }, " class=\"sum\"");
+    row(page, "all", &BinGroup { name: String::new(), ..all.clone() }, " class=\"sum\"");
     page.push_str("</tbody>\n</table>\n");
 }
 
-fn row(page: &mut String, stage: &str, group: &Group, class: &str) {
+fn row(page: &mut String, stage: &str, group: &BinGroup, class: &str) {
     _ = write!(page, "<tr{class}><td>{stage}</td><td>{}</td>", group.name);
     let percent = percent(group);
     for number in [group.bins, group.hit, group.excluded] {

@@ -1,6 +1,6 @@
 //! Coverage as text: a table by stage of the specification, then the holes.
 
-use super::{Coverage, Exclusions, Group};
+use super::{BinGroup, Coverage, Exclusions};
 use std::fmt::Write;
 
 /// The stages on a patch's way with their sections of the specification, and the groups of each.
@@ -26,20 +26,20 @@ pub(super) fn stage(group: &str) -> &'static str {
 pub(super) fn by_stage(
     coverage: &Coverage,
     exclusions: &Exclusions,
-) -> Vec<(Vec<Group>, Group, &'static str)> {
+) -> Vec<(Vec<BinGroup>, BinGroup, &'static str)> {
     let groups = coverage.groups_without(exclusions);
     let of_stage = |&(stage, section, names): &(&'static str, &'static str, &[&str])| {
         let own = names.iter().filter_map(|name| groups.iter().find(|group| group.name == **name));
-        let own: Vec<Group> = own.cloned().collect();
-        let sum = Group { stage, ..sum(&own) };
+        let own: Vec<BinGroup> = own.cloned().collect();
+        let sum = BinGroup { stage, ..sum(&own) };
         (own, sum, section)
     };
     STAGES.iter().map(of_stage).collect()
 }
 
 /// All groups as one, `all`.
-pub(super) fn sum(groups: &[Group]) -> Group {
-    let mut sum = Group { name: "all".to_owned(), stage: "", hit: 0, bins: 0, excluded: 0 };
+pub(super) fn sum(groups: &[BinGroup]) -> BinGroup {
+    let mut sum = BinGroup { name: "all".to_owned(), stage: "", hit: 0, bins: 0, excluded: 0 };
     for group in groups {
         sum.hit += group.hit;
         sum.bins += group.bins;
@@ -50,7 +50,7 @@ pub(super) fn sum(groups: &[Group]) -> Group {
 
 /// How much of what is not excluded was hit, in percent with one digit behind the point; `-` if nothing is left.
 /// It is rounded down, so 100.0 is all of it.
-pub(super) fn percent(group: &Group) -> String {
+pub(super) fn percent(group: &BinGroup) -> String {
     match (1000 * group.hit).checked_div(group.bins - group.excluded) {
         Some(tenths) => format!("{}.{}", tenths / 10, tenths % 10),
         None => "-".to_owned(),
@@ -64,8 +64,8 @@ pub(super) fn text(coverage: &Coverage, exclusions: &Exclusions) -> String {
         "stage", "group", "bins", "hit", "excluded", "percent"
     );
     // Writing to a String does not fail.
-    let mut row = |stage: &str, group: &Group| {
-        let Group { name, bins, hit, excluded, .. } = group;
+    let mut row = |stage: &str, group: &BinGroup| {
+        let BinGroup { name, bins, hit, excluded, .. } = group;
         let percent = percent(group);
         _ = writeln!(text, "{stage:<14} {name:<14} {bins:>5} {hit:>5} {excluded:>8} {percent:>7}");
     };
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn percents_are_rounded_down() {
         let of = |hit, bins, excluded| {
-            percent(&Group { name: String::new(), stage: "", hit, bins, excluded })
+            percent(&BinGroup { name: String::new(), stage: "", hit, bins, excluded })
         };
         assert_eq!([of(2999, 3000, 0), of(1, 3, 1), of(4, 4, 0)], ["99.9", "50.0", "100.0"]);
     }

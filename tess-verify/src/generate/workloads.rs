@@ -46,7 +46,7 @@ pub enum Calls {
 
 /// Width of the indices in a consumer's buffer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum IndexType {
+pub enum IndexWidth {
     /// 16 bits: enough for any one patch.
     U16,
     /// 32 bits.
@@ -76,10 +76,10 @@ impl Totals {
 
     /// Bytes of output: 8 for each point (u and v as 16.16), 2 or 4 for each index.
     #[must_use]
-    pub const fn bytes(&self, index_type: IndexType) -> u64 {
+    pub const fn bytes(&self, index_type: IndexWidth) -> u64 {
         let index = match index_type {
-            IndexType::U16 => 2,
-            IndexType::U32 => 4,
+            IndexWidth::U16 => 2,
+            IndexWidth::U32 => 4,
         };
         8 * self.points + index * self.indices
     }
@@ -165,7 +165,7 @@ impl Workload {
     ///
     /// A remainder that would make a batch of its own too small joins the batch before it.
     #[must_use]
-    pub fn cache_batches(&self, index_type: IndexType) -> Vec<Range<usize>> {
+    pub fn cache_batches(&self, index_type: IndexWidth) -> Vec<Range<usize>> {
         match self.calls {
             Calls::Batch => self.mebibytes(index_type),
             Calls::SinglePatch => (0..self.patches.len()).map(|patch| patch..patch + 1).collect(),
@@ -175,7 +175,7 @@ impl Workload {
     }
 
     /// Consecutive batches of about 1 MiB.
-    fn mebibytes(&self, index_type: IndexType) -> Vec<Range<usize>> {
+    fn mebibytes(&self, index_type: IndexWidth) -> Vec<Range<usize>> {
         let is_full = |range: &Range<usize>, totals: &Totals| {
             range.len() >= CACHE_BATCH_PATCHES && totals.bytes(index_type) >= CACHE_BATCH_BYTES
         };
@@ -200,7 +200,7 @@ impl Workload {
 
     /// How often the workload is repeated to write the working set `stream`, 1 GiB of output.
     #[must_use]
-    pub fn stream_repeats(&self, index_type: IndexType) -> u64 {
+    pub fn stream_repeats(&self, index_type: IndexWidth) -> u64 {
         STREAM_BYTES.div_ceil(self.totals().bytes(index_type).max(1))
     }
 }

@@ -36,7 +36,7 @@ pub struct Example {
 /// A rule with what it judged.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct Row {
+pub struct RuleRow {
     /// The rule.
     pub rule: Rule,
     /// How many patches, or patches beside an earlier one, it judged.
@@ -47,7 +47,7 @@ pub struct Row {
     pub smallest: Option<Example>,
 }
 
-impl Row {
+impl RuleRow {
     /// What became of the rule.
     #[must_use]
     pub const fn verdict(&self) -> Verdict {
@@ -68,7 +68,7 @@ pub struct RulesReport {
     /// Patches that were judged.
     pub patches: u64,
     /// Its rules, in the order of [`Specification::rules`].
-    pub rows: Vec<Row>,
+    pub rows: Vec<RuleRow>,
 }
 
 impl RulesReport {
@@ -84,7 +84,7 @@ impl fmt::Display for RulesReport {
         for row in &self.rows {
             let (rule, verdict) = (row.rule.name(), row.verdict().name());
             let source = self.specification.source(row.rule);
-            let Row { judged, broken, .. } = row;
+            let RuleRow { judged, broken, .. } = row;
             writeln!(f, "{rule:<12} {verdict:<13} {broken:>7} of {judged:>8}  {source}")?;
             if let Some(example) = &row.smallest {
                 writeln!(f, "  {}", example.what)?;
@@ -104,14 +104,14 @@ impl fmt::Display for RulesReport {
 /// What one rule judged so far.
 #[derive(Debug)]
 pub(super) struct Tally {
-    row: Row,
+    row: RuleRow,
     /// Vertices of the smallest example.
     size: usize,
 }
 
 impl Tally {
     pub(super) const fn new(rule: Rule) -> Self {
-        let row = Row { rule, judged: 0, broken: 0, smallest: None };
+        let row = RuleRow { rule, judged: 0, broken: 0, smallest: None };
         Self { row, size: usize::MAX }
     }
 
@@ -119,7 +119,7 @@ impl Tally {
         self.row.rule == rule
     }
 
-    pub(super) fn row(&self) -> Row {
+    pub(super) fn row(&self) -> RuleRow {
         self.row.clone()
     }
 

@@ -6,7 +6,7 @@ mod words;
 use tess_core::fixed_point::ONE;
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::generate::{GenLevel, Selection};
-use tess_verify::rules::{Checker, Row, Rule, RulesReport, Specification, Verdict};
+use tess_verify::rules::{Checker, Rule, RuleRow, RulesReport, Specification, Verdict};
 use tess_verify::{Case, Named};
 
 const VULKAN: Specification = Specification::Vulkan;
@@ -48,7 +48,7 @@ fn rules(report: &RulesReport, verdict: Verdict) -> Vec<&'static str> {
     rows.map(|row| row.rule.name()).collect()
 }
 
-fn row(report: &RulesReport, rule: Rule) -> &Row {
+fn row(report: &RulesReport, rule: Rule) -> &RuleRow {
     report.rows.iter().find(|row| row.rule == rule).expect("a rule of the standard")
 }
 
@@ -102,7 +102,7 @@ fn the_model_and_the_standards() {
 }
 
 /// A rule, and how many of how many break it.
-fn cells(row: &Row) -> [String; 2] {
+fn cells(row: &RuleRow) -> [String; 2] {
     [row.rule.name().to_owned(), format!("{} of {}", row.broken, row.judged)]
 }
 

@@ -3,7 +3,7 @@
 use crate::{json, thrown};
 use std::ops::Range;
 use tess_simd::{ExactOutput, Numbering, Tessellator};
-use tess_verify::generate::{IndexType, Workload};
+use tess_verify::generate::{IndexWidth, Workload};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -38,7 +38,7 @@ impl CpuBench {
         match (all.pop(), all.is_empty()) {
             (Some(workload), true) => {
                 let tessellator = Tessellator::new(workload.config);
-                let batches = workload.cache_batches(IndexType::U32);
+                let batches = workload.cache_batches(IndexWidth::U32);
                 Ok(Self { workload, batches, tessellator, output: ExactOutput::new() })
             }
             _ => Err(thrown(format!("{name} is not the name of one workload"))),

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use tess_core::{DomainPoint, Tessellation};
 use tess_gpu::layout::{PackedPoint, factor_words};
 use tess_gpu::{Numbering, Setup, Stage};
-use tess_verify::generate::{IndexType, Totals, Workload};
+use tess_verify::generate::{IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 use variant::ShaderVariant;
@@ -83,7 +83,7 @@ impl<'a> Bench<'a> {
         let numbering = Numbering::PerPatch;
         let setup = Setup { numbering, ..Setup::new(first.domain(), workload.config) };
         let totals = workload.totals();
-        let repeats = repeats.unwrap_or_else(|| workload.stream_repeats(IndexType::U32));
+        let repeats = repeats.unwrap_or_else(|| workload.stream_repeats(IndexWidth::U32));
         let words = factor_words(&workload.patches).repeat(usize::try_from(repeats)?);
         let usage = wgpu::BufferUsages::STORAGE;
         Ok(Self {

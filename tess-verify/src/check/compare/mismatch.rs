@@ -6,7 +6,7 @@ use tess_core::FixedFactor;
 /// A stage on a patch's way, as far as a difference can be traced back; in the order of that way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[non_exhaustive]
-pub enum Stage {
+pub enum SpecStage {
     /// Factor preparation (spec section 9).
     Preparation,
     /// Factor processing (spec section 3).
@@ -27,7 +27,7 @@ pub enum Stage {
     Unknown,
 }
 
-impl fmt::Display for Stage {
+impl fmt::Display for SpecStage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Preparation => "preparation",
@@ -151,7 +151,7 @@ pub struct Mismatch {
     /// What is right there.
     pub expected: String,
     /// The stage that the difference points to.
-    pub stage: Stage,
+    pub stage: SpecStage,
 }
 
 impl fmt::Display for Mismatch {
@@ -168,7 +168,7 @@ impl Mismatch {
         digits: usize,
         observed: impl Into<u64>,
         expected: impl Into<u64>,
-        stage: Stage,
+        stage: SpecStage,
     ) -> Self {
         let show = |number: u64| format!("0x{number:0digits$x}");
         let (observed, expected) = (show(observed.into()), show(expected.into()));
@@ -181,7 +181,7 @@ impl Mismatch {
             element: Element::Count(what),
             observed: observed.to_string(),
             expected: expected.to_string(),
-            stage: Stage::Counts,
+            stage: SpecStage::Counts,
         })
     }
 
@@ -190,7 +190,7 @@ impl Mismatch {
         what: &'static str,
         observed: u64,
         expected: u64,
-        stage: Stage,
+        stage: SpecStage,
     ) -> Option<Self> {
         let mismatch = || Self::hex(Element::Digest(what), 16, observed, expected, stage);
         (observed != expected).then(mismatch)

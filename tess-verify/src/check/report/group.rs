@@ -2,7 +2,7 @@
 
 use super::Difference;
 use crate::case::Case;
-use crate::check::compare::Stage;
+use crate::check::compare::SpecStage;
 use crate::names::Named;
 use std::fmt;
 use tess_core::{Config, Domain};
@@ -10,9 +10,9 @@ use tess_core::{Config, Domain};
 /// The differences of one stage in one configuration.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
-pub struct Group {
+pub struct MismatchGroup {
     /// The stage that they point to.
-    pub stage: Stage,
+    pub stage: SpecStage,
     /// The domain and configuration; `None` for records that are no single patches.
     pub config: Option<(Domain, Config)>,
     /// How many they are.
@@ -22,7 +22,7 @@ pub struct Group {
 }
 
 /// Number, stage and configuration.
-impl fmt::Display for Group {
+impl fmt::Display for MismatchGroup {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { stage, config, mismatches, .. } = self;
         write!(f, "{mismatches:>8}  {:<12}", stage.to_string())?;
@@ -32,14 +32,14 @@ impl fmt::Display for Group {
     }
 }
 
-impl Group {
+impl MismatchGroup {
     fn of(difference: &Difference) -> Self {
         let config = difference.case.map(|case| (case.domain(), case.config));
         let stage = difference.mismatch.stage;
         Self { stage, config, mismatches: 1, smallest: difference.clone() }
     }
 
-    fn key(&self) -> (Stage, Option<(Domain, Config)>) {
+    fn key(&self) -> (SpecStage, Option<(Domain, Config)>) {
         (self.stage, self.config)
     }
 
@@ -52,16 +52,16 @@ impl Group {
 
 /// All groups, in any order. There are at most as many as stages and configurations.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Groups(Vec<Group>);
+pub(super) struct Groups(Vec<MismatchGroup>);
 
 impl Groups {
     pub(super) fn add(&mut self, difference: &Difference) {
-        self.insert(Group::of(difference));
+        self.insert(MismatchGroup::of(difference));
     }
 
     /// Whether a difference would be the smallest of its group.
     pub(super) fn has_smallest(&self, difference: &Difference) -> bool {
-        let group = Group::of(difference);
+        let group = MismatchGroup::of(difference);
         let known = self.0.iter().find(|known| known.key() == group.key());
         known.is_none_or(|known| group.size() < known.size())
     }
@@ -70,7 +70,7 @@ impl Groups {
         other.0.into_iter().for_each(|group| self.insert(group));
     }
 
-    fn insert(&mut self, group: Group) {
+    fn insert(&mut self, group: MismatchGroup) {
         match self.0.iter_mut().find(|known| known.key() == group.key()) {
             None => self.0.push(group),
             Some(known) => {
@@ -83,9 +83,9 @@ impl Groups {
     }
 
     /// The one with the smallest case first.
-    pub(super) fn sorted(&self) -> Vec<Group> {
+    pub(super) fn sorted(&self) -> Vec<MismatchGroup> {
         let mut groups = self.0.clone();
-        groups.sort_by_key(Group::size);
+        groups.sort_by_key(MismatchGroup::size);
         groups
     }
 }

@@ -1,11 +1,11 @@
 //! Compares units and adds up what was compared.
 
 use super::units::VALUES;
-use super::{Plan, Subject, Unit, Units};
+use super::{Subject, Unit, Units, VerifyPlan};
 use crate::backend::{Backend, BackendError, all_answered};
 use crate::case::Case;
 use crate::check::Known;
-use crate::check::compare::{self, Mismatch, Stage};
+use crate::check::compare::{self, Mismatch, SpecStage};
 use crate::check::sequences::bucket;
 use crate::check::tessellate;
 use crate::core_backend::CoreBackend;
@@ -17,7 +17,7 @@ use tess_core::{FixedFactor, Parity, Partitioning, SplitOrder, Tessellation};
 
 /// What was compared of one subject in one backend.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Row {
+pub struct SubjectRow {
     /// The subject.
     pub subject: Subject,
     /// Name of the backend.
@@ -27,7 +27,7 @@ pub struct Row {
     /// Units in which something differed that is not known.
     pub mismatches: u64,
     /// How many of them point to each stage, by their first difference.
-    pub stages: BTreeMap<Stage, u64>,
+    pub stages: BTreeMap<SpecStage, u64>,
     /// Patches that differ and are known.
     pub known: u64,
     /// The first difference, as text.
@@ -43,10 +43,10 @@ pub struct Row {
 /// A backend that could not run, or no backend at all.
 pub fn verify(
     workers: &mut [Vec<Box<dyn Backend>>],
-    plan: &Plan,
+    plan: &VerifyPlan,
     known: &Known,
     progress: &(dyn Fn(Subject, u64, u64) + Sync),
-) -> Result<Vec<Row>, BackendError> {
+) -> Result<Vec<SubjectRow>, BackendError> {
     if workers.first().is_none_or(Vec::is_empty) {
         return Err(BackendError::new("no backend to verify"));
     }
@@ -59,15 +59,16 @@ pub fn verify(
 
 fn verify_subject(
     workers: &mut [Vec<Box<dyn Backend>>],
-    plan: &Plan,
+    plan: &VerifyPlan,
     known: &Known,
     subject: Subject,
     progress: &(dyn Fn(Subject, u64, u64) + Sync),
-) -> Result<Vec<Row>, BackendError> {
+) -> Result<Vec<SubjectRow>, BackendError> {
     let units = Units::of(subject);
     let mine = plan.shard.items(units.count());
     let names: Vec<&'static str> = workers[0].iter().map(|backend| backend.name()).collect();
-    let rows: Vec<Row> = names.into_iter().map(|backend| Row::new(subject, backend)).collect();
+    let rows: Vec<SubjectRow> =
+        names.into_iter().map(|backend| SubjectRow::new(subject, backend)).collect();
     let rows = Mutex::new(rows);
     let (next, done) = (AtomicU64::new(0), AtomicU64::new(0));
     let work = |backends: &mut Vec<Box<dyn Backend>>| -> Result<(), BackendError> {
@@ -93,10 +94,10 @@ struct Compared {
     elements: u64,
     known: u64,
     /// The first difference that is not known, as text, and its stage.
-    first: Option<(Stage, String)>,
+    first: Option<(SpecStage, String)>,
 }
 
-impl Row {
+impl SubjectRow {
     const fn new(subject: Subject, backend: &'static str) -> Self {
         let stages = BTreeMap::new();
         Self { subject, backend, compared: 0, mismatches: 0, stages, known: 0, first: None }

@@ -29,7 +29,7 @@ fn sizes() {
         assert_eq!(sizes, (patches, points, primitives), "{name}");
         let corners = if name.ends_with("isolines") { 2 } else { 3 };
         assert_eq!(totals.indices, corners * primitives, "{name}");
-        let bytes = [IndexType::U16, IndexType::U32].map(|index| totals.bytes(index));
+        let bytes = [IndexWidth::U16, IndexWidth::U32].map(|index| totals.bytes(index));
         let all = [2, 4].map(|index| 8 * points + index * corners * primitives);
         assert_eq!(bytes, all, "{name}");
     }
@@ -79,8 +79,8 @@ fn meshes_are_groups() {
         assert_eq!(sizes.len(), 256, "{}", each.name);
         assert_eq!(sizes.iter().sum::<usize>(), each.patches.len(), "{}", each.name);
         assert!(sizes.iter().all(|size| (40..=400).contains(size)), "{sizes:?}");
-        assert_eq!(each.cache_batches(IndexType::U32).len(), 256, "a call for each group");
-        assert_eq!(at_once.cache_batches(IndexType::U32).len(), 1, "one call for all");
+        assert_eq!(each.cache_batches(IndexWidth::U32).len(), 256, "a call for each group");
+        assert_eq!(at_once.cache_batches(IndexWidth::U32).len(), 1, "one call for all");
     }
     assert_eq!(mosaic().group_ranges().count(), 0, "no groups");
 }
@@ -163,7 +163,7 @@ fn character_is_log_uniform() {
 fn cache_batches_cover_every_patch_once() {
     for workload in Workload::all() {
         let empty = Workload { patches: Vec::new(), ..workload.clone() };
-        for index_type in [IndexType::U16, IndexType::U32] {
+        for index_type in [IndexWidth::U16, IndexWidth::U32] {
             let batches = workload.cache_batches(index_type);
             let mut next = 0;
             for batch in &batches {
@@ -191,7 +191,7 @@ fn cache_batches_cover_every_patch_once() {
 /// 8 patches of factor 64 have 1 MiB, 125 of factor 16, and more than there are of factor 1.
 #[test]
 fn cache_batches_are_no_larger_than_they_must_be() {
-    let batches = |factor| uniform(factor).cache_batches(IndexType::U32).len();
+    let batches = |factor| uniform(factor).cache_batches(IndexWidth::U32).len();
     assert_eq!([64, 16, 1].map(batches), [4096 / 8, 4096 / 125, 1]);
 }
 
@@ -210,8 +210,8 @@ fn digests_are_those_of_the_output() {
 #[test]
 fn streams_reach_a_gibibyte() {
     let workload = uniform(64);
-    let bytes = workload.totals().bytes(IndexType::U32);
-    let repeats = workload.stream_repeats(IndexType::U32);
+    let bytes = workload.totals().bytes(IndexWidth::U32);
+    let repeats = workload.stream_repeats(IndexWidth::U32);
     assert!(repeats * bytes >= STREAM_BYTES && (repeats - 1) * bytes < STREAM_BYTES, "{repeats}");
 }
 

@@ -8,7 +8,7 @@ use tess_core::{
 };
 use tess_gpu::layout::{PackedPoint, pack_context, unpack_context};
 use tess_gpu::{Numbering, Setup, Tap};
-use tess_verify::generate::IndexType;
+use tess_verify::generate::IndexWidth;
 use tess_verify::{Backend, BackendError};
 use tess_wgpu::{Gpu, Output, Tessellator};
 
@@ -17,7 +17,7 @@ use tess_wgpu::{Gpu, Output, Tessellator};
 pub(crate) struct GpuBackend {
     gpu: Gpu,
     tessellator: Tessellator,
-    index_type: IndexType,
+    index_type: IndexWidth,
 }
 
 impl GpuBackend {
@@ -25,7 +25,7 @@ impl GpuBackend {
     ///
     /// # Errors
     /// Exit code 3 if there is none.
-    pub(crate) fn open(index_type: IndexType) -> Result<Self, Failure> {
+    pub(crate) fn open(index_type: IndexWidth) -> Result<Self, Failure> {
         let gpu = pollster::block_on(Gpu::open())
             .map_err(|error| Failure::unavailable(error.to_string()))?;
         let tessellator = Tessellator::new(&gpu.device);
@@ -46,10 +46,10 @@ impl GpuBackend {
 }
 
 /// The setup that the program runs: indices of each patch's own points, as in the model.
-pub(crate) fn setup_of(domain: Domain, config: Config, index_type: IndexType) -> Setup {
+pub(crate) fn setup_of(domain: Domain, config: Config, index_type: IndexWidth) -> Setup {
     let index_type = match index_type {
-        IndexType::U16 => tess_gpu::IndexType::U16,
-        IndexType::U32 => tess_gpu::IndexType::U32,
+        IndexWidth::U16 => tess_gpu::IndexType::U16,
+        IndexWidth::U32 => tess_gpu::IndexType::U32,
     };
     Setup { numbering: Numbering::PerPatch, index_type, ..Setup::new(domain, config) }
 }

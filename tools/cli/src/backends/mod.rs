@@ -13,7 +13,7 @@ use crate::threads::start_pool;
 use clap::ValueEnum;
 use simd::Simd;
 use tess_simd::{Level, LevelUnavailable};
-use tess_verify::generate::IndexType;
+use tess_verify::generate::IndexWidth;
 use tess_verify::{Backend, CoreBackend};
 
 /// The names that `--backend` takes.
@@ -46,13 +46,13 @@ pub(crate) struct BackendOptions {
     pub(crate) cpu_level: Option<Level>,
     /// Width of the indices that simd and gpu write: u16 or u32
     #[arg(long, value_name = "TYPE", default_value = "u32", value_parser = index_type)]
-    pub(crate) index_type: IndexType,
+    pub(crate) index_type: IndexWidth,
 }
 
-fn index_type(name: &str) -> Result<IndexType, String> {
+fn index_type(name: &str) -> Result<IndexWidth, String> {
     match name {
-        "u16" => Ok(IndexType::U16),
-        "u32" => Ok(IndexType::U32),
+        "u16" => Ok(IndexWidth::U16),
+        "u32" => Ok(IndexWidth::U32),
         _ => Err("an index type is u16 or u32".to_owned()),
     }
 }
@@ -97,7 +97,7 @@ impl BackendOptions {
         if self.cpu_level.is_some() && !has(BackendName::Simd) {
             return Err(Failure::bad_input("--cpu-level goes with --backend simd"));
         }
-        if self.index_type == IndexType::U16 && !has(BackendName::Simd) && !has(BackendName::Gpu) {
+        if self.index_type == IndexWidth::U16 && !has(BackendName::Simd) && !has(BackendName::Gpu) {
             return Err(Failure::bad_input(
                 "--index-type u16 goes with --backend simd or gpu; core has indices of 32 bits alone",
             ));
@@ -134,8 +134,8 @@ impl BackendOptions {
     #[must_use]
     pub(crate) fn words(self, backend: &str) -> String {
         match self.index_type {
-            IndexType::U16 => format!("{backend} --index-type u16"),
-            IndexType::U32 => backend.to_owned(),
+            IndexWidth::U16 => format!("{backend} --index-type u16"),
+            IndexWidth::U32 => backend.to_owned(),
         }
     }
 
@@ -143,8 +143,8 @@ impl BackendOptions {
         let level = self.level()?;
         start_pool();
         Ok(match self.index_type {
-            IndexType::U16 => Box::new(Simd::<u16>::with_level(level).map_err(unavailable)?),
-            IndexType::U32 => Box::new(Simd::<u32>::with_level(level).map_err(unavailable)?),
+            IndexWidth::U16 => Box::new(Simd::<u16>::with_level(level).map_err(unavailable)?),
+            IndexWidth::U32 => Box::new(Simd::<u32>::with_level(level).map_err(unavailable)?),
         })
     }
 }

@@ -8,7 +8,7 @@ use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::Backend;
 use tess_verify::check::{self, Tested};
 #[cfg(feature = "gpu")]
-use tess_verify::generate::IndexType;
+use tess_verify::generate::IndexWidth;
 use tess_verify::vectors::VectorFile;
 
 /// One index that is one too high, in a backend with 16-bit indices.
@@ -31,7 +31,7 @@ fn faulty() -> Vec<Box<dyn Backend>> {
         Box::new(Faulty::new(simd, Fault::LastIndex, 0)) as Box<dyn Backend>,
         #[cfg(feature = "gpu")]
         Box::new(Faulty::new(
-            GpuBackend::open(IndexType::U16).expect("an adapter"),
+            GpuBackend::open(IndexWidth::U16).expect("an adapter"),
             Fault::LastIndex,
             0,
         )),

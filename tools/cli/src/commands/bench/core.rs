@@ -7,7 +7,7 @@ use std::ops::Range;
 use std::time::{Duration, Instant};
 use tess_core::{Config, Counts, DomainPoint, Patch, PatchFactors};
 use tess_verify::BackendError;
-use tess_verify::generate::{IndexType, Totals, Workload};
+use tess_verify::generate::{IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
 
 /// The sequential formulation, patch by patch, into slices.
@@ -83,8 +83,8 @@ impl Runner for CoreRunner {
         1
     }
 
-    fn index_type(&self) -> IndexType {
-        IndexType::U32
+    fn index_type(&self) -> IndexWidth {
+        IndexWidth::U32
     }
 
     fn prepare(
@@ -156,16 +156,16 @@ impl Runner for CoreRunner {
 
 /// Batches that all start at the beginning of the buffers.
 fn cache_batches(workload: &Workload, counts: &[Counts]) -> Vec<Batch> {
-    let ranges = workload.cache_batches(IndexType::U32);
+    let ranges = workload.cache_batches(IndexWidth::U32);
     ranges.into_iter().map(|patches| Batch::new(patches, counts, (0, 0))).collect()
 }
 
 /// The whole workload again and again, one after another, in the same batches.
 fn stream_batches(workload: &Workload, counts: &[Counts]) -> Vec<Batch> {
-    let ranges = workload.cache_batches(IndexType::U32);
+    let ranges = workload.cache_batches(IndexWidth::U32);
     let mut batches = Vec::new();
     let mut start = (0, 0);
-    for _ in 0..workload.stream_repeats(IndexType::U32) {
+    for _ in 0..workload.stream_repeats(IndexWidth::U32) {
         for patches in &ranges {
             let batch = Batch::new(patches.clone(), counts, start);
             start = (start.0 + batch.points, start.1 + batch.indices);
@@ -193,7 +193,7 @@ impl Batch {
             amount: Amount {
                 patches: totals.patches,
                 triangles: totals.primitives,
-                bytes: totals.bytes(IndexType::U32),
+                bytes: totals.bytes(IndexWidth::U32),
             },
         }
     }

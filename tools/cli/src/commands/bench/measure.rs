@@ -228,8 +228,8 @@ mod tests {
             1
         }
 
-        fn index_type(&self) -> tess_verify::generate::IndexType {
-            tess_verify::generate::IndexType::U32
+        fn index_type(&self) -> tess_verify::generate::IndexWidth {
+            tess_verify::generate::IndexWidth::U32
         }
 
         fn prepare(

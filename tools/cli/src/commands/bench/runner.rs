@@ -5,7 +5,7 @@ use std::iter::Sum;
 use std::time::Duration;
 use tess_simd::{Level, Order};
 use tess_verify::BackendError;
-use tess_verify::generate::{IndexType, Workload};
+use tess_verify::generate::{IndexWidth, Workload};
 
 /// Where a runner's output goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -80,7 +80,7 @@ pub(crate) trait Runner {
     }
 
     /// Width of the indices it writes.
-    fn index_type(&self) -> IndexType;
+    fn index_type(&self) -> IndexWidth;
 
     /// Whether it runs on a separate device, so that the core's times need not be taken in turn
     /// with its own, nor in the same working set.
@@ -127,7 +127,7 @@ pub(crate) struct RunnerOptions {
     /// Threads, at least 1.
     pub(crate) threads: u32,
     /// Width of the indices.
-    pub(crate) index_type: IndexType,
+    pub(crate) index_type: IndexWidth,
     /// MiB of output of one call of the simd backend; if there is none, what workload and threads say.
     pub(crate) frame: Option<usize>,
     /// The order of triangles; backend core has the specification's alone.

@@ -14,7 +14,7 @@ use tess_simd::{
     BatchCounts, Buffers, IndexFormat, Numbering, Order, OwnedBatch, PatchRange, Tessellator,
 };
 use tess_verify::BackendError;
-use tess_verify::generate::{Calls, IndexType, Totals, Workload};
+use tess_verify::generate::{Calls, IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
 
 /// The runner for these options.
@@ -30,8 +30,8 @@ pub(super) fn runner(options: RunnerOptions) -> Result<Box<dyn Runner>, Failure>
         .build()
         .map_err(|error| Failure::unavailable(format!("cannot start threads: {error}")))?;
     Ok(match options.index_type {
-        IndexType::U16 => Box::new(SimdRunner::<u16>::new(options, pool)),
-        IndexType::U32 => Box::new(SimdRunner::<u32>::new(options, pool)),
+        IndexWidth::U16 => Box::new(SimdRunner::<u16>::new(options, pool)),
+        IndexWidth::U32 => Box::new(SimdRunner::<u32>::new(options, pool)),
     })
 }
 
@@ -72,19 +72,19 @@ struct Batch {
 
 /// Formats that the bench has.
 trait Index: IndexFormat + std::fmt::Debug + PartialEq {
-    const TYPE: IndexType;
+    const TYPE: IndexWidth;
     fn word(self) -> u32;
 }
 
 impl Index for u16 {
-    const TYPE: IndexType = IndexType::U16;
+    const TYPE: IndexWidth = IndexWidth::U16;
     fn word(self) -> u32 {
         self.into()
     }
 }
 
 impl Index for u32 {
-    const TYPE: IndexType = IndexType::U32;
+    const TYPE: IndexWidth = IndexWidth::U32;
     fn word(self) -> u32 {
         self
     }
@@ -169,7 +169,7 @@ impl<I: Index> Runner for SimdRunner<I> {
         self.options.order
     }
 
-    fn index_type(&self) -> IndexType {
+    fn index_type(&self) -> IndexWidth {
         I::TYPE
     }
 
@@ -295,7 +295,7 @@ fn fill<I: Index>(points: &mut [[f32; 2]], indices: &mut [I], pool: &ThreadPool)
 }
 
 /// The workload again and again until it has a frame's output, if there are frames.
-fn repeated(workload: &Workload, frame: Option<usize>, index_type: IndexType) -> Workload {
+fn repeated(workload: &Workload, frame: Option<usize>, index_type: IndexWidth) -> Workload {
     let wanted = frame.map_or(0, |mebibytes| (mebibytes as u64) << 20);
     let times = wanted.div_ceil(workload.totals().bytes(index_type).max(1)).max(1);
     let times = usize::try_from(times).unwrap_or(usize::MAX);

@@ -4,7 +4,7 @@
 use super::runner::Runner;
 use crate::output::json;
 use serde::Serialize;
-use tess_verify::generate::IndexType;
+use tess_verify::generate::IndexWidth;
 
 /// One line of results, with the keys that `--json` prints.
 #[derive(Clone, Debug, Serialize)]
@@ -44,10 +44,10 @@ pub(crate) fn heading(runner: &dyn Runner) -> String {
 }
 
 /// The name of a width of indices.
-pub(super) const fn name_of(index_type: IndexType) -> &'static str {
+pub(super) const fn name_of(index_type: IndexWidth) -> &'static str {
     match index_type {
-        IndexType::U16 => "u16",
-        IndexType::U32 => "u32",
+        IndexWidth::U16 => "u16",
+        IndexWidth::U32 => "u32",
     }
 }
 

@@ -4,7 +4,7 @@ use crate::campaign::report::{First, Part, Report};
 use crate::campaign::{Placed, ShardArgs, shard};
 use crate::coverage_file;
 use crate::failure::Failure;
-use tess_verify::check::{self, Checked, Difference, Stage};
+use tess_verify::check::{self, Checked, Difference, SpecStage};
 use tess_verify::cover::Coverage;
 use tess_verify::vectors::Header;
 use tess_verify::{Case, Named};
@@ -38,7 +38,7 @@ pub(super) fn finish(report: &mut Report, found: &check::Report) {
         report.add_to_part(OTHERS, others);
     }
     for difference in &found.differences {
-        let is_other = difference.mismatch.stage == Stage::Answer;
+        let is_other = difference.mismatch.stage == SpecStage::Answer;
         let name = if is_other { OTHERS.to_owned() } else { part_of(difference.case) };
         if report.parts.iter().any(|part| part.name == name) {
             let first = Some(first(difference));

@@ -10,7 +10,7 @@ use std::io::{BufRead, Write};
 use std::path::Path;
 use tess_core::Tessellation;
 use tess_verify::check::{Order, Strength};
-use tess_verify::rules::{Checker, Row, RulesReport, Specification, Verdict};
+use tess_verify::rules::{Checker, RuleRow, RulesReport, Specification, Verdict};
 use tess_verify::vectors::{Kind, Record, VectorError, VectorFile};
 use tess_verify::{Case, Named};
 
@@ -87,7 +87,7 @@ impl Display for BesideModel {
 
 /// The rules of a report as parts of a run: how many patches each judged and how many of them break it.
 pub(crate) fn parts(tested: &str, report: &RulesReport) -> Vec<Part> {
-    let part = |row: &Row| {
+    let part = |row: &RuleRow| {
         let first = row.smallest.as_ref().map(|example| {
             let cases: Vec<String> = example.cases.iter().map(ToString::to_string).collect();
             First { case: Some(cases.join("\n")), difference: example.what.clone() }

@@ -10,7 +10,7 @@ use crate::output::{Role, note, print, progress, refuse_shared};
 use std::fmt::Write;
 use std::time::Instant;
 use tess_core::SplitOrder;
-use tess_verify::check::{Known, Plan, Row, SecondFormulation, Subject, verify};
+use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, VerifyPlan, verify};
 use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::rules::{Specification, check_rules};
 use tess_verify::{Backend, Named};
@@ -105,13 +105,13 @@ impl Args {
         known: &Known,
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
-        let Plan { subjects, shard } = self.plan(placed);
+        let VerifyPlan { subjects, shard } = self.plan(placed);
         let bar = progress(0, "units");
         print(&bar, &heading())?;
         let started = Instant::now();
         let mut all_equal = true;
         for &subject in &subjects {
-            let one = Plan { subjects: vec![subject], shard };
+            let one = VerifyPlan { subjects: vec![subject], shard };
             let table = verify(&mut workers, &one, known, &|subject, done, all| {
                 bar.set_length(all);
                 bar.set_message(subject.name());
@@ -128,14 +128,14 @@ impl Args {
         Ok(if all_equal { Exit::Done } else { Exit::Different })
     }
 
-    fn plan(&self, placed: Placed) -> Plan {
+    fn plan(&self, placed: Placed) -> VerifyPlan {
         let subjects = match self.random {
             Some(patches) => vec![Subject::Random { patches, seed: self.seed }],
             None if !self.subject.is_empty() => self.subject.clone(),
             None if self.exhaustive => Subject::ALL.to_vec(),
             None => vec![Subject::Level1, Subject::Level2],
         };
-        Plan { subjects, shard: placed.shard }
+        VerifyPlan { subjects, shard: placed.shard }
     }
 
     /// Judges each backend by the rules of a standard.
@@ -188,7 +188,7 @@ impl Args {
 }
 
 /// Says of which subjects the shard has nothing: they have fewer units than shards were asked for.
-fn report_empty(table: &[Row], placed: Placed) {
+fn report_empty(table: &[SubjectRow], placed: Placed) {
     let mut empty: Vec<&str> =
         table.iter().filter(|row| row.compared == 0).map(|row| row.subject.name()).collect();
     empty.dedup();
@@ -201,7 +201,7 @@ fn report_empty(table: &[Row], placed: Placed) {
 }
 
 /// Adds the rows of one subject to the report.
-fn record(report: &mut Report, table: &[Row]) {
+fn record(report: &mut Report, table: &[SubjectRow]) {
     for row in table {
         let first = row.first.as_ref().map(|text| match text.split_once('\n') {
             Some((case, difference)) => {
@@ -221,17 +221,17 @@ fn heading() -> String {
 }
 
 /// The rows of one subject, then the first difference of each.
-fn lines(table: &[Row]) -> String {
+fn lines(table: &[SubjectRow]) -> String {
     let mut text = String::new();
-    for Row { subject, backend, compared, mismatches, .. } in table {
+    for SubjectRow { subject, backend, compared, mismatches, .. } in table {
         let subject = subject.name();
         // Writing to a String does not fail.
         _ = writeln!(text, "{subject:<12} {backend:<8} {compared:>15} {mismatches:>10}");
     }
-    for Row { subject, backend, known, .. } in table.iter().filter(|row| row.known > 0) {
+    for SubjectRow { subject, backend, known, .. } in table.iter().filter(|row| row.known > 0) {
         _ = writeln!(text, "known of {} in {backend}: {known}", subject.name());
     }
-    for Row { subject, backend, first, .. } in table {
+    for SubjectRow { subject, backend, first, .. } in table {
         if let Some(first) = first {
             _ = writeln!(text, "first of {} in {backend}: {first}", subject.name());
         }

@@ -10,7 +10,7 @@ use tess_core::{Counts, PatchFactors};
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Copies, Order, Setup};
 use tess_verify::BackendError;
-use tess_verify::generate::{Calls, IndexType, Totals, Workload};
+use tess_verify::generate::{Calls, IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 
@@ -31,7 +31,7 @@ pub(super) struct GpuRunner {
     stopwatch: Stopwatch,
     tessellator: Tessellator,
     fill: Fill,
-    index_type: IndexType,
+    index_type: IndexWidth,
     copies: Copies,
     order: Order,
     workload: Option<(Setup, Vec<PatchFactors>)>,
@@ -117,8 +117,8 @@ impl GpuRunner {
             self.gpu.buffer(label, bytes.next_multiple_of(16), usage).map_err(device_error)
         };
         let index_bytes = match self.index_type {
-            IndexType::U16 => 2 * indices,
-            IndexType::U32 => 4 * indices,
+            IndexWidth::U16 => 2 * indices,
+            IndexWidth::U32 => 4 * indices,
         };
         Ok((buffer("points", 8 * points)?, buffer("indices", index_bytes)?))
     }
@@ -165,7 +165,7 @@ impl Runner for GpuRunner {
         self.order
     }
 
-    fn index_type(&self) -> IndexType {
+    fn index_type(&self) -> IndexWidth {
         self.index_type
     }
 
