@@ -1,8 +1,8 @@
 //! Verification of backends: it compares what it says, in any number of shards and threads.
 
-use tess_verify::Backend;
 use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, VerifyPlan, verify};
 use tess_verify::generate::Shard;
+use tess_verify::{Backend, BackendError};
 
 /// One part in 61 of every subject (and far less of the largest).
 fn small_plan() -> VerifyPlan {
@@ -77,4 +77,11 @@ fn as_many_random_patches_as_there_are_numbers() {
     let plan = VerifyPlan { subjects, shard: Shard { part: 5, of: 96 << 51 } };
     let rows = run(&mut [vec![Box::new(SecondFormulation)]], &plan);
     assert_eq!((rows[0].compared, rows[0].first.as_deref()), (2 * 4096, None), "two units");
+}
+
+/// An implementation says what it does not have, and a caller can tell that from a failure.
+#[test]
+fn what_is_unsupported_is_told_from_failures() {
+    assert!(BackendError::unsupported("no isolines").is_unsupported(), "there is none");
+    assert!(!BackendError::new("the device is lost").is_unsupported(), "a failure");
 }
