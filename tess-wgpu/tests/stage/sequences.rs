@@ -32,15 +32,15 @@ impl World<'_> {
             return Ok(());
         }
         let (gpu, form) = (self.gpu, self.forms[self.used]);
-        let new = || Own::new((gpu, self.shared), form, 0);
+        let new = || Own::new((gpu, self.shared), form, 0, None);
         let own = self.stages.entry(self.used).or_insert_with(new);
         match call {
             Use { .. } => {}
             Rebuild { variant, is_alone: false } => {
-                *own = Own::new((gpu, self.shared), form, variant);
+                *own = Own::new((gpu, self.shared), form, variant, Some(own));
             }
             Rebuild { variant, is_alone: true } => {
-                *own = Own::new((gpu, &Tessellator::new(&gpu.device)), form, variant);
+                *own = Own::new((gpu, &Tessellator::new(&gpu.device)), form, variant, Some(own));
             }
             Give { seed, is_dropped } => own.give(gpu, seed, is_dropped),
             Move { by, is_bound } => own.shift(gpu, by, is_bound),
@@ -226,7 +226,7 @@ fn room_shrinks_and_grows_again() {
     let calls = [
         &use_and_fill(1)[..],
         &[frame(8), frame(0), frame(0), frame(0), frame(0), frame(8), frame(8)],
-        &[Rebuild { variant: 3, is_alone: false }],
+        &[Rebuild { variant: 3, is_alone: false }, Rebuild { variant: 1, is_alone: false }],
         &use_and_fill(2),
         &[frame(8), frame(0), frame(1), frame(0), frame(0), frame(8), frame(8)],
     ];

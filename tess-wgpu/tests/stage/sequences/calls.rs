@@ -23,7 +23,7 @@ pub(crate) enum Call {
     Group { groups: u32 },
     /// A frame of the first `count` patches.
     Frame { count: u32, from: Count, draw: Draw, then: Then },
-    /// What was prepared last is drawn again, if it ran.
+    /// The frame that was prepared last is drawn again, if it ran.
     Again { draw: Draw },
     /// The oldest frame that was kept is submitted.
     Late,
@@ -40,7 +40,7 @@ pub(crate) enum Count {
     Device,
 }
 
-/// What is drawn.
+/// The part that is drawn.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Draw {
     Everything,
@@ -50,7 +50,7 @@ pub(crate) enum Draw {
     AmongOthers,
 }
 
-/// What becomes of a frame.
+/// The fate of a frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Then {
     Submit,
@@ -75,7 +75,7 @@ pub(crate) enum Source {
     Buffer,
 }
 
-/// What a stage is made of.
+/// The choices that a stage is made of.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
     pub(crate) domain: Domain,

@@ -60,29 +60,26 @@ fn source(form: Form, variant: u32) -> String {
 }
 
 impl Own {
-    pub(super) fn new((gpu, shared): (&Gpu, &Tessellator), form: Form, variant: u32) -> Self {
+    /// A stage that takes the place of `old` has its layouts, so that it can share all of its pipelines.
+    pub(super) fn new(
+        (gpu, shared): (&Gpu, &Tessellator),
+        form: Form,
+        variant: u32,
+        old: Option<&Self>,
+    ) -> Self {
         let config = Config::new(form.partitioning, OutputPrimitive::TriangleCw);
         let culled = vec![PatchFactors::uniform(form.domain, 0.0); PATCHES as usize];
-        let scene = Scene::on(gpu.clone(), form.domain, config, culled.clone());
+        let mut scene = Scene::on(gpu.clone(), form.domain, config, culled.clone());
+        if let Some(old) = old {
+            scene.layout = old.scene.layout.clone();
+            scene.group = scene.bind(&culled);
+        }
         let usage = Usage::STORAGE | Usage::COPY_DST;
         let words = factor_words(&culled);
         let given = gpu.upload("given", bytemuck::cast_slice(&words), usage).expect("room");
         let usage = Usage::UNIFORM | Usage::COPY_DST;
         let camera = gpu.upload("camera", &[0; 16], usage).expect("room");
-        let ty = wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        };
-        let cameras = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: None,
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::VERTEX,
-                ty,
-                count: None,
-            }],
-        });
+        let cameras = old.map_or_else(|| layout_of_cameras(gpu), |old| old.cameras.clone());
         let source = source(form, variant);
         let builder = TessellationStage::builder(&source, form.domain, config, PATCHES)
             .bind_group(&scene.layout, &scene.group)
@@ -413,6 +410,23 @@ impl Own {
         };
         equal("refusal", observed, expected)
     }
+}
+
+fn layout_of_cameras(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let ty = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Uniform,
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: None,
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX,
+            ty,
+            count: None,
+        }],
+    })
 }
 
 fn bind(gpu: &Gpu, layout: &wgpu::BindGroupLayout, buffer: &wgpu::Buffer) -> wgpu::BindGroup {
