@@ -23,7 +23,7 @@ struct Fit {
     sums: array<atomic<u32>, 4u * SLOTS_OF_FIT>,
 }
 
-// What the batch has room for, and the ladder.
+// The batch's room, and the ladder.
 struct Terms {
     points: u32,
     primitives: u32,

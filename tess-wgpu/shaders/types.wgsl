@@ -1,4 +1,4 @@
-// What a hull function returns, in the specification's order (section 1). A factor of 0 culls the patch:
+// The result of a hull function, in the specification's order (section 1). A factor of 0 culls the patch:
 // `QuadFactors()` is a patch that is not drawn.
 
 struct QuadFactors {

@@ -1,4 +1,4 @@
-//! What can go wrong.
+//! Errors.
 
 mod stage;
 
@@ -18,12 +18,12 @@ pub enum Error {
     /// in software. OpenGL from 4.3 or ES 3.1 on works too, with the feature `gles`. In a browser: it has no
     /// WebGPU, or the page is neither from https nor from localhost.
     NoDevice {
-        /// What wgpu says of each adapter or backend that was tried, and whether `WGPU_BACKEND` restricts them.
+        /// wgpu's reason for each adapter or backend that was tried, and whether `WGPU_BACKEND` restricts them.
         reason: String,
     },
     /// The device was lost. Open another one and make every object again.
     DeviceLost {
-        /// What wgpu says.
+        /// wgpu's message.
         reason: String,
     },
     /// The device has too little memory left. Free some, or tessellate fewer patches at a time.
@@ -33,9 +33,9 @@ pub enum Error {
     LimitTooLow {
         /// The limit, a member of `wgpu::Limits`.
         limit: &'static str,
-        /// What is needed.
+        /// The least that is needed.
         needed: u64,
-        /// What the device has.
+        /// The device's.
         got: u64,
     },
     /// A buffer would be larger than the device allows. Tessellate fewer patches at a time, or open
@@ -62,7 +62,7 @@ pub enum Error {
     },
     /// One buffer serves two purposes. Use different buffers for factors, points and indices.
     SharedBuffer {
-        /// What it is given for.
+        /// The two purposes.
         buffers: [Resource; 2],
     },
     /// A patch has the factors of another domain than the setup. Tessellate the patches of each
@@ -113,19 +113,19 @@ pub enum Error {
     },
     /// The device lacks features. Ask for them when it is opened, as [`crate::Gpu::open_with`] does.
     MissingFeatures {
-        /// What it lacks.
+        /// The features that it lacks.
         missing: wgpu::Features,
     },
     /// A tessellation stage cannot be made or used like this.
     Stage(StageError),
     /// wgpu refused an object or a command, for example to read beyond the end of a buffer.
     Refused {
-        /// What wgpu says.
+        /// wgpu's message.
         reason: String,
     },
 }
 
-/// What to do where there is no device.
+/// The remedy where there is no device.
 fn remedy() -> &'static str {
     if cfg!(target_arch = "wasm32") {
         "use a browser that has WebGPU, and a page from https or localhost"

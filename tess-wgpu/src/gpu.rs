@@ -17,7 +17,7 @@ pub struct Gpu {
     pub device: wgpu::Device,
     /// Its queue.
     pub queue: wgpu::Queue,
-    /// What wgpu knows about the adapter.
+    /// The adapter's name, driver and kind.
     pub info: wgpu::AdapterInfo,
 }
 

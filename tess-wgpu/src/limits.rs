@@ -1,4 +1,4 @@
-//! What a device must have, beyond which a batch adapts.
+//! The least limits of a device. A batch adapts to higher ones.
 
 use crate::error::Error;
 

@@ -1,4 +1,4 @@
-//! What a batch reads and where it writes.
+//! The buffers that a batch reads and writes.
 
 use tess_gpu::Capacity;
 
@@ -26,7 +26,7 @@ pub enum Outputs<'a> {
     Arguments(Capacity),
 }
 
-/// What a batch reads.
+/// The patches that a batch reads.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Patches<'a> {
     pub(crate) count: u32,

@@ -10,7 +10,7 @@ use tess_core::SplitOrder;
 use tess_gpu::Tap;
 use tess_gpu::{Setup, Stage, tables};
 
-/// What changes a shader's source before it is compiled.
+/// A change of a shader's source before it is compiled.
 pub(crate) type Edit = Box<dyn Fn(Stage, String) -> String + Send + Sync>;
 
 /// Pipelines by stage and by the part of the setup that the stage depends on; those of taps; tables by split order;
@@ -32,7 +32,7 @@ pub(crate) struct Pipelines {
 /// All that a pipeline of tessellation stages depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct PipelineKey {
-    /// What the entry points reach of the WGSL, and the render state.
+    /// The WGSL that the entry points reach, and the render state.
     pub(crate) text: String,
     pub(crate) entry_point: &'static str,
     pub(crate) layouts: Vec<wgpu::BindGroupLayout>,

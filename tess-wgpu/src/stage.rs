@@ -230,7 +230,7 @@ impl TessellationStage {
         })
     }
 
-    /// What the latest frame needed whose numbers have arrived; `None` at first. Numbers arrive a frame or two after
+    /// The needs of the latest frame whose numbers have arrived; `None` at first. Numbers arrive a frame or two after
     /// the submission. This asks the device without waiting, as [`Self::prepare`] does.
     #[must_use]
     pub fn feedback(&self) -> Option<Feedback> {

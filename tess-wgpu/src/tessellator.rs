@@ -1,4 +1,4 @@
-//! What makes batches for one device.
+//! Batches of one device, made.
 
 use crate::Batch;
 use crate::error::Error;
@@ -52,7 +52,7 @@ impl Tessellator {
         &self.device
     }
 
-    /// What clones share.
+    /// The pipelines that clones share.
     pub(crate) fn pipelines(&self) -> MutexGuard<'_, Pipelines> {
         self.shared.lock().unwrap_or_else(PoisonError::into_inner)
     }

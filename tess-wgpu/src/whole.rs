@@ -9,7 +9,7 @@ use tess_gpu::{IndexType, Setup};
 /// The output of a batch, read back.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// What the batch needed.
+    /// The batch's needs.
     pub status: Status,
     /// The draw arguments.
     pub draw: DrawIndexed,

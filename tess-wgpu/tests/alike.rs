@@ -90,7 +90,7 @@ fn equal_topologies_with_different_points() {
     }
 }
 
-/// What `factors` says of each block.
+/// Whether the patches of each block are alike, by `factors`.
 #[test]
 fn blocks_know_whether_their_patches_are_alike() {
     let mut machine = Machine::open();

@@ -1,4 +1,4 @@
-//! What holds beyond equal bits: sizes, overflow, nothing silent.
+//! Promises beyond equal bits: sizes, overflow, nothing silent.
 
 mod common;
 
@@ -38,7 +38,7 @@ fn formats_and_numberings() {
     }
 }
 
-/// What [`tess_wgpu::Tessellator::tessellate`] brings back: outputs of patches, and where each begins.
+/// The result of [`tess_wgpu::Tessellator::tessellate`]: outputs of patches, and where each begins.
 #[test]
 fn whole_outputs_say_where_each_patch_begins() {
     let mut machine = Machine::open();

@@ -145,7 +145,7 @@ fn dispatch_sizes(machine: &mut Machine, setup: Setup, patches: &[PatchFactors])
     batch.plan().dispatches().filter_map(size).collect()
 }
 
-/// What the patches need.
+/// The patches' needs.
 fn needed(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) -> Capacity {
     let factors = machine.factors(patches);
     let count = u32::try_from(patches.len()).expect("a test's patches");

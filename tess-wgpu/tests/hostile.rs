@@ -1,4 +1,4 @@
-//! What a caller can do wrong, and what a device can refuse: errors, no panics.
+//! Mistakes of callers and refusals of devices: errors, no panics.
 
 mod common;
 
@@ -68,7 +68,7 @@ fn buffers_that_do_not_do_are_refused() {
     assert_eq!(batch.err(), Some(expected), "more patches than points can name");
 }
 
-/// What a person reads, beside what a program can match.
+/// The text that a person reads, beside what a program can match.
 #[test]
 fn errors_name_what_is_wrong() {
     for (buffer, name) in [

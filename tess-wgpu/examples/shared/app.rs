@@ -8,7 +8,7 @@ mod window;
 use std::error::Error;
 use tess_wgpu::Gpu;
 
-/// What an example draws.
+/// An example's content.
 pub(crate) trait Show: Sized {
     /// Makes everything, for a picture of this format.
     fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>>;
@@ -29,7 +29,7 @@ pub(crate) trait Show: Sized {
         Ok(())
     }
 
-    /// What the window's title says.
+    /// The window's title.
     fn title(&self) -> String;
 }
 

@@ -1,4 +1,4 @@
-//! What the pictures share: a batch tessellated and drawn by one command buffer, and its pixels.
+//! The common part of pictures: a batch tessellated and drawn by one command buffer, and its pixels.
 
 use std::error::Error;
 use tess_gpu::Setup;
@@ -14,7 +14,7 @@ pub(crate) const HEIGHT: u32 = 720;
 const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// What is tessellated and how it is drawn.
+/// A batch's patches, and how they are drawn.
 #[derive(Debug)]
 pub(crate) struct Scene<'a> {
     /// The tessellation, with packed points.
@@ -27,7 +27,7 @@ pub(crate) struct Scene<'a> {
     pub(crate) room: [u64; 2],
     /// WGSL with the entry points `place_vertex` and `shade`.
     pub(crate) source: &'a str,
-    /// What the shaders read as binding 0 of group 0, if anything.
+    /// The shaders' binding 0 of group 0, if they have one.
     pub(crate) read: Option<&'a wgpu::Buffer>,
     /// The meshes that the patches belong to; if there are none, all patches are drawn at once.
     pub(crate) meshes: &'a [Mesh<'a>],
@@ -42,7 +42,7 @@ pub(crate) struct Scene<'a> {
 pub(crate) struct Mesh<'a> {
     /// The first patch. The mesh ends where the next one begins.
     pub(crate) first_patch: u32,
-    /// What the shaders read as binding 0 of group 1, with the usage `UNIFORM`.
+    /// The shaders' binding 0 of group 1, with the usage `UNIFORM`.
     pub(crate) material: &'a wgpu::Buffer,
 }
 

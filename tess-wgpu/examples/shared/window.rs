@@ -27,7 +27,7 @@ struct App<S> {
     failure: Option<Box<dyn Error>>,
 }
 
-/// What there is while the window is open.
+/// The objects of an open window.
 struct Open<S> {
     window: Arc<Window>,
     surface: wgpu::Surface<'static>,

@@ -1,4 +1,4 @@
-//! What can go wrong with a tessellation stage.
+//! Errors of a tessellation stage.
 
 use std::fmt;
 
@@ -32,7 +32,7 @@ pub enum StageError {
         /// Line of the user's text, from 1 on; `None` if the text lacks what the stage needs, for example a
         /// function `domain`.
         line: Option<u32>,
-        /// What the compiler says.
+        /// The compiler's message.
         message: String,
     },
     /// The user's WGSL has no fragment shader, or not the one that was asked for, or several and none was chosen with
@@ -90,7 +90,7 @@ pub enum StageError {
 }
 
 impl StageError {
-    /// What the user's WGSL has to be.
+    /// The demands on the user's WGSL.
     pub(crate) const NEEDED: &'static str = "it declares `struct Vertex`, `fn domain(number: u32, uv: vec2<f32>) -> Vertex` without derivatives, \
          unless factors are given also `fn hull(number: u32) -> QuadFactors` (`TriFactors`, \
          `IsolineFactors`), and no name that begins with `tess_`; its bindings are in the groups that the builder got";

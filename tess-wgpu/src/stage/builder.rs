@@ -1,4 +1,4 @@
-//! What a stage is made of.
+//! The parts that a stage is made of.
 
 use super::choices::{Factors, Overflow, Points, Room};
 use super::room::Form;
@@ -139,7 +139,7 @@ impl<'a> StageBuilder<'a> {
         self
     }
 
-    /// What happens to a frame that does not fit; [`Overflow::Coarser`] if this is not called.
+    /// The fate of a frame that does not fit; [`Overflow::Coarser`] if this is not called.
     pub const fn overflow(mut self, overflow: Overflow) -> Self {
         self.overflow = overflow;
         self
@@ -201,7 +201,7 @@ impl<'a> StageBuilder<'a> {
         source::of_vertices(self.source, self.setup(), self.points, self.own_group())
     }
 
-    /// What the bytes of the stage's buffers depend on.
+    /// All that the bytes of the stage's buffers depend on.
     pub(super) fn form(&self, device: &wgpu::Device) -> Form {
         let Self { points, patches, .. } = *self;
         Form { setup: self.setup(), points, patches, buffer_limit: device.limits().max_buffer_size }

@@ -1,4 +1,4 @@
-//! What a stage can be asked for.
+//! The choices that a stage offers.
 
 use tess_gpu::Capacity;
 
@@ -58,7 +58,7 @@ pub enum Room {
     },
 }
 
-/// What happens to a frame whose output does not fit.
+/// The fate of a frame whose output does not fit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Overflow {
     /// All factors are scaled down by one number, on the device, until everything fits. Edges stay closed. If even

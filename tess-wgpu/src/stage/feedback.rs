@@ -1,4 +1,4 @@
-//! What a frame needed, learnt some frames later without waiting.
+//! A frame's needs, learnt some frames later without waiting.
 
 use super::fit::{Fit, Found};
 use crate::error::{Error, checked};
@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 use tess_gpu::layout::Status;
 use wgpu::BufferUsages as Usage;
 
-/// What a frame needed and what it drew.
+/// A frame's needs, and what it drew.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Feedback {
     /// Number of the frame: the first call of `prepare` is frame 0.
@@ -19,7 +19,7 @@ pub struct Feedback {
     pub primitives: u64,
     /// Primitives that were drawn: fewer if they did not fit.
     pub drawn: u64,
-    /// What the factors were scaled by to make the output fit; 1 if it fitted, or if the stage is to
+    /// The scale of the factors that made the output fit; 1 if it fitted, or if the stage is to
     /// draw nothing instead.
     pub scale: f32,
 }
@@ -144,7 +144,7 @@ pub(crate) async fn wait(
     Ok(of_frame(frame, &status, &found))
 }
 
-/// What the bytes of a [`Status`] and of a [`Found`] say.
+/// The feedback in the bytes of a [`Status`] and of a [`Found`].
 fn of_frame(frame: u64, status: &[u8], found: &[u8]) -> Feedback {
     let status: Status = bytemuck::pod_read_unaligned(status);
     let found: Found = bytemuck::pod_read_unaligned(found);

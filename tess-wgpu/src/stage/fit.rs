@@ -175,7 +175,7 @@ impl Fit {
         }
     }
 
-    /// What the passes found, as [`Found`] has it.
+    /// The passes' findings, as [`Found`] has them.
     pub(crate) const fn state(&self) -> &wgpu::Buffer {
         &self.state
     }
@@ -231,7 +231,7 @@ pub(crate) struct Found {
 }
 
 impl Found {
-    /// What the factors were scaled by.
+    /// The scale of the factors.
     pub(crate) fn scale(&self) -> f32 {
         ladder().get(self.step as usize).copied().unwrap_or(1.0)
     }
@@ -266,7 +266,7 @@ mod tests {
         }
     }
 
-    /// What fit.wgsl and this file both say.
+    /// Facts that fit.wgsl and this file both state.
     #[test]
     fn constants_and_layouts_are_those_of_the_shader() {
         use tess_core::{Config, Domain, OutputPrimitive, Partitioning};

@@ -1,4 +1,4 @@
-//! What wgpu leaves to its users on OpenGL.
+//! Workarounds that wgpu leaves to its users on OpenGL.
 
 use super::StageError;
 use crate::error::Error;

@@ -46,7 +46,7 @@ impl StageBuilder<'_> {
     }
 }
 
-/// What `work` gives where nothing has to be waited for.
+/// The result of `work` where nothing has to be waited for.
 fn now<T>(work: impl Future<Output = Result<T, Error>>) -> Result<T, Error> {
     match pin!(work).poll(&mut Context::from_waker(Waker::noop())) {
         Poll::Ready(done) => done,

@@ -1,4 +1,4 @@
-//! What depends on the room: the batch, and the buffers that it writes.
+//! The parts that depend on the room: the batch, and the buffers that it writes.
 
 use super::choices::Points;
 use super::gl;
@@ -23,7 +23,7 @@ pub(super) struct Output {
 pub(super) struct Stored {
     pub(super) points: Option<wgpu::Buffer>,
     pub(super) indices: Option<wgpu::Buffer>,
-    /// What stands for the points where [`gl::attributes`] need a buffer that nothing reads.
+    /// A buffer in place of the points where [`gl::attributes`] need a buffer that nothing reads.
     unread: Option<wgpu::Buffer>,
 }
 

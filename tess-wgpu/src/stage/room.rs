@@ -45,7 +45,7 @@
 use super::choices::{Points, Room};
 use tess_gpu::{Capacity, Setup};
 
-/// What the bytes of an output depend on.
+/// All that the bytes of an output depend on.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Form {
     pub(crate) setup: Setup,

@@ -20,7 +20,7 @@ pub(crate) fn of_hull(user: &str, domain: Domain, group: u32) -> String {
     joined(user, &own_of_hull(domain, group))
 }
 
-/// What stands behind the types and helpers in the hull's module.
+/// The text behind the types and helpers in the hull's module.
 fn own_of_hull(domain: Domain, group: u32) -> String {
     let write = match domain {
         Domain::Isoline => include_str!("../../shaders/hull_isoline.wgsl"),
@@ -36,7 +36,7 @@ pub(crate) fn of_vertices(user: &str, setup: Setup, points: Points, group: u32) 
     joined(user, &own_of_vertices(setup, points, group))
 }
 
-/// What stands behind the types and helpers in the module of the vertex shader.
+/// The text behind the types and helpers in the module of the vertex shader.
 fn own_of_vertices(setup: Setup, points: Points, group: u32) -> String {
     let pull = || Pull { group, first_binding: 0 }.source_for_drawing(setup);
     match points {
@@ -120,7 +120,7 @@ mod tests {
         assert_eq!(with_own_names(source), expected, "and nothing else");
     }
 
-    /// What helpers call among themselves; the README says nothing of it.
+    /// Functions that helpers call among themselves; the README says nothing of them.
     const OF_HELPERS: [&str; 6] = [
         "tess_bilinear",
         "tess_in_range",

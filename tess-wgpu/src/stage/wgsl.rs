@@ -120,7 +120,7 @@ pub(super) fn declarations(text: &str) -> Vec<Declaration<'_>> {
     all
 }
 
-/// What such functions use, in the order of the text, and what has no name. A name that a local hides counts as used.
+/// The declarations that such functions use and those without a name, in the order of the text. A name that a local hides counts as used.
 pub(super) fn reached<'a>(all: &[Declaration<'a>], entries: &[&'a str]) -> Vec<Declaration<'a>> {
     let mut is_reached = vec![false; all.len()];
     let mut names = [entries, &[""]].concat();

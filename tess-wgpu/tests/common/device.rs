@@ -20,7 +20,7 @@ pub(crate) struct Machine {
     pub(crate) tessellator: Tessellator,
 }
 
-/// What a batch left in its buffers.
+/// The content of a batch's buffers after its run.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Written {
     pub(crate) status: Status,

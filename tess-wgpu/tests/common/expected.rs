@@ -1,4 +1,4 @@
-//! What the golden model says the buffers of a batch must hold.
+//! The content of a batch's buffers by the golden model.
 
 use super::device::{POISON, Written};
 use tess_core::{DomainPoint, Patch, PatchFactors};

@@ -21,7 +21,7 @@ pub(crate) fn answer() {
     }
 }
 
-/// What this program says in an environment with these variables.
+/// The output of this program in an environment with these variables.
 fn say(arguments: &[&str], variables: &[(&str, &str)]) -> String {
     let own = std::env::current_exe().expect("a test has a path");
     let mut command = Command::new(own);

@@ -12,7 +12,7 @@ macro_rules! shader {
     };
 }
 
-/// What is wrong with a shape's WGSL, joined with the plugin's and the stage's.
+/// The error in a shape's WGSL, joined with the plugin's and the stage's.
 fn complaint(shape: &[&str]) -> Option<String> {
     let own = [&shape.join("\n"), shader!("types.wgsl"), shader!("surface.wgsl")].join("\n");
     // As program.rs and height_field.rs put them in.

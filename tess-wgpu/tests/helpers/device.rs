@@ -5,7 +5,7 @@ use tess_gpu::surfaces;
 use tess_wgpu::Gpu;
 use wgpu::BufferUsages as Usage;
 
-/// What the stage joins to the user's functions.
+/// The text that the stage joins to the user's functions.
 const TYPES: &str = include_str!("../../shaders/types.wgsl");
 
 /// Calls a helper for each case.

@@ -35,7 +35,7 @@ pub(crate) struct Case {
     pub(crate) expected: Expected,
 }
 
-/// What a call has to return.
+/// The result that a call has to return.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Expected {
     /// These numbers, to the bit.

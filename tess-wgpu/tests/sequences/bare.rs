@@ -19,7 +19,7 @@ pub(crate) struct Left<'a> {
     pub(crate) tiles: &'a wgpu::Buffer,
 }
 
-/// What runs a batch.
+/// The objects that run a batch.
 pub(crate) enum Runner {
     Batch(Box<Batch>),
     Bare(Bare),

@@ -51,7 +51,7 @@ pub(crate) enum Output {
     },
 }
 
-/// What becomes of an encoder.
+/// The fate of an encoder.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Then {
     Submit,
@@ -59,7 +59,7 @@ pub(crate) enum Then {
     Keep,
 }
 
-/// What is wrong with a call.
+/// The mistake of a call.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Wrong {
     GroupsDescend,

@@ -35,7 +35,7 @@ const WRITTEN: usize = 9;
 const PATCHES: usize = 10;
 const HOST: usize = 13;
 
-/// What is pulled binds one portion.
+/// A batch that is pulled binds one portion.
 fn excluded(a: Choice, b: Choice) -> bool {
     matches!((a, b), ((WRITTEN, 1 | 2), (PATCHES, 4)))
 }

@@ -1,4 +1,4 @@
-//! What a shader computes that pulls its points: every point and primitive of a batch that stores neither.
+//! The results of a shader that pulls its points: every point and primitive of a batch that stores neither.
 
 use crate::bare::Left;
 use crate::common::device::Machine;

@@ -1,4 +1,4 @@
-//! What the calls of a sequence do, and what the model says of it.
+//! The calls of a sequence, done, and compared with the model.
 //!
 //! Every buffer that batches write has a shadow: the words that it must hold. A batch whose output fits changes the
 //! beginning of its shadows, and nothing else ever changes. So a buffer that equals its shadow was written where it
@@ -218,7 +218,7 @@ impl<'a> World<'a> {
         Ok(())
     }
 
-    /// What a batch is told of its room, and the stores of its points and indices.
+    /// The room that a batch is told, and the stores of its points and indices.
     fn room_and_stores(
         &mut self,
         setup: Setup,
@@ -343,14 +343,14 @@ impl<'a> World<'a> {
 const ALL: Capacity = Capacity { points: u32::MAX, primitives: u32::MAX };
 
 impl Made {
-    /// What does not fit: 1 for points, 2 for primitives.
+    /// Overflow: 1 for points, 2 for primitives.
     fn overflow(&self, expected: &Expected<'_>) -> u32 {
         let [points, primitives] = *expected.begins().last().expect("the end");
         u32::from(points > self.room.points) | u32::from(primitives > self.room.primitives) << 1
     }
 }
 
-/// What patches need.
+/// The patches' needs.
 fn needed(setup: Setup, patches: &[PatchFactors]) -> Capacity {
     let counts = patches.iter().map(|&patch| Patch::new(setup.config, patch).counts());
     counts.fold(Capacity::default(), |sum, own| Capacity {
@@ -364,7 +364,7 @@ fn position(domain: Domain) -> usize {
     Domain::ALL.iter().position(|other| *other == domain).unwrap_or(0)
 }
 
-/// What a plan of this output writes.
+/// The kind of plan for this output.
 const fn written(output: Output) -> Written {
     match output {
         Output::Indices { .. } => Written::Indices,

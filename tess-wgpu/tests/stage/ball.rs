@@ -22,7 +22,7 @@ pub(crate) struct Placed {
     pub(crate) world: [f32; 4],
 }
 
-/// What the shaders are told about a frame, as `View` of ball.wgsl.
+/// A frame's values for the shaders, as `View` of ball.wgsl.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(C)]
 pub(crate) struct View {

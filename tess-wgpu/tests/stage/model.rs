@@ -1,4 +1,4 @@
-//! What the pixels must be, by the model and exact arithmetic.
+//! The pixels by the model and exact arithmetic.
 
 use crate::scene::{Pixel, SIZE};
 use tess_core::{Config, Patch, PatchFactors};
@@ -93,7 +93,7 @@ pub(crate) fn compare(observed: &[Pixel], expected: &[Option<Pixel>]) -> Result<
     }
 }
 
-/// What a pixel says, in decimal and in bits.
+/// A pixel's text, in decimal and in bits.
 fn shown([u, v, number, is_drawn]: Pixel) -> String {
     let [a, b] = [u, v].map(f32::from_bits);
     match is_drawn {

@@ -8,7 +8,7 @@ use tess_gpu::Capacity;
 use tess_wgpu::stage::{Feedback, Overflow, Points, Room};
 use tess_wgpu::{Gpu, TessellationStage};
 
-/// What the patches give.
+/// The patches' output.
 fn needed(scene: &Scene) -> Capacity {
     let counts = scene.patches.iter().map(|&factors| Patch::new(scene.config, factors).counts());
     counts.fold(Capacity::default(), |sum, own| Capacity {

@@ -116,7 +116,7 @@ impl Scene {
         bind(&self.gpu, &self.layout, &given(&self.gpu, patches))
     }
 
-    /// What the model says of these patches.
+    /// The pixels of these patches by the model.
     pub(crate) fn pixels(&self, patches: &[PatchFactors]) -> Vec<Option<Pixel>> {
         model::pixels(self.config, patches, if is_gl(&self.gpu) { 2 } else { 0 })
     }

@@ -1,4 +1,4 @@
-//! What is compared with the model, and what is refused.
+//! Comparisons with the model, and refusals.
 
 use super::{Last, Made, Store, World, position};
 use crate::calls::{Patches, Wrong};
