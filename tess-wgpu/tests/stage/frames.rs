@@ -4,7 +4,7 @@ use crate::drawing::{scene, some_factors};
 use crate::model::{compare, compare_factors, drawn};
 use crate::scene::{PATCHES, Scene};
 use tess_core::{Domain, Partitioning, PatchFactors};
-use tess_wgpu::stage::{Overflow, PatchCount, Points, Room, StageError};
+use tess_wgpu::stage::{Overflow, PatchCount, Room, StageError};
 use tess_wgpu::{Error, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
@@ -26,16 +26,6 @@ fn prepared(scene: &Scene, stage: &mut TessellationStage) -> wgpu::CommandEncode
 fn assert_exact(scene: &Scene, stage: &mut TessellationStage, what: &str) {
     let observed = scene.frame(stage, PATCHES.into()).expect("it draws");
     assert_eq!(compare(&observed, &scene.pixels(&scene.patches)), Ok(()), "{what}");
-}
-
-#[test]
-fn room_that_a_dropped_frame_made_serves_the_next_one() {
-    let (scene, mut stage) = growing();
-    let before = stage.capacity();
-    scene.frame(&mut stage, PATCHES.into()).expect("it draws");
-    drop(prepared(&scene, &mut stage));
-    assert_ne!(stage.capacity(), before, "the dropped frame made room");
-    assert_exact(&scene, &mut stage, "after a dropped frame");
 }
 
 #[test]
@@ -86,57 +76,6 @@ fn a_late_frame_is_heard_of() {
     }
     scene.gpu.run(late).expect("the device finishes");
     assert_eq!(stage.feedback().map(|feedback| feedback.frame), Some(0), "submitted after 30");
-}
-
-#[test]
-fn an_older_frame_does_not_replace_a_newer_one() {
-    let (scene, mut stage) = growing();
-    let late = prepared(&scene, &mut stage);
-    scene.gpu.run(prepared(&scene, &mut stage)).expect("the device finishes");
-    assert_eq!(stage.feedback().map(|feedback| feedback.frame), Some(1), "the second");
-    scene.gpu.run(late).expect("the device finishes");
-    assert_eq!(stage.feedback().map(|feedback| feedback.frame), Some(1), "and still");
-}
-
-#[test]
-fn feedback_follows_the_frames() {
-    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
-    let mut stage = scene.build(scene.builder());
-    assert_eq!(stage.feedback(), None, "before the first frame");
-    for (frame, count) in (0..).zip([8, 3, 5, 1, 7, 2]) {
-        scene.frame(&mut stage, PatchCount::Host(count)).expect("it draws");
-        let feedback = stage.feedback().expect("the device was waited for");
-        let patches = &scene.patches[..count as usize];
-        let counts = patches.iter().map(|&factors| {
-            u64::from(tess_core::Patch::new(scene.config, factors).counts().primitives)
-        });
-        let expected = (frame, counts.sum::<u64>());
-        assert_eq!((feedback.frame, feedback.primitives), expected, "{count} patches");
-    }
-}
-
-#[test]
-fn groups_that_are_set_behind_prepare_wait_for_the_next_frame() {
-    let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
-    for points in [Points::Stored, Points::PullWithoutIndices] {
-        let mut stage = scene.build(scene.builder().groups(&[0, 3]).points(points));
-        let encoder = prepared(&scene, &mut stage);
-        stage.set_groups(&[5]).expect("they ascend");
-        let observed = scene.draw_only(encoder, |pass| {
-            stage.draw_group(pass, 1).expect("the frame's own groups");
-        });
-        let mut patches = vec![PatchFactors::uniform(Domain::Quad, 0.0); 8];
-        patches[3..].clone_from_slice(&scene.patches[3..]);
-        let expected = scene.pixels(&patches);
-        assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "3 to 7");
-        let observed = scene.frame_with(&mut stage, PATCHES.into(), |stage, pass| {
-            assert!(stage.draw_group(pass, 1).is_err(), "there is one group now");
-            stage.draw_group(pass, 0).expect("the new one");
-        });
-        patches[3..5].fill(PatchFactors::uniform(Domain::Quad, 0.0));
-        let expected = scene.pixels(&patches);
-        assert_eq!(compare(&observed.expect("it draws"), &expected), Ok(()), "5 to 7");
-    }
 }
 
 #[test]
@@ -265,39 +204,6 @@ fn dynamic_offsets_choose_factors() {
     }
     let none = StageError::NoSuchBindGroup { number: 1, groups: 1 };
     assert_eq!(stage.set_dynamic_offsets(1, &[0]).err(), Some(none.into()));
-}
-
-#[test]
-fn bind_groups_are_replaced() {
-    let mut scene = scene(Domain::Quad, Partitioning::Integer);
-    let mut stage = scene.build(scene.builder());
-    let reversed: Vec<_> = scene.patches.iter().rev().copied().collect();
-    let (own, other) = (scene.group.clone(), scene.bind(&reversed));
-    for round in 0..2 {
-        stage.set_bind_group(0, &other).expect("there is one of this number");
-        scene.patches.reverse();
-        assert_exact(&scene, &mut stage, &format!("another group, round {round}"));
-        stage.set_bind_group(0, &own).expect("there is one of this number");
-        scene.patches.reverse();
-        assert_exact(&scene, &mut stage, &format!("the first group, round {round}"));
-    }
-}
-
-#[test]
-fn a_first_frame_is_exact_where_room_was_made() {
-    for overflow in [Overflow::Coarser, Overflow::DrawNothing] {
-        for points in [Points::Stored, Points::Pull] {
-            let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
-            let room = Room::Automatic { most_bytes: 1 << 20 };
-            let builder = scene.builder().room(room).overflow(overflow).points(points);
-            let mut stage = scene.build(builder);
-            let before = stage.capacity();
-            let found = stage.make_room(&scene.gpu.queue, PATCHES).expect("the device answers");
-            assert!(found.primitives > u64::from(before.primitives), "it did not fit: {found:?}");
-            assert_ne!(stage.capacity(), before, "there is more room at once");
-            assert_exact(&scene, &mut stage, "the first frame that is drawn");
-        }
-    }
 }
 
 #[test]

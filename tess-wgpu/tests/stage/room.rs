@@ -172,28 +172,6 @@ fn factors_that_are_no_numbers_stay_culled() {
     assert_eq!(compare(&observed, &expected), Ok(()), "four patches are drawn");
 }
 
-#[test]
-fn automatic_room_grows_until_everything_fits() {
-    for overflow in [Overflow::Coarser, Overflow::DrawNothing] {
-        for points in [Points::Stored, Points::Pull] {
-            let scene = scene(Domain::Quad, Partitioning::FractionalOdd);
-            assert_eq!(scene.patches, some_factors(Domain::Quad), "more than factor 4");
-            let room = Room::Automatic { most_bytes: 1 << 20 };
-            let builder = scene.builder().room(room).overflow(overflow).points(points);
-            let mut stage = scene.build(builder);
-            let before = stage.capacity();
-            scene.frame(&mut stage, PATCHES.into()).expect("it draws");
-            feedback(&scene, &mut stage, 0);
-            let observed = scene.frame(&mut stage, PATCHES.into()).expect("it draws");
-            let expected = scene.pixels(&scene.patches);
-            assert_eq!(compare(&observed, &expected), Ok(()), "{points:?}, {overflow:?}");
-            let after = stage.capacity();
-            assert!(before.primitives < needed(&scene).primitives, "it did not fit at first");
-            assert!(after.primitives >= needed(&scene).primitives, "{after:?}");
-        }
-    }
-}
-
 /// As the README says.
 #[test]
 fn a_patch_takes_88_64_or_40_bytes_besides_its_output() {

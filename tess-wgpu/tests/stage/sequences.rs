@@ -226,7 +226,7 @@ fn room_shrinks_and_grows_again() {
     let calls = [
         &use_and_fill(1)[..],
         &[frame(8), frame(0), frame(0), frame(0), frame(0), frame(8), frame(8)],
-        &[Rebuild { variant: 3, is_alone: false }, Rebuild { variant: 1, is_alone: false }],
+        &[Rebuild { variant: 3, is_alone: false }],
         &use_and_fill(2),
         &[frame(8), frame(0), frame(1), frame(0), frame(0), frame(8), frame(8)],
     ];
