@@ -14,6 +14,7 @@ mod levels;
 mod patches;
 mod random;
 mod related;
+mod thresholds;
 mod workloads;
 
 pub use boundaries::boundary_factors;
@@ -23,6 +24,8 @@ pub use patches::random_patch;
 #[cfg(feature = "arbitrary")]
 pub(crate) use patches::{factor_up_to, patch_of};
 pub use random::SplitMix64;
+pub(crate) use thresholds::{FIRST_NAN, FRAME, SIGN};
+pub use thresholds::{Threshold, thresholds};
 pub use workloads::{Calls, IndexWidth, Totals, Workload};
 
 use crate::case::Case;
@@ -42,6 +45,9 @@ pub enum GenLevel {
     /// Families of related patches: `tess gen --rules`.
     Rules,
 }
+
+/// The newest version of the levels: 2 added [`thresholds`] to levels 1 and 2 and to `Rules`. Level 3 never changed.
+pub const LEVEL_VERSION: u8 = 2;
 
 /// One of `of` disjoint parts that together are everything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,6 +94,8 @@ impl Shard {
 pub struct Selection {
     /// How much.
     pub level: GenLevel,
+    /// In which version, from 1 to [`LEVEL_VERSION`]: an older one has the cases that it had.
+    pub version: u8,
     /// Seed of everything random.
     pub seed: u64,
     /// Number of random cases; `None` for the level's own number.
@@ -103,11 +111,12 @@ pub struct Selection {
 }
 
 impl Selection {
-    /// A level with its own number of random cases, of every domain and partitioning.
+    /// The newest version of a level with its own number of random cases, of every domain and partitioning.
     #[must_use]
     pub const fn level(level: GenLevel, seed: u64) -> Self {
         Self {
             level,
+            version: LEVEL_VERSION,
             seed,
             random: None,
             domain: None,
@@ -138,10 +147,10 @@ impl Selection {
     /// The cases, in order.
     pub fn cases(self) -> impl Iterator<Item = Case> {
         let systematic = match self.level {
-            GenLevel::One => levels::one(),
-            GenLevel::Two => levels::two(),
+            GenLevel::One => levels::one(self.version),
+            GenLevel::Two => levels::two(self.version),
             GenLevel::Three => Vec::new(),
-            GenLevel::Rules => related::systematic(),
+            GenLevel::Rules => related::systematic(self.version),
         };
         let systematic = systematic.into_iter().filter(move |case| self.selects(case));
         let random: Box<dyn Iterator<Item = Case> + Send> = match self.level {

@@ -1289,7 +1289,7 @@ TessStatus tess_fuzz(const uint8_t *data,
 /**
  * Asks a tessellator for the patches of `tess gen --rules` and judges its outputs by the rules of a standard.
  *
- * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come after the 12 150
+ * `specification` is `TESS_SPECIFICATION_...`; `random` patches, which depend on `seed`, come after the 12 170
  * systematic ones of the standard split order. The model is not asked, but for the number of primitives in
  * Direct3D 11. Patches of configurations that the tessellator does not have are left out.
  *

@@ -26,7 +26,7 @@ const RECORDED_TOGETHER: usize = 4096;
 /// >>> from tess_model import Coverage, Patch
 /// >>> coverage = Coverage()
 /// >>> coverage.record(Patch("quad", [3, 4, 5, 6], [4, 7]))  # bins hit for the first time
-/// 22
+/// 23
 /// >>> coverage.bins["middle/oddxodd"], coverage.groups["middle"]
 /// (2, Group(hit=2, bins=4))
 #[pyclass(frozen, module = "tess_model")]

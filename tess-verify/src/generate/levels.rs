@@ -12,8 +12,9 @@ use tess_core::{
 const PLAIN: [f32; 8] = [3.0, 1.0, 4.5, 2.0, 7.25, 5.0, 1.5, 6.0];
 
 /// Every boundary once: special and boundary factors in rotating positions, special factors in
-/// every position, every transition, small and large interiors, and patches beside minimum ones.
-pub(super) fn one() -> Vec<Case> {
+/// every position, every transition, small and large interiors, patches beside minimum ones, and both sides of every
+/// comparison.
+pub(super) fn one(version: u8) -> Vec<Case> {
     let mut cases = Vec::new();
     for (domain, partitioning) in combinations() {
         let factors = domain.factors();
@@ -30,12 +31,16 @@ pub(super) fn one() -> Vec<Case> {
     interiors(&mut cases, |u, v| u == v || u.max(v) <= 9 || (u % 15 < 3 && v % 15 < 3));
     every_configuration(&mut cases);
     beside_minimum(&mut cases);
+    if version > 1 {
+        cases.extend(super::thresholds().into_iter().map(|(_, case)| case));
+        sequences(&mut cases);
+    }
     cases
 }
 
 /// Every boundary in every position and both split orders, every interior there is.
-pub(super) fn two() -> Vec<Case> {
-    let mut cases = one();
+pub(super) fn two(version: u8) -> Vec<Case> {
+    let mut cases = one(version);
     for (domain, partitioning) in combinations() {
         let values = boundary_factors();
         for position in 0..domain.factors() {
@@ -165,6 +170,22 @@ fn beside_minimum(cases: &mut Vec<Case>) {
             let factor = |p| if p == position { 2.5 } else { 1.0 };
             let factors = PatchFactors::from_fn(domain, factor);
             cases.push(Case { config: config(partitioning, position), factors });
+        }
+    }
+}
+
+/// Every kind of patch after every kind: of each domain one that is culled, one that is minimum and one that is neither.
+fn sequences(cases: &mut Vec<Case>) {
+    let mut kinds = Vec::new();
+    for domain in Domain::ALL {
+        let uniform = |factor| PatchFactors::uniform(domain, factor);
+        kinds.extend([uniform(0.0), PatchFactors::from_fn(domain, |p| PLAIN[p])]);
+        kinds.extend((domain != Domain::Isoline).then(|| uniform(1.0)));
+    }
+    for first in &kinds {
+        for then in &kinds {
+            let case = |factors| triangles(Partitioning::FractionalOdd, SplitOrder::Ruler, factors);
+            cases.extend([case(*first), case(*then)]);
         }
     }
 }

@@ -47,7 +47,7 @@ fn rules_are_for_listings() {
     let rows = tess("gen --rules --domain isoline --count 3 --split ruler");
     assert_eq!(rows.code, Some(0), "{}", rows.stderr);
     let header = rows.stdout.lines().next().unwrap_or_default();
-    assert!(header.contains(" level=rules seed=1 random=3 "), "{header}");
+    assert!(header.contains(" level=rules level-version=2 seed=1 random=3 "), "{header}");
     let run = tess_with_input("check - --rules opengl", &rows.stdout);
     assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
     assert!(run.stderr.contains("--rules judges listings"), "{}", run.stderr);

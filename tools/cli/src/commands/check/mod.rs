@@ -14,7 +14,7 @@ use crate::campaign::{Baseline, Invocation, KnownArgs, Recorder, ReportArgs, Sha
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
 use crate::input::{self, Reader};
-use crate::output::{Role, counted, progress, refuse_shared, stdout};
+use crate::output::{Role, counted, note, progress, refuse_shared, stdout};
 use failures::Failures;
 use indicatif::ProgressBar;
 use std::io::{self, Write};
@@ -126,6 +126,9 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     let file = read(args.name(), open(&args.file)?).map_err(|e| failure(e.into()))?;
     let asked = args.asked(file.header().kind)?;
     let asked_header = asked.as_ref().and_then(Cases::header);
+    if let Some((level, version)) = asked_header.or(Some(file.header())).and_then(record::level) {
+        note(&format!("cases of level {level}, version {version}"));
+    }
     let placed = record::place(args.shard, file.header(), asked_header)?;
     let known = args.known.read(read_known)?;
     let recorder = args.report.begin(invocation, placed)?;

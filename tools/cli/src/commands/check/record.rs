@@ -63,13 +63,23 @@ pub(super) fn add_coverage(report: &mut Report, coverage: &Coverage) {
 
 /// Adds how the cases were made, which shards of one campaign have in common.
 pub(super) fn add_asked(report: &mut Report, asked: &Header) {
-    for (key, value) in asked.notes.iter().filter(|(key, _)| key != SHARD) {
+    let version = level(asked).map(|(_, version)| (VERSION.to_owned(), version.to_owned()));
+    for (key, value) in asked.notes.iter().filter(|(key, _)| key != SHARD).chain(&version) {
         report.options.insert(format!("asked {key}"), vec![value.clone()]);
         if key == "seed" {
             report.seed = value.parse().ok();
         }
     }
 }
+
+/// The level of generated cases and its version. Files of version 1 do not say theirs.
+pub(super) fn level(header: &Header) -> Option<(&str, &str)> {
+    let note = |key| header.notes.iter().find(|(known, _)| known == key);
+    let (_, level) = note("level")?;
+    Some((level, note(VERSION).map_or("1", |(_, version)| version)))
+}
+
+const VERSION: &str = "level-version";
 
 const SHARD: &str = "shard";
 
