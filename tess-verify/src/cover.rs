@@ -5,6 +5,7 @@
 //! that lacks configurations cannot hit all of them: [`Exclusions`] names those.
 
 mod bins;
+mod boundary;
 mod exclusions;
 mod html;
 mod observe;

@@ -1,5 +1,7 @@
 //! Every bin there is, and which of them a configuration can hit.
 
+use super::boundary;
+use super::observe::{quad_centre, triangle_centre};
 use crate::generate::configurations;
 use crate::names::Named;
 use std::sync::LazyLock;
@@ -33,6 +35,7 @@ fn of_settings(domain: Domain, config: Config) -> Vec<String> {
     let mut bins = Vec::new();
     configuration(&mut bins, domain, config);
     cull(&mut bins, domain);
+    bins.extend(boundary::bins(domain, config.partitioning));
     for (role, partitioning) in roles(domain, config.partitioning) {
         factors(&mut bins, role, partitioning);
         contexts(&mut bins, config, partitioning);
@@ -144,10 +147,6 @@ fn stitches(bins: &mut Vec<String>, domain: &str, partitioning: Partitioning) {
             bins.extend(inside.map(|inside| format!("transition/{outer}x{inside}")));
         }
     }
-    for inside in parities(partitioning).iter().flat_map(|parity| points(*parity)) {
-        let rings = u32::div_ceil(inside, 2) - 1;
-        bins.extend((rings > 0).then(|| format!("rings/{domain}/{rings}")));
-    }
 }
 
 /// The numbers of points that an edge can have: an edge of even parity has a point in its middle.
@@ -156,20 +155,21 @@ fn points(parity: Parity) -> impl Iterator<Item = u32> {
     (first..=65).step_by(2)
 }
 
+/// How many rings there are, and what a patch ends with.
 fn centres(bins: &mut Vec<String>, domain: Domain, parities: &[Parity]) {
-    let is_quad = domain == Domain::Quad;
-    for parity in parities {
-        match (domain, parity) {
-            (Domain::Quad, Parity::Even) => bins.push("centre/quad/point".to_owned()),
-            (Domain::Quad, Parity::Odd) => bins.push("centre/quad/strip_of_one".to_owned()),
-            (_, Parity::Even) => bins.push("centre/tri/point".to_owned()),
-            (_, Parity::Odd) => bins.push("centre/tri/triangle".to_owned()),
+    let name = domain.name();
+    let mut add = |points: u32, centre: &str| {
+        bins.push(format!("rings/{name}/{}/{centre}", points.div_ceil(2) - 1));
+        bins.push(format!("centre/{name}/{centre}"));
+    };
+    let counts = |parity| points(parity).filter(|points| *points >= 3);
+    for (a, b) in pairs(parities) {
+        for u in counts(a) {
+            match domain {
+                Domain::Quad => counts(b).for_each(|v| add(u.min(v), &quad_centre((u, a), (v, b)))),
+                _ => add(u, triangle_centre(a)),
+            }
         }
-    }
-    for (short, long) in pairs(parities).filter(|_| is_quad) {
-        let shape = if short == Parity::Even { "row" } else { "strip" };
-        let along = |axis| format!("centre/quad/{shape}_along_{axis}/{}", long.name());
-        bins.extend(["u", "v"].map(along));
     }
 }
 
@@ -178,7 +178,7 @@ mod tests {
     use super::*;
     use crate::case::Case;
     use crate::cover::observe::observe;
-    use crate::generate::{GenLevel, Selection, boundary_factors};
+    use crate::generate::{GenLevel, Selection, boundary_factors, thresholds};
     use std::collections::BTreeSet;
     use tess_core::{OutputPrimitive, PatchFactors, SplitOrder};
 
@@ -211,6 +211,11 @@ mod tests {
         let level = Selection { random: Some(0), ..Selection::level(GenLevel::One, 1) };
         let of_domain = level.cases().filter(|case| case.domain() == domain);
         all.extend(of_domain.step_by(7).map(|case| case.factors));
+        let fit = Selection { domain: Some(domain), ..level };
+        let wanted = thresholds()
+            .into_iter()
+            .filter(|(side, case)| case.domain() == domain || side.starts_with("location/"));
+        all.extend(wanted.map(|(_, case)| fit.fit(&case).factors));
         all
     }
 

@@ -4,7 +4,7 @@ use super::{BinGroup, Coverage, Exclusions};
 use std::fmt::Write;
 
 /// The stages on a patch's way with their sections of the specification, and the groups of each.
-pub(super) const STAGES: [(&str, &str, &[&str]); 5] = [
+pub(super) const STAGES: [(&str, &str, &[&str]); 6] = [
     ("configuration", "1", &["configuration"]),
     (
         "factors",
@@ -14,6 +14,7 @@ pub(super) const STAGES: [(&str, &str, &[&str]); 5] = [
     ("context", "4", &["context"]),
     ("location", "5", &["exceptional"]),
     ("stitch", "7", &["parities", "middle", "transition", "rings", "centre"]),
+    ("comparisons", "2 to 7", &["boundary"]),
 ];
 
 /// The stage that a group's bins tell of.

@@ -1,0 +1,113 @@
+//! The list of thresholds: each case lies exactly beside its comparison, level 1 has it, and the neighbouring threshold
+//! changes its answer, which `dev/xtask/faults/thresholds.faults` plants.
+
+use std::collections::{BTreeMap, BTreeSet, HashSet};
+use tess_core::{Domain, Partitioning, Tessellation};
+use tess_verify::Case;
+use tess_verify::cover::Coverage;
+use tess_verify::generate::{GenLevel, Selection, thresholds};
+use tess_verify::rules::{Checker, Rule, Specification, Verdict};
+use tess_verify::vectors::Fnv1a;
+
+#[test]
+fn cases_lie_exactly_beside_their_thresholds() {
+    for (side, case) in thresholds() {
+        let mut coverage = Coverage::default();
+        coverage.record(&case);
+        assert!(coverage.hits(&format!("boundary/{side}")) > Some(0), "{side}: {case}");
+    }
+}
+
+/// Every comparison that coverage knows has cases on both its sides.
+#[test]
+fn every_side_has_cases() {
+    let sides: BTreeSet<_> =
+        thresholds().iter().map(|(side, _)| format!("boundary/{side}")).collect();
+    let coverage = Coverage::default();
+    let bins = coverage.bins().map(|(bin, _)| bin.to_owned());
+    assert_eq!(sides, bins.filter(|bin| bin.starts_with("boundary/")).collect());
+}
+
+#[test]
+fn level_1_has_the_cases() {
+    let level: HashSet<_> = Selection::level(GenLevel::One, 1).cases().collect();
+    for (side, case) in thresholds() {
+        assert!(level.contains(&case), "{side}: {case}");
+    }
+}
+
+/// Digests of the outputs by comparison.
+const ANSWERS: [(&str, &str); 14] = [
+    ("clamp_high", "b4fd3782aeba0a21"),
+    ("clamp_low", "0f4f5479772e3872"),
+    ("conversion", "dc4eef7008f615a9"),
+    ("cull", "b57a7467f171fac7"),
+    ("frame", "166b58aa0535bbb4"),
+    ("location", "1ccf68454f941e16"),
+    ("minimum", "4e1614c0d362984d"),
+    ("number", "90040ce259944b78"),
+    ("one", "64cdf4e424cad62d"),
+    ("ring", "f2bc6930b4d4906c"),
+    ("round", "90e018b4e686b397"),
+    ("sign", "19548317764904f6"),
+    ("whole", "10b59b1f80ee6f11"),
+    ("wider", "96e7d106ea11289e"),
+];
+
+#[test]
+fn answers_are_the_recorded_ones() {
+    let mut digests: BTreeMap<&str, Fnv1a> = BTreeMap::new();
+    for (side, case) in thresholds() {
+        let comparison = side.split('/').next().unwrap_or(side);
+        let output = case.patch().tessellate();
+        let digest = digests.entry(comparison).or_default();
+        let sizes = [output.points.len(), output.indices.len()];
+        digest.words(sizes.map(|size| u32::try_from(size).expect("a patch is small")));
+        digest.words(output.points.iter().flat_map(|p| [p.u.to_bits(), p.v.to_bits()]));
+        digest.words(output.indices);
+    }
+    let answers =
+        digests.into_iter().map(|(name, digest)| (name, format!("{:016x}", digest.finish())));
+    let expected = ANSWERS.map(|(name, digest)| (name, digest.to_owned()));
+    assert_eq!(answers.collect::<Vec<_>>(), expected);
+}
+
+/// A device that makes no picture frame unless a factor is above `highest`: where an inside factor would be raised, it
+/// has no inside.
+fn late(case: &Case, highest: u32) -> Tessellation {
+    const RAISED: u32 = 0x3F80_0041;
+    let mut output = case.patch().tessellate();
+    let can_have = case.domain() != Domain::Isoline
+        && case.config.partitioning == Partitioning::FractionalOdd
+        && case.factors.inside().any(|inside| inside.to_bits() < RAISED);
+    if can_have && case.factors.iter().all(|factor| factor.to_bits() <= highest) {
+        output.points.truncate(5);
+        output.indices.truncate(3);
+    }
+    output
+}
+
+/// A pattern late, and at 1.25: version 1 of level 1 has no case that shows either.
+#[test]
+fn level_1_sees_late_picture_frames() {
+    for highest in [0x3F80_0041, 1.25f32.to_bits()] {
+        let differences = |version| {
+            let level = Selection { version, ..Selection::level(GenLevel::One, 1) };
+            level.cases().filter(|case| late(case, highest) != case.patch().tessellate()).count()
+        };
+        assert_eq!((differences(1), differences(2) > 0), (0, true), "{highest:#x}");
+    }
+}
+
+#[test]
+fn rules_see_late_picture_frames() {
+    let counts = |highest| {
+        let mut checker = Checker::new(Specification::D3d11);
+        let level = Selection::level(GenLevel::Rules, 1);
+        level.cases().for_each(|case| checker.add(&case, &late(&case, highest)));
+        let row = checker.report().rows.into_iter().find(|row| row.rule == Rule::Counts);
+        row.expect("a rule of Direct3D 11").verdict()
+    };
+    let verdicts = [0x3F80_0040, 0x3F80_0041].map(counts);
+    assert_eq!(verdicts, [Verdict::Held, Verdict::Broken], "right, and a pattern late");
+}
