@@ -23,9 +23,9 @@ pub(crate) const QUAD: QuadFactors =
 
 /// The packet that has the patch in lane 0 and is culled elsewhere.
 pub(crate) fn packet() -> Packet {
-    let mut raw: Column<f32> = [0.0; LANES * MAX_FACTORS];
+    let mut raw: Column<f32> = [[0.0; LANES]; MAX_FACTORS];
     for (number, factor) in PatchFactors::Quad(QUAD).iter().enumerate() {
-        raw[number * LANES] = factor;
+        raw[number][0] = factor;
     }
     let mut packet = Packet::EMPTY;
     packet.process(CONFIG, Domain::Quad, &raw);

@@ -111,10 +111,6 @@ impl Chunk {
     /// The factors of the patches of a packet, `number` packets into the chunk.
     #[inline(always)]
     pub(crate) fn packet(&self, number: usize) -> Column<f32> {
-        let mut column = [0.0; LANES * MAX_FACTORS];
-        for (lanes, values) in column.as_chunks_mut::<LANES>().0.iter_mut().zip(&self.0) {
-            *lanes = values.as_chunks().0[number % Self::PACKETS];
-        }
-        column
+        self.0.each_ref().map(|values| values.as_chunks().0[number % Self::PACKETS])
     }
 }

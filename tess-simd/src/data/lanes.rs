@@ -16,8 +16,8 @@ pub(crate) const MAX_FACTORS: usize = Domain::Quad.factors();
 /// One quantity of the patches of a packet.
 pub(crate) type Lanes<T = u32> = [T; LANES];
 
-/// One quantity of all factors of a packet: element `factor * LANES + lane`.
-pub(crate) type Column<T = u32> = [T; LANES * MAX_FACTORS];
+/// One quantity of all factors of a packet: element `[factor][lane]`.
+pub(crate) type Column<T = u32> = [Lanes<T>; MAX_FACTORS];
 
 /// Point counts of a patch's edges and inside axes, in the order of its factors.
 pub(crate) type EdgePoints = [u32; MAX_FACTORS];
@@ -28,8 +28,18 @@ pub(crate) const fn is_odd(points: u32) -> bool {
     points.is_multiple_of(2)
 }
 
-/// One factor's part of a column.
+/// Sets the lanes from `first` on, of which there are `L`.
 #[inline(always)]
-pub(crate) fn factor<T>(column: &Column<T>, factor: usize) -> &Lanes<T> {
-    &column.as_chunks().0[factor]
+pub(crate) fn set<T: Copy, const L: usize>(lanes: &mut Lanes<T>, first: usize, values: [T; L]) {
+    for lane in 0..L {
+        lanes[(first + lane) % LANES] = values[lane];
+    }
+}
+
+/// Sets these lanes of the first factors of a column.
+#[inline(always)]
+pub(crate) fn set_rows<const L: usize>(column: &mut Column, first: usize, rows: &[[u32; L]]) {
+    for (lanes, row) in column.iter_mut().zip(rows) {
+        set(lanes, first, *row);
+    }
 }

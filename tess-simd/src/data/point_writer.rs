@@ -11,12 +11,13 @@
 #[cfg(feature = "apart")]
 mod apart;
 
+use crate::data::error::{Buffer, Error};
 use crate::data::format::OutputPoint;
+use crate::data::target::first;
 use crate::data::writer::Writer;
-use core::mem::take;
 
 /// Memory for the points of patches, one after another.
-pub(crate) trait PointRoom {
+pub(crate) trait PointRoom: Sized + Send {
     type Writer<'a>: PointWriter
     where
         Self: 'a;
@@ -24,8 +25,14 @@ pub(crate) trait PointRoom {
     /// Writes from the start.
     fn writer(&mut self) -> Self::Writer<'_>;
 
-    /// Goes on behind the first points, which it has.
-    fn skip(&mut self, points: usize);
+    /// [`first`], of each array.
+    ///
+    /// # Errors
+    /// [`Error::BufferTooSmall`].
+    fn first(self, needed: usize, more: usize) -> Result<Self, Error>;
+
+    /// The first points, which it has, and those behind them.
+    fn split_at(self, points: usize) -> (Self, Self);
 
     fn is_empty(&self) -> bool;
 }
@@ -40,8 +47,13 @@ impl<P: OutputPoint> PointRoom for &mut [P] {
         Writer::new(self)
     }
 
-    fn skip(&mut self, points: usize) {
-        *self = take(self).split_at_mut(points).1;
+    #[inline]
+    fn first(self, needed: usize, more: usize) -> Result<Self, Error> {
+        first(self, Buffer::Points, needed, more)
+    }
+
+    fn split_at(self, points: usize) -> (Self, Self) {
+        self.split_at_mut(points)
     }
 
     fn is_empty(&self) -> bool {

@@ -8,7 +8,9 @@ use crate::data::level::Level;
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
 use crate::data::output::{BatchCounts, Buffers, Numbering, Output, PatchRange};
-use crate::data::target::Target;
+use crate::data::point_writer::PointRoom;
+use crate::data::ranges::Ranges;
+use crate::data::target::{Taker, Target, first};
 use crate::kernels::emit::Offsets;
 use crate::stages::counts::PartCounts;
 use crate::stages::packet::Packet;
@@ -96,16 +98,7 @@ impl<'a> Counted<'a> {
         numbering: Numbering,
         buffers: Buffers<'_, P, I>,
     ) -> Result<BatchCounts, Error> {
-        self.check_indices::<I>(numbering)?;
-        let counts = self.counts();
-        let ranges = prefix_of_ranges(buffers.ranges, counts)?;
-        let buffers = Buffers {
-            points: prefix(buffers.points, counts.points, Buffer::Points)?,
-            indices: prefix(buffers.indices, counts.indices, Buffer::Indices)?,
-            ranges,
-        };
-        self.emit(numbering, buffers.into());
-        Ok(counts)
+        self.write_into(numbering, buffers.into())
     }
 
     /// [`Counted::write`] with points in two arrays.
@@ -118,17 +111,7 @@ impl<'a> Counted<'a> {
         numbering: Numbering,
         buffers: ApartBuffers<'_, I>,
     ) -> Result<BatchCounts, Error> {
-        self.check_indices::<I>(numbering)?;
-        let counts = self.counts();
-        let ranges = prefix_of_ranges(buffers.ranges, counts)?;
-        let buffers = ApartBuffers {
-            u: prefix(buffers.u, counts.points, Buffer::Points)?,
-            v: prefix(buffers.v, counts.points, Buffer::Points)?,
-            indices: prefix(buffers.indices, counts.indices, Buffer::Indices)?,
-            ranges,
-        };
-        self.emit(numbering, buffers.into());
-        Ok(counts)
+        self.write_into(numbering, buffers.into())
     }
 
     /// Writes the batch into an output object, which grows if it must.
@@ -141,18 +124,15 @@ impl<'a> Counted<'a> {
         output: &mut Output<P, I>,
     ) -> Result<BatchCounts, Error> {
         self.check_indices::<I>(numbering)?;
-        let counts = self.counts();
-        let target = output.make_room(counts).into();
-        self.emit(numbering, target);
-        Ok(counts)
+        self.write_into(numbering, output.make_room(self.counts()).into())
     }
 
-    /// Writes the batch into buffers of exactly its sizes.
-    fn emit(&mut self, numbering: Numbering, target: Target<'_>) {
-        let Self { level, settings, batch, slicing, slices, kept, .. } = *self;
-        let part = Part { batch, target, first: Offsets::default() };
-        let share = Share { part, slice: slicing.patches, counts: slices };
-        self.workspaces.emit(Job { level, settings, numbering, kept }, share);
+    fn write_into(
+        &mut self,
+        numbering: Numbering,
+        target: Target<'_>,
+    ) -> Result<BatchCounts, Error> {
+        target.give(BatchWriter { counted: self, numbering })
     }
 
     /// Whether the largest index fits.
@@ -166,16 +146,32 @@ impl<'a> Counted<'a> {
     }
 }
 
-/// The ranges of all patches, if the caller wants them.
-fn prefix_of_ranges(
-    ranges: Option<&mut [PatchRange]>,
-    counts: BatchCounts,
-) -> Result<Option<&mut [PatchRange]>, Error> {
-    ranges.map(|ranges| prefix(ranges, counts.patches, Buffer::Ranges)).transpose()
+/// Writes a counted batch into buffers that are large enough.
+struct BatchWriter<'a, 'b> {
+    counted: &'a mut Counted<'b>,
+    numbering: Numbering,
 }
 
-/// The first `needed` elements of a caller's buffer.
-pub(super) fn prefix<T>(slice: &mut [T], needed: usize, buffer: Buffer) -> Result<&mut [T], Error> {
-    let got = slice.len();
-    slice.get_mut(..needed).ok_or(Error::BufferTooSmall { buffer, needed, got })
+impl Taker for BatchWriter<'_, '_> {
+    type Result = Result<BatchCounts, Error>;
+
+    fn take<P: PointRoom, I: IndexFormat>(
+        self,
+        points: P,
+        indices: &mut [I],
+        ranges: Option<&mut [PatchRange]>,
+    ) -> Result<BatchCounts, Error> {
+        let Self { counted, numbering } = self;
+        counted.check_indices::<I>(numbering)?;
+        let counts = counted.counts();
+        let ranges = ranges.map(|ranges| first(ranges, Buffer::Ranges, counts.patches, 0));
+        let ranges = Ranges::new(ranges.transpose()?);
+        let points = points.first(counts.points, 0)?;
+        let indices = first(indices, Buffer::Indices, counts.indices, 0)?;
+        let Counted { level, settings, batch, slicing, slices, kept, .. } = *counted;
+        let part = Part { batch, points, indices, ranges, first: Offsets::default() };
+        let share = Share { part, slice: slicing.patches, counts: slices };
+        counted.workspaces.emit(Job { level, settings, numbering, kept }, share);
+        Ok(counts)
+    }
 }

@@ -234,7 +234,7 @@ impl To<'_> {
                     let patch = packet.patch(0);
                     let out = (points.writer(), &mut *indices);
                     levels::emit_one(*level, settings, packet, out, caches, lookup);
-                    points.skip(patch.points() as usize);
+                    points = points.split_at(patch.points() as usize).1;
                     indices = indices.split_at_mut(patch.indices() as usize).1;
                 }
             }
@@ -254,7 +254,7 @@ impl To<'_> {
                     let mut rest = Ranges::new(Some(&mut ranges[done + 1..done + times]));
                     end = levels::repeat(*level, repeat, room, &mut rest);
                     done += times;
-                    points.skip(point_count as usize * times);
+                    points = points.split_at(point_count as usize * times).1;
                     indices = indices.split_at_mut(index_count as usize * times).1;
                 }
             }
@@ -293,9 +293,9 @@ fn work(kernel: Kernel, level: Level, input: &Input) -> Work {
 
 /// The raw factors of up to sixteen patches, factor by factor.
 fn raw_column(patches: &[PatchFactors]) -> Column<f32> {
-    let mut column = [0.0; LANES * MAX_FACTORS];
+    let mut column = [[0.0; LANES]; MAX_FACTORS];
     for (lane, patch) in patches.iter().enumerate() {
-        patch.iter().enumerate().for_each(|(i, factor)| column[i * LANES + lane] = factor);
+        patch.iter().enumerate().for_each(|(i, factor)| column[i][lane] = factor);
     }
     column
 }

@@ -11,8 +11,9 @@ use crate::data::error::{Buffer, Error};
 use crate::data::format::{IndexFormat, OutputPoint};
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
-use crate::data::output::Buffers;
-use crate::interface::counted::prefix;
+use crate::data::output::{Buffers, PatchRange};
+use crate::data::point_writer::PointRoom;
+use crate::data::target::{Taker, Target, first};
 use crate::interface::tessellator::Tessellator;
 use tess_core::{Counts, PatchFactors};
 
@@ -106,13 +107,7 @@ impl CountedPatch<'_> {
         points: &mut [P],
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        let Tessellator { level, settings, workspaces, .. } = &mut *self.tessellator;
-        prefix(points, self.counts.points as usize, Buffer::Points)?;
-        prefix(indices, self.counts.indices as usize, Buffer::Indices)?;
-        let points = with_overrun(points, self.counts.points);
-        let indices = with_overrun(indices, self.counts.indices);
-        workspaces.one().emit(*level, settings, Buffers::new(points, indices).into());
-        Ok(self.counts)
+        self.write_into(Buffers::new(points, indices).into())
     }
 
     /// [`CountedPatch::write`] with points in two arrays, all u and all v.
@@ -126,19 +121,29 @@ impl CountedPatch<'_> {
         v: &mut [f32],
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        let Tessellator { level, settings, workspaces, .. } = &mut *self.tessellator;
-        prefix(u, self.counts.points as usize, Buffer::Points)?;
-        prefix(v, self.counts.points as usize, Buffer::Points)?;
-        prefix(indices, self.counts.indices as usize, Buffer::Indices)?;
-        let [u, v] = [u, v].map(|all| with_overrun(all, self.counts.points));
-        let indices = with_overrun(indices, self.counts.indices);
-        workspaces.one().emit(*level, settings, ApartBuffers::new(u, v, indices).into());
-        Ok(self.counts)
+        self.write_into(ApartBuffers::new(u, v, indices).into())
+    }
+
+    fn write_into(&mut self, target: Target<'_>) -> Result<Counts, Error> {
+        target.give(self)
     }
 }
 
-/// What may be written of a buffer whose output has this length.
-fn with_overrun<T>(buffer: &mut [T], length: u32) -> &mut [T] {
-    let end = buffer.len().min(length as usize + CountedPatch::OVERRUN);
-    &mut buffer[..end]
+impl Taker for &mut CountedPatch<'_> {
+    type Result = Result<Counts, Error>;
+
+    #[inline]
+    fn take<P: PointRoom, I: IndexFormat>(
+        self,
+        points: P,
+        indices: &mut [I],
+        _: Option<&mut [PatchRange]>,
+    ) -> Result<Counts, Error> {
+        const MORE: usize = CountedPatch::OVERRUN;
+        let Tessellator { level, settings, workspaces, .. } = &mut *self.tessellator;
+        let points = points.first(self.counts.points as usize, MORE)?;
+        let indices = first(indices, Buffer::Indices, self.counts.indices as usize, MORE)?;
+        workspaces.one().emit_one(*level, settings, points, indices);
+        Ok(self.counts)
+    }
 }

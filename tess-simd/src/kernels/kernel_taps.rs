@@ -13,8 +13,8 @@ pub(crate) use writers::{of_indices, of_points};
 use crate::data::lanes::{Column, LANES};
 use crate::data::output::PatchRange;
 use crate::stages::counts::PacketCounts;
-use crate::stages::factors::{OneProcessed, Processed};
-use crate::stages::packet::{Packet, PacketPatch};
+use crate::stages::factors::Processed;
+use crate::stages::packet::{Packet, PacketPatch, ROWS};
 use crate::stages::points::{Code, LocationTables, Lookup};
 use crate::stages::settings::Settings;
 use crate::stages::template::{CompactTemplates, Templates};
@@ -102,7 +102,7 @@ impl Work {
 pub(crate) struct Made {
     pub(crate) words: Vec<u32>,
     pub(crate) processed: Vec<Processed>,
-    pub(crate) ones: Vec<OneProcessed>,
+    pub(crate) ones: Vec<Processed<1, ROWS>>,
     pub(crate) counts: Vec<PacketCounts>,
     pub(crate) packets: Vec<Packet>,
     pub(crate) codes: Vec<Code>,

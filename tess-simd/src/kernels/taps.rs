@@ -1,14 +1,12 @@
 //! The stages of the front end on their own.
 
-use crate::data::lanes::{Column, LANES, MAX_FACTORS};
+use crate::data::lanes::{LANES, Lanes};
 use crate::stages::factor_context::Context;
 use crate::stages::factors;
 use crate::stages::place::{Locations, Spacing};
 use alloc::vec::Vec;
 use tess_core::fixed_point::ONE;
-use tess_core::{
-    Config, Domain, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, SplitOrder,
-};
+use tess_core::{Domain, FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};
 
 /// See [`crate::fixed_factors`].
 #[inline(always)]
@@ -17,17 +15,16 @@ pub(crate) fn fixed_factors(
     values: &[f32],
     factors: &mut [[FixedFactor; 2]],
 ) {
-    const PLAIN: Column<f32> = [3.0; LANES * MAX_FACTORS];
-    const INSIDE: usize = Domain::Triangle.outer_factors() * LANES;
-    let config = Config::new(partitioning, OutputPrimitive::Point);
+    const PLAIN: [Lanes<f32>; Domain::Triangle.factors()] = [[3.0; LANES]; _];
+    const INSIDE: usize = Domain::Triangle.outer_factors();
     for (values, factors) in values.chunks(LANES).zip(factors.chunks_mut(LANES)) {
         let (mut outer, mut inside) = (PLAIN, PLAIN);
-        outer[..values.len()].copy_from_slice(values);
-        inside[INSIDE..INSIDE + values.len()].copy_from_slice(values);
-        let outer = factors::process(config, Domain::Triangle, &outer);
-        let inside = factors::process(config, Domain::Triangle, &inside);
+        outer[0][..values.len()].copy_from_slice(values);
+        inside[INSIDE][..values.len()].copy_from_slice(values);
+        let outer = factors::process(partitioning, Domain::Triangle, &outer);
+        let inside = factors::process(partitioning, Domain::Triangle, &inside);
         for (lane, factors) in factors.iter_mut().enumerate() {
-            let bits = [outer.fixed[lane] * outer.alive[lane], inside.fixed[INSIDE + lane]];
+            let bits = [outer.fixed[0][lane] * outer.alive[lane], inside.fixed[INSIDE][lane]];
             *factors = bits.map(FixedFactor::from_bits);
         }
     }

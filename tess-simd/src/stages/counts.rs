@@ -1,14 +1,14 @@
-//! Output sizes of a packet, by formula (spec section 12.6).
+//! Output sizes, by formula (spec section 12.6).
 
-use crate::data::lanes::{Column, EdgePoints, LANES, Lanes, factor, is_odd};
+use crate::data::lanes::{LANES, is_odd};
 use crate::stages::factors::Processed;
 use tess_core::{Config, Counts, Domain, OutputPrimitive};
 
-/// Points and indices of each patch of a packet.
+/// Points and indices of each of `L` patches.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct PacketCounts {
-    pub(crate) points: Lanes,
-    pub(crate) indices: Lanes,
+pub(crate) struct PacketCounts<const L: usize = LANES> {
+    pub(crate) points: [u32; L],
+    pub(crate) indices: [u32; L],
 }
 
 /// Output sizes of a part of a batch.
@@ -37,24 +37,29 @@ impl PartCounts {
     }
 }
 
-/// Predicts the output sizes of a packet.
+/// Predicts the output sizes of patches that have these points; zeros if they are culled.
 #[inline(always)]
-pub(crate) fn counts(
+pub(crate) fn counts<const L: usize, const F: usize>(
     config: Config,
     domain: Domain,
-    processed: &Processed,
-    points: &Column,
-) -> PacketCounts {
+    processed: &Processed<L, F>,
+    points: &[[u32; L]; F],
+) -> PacketCounts<L> {
     let each = indices_each(config.output, domain);
-    match domain {
-        Domain::Isoline => of_each_lane(each, processed, |lane| isoline(of_lane(points, lane))),
-        Domain::Triangle => of_each_lane(each, processed, |lane| {
-            triangle(of_lane(points, lane), processed.minimum[lane])
-        }),
-        Domain::Quad => of_each_lane(each, processed, |lane| {
-            quad(of_lane(points, lane), processed.minimum[lane])
-        }),
+    let mut counts = PacketCounts { points: [0; L], indices: [0; L] };
+    for lane in 0..L {
+        let (minimum, alive) = (processed.minimum[lane], processed.alive[lane]);
+        let of = |factor: usize| points[factor][lane];
+        let [points, lines, triangles] = match domain {
+            Domain::Isoline => isoline(of),
+            Domain::Triangle => triangle(of, minimum),
+            Domain::Quad => quad(of, minimum),
+        };
+        let indices = each[0] * points + each[1] * lines + each[2] * triangles;
+        counts.points[lane] = points * alive;
+        counts.indices[lane] = indices * alive;
     }
+    counts
 }
 
 /// Points, lines that join them in order, and triangles of a patch.
@@ -70,51 +75,18 @@ const fn indices_each(output: OutputPrimitive, domain: Domain) -> Sizes {
     }
 }
 
-/// The counts of a packet from the sizes that they have unless they are culled.
-#[inline(always)]
-fn of_each_lane(
-    indices_each: Sizes,
-    processed: &Processed,
-    sizes: impl Fn(usize) -> Sizes,
-) -> PacketCounts {
-    let mut counts = PacketCounts { points: [0; LANES], indices: [0; LANES] };
-    for lane in 0..LANES {
-        let [points, lines, triangles] = sizes(lane);
-        let [per_point, per_line, per_triangle] = indices_each;
-        let indices = per_point * points + per_line * lines + per_triangle * triangles;
-        counts.points[lane] = points * processed.alive[lane];
-        counts.indices[lane] = indices * processed.alive[lane];
+impl PacketCounts<1> {
+    /// The sizes of the patch. Divisions by constants are no divisions.
+    #[inline(always)]
+    pub(crate) const fn of_patch(self, config: Config, domain: Domain) -> Counts {
+        let Self { points: [points], indices: [indices] } = self;
+        let primitives = match config.output.indices_per_primitive(domain) {
+            1 => indices,
+            2 => indices / 2,
+            _ => indices / 3,
+        };
+        Counts { points, primitives, indices }
     }
-    counts
-}
-
-/// The output sizes of one patch, which is not culled.
-#[inline(always)]
-pub(crate) fn counts_of_patch(
-    config: Config,
-    domain: Domain,
-    edges: &EdgePoints,
-    minimum: u32,
-) -> Counts {
-    let of = |factor: usize| edges[factor];
-    let sizes = match domain {
-        Domain::Isoline => isoline(of),
-        Domain::Triangle => triangle(of, minimum),
-        Domain::Quad => quad(of, minimum),
-    };
-    let each = indices_each(config.output, domain);
-    let (mut primitives, mut indices) = (0, 0);
-    for (size, each) in sizes.into_iter().zip(each) {
-        primitives += size * each.min(1);
-        indices += size * each;
-    }
-    Counts { points: sizes[0], primitives, indices }
-}
-
-/// The point counts of a lane.
-#[inline(always)]
-fn of_lane(points: &Column, lane: usize) -> impl Fn(usize) -> u32 {
-    move |number| factor(points, number)[lane]
 }
 
 #[inline(always)]

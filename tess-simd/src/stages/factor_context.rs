@@ -1,6 +1,5 @@
-//! Factor contexts of a packet (spec section 4).
+//! Factor contexts (spec section 4).
 
-use crate::data::lanes::{Column, LANES, MAX_FACTORS};
 use crate::stages::reciprocal::reciprocal;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{FactorContext, Parity, SplitOrder};
@@ -17,12 +16,17 @@ pub(crate) struct Context {
     pub(crate) points: u32,
 }
 
-/// The point counts of the first `ALL` elements of two columns, alone; 0 for the others.
+/// The point counts of factors, alone.
 #[inline(always)]
-pub(crate) fn point_counts<const ALL: usize>(fixed: &Column, odd: &Column) -> Column {
-    let mut points = [0; LANES * MAX_FACTORS];
-    for i in 0..ALL {
-        points[i] = point_count(fixed[i], odd[i]);
+pub(crate) fn point_counts<const L: usize, const F: usize>(
+    fixed: &[[u32; L]; F],
+    odd: &[[u32; L]; F],
+) -> [[u32; L]; F] {
+    let mut points = [[0; L]; F];
+    for factor in 0..F {
+        for lane in 0..L {
+            points[factor][lane] = point_count(fixed[factor][lane], odd[factor][lane]);
+        }
     }
     points
 }

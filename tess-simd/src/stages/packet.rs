@@ -60,12 +60,16 @@
 
 mod one;
 
+#[cfg(all(feature = "taps", feature = "apart"))]
+pub(crate) use one::ROWS;
 pub(crate) use one::{OnePatch, pairs};
 
-use crate::data::lanes::{Column, EdgePoints, LANES, Lanes, MAX_FACTORS, is_odd};
+use crate::data::lanes::{
+    Column, EdgePoints, Lanes, MAX_FACTORS, is_odd, set, set_rows,
+};
 use crate::stages::counts::{PacketCounts, counts};
 use crate::stages::factor_context::{Context, point_counts};
-use crate::stages::factors::process;
+use crate::stages::factors::{Processed, process};
 use crate::stages::place::{Spacing, Spacings};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 
@@ -96,8 +100,8 @@ impl Packet {
     pub(crate) const EMPTY: Self = Self {
         config: Config::new(Partitioning::Integer, OutputPrimitive::Point),
         domain: Domain::Quad,
-        fixed: [0; _],
-        points: [0; _],
+        fixed: [[0; _]; _],
+        points: [[0; _]; _],
         spacings: Spacings::NONE,
         minimum: [0; _],
         topologies: [0; _],
@@ -111,31 +115,49 @@ impl Packet {
     #[inline(always)]
     pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
         use Domain::{Isoline, Quad, Triangle};
-        match domain {
-            Isoline => self.process_as::<{ all(Isoline) }>(config, domain, raw),
-            Triangle => self.process_as::<{ all(Triangle) }>(config, domain, raw),
-            Quad => self.process_as::<{ all(Quad) }>(config, domain, raw),
+        // In each arm the domain and the number of rows are constants.
+        match (domain, raw) {
+            (Isoline, &[a, b, ..]) => self.process_lanes(config, Isoline, &[a, b]),
+            (Triangle, &[a, b, c, d, ..]) => self.process_lanes(config, Triangle, &[a, b, c, d]),
+            (Quad, all) => self.process_lanes(config, Quad, all),
         }
     }
 
-    /// [`Self::process`] for patches whose factors are the first `ALL` elements of a column.
     #[inline(always)]
-    fn process_as<const ALL: usize>(&mut self, config: Config, domain: Domain, raw: &Column<f32>) {
-        let processed = process(config, domain, raw);
-        let (fixed, odd) = (&processed.fixed, &processed.odd);
+    fn process_lanes<const F: usize>(
+        &mut self,
+        config: Config,
+        domain: Domain,
+        raw: &[Lanes<f32>; F],
+    ) {
+        self.counts = self.keep(config, domain, 0, &process(config.partitioning, domain, raw));
+    }
+
+    /// Makes the `L` lanes from `first` on from processed factors, but for their sizes, which it returns.
+    #[inline(always)]
+    fn keep<const L: usize, const F: usize>(
+        &mut self,
+        config: Config,
+        domain: Domain,
+        first: usize,
+        processed: &Processed<L, F>,
+    ) -> PacketCounts<L> {
+        let Processed { fixed, odd, minimum, .. } = processed;
         // Where factors are integers, few spacings are ever needed.
         let points = if config.partitioning.has_integer_factors() {
-            point_counts::<ALL>(fixed, odd)
+            point_counts(fixed, odd)
         } else {
-            let mut points = [0; LANES * MAX_FACTORS];
-            self.spacings.fill::<ALL>(&mut points, (fixed, odd), config.split);
-            points
+            self.spacings.keep(first, processed, config.split)
         };
+        let mut edges = [[0; L]; MAX_FACTORS];
+        edges[..domain.factors()].copy_from_slice(&points[..domain.factors()]);
         (self.config, self.domain) = (config, domain);
-        self.counts = counts(config, domain, &processed, &points);
-        self.topologies = topologies(&points, &processed.minimum);
-        self.compact = compact(domain, &points);
-        (self.fixed, self.points, self.minimum) = (processed.fixed, points, processed.minimum);
+        set(&mut self.topologies, first, topologies(&edges, minimum));
+        set(&mut self.compact, first, compact(domain, &edges));
+        set(&mut self.minimum, first, *minimum);
+        set_rows(&mut self.fixed, first, fixed);
+        set_rows(&mut self.points, first, &edges);
+        counts(config, domain, processed, &points)
     }
 
     /// Whether all of its patches are compact.
@@ -154,20 +176,18 @@ impl Packet {
 /// The output sizes of a packet alone.
 #[inline(always)]
 pub(crate) fn packet_counts(config: Config, domain: Domain, raw: &Column<f32>) -> PacketCounts {
+    #[inline(always)]
+    fn of<const F: usize>(config: Config, domain: Domain, raw: &[Lanes<f32>; F]) -> PacketCounts {
+        let processed = process(config.partitioning, domain, raw);
+        let points = point_counts(&processed.fixed, &processed.odd);
+        counts(config, domain, &processed, &points)
+    }
     use Domain::{Isoline, Quad, Triangle};
-    let processed = process(config, domain, raw);
-    let (fixed, odd) = (&processed.fixed, &processed.odd);
-    let points = match domain {
-        Isoline => point_counts::<{ all(Isoline) }>(fixed, odd),
-        Triangle => point_counts::<{ all(Triangle) }>(fixed, odd),
-        Quad => point_counts::<{ all(Quad) }>(fixed, odd),
-    };
-    counts(config, domain, &processed, &points)
-}
-
-/// Elements of a column that a domain's factors have.
-const fn all(domain: Domain) -> usize {
-    domain.factors() * LANES
+    match (domain, raw) {
+        (Isoline, &[a, b, ..]) => of(config, Isoline, &[a, b]),
+        (Triangle, &[a, b, c, d, ..]) => of(config, Triangle, &[a, b, c, d]),
+        (Quad, all) => of(config, Quad, all),
+    }
 }
 
 /// One patch of a packet. Factors are numbered in the core's order.
@@ -224,38 +244,30 @@ impl PacketPatch<'_> {
     /// The point counts of its factors.
     #[inline(always)]
     pub(crate) const fn edges(self) -> EdgePoints {
-        let Self { packet: Packet { points, .. }, lane } = self;
-        [
-            points[lane],
-            points[LANES + lane],
-            points[2 * LANES + lane],
-            points[3 * LANES + lane],
-            points[4 * LANES + lane],
-            points[5 * LANES + lane],
-        ]
+        let Self { packet: Packet { points: [a, b, c, d, e, f], .. }, lane: i } = self;
+        [a[i], b[i], c[i], d[i], e[i], f[i]]
     }
 
     /// The point count of one factor.
     #[inline(always)]
     pub(crate) const fn edge_points(self, factor: usize) -> u32 {
-        self.packet.points[factor * LANES + self.lane]
+        self.packet.points[factor][self.lane]
     }
 
     /// A number, not 0, that differs for different contexts of one split order.
     #[inline(always)]
     pub(crate) const fn key(self, factor: usize) -> u32 {
-        let i = factor * LANES + self.lane;
-        (self.packet.fixed[i] << 1) | (self.packet.points[i] & 1)
+        let Packet { fixed, points, .. } = self.packet;
+        (fixed[factor][self.lane] << 1) | (points[factor][self.lane] & 1)
     }
 
     /// The spacing of one factor's points.
     #[inline(always)]
     pub(crate) fn spacing(self, factor: usize) -> Spacing {
         if self.integer() {
-            let i = factor * LANES + self.lane;
             let Packet { config, fixed, points, .. } = self.packet;
-            let odd = u32::from(is_odd(points[i]));
-            Spacing::new(&Context::new(fixed[i], odd, config.split))
+            let odd = u32::from(is_odd(points[factor][self.lane]));
+            Spacing::new(&Context::new(fixed[factor][self.lane], odd, config.split))
         } else {
             self.fractional_spacing(factor)
         }
@@ -264,36 +276,38 @@ impl PacketPatch<'_> {
     /// [`Self::spacing`] where the partitioning is fractional.
     #[inline(always)]
     pub(crate) const fn fractional_spacing(self, factor: usize) -> Spacing {
-        let i = factor * LANES + self.lane;
-        self.packet.spacings.get(i, self.packet.points[i])
+        self.packet.spacings.get(factor, self.lane, self.edge_points(factor))
     }
 }
 
 /// A number for each topology: the point counts of all factors, after a leading 1, and whether it
 /// is a minimum patch.
 #[inline(always)]
-fn topologies(points: &Column, minimum: &Lanes) -> Lanes<u64> {
-    let mut topologies = [1; LANES];
-    for points in points.as_chunks::<LANES>().0 {
-        for (topology, &points) in topologies.iter_mut().zip(points) {
-            *topology = (*topology << 7) | u64::from(points);
+fn topologies<const L: usize>(
+    points: &[[u32; L]; MAX_FACTORS],
+    minimum: &[u32; L],
+) -> [u64; L] {
+    let mut topologies = [1; L];
+    for points in points {
+        for lane in 0..L {
+            topologies[lane] = (topologies[lane] << 7) | u64::from(points[lane]);
         }
     }
-    for (topology, &minimum) in topologies.iter_mut().zip(minimum) {
-        *topology = (*topology << 1) | u64::from(minimum);
+    for lane in 0..L {
+        topologies[lane] = (topologies[lane] << 1) | u64::from(minimum[lane]);
     }
     topologies
 }
 
 /// 1 where a patch is compact.
 #[inline(always)]
-fn compact(domain: Domain, points: &Column) -> Lanes {
-    let mut compact = [u32::from(domain != Domain::Isoline); LANES];
-    for (factor, points) in points.as_chunks::<LANES>().0.iter().enumerate() {
+fn compact<const L: usize>(domain: Domain, points: &[[u32; L]; MAX_FACTORS]) -> [u32; L] {
+    let mut compact = [u32::from(domain != Domain::Isoline); L];
+    for (factor, points) in points.iter().enumerate() {
         let inside = domain == Domain::Triangle && factor >= Domain::Triangle.outer_factors();
         let most = if inside { COMPACT_TRIANGLE_INSIDE } else { COMPACT_EDGE };
-        for (compact, &points) in compact.iter_mut().zip(points) {
-            *compact &= u32::from(points as usize <= most);
+        for lane in 0..L {
+            compact[lane] &= u32::from(points[lane] as usize <= most);
         }
     }
     compact
@@ -302,6 +316,7 @@ fn compact(domain: Domain, points: &Column) -> Lanes {
 #[cfg(all(test, feature = "std"))]
 mod tests {
     use super::*;
+    use crate::data::lanes::LANES;
     use crate::tour;
     use tess_core::QuadFactors;
 
@@ -310,7 +325,7 @@ mod tests {
     fn the_worked_patch() {
         let packet = tour::packet();
         let patch = packet.patch(0);
-        let fixed = [0, 1, 2, 3, 4, 5].map(|factor| packet.fixed[factor * LANES]);
+        let fixed = packet.fixed.map(|lanes| lanes[0]);
         assert_eq!(fixed, [0x30000, 0x48000, 0x50000, 0x60000, 0x40000, 0x70000], "15.16");
         assert_eq!(patch.edges(), [5, 7, 7, 7, 5, 9], "points of the factors");
         assert_eq!((patch.points(), patch.indices()), (43, 186), "sizes");
@@ -326,9 +341,9 @@ mod tests {
     fn the_largest_compact_patches() {
         let config = Config::new(Partitioning::Integer, OutputPrimitive::TriangleCw);
         let is_compact = |domain, outer: f32, inside: f32| {
-            let mut raw = [0.0; LANES * MAX_FACTORS];
+            let mut raw = [[0.0; LANES]; MAX_FACTORS];
             let outer_factors = if domain == Domain::Quad { 4 } else { 3 };
-            for (factor, lanes) in raw.as_chunks_mut::<LANES>().0.iter_mut().enumerate() {
+            for (factor, lanes) in raw.iter_mut().enumerate() {
                 lanes[0] = if factor < outer_factors { outer } else { inside };
             }
             let mut packet = Packet::EMPTY;
@@ -347,7 +362,7 @@ mod tests {
     fn topologies_of_domains_differ() {
         let [triangle, quad] = [Domain::Triangle, Domain::Quad].map(|domain| {
             let mut packet = Packet::EMPTY;
-            packet.process(tour::CONFIG, domain, &[4.0; LANES * MAX_FACTORS]);
+            packet.process(tour::CONFIG, domain, &[[4.0; LANES]; MAX_FACTORS]);
             packet.patch(0).topology()
         });
         assert_ne!(triangle, quad, "{:?}", QuadFactors::uniform(4.0));

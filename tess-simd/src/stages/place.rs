@@ -1,7 +1,8 @@
 //! Locations along one dimension, a whole edge at a time (spec section 5).
 
-use crate::data::lanes::{Column, LANES, MAX_FACTORS};
+use crate::data::lanes::{Column, LANES, MAX_FACTORS, set_rows};
 use crate::stages::factor_context::Context;
+use crate::stages::factors::Processed;
 use tess_core::SplitOrder;
 use tess_core::fixed_point::{HALF, ONE};
 
@@ -47,39 +48,41 @@ pub(crate) struct Spacings {
 
 impl Spacings {
     pub(crate) const NONE: Self = {
-        const NONE: Column = [0; LANES * MAX_FACTORS];
+        const NONE: Column = [[0; LANES]; MAX_FACTORS];
         Self { split: NONE, step: NONE, lag: NONE }
     };
 
-    /// Computes the spacings of the first `ALL` elements of two columns, and their point counts; other
-    /// elements stay as they are.
+    /// Keeps the spacings of `L` patches in the lanes from `first` on; returns the point counts.
     #[inline(always)]
-    pub(crate) fn fill<const ALL: usize>(
+    pub(crate) fn keep<const L: usize, const F: usize>(
         &mut self,
-        points: &mut Column,
-        (fixed, odd): (&Column, &Column),
+        first: usize,
+        Processed { fixed, odd, .. }: &Processed<L, F>,
         order: SplitOrder,
-    ) {
-        for i in 0..ALL {
-            let spacing = Spacing::new(&Context::new(fixed[i], odd[i], order));
-            points[i] = spacing.points;
-            self.split[i] = spacing.split;
-            self.step[i] = spacing.step;
-            self.lag[i] = spacing.lag;
+    ) -> [[u32; L]; F] {
+        let [mut points, mut split, mut step, mut lag] = [[[0; L]; F]; 4];
+        for factor in 0..F {
+            for lane in 0..L {
+                let context = Context::new(fixed[factor][lane], odd[factor][lane], order);
+                let spacing = Spacing::new(&context);
+                points[factor][lane] = spacing.points;
+                split[factor][lane] = spacing.split;
+                step[factor][lane] = spacing.step;
+                lag[factor][lane] = spacing.lag;
+            }
         }
+        set_rows(&mut self.split, first, &split);
+        set_rows(&mut self.step, first, &step);
+        set_rows(&mut self.lag, first, &lag);
+        points
     }
 
-    /// Sets the spacing of an element, but for its points.
+    /// The spacing of a factor with this many points.
     #[inline(always)]
-    pub(crate) const fn set(&mut self, i: usize, spacing: &Spacing) {
-        let Spacing { split, step, lag, .. } = *spacing;
-        (self.split[i], self.step[i], self.lag[i]) = (split, step, lag);
-    }
-
-    /// The spacing of an element with this many points.
-    #[inline(always)]
-    pub(crate) const fn get(&self, i: usize, points: u32) -> Spacing {
-        Spacing { points, split: self.split[i], step: self.step[i], lag: self.lag[i] }
+    pub(crate) const fn get(&self, factor: usize, lane: usize, points: u32) -> Spacing {
+        let Self { split, step, lag } = self;
+        let (split, step, lag) = (split[factor][lane], step[factor][lane], lag[factor][lane]);
+        Spacing { points, split, step, lag }
     }
 }
 

@@ -1,6 +1,8 @@
 //! The calling thread alone.
 
+use crate::data::format::IndexFormat;
 use crate::data::level::Level;
+use crate::data::point_writer::PointRoom;
 use crate::threads::part::{self, Job, Workspace};
 use crate::threads::slices::{CountShare, Share};
 use tess_core::Config;
@@ -47,7 +49,11 @@ impl Workspaces {
     }
 
     /// Writes a share, which has one slice.
-    pub(crate) fn emit(&mut self, job: Job<'_>, share: Share<'_>) {
+    pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
+        &mut self,
+        job: Job<'_>,
+        share: Share<'_, P, I>,
+    ) {
         part::emit(job, share.part, &mut self.0);
     }
 }

@@ -2,12 +2,11 @@
 
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
-use crate::data::format::{AnyIndices, AnyPoints, IndexFormat};
+use crate::data::format::IndexFormat;
 use crate::data::level::Level;
 use crate::data::output::{Numbering, PatchRange};
-use crate::data::point_writer::{PointRoom, PointWriter};
+use crate::data::point_writer::PointRoom;
 use crate::data::ranges::Ranges;
-use crate::data::target::Target;
 use crate::kernels::emit::{Caches, Offsets, Packets, Room};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
@@ -28,12 +27,13 @@ pub(crate) struct Job<'a> {
     pub(crate) kept: Option<&'a [Packet; Chunk::PACKETS]>,
 }
 
-/// Consecutive patches of a batch and where their output goes.
+/// Consecutive patches of a batch and where their output goes: buffers of exactly the sizes that the count predicts.
 #[derive(Debug)]
-pub(crate) struct Part<'a> {
+pub(crate) struct Part<'a, P, I> {
     pub(crate) batch: Batch<'a>,
-    /// Buffers of exactly the sizes that the count predicts.
-    pub(crate) target: Target<'a>,
+    pub(crate) points: P,
+    pub(crate) indices: &'a mut [I],
+    pub(crate) ranges: Ranges<'a>,
     pub(crate) first: Offsets,
 }
 
@@ -100,51 +100,15 @@ impl Workspace {
     }
 
     /// Writes the patch that was processed last. What lies behind it in the buffers may be overwritten.
-    pub(crate) fn emit(&mut self, level: Level, settings: &Settings, target: Target<'_>) {
-        let Target { points, indices, .. } = target;
-        let memory = self.memory();
-        match indices {
-            AnyIndices::U16(indices) => memory.emit_any(level, settings, points, indices),
-            AnyIndices::U32(indices) => memory.emit_any(level, settings, points, indices),
-        }
-    }
-}
-
-impl Memory {
-    #[cold]
-    fn new() -> Box<Self> {
-        Box::new(Self {
-            one: OnePatch::CULLED,
-            lookup: Lookup::new(),
-            caches: Caches::new(),
-            chunk: None,
-        })
-    }
-
-    fn emit_any<I: IndexFormat>(
+    pub(crate) fn emit_one<I: IndexFormat>(
         &mut self,
         level: Level,
         settings: &Settings,
-        points: AnyPoints<'_>,
+        mut points: impl PointRoom,
         indices: &mut [I],
     ) {
-        match points {
-            AnyPoints::F32(mut all) => self.emit_one(level, settings, all.writer(), indices),
-            AnyPoints::Fixed(mut all) => self.emit_one(level, settings, all.writer(), indices),
-            #[cfg(feature = "apart")]
-            AnyPoints::F32Apart(mut all) => self.emit_one(level, settings, all.writer(), indices),
-        }
-    }
-
-    fn emit_one<I: IndexFormat>(
-        &mut self,
-        level: Level,
-        settings: &Settings,
-        points: impl PointWriter,
-        indices: &mut [I],
-    ) {
-        let Self { one, lookup, caches, .. } = self;
-        let packet = one.packet();
+        let Memory { one, lookup, caches, .. } = self.memory();
+        let (packet, points) = (one.packet(), points.writer());
         let patch = packet.patch(0);
         if patch.points() == 0 {
             return;
@@ -159,6 +123,18 @@ impl Memory {
     }
 }
 
+impl Memory {
+    #[cold]
+    fn new() -> Box<Self> {
+        Box::new(Self {
+            one: OnePatch::CULLED,
+            lookup: Lookup::new(),
+            caches: Caches::new(),
+            chunk: None,
+        })
+    }
+}
+
 impl ChunkMemory {
     #[cold]
     fn new() -> Box<Self> {
@@ -166,48 +142,13 @@ impl ChunkMemory {
     }
 }
 
-/// Writes a part.
-pub(crate) fn emit(job: Job<'_>, part: Part<'_>, workspace: &mut Workspace) {
-    let Part { batch, target: Target { points, indices, ranges }, first } = part;
-    match indices {
-        AnyIndices::U16(indices) => {
-            emit_any(job, &batch, points, (indices, ranges), first, workspace);
-        }
-        AnyIndices::U32(indices) => {
-            emit_any(job, &batch, points, (indices, ranges), first, workspace);
-        }
-    }
-}
-
-/// Indices and ranges, as in [`Target`].
-type Rest<'a, I> = (&'a mut [I], Ranges<'a>);
-
-/// Writes a part in one format of indices.
-fn emit_any<I: IndexFormat>(
+/// Writes a part, a chunk at a time.
+pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
     job: Job<'_>,
-    batch: &Batch<'_>,
-    points: AnyPoints<'_>,
-    rest: Rest<'_, I>,
-    first: Offsets,
+    part: Part<'_, P, I>,
     workspace: &mut Workspace,
 ) {
-    match points {
-        AnyPoints::F32(points) => emit_as(job, batch, points, rest, first, workspace),
-        AnyPoints::Fixed(points) => emit_as(job, batch, points, rest, first, workspace),
-        #[cfg(feature = "apart")]
-        AnyPoints::F32Apart(points) => emit_as(job, batch, points, rest, first, workspace),
-    }
-}
-
-/// Writes a part in one pair of formats, a chunk at a time.
-fn emit_as<I: IndexFormat>(
-    job: Job<'_>,
-    batch: &Batch<'_>,
-    mut points: impl PointRoom,
-    (mut indices, mut ranges): Rest<'_, I>,
-    mut first: Offsets,
-    workspace: &mut Workspace,
-) {
+    let Part { ref batch, mut points, mut indices, mut ranges, mut first } = part;
     let Memory { lookup, caches, chunk, .. } = workspace.memory();
     let own = &mut **chunk.get_or_insert_with(ChunkMemory::new);
     let Job { level, settings, numbering, kept } = job;
@@ -232,7 +173,7 @@ fn emit_as<I: IndexFormat>(
             end = levels::repeat(level, repeat, room, &mut ranges);
         }
         start += patches * times;
-        points.skip((end.points - first.points) as usize);
+        points = points.split_at((end.points - first.points) as usize).1;
         indices = indices.split_at_mut((end.indices - first.indices) as usize).1;
         first = end;
     }

@@ -6,6 +6,10 @@
 use crate::data::batch::Batch;
 use crate::data::lanes::LANES;
 use crate::data::level::Level;
+#[cfg(feature = "rayon")]
+use crate::data::point_writer::PointRoom;
+#[cfg(feature = "rayon")]
+use crate::kernels::emit::Offsets;
 use crate::levels;
 use crate::stages::counts::PartCounts;
 use crate::threads::part::Part;
@@ -71,8 +75,8 @@ impl CountShare<'_> {
 
 /// Consecutive slices of a batch to write.
 #[derive(Debug)]
-pub(crate) struct Share<'a> {
-    pub(crate) part: Part<'a>,
+pub(crate) struct Share<'a, P, I> {
+    pub(crate) part: Part<'a, P, I>,
     /// Patches of each slice but the last.
     #[cfg_attr(not(feature = "rayon"), expect(dead_code, reason = "one thread writes all slices"))]
     pub(crate) slice: usize,
@@ -82,26 +86,30 @@ pub(crate) struct Share<'a> {
 }
 
 #[cfg(feature = "rayon")]
-impl<'a> Share<'a> {
+impl<'a, P: PointRoom, I> Share<'a, P, I> {
     /// Its slices, one part each.
     #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
-    pub(crate) fn into_parts(self) -> impl Iterator<Item = Part<'a>> {
-        use crate::data::output::BatchCounts;
-        use crate::kernels::emit::Offsets;
+    pub(crate) fn into_parts(self) -> impl Iterator<Item = Part<'a, P, I>> {
         let Self { part, slice, counts } = self;
         let mut rest = Some(part);
         counts.iter().filter_map(move |counts| {
-            let Part { batch, target, first } = rest.take()?;
-            let (points, indices) = (counts.points as usize, counts.indices as usize);
+            let Part { batch, points, indices, ranges, first } = rest.take()?;
             let (one, others) = cut(batch, slice);
-            let (target, other_targets) =
-                target.split_at(BatchCounts { patches: one.len(), points, indices });
+            let (points, more_points) = points.split_at(counts.points as usize);
+            let (indices, more_indices) = indices.split_at_mut(counts.indices as usize);
+            let (ranges, more_ranges) = ranges.split_at(one.len());
             let next = Offsets {
-                points: first.points + points as u32,
-                indices: first.indices + indices as u32,
+                points: first.points + counts.points as u32,
+                indices: first.indices + counts.indices as u32,
             };
-            rest = Some(Part { batch: others, target: other_targets, first: next });
-            Some(Part { batch: one, target, first })
+            rest = Some(Part {
+                batch: others,
+                points: more_points,
+                indices: more_indices,
+                ranges: more_ranges,
+                first: next,
+            });
+            Some(Part { batch: one, points, indices, ranges, first })
         })
     }
 }
@@ -137,22 +145,10 @@ mod tests {
 #[cfg(all(test, feature = "rayon"))]
 mod parts {
     use super::*;
-    use crate::data::format::{AnyIndices, AnyPoints};
-    use crate::data::output::{Buffers, PatchRange};
-    use crate::data::target::Target;
-    use crate::kernels::emit::Offsets;
+    use crate::data::output::PatchRange;
+    use crate::data::ranges::Ranges;
     use alloc::vec::Vec;
     use tess_core::{DomainPoint, QuadFactors};
-
-    /// The lengths of points, indices and ranges.
-    fn lengths(target: &Target<'_>) -> (u64, u64, usize) {
-        let (AnyPoints::Fixed(points), AnyIndices::U32(indices)) =
-            (&target.points, &target.indices)
-        else {
-            panic!("other formats than there were");
-        };
-        (points.len() as u64, indices.len() as u64, target.ranges.len())
-    }
 
     /// Slices of two patches, the last of one, whose points and indices are given.
     #[test]
@@ -160,25 +156,28 @@ mod parts {
         let sizes = [(3, 5), (0, 0), (7, 11), (2, 1)];
         let part = |(points, indices)| PartCounts { points, indices, largest: 0 };
         let counts: Vec<PartCounts> = sizes.into_iter().map(part).collect();
-        let one = QuadFactors { u0: 1.0, v0: 1.0, u1: 1.0, v1: 1.0, inside_u: 1.0, inside_v: 1.0 };
-        let quads = alloc::vec![one; 7];
+        let quads = alloc::vec![QuadFactors::uniform(1.0); 7];
         let mut points = alloc::vec![DomainPoint::default(); 12];
         let mut indices = alloc::vec![0_u32; 17];
         let mut ranges = alloc::vec![PatchRange::default(); 7];
-        let target = Buffers::new(&mut points, &mut indices).with_ranges(&mut ranges).into();
-        let part =
-            Part { batch: Batch::Quads(&quads), target, first: Offsets { points: 7, indices: 9 } };
-        let share = Share { part, slice: 2, counts: &counts };
-        let found: Vec<_> = share
-            .into_parts()
-            .map(|part| (part.batch.len(), lengths(&part.target), part.first))
-            .collect();
+        let part = Part {
+            batch: Batch::Quads(&quads),
+            points: &mut points[..],
+            indices: &mut indices[..],
+            ranges: Ranges::new(Some(&mut ranges)),
+            first: Offsets { points: 7, indices: 9 },
+        };
+        let lengths = |part: &Part<'_, &mut [DomainPoint], u32>| {
+            [part.batch.len(), part.points.len(), part.indices.len(), part.ranges.len()]
+        };
+        let parts = Share { part, slice: 2, counts: &counts }.into_parts();
+        let found: Vec<_> = parts.map(|part| (lengths(&part), part.first)).collect();
         let at = |points, indices| Offsets { points, indices };
         let expected = [
-            (2, (3, 5, 2), at(7, 9)),
-            (2, (0, 0, 2), at(10, 14)),
-            (2, (7, 11, 2), at(10, 14)),
-            (1, (2, 1, 1), at(17, 25)),
+            ([2, 3, 5, 2], at(7, 9)),
+            ([2, 0, 0, 2], at(10, 14)),
+            ([2, 7, 11, 2], at(10, 14)),
+            ([1, 2, 1, 1], at(17, 25)),
         ];
         assert_eq!(found, expected, "patches, buffers and where the output begins");
     }

@@ -1,7 +1,7 @@
 //! What taps made, as words that can be compared.
 
 use super::Tap;
-use crate::data::lanes::{Column, LANES};
+use crate::data::lanes::LANES;
 use crate::kernels::kernel_taps::Kernel;
 use crate::stages::counts::{PacketCounts, PartCounts};
 use crate::stages::factors::Processed;
@@ -37,15 +37,12 @@ impl Tap {
         let (patches, factors) = (work.patches.len(), work.domain.factors());
         let lanes = (0..patches).map(|patch| (patch / LANES, patch % LANES));
         match self.kernel {
-            Kernel::Factors => words.extend(lanes.flat_map(|(packet, lane)| {
-                let Processed { fixed, odd, alive, minimum } = &made.processed[packet];
-                let of = |column: &Column, i| column[i * LANES + lane];
-                let factor = move |i| [of(fixed, i), of(odd, i)];
-                record(alive[lane] == 1, minimum[lane] == 1, factors, factor)
-            })),
-            Kernel::FactorsOfOne => words.extend(made.ones.iter().flat_map(|one| {
-                record(one.alive, one.minimum, factors, |i| [one.fixed[i], one.odd[i]])
-            })),
+            Kernel::Factors => words.extend(
+                lanes.flat_map(|(packet, lane)| record(&made.processed[packet], lane, factors)),
+            ),
+            Kernel::FactorsOfOne => {
+                words.extend(made.ones.iter().flat_map(|one| record(one, 0, factors)));
+            }
             Kernel::Counts => words.extend(lanes.flat_map(|(packet, lane)| {
                 let PacketCounts { points, indices } = &made.counts[packet];
                 [points[lane], indices[lane]]
@@ -72,14 +69,15 @@ impl Tap {
 }
 
 /// The processed factors of a patch; of a culled one, zeros.
-fn record(
-    alive: bool,
-    minimum: bool,
+fn record<const L: usize, const F: usize>(
+    Processed { fixed, odd, alive, minimum }: &Processed<L, F>,
+    lane: usize,
     factors: usize,
-    factor: impl Fn(usize) -> [u32; 2],
 ) -> Vec<u32> {
-    let mut words = alloc::vec![u32::from(alive), u32::from(alive && minimum)];
-    words.extend((0..factors).flat_map(|i| if alive { factor(i) } else { [0; 2] }));
+    let alive = alive[lane];
+    let mut words = alloc::vec![alive, alive * minimum[lane]];
+    let rows = fixed.iter().zip(odd).take(factors);
+    words.extend(rows.flat_map(|(fixed, odd)| [alive * fixed[lane], alive * odd[lane]]));
     words
 }
 

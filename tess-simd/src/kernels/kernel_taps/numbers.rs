@@ -6,15 +6,15 @@ use crate::data::format::OutputPoint;
 use crate::data::lanes::LANES;
 use crate::kernels::taps::locations;
 use crate::stages::factor_context::{Context, point_count};
-use crate::stages::factors::{self, process_one, process_one_isoline};
-use crate::stages::packet::{Packet, packet_counts};
+use crate::stages::factors;
+use crate::stages::packet::{Packet, ROWS, packet_counts};
 use crate::stages::place::{Spacing, place_in_half};
 use crate::stages::reciprocal::reciprocal;
 use crate::stages::stitch::Codes;
 use alloc::vec::Vec;
 use tess_core::fixed_point::ONE;
 use tess_core::stitch::Diagonals;
-use tess_core::{Domain, Partitioning};
+use tess_core::Partitioning;
 
 /// Runs a stage whose input are numbers.
 #[inline(always)]
@@ -66,19 +66,15 @@ fn of_raw(kernel: Kernel, work: &Work, made: &mut Made) {
         Kernel::Factors => {
             made.processed.clear();
             for raw in &work.raw {
-                made.processed.push(factors::process(config, work.domain, raw));
+                made.processed.push(factors::process(config.partitioning, work.domain, raw));
             }
         }
         Kernel::FactorsOfOne => {
             made.ones.clear();
             for factors in &work.patches {
-                let mut raw = [0.0; factors::FACTORS_AT_ONCE];
-                raw.iter_mut().zip(factors.iter()).for_each(|(raw, factor)| *raw = factor);
-                made.ones.push(match work.domain {
-                    Domain::Isoline => process_one_isoline(config.partitioning, &raw),
-                    Domain::Triangle => process_one::<3, 4>(config.partitioning, &raw),
-                    Domain::Quad => process_one::<4, 6>(config.partitioning, &raw),
-                });
+                let mut raw = [[0.0]; ROWS];
+                raw.iter_mut().zip(factors.iter()).for_each(|(raw, factor)| *raw = [factor]);
+                made.ones.push(factors::process(config.partitioning, work.domain, &raw));
             }
         }
         Kernel::Counts => {

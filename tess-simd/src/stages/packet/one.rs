@@ -4,12 +4,9 @@
 //! for each factor, and the results go to one lane of a packet, so that everything behind the front end
 //! finds a patch as it always does.
 
-use super::{COMPACT_EDGE, COMPACT_TRIANGLE_INSIDE, Packet};
-use crate::data::lanes::{EdgePoints, LANES, MAX_FACTORS};
-use crate::stages::counts::counts_of_patch;
-use crate::stages::factor_context::{Context, point_count};
-use crate::stages::factors::{FACTORS_AT_ONCE, OneProcessed, process_one, process_one_isoline};
-use crate::stages::place::Spacing;
+use super::Packet;
+use crate::data::lanes::{MAX_FACTORS, set};
+use crate::stages::factors::{Processed, process};
 use core::array::from_fn;
 use tess_core::{Config, Counts, Domain, PatchFactors};
 
@@ -20,13 +17,16 @@ pub(crate) struct OnePatch {
     packet: Packet,
     raw: RawPairs,
     /// [`kept`] of its processed factors: what the packet and the sizes follow from.
-    kept: [u32; FACTORS_AT_ONCE],
+    kept: [u32; ROWS],
     domain: Domain,
     counts: Counts,
 }
 
+/// Rows of a patch's factors: they fill a short vector.
+pub(crate) const ROWS: usize = 8;
+
 /// The raw factors of a patch side by side; zeros follow those that its domain has.
-type RawFactors = [f32; FACTORS_AT_ONCE];
+type RawFactors = [[f32; 1]; ROWS];
 
 /// Pairs of raw factors, the first of each pair in the lower half, zeros behind them. They travel in registers: a
 /// vector that is loaded from memory would wait for factors written in pieces.
@@ -37,7 +37,7 @@ impl OnePatch {
     pub(crate) const CULLED: Self = Self {
         packet: Packet::EMPTY,
         raw: [0; _],
-        kept: [0; FACTORS_AT_ONCE],
+        kept: [0; ROWS],
         domain: Domain::Quad,
         counts: Counts { points: 0, primitives: 0, indices: 0 },
     };
@@ -57,28 +57,26 @@ impl OnePatch {
         let other = domain != self.domain;
         if differences != 0 || other {
             (self.raw, self.domain) = (raw, domain);
+            let factors = apart(raw);
             // In each arm the domain is a constant.
             match domain {
-                Isoline => {
-                    self.keep(config, Isoline, &process(config, Isoline, &apart(raw)), other)
-                }
-                Triangle => {
-                    self.keep(config, Triangle, &process(config, Triangle, &apart(raw)), other)
-                }
-                Quad => self.keep(config, Quad, &process(config, Quad, &apart(raw)), other),
+                Isoline => self.process_as(config, Isoline, &factors, other),
+                Triangle => self.process_as(config, Triangle, &factors, other),
+                Quad => self.process_as(config, Quad, &factors, other),
             }
         }
         self.counts
     }
 
-    /// Makes the packet from processed factors, unless it has these.
+    /// Makes the packet from raw factors, unless it has the processed ones.
     #[inline(always)]
-    fn keep(&mut self, config: Config, domain: Domain, processed: &OneProcessed, other: bool) {
-        let kept = kept(processed);
-        let differences = (0..FACTORS_AT_ONCE).fold(0, |any, i| any | (kept[i] ^ self.kept[i]));
+    fn process_as(&mut self, config: Config, domain: Domain, raw: &RawFactors, other: bool) {
+        let processed = process(config.partitioning, domain, raw);
+        let kept = kept(&processed);
+        let differences = (0..ROWS).fold(0, |any, i| any | (kept[i] ^ self.kept[i]));
         if differences != 0 || other {
             self.kept = kept;
-            self.counts = self.packet.keep_one(config, 0, domain, processed);
+            self.counts = self.packet.keep_one(config, domain, 0, &processed);
         }
     }
 }
@@ -86,14 +84,14 @@ impl OnePatch {
 /// Processed factors in one vector: zeros if the patch is culled, as the others are at least 1. In one
 /// configuration and domain, parities and whether it is a minimum patch follow from the factors.
 #[inline(always)]
-fn kept(processed: &OneProcessed) -> [u32; FACTORS_AT_ONCE] {
-    let mask = 0_u32.wrapping_sub(processed.alive.into());
-    processed.fixed.map(|factor| factor & mask)
+fn kept(processed: &Processed<1, ROWS>) -> [u32; ROWS] {
+    let mask = 0_u32.wrapping_sub(processed.alive[0]);
+    processed.fixed.map(|[factor]| factor & mask)
 }
 
 #[inline(always)]
 fn side_by_side(factors: PatchFactors) -> RawFactors {
-    match factors {
+    let raw = match factors {
         PatchFactors::Isoline(factors) => {
             let [density, detail] = factors.into();
             [density, detail, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
@@ -106,13 +104,14 @@ fn side_by_side(factors: PatchFactors) -> RawFactors {
             let [u0, v0, u1, v1, inside_u, inside_v] = factors.into();
             [u0, v0, u1, v1, inside_u, inside_v, 0.0, 0.0]
         }
-    }
+    };
+    raw.map(|factor| [factor])
 }
 
 /// The raw factors of one patch in pairs.
 #[inline(always)]
 pub(crate) fn pairs(factors: PatchFactors) -> RawPairs {
-    let raw = side_by_side(factors).map(f32::to_bits).map(u64::from);
+    let raw = side_by_side(factors).map(|[factor]| u64::from(factor.to_bits()));
     from_fn(|i| raw[2 * i] | (raw[2 * i + 1] << 32))
 }
 
@@ -121,17 +120,7 @@ pub(crate) fn pairs(factors: PatchFactors) -> RawPairs {
 #[expect(clippy::cast_possible_truncation, reason = "the lower half")]
 fn apart(raw: RawPairs) -> RawFactors {
     let [a, b, c] = raw.map(|pair| [pair as u32, (pair >> 32) as u32].map(f32::from_bits));
-    [a[0], a[1], b[0], b[1], c[0], c[1], 0.0, 0.0]
-}
-
-#[inline(always)]
-fn process(config: Config, domain: Domain, raw: &RawFactors) -> OneProcessed {
-    let partitioning = config.partitioning;
-    match domain {
-        Domain::Isoline => process_one_isoline(partitioning, raw),
-        Domain::Triangle => process_one::<3, 4>(partitioning, raw),
-        Domain::Quad => process_one::<4, 6>(partitioning, raw),
-    }
+    [a[0], a[1], b[0], b[1], c[0], c[1], 0.0, 0.0].map(|factor| [factor])
 }
 
 impl Packet {
@@ -144,89 +133,22 @@ impl Packet {
         lane: usize,
         factors: PatchFactors,
     ) -> Counts {
-        let domain = factors.domain();
-        self.keep_one(config, lane, domain, &process(config, domain, &side_by_side(factors)))
+        let (domain, raw) = (factors.domain(), side_by_side(factors));
+        self.keep_one(config, domain, lane, &process(config.partitioning, domain, &raw))
     }
 
-    /// Makes the lane from processed factors.
+    /// Makes a lane from processed factors.
     #[inline(always)]
     fn keep_one(
         &mut self,
         config: Config,
-        lane: usize,
         domain: Domain,
-        processed: &OneProcessed,
+        lane: usize,
+        processed: &Processed<1, ROWS>,
     ) -> Counts {
-        let lane = lane % LANES;
-        let edges = self.keep_points(config, lane, domain, processed);
-        let minimum = u32::from(processed.minimum);
-        let counts = if processed.alive {
-            counts_of_patch(config, domain, &edges, minimum)
-        } else {
-            Counts::default()
-        };
-        (self.config, self.domain) = (config, domain);
-        self.counts.points[lane] = counts.points;
-        self.counts.indices[lane] = counts.indices;
-        self.minimum[lane] = minimum;
-        self.topologies[lane] = topology(&edges, minimum);
-        self.compact[lane] = u32::from(is_compact(domain, &edges));
-        counts
-    }
-
-    /// Keeps the factors, the point counts and, where factors are not integers, the spacings. Returns the
-    /// point counts; 0 for factors that the domain does not have.
-    #[inline(always)]
-    fn keep_points(
-        &mut self,
-        config: Config,
-        lane: usize,
-        domain: Domain,
-        OneProcessed { fixed, odd, .. }: &OneProcessed,
-    ) -> EdgePoints {
-        let mut points = [0; FACTORS_AT_ONCE];
-        if config.partitioning.has_integer_factors() {
-            for i in 0..FACTORS_AT_ONCE {
-                points[i] = point_count(fixed[i], odd[i]);
-            }
-        } else {
-            let [mut split, mut step, mut lag] = [[0; FACTORS_AT_ONCE]; 3];
-            for i in 0..FACTORS_AT_ONCE {
-                let spacing = Spacing::new(&Context::new(fixed[i], odd[i], config.split));
-                (points[i], split[i]) = (spacing.points, spacing.split);
-                (step[i], lag[i]) = (spacing.step, spacing.lag);
-            }
-            for i in 0..MAX_FACTORS {
-                let (points, split) = (points[i], split[i]);
-                let spacing = Spacing { points, split, step: step[i], lag: lag[i] };
-                self.spacings.set(i * LANES + lane, &spacing);
-            }
-        }
-        let mut edges = [0; MAX_FACTORS];
-        for i in 0..MAX_FACTORS {
-            edges[i] = if i < domain.factors() { points[i] } else { 0 };
-            self.fixed[i * LANES + lane] = fixed[i];
-            self.points[i * LANES + lane] = edges[i];
-        }
-        edges
-    }
-}
-
-/// The number of a topology, as packets have it.
-#[inline(always)]
-fn topology(edges: &EdgePoints, minimum: u32) -> u64 {
-    let topology = edges.iter().fold(1, |topology, &points| (topology << 7) | u64::from(points));
-    (topology << 1) | u64::from(minimum)
-}
-
-/// See [`PacketPatch::is_compact`](super::PacketPatch::is_compact).
-#[inline(always)]
-fn is_compact(domain: Domain, edges: &EdgePoints) -> bool {
-    let [.., inside, _, _] = *edges;
-    let fits = edges.iter().fold(true, |fits, &points| fits & (points as usize <= COMPACT_EDGE));
-    match domain {
-        Domain::Isoline => false,
-        Domain::Triangle => fits & (inside as usize <= COMPACT_TRIANGLE_INSIDE),
-        Domain::Quad => fits,
+        let counts = self.keep(config, domain, lane, processed);
+        set(&mut self.counts.points, lane, counts.points);
+        set(&mut self.counts.indices, lane, counts.indices);
+        counts.of_patch(config, domain)
     }
 }
