@@ -1,11 +1,10 @@
-//! What goes in and comes out, and the arrays between: no layer's work, used by all of them.
+//! Inputs, outputs and the arrays between: no layer's work, used by all of them.
 
 pub(crate) mod batch;
 pub(crate) mod chunk;
 pub(crate) mod error;
 pub(crate) mod format;
 pub(crate) mod lanes;
-pub(crate) mod level;
 pub(crate) mod output;
 pub(crate) mod point_writer;
 pub(crate) mod ranges;

@@ -1,15 +1,15 @@
 //! The kernels, compiled once for each CPU level and chosen at run time.
 
 use crate::at_each_level;
+#[cfg(target_arch = "x86_64")]
+use crate::cpu::instructions::with_avx512;
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::format::IndexFormat;
-#[cfg(target_arch = "x86_64")]
-use crate::data::level::with_avx512;
 use crate::data::point_writer::PointWriter;
 use crate::data::ranges::Ranges;
 use crate::kernels;
-use crate::kernels::emit::{Caches, Offsets, Packets, Room};
+use crate::kernels::emit::{Caches, Offsets, Packets};
 use crate::kernels::repeat::Repeat;
 use crate::stages::counts::PartCounts;
 #[cfg(target_arch = "x86_64")]
@@ -45,9 +45,9 @@ at_each_level! {
 }
 
 at_each_level! {
-    /// [`kernels::front_end::process_one`] at a level.
-    fn process_one(config: Config, domain: Domain, a: u64, b: u64, c: u64, one: &mut OnePatch) -> Counts
-        = kernels::front_end::process_one;
+    /// [`OnePatch::process`] at a level.
+    fn process_one(one: &mut OnePatch, config: Config, domain: Domain, a: u64, b: u64, c: u64) -> Counts
+        = OnePatch::process;
 }
 
 at_each_level! {
@@ -56,10 +56,10 @@ at_each_level! {
     fn emit<W: PointWriter, I: IndexFormat>(
         settings: &Settings,
         packets: Packets<'_>,
-        room: Room<'_, W, I>,
+        room: (W, &mut [I]),
         caches: &mut Caches,
         lookup: &mut Lookup,
-    ) -> Offsets = emit_by_lookup, avx512 = emit_by_permutes;
+    ) -> Offsets = kernels::emit::emit, avx512 = emit_by_permutes;
 }
 
 at_each_level! {
@@ -73,23 +73,12 @@ at_each_level! {
     ) = kernels::emit::emit_one, avx512 = emit_one_by_permutes;
 }
 
-#[inline(always)]
-fn emit_by_lookup<W: PointWriter, I: IndexFormat>(
-    settings: &Settings,
-    packets: Packets<'_>,
-    room: Room<'_, W, I>,
-    caches: &mut Caches,
-    lookup: &mut Lookup,
-) -> Offsets {
-    kernels::emit::emit(settings, packets, room, caches, lookup)
-}
-
 #[cfg(target_arch = "x86_64")]
 with_avx512! {
     fn emit_by_permutes<W: PointWriter, I: IndexFormat>(
         settings: &Settings,
         packets: Packets<'_>,
-        room: Room<'_, W, I>,
+        room: (W, &mut [I]),
         caches: &mut Caches,
         _: &mut Lookup,
     ) -> Offsets {
@@ -118,7 +107,7 @@ at_each_level! {
     /// [`kernels::repeat::repeat`] at a level.
     fn repeat<W: PointWriter, I: IndexFormat>(
         repeat: Repeat,
-        room: Room<'_, W, I>,
+        room: (W, &mut [I]),
         ranges: &mut Ranges<'_>,
     ) -> Offsets = kernels::repeat::repeat;
 }
@@ -168,31 +157,31 @@ mod alone {
     use crate::at_each_level;
     use crate::data::format::IndexFormat;
     use crate::data::point_writer::PointWriter;
-    use crate::kernels::kernel_taps::{self, Kernel, Made, Work};
+    use crate::kernels::kernel_taps::{self, Kernel, TapInput, TapOutput};
 
     at_each_level! {
         /// [`kernel_taps::of_numbers`] at a level.
-        fn of_numbers(kernel: Kernel, work: &Work, made: &mut Made) = kernel_taps::of_numbers;
+        fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) = kernel_taps::of_numbers;
     }
 
     at_each_level! {
         /// [`kernel_taps::of_patches`] at a level.
-        fn of_patches(kernel: Kernel, work: &Work, made: &mut Made) = kernel_taps::of_patches;
+        fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) = kernel_taps::of_patches;
     }
 
     at_each_level! {
         /// Points of compact patches as [`super::emit`] makes them.
-        fn compact_points(work: &Work, made: &mut Made) = kernel_taps::compact_by_lookup,
+        fn compact_points(work: &TapInput, made: &mut TapOutput) = kernel_taps::compact_by_lookup,
             avx512 = kernel_taps::compact_by_permutes;
     }
 
     at_each_level! {
         /// [`kernel_taps::of_points`] at a level.
-        fn of_points<W: PointWriter>(work: &Work, out: W) = kernel_taps::of_points;
+        fn of_points<W: PointWriter>(work: &TapInput, out: W) = kernel_taps::of_points;
     }
 
     at_each_level! {
         /// [`kernel_taps::of_indices`] at a level.
-        fn of_indices<I: IndexFormat>(work: &Work, indices: &mut [I]) = kernel_taps::of_indices;
+        fn of_indices<I: IndexFormat>(work: &TapInput, indices: &mut [I]) = kernel_taps::of_indices;
     }
 }

@@ -3,7 +3,8 @@
 
 extern crate alloc;
 
-// Layers: interface, threads, levels, kernels, stages, data. Each uses only those after it.
+// Layers: interface, threads, levels, kernels, stages, data, cpu. Each uses only those after it.
+mod cpu;
 mod data;
 mod interface;
 mod kernels;
@@ -13,10 +14,10 @@ mod threads;
 #[cfg(all(test, feature = "std"))]
 mod tour;
 
+pub use cpu::level::{Level, LevelUnavailable};
 pub use data::batch::Batch;
 pub use data::error::{Buffer, Error};
 pub use data::format::{IndexFormat, OutputPoint};
-pub use data::level::{Level, LevelUnavailable};
 #[cfg(feature = "apart")]
 pub use data::output::ApartBuffers;
 pub use data::output::{BatchCounts, Buffers, ExactOutput, Numbering, Output, PatchRange};

@@ -11,7 +11,7 @@ use tess_core::{Domain, PatchFactors};
 #[derive(Clone, Debug)]
 pub(crate) struct Chunk([[f32; Self::PATCHES]; MAX_FACTORS]);
 
-/// What is worked through at a time: the patches of a chunk, or one patch and those that repeat it.
+/// The work of one step: the patches of a chunk, or one patch and those that repeat it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stretch {
     /// Patches that differ, at most [`Chunk::PATCHES`]; 1 if it repeats.
@@ -111,6 +111,10 @@ impl Chunk {
     /// The factors of the patches of a packet, `number` packets into the chunk.
     #[inline(always)]
     pub(crate) fn packet(&self, number: usize) -> Column<f32> {
-        self.0.each_ref().map(|values| values.as_chunks().0[number % Self::PACKETS])
+        let mut column = [[0.0; LANES]; MAX_FACTORS];
+        for (lanes, values) in column.iter_mut().zip(&self.0) {
+            *lanes = values.as_chunks().0[number % Self::PACKETS];
+        }
+        column
     }
 }

@@ -28,18 +28,48 @@ pub(crate) const fn is_odd(points: u32) -> bool {
     points.is_multiple_of(2)
 }
 
-/// Sets the lanes from `first` on, of which there are `L`.
+/// Sets `L` lanes: all of them, or the one with this number.
 #[inline(always)]
-pub(crate) fn set<T: Copy, const L: usize>(lanes: &mut Lanes<T>, first: usize, values: [T; L]) {
-    for lane in 0..L {
-        lanes[(first + lane) % LANES] = values[lane];
+pub(crate) fn set<T: Copy, const L: usize>(lanes: &mut Lanes<T>, lane: usize, values: [T; L]) {
+    if L == LANES {
+        lanes.copy_from_slice(&values);
+    } else {
+        lanes[lane % LANES] = values[0];
     }
 }
 
-/// Sets these lanes of the first factors of a column.
+/// [`set`] of the first factors of a column.
 #[inline(always)]
-pub(crate) fn set_rows<const L: usize>(column: &mut Column, first: usize, rows: &[[u32; L]]) {
+pub(crate) fn set_rows<const L: usize>(column: &mut Column, lane: usize, rows: &[[u32; L]]) {
     for (lanes, row) in column.iter_mut().zip(rows) {
-        set(lanes, first, *row);
+        set(lanes, lane, *row);
     }
+}
+
+/// Element `i` of all rows. Loops over it become vectors, of one row or of several; a loop of a row's sixteen is unrolled.
+#[inline(always)]
+pub(crate) const fn at<T: Copy, const L: usize, const F: usize>(rows: &[[T; L]; F], i: usize) -> T {
+    if L == 1 { rows[i][0] } else { rows.as_flattened()[i] }
+}
+
+/// [`at`], to be set.
+#[inline(always)]
+pub(crate) const fn at_mut<T, const L: usize, const F: usize>(
+    rows: &mut [[T; L]; F],
+    i: usize,
+) -> &mut T {
+    if L == 1 { &mut rows[i][0] } else { &mut rows.as_flattened_mut()[i] }
+}
+
+/// The results of `f` for each element.
+#[inline(always)]
+pub(crate) fn each<T: Copy, U: Copy + Default, const L: usize, const F: usize>(
+    rows: &[[T; L]; F],
+    f: impl Fn(T) -> U,
+) -> [[U; L]; F] {
+    let mut made = [[U::default(); L]; F];
+    for i in 0..L * F {
+        *at_mut(&mut made, i) = f(at(rows, i));
+    }
+    made
 }

@@ -1,7 +1,7 @@
 //! The caller's buffers, in formats that are known at run time.
 //!
 //! Below the public interface nothing depends on the formats' types, so that everything is compiled
-//! once, in this crate, for each pair of formats. [`Target::give`] makes them types again, once a call.
+//! once, in this crate, for each pair of formats. [`AnyBuffers::give`] makes them types again, once a call.
 
 use crate::data::error::{Buffer, Error};
 use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
@@ -12,41 +12,41 @@ use crate::data::point_writer::PointRoom;
 
 /// Buffers as the caller gives them.
 #[derive(Debug)]
-pub(crate) struct Target<'a> {
+pub(crate) struct AnyBuffers<'a> {
     points: AnyPoints<'a>,
     indices: AnyIndices<'a>,
     ranges: Option<&'a mut [PatchRange]>,
 }
 
-/// What takes buffers of any formats.
+/// Takes buffers of any formats.
 pub(crate) trait Taker {
-    type Result;
+    type Done;
 
     fn take<P: PointRoom, I: IndexFormat>(
         self,
         points: P,
         indices: &mut [I],
         ranges: Option<&mut [PatchRange]>,
-    ) -> Self::Result;
+    ) -> Self::Done;
 }
 
-impl<'a, P: OutputPoint, I: IndexFormat> From<Buffers<'a, P, I>> for Target<'a> {
+impl<'a, P: OutputPoint, I: IndexFormat> From<Buffers<'a, P, I>> for AnyBuffers<'a> {
     fn from(Buffers { points, indices, ranges }: Buffers<'a, P, I>) -> Self {
         Self { points: P::any(points), indices: I::any(indices), ranges }
     }
 }
 
 #[cfg(feature = "apart")]
-impl<'a, I: IndexFormat> From<ApartBuffers<'a, I>> for Target<'a> {
+impl<'a, I: IndexFormat> From<ApartBuffers<'a, I>> for AnyBuffers<'a> {
     fn from(ApartBuffers { u, v, indices, ranges }: ApartBuffers<'a, I>) -> Self {
         Self { points: AnyPoints::F32Apart([u, v]), indices: I::any(indices), ranges }
     }
 }
 
-impl Target<'_> {
+impl AnyBuffers<'_> {
     /// Gives the buffers away.
     #[inline]
-    pub(crate) fn give<T: Taker>(self, to: T) -> T::Result {
+    pub(crate) fn give<T: Taker>(self, to: T) -> T::Done {
         let Self { points, indices, ranges } = self;
         match (points, indices) {
             (AnyPoints::F32(points), AnyIndices::U16(indices)) => to.take(points, indices, ranges),
@@ -81,5 +81,9 @@ pub(crate) fn first<T>(
 ) -> Result<&mut [T], Error> {
     let got = all.len();
     let end = got.min(needed + more);
-    if got < needed { Err(Error::BufferTooSmall { buffer, needed, got }) } else { Ok(&mut all[..end]) }
+    if got < needed {
+        Err(Error::BufferTooSmall { buffer, needed, got })
+    } else {
+        Ok(&mut all[..end])
+    }
 }

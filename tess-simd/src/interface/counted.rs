@@ -1,16 +1,16 @@
 //! A batch whose output sizes are known.
 
+use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::error::{Buffer, Error};
 use crate::data::format::{IndexFormat, OutputPoint};
-use crate::data::level::Level;
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
 use crate::data::output::{BatchCounts, Buffers, Numbering, Output, PatchRange};
 use crate::data::point_writer::PointRoom;
 use crate::data::ranges::Ranges;
-use crate::data::target::{Taker, Target, first};
+use crate::data::target::{AnyBuffers, Taker, first};
 use crate::kernels::emit::Offsets;
 use crate::stages::counts::PartCounts;
 use crate::stages::packet::Packet;
@@ -130,7 +130,7 @@ impl<'a> Counted<'a> {
     fn write_into(
         &mut self,
         numbering: Numbering,
-        target: Target<'_>,
+        target: AnyBuffers<'_>,
     ) -> Result<BatchCounts, Error> {
         target.give(BatchWriter { counted: self, numbering })
     }
@@ -153,7 +153,7 @@ struct BatchWriter<'a, 'b> {
 }
 
 impl Taker for BatchWriter<'_, '_> {
-    type Result = Result<BatchCounts, Error>;
+    type Done = Result<BatchCounts, Error>;
 
     fn take<P: PointRoom, I: IndexFormat>(
         self,

@@ -2,16 +2,16 @@
 
 mod words;
 
+use crate::cpu::level::{Level, LevelUnavailable};
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::format::IndexFormat;
 use crate::data::lanes::{Column, LANES, MAX_FACTORS};
-use crate::data::level::{Level, LevelUnavailable};
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointRoom;
 use crate::data::ranges::Ranges;
-use crate::kernels::emit::{Caches, Offsets, Packets, Room};
-use crate::kernels::kernel_taps::{Kernel, Made, Work};
+use crate::kernels::emit::{Caches, Offsets, Packets};
+use crate::kernels::kernel_taps::{Kernel, TapInput, TapOutput};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
 use crate::stages::counts::PartCounts;
@@ -35,7 +35,7 @@ pub enum Format {
     ApartU32,
 }
 
-/// What a kernel is run on.
+/// The input of a kernel.
 #[derive(Clone, Debug)]
 pub struct Input {
     /// The configuration.
@@ -72,8 +72,8 @@ pub struct Tap {
     level: Level,
     format: Format,
     numbering: Numbering,
-    work: Work,
-    made: Made,
+    work: TapInput,
+    made: TapOutput,
     caches: Caches,
     kept: [Packet; Chunk::PACKETS],
     part: PartCounts,
@@ -99,7 +99,7 @@ impl Tap {
                 Numbering::PerPatch
             },
             work: work(kernel, level, input),
-            made: Made::new(),
+            made: TapOutput::new(),
             caches: Caches::new(),
             kept: [Packet::EMPTY; _],
             part: PartCounts::default(),
@@ -177,8 +177,8 @@ impl Tap {
                 self.ones.clear();
                 for &factors in &work.patches {
                     let (domain, [a, b, c]) = (factors.domain(), pairs(factors));
-                    let counts =
-                        levels::process_one(*level, config, domain, a, b, c, &mut self.one);
+                    let one = &mut self.one;
+                    let counts = levels::process_one(*level, one, config, domain, a, b, c);
                     self.ones.push(counts);
                 }
             }
@@ -190,8 +190,8 @@ impl Tap {
     fn write(&mut self) {
         let Self { kernel, level, format, numbering, work, made, caches, .. } = self;
         let (kernel, level, numbering) = (*kernel, *level, *numbering);
-        let Made { points, floats, apart, indices, narrow, ranges, lookup, words, .. } = made;
-        let mut to = To { kernel, level, numbering, work, caches, lookup, ranges };
+        let TapOutput { points, floats, apart, indices, narrow, ranges, lookup, words, .. } = made;
+        let mut to = TapTarget { kernel, level, numbering, work, caches, lookup, ranges };
         let end = match format {
             Format::FixedU32 => to.write(&mut points[..], indices),
             Format::F32U32 => to.write(&mut floats[..], indices),
@@ -206,17 +206,17 @@ impl Tap {
 }
 
 /// Where kernels write to, but for the formats.
-struct To<'a> {
+struct TapTarget<'a> {
     kernel: Kernel,
     level: Level,
     numbering: Numbering,
-    work: &'a Work,
+    work: &'a TapInput,
     caches: &'a mut Caches,
     lookup: &'a mut Lookup,
     ranges: &'a mut [PatchRange],
 }
 
-impl To<'_> {
+impl TapTarget<'_> {
     /// Runs the kernel; returns where its output ends.
     fn write<I: IndexFormat>(
         &mut self,
@@ -249,7 +249,7 @@ impl To<'_> {
                     };
                     let times = times as usize;
                     let repeat = Repeat { range, times, numbering: *numbering };
-                    let room = Room { points: points.writer(), indices: &mut *indices };
+                    let room = (points.writer(), &mut *indices);
                     ranges[done] = range;
                     let mut rest = Ranges::new(Some(&mut ranges[done + 1..done + times]));
                     end = levels::repeat(*level, repeat, room, &mut rest);
@@ -260,7 +260,7 @@ impl To<'_> {
             }
             _ => {
                 let packets = Packets { packets, first: end, numbering: *numbering, ranges };
-                let room = Room { points: points.writer(), indices };
+                let room = (points.writer(), indices);
                 end = levels::emit(*level, settings, packets, room, caches, lookup);
             }
         }
@@ -268,8 +268,8 @@ impl To<'_> {
     }
 }
 
-/// What the kernel reads: its input, after the stages before it.
-fn work(kernel: Kernel, level: Level, input: &Input) -> Work {
+/// The data that the kernel reads: its input, after the stages before it.
+fn work(kernel: Kernel, level: Level, input: &Input) -> TapInput {
     let Input { config, order, parity, base, numbers, patches, .. } = input.clone();
     let settings = Settings { order, ..Settings::new(config) };
     let domain = patches.first().map_or(Domain::Quad, PatchFactors::domain);
@@ -288,7 +288,7 @@ fn work(kernel: Kernel, level: Level, input: &Input) -> Work {
         packets.into_iter().take(patches.len().div_ceil(LANES))
     });
     let packets = packets.collect();
-    Work { settings, parity, numbers, contexts, domain, patches, raw, packets, base }
+    TapInput { settings, parity, numbers, contexts, domain, patches, raw, packets, base }
 }
 
 /// The raw factors of up to sixteen patches, factor by factor.

@@ -13,7 +13,7 @@ use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::output::ApartBuffers;
 use crate::data::output::{Buffers, PatchRange};
 use crate::data::point_writer::PointRoom;
-use crate::data::target::{Taker, Target, first};
+use crate::data::target::{AnyBuffers, Taker, first};
 use crate::interface::tessellator::Tessellator;
 use tess_core::{Counts, PatchFactors};
 
@@ -124,13 +124,13 @@ impl CountedPatch<'_> {
         self.write_into(ApartBuffers::new(u, v, indices).into())
     }
 
-    fn write_into(&mut self, target: Target<'_>) -> Result<Counts, Error> {
+    fn write_into(&mut self, target: AnyBuffers<'_>) -> Result<Counts, Error> {
         target.give(self)
     }
 }
 
 impl Taker for &mut CountedPatch<'_> {
-    type Result = Result<Counts, Error>;
+    type Done = Result<Counts, Error>;
 
     #[inline]
     fn take<P: PointRoom, I: IndexFormat>(

@@ -2,7 +2,7 @@
 //!
 //! Each runs the code that whole patches go through, at a CPU level.
 
-use crate::data::level::{Level, LevelUnavailable};
+use crate::cpu::level::{Level, LevelUnavailable};
 use crate::levels;
 use alloc::vec::Vec;
 use tess_core::{FactorContext, FixedFactor, Parity, Partitioning, SplitOrder};

@@ -1,10 +1,10 @@
 //! The front door: a configuration, ready to take batches.
 
+use crate::cpu::level::{Level, LevelUnavailable};
 use crate::data::batch::Batch;
 use crate::data::chunk::Chunk;
 use crate::data::error::Error;
 use crate::data::format::{IndexFormat, OutputPoint};
-use crate::data::level::{Level, LevelUnavailable};
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
 use crate::data::output::{BatchCounts, Buffers, Numbering, Output};
@@ -27,7 +27,7 @@ use tess_core::{Config, Order};
 /// (0.2 to 0.9 MB) are made once for the process, by the first tessellator that needs them, in about a
 /// millisecond; without the feature `std` each tessellator makes its own.
 ///
-/// What it learns of patches takes memory as it is used ([`Tessellator::memory`]): 11 to 19 KB from the
+/// Its knowledge of patches takes memory as it is used ([`Tessellator::memory`]): 11 to 19 KB from the
 /// first small patch on, 20 KB more from the first batch on, and at most 1.1 MB for each thread. It allocates where a
 /// patch has point counts that are new to it, seldom after the first frames. [`Tessellator::reserve`] takes all
 /// of it before. What else is allocated is what an [`Output`] grows by and, on several threads, a short list

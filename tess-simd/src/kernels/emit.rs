@@ -55,7 +55,7 @@ use crate::stages::connect::{self, cache_order};
 use crate::stages::packet::{Packet, PacketPatch};
 use crate::stages::points::{self, CompactPoints, LocationTables};
 use crate::stages::settings::Settings;
-use crate::stages::template::{CompactTemplate, CompactTemplates, Start, Templates, long};
+use crate::stages::template::{CompactPoint, Start, Template, Templates, long};
 use tess_core::DomainPoint;
 
 /// Packets to write.
@@ -68,15 +68,6 @@ pub(crate) struct Packets<'a> {
     pub(crate) ranges: &'a mut [PatchRange],
 }
 
-/// Where packets are written.
-#[derive(Debug)]
-pub(crate) struct Room<'a, W, I> {
-    /// Writes the points from the packets' first one on.
-    pub(crate) points: W,
-    /// At least as long as the packets' output, as what `points` writes to. What follows that may be overwritten.
-    pub(crate) indices: &'a mut [I],
-}
-
 /// The output of a batch before some patch of it: where that patch's output begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Offsets {
@@ -84,35 +75,29 @@ pub(crate) struct Offsets {
     pub(crate) indices: u32,
 }
 
-/// What is kept from patch to patch and from batch to batch. All of it follows from the
+/// Tables and templates, kept from patch to patch and from batch to batch. All of it follows from the
 /// configuration and the patches' factors.
 #[derive(Clone, Debug)]
 pub(crate) struct Caches {
     tables: LocationTables,
     templates: Templates,
-    compact: CompactTemplates,
 }
 
 impl Caches {
     /// Empty ones, which grow as they are used.
     pub(crate) const fn new() -> Self {
-        Self {
-            tables: LocationTables::EMPTY,
-            templates: Templates::new(),
-            compact: CompactTemplates::new(),
-        }
+        Self { tables: LocationTables::EMPTY, templates: Templates::new() }
     }
 
     /// Bytes of memory that they take on the heap.
     pub(crate) const fn bytes(&self) -> usize {
-        self.tables.bytes() + self.templates.bytes() + self.compact.bytes()
+        self.tables.bytes() + self.templates.bytes()
     }
 
     /// Takes all the memory that they may ever need.
     pub(crate) fn reserve(&mut self) {
         self.tables.reserve();
         self.templates.reserve();
-        self.compact.reserve();
     }
 }
 
@@ -122,17 +107,18 @@ struct Writers<'a, W, I> {
     indices: Writer<'a, I>,
 }
 
-/// Writes packets; returns where their output ends in the batch.
+/// Writes packets; returns where their output ends in the batch. Points and indices have room for the packets' output, or
+/// more; what follows it may be overwritten.
 #[inline(always)]
 pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     settings: &Settings,
     packets: Packets<'_>,
-    room: Room<'_, W, I>,
+    (points, indices): (W, &mut [I]),
     caches: &mut Caches,
     compact_points: &mut M,
 ) -> Offsets {
     let Packets { packets, mut first, numbering, ranges } = packets;
-    let mut out = Writers { points: room.points, indices: Writer::new(room.indices) };
+    let mut out = Writers { points, indices: Writer::new(indices) };
     for (packet, ranges) in packets.iter().zip(ranges.chunks_mut(LANES)) {
         for (lane, range) in ranges.iter_mut().enumerate() {
             let patch = packet.patch(lane);
@@ -145,7 +131,7 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
             first.points += range.points;
             first.indices += range.indices;
         }
-        caches.compact.make_room();
+        caches.templates.make_room();
         // One patch's lane was written a moment ago: all lanes together would wait for it.
         if ranges.len() > 1 && packet.all_compact() {
             emit_compact(settings, (packet, ranges), numbering, caches, &mut out, compact_points);
@@ -155,8 +141,9 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
             let patch = packet.patch(lane);
             let base = numbering.base(range.first_point);
             if patch.is_compact() {
-                let start = caches.compact.find(settings, patch, &mut caches.tables, M::kept);
-                let template = caches.compact.get(start);
+                let Caches { tables, templates } = &mut *caches;
+                let template = templates.find(patch, (settings, tables), M::kept);
+                let template = templates.get(template);
                 points_of(patch, template, &mut out.points, compact_points);
                 indices_of(patch, template, base, &mut out.indices);
             } else {
@@ -180,10 +167,10 @@ pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     compact_points: &mut M,
 ) {
     let patch = packet.patch(0);
-    let Caches { compact, tables, .. } = caches;
-    compact.make_room();
-    let template = compact.find(settings, patch, tables, M::kept);
-    let template = compact.get(template);
+    let Caches { tables, templates } = caches;
+    templates.make_room();
+    let template = templates.find(patch, (settings, tables), M::kept);
+    let template = templates.get(template);
     points_of(patch, template, &mut points, compact_points);
     indices_of(patch, template, 0, &mut Writer::new(indices));
 }
@@ -199,19 +186,19 @@ fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     out: &mut Writers<'_, W, I>,
     compact_points: &mut M,
 ) {
-    let Caches { compact, tables, .. } = caches;
+    let Caches { tables, templates } = caches;
     let mut starts = [Start::default(); LANES];
     let lanes = ranges.iter().enumerate().filter(|(_, range)| range.points != 0);
     for (lane, _) in lanes.clone() {
-        starts[lane] = compact.find(settings, packet.patch(lane), tables, M::kept);
+        starts[lane] = templates.find(packet.patch(lane), (settings, tables), M::kept);
     }
     for (lane, _) in lanes.clone() {
-        let template = compact.get(starts[lane]);
+        let template = templates.get(starts[lane]);
         points_of(packet.patch(lane), template, &mut out.points, compact_points);
     }
     for (lane, range) in lanes {
         let base = numbering.base(range.first_point);
-        indices_of(packet.patch(lane), compact.get(starts[lane]), base, &mut out.indices);
+        indices_of(packet.patch(lane), templates.get(starts[lane]), base, &mut out.indices);
     }
 }
 
@@ -219,7 +206,7 @@ fn emit_compact<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
 #[inline(always)]
 fn points_of<W: PointWriter>(
     patch: PacketPatch<'_>,
-    CompactTemplate { points, .. }: CompactTemplate<'_>,
+    Template { points, .. }: Template<'_, u8, CompactPoint>,
     out: &mut W,
     compact_points: &mut impl CompactPoints<W>,
 ) {
@@ -234,7 +221,7 @@ fn points_of<W: PointWriter>(
 #[inline(always)]
 fn indices_of<I: IndexFormat>(
     patch: PacketPatch<'_>,
-    CompactTemplate { indices, .. }: CompactTemplate<'_>,
+    Template { indices, .. }: Template<'_, u8, CompactPoint>,
     base: u32,
     out: &mut Writer<'_, I>,
 ) {
@@ -253,26 +240,21 @@ fn emit_patch<W: PointWriter, I: IndexFormat>(
     caches: &mut Caches,
     out: &mut Writers<'_, W, I>,
 ) {
-    let Caches { tables, templates, .. } = caches;
+    let Caches { tables, templates } = caches;
     let add = I::wrapping_from(base);
     let add = |index: u16| add.wrapping_add(I::wrapping_from(index.into()));
-    let Some(template) = templates.get(settings, patch, tables) else {
+    let Some(template) = templates.other(patch, (settings, tables)) else {
         points::emit(patch, tables, &mut out.points);
         if cache_order::reorders(settings, patch) {
-            cache_order::emit(
-                settings,
-                patch,
-                templates.specified(settings, patch),
-                &mut out.indices,
-                add,
-            );
+            let specified = templates.specified(settings, patch);
+            cache_order::emit(settings, patch, specified, &mut out.indices, add);
         } else {
             connect::emit(settings, patch, base, &mut out.indices);
         }
         return;
     };
-    if let Some(template) = template.points {
-        out.points.map::<_, 8>(patch.points() as usize, template, |point: DomainPoint| {
+    if patch.integer() {
+        out.points.map::<_, 8>(patch.points() as usize, template.points, |point: DomainPoint| {
             W::Point::from_bits(point.u.to_bits(), point.v.to_bits())
         });
     } else {

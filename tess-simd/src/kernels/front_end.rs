@@ -4,8 +4,8 @@ use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
 use crate::data::lanes::LANES;
 use crate::stages::counts::{PacketCounts, PartCounts};
-use crate::stages::packet::{OnePatch, Packet, packet_counts};
-use tess_core::{Config, Counts, Domain};
+use crate::stages::packet::{Packet, packet_counts};
+use tess_core::Config;
 
 /// Takes up to a chunk of patches through the front end. Lanes past the end count as culled; packets past the end
 /// stay as they are.
@@ -72,19 +72,6 @@ fn count_and_keep_few(config: Config, batch: &Batch<'_>, kept: &mut Packet) -> P
         total.largest = total.largest.max(counts.points);
     }
     total
-}
-
-/// Takes one patch, its raw factors in pairs, through the front end and returns its output sizes.
-#[inline(always)]
-pub(crate) fn process_one(
-    config: Config,
-    domain: Domain,
-    a: u64,
-    b: u64,
-    c: u64,
-    one: &mut OnePatch,
-) -> Counts {
-    one.process(config, domain, [a, b, c])
 }
 
 /// Sums lane by lane.

@@ -17,7 +17,7 @@ use crate::stages::factors::Processed;
 use crate::stages::packet::{Packet, PacketPatch, ROWS};
 use crate::stages::points::{Code, LocationTables, Lookup};
 use crate::stages::settings::Settings;
-use crate::stages::template::{CompactTemplates, Templates};
+use crate::stages::template::Templates;
 use alloc::vec::Vec;
 use tess_core::{Domain, DomainPoint, FactorContext, Parity, PatchFactors};
 
@@ -74,9 +74,9 @@ kernels!(
     Repeat,
 );
 
-/// What taps read: [`crate::Input`], and what stages before make of it.
+/// The data that taps read: [`crate::Input`], and the output of the stages before.
 #[derive(Debug)]
-pub(crate) struct Work {
+pub(crate) struct TapInput {
     pub(crate) settings: Settings,
     pub(crate) parity: Parity,
     pub(crate) numbers: Vec<u32>,
@@ -88,7 +88,7 @@ pub(crate) struct Work {
     pub(crate) base: u32,
 }
 
-impl Work {
+impl TapInput {
     /// The patches that are not culled.
     #[inline(always)]
     fn patches(&self) -> impl Iterator<Item = PacketPatch<'_>> {
@@ -97,9 +97,9 @@ impl Work {
     }
 }
 
-/// What taps make, and what they keep from patch to patch.
+/// The output of taps, and the tables that they keep from patch to patch.
 #[derive(Debug)]
-pub(crate) struct Made {
+pub(crate) struct TapOutput {
     pub(crate) words: Vec<u32>,
     pub(crate) processed: Vec<Processed>,
     pub(crate) ones: Vec<Processed<1, ROWS>>,
@@ -114,13 +114,12 @@ pub(crate) struct Made {
     pub(crate) ranges: Vec<PatchRange>,
     pub(crate) tables: LocationTables,
     pub(crate) templates: Templates,
-    pub(crate) compact: CompactTemplates,
     pub(crate) lookup: Lookup,
     /// Indices that are their own places.
     pub(crate) places: Vec<u16>,
 }
 
-impl Made {
+impl TapOutput {
     pub(crate) fn new() -> Self {
         Self {
             words: Vec::new(),
@@ -137,7 +136,6 @@ impl Made {
             ranges: Vec::new(),
             tables: LocationTables::EMPTY,
             templates: Templates::new(),
-            compact: CompactTemplates::new(),
             lookup: Lookup::new(),
             places: (0..25_000).collect(),
         }

@@ -5,7 +5,7 @@ use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointWriter;
 use crate::data::ranges::Ranges;
 use crate::data::writer::Writer;
-use crate::kernels::emit::{Offsets, Room};
+use crate::kernels::emit::Offsets;
 
 /// A patch that was written, and what is known of those after it.
 #[derive(Clone, Copy, Debug)]
@@ -23,20 +23,23 @@ pub(crate) struct Repeat {
 #[expect(clippy::cast_possible_truncation, reason = "a counted batch's sizes fit 32 bits")]
 pub(crate) fn repeat<W: PointWriter, I: IndexFormat>(
     repeat: Repeat,
-    room: Room<'_, W, I>,
+    (points, indices): (W, &mut [I]),
     ranges: &mut Ranges<'_>,
 ) -> Offsets {
     let Repeat { range, times, numbering } = repeat;
-    let (points, indices) = (range.points as usize, range.indices as usize);
+    let (point_count, index_count) = (range.points as usize, range.indices as usize);
     let step = match numbering {
         Numbering::PerPatch => 0,
         Numbering::PerBatch { .. } => range.points,
     };
-    room.points.repeat(points, times);
-    Writer::new(room.indices).repeat(indices, times, |index, patches| {
+    points.repeat(point_count, times);
+    Writer::new(indices).repeat(index_count, times, |index, patches| {
         index.wrapping_add(I::wrapping_from(step.wrapping_mul(patches)))
     });
     ranges.repeat(range, times - 1);
     let end = |first: u32, period: usize| first + (period * times) as u32;
-    Offsets { points: end(range.first_point, points), indices: end(range.first_index, indices) }
+    Offsets {
+        points: end(range.first_point, point_count),
+        indices: end(range.first_index, index_count),
+    }
 }

@@ -1,7 +1,7 @@
 //! The stages of the front end on their own.
 
 use crate::data::lanes::{LANES, Lanes};
-use crate::stages::factor_context::Context;
+use crate::stages::factor_context::PlainContext;
 use crate::stages::factors;
 use crate::stages::place::{Locations, Spacing};
 use alloc::vec::Vec;
@@ -44,7 +44,7 @@ pub(crate) fn contexts(
         // Legal even factors are 1 (treated as 2) and 2..=64.
         let lowest = if factor.to_bits() <= ONE { ONE } else { (2 - odd) << 16 };
         let fixed = factor.to_bits().clamp(lowest, highest);
-        *context = FactorContext::from(&Context::new(fixed, odd, split));
+        *context = FactorContext::from(&PlainContext::new(fixed, odd, split));
     }
 }
 
@@ -53,7 +53,7 @@ pub(crate) fn contexts(
 pub(crate) fn locations(contexts: &[FactorContext], locations: &mut Vec<u32>) {
     let mut table = Locations::EMPTY;
     for context in contexts {
-        table.fill(&Spacing::new(&Context::from(context)));
+        table.fill(&Spacing::new(&PlainContext::from(context)));
         locations.extend(table.from(0).iter().take(context.points as usize));
     }
 }

@@ -63,11 +63,11 @@ pub(crate) fn counts<const L: usize, const F: usize>(
 }
 
 /// Points, lines that join them in order, and triangles of a patch.
-type Sizes = [u32; 3];
+type Elements = [u32; 3];
 
 /// Indices for each of these.
 #[inline(always)]
-const fn indices_each(output: OutputPrimitive, domain: Domain) -> Sizes {
+const fn indices_each(output: OutputPrimitive, domain: Domain) -> Elements {
     match output.indices_per_primitive(domain) {
         1 => [1, 0, 0],
         2 => [0, 2, 0],
@@ -90,14 +90,14 @@ impl PacketCounts<1> {
 }
 
 #[inline(always)]
-fn isoline(points: impl Fn(usize) -> u32) -> Sizes {
+fn isoline(points: impl Fn(usize) -> u32) -> Elements {
     let (density, detail) = (points(0), points(1));
     let lines = density.wrapping_sub(1);
     [lines.wrapping_mul(detail), lines.wrapping_mul(detail.wrapping_sub(1)), 0]
 }
 
 #[inline(always)]
-fn triangle(n: impl Fn(usize) -> u32, minimum: u32) -> Sizes {
+fn triangle(n: impl Fn(usize) -> u32, minimum: u32) -> Elements {
     let half = n(3) / 2;
     let odd = u32::from(is_odd(n(3)));
     let rings = half.wrapping_sub(1).wrapping_mul(3);
@@ -106,7 +106,7 @@ fn triangle(n: impl Fn(usize) -> u32, minimum: u32) -> Sizes {
 }
 
 #[inline(always)]
-fn quad(n: impl Fn(usize) -> u32, minimum: u32) -> Sizes {
+fn quad(n: impl Fn(usize) -> u32, minimum: u32) -> Elements {
     let boundary = n(0).wrapping_add(n(1)).wrapping_add(n(2)).wrapping_add(n(3)).wrapping_sub(4);
     disc(boundary, n(4).wrapping_sub(2).wrapping_mul(n(5).wrapping_sub(2)), minimum)
 }
@@ -114,7 +114,7 @@ fn quad(n: impl Fn(usize) -> u32, minimum: u32) -> Sizes {
 /// The sizes of a patch with these points on its boundary and, unless it is a minimum patch,
 /// inside: Euler's formula for a disc.
 #[inline(always)]
-const fn disc(boundary: u32, interior: u32, minimum: u32) -> Sizes {
+const fn disc(boundary: u32, interior: u32, minimum: u32) -> Elements {
     let points = boundary.wrapping_add(interior.wrapping_mul(1 - minimum));
     [points, points.wrapping_sub(1), (2 * points).wrapping_sub(2).wrapping_sub(boundary)]
 }

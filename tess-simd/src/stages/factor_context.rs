@@ -1,12 +1,13 @@
 //! Factor contexts (spec section 4).
 
+use crate::data::lanes::{at, at_mut};
 use crate::stages::reciprocal::reciprocal;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{FactorContext, Parity, SplitOrder};
 
 /// The context of one factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Context {
+pub(crate) struct PlainContext {
     pub(crate) odd: u32,
     pub(crate) inv_floor: u32,
     pub(crate) inv_ceil: u32,
@@ -23,10 +24,8 @@ pub(crate) fn point_counts<const L: usize, const F: usize>(
     odd: &[[u32; L]; F],
 ) -> [[u32; L]; F] {
     let mut points = [[0; L]; F];
-    for factor in 0..F {
-        for lane in 0..L {
-            points[factor][lane] = point_count(fixed[factor][lane], odd[factor][lane]);
-        }
+    for i in 0..L * F {
+        *at_mut(&mut points, i) = point_count(at(fixed, i), at(odd, i));
     }
     points
 }
@@ -37,7 +36,7 @@ pub(crate) fn point_count(fixed: u32, odd: u32) -> u32 {
     2 * ((half(fixed, odd) + 0xFFFF) >> 16) + 1 - odd
 }
 
-impl Context {
+impl PlainContext {
     /// The context of a factor in range: 1..=63 if odd, 1 or 2..=64 if even. Free of branches.
     #[inline(always)]
     pub(crate) fn new(fixed: u32, odd: u32, order: SplitOrder) -> Self {
@@ -82,7 +81,7 @@ const fn drop_most_significant_bit(x: u32) -> u32 {
     x & below
 }
 
-impl From<&FactorContext> for Context {
+impl From<&FactorContext> for PlainContext {
     fn from(context: &FactorContext) -> Self {
         let FactorContext { parity, inv_floor, inv_ceil, fraction, half_points, split, points } =
             *context;
@@ -90,9 +89,10 @@ impl From<&FactorContext> for Context {
     }
 }
 
-impl From<&Context> for FactorContext {
-    fn from(context: &Context) -> Self {
-        let Context { odd, inv_floor, inv_ceil, fraction, half_points, split, points } = *context;
+impl From<&PlainContext> for FactorContext {
+    fn from(context: &PlainContext) -> Self {
+        let PlainContext { odd, inv_floor, inv_ceil, fraction, half_points, split, points } =
+            *context;
         let parity = if odd == 1 { Parity::Odd } else { Parity::Even };
         Self { parity, inv_floor, inv_ceil, fraction, half_points, split, points }
     }

@@ -3,7 +3,7 @@
 //! A packet has sixteen patches and a row for each factor of its domain. A patch that comes alone has rows of one
 //! element, eight of them, which fill a short vector.
 
-use crate::data::lanes::{LANES, MAX_FACTORS};
+use crate::data::lanes::{LANES, MAX_FACTORS, at, at_mut, each};
 use crate::stages::reciprocal::{MANTISSA, TWO_POW_23};
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, Partitioning};
@@ -31,17 +31,18 @@ pub(crate) fn process<const L: usize, const F: usize>(
 ) -> Processed<L, F> {
     let outer = domain.outer_factors();
     let clamped = clamped(partitioning, outer, raw);
-    let (mut fixed, mut odd) = if partitioning.has_integer_factors() {
-        integers(&clamped, outer)
-    } else {
-        let odd = u32::from(partitioning == Partitioning::FractionalOdd);
-        (clamped.map(|row| row.map(to_fixed)), [[odd; L]; F])
+    let (mut fixed, mut odd) = match partitioning {
+        Partitioning::Integer | Partitioning::Pow2 => integers(&clamped, outer),
+        Partitioning::FractionalOdd => (each(&clamped, to_fixed), [[1; L]; F]),
+        Partitioning::FractionalEven => (each(&clamped, to_fixed), [[0; L]; F]),
     };
     let mut minimum = all(&fixed[..domain.factors()], |factor| factor == ONE);
     if domain == Domain::Isoline {
         // The density is an integer under every partitioning.
-        let density = raw[0].map(|density| ceil(clamp(density, 1.0, 64.0)));
-        (fixed[0], odd[0]) = (density.map(|n| n << 16), density.map(|n| n & 1));
+        for lane in 0..L {
+            let density = ceil(clamp(raw[0][lane], 1.0, 64.0));
+            (fixed[0][lane], odd[0][lane]) = (density << 16, density & 1);
+        }
         minimum = [0; L];
     }
     Processed { fixed, odd, alive: all(&raw[..outer], |factor| is_greater(factor, 0.0)), minimum }
@@ -58,13 +59,17 @@ fn clamped<const L: usize, const F: usize>(
     let mut inside_low = [low; L];
     if partitioning == Partitioning::FractionalOdd {
         let plain = all(raw, |factor| !is_greater(factor, ONE_PLUS_2_POW_MINUS_17));
-        inside_low = plain.map(|plain| if plain == 1 { low } else { ONE_PLUS_2_POW_MINUS_16 });
+        for lane in 0..L {
+            inside_low[lane] = if plain[lane] == 1 { low } else { ONE_PLUS_2_POW_MINUS_16 };
+        }
     }
     let mut clamped = *raw;
-    for factor in 0..F {
+    for i in 0..L * outer {
+        *at_mut(&mut clamped, i) = clamp(at(raw, i), low, high);
+    }
+    for row in &mut clamped[outer..] {
         for lane in 0..L {
-            let low = if factor < outer { low } else { inside_low[lane] };
-            clamped[factor][lane] = clamp(raw[factor][lane], low, high);
+            row[lane] = clamp(row[lane], inside_low[lane], high);
         }
     }
     clamped
@@ -76,12 +81,14 @@ fn integers<const L: usize, const F: usize>(
     clamped: &[[f32; L]; F],
     outer: usize,
 ) -> ([[u32; L]; F], [[u32; L]; F]) {
-    let (mut fixed, mut odd) = ([[ONE; L]; F], [[0; L]; F]);
-    for factor in 0..F {
+    let (mut fixed, mut odd) = ([[0; L]; F], [[0; L]; F]);
+    for i in 0..L * F {
+        let integer = ceil(at(clamped, i));
+        (*at_mut(&mut fixed, i), *at_mut(&mut odd, i)) = (integer << 16, integer & 1);
+    }
+    for (odd, fixed) in odd[outer..].iter_mut().zip(&fixed[outer..]) {
         for lane in 0..L {
-            let integer = ceil(clamped[factor][lane]);
-            fixed[factor][lane] = integer << 16;
-            odd[factor][lane] = integer & 1 & u32::from(factor < outer || integer != 1);
+            odd[lane] &= u32::from(fixed[lane] != ONE);
         }
     }
     (fixed, odd)

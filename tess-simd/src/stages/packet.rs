@@ -64,11 +64,9 @@ mod one;
 pub(crate) use one::ROWS;
 pub(crate) use one::{OnePatch, pairs};
 
-use crate::data::lanes::{
-    Column, EdgePoints, Lanes, MAX_FACTORS, is_odd, set, set_rows,
-};
+use crate::data::lanes::{Column, EdgePoints, Lanes, MAX_FACTORS, is_odd, set, set_rows};
 use crate::stages::counts::{PacketCounts, counts};
-use crate::stages::factor_context::{Context, point_counts};
+use crate::stages::factor_context::{PlainContext, point_counts};
 use crate::stages::factors::{Processed, process};
 use crate::stages::place::{Spacing, Spacings};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
@@ -133,13 +131,13 @@ impl Packet {
         self.counts = self.keep(config, domain, 0, &process(config.partitioning, domain, raw));
     }
 
-    /// Makes the `L` lanes from `first` on from processed factors, but for their sizes, which it returns.
+    /// Makes all lanes, or the one with this number, from processed factors, but for their sizes, which it returns.
     #[inline(always)]
     fn keep<const L: usize, const F: usize>(
         &mut self,
         config: Config,
         domain: Domain,
-        first: usize,
+        lane: usize,
         processed: &Processed<L, F>,
     ) -> PacketCounts<L> {
         let Processed { fixed, odd, minimum, .. } = processed;
@@ -147,16 +145,16 @@ impl Packet {
         let points = if config.partitioning.has_integer_factors() {
             point_counts(fixed, odd)
         } else {
-            self.spacings.keep(first, processed, config.split)
+            self.spacings.keep(lane, processed, config.split)
         };
         let mut edges = [[0; L]; MAX_FACTORS];
         edges[..domain.factors()].copy_from_slice(&points[..domain.factors()]);
         (self.config, self.domain) = (config, domain);
-        set(&mut self.topologies, first, topologies(&edges, minimum));
-        set(&mut self.compact, first, compact(domain, &edges));
-        set(&mut self.minimum, first, *minimum);
-        set_rows(&mut self.fixed, first, fixed);
-        set_rows(&mut self.points, first, &edges);
+        set(&mut self.topologies, lane, topologies(&edges, minimum));
+        set(&mut self.compact, lane, compact(domain, &edges));
+        set(&mut self.minimum, lane, *minimum);
+        set_rows(&mut self.fixed, lane, fixed);
+        set_rows(&mut self.points, lane, &edges);
         counts(config, domain, processed, &points)
     }
 
@@ -267,7 +265,7 @@ impl PacketPatch<'_> {
         if self.integer() {
             let Packet { config, fixed, points, .. } = self.packet;
             let odd = u32::from(is_odd(points[factor][self.lane]));
-            Spacing::new(&Context::new(fixed[factor][self.lane], odd, config.split))
+            Spacing::new(&PlainContext::new(fixed[factor][self.lane], odd, config.split))
         } else {
             self.fractional_spacing(factor)
         }
@@ -283,10 +281,7 @@ impl PacketPatch<'_> {
 /// A number for each topology: the point counts of all factors, after a leading 1, and whether it
 /// is a minimum patch.
 #[inline(always)]
-fn topologies<const L: usize>(
-    points: &[[u32; L]; MAX_FACTORS],
-    minimum: &[u32; L],
-) -> [u64; L] {
+fn topologies<const L: usize>(points: &[[u32; L]; MAX_FACTORS], minimum: &[u32; L]) -> [u64; L] {
     let mut topologies = [1; L];
     for points in points {
         for lane in 0..L {

@@ -1,109 +1,170 @@
-//! Templates of patches.
+//! Templates of patches: their output, counted from the patch's first point, kept to be copied.
 //!
-//! A patch's indices, counted from its first point, depend on its point counts alone. With integer factors so do its
-//! points. So a topology's output is kept and copied for later patches: always up to 289 points, and for larger
-//! patches if the large patch before had the same topology. The stages that write large patches make the
-//! templates. Compact patches have templates in another form (`compact`).
+//! A patch's indices follow from its topology, and so do its points (integer factors) or, of compact patches, their
+//! codes (fractional ones). `kernels/emit` looks the topology up and copies; a topology that is new is made once, by
+//! the stages that large patches go through. One mechanism ([`Cache`]) keeps two kinds:
+//!
+//! - compact patches, always: thousands of topologies, with indices of one byte;
+//! - others up to 289 points, and larger ones like the large patch before: hundreds, with indices of two bytes.
+//!
+//! # Data
+//!
+//! ```text
+//! sets (32, 256, 2048)  topology * 2^64 / golden ratio, upper 5, 8, 11 bits
+//!  +--------------------------------+--------------------------------------+
+//!  | topologies: 4 x u64, 0 = empty | starts: 4 x (point: u32, index: u32) |
+//!  +--------------------------------+--------------|-------------|---------+
+//!                                                  v             |
+//! points (64 Ki of [u16; 2])  [ ... | patch's coordinates, or what CompactPoints keeps of codes | ... ]
+//!                                                                v
+//! indices (224 Ki of u8)      [ ... | indices from the patch's first point, in the order to write | ... ]
+//! ```
+//!
+//! These are the compact ones; others have at most 256 sets, 24 Ki points and 96 Ki indices. Memory is taken as
+//! templates are made: the first one makes 32 sets and a kilobyte or four of either room. A room that is full doubles.
+//! Where a topology finds its set full, there are eight times as many sets from then on, up to the most.
+//!
+//! Both rooms are filled from front to back. If a template might not fit, everything is forgotten: of compact patches
+//! before each packet ([`Templates::make_room`], for the largest sixteen), otherwise when one is made. Coordinates of
+//! integer factors are 16.16 numbers with `ONE` as 0xFFFF ([`short`], [`long`]).
+//!
+//! # One patch
+//!
+//! The quad (3, 4.5, 5, 6; 4, 7) of `docs/tour-cpu.md`, clockwise triangles:
+//!
+//! ```text
+//! topology 0x850_E1C3_8512    set 0 of 32 (1 of 256, 8 of 2048), slot 0
+//! 43 codes                    [0000, 8000] [0000, 8020] [0000, 8040] ...
+//! 186 indices                 0 1 22  22 1 23  23 1 24 ...
+//! ```
+//!
+//! # What must hold
+//!
+//! - `make_room` is called before a packet's first [`Templates::find`], and a [`Start`] is used before the
+//!   next `make_room`. Otherwise a template is cut off, or read after others have overwritten it.
+//! - [`room::PADDING`] elements behind the last template can be read: whole blocks are copied.
+//! - Sets and rooms are emptied together. With the sets kept, old topologies would find new templates.
+//! - A set is the upper bits of one number, so that the topologies of a set share no new set with others when sets
+//!   become more, and all of them find a slot.
+//! - Whatever changes templates without changing the topology (order of triangles, [`Kept`]) belongs to one
+//!   tessellator for good, or `Workspaces::forget` is called.
+//! - An index of a compact patch is below 256: it has at most 16 by 16 points.
+//!
+//! # The simpler form
+//!
+//! One kind for all: indices of two bytes for `mosaic`'s 4096 topologies do not fit the second cache. A triangle's
+//! inside is compact up to 13 points only, so that its codes have room for all rings. With AVX2, templates whose points
+//! are still copied in runs were slower than none: `character` took 1.4 times as long (`docs/experiments.md`).
 
-mod compact;
+mod cache;
 mod room;
 
-pub(crate) use compact::{CompactTemplate, CompactTemplates, Start, long};
+pub(crate) use cache::{Start, Template};
 
+use crate::data::format::OutputPoint;
+use crate::data::lanes::LANES;
 use crate::data::writer::Writer;
 use crate::stages::connect::{self, cache_order};
-use crate::stages::packet::PacketPatch;
-use crate::stages::points::{self, LocationTables};
+use crate::stages::packet::{COMPACT_EDGE, PacketPatch};
+use crate::stages::points::{self, LocationTables, corner};
 use crate::stages::settings::Settings;
 use alloc::vec::Vec;
-use room::Room;
-use tess_core::{Config, Domain, DomainPoint, Patch, PatchFactors};
+use cache::Cache;
+use tess_core::{Domain, DomainPoint, MAX_INDICES, MAX_POINTS, Patch, PatchFactors};
+
+/// The most points and indices of a compact patch: a quad's whose edges have [`COMPACT_EDGE`] points.
+const POINTS: usize = COMPACT_EDGE * COMPACT_EDGE;
+const INDICES: usize = 6 * (COMPACT_EDGE - 1) * (COMPACT_EDGE - 1);
 
 /// The most points of a patch whose template is kept from the first one on: a quad of factor 16 has this many.
 const ALWAYS_KEPT: usize = 17 * 17;
 
-/// Templates kept at a time. Two topologies that share a slot replace each other.
-const SLOTS: usize = 1024;
-/// Indices of all templates.
-const INDEX_ROOM: usize = 96 << 10;
-/// Points of all templates.
-const POINT_ROOM: usize = 24 << 10;
-/// The templates of one configuration. They take memory as they are made, at most 400 KiB.
+/// The templates of one configuration. They take memory as they are made, at most 1 MiB with what makes them.
 #[derive(Clone, Debug)]
 pub(crate) struct Templates {
-    /// [`SLOTS`], but none before the first template.
-    slots: Vec<Slot>,
+    compact: Cache<u8, CompactPoint, 2048, { 224 << 10 }, { 64 << 10 }>,
+    others: Cache<u16, DomainPoint, 256, { 96 << 10 }, { 24 << 10 }>,
     /// Topology of the last large patch that had no template.
     last_large: u64,
-    indices: Room<u16, INDEX_ROOM>,
-    points: Room<DomainPoint, POINT_ROOM>,
+    made: MadePatch,
 }
 
-/// Where a template begins.
-#[derive(Clone, Copy, Debug)]
-struct Slot {
-    /// See [`PacketPatch::topology`]; 0 if there is none.
-    topology: u64,
-    point: u32,
-    index: u32,
+/// The output of the patch that is made, as the stages write it.
+#[derive(Clone, Debug)]
+struct MadePatch {
+    points: Vec<DomainPoint>,
+    /// In the specification's order.
+    indices: Vec<u16>,
 }
 
-impl Slot {
-    const EMPTY: Self = Self { topology: 0, point: 0, index: 0 };
-}
+/// A point of a compact template: its coordinates if factors are integers ([`short`]), otherwise its code.
+pub(crate) type CompactPoint = [u16; 2];
 
-/// One patch's template.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Template<'a> {
-    /// Indices counted from the patch's first point, and then unspecified ones.
-    pub(crate) indices: &'a [u16],
-    /// Points, and then unspecified ones; only if the topology decides them.
-    pub(crate) points: Option<&'a [DomainPoint]>,
-}
+/// The part of a code that is kept: see [`points::CompactPoints::kept`].
+pub(crate) type Kept = fn(Domain, u16) -> u16;
+
+/// The tables that a template is made with.
+type Making<'a> = (&'a Settings, &'a mut LocationTables);
 
 impl Templates {
     /// No templates, and no memory for any.
     pub(crate) const fn new() -> Self {
-        Self { slots: Vec::new(), last_large: 0, indices: Room::new(), points: Room::new() }
+        let made = MadePatch { points: Vec::new(), indices: Vec::new() };
+        Self { compact: Cache::new(), others: Cache::new(), last_large: 0, made }
     }
 
     /// Bytes of memory that they take on the heap.
     pub(crate) const fn bytes(&self) -> usize {
-        self.slots.capacity() * size_of::<Slot>() + self.indices.bytes() + self.points.bytes()
+        self.compact.bytes() + self.others.bytes() + self.made.bytes()
     }
 
     /// Takes all the memory that they may ever need.
     pub(crate) fn reserve(&mut self) {
-        self.slots.resize(SLOTS, Slot::EMPTY);
-        self.indices.reserve();
-        self.points.reserve();
+        self.compact.reserve();
+        self.others.reserve();
+        self.made.make_room(MAX_POINTS, MAX_INDICES);
     }
 
-    /// The template of a patch that is not culled, if there is one or should be.
+    /// Makes room for the templates of a packet of compact patches; if there is none, all others are forgotten.
     #[inline(always)]
-    pub(crate) fn get(
+    pub(crate) fn make_room(&mut self) {
+        self.compact.make_room(LANES * POINTS, LANES * INDICES);
+    }
+
+    /// Where the template of a compact patch that is not culled begins. It is made if there is none.
+    #[inline(always)]
+    pub(crate) fn find(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
+        match self.compact.find(patch.topology()) {
+            Some(start) => start,
+            None => self.make_compact(patch, with, kept),
+        }
+    }
+
+    /// The template of a compact patch that begins here, found since there was room made last.
+    #[inline(always)]
+    pub(crate) fn get(&self, start: Start) -> Template<'_, u8, CompactPoint> {
+        self.compact.get(start)
+    }
+
+    /// The template of any other patch that is not culled, if there is one or should be. It has points if factors are
+    /// integers.
+    #[inline(always)]
+    pub(crate) fn other(
         &mut self,
-        settings: &Settings,
         patch: PacketPatch<'_>,
-        tables: &mut LocationTables,
-    ) -> Option<Template<'_>> {
-        let topology = patch.topology();
-        let found = self.slots.get(slot(topology)).copied();
-        let Slot { point, index, .. } = match found.filter(|slot| slot.topology == topology) {
-            Some(slot) => slot,
-            None if self.wanted(patch) => self.make(settings, patch, tables),
+        with: Making<'_>,
+    ) -> Option<Template<'_, u16, DomainPoint>> {
+        let start = match self.others.find(patch.topology()) {
+            Some(start) => start,
+            None if self.is_wanted(patch) => self.make_other(patch, with),
             None => return None,
         };
-        let decided = patch.integer() || patch.is_minimum();
-        Some(Template {
-            indices: self.indices.from(index),
-            points: decided.then(|| self.points.from(point)),
-        })
+        Some(self.others.get(start))
     }
 
     /// Whether a patch is not large or like the large patch before.
     #[inline(always)]
-    fn wanted(&mut self, patch: PacketPatch<'_>) -> bool {
+    fn is_wanted(&mut self, patch: PacketPatch<'_>) -> bool {
         let topology = patch.topology();
         patch.points() as usize <= ALWAYS_KEPT
             || core::mem::replace(&mut self.last_large, topology) == topology
@@ -113,75 +174,155 @@ impl Templates {
     /// order, and then unspecified ones.
     #[inline(never)]
     pub(crate) fn specified(&mut self, settings: &Settings, patch: PacketPatch<'_>) -> &[u16] {
-        self.make_room(0, patch.indices() as usize);
-        let room = self.indices.free(patch.indices() as usize);
-        connect::emit(settings, patch, 0, &mut Writer::new(room));
-        room
+        self.made.make_indices(settings, patch);
+        &self.made.indices
     }
 
-    /// Makes room for a template; if there is none, all others are forgotten.
-    fn make_room(&mut self, points: usize, indices: usize) {
-        if !(self.indices.fits(indices) && self.points.fits(points)) {
-            self.slots.iter_mut().for_each(|slot| slot.topology = 0);
-            self.indices.clear();
-            self.points.clear();
-        }
-    }
-
-    /// Makes a template.
     #[cold]
     #[inline(never)]
-    fn make(
-        &mut self,
+    fn make_compact(&mut self, patch: PacketPatch<'_>, with: Making<'_>, kept: Kept) -> Start {
+        let (settings, domain) = (with.0, patch.domain());
+        self.made.make(patch, with);
+        let to = &mut self.compact.points.free(patch.points() as usize)[..patch.points() as usize];
+        if patch.integer() {
+            for (to, &point) in to.iter_mut().zip(&self.made.points) {
+                *to = short(point);
+            }
+        } else {
+            if patch.is_minimum() {
+                for (to, &point) in to.iter_mut().zip(&self.made.points) {
+                    *to = corner(domain, point);
+                }
+            } else {
+                points::codes(domain, &patch.edges(), to);
+            }
+            to.as_flattened_mut().iter_mut().for_each(|code| *code = kept(domain, *code));
+        }
+        self.made.keep(&mut self.compact, settings, patch, patch.points())
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn make_other(&mut self, patch: PacketPatch<'_>, with: Making<'_>) -> Start {
+        let settings = with.0;
+        let points = if patch.integer() { patch.points() } else { 0 };
+        self.others.make_room(points as usize, patch.indices() as usize);
+        self.made.make(patch, with);
+        let to = &mut self.others.points.free(points as usize)[..points as usize];
+        to.copy_from_slice(&self.made.points[..points as usize]);
+        self.made.keep(&mut self.others, settings, patch, points)
+    }
+}
+
+impl MadePatch {
+    const fn bytes(&self) -> usize {
+        self.points.capacity() * size_of::<DomainPoint>() + self.indices.capacity() * 2
+    }
+
+    /// Takes the memory of a patch and of whole blocks behind it.
+    fn make_room(&mut self, points: usize, indices: usize) {
+        let (points, indices) = (points + room::PADDING, indices + room::PADDING);
+        if self.points.len() < points {
+            self.points.reserve_exact(points - self.points.len());
+            self.points.resize(points, DomainPoint::default());
+        }
+        if self.indices.len() < indices {
+            self.indices.reserve_exact(indices - self.indices.len());
+            self.indices.resize(indices, 0);
+        }
+    }
+
+    /// Makes the indices of a patch and, of a minimum patch or where factors are integers, its points.
+    fn make(&mut self, patch: PacketPatch<'_>, (settings, tables): Making<'_>) {
+        self.make_room(patch.points() as usize, patch.indices() as usize);
+        if patch.is_minimum() {
+            return self.make_minimum(settings, patch.domain());
+        }
+        if patch.integer() {
+            points::emit(patch, tables, &mut Writer::new(&mut self.points));
+        }
+        self.make_indices(settings, patch);
+    }
+
+    fn make_indices(&mut self, settings: &Settings, patch: PacketPatch<'_>) {
+        self.make_room(0, patch.indices() as usize);
+        connect::emit(settings, patch, 0, &mut Writer::new(&mut self.indices));
+    }
+
+    /// Makes the minimum patch of a domain, as the core does.
+    #[expect(clippy::cast_possible_truncation, reason = "indices of at most 4 points")]
+    fn make_minimum(&mut self, settings: &Settings, domain: Domain) {
+        let mut wide = [0; 8];
+        let patch = Patch::new(settings.config, PatchFactors::uniform(domain, 1.0));
+        let written = patch.write(&mut self.points, &mut wide);
+        debug_assert!(written.is_ok(), "a minimum patch has at most 4 points and 6 indices");
+        for (narrow, wide) in self.indices.iter_mut().zip(wide) {
+            *narrow = wide as u16;
+        }
+    }
+
+    /// Keeps the indices in their order, and so many points, which are in their room, as a template.
+    fn keep<I, P, const S: usize, const N: usize, const M: usize>(
+        &self,
+        cache: &mut Cache<I, P, S, N, M>,
         settings: &Settings,
         patch: PacketPatch<'_>,
-        tables: &mut LocationTables,
-    ) -> Slot {
-        let (points, indices) = (patch.points() as usize, patch.indices() as usize);
-        self.make_room(points, 2 * indices);
-        let index_room = self.indices.free(2 * indices);
-        let point_room = self.points.free(points);
-        if patch.is_minimum() {
-            write_minimum(settings.config, patch.domain(), point_room, index_room);
-        } else {
-            write_indices(settings, patch, index_room);
-            if patch.integer() {
-                points::emit(patch, tables, &mut Writer::new(point_room));
+        points: u32,
+    ) -> Start
+    where
+        I: TryFrom<u16> + Copy + Default,
+        P: Copy + Default,
+    {
+        let mut to = cache.indices.free(patch.indices() as usize).iter_mut();
+        cache_order::runs(settings, patch, |run| {
+            for (&index, to) in self.indices[run].iter().zip(to.by_ref()) {
+                *to = I::try_from(index).unwrap_or_default();
             }
-        }
-        let topology = patch.topology();
-        let made =
-            Slot { topology, point: self.points.take(points), index: self.indices.take(indices) };
-        self.slots.resize(SLOTS, Slot::EMPTY);
-        self.slots[slot(topology)] = made;
-        made
+        });
+        cache.add(patch.topology(), points as usize, patch.indices() as usize)
     }
 }
 
-/// Writes a patch's indices in their order; the room behind them is overwritten.
-fn write_indices(settings: &Settings, patch: PacketPatch<'_>, room: &mut [u16]) {
-    if !cache_order::reorders(settings, patch) {
-        return connect::emit(settings, patch, 0, &mut Writer::new(room));
-    }
-    let (ordered, specified) = room.split_at_mut(patch.indices() as usize);
-    connect::emit(settings, patch, 0, &mut Writer::new(specified));
-    cache_order::emit(settings, patch, specified, &mut Writer::new(ordered), |index| index);
+/// A point of a compact patch of integer factors in half the room. `ONE` becomes the largest number, which no coordinate
+/// is. Larger patches keep whole points: lengthening them takes up to twice as long as a copy.
+#[expect(clippy::cast_possible_truncation, reason = "16.16 numbers up to ONE")]
+fn short(point: DomainPoint) -> CompactPoint {
+    [point.u, point.v].map(|coordinate| coordinate.to_bits().min(u32::from(u16::MAX)) as u16)
 }
 
-/// Where a topology's template is kept: the upper bits of a product with 2^64 over the golden ratio.
+/// The point that [`short`] shortened.
 #[inline(always)]
-#[expect(clippy::cast_possible_truncation, reason = "the upper ten bits")]
-const fn slot(topology: u64) -> usize {
-    (topology.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (64 - SLOTS.ilog2())) as usize % SLOTS
+pub(crate) fn long<P: OutputPoint>(point: CompactPoint) -> P {
+    let [u, v] = point.map(|coordinate| {
+        let bits = u32::from(coordinate);
+        bits + ((bits + 1) >> 16)
+    });
+    P::from_bits(u, v)
 }
 
-/// Writes the minimum patch of a domain, as the core makes it.
-#[expect(clippy::cast_possible_truncation, reason = "indices of at most 4 points")]
-fn write_minimum(config: Config, domain: Domain, points: &mut [DomainPoint], indices: &mut [u16]) {
-    let mut wide = [0; 8];
-    let written = Patch::new(config, PatchFactors::uniform(domain, 1.0)).write(points, &mut wide);
-    debug_assert!(written.is_ok(), "a minimum patch has at most 4 points and 6 indices");
-    for (narrow, wide) in indices.iter_mut().zip(wide) {
-        *narrow = wide as u16;
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+    use crate::tour;
+
+    /// The numbers at the head of this file.
+    #[test]
+    fn the_worked_patch() {
+        let packet = tour::packet();
+        let (settings, mut tables) = (Settings::new(tour::CONFIG), LocationTables::EMPTY);
+        let mut templates = Templates::new();
+        let start = templates.find(packet.patch(0), (&settings, &mut tables), |_, code| code);
+        let template = templates.get(start);
+        assert_eq!(template.points[..43], tour::all_codes()[..], "codes");
+        assert_eq!(template.indices[..9], [0, 1, 22, 22, 1, 23, 23, 1, 24], "indices");
+    }
+
+    /// Coordinates of integer factors keep their bits in half the room. 0xFFFF is none of them.
+    #[test]
+    fn shortened_points() {
+        for bits in [0, 0x0444, 0x8000, 0xFBBC, 0x1_0000] {
+            let point = DomainPoint::from_bits(bits, 0x1_0000 - bits);
+            assert_eq!(long::<DomainPoint>(short(point)), point, "{bits:#x}");
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! The calling thread alone.
 
+use crate::cpu::level::Level;
 use crate::data::format::IndexFormat;
-use crate::data::level::Level;
 use crate::data::point_writer::PointRoom;
 use crate::threads::part::{self, Job, Workspace};
 use crate::threads::slices::{CountShare, Share};

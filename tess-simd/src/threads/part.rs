@@ -1,13 +1,13 @@
 //! Consecutive patches of a batch, written by one thread.
 
+use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
 use crate::data::format::IndexFormat;
-use crate::data::level::Level;
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointRoom;
 use crate::data::ranges::Ranges;
-use crate::kernels::emit::{Caches, Offsets, Packets, Room};
+use crate::kernels::emit::{Caches, Offsets, Packets};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
 use crate::stages::packet::{OnePatch, Packet, pairs};
@@ -17,7 +17,7 @@ use alloc::boxed::Box;
 use core::slice::from_ref;
 use tess_core::{Config, Counts, PatchFactors};
 
-/// What is the same for all parts of a batch.
+/// The settings of all parts of a batch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Job<'a> {
     pub(crate) level: Level,
@@ -37,16 +37,16 @@ pub(crate) struct Part<'a, P, I> {
     pub(crate) first: Offsets,
 }
 
-/// What a thread keeps from batch to batch, made when it is first used. Two threads' workspaces share no
+/// The memory that a thread keeps from batch to batch, made when it is first used. Two threads' workspaces share no
 /// cache lines.
 #[derive(Clone, Debug)]
 #[repr(align(128))]
-pub(crate) struct Workspace(Option<Box<Memory>>);
+pub(crate) struct Workspace(Option<Box<WorkspaceMemory>>);
 
 /// A workspace that is in use.
 #[derive(Clone, Debug)]
 #[repr(align(128))]
-struct Memory {
+struct WorkspaceMemory {
     /// The patch that comes alone.
     one: OnePatch,
     lookup: Lookup,
@@ -55,7 +55,7 @@ struct Memory {
     chunk: Option<Box<ChunkMemory>>,
 }
 
-/// What a chunk of a batch takes.
+/// The memory of a chunk of a batch.
 #[derive(Clone, Debug)]
 struct ChunkMemory {
     packets: [Packet; Chunk::PACKETS],
@@ -72,20 +72,20 @@ impl Workspace {
     pub(crate) fn bytes(&self) -> usize {
         self.0.as_ref().map_or(0, |memory| {
             let chunk = memory.chunk.as_deref().map_or(0, size_of_val);
-            size_of::<Memory>() + memory.caches.bytes() + chunk
+            size_of::<WorkspaceMemory>() + memory.caches.bytes() + chunk
         })
     }
 
     /// Takes all the memory that it may ever need.
     pub(crate) fn reserve(&mut self) {
-        let Memory { caches, chunk, .. } = self.memory();
+        let WorkspaceMemory { caches, chunk, .. } = self.memory();
         caches.reserve();
         chunk.get_or_insert_with(ChunkMemory::new);
     }
 
     #[inline]
-    fn memory(&mut self) -> &mut Memory {
-        self.0.get_or_insert_with(Memory::new)
+    fn memory(&mut self) -> &mut WorkspaceMemory {
+        self.0.get_or_insert_with(WorkspaceMemory::new)
     }
 
     /// Takes one patch through the front end and returns its output sizes.
@@ -96,7 +96,7 @@ impl Workspace {
         factors: PatchFactors,
     ) -> Counts {
         let [a, b, c] = pairs(factors);
-        levels::process_one(level, config, factors.domain(), a, b, c, &mut self.memory().one)
+        levels::process_one(level, &mut self.memory().one, config, factors.domain(), a, b, c)
     }
 
     /// Writes the patch that was processed last. What lies behind it in the buffers may be overwritten.
@@ -107,7 +107,7 @@ impl Workspace {
         mut points: impl PointRoom,
         indices: &mut [I],
     ) {
-        let Memory { one, lookup, caches, .. } = self.memory();
+        let WorkspaceMemory { one, lookup, caches, .. } = self.memory();
         let (packet, points) = (one.packet(), points.writer());
         let patch = packet.patch(0);
         if patch.points() == 0 {
@@ -119,11 +119,11 @@ impl Workspace {
         let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
         let ranges = &mut [PatchRange::default()];
         let packets = Packets { packets: from_ref(packet), first, numbering, ranges };
-        levels::emit(level, settings, packets, Room { points, indices }, caches, lookup);
+        levels::emit(level, settings, packets, (points, indices), caches, lookup);
     }
 }
 
-impl Memory {
+impl WorkspaceMemory {
     #[cold]
     fn new() -> Box<Self> {
         Box::new(Self {
@@ -149,7 +149,7 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
     workspace: &mut Workspace,
 ) {
     let Part { ref batch, mut points, mut indices, mut ranges, mut first } = part;
-    let Memory { lookup, caches, chunk, .. } = workspace.memory();
+    let WorkspaceMemory { lookup, caches, chunk, .. } = workspace.memory();
     let own = &mut **chunk.get_or_insert_with(ChunkMemory::new);
     let Job { level, settings, numbering, kept } = job;
     let (mut start, all) = (0, batch.len());
@@ -164,11 +164,11 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
         };
         let ranges_here = ranges.next_or(&mut own.ranges[..patches]);
         let packets = Packets { packets, first, numbering, ranges: &mut *ranges_here };
-        let room = Room { points: points.writer(), indices: &mut *indices };
+        let room = (points.writer(), &mut *indices);
         let mut end = levels::emit(level, settings, packets, room, caches, lookup);
         if times > 1 {
             let range = ranges_here[0];
-            let room = Room { points: points.writer(), indices: &mut *indices };
+            let room = (points.writer(), &mut *indices);
             let repeat = Repeat { range, times, numbering };
             end = levels::repeat(level, repeat, room, &mut ranges);
         }

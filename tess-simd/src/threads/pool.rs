@@ -5,8 +5,8 @@
 //! batch together are still awake when the next one comes. Small batches use fewer threads, because waking takes
 //! longer than they do.
 
+use crate::cpu::level::Level;
 use crate::data::format::IndexFormat;
-use crate::data::level::Level;
 use crate::data::point_writer::PointRoom;
 use crate::stages::counts::PartCounts;
 use crate::threads::part::{self, Job, Workspace};
@@ -85,11 +85,7 @@ impl Workspaces {
     }
 
     /// Writes a share, slice by slice.
-    pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
-        &self,
-        job: Job<'_>,
-        share: Share<'_, P, I>,
-    ) {
+    pub(crate) fn emit<P: PointRoom, I: IndexFormat>(&self, job: Job<'_>, share: Share<'_, P, I>) {
         if share.counts.len() <= 1 {
             return self.lend(|workspace| part::emit(job, share.part, workspace));
         }

@@ -3,9 +3,9 @@
 //! The cut depends on the batch's length and the number of threads alone, and every slice has its
 //! own part of the buffers, so the output does not depend on which thread writes it.
 
+use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 use crate::data::lanes::LANES;
-use crate::data::level::Level;
 #[cfg(feature = "rayon")]
 use crate::data::point_writer::PointRoom;
 #[cfg(feature = "rayon")]

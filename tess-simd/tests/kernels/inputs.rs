@@ -83,15 +83,15 @@ pub(crate) struct Patches {
     pub(crate) outputs: &'static [OutputPrimitive],
 }
 
-/// What all patches of an input have.
+/// The property that all patches of an input have.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Class {
     Any,
     /// Neither culled nor minimum patches.
     Regular,
-    /// At most 289 points, not culled.
+    /// At most 289 points, neither culled nor minimum patches.
     Small,
-    /// So few points that `stages/template/compact` takes them; not culled.
+    /// So few points that `stages/template, compact` takes them; not culled.
     Compact,
     CompactRegular,
     /// Compact ones of a fractional partitioning.
@@ -182,7 +182,7 @@ impl Class {
         match self {
             Self::Any => true,
             Self::Regular => regular,
-            Self::Small => points != 0 && points <= 289,
+            Self::Small => regular && points <= 289,
             Self::Compact | Self::CompactFractional => points != 0 && is_compact(patch, domain),
             Self::CompactRegular => regular && is_compact(patch, domain),
         }

@@ -48,7 +48,7 @@ use tess_core::{Config, Domain, Order, OutputPrimitive, Parity, Partitioning, Pa
 use tess_simd::{Format, Input, Kernel, Level, Tap};
 use words::{Difference, Words};
 
-/// What all inputs follow from.
+/// The seed of all inputs.
 pub(crate) const SEED: u64 = 0x7E55_1A7E;
 
 /// A kernel and what it is compared with.
@@ -66,7 +66,7 @@ pub(crate) struct Entry {
 /// Notes the words that the model gives.
 type Expected = fn(&Case, &mut Words);
 
-/// What an entry's inputs are.
+/// The inputs of an entry.
 #[derive(Clone, Copy)]
 enum Takes {
     /// Numbers that this function draws.
@@ -122,7 +122,7 @@ pub(crate) const TABLE: &[Entry] = &[
     patches("stages/connect/cache_order", K::CacheOrder, DISCS, Regular, the::cache_order)
         .triangles(),
     patches("stages/points/coordinate_code", K::Codes, DISCS, CompactRegular, the::points).points(),
-    patches("stages/template/compact", K::CompactTemplate, DISCS, Compact, the::compact_templates),
+    patches("stages/template, compact", K::CompactTemplate, DISCS, Compact, the::templates),
     patches("stages/points/lookup", K::CompactPoints, DISCS, CompactFractional, the::points)
         .points()
         .at_avx512("stages/points/permute"),
@@ -240,7 +240,7 @@ impl Entry {
         Case { input, patches: of_model }
     }
 
-    /// What the model gives for a case, whose sizes are those of its output from here on.
+    /// The model's words for a case, whose sizes are those of its output from here on.
     pub(crate) fn expected(&self, case: &mut Case) -> Words {
         let mut words = Words::default();
         (self.expected)(case, &mut words);

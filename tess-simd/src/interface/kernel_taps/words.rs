@@ -1,4 +1,4 @@
-//! What taps made, as words that can be compared.
+//! The output of taps, as words that can be compared.
 
 use super::Tap;
 use crate::data::lanes::LANES;
@@ -11,7 +11,7 @@ use alloc::vec::Vec;
 use tess_core::Counts;
 
 impl Tap {
-    /// What the last run made, as words: of each type in turn.
+    /// The output of the last run, as words: of each type in turn.
     #[must_use]
     pub fn words(&self) -> Vec<u32> {
         let Self { made, .. } = self;
@@ -31,7 +31,7 @@ impl Tap {
         }
         words
     }
-    /// What the front end made, patch by patch, and totals.
+    /// The output of the front end, patch by patch, and totals.
     fn add_front_end(&self, words: &mut Vec<u32>) {
         let Self { work, made, .. } = self;
         let (patches, factors) = (work.patches.len(), work.domain.factors());
@@ -81,7 +81,7 @@ fn record<const L: usize, const F: usize>(
     words
 }
 
-/// What a packet says of a patch; of a culled one, zeros.
+/// A patch as its packet has it; zeros if it is culled.
 fn patch_words(patch: PacketPatch<'_>) -> Vec<u32> {
     let shown = patch.points() != 0;
     let flags = [patch.is_minimum(), patch.is_compact()].map(u32::from);

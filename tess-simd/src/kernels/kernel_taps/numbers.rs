@@ -1,24 +1,24 @@
 //! Stages of numbers, and of packets' raw factors.
 
 use super::Kernel;
-use super::{Made, Work};
+use super::{TapInput, TapOutput};
 use crate::data::format::OutputPoint;
 use crate::data::lanes::LANES;
 use crate::kernels::taps::locations;
-use crate::stages::factor_context::{Context, point_count};
+use crate::stages::factor_context::{PlainContext, point_count};
 use crate::stages::factors;
 use crate::stages::packet::{Packet, ROWS, packet_counts};
 use crate::stages::place::{Spacing, place_in_half};
 use crate::stages::reciprocal::reciprocal;
 use crate::stages::stitch::Codes;
 use alloc::vec::Vec;
+use tess_core::Partitioning;
 use tess_core::fixed_point::ONE;
 use tess_core::stitch::Diagonals;
-use tess_core::Partitioning;
 
 /// Runs a stage whose input are numbers.
 #[inline(always)]
-pub(crate) fn of_numbers(kernel: Kernel, work: &Work, made: &mut Made) {
+pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) {
     let (numbers, words) = (&work.numbers[..], &mut made.words);
     words.clear();
     let (odd, split) = (work.parity.odd(), work.settings.config.split);
@@ -33,14 +33,15 @@ pub(crate) fn of_numbers(kernel: Kernel, work: &Work, made: &mut Made) {
         Kernel::ToFixed => columns(numbers, words, |x| [factors::to_fixed(f32::from_bits(x))]),
         Kernel::PointCount => columns(numbers, words, |fixed| [point_count(fixed, odd)]),
         Kernel::Context => columns(numbers, words, |fixed| {
-            let made = Context::new(fixed, odd, split);
-            let Context { inv_floor, inv_ceil, fraction, half_points, split, points, .. } = made;
+            let made = PlainContext::new(fixed, odd, split);
+            let PlainContext { inv_floor, inv_ceil, fraction, half_points, split, points, .. } =
+                made;
             [inv_floor, inv_ceil, fraction, half_points, split, points]
         }),
         Kernel::Place => locations(&work.contexts, words),
         Kernel::PlaceInHalf => {
             for context in &work.contexts {
-                let spacing = Spacing::new(&Context::from(context));
+                let spacing = Spacing::new(&PlainContext::from(context));
                 let half = 0..context.points.div_ceil(2);
                 words.extend(half.map(|position| place_in_half(&spacing, position)));
             }
@@ -60,7 +61,7 @@ pub(crate) fn of_numbers(kernel: Kernel, work: &Work, made: &mut Made) {
 
 /// Runs a stage whose input are raw factors. Loops, as a closure in `extend` would miss the level's instructions.
 #[inline(always)]
-fn of_raw(kernel: Kernel, work: &Work, made: &mut Made) {
+fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) {
     let config = work.settings.config;
     match kernel {
         Kernel::Factors => {
@@ -129,7 +130,7 @@ fn columns<const N: usize>(numbers: &[u32], words: &mut Vec<u32>, f: impl Fn(u32
 
 /// The stitch of a number: see [`crate::Input::numbers`].
 #[inline(always)]
-pub(super) fn stitch(work: &Work, number: u32) -> Codes<'_> {
+pub(super) fn stitch(work: &TapInput, number: u32) -> Codes<'_> {
     let [kind, outer, inner, _] = number.to_be_bytes().map(u32::from);
     let stitches = &work.settings.stitches;
     match kind {

@@ -2,7 +2,7 @@
 
 use super::Kernel;
 use super::numbers::stitch;
-use super::{Made, Work};
+use super::{TapInput, TapOutput};
 use crate::data::format::IndexFormat;
 use crate::data::writer::Writer;
 use crate::stages::connect::{self, cache_order};
@@ -15,12 +15,12 @@ use crate::stages::points::{
     permute::{self, Permutes},
 };
 use crate::stages::stitch::{Replaced, Rows};
-use crate::stages::template::{CompactTemplates, long};
+use crate::stages::template::{Templates, long};
 use tess_core::DomainPoint;
 
 /// Runs a stage of patches.
 #[inline(always)]
-pub(crate) fn of_patches(kernel: Kernel, work: &Work, made: &mut Made) {
+pub(crate) fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) {
     match kernel {
         Kernel::Tables => {
             made.words.clear();
@@ -64,30 +64,33 @@ pub(crate) fn of_patches(kernel: Kernel, work: &Work, made: &mut Made) {
 
 /// Copies what templates have.
 #[inline(always)]
-fn of_templates(kernel: Kernel, work: &Work, made: &mut Made) {
+fn of_templates(kernel: Kernel, work: &TapInput, made: &mut TapOutput) {
     made.points.clear();
     made.indices.clear();
-    let Made { tables, templates, compact, points, indices, .. } = made;
+    let TapOutput { tables, templates, points, indices, .. } = made;
     for patch in work.patches() {
         let (point_count, index_count) = (patch.points() as usize, patch.indices() as usize);
+        let with = (&work.settings, &mut *tables);
         if kernel == Kernel::CompactTemplate {
-            compact.make_room();
-            let start = compact.find(&work.settings, patch, tables, |_, code| code);
-            let template = compact.get(start);
+            templates.make_room();
+            let template = templates.find(patch, with, |_, code| code);
+            let template = templates.get(template);
             indices.extend(template.indices[..index_count].iter().map(|&index| u32::from(index)));
             if patch.integer() {
                 let all = template.points[..point_count].iter();
                 points.extend(all.map(|&point| long::<DomainPoint>(point)));
             }
-        } else if let Some(template) = templates.get(&work.settings, patch, tables) {
+        } else if let Some(template) = templates.other(patch, with) {
             indices.extend(template.indices[..index_count].iter().map(|&index| u32::from(index)));
-            points.extend_from_slice(template.points.map_or(&[], |all| &all[..point_count]));
+            points.extend_from_slice(
+                &template.points[..if patch.integer() { point_count } else { 0 }],
+            );
         }
     }
 }
 
 #[inline(always)]
-fn connect_as<I: IndexFormat>(work: &Work, indices: &mut [I]) {
+fn connect_as<I: IndexFormat>(work: &TapInput, indices: &mut [I]) {
     let mut out = Writer::new(indices);
     for patch in work.patches() {
         connect::emit(&work.settings, patch, work.base, &mut out);
@@ -96,7 +99,7 @@ fn connect_as<I: IndexFormat>(work: &Work, indices: &mut [I]) {
 
 /// Stitches between rows: see [`crate::Input::numbers`].
 #[inline(always)]
-fn rows_as<I: IndexFormat>(work: &Work, indices: &mut [I]) {
+fn rows_as<I: IndexFormat>(work: &TapInput, indices: &mut [I]) {
     let mut out = Writer::new(indices);
     for &[number, outer, inner, how, outer_index, inner_index] in work.numbers.as_chunks::<6>().0 {
         let codes = stitch(work, number);
@@ -120,32 +123,32 @@ fn rows_as<I: IndexFormat>(work: &Work, indices: &mut [I]) {
 /// Points of compact patches with fractional factors.
 #[inline(always)]
 fn compact_points<'a, M: CompactPoints<Writer<'a, DomainPoint>>>(
-    work: &Work,
-    (compact, tables): (&mut CompactTemplates, &mut LocationTables),
+    work: &TapInput,
+    (templates, tables): (&mut Templates, &mut LocationTables),
     points: &'a mut [DomainPoint],
     make: &mut M,
 ) {
     let mut out = Writer::new(points);
     for patch in work.patches() {
-        compact.make_room();
-        let start = compact.find(&work.settings, patch, tables, M::kept);
-        make.emit(patch, compact.get(start).points, &mut out);
+        templates.make_room();
+        let start = templates.find(patch, (&work.settings, tables), M::kept);
+        make.emit(patch, templates.get(start).points, &mut out);
     }
 }
 
 #[inline(always)]
-pub(crate) fn compact_by_lookup(work: &Work, made: &mut Made) {
-    let Made { compact, tables, points, lookup, .. } = made;
-    compact_points(work, (compact, tables), points, lookup);
+pub(crate) fn compact_by_lookup(work: &TapInput, made: &mut TapOutput) {
+    let TapOutput { templates, tables, points, lookup, .. } = made;
+    compact_points(work, (templates, tables), points, lookup);
 }
 
 #[cfg(target_arch = "x86_64")]
-crate::data::level::with_avx512! {
-    pub(crate) fn compact_by_permutes(work: &Work, made: &mut Made) {
+crate::cpu::instructions::with_avx512! {
+    pub(crate) fn compact_by_permutes(work: &TapInput, made: &mut TapOutput) {
         let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut Writer<'_, DomainPoint>| {
             permute::emit(patch, codes, out);
         };
-        let Made { compact, tables, points, .. } = made;
-        compact_points(work, (compact, tables), points, &mut Permutes(permute));
+        let TapOutput { templates, tables, points, .. } = made;
+        compact_points(work, (templates, tables), points, &mut Permutes(permute));
     }
 }

@@ -1,6 +1,6 @@
 //! Writers of points and indices.
 
-use super::Work;
+use super::TapInput;
 use crate::data::format::{IndexFormat, OutputPoint};
 use crate::data::point_writer::PointWriter;
 use crate::data::writer::Writer;
@@ -11,7 +11,7 @@ const SOURCE: usize = 1024;
 
 /// Runs of points by every method: see [`crate::Input::numbers`].
 #[inline(always)]
-pub(crate) fn of_points<W: PointWriter>(work: &Work, mut out: W) {
+pub(crate) fn of_points<W: PointWriter>(work: &TapInput, mut out: W) {
     let source = source();
     let point = |x: u32| W::Point::from_bits(x, ONE - x);
     for &number in &work.numbers {
@@ -30,7 +30,7 @@ pub(crate) fn of_points<W: PointWriter>(work: &Work, mut out: W) {
 
 /// Runs of indices by every method: see [`crate::Input::numbers`].
 #[inline(always)]
-pub(crate) fn of_indices<I: IndexFormat>(work: &Work, indices: &mut [I]) {
+pub(crate) fn of_indices<I: IndexFormat>(work: &TapInput, indices: &mut [I]) {
     let (source, mut out) = (source(), Writer::new(indices));
     let index = |x: u32| I::wrapping_from(work.base.wrapping_add(x));
     for &number in &work.numbers {

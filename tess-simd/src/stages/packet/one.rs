@@ -48,10 +48,18 @@ impl OnePatch {
     }
 
     /// Processes the raw factors of one patch, unless they are those of the patch before. Returns its output
-    /// sizes, zeros if it is culled. The configuration is the same in each call.
+    /// sizes, zeros if it is culled. The configuration is the same in each call. The factors come in [`pairs`].
     #[inline(always)]
-    pub(crate) fn process(&mut self, config: Config, domain: Domain, raw: RawPairs) -> Counts {
+    pub(crate) fn process(
+        &mut self,
+        config: Config,
+        domain: Domain,
+        a: u64,
+        b: u64,
+        c: u64,
+    ) -> Counts {
         use Domain::{Isoline, Quad, Triangle};
+        let raw = [a, b, c];
         // All factors in one comparison: which is the first to differ is hard to predict.
         let differences = (0..raw.len()).fold(0, |any, i| any | (raw[i] ^ self.raw[i]));
         let other = domain != self.domain;
@@ -133,8 +141,25 @@ impl Packet {
         lane: usize,
         factors: PatchFactors,
     ) -> Counts {
-        let (domain, raw) = (factors.domain(), side_by_side(factors));
-        self.keep_one(config, domain, lane, &process(config.partitioning, domain, &raw))
+        use Domain::{Isoline, Quad, Triangle};
+        let raw = side_by_side(factors);
+        // In each arm the domain is a constant.
+        match factors.domain() {
+            Isoline => self.process_as(config, Isoline, lane, &raw),
+            Triangle => self.process_as(config, Triangle, lane, &raw),
+            Quad => self.process_as(config, Quad, lane, &raw),
+        }
+    }
+
+    #[inline(always)]
+    fn process_as(
+        &mut self,
+        config: Config,
+        domain: Domain,
+        lane: usize,
+        raw: &RawFactors,
+    ) -> Counts {
+        self.keep_one(config, domain, lane, &process(config.partitioning, domain, raw))
     }
 
     /// Makes a lane from processed factors.

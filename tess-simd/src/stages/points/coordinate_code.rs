@@ -80,7 +80,7 @@ pub(super) const LOCATION: u32 = 5;
 /// Set if the location is subtracted.
 pub(super) const MINUS: u16 = 1 << 15;
 
-/// What is added to a coordinate of a triangle: this, times [`RINGS`], plus the ring's number. The
+/// The number that is added to a coordinate of a triangle: this, times [`RINGS`], plus the ring's number. The
 /// coordinates of quads have no such number: their [`MINUS`] is `ONE` minus the location.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Term {
@@ -118,8 +118,8 @@ pub(crate) fn codes(domain: Domain, edges: &EdgePoints, codes: &mut [Code]) {
     let codes = codes.iter_mut();
     match domain {
         Domain::Isoline => debug_assert!(false, "isolines are not compact patches"),
-        Domain::Triangle => triangle::walk(edges, &mut Triangle { edges, codes }),
-        Domain::Quad => quad::walk(edges, &mut Quad { edges, codes }),
+        Domain::Triangle => triangle::walk(edges, &mut TriangleCodes { edges, codes }),
+        Domain::Quad => quad::walk(edges, &mut QuadCodes { edges, codes }),
     }
 }
 
@@ -149,12 +149,12 @@ fn location(edges: &EdgePoints, AxisPoint { factor, point, mirrored }: AxisPoint
 }
 
 /// Notes the codes of a quad's runs.
-struct Quad<'a> {
+struct QuadCodes<'a> {
     edges: &'a EdgePoints,
     codes: IterMut<'a, Code>,
 }
 
-impl QuadWalker for Quad<'_> {
+impl QuadWalker for QuadCodes<'_> {
     type Held = u16;
 
     fn fixed(&self, number: u32) -> Coordinate<u16> {
@@ -180,12 +180,12 @@ impl QuadWalker for Quad<'_> {
 }
 
 /// Notes the codes of a triangle's runs.
-struct Triangle<'a> {
+struct TriangleCodes<'a> {
     edges: &'a EdgePoints,
     codes: IterMut<'a, Code>,
 }
 
-impl TriangleWalker for Triangle<'_> {
+impl TriangleWalker for TriangleCodes<'_> {
     fn run(&mut self, triangle::Run { edge, ring, factor, length }: triangle::Run) {
         // With `x` the location, the coordinates along an edge are `x - shift`, `ONE - shift - x`, and
         // on the last edge `x + shift - perpendicular`; `x` itself may be `ONE` minus a location.

@@ -58,7 +58,7 @@ use tess_core::Domain;
 use tess_core::fixed_point::{ONE, ONE_THIRD};
 
 /// A row of the table: coordinates at the eight positions of one factor.
-type Row = [u32; HALF_EDGE];
+type EntryRow = [u32; HALF_EDGE];
 
 /// The first rows: one of locations for each factor of a quad or each outer one of a triangle, then one of
 /// opposites for each of them.
@@ -79,10 +79,10 @@ const _: () = assert!(HELD < ROWS && RINGS < HALF_EDGE && 2 * QUAD_FACTORS <= RO
 /// The coordinates of a patch.
 #[derive(Clone, Debug)]
 pub(crate) struct Lookup {
-    rows: [Row; ROWS],
+    rows: [EntryRow; ROWS],
     /// The positions of half an edge, unknown to the compiler: it would unroll known ones instead of making
     /// vectors.
-    positions: Row,
+    positions: EntryRow,
 }
 
 /// Where the coordinate of a code stands in [`Lookup`].
@@ -179,7 +179,7 @@ impl Lookup {
 
     /// The locations of half the edge of a factor.
     #[inline(always)]
-    fn locations(&self, patch: PacketPatch<'_>, factor: usize) -> Row {
+    fn locations(&self, patch: PacketPatch<'_>, factor: usize) -> EntryRow {
         let spacing = patch.fractional_spacing(factor);
         let mut row = self.positions;
         for x in &mut row {
@@ -191,7 +191,7 @@ impl Lookup {
 
 /// A row of coordinates, encoded in the output format.
 #[inline(always)]
-fn row<P: OutputPoint>(mut row: Row, coordinate: impl Fn(u32) -> u32) -> Row {
+fn row<P: OutputPoint>(mut row: EntryRow, coordinate: impl Fn(u32) -> u32) -> EntryRow {
     for x in &mut row {
         *x = P::coordinate(coordinate(*x));
     }

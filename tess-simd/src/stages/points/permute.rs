@@ -50,8 +50,8 @@
 
 use super::coordinate_code::{CENTRE, Code, HALF_EDGE, LOCATION, RINGS, TERMS, Term};
 use super::{CompactPoints, POINTS_AT_ONCE};
+use crate::cpu::instructions::with_avx512;
 use crate::data::format::OutputPoint;
-use crate::data::level::with_avx512;
 use crate::data::point_writer::PointWriter;
 use crate::stages::packet::PacketPatch;
 use bytemuck::must_cast;

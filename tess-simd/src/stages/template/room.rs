@@ -10,12 +10,12 @@ const LEAST: usize = 1024;
 
 /// The indices or the points of all templates, at most `MOST` elements with the padding.
 #[derive(Clone, Debug)]
-pub(super) struct Room<T, const MOST: usize> {
+pub(super) struct TemplateRoom<T, const MOST: usize> {
     all: Vec<T>,
     used: usize,
 }
 
-impl<T: Copy + Default, const MOST: usize> Room<T, MOST> {
+impl<T: Copy + Default, const MOST: usize> TemplateRoom<T, MOST> {
     /// No elements, and no memory for any.
     pub(super) const fn new() -> Self {
         Self { all: Vec::new(), used: 0 }
@@ -85,7 +85,7 @@ mod tests {
     /// Memory comes with the first elements, doubles, and ends where the room does.
     #[test]
     fn memory_follows_the_elements() {
-        let mut room = Room::<u16, 4000>::new();
+        let mut room = TemplateRoom::<u16, 4000>::new();
         assert_eq!(room.bytes(), 0, "at first");
         let mut lengths = Vec::new();
         while room.fits(500) {

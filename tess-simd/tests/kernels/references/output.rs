@@ -6,9 +6,7 @@ use crate::table::words::{Words, coordinates};
 use tess_core::fixed_point::ONE;
 use tess_core::row::Row;
 use tess_core::stitch::{self, Diagonals, Step};
-use tess_core::{
-    Domain, DomainPoint, OutputPrimitive, Patch, Primitive, ProcessedPatch, Sink, place,
-};
+use tess_core::{Domain, DomainPoint, OutputPrimitive, Patch, Primitive, Sink, place};
 use tess_simd::{Format, Kernel};
 
 pub(crate) fn floats(case: &Case, words: &mut Words) {
@@ -198,25 +196,15 @@ pub(crate) fn cache_order(case: &Case, words: &mut Words) {
     }
 }
 
-/// The points of templates that have some, then the indices.
-fn of_templates(case: &Case, words: &mut Words, has_points: impl Fn(&Patch) -> bool) {
-    for (number, patch) in case.patches.iter().enumerate().filter(|(_, patch)| has_points(patch)) {
+/// The points of templates, where factors are integers, then the indices.
+pub(crate) fn templates(case: &Case, words: &mut Words) {
+    let with_points = case.input.config.partitioning.has_integer_factors();
+    for (number, patch) in case.patches.iter().enumerate().filter(|_| with_points) {
         words.points(number, points_of(patch).into_iter().map(coordinates));
     }
     for (number, patch) in case.patches.iter().enumerate() {
         words.indices(number, indices_of(case, patch));
     }
-}
-
-pub(crate) fn compact_templates(case: &Case, words: &mut Words) {
-    of_templates(case, words, |patch| patch.config().partitioning.has_integer_factors());
-}
-
-pub(crate) fn templates(case: &Case, words: &mut Words) {
-    of_templates(case, words, |patch| {
-        patch.config().partitioning.has_integer_factors()
-            || matches!(patch.processed(), ProcessedPatch::Minimum(_))
-    });
 }
 
 /// The points of all patches, then their indices.
@@ -250,7 +238,7 @@ pub(crate) fn output_and_ranges(case: &Case, words: &mut Words) {
     }
 }
 
-/// What stands in the buffers before: each place its number, and one; again and again.
+/// The contents of the buffers before: each place its number, and one; again and again.
 pub(crate) fn repeated(case: &Case, words: &mut Words) {
     let runs = case.input.numbers.as_chunks::<3>().0;
     let mut end = [0; 2];
@@ -311,7 +299,7 @@ fn coordinate(patch: &Patch, code: u32) -> u32 {
     }
 }
 
-/// What a triangle's code adds to a location.
+/// The number that a triangle's code adds to a location.
 fn triangle_term(term: u32, location: impl Fn(u32) -> u32) -> u32 {
     const TWO_THIRDS: u32 = 0xAAAA;
     if term == 30 {

@@ -1,0 +1,4 @@
+//! The CPU: its levels, and functions that are compiled once for each of them.
+
+pub(crate) mod instructions;
+pub(crate) mod level;

@@ -1,0 +1,70 @@
+//! CPU levels: which instructions the kernels are compiled for.
+
+use super::instructions::has;
+use core::fmt;
+
+/// A set of CPU instructions that the kernels are compiled for. All levels give the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Level {
+    /// The instructions that the crate was compiled for; always available.
+    Baseline,
+    /// AVX2 on x86-64.
+    Avx2,
+    /// AVX-512 on x86-64, as processors have it from Ice Lake and Zen 4 on.
+    Avx512,
+}
+
+impl Level {
+    /// Every level, from the least to the most capable.
+    pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
+
+    /// The name that `Display` gives: `baseline`, `avx2` or `avx512`.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Baseline => "baseline",
+            Self::Avx2 => "avx2",
+            Self::Avx512 => "avx512",
+        }
+    }
+
+    /// Whether this machine can run the level. Without the feature `std` the machine cannot be
+    /// asked, and only the baseline is available.
+    #[must_use]
+    pub fn is_available(self) -> bool {
+        has(self)
+    }
+
+    /// Nothing if this machine can run the level.
+    ///
+    /// # Errors
+    /// [`LevelUnavailable`] if it, or this build, cannot.
+    pub fn require(self) -> Result<(), LevelUnavailable> {
+        if self.is_available() { Ok(()) } else { Err(LevelUnavailable(self)) }
+    }
+
+    /// The most capable level that this machine can run.
+    #[must_use]
+    pub fn detect() -> Self {
+        Self::ALL.into_iter().rev().find(|level| level.is_available()).unwrap_or(Self::Baseline)
+    }
+}
+
+impl fmt::Display for Level {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// This machine, or this build, cannot run a CPU level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LevelUnavailable(pub Level);
+
+impl fmt::Display for LevelUnavailable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "this machine cannot run the CPU level {}", self.0)
+    }
+}
+
+impl core::error::Error for LevelUnavailable {}

@@ -1,0 +1,207 @@
+//! Where templates are found: topologies, in sets of four, and the places of their indices and points.
+//!
+//! `template.rs` has the picture and the worked patch.
+
+use super::room::TemplateRoom;
+use alloc::vec::Vec;
+
+/// Sets at first, and by how much they become more.
+const FIRST_SETS: usize = 32;
+const MORE_SETS: usize = 8;
+/// Slots of a set. Topologies that find none free replace each other.
+const WAYS: usize = 4;
+
+/// At most `SETS` sets of topologies, and room for so many indices and points of their templates.
+#[derive(Clone, Debug)]
+pub(super) struct Cache<I, P, const SETS: usize, const INDICES: usize, const POINTS: usize> {
+    /// None before the first template, then a power of two.
+    sets: Vec<Set>,
+    /// Bits of a topology's number that say nothing about its set.
+    other_bits: u32,
+    /// The slot that is filled next, of any set that is full.
+    way: usize,
+    pub(super) indices: TemplateRoom<I, INDICES>,
+    pub(super) points: TemplateRoom<P, POINTS>,
+}
+
+/// Where the templates of some topologies begin.
+#[derive(Clone, Copy, Debug)]
+struct Set {
+    /// See [`PacketPatch::topology`](crate::stages::packet::PacketPatch::topology); 0 if there is none.
+    topologies: [u64; WAYS],
+    starts: [Start; WAYS],
+}
+
+/// Where a template begins.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Start {
+    point: u32,
+    index: u32,
+}
+
+/// One patch's template.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Template<'a, I, P> {
+    /// Indices counted from the patch's first point, and then unspecified ones.
+    pub(crate) indices: &'a [I],
+    /// Points, and then unspecified ones.
+    pub(crate) points: &'a [P],
+}
+
+impl Set {
+    const EMPTY: Self =
+        Self { topologies: [0; WAYS], starts: [Start { point: 0, index: 0 }; WAYS] };
+
+    /// The slot of a topology; [`WAYS`] or more if it has none.
+    #[inline(always)]
+    fn find(&self, topology: u64) -> usize {
+        let mut found = 0_u32;
+        for (way, &other) in self.topologies.iter().enumerate() {
+            found |= u32::from(other == topology) << way;
+        }
+        found.trailing_zeros() as usize
+    }
+
+    /// A slot that no topology has.
+    fn free(&self) -> Option<usize> {
+        self.topologies.iter().position(|&topology| topology == 0)
+    }
+}
+
+impl<I, P, const SETS: usize, const INDICES: usize, const POINTS: usize>
+    Cache<I, P, SETS, INDICES, POINTS>
+where
+    I: Copy + Default,
+    P: Copy + Default,
+{
+    /// No templates, and no memory for any.
+    pub(super) const fn new() -> Self {
+        let other_bits = u64::BITS - FIRST_SETS.ilog2();
+        Self {
+            sets: Vec::new(),
+            other_bits,
+            way: 0,
+            indices: TemplateRoom::new(),
+            points: TemplateRoom::new(),
+        }
+    }
+
+    /// Bytes of memory that they take on the heap.
+    pub(super) const fn bytes(&self) -> usize {
+        self.sets.capacity() * size_of::<Set>() + self.indices.bytes() + self.points.bytes()
+    }
+
+    /// Takes all the memory that they may ever need.
+    pub(super) fn reserve(&mut self) {
+        while self.sets.len() < SETS {
+            self.make_sets();
+        }
+        self.indices.reserve();
+        self.points.reserve();
+    }
+
+    /// Makes room for templates of these sizes; if there is none, all others are forgotten.
+    #[inline(always)]
+    pub(super) fn make_room(&mut self, points: usize, indices: usize) {
+        if !(self.indices.fits(indices) && self.points.fits(points)) {
+            self.forget();
+        }
+    }
+
+    #[cold]
+    fn forget(&mut self) {
+        self.sets.fill(Set::EMPTY);
+        self.indices.clear();
+        self.points.clear();
+    }
+
+    /// Where a topology's template begins, if it has one.
+    #[inline(always)]
+    pub(super) fn find(&self, topology: u64) -> Option<Start> {
+        let set = self.sets.get(self.set(topology))?;
+        set.starts.get(set.find(topology)).copied()
+    }
+
+    /// The set of a topology, if there are sets.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the upper eleven bits at most")]
+    const fn set(&self, topology: u64) -> usize {
+        (number(topology) >> self.other_bits) as usize
+    }
+
+    /// The template that begins here, found since there was room made last.
+    #[inline(always)]
+    pub(super) fn get(&self, Start { point, index }: Start) -> Template<'_, I, P> {
+        Template { indices: self.indices.from(index), points: self.points.from(point) }
+    }
+
+    /// Makes the first free points and indices the template of a topology, which has none.
+    pub(super) fn add(&mut self, topology: u64, points: usize, indices: usize) -> Start {
+        let start = Start { point: self.points.take(points), index: self.indices.take(indices) };
+        self.enter(topology, start);
+        start
+    }
+
+    /// Enters a topology that has no slot. There are more sets afterwards if its set is full and there can be.
+    fn enter(&mut self, topology: u64, start: Start) {
+        let free = loop {
+            let set = self.sets.get(self.set(topology));
+            let free = set.and_then(|set| set.free());
+            if free.is_some() || self.sets.len() == SETS {
+                break free;
+            }
+            self.make_sets();
+        };
+        let way = free.unwrap_or(self.way);
+        self.way = (way + 1) % WAYS;
+        let set = self.set(topology);
+        self.sets[set].topologies[way] = topology;
+        self.sets[set].starts[way] = start;
+    }
+
+    /// Makes the first sets, or more of them, and enters the topologies that there are.
+    fn make_sets(&mut self) {
+        let sets = (self.sets.len() * MORE_SETS).max(FIRST_SETS);
+        let before = core::mem::replace(&mut self.sets, alloc::vec![Set::EMPTY; sets]);
+        self.other_bits = u64::BITS - sets.ilog2();
+        for Set { topologies, starts } in before {
+            for (topology, start) in topologies.into_iter().zip(starts).filter(|entry| entry.0 != 0)
+            {
+                self.enter(topology, start);
+            }
+        }
+    }
+}
+
+/// The number of which a topology's set is the upper bits: a product with 2^64 over the golden ratio, into
+/// which the outer factors' bits are folded first. Of 14 to 43 bits, a fold by 24 leaves the fewest topologies without a
+/// slot: at most 61 of 4096 quads or triangles of small factors, where 21 bits left 481.
+#[inline(always)]
+const fn number(topology: u64) -> u64 {
+    (topology ^ (topology >> 24)).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+    use crate::tour;
+
+    /// The sets at the head of `template.rs`.
+    #[test]
+    fn the_worked_patch() {
+        let topology = tour::packet().patch(0).topology();
+        let mut cache = Cache::<u8, u8, 2048, 1000, 1000>::new();
+        cache.add(topology, 43, 186);
+        for (set, sets) in [(0, 32), (1, 256), (8, 2048)] {
+            assert_eq!(cache.sets.len(), sets, "sets");
+            assert_eq!(cache.set(topology), set, "its set");
+            assert_eq!(cache.sets[set].find(topology), 0, "its slot");
+            if sets < 2048 {
+                cache.make_sets();
+            }
+        }
+        assert_eq!((cache.points.used(), cache.indices.used()), (43, 186), "room that is used");
+        cache.forget();
+        assert!(cache.find(topology).is_none(), "forgotten");
+    }
+}
