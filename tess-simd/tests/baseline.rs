@@ -7,8 +7,8 @@ mod patches;
 use allocation_counter::measure;
 use patches::{Patches, compare, configs};
 use tess_core::{
-    Config, Domain, DomainPoint, IsolineFactors, OutputPrimitive, Partitioning, PatchFactors,
-    QuadFactors, SplitOrder,
+    Config, Counts, Domain, DomainPoint, IsolineFactors, MAX_INDICES, MAX_POINTS, OutputPrimitive,
+    Partitioning, PatchFactors, QuadFactors, SplitOrder,
 };
 use tess_simd::{Batch, Buffer, Error, Level, LevelUnavailable, Numbering, Tessellator};
 
@@ -44,6 +44,17 @@ fn check(config: Config, domain: Domain, patches: &Patches) {
     let batch = (patches, patches.structures(domain));
     let to_f32 = DomainPoint::to_f32;
     compare::<[f32; 2], u16>(&mut tessellator, batch, &expected, Numbering::PerPatch, to_f32);
+    let (mut points, mut indices) =
+        (vec![DomainPoint::default(); MAX_POINTS], vec![0_u32; MAX_INDICES]);
+    for (&factors, expected) in patches.all.iter().zip(&expected) {
+        let written = tessellator.patch(factors, &mut points, &mut indices);
+        let Counts { points: count, indices: index_count, .. } = written.expect("there is room");
+        assert!(points[..count as usize] == expected.points, "{config:?} {factors:?}: points");
+        assert!(
+            indices[..index_count as usize] == expected.indices,
+            "{config:?} {factors:?}: indices"
+        );
+    }
 }
 
 fn random_patches_in_every_configuration() {

@@ -1,85 +1,18 @@
-//! Buffers and batches: what does not fit is an error, what is not needed is not touched, and nothing is allocated
-//! once a tessellator is warm.
+//! Memory of tessellators, owned batches, the largest batch, levels. `sequences.rs` has buffers of every size and batches
+//! that are refused.
 
 use allocation_counter::measure;
 use tess_core::{
-    Config, Domain, OutputPrimitive, Partitioning, PatchFactors, QuadFactors, TriangleFactors,
+    Config, Domain, MAX_INDICES, OutputPrimitive, Partitioning, PatchFactors, QuadFactors,
+    TriangleFactors,
 };
 use tess_simd::{
-    Batch, BatchCounts, Buffers, Error, Level, LevelUnavailable, Numbering, Output, OwnedBatch,
-    PatchRange, Tessellator,
+    Batch, Error, Level, LevelUnavailable, Numbering, Output, OwnedBatch, Tessellator,
 };
 
 const CONFIG: Config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
-const POISON: u32 = 0xDEAD_BEEF;
-
 fn quad(f: f32) -> QuadFactors {
     QuadFactors { u0: f, v0: 1.0, u1: f, v1: 3.0, inside_u: 2.0, inside_v: f }
-}
-
-/// Buffers of these sizes, poisoned.
-fn poisoned(
-    points: usize,
-    indices: usize,
-    ranges: usize,
-) -> (Vec<[f32; 2]>, Vec<u32>, Vec<PatchRange>) {
-    let range =
-        PatchRange { first_point: POISON, points: POISON, first_index: POISON, indices: POISON };
-    (vec![[f32::from_bits(POISON); 2]; points], vec![POISON; indices], vec![range; ranges])
-}
-
-/// Blocks may reach past a run, never past the output: at every level and for every length.
-#[test]
-fn what_lies_behind_the_output_stays() {
-    for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
-        let mut tessellator = Tessellator::with_level(CONFIG, level).expect("available");
-        for step in 0..120u8 {
-            let patches = [quad(2.0), quad(1.0 + f32::from(step) / 2.0)];
-            let counts = tessellator.count(&patches).expect("a small batch").counts();
-            let (mut p, mut i, mut r) = poisoned(counts.points + 40, counts.indices + 40, 3);
-            let buffers = Buffers::new(&mut p, &mut i).with_ranges(&mut r);
-            let result = tessellator.write(&patches[..], Numbering::PerPatch, buffers);
-            assert_eq!(result, Ok(counts), "step {step}");
-            let behind = p[counts.points..].iter().flatten();
-            assert!(behind.clone().all(|x| x.to_bits() == POISON), "points, step {step} {level}");
-            assert!(i[counts.indices..].iter().all(|&x| x == POISON), "indices, step {step}");
-            assert_eq!(r[2].points, POISON, "ranges, step {step}");
-            assert!(p[..counts.points].iter().flatten().all(|x| x.to_bits() != POISON), "all");
-            assert!(i[..counts.indices].iter().all(|&x| x != POISON), "all indices written");
-        }
-    }
-}
-
-#[test]
-fn indices_that_do_not_fit() {
-    let mut tessellator = Tessellator::new(CONFIG);
-    let mut output = Output::<[f32; 2], u16>::new();
-    let patches = [quad(63.0); 20];
-    let counts = tessellator.count(&patches).expect("a small batch").counts();
-    let base = |spare: usize| {
-        let base_vertex = u32::try_from(65536 - counts.points + spare).expect("small");
-        Numbering::PerBatch { base_vertex }
-    };
-    assert_eq!(tessellator.tessellate(&patches[..], base(0), &mut output), Ok(counts), "just fits");
-    assert_eq!(output.indices().iter().max(), Some(&65535), "the largest index");
-    let before = output.clone();
-    let error = Error::IndexTooLarge { largest: 65536, format: 65535 };
-    let result = tessellator.tessellate(&patches[..], base(1), &mut output);
-    assert_eq!(result, Err(error), "one too many");
-    assert_eq!(before.indices(), output.indices(), "the output stays");
-    let mut wide = Output::<[f32; 2], u32>::new();
-    let numbering = Numbering::PerBatch { base_vertex: u32::MAX };
-    let result = tessellator.tessellate(&patches[..], numbering, &mut wide);
-    assert!(matches!(result, Err(Error::IndexTooLarge { .. })), "beyond 32 bits: {result:?}");
-}
-
-/// A batch without points has no largest index, whatever its numbering begins with.
-#[test]
-fn no_points_fit_any_numbering() {
-    let mut output = Output::<[f32; 2], u16>::new();
-    let numbering = Numbering::PerBatch { base_vertex: u32::MAX };
-    let result = Tessellator::new(CONFIG).tessellate(&[quad(0.0)][..], numbering, &mut output);
-    assert_eq!(result, Ok(BatchCounts { patches: 1, points: 0, indices: 0 }));
 }
 
 /// The largest batch has 2^32 - 1 indices.
@@ -98,31 +31,6 @@ fn batches_of_2_pow_32_indices_are_too_large() {
     let error = Error::BatchTooLarge { points, indices: 0x1_0000_0002 };
     let result = tessellator.count(&patches).map(|counted| counted.counts());
     assert_eq!(result, Err(error), "one triangle more");
-}
-
-/// What is wrong with a batch.
-fn refused(batch: Batch<'_>) -> Option<Error> {
-    Tessellator::new(CONFIG).count(batch).err()
-}
-
-#[test]
-fn uneven_columns() {
-    let (long, short) = ([2.0; 9], [2.0; 8]);
-    let columns =
-        TriangleFactors { u0: &long[..], v0: &long[..], w0: &short[..], inside: &long[..] };
-    assert_eq!(refused(columns.into()), Some(Error::UnevenColumns { lengths: [8, 9] }));
-}
-
-#[test]
-fn patches_of_several_domains() {
-    let (found, expected) = (Domain::Triangle, Domain::Quad);
-    for count in [1, 70, 300] {
-        let mut patches = vec![PatchFactors::Quad(quad(3.0)); count];
-        assert_eq!(refused((&patches).into()), None, "{count} quads");
-        patches.push(PatchFactors::uniform(found, 2.0));
-        let error = Error::MixedDomains { patch: count, found, expected };
-        assert_eq!(refused((&patches).into()), Some(error), "and a triangle");
-    }
 }
 
 #[test]
@@ -160,7 +68,7 @@ fn levels_that_this_machine_lacks_are_errors() {
     }
 }
 
-/// What the machine is asked for, in one list.
+/// The instructions that the machine is asked for, in one list.
 #[cfg(target_arch = "x86_64")]
 #[test]
 fn the_machine_is_asked_for_every_instruction() {
@@ -232,4 +140,33 @@ fn a_reserved_tessellator_allocates_nothing() {
         assert_eq!(allocated.count_total, 0, "{partitioning:?}: allocations");
         assert_eq!(tessellator.memory(), memory, "{partitioning:?}: memory");
     }
+}
+
+/// A second tessellator of a configuration has its tables; a small patch takes little memory, and one that was
+/// seen none.
+#[test]
+fn small_patches_take_little_memory() {
+    let config = Config { partitioning: Partitioning::Integer, ..CONFIG };
+    drop(Tessellator::new(config));
+    let mut made = None;
+    let allocated = measure(|| made = Some(Tessellator::new(config)));
+    let mut tessellator = made.expect("made");
+    if cfg!(feature = "std") {
+        let bytes = allocated.bytes_max + size_of::<Tessellator>() as u64;
+        assert!(bytes <= 4096, "{bytes} bytes for a tessellator");
+    }
+    let (mut points, mut indices) = ([[0.0_f32; 2]; 100], vec![0_u32; MAX_INDICES]);
+    let mut once = || {
+        for factor in [1.0, 2.0, 7.0] {
+            let factors = QuadFactors::uniform(factor);
+            let written = tessellator.patch(factors, &mut points, &mut indices);
+            assert!(written.is_ok(), "{written:?}");
+        }
+    };
+    let first = measure(&mut once).bytes_max;
+    assert!(first <= 32 << 10, "{first} bytes for the first patches");
+    assert_eq!(measure(once).count_total, 0, "allocations");
+    let (memory, first) = (tessellator.memory(), usize::try_from(first).expect("few"));
+    let tables = if cfg!(feature = "std") { 0 } else { 1 << 20 };
+    assert!((first / 2..=first + 2048 + tables).contains(&memory), "{memory} bytes, {first}");
 }

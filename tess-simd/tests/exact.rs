@@ -47,19 +47,6 @@ fn every_configuration_at_every_level() {
     }
 }
 
-#[test]
-fn every_batch_size() {
-    for level in levels() {
-        for (seed, config) in (100..).zip(configs()) {
-            let mut tessellator = tessellator(config, level);
-            for count in 0..=40 {
-                let domain = Domain::ALL[count % 3];
-                compare_all(&mut tessellator, domain, &Patches::random(seed, domain, count));
-            }
-        }
-    }
-}
-
 /// Many patches, so that templates replace each other.
 #[test]
 fn large_batches() {
@@ -99,18 +86,6 @@ fn more_compact_templates_than_there_is_room_for() {
                 compare::<DomainPoint, u32>(&mut tessellator, batch, &expected, numbering, SAME);
             }
         }
-    }
-}
-
-/// Large patches of one topology, which are copied, between others.
-#[test]
-fn repeated_patches() {
-    let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
-    let different = Patches::random(7, Domain::Quad, 40);
-    let repeated = different.all.iter().flat_map(|&patch| [patch; 3]).collect();
-    let repeated = Patches::new(repeated);
-    for level in levels() {
-        compare_all(&mut tessellator(config, level), Domain::Quad, &repeated);
     }
 }
 
