@@ -27,7 +27,7 @@ use tess_core::{Config, Order};
 /// (0.2 to 0.9 MB) are made once for the process, by the first tessellator that needs them, in about a
 /// millisecond; without the feature `std` each tessellator makes its own.
 ///
-/// Its knowledge of patches takes memory as it is used ([`Tessellator::memory`]): 11 to 19 KB from the
+/// Its knowledge of patches takes memory as it is used ([`Tessellator::memory`]): 12 to 25 KB from the
 /// first small patch on, 20 KB more from the first batch on, and at most 1.1 MB for each thread. It allocates where a
 /// patch has point counts that are new to it, seldom after the first frames. [`Tessellator::reserve`] takes all
 /// of it before. What else is allocated is what an [`Output`] grows by and, on several threads, a short list
