@@ -5,9 +5,9 @@
 
 mod calls;
 mod own;
+mod rooms;
 
 use crate::hold::{self, equal};
-use crate::scene::PATCHES;
 use calls::Call::{self, Again, Frame, Give, Group, MakeRoom, Move, Rebuild, Use};
 use calls::{Count, Draw, Form, Source, Then};
 use own::Own;
@@ -65,24 +65,7 @@ impl World<'_> {
                         .map_err(|wrong| format!("a late frame of {count} patches: {wrong}"));
                 }
             }
-            MakeRoom { count } => {
-                // What was heard before makes room first. A budget that is then used is not checked.
-                let middle = own.next_room(own.stage.capacity());
-                let count = count.min(PATCHES);
-                own.drawn = None;
-                let found = own.stage.make_room(&gpu.queue, count);
-                let found = found.map_err(|error| error.to_string())?;
-                own.groups.clone_from(&own.next_groups);
-                own.frame += 1;
-                let needed = own.needed(&own.frame_patches(count));
-                equal(
-                    "needed",
-                    [found.points, found.primitives],
-                    [needed.points, needed.primitives].map(u64::from),
-                )?;
-                own.heard = Some((own.frame - 1, needed));
-                return own.check_room(middle.unwrap_or_else(|| own.stage.capacity()));
-            }
+            MakeRoom { count } => return own.make_room(gpu, count),
             Again { draw } if own.drawn.is_some() => {
                 let encoder = gpu.device.create_command_encoder(&Default::default());
                 let (observed, group) = own.draw(encoder, draw)?;

@@ -12,15 +12,16 @@ fn pipelines(instance: &wgpu::Instance) -> [usize; 2] {
     [&hub.compute_pipelines, &hub.render_pipelines].map(|one| one.num_kept_from_user)
 }
 
+async fn open(instance: &wgpu::Instance) -> Gpu {
+    let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
+    let (device, queue) = adapter.request_device(&Default::default()).await.expect("a device");
+    Gpu { device, queue, info: adapter.get_info() }
+}
+
 #[test]
 fn a_stage_makes_the_pipelines_that_no_other_has() {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
-    let opened = async {
-        let adapter = instance.request_adapter(&Default::default()).await.expect("an adapter");
-        let (device, queue) = adapter.request_device(&Default::default()).await.expect("a device");
-        Gpu { device, queue, info: adapter.get_info() }
-    };
-    let gpu = pollster::block_on(opened);
+    let gpu = pollster::block_on(open(&instance));
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let scene = crate::scene::Scene::on(gpu, Domain::Quad, config, Vec::new());
     let shared = Tessellator::new(&scene.gpu.device);

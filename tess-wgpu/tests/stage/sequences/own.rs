@@ -10,7 +10,7 @@ use std::collections::VecDeque;
 use tess_core::{Config, OutputPrimitive, Patch, PatchFactors};
 use tess_gpu::layout::{Status, factor_words};
 use tess_gpu::{Capacity, Setup};
-use tess_wgpu::stage::{Factors, Feedback, Overflow, PatchCount, Points, Room, StageError};
+use tess_wgpu::stage::{Factors, Feedback, Overflow, PatchCount, Points, StageError};
 use tess_wgpu::{Error, Gpu, TessellationStage, Tessellator};
 use wgpu::BufferUsages as Usage;
 
@@ -22,9 +22,9 @@ pub(super) struct Own {
     pub(super) form: Form,
     variant: u32,
     /// The room at first.
-    first: Capacity,
+    pub(super) first: Capacity,
     /// The frame since which little was needed, and the most that was needed since.
-    lull: (u64, Capacity),
+    pub(super) lull: (u64, Capacity),
     pub(super) scene: Scene,
     pub(super) stage: TessellationStage,
     pub(super) given: wgpu::Buffer,
@@ -43,7 +43,7 @@ pub(super) struct Own {
 }
 
 /// Frames of little output after which a stage gives room back.
-const PATIENCE: u64 = 2;
+pub(super) const PATIENCE: u64 = 2;
 
 /// The scene's WGSL with a grid that a uniform turns. A variant exchanges patches in `hull`, or writes another number
 /// in the fragment shader, or both.
@@ -119,7 +119,7 @@ impl Own {
         }
     }
 
-    fn setup(&self) -> Setup {
+    pub(super) fn setup(&self) -> Setup {
         Setup { order: self.form.order, ..Setup::new(self.form.domain, self.scene.config) }
     }
 
@@ -139,58 +139,10 @@ impl Own {
     }
 
     /// Bytes of a room.
-    fn bytes(&self, room: Capacity) -> u64 {
+    pub(super) fn bytes(&self, room: Capacity) -> u64 {
         let point = if self.form.points == Points::Stored { 8 } else { 0 };
         let primitive = if self.form.points == Points::PullWithoutIndices { 0 } else { 12 };
         point * u64::from(room.points) + primitive * u64::from(room.primitives)
-    }
-
-    /// The room behind `before`, when the stage has heard of all that ran; `None` where the budget decides.
-    pub(super) fn next_room(&mut self, before: Capacity) -> Option<Capacity> {
-        let (Room::Automatic { most_bytes }, Some((frame, needed))) = (self.form.room, self.heard)
-        else {
-            return Some(before);
-        };
-        let worst = Capacity::worst_case(self.setup(), PATCHES);
-        let ample = |needed: Capacity, least: Capacity| Capacity {
-            points: (needed.points * 5 / 2).min(worst.points).max(least.points),
-            primitives: (needed.primitives * 5 / 2).min(worst.primitives).max(least.primitives),
-        };
-        let is_short = |needed, room, worst| room < worst && 8 * needed > 7 * room;
-        let is_short = is_short(needed.points, before.points, worst.points)
-            || is_short(needed.primitives, before.primitives, worst.primitives);
-        let one = self.bytes(Capacity { points: 1, primitives: 1 });
-        let is_used = one > 0 && self.bytes(before) + one > most_bytes;
-        let wanted = ample(needed, before);
-        if is_short && !is_used && wanted != before {
-            return (self.bytes(wanted) <= most_bytes).then_some(wanted);
-        }
-        let (since, most) = self.lull;
-        let most = Capacity {
-            points: most.points.max(needed.points),
-            primitives: most.primitives.max(needed.primitives),
-        };
-        let is_lull = 5 * most.points <= before.points && 5 * most.primitives <= before.primitives;
-        if is_lull && frame < since + PATIENCE {
-            self.lull = (since, most);
-            return Some(before);
-        }
-        self.lull = (frame, Capacity::default());
-        Some(if is_lull { ample(most, self.first) } else { before })
-    }
-
-    /// The room that a frame has, when it was `before`.
-    pub(super) fn check_room(&mut self, before: Capacity) -> Result<(), String> {
-        let now = self.stage.capacity();
-        if let Some(expected) = self.next_room(before) {
-            return equal("room", now, expected);
-        }
-        let (Room::Automatic { most_bytes } | Room::Bytes(most_bytes)) = self.form.room else {
-            return Err(format!("{:?} has no budget", self.form.room));
-        };
-        let is_larger = now.points >= before.points && now.primitives >= before.primitives;
-        let is_right = is_larger && self.bytes(now) <= most_bytes.max(self.bytes(before));
-        if is_right { Ok(()) } else { Err(format!("room {now:?} after {before:?}")) }
     }
 
     /// Gives the patches other factors.
