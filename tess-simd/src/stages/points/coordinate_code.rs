@@ -2,7 +2,7 @@
 //!
 //! Such patches share topologies but no coordinates. Each topology therefore keeps one flat list of codes, which
 //! say how to compute each coordinate, and writing a patch needs no branch per run of points. [`codes`] makes the
-//! list once per topology, for `template/compact`; `permute` and `lookup` make points from it.
+//! list once per topology, for `stages/template`; `permute` and `lookup` make points from it.
 //!
 //! # Data
 //!
