@@ -25,7 +25,6 @@
 // - Indices are below 4225, so 13 bits hold them; a patch has at most 8192 primitives, so 14 bits count them.
 // - outer_all and inner_all belong to `side` of this clock, outer_begins and inner_begins to the edge that begins next.
 // - Registers of the walk change only where `advance` is 1, so nothing is lost while out_ready is 0 (rtl/dv/formal).
-`include "tess_fault.svh"
 `include "tess_types.svh"
 module tess_connect (
     input  logic                             clk,
@@ -143,7 +142,7 @@ module tess_connect (
         .outer_now     (outer_now),
         .outer_next    (outer_next),
         .inner_base    ((at == AT_STRIP) ? strip_end : inner_base),
-        .inner_descends(at == AT_STRIP || (walks_back && !`TESS_FAULT(8))),
+        .inner_descends(at == AT_STRIP || walks_back),
         .inner_closes  ((at == AT_STRIP) ? strip_along_u : is_last_side && !walks_back),
         .inner_close_at((at == AT_STRIP) ? 7'd0 : inner_points - 7'd1),
         .inner_close   ((at == AT_STRIP) ? outer_base : inner_start),
@@ -266,7 +265,7 @@ module tess_connect (
                     if (is_last_side) begin
                         ring        <= ring + 6'd1;
                         outer_start <= outer_after;
-                        inner_start <= inner_after + {12'd0, `TESS_FAULT(9)};
+                        inner_start <= inner_after;
                         if (is_last_ring) at <= is_quad ? AT_STRIP : AT_CENTRE;
                     end
                 end else begin

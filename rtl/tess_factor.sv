@@ -1,6 +1,5 @@
 // Clamps, rounds and converts one factor (specification, section 3, steps 2 to 7, and section 2).
 // Combinational. No floating-point unit: a positive binary32 number compares as its bits do.
-`include "tess_fault.svh"
 module tess_factor (
     input  logic [31:0] bits,         // binary32, any pattern
     input  logic [1:0]  partitioning, // integer for the density of isolines
@@ -47,9 +46,9 @@ module tess_factor (
         exponent = clamped[25:23] + 3'd1;
         wide = {6'd0, 1'b1, clamped[22:0]} << exponent;
         // Every bit behind the point counts, those below 2^-16 too.
-        whole = wide[29:23] + {6'd0, `TESS_FAULT(1) ? |wide[22:7] : |wide[22:0]};
+        whole = wide[29:23] + {6'd0, |wide[22:0]};
         // To the nearest multiple of 2^-16, ties to even.
-        rounds_up = wide[6] && ((|wide[5:0]) || (wide[7] && !`TESS_FAULT(2)));
+        rounds_up = wide[6] && ((|wide[5:0]) || wide[7]);
         fixed = is_integer ? {whole, 16'd0} : wide[29:7] + {22'd0, rounds_up};
         odd = is_integer ? whole[0] && !(is_inside && whole == 7'd1)
                          : partitioning == tess_pkg::FRACTIONAL_ODD;

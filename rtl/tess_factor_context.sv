@@ -1,10 +1,6 @@
 // The context of a factor: six numbers, computed once per factor (specification, sections 4 and 10).
 // Combinational. In: 15.16 factor, 1..63 if odd, 1 or 2..64 if even.
-module tess_factor_context #(
-    // Plants a fault: a factor that is no multiple of 2^-15 loses its last bit instead of
-    // having its half rounded up.
-    parameter bit PLANT_HALF_FAULT = 1'b0
-) (
+module tess_factor_context (
     input  logic [22:0] factor,
     input  logic        odd,
     input  logic        center,      // split order: 0 ruler, 1 center
@@ -38,7 +34,7 @@ module tess_factor_context #(
     endfunction
 
     always_comb begin
-        rounded_half = (factor + (PLANT_HALF_FAULT ? 23'd0 : 23'd1)) >> 1;
+        rounded_half = (factor + 23'd1) >> 1;
         half = rounded_half;
         if (odd || rounded_half == HALF) half = rounded_half + HALF; // HALF: even factor 1
 

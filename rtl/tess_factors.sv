@@ -5,7 +5,6 @@
 //   context  tess_factor_context makes its context, which goes to place k of `contexts`
 //   counts   when all have theirs: the numbers of points and primitives
 // A quad takes 9 clocks, and the next patch is 7 clocks behind it. While a finished patch waits, everything waits.
-`include "tess_fault.svh"
 `include "tess_types.svh"
 module tess_factors (
     input  logic         clk,
@@ -86,7 +85,7 @@ module tess_factors (
         .bits        (factors[32*k +: 32]),
         .partitioning(domain == tess_pkg::ISOLINE && k == 3'd0 ? tess_pkg::INTEGER : partitioning),
         .is_inside   (k >= outer_count),
-        .has_frame   (has_frame && !`TESS_FAULT(3)),
+        .has_frame   (has_frame),
         .fixed       (fixed_next),
         .odd         (odd_next)
     );
@@ -151,7 +150,7 @@ module tess_factors (
                 out_contexts[tess_pkg::CONTEXT_BITS*context_k +: tess_pkg::CONTEXT_BITS] <= made;
                 counted         <= context_patch;
                 counted_culled  <= context_culled;
-                all_one         <= (starts || all_one || `TESS_FAULT(11)) && fixed == 23'h01_0000;
+                all_one         <= (starts || all_one) && fixed == 23'h01_0000;
                 if (starts)                outer_edges <= {2'd0, made.points} - 9'd1;
                 else if (context_is_outer) outer_edges <= outer_edges + {2'd0, made.points} - 9'd1;
             end
@@ -169,7 +168,7 @@ module tess_factors (
         n4 = {6'd0, out_contexts[4*tess_pkg::CONTEXT_BITS +: 7]};
         n5 = {6'd0, out_contexts[5*tess_pkg::CONTEXT_BITS +: 7]};
         is_minimum = counted.minimum && all_one;
-        edges = `TESS_FAULT(12) ? 13'(outer_edges[7:0]) : 13'(outer_edges); // a width one short
+        edges = 13'(outer_edges);
         half = n3 >> 1;
         inner_points = 13'd0;
         if (counted.domain == tess_pkg::QUAD) inner_points = (n4 - 13'd2) * (n5 - 13'd2);

@@ -1,6 +1,5 @@
 // The positions of a half edge that have a point: bit k - 1 is set if position k has one (specification, section 14.3).
 // Combinational.
-`include "tess_fault.svh"
 module tess_mask (
     input  logic [6:0]  points, // of the factor, 2..65
     input  logic        center, // split order: 0 ruler, 1 center
@@ -44,7 +43,6 @@ module tess_mask (
             6'd32: ruler = 32'hFFFFFFFE;
             default: ruler = 32'd0;
         endcase
-        if (`TESS_FAULT(7)) ruler[3] = 1'b0;
         // Center order: the lowest half - 1 bits.
         mask = center ? ((half == 6'd0) ? 32'd0 : ~(32'hFFFF_FFFF << (half - 6'd1))) : ruler;
     end

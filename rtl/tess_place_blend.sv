@@ -1,9 +1,6 @@
 // Blends the two places by the factor's fraction, rounds, and mirrors back
 // (specification, section 5, second half). Combinational.
-module tess_place_blend #(
-    // Plants a fault: the blend is cut off instead of rounded.
-    parameter bit PLANT_ROUNDING_FAULT = 1'b0
-) (
+module tess_place_blend (
     input  logic [15:0] fraction,
     input  logic        flip,
     input  logic        middle,
@@ -22,7 +19,7 @@ module tess_place_blend #(
         // The weights add up to ONE and both places are at most HALF + 10: below 2^32.
         coarse_weight = ONE - {1'b0, fraction};
         sum = 33'(coarse) * 33'(coarse_weight) + 33'(fine) * 33'(fraction);
-        if (!PLANT_ROUNDING_FAULT) sum = sum + 33'(HALF);
+        sum = sum + 33'(HALF);
         half_location = middle ? HALF : sum[32:16];
         location      = flip ? ONE - half_location : half_location;
     end

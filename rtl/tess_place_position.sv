@@ -1,9 +1,6 @@
 // Mirrors a point onto the first half of its edge and finds its place in the coarser and the finer
 // subdivision (specification, section 5, first half). Combinational. In: p < points.
-module tess_place_position #(
-    // Plants a fault: mirroring forgets the parity of the edge.
-    parameter bit PLANT_FLIP_FAULT = 1'b0
-) (
+module tess_place_position (
     input  logic [16:0] inv_floor,
     input  logic [16:0] inv_ceil,
     input  logic [5:0]  half_points,
@@ -21,7 +18,7 @@ module tess_place_position #(
 
     always_comb begin
         flip     = p >= {1'b0, half_points};
-        mirrored = 6'({half_points, 1'b0} - p - {6'd0, odd && !PLANT_FLIP_FAULT});
+        mirrored = 6'({half_points, 1'b0} - p - {6'd0, odd});
         position = flip ? mirrored : p[5:0];
         middle   = position == half_points;
 

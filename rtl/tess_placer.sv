@@ -1,10 +1,7 @@
 // Places points along an edge: factor and point number in, 16.16 location out, one each clock.
 // Three registered stages, named after the specification: factor context, place (position), place
 // (blend). The signals of each stage leave with the location, for comparison with the model.
-module tess_placer #(
-    // 0: none, 1: factor context, 2: position (flip), 3: blend (rounding).
-    parameter int PLANTED_FAULT = 0
-) (
+module tess_placer (
     input  logic        clk,
     input  logic        rst,
 
@@ -50,7 +47,7 @@ module tess_placer #(
     logic       valid_1, odd_1;
     logic [6:0] p_1;
 
-    tess_factor_context #(.PLANT_HALF_FAULT(PLANTED_FAULT == 1)) factor_context (
+    tess_factor_context factor_context (
         .factor     (in_factor),
         .odd        (in_odd),
         .center     (in_center),
@@ -74,7 +71,7 @@ module tess_placer #(
     position_t position_next, position_2;
     logic      valid_2;
 
-    tess_place_position #(.PLANT_FLIP_FAULT(PLANTED_FAULT == 2)) place_position (
+    tess_place_position place_position (
         .inv_floor  (context_1.inv_floor),
         .inv_ceil   (context_1.inv_ceil),
         .half_points(context_1.half_points),
@@ -97,7 +94,7 @@ module tess_placer #(
     // Stage 3: blend.
     logic [16:0] half_location_next, location_next;
 
-    tess_place_blend #(.PLANT_ROUNDING_FAULT(PLANTED_FAULT == 3)) place_blend (
+    tess_place_blend place_blend (
         .fraction     (context_2.fraction),
         .flip         (position_2.flip),
         .middle       (position_2.middle),

@@ -8,7 +8,6 @@
 //   quad ring    u = A, v = B: one runs along the edge, the other is the ring's
 //   triangle     A: place(inside, ring), the ring's distance; B: place(inside, ...), which runs along the edge
 //   centre       as a ring of a quad; one third on triangles
-`include "tess_fault.svh"
 `include "tess_types.svh"
 module tess_points (
     input  logic                               clk,
@@ -32,7 +31,7 @@ module tess_points (
     localparam logic [2:0] AT_CENTRE = 3'd4;
 
     logic advance;
-    assign advance = !out_valid || out_ready || (`TESS_FAULT(10) && out_last);
+    assign advance = !out_valid || out_ready;
 
     // ---- walk ----------------------------------------------------------------------------------
 
@@ -142,7 +141,7 @@ module tess_points (
             end
             AT_OUTER: begin
                 a_context = outer;
-                a_p = (backward && !`TESS_FAULT(4)) ? n_outer - 7'd1 - k : k;
+                a_p = backward ? n_outer - 7'd1 - k : k;
             end
             AT_RING: begin
                 if (!is_quad) begin
@@ -207,7 +206,7 @@ module tess_points (
         scaled = 33'(a) * 33'(tess_pkg::TWO_THIRDS) + 33'(tess_pkg::HALF);
         perp   = scaled[32:16];
         shift  = (perp + 17'd1) >> 1;
-        q      = b - (`TESS_FAULT(5) ? perp >> 1 : shift);
+        q      = b - shift;
         across = tess_pkg::ONE - q - perp;
         u = a;
         v = b;

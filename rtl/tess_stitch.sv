@@ -3,7 +3,6 @@
 //
 // A transition walks two half edges in split order. A mask for each row has a bit for every position that has a
 // point, so the next step is the lowest set bit of both masks; on the way back it is the highest.
-`include "tess_fault.svh"
 module tess_stitch (
     input  logic [1:0]  kind,         // of tess_pkg
     input  logic [6:0]  outer_at,     // entries that the stitch has come to
@@ -73,7 +72,7 @@ module tess_stitch (
                 done_next[FIRST] = 1'b1;
             end else if (!done[BACK] && (outer_left | inner_left) != 32'd0) begin
                 // At one position the inner row comes first.
-                advances_outer = (inner_left & out_bit) == 32'd0 || (`TESS_FAULT(6) && (outer_left & out_bit) != 32'd0);
+                advances_outer = (inner_left & out_bit) == 32'd0;
                 begins_outer   = advances_outer;
                 if (advances_outer) outer_left_next = outer_left & ~out_bit;
                 else                inner_left_next = inner_left & ~out_bit;

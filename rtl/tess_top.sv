@@ -4,7 +4,6 @@
 // the stream of counts; then its points and its primitives come in the order of the specification, `last` with
 // the last of each. A culled patch has counts of 0, and nothing in the other streams. The three streams do not wait
 // for each other within a patch; none is more than one patch ahead of another.
-`include "tess_fault.svh"
 `include "tess_types.svh"
 module tess_top (
     input  logic         clk,

@@ -14,11 +14,12 @@ from tess_model import Coverage
 
 EXAMPLE = Path(tess_model.examples.cocotb.__file__).parent
 BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb"))
-FAULTS = {
-    1: "stage=factor_context signal=fraction",
-    2: "stage=place_position signal=position",
-    3: "stage=place_blend signal=half_location",
-}
+DESIGN = Path(__file__).resolve().parents[3] / "rtl"
+FAULTS = [
+    ("factor_context", "(factor + 23'd1) >> 1", "factor >> 1", "factor_context signal=fraction"),
+    ("place_position", "{6'd0, odd}", "7'd0", "place_position signal=position"),
+    ("place_blend", " + 33'(HALF)", "", "place_blend signal=half_location"),
+]
 
 
 def bench(
@@ -54,12 +55,16 @@ def test_the_design_equals_the_model(tmp_path: Path, sim: str) -> None:
     assert sum(merged.bins.values()) > hits, "a second run is merged into the file of the first"
 
 
-@pytest.mark.parametrize("fault", sorted(FAULTS))
-def test_planted_faults_are_found(tmp_path: Path, fault: int) -> None:
+@pytest.mark.parametrize("module, right, wrong, named", FAULTS)
+def test_planted_faults_are_found(tmp_path: Path, module: str, right: str, wrong: str, named: str) -> None:
+    design = Path(shutil.copytree(DESIGN, tmp_path / "rtl", ignore=shutil.ignore_patterns("dv")))
+    text = (design / f"tess_{module}.sv").read_text()
+    assert text.count(right) == 1, f"{module} has {right}"
+    (design / f"tess_{module}.sv").write_text(text.replace(right, wrong))
     sim = "icarus"  # which builds in a moment
-    run = bench(tmp_path, sim, "--fault", str(fault), "--testcase", "random_stimuli")
+    run = bench(tmp_path, sim, "--rtl", str(design), "--testcase", "random_stimuli")
     assert run.returncode == 1 and "1 tests, 1 failed" in run.stdout, run.stdout + run.stderr
-    assert f"{FAULTS[fault]} observed=0x" in run.stdout, run.stdout
+    assert f"stage={named} observed=0x" in run.stdout, run.stdout
     coverage = Coverage.read(tmp_path / "coverage.xml")
     assert coverage.groups["context"].hit > 0, "what a failing run drove counts"
 

@@ -10,6 +10,7 @@ of it, and then the functional coverage must be whole. Code is covered in Verila
 
 import argparse
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -41,10 +42,13 @@ def simulate(options: argparse.Namespace, build: Path) -> bool:
     """Whether all tests pass."""
     is_verilator = options.sim == "verilator"
     runner = get_runner(options.sim)
+    design = RTL
+    if options.fault:
+        design = build / "design"
+        subprocess.run([sys.executable, HERE.parent / "plant.py", design, "--fault", str(options.fault)], check=True)
     runner.build(
-        verilog_sources=[RTL / file for file in FILES],
-        includes=[RTL],
-        defines={"TESS_PROOF_FAULT": options.fault} if options.fault else {},
+        verilog_sources=[design / file for file in FILES],
+        includes=[design],
         build_args=["--coverage-line", "--coverage-toggle", "-Wno-fatal"] if is_verilator else [],
         hdl_toplevel="tess_axis",
         build_dir=build,

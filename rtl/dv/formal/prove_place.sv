@@ -1,8 +1,5 @@
 // tess_place_position equals the first half of the formula of section 5, computed here in 64 bits, for every input in
 // range: the widths of section 14.1 suffice. Proved for all inputs at once.
-`ifndef TESS_PROOF_FLIP_FAULT
-`define TESS_PROOF_FLIP_FAULT 1'b0
-`endif
 module prove_place_position (
     input logic [16:0] inv_floor, inv_ceil,
     input logic [5:0]  half_points, split,
@@ -12,7 +9,7 @@ module prove_place_position (
     logic        flip, middle;
     logic [5:0]  position;
     logic [16:0] coarse, fine;
-    tess_place_position #(.PLANT_FLIP_FAULT(`TESS_PROOF_FLIP_FAULT)) place_position (.*);
+    tess_place_position place_position (.*);
 
     logic [63:0] q, pf, a, b;
     logic        flips, is_middle;

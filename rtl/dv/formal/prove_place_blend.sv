@@ -1,15 +1,12 @@
 // tess_place_blend equals the second half of the formula of section 5, computed here in 64 bits, for every input in
 // range: the widths of section 14.1 suffice. Proved for all inputs at once.
-`ifndef TESS_PROOF_ROUNDING_FAULT
-`define TESS_PROOF_ROUNDING_FAULT 1'b0
-`endif
 module prove_place_blend (
     input logic [15:0] fraction,
     input logic        flip, middle,
     input logic [16:0] coarse, fine
 );
     logic [16:0] half_location, location;
-    tess_place_blend #(.PLANT_ROUNDING_FAULT(`TESS_PROOF_ROUNDING_FAULT)) place_blend (.*);
+    tess_place_blend place_blend (.*);
 
     logic [63:0] sum, half, whole;
     always_comb begin

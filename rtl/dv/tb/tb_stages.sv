@@ -4,7 +4,6 @@
 //                         where the factor has them, in both split orders
 //   +bits=HEX +words=N    binary32 patterns from HEX on, as many: factor processing in every partitioning, of outer and
 //                         inside factors, with and without the picture frame
-//   +fault=N              plants fault N of the design
 // Exit: PASS with the numbers of comparisons, or $fatal.
 module tb_stages;
     import tess_dpi::*;
@@ -130,15 +129,13 @@ module tb_stages;
 
     // ---- ranges --------------------------------------------------------------------------------
 
-    int unsigned first = 0, factors = 0, from = 0, words = 0, fault = 0;
+    int unsigned first = 0, factors = 0, from = 0, words = 0;
 
     initial begin
         void'($value$plusargs("first=%d", first));
         void'($value$plusargs("factors=%d", factors));
         void'($value$plusargs("bits=%h", from));
         void'($value$plusargs("words=%d", words));
-        void'($value$plusargs("fault=%d", fault));
-        tess_fault_pkg::number = fault;
         if (factors != 0 && (first < 32'h1_0000 || first + factors - 1 > 32'h40_0000))
             $fatal(1, "factors are 0x10000 to 0x400000, not 0x%05x to 0x%05x", first, first + factors - 1);
         // Even factors are 1 or 2 to 64, odd ones 1 to 63 (section 3).

@@ -7,7 +7,7 @@
 //   +gaps           random gaps between patches, random back-pressure on each stream
 //   +resets=N       N resets, each in the middle of a patch, before anything is checked
 //   +alone          each patch waits until the one before is out: latencies
-//   +fault=N        plants fault N of the design (rtl/dv/tb/faults.txt), which must then be found
+//   +fault=N        the design has fault N (plant.py), so ends soon after a difference
 // Exit: PASS, or $fatal. Each difference prints the patch as a line that `tess explain` and +stimuli take.
 module tb_tess;
     import tess_dpi::*;
@@ -459,7 +459,6 @@ module tb_tess;
         void'($value$plusargs("random=%d", random_patches));
         void'($value$plusargs("resets=%d", resets));
         void'($value$plusargs("fault=%d", fault));
-        tess_fault_pkg::number = fault;
         state = (seed == 0) ? 32'h9E37_79B9 : seed;
         repeat (3) @(posedge clk);
         @(negedge clk);

@@ -8,11 +8,11 @@ use std::sync::OnceLock;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
 
-/// The planted faults: number, the stage and the signal that must be named.
-const FAULTS: &[(u32, &str, &str)] = &[
-    (1, "factor_context", "fraction"),
-    (2, "place_position", "position"),
-    (3, "place_blend", "half_location"),
+/// The planted faults of `rtl/dv/circuit.faults`, and the stage and the signal that must be named.
+const FAULTS: &[(&str, &str, &str)] = &[
+    ("a half is cut off, not rounded up", "factor_context", "fraction"),
+    ("mirroring forgets the parity of the edge", "place_position", "position"),
+    ("the blend is cut off, not rounded", "place_blend", "half_location"),
 ];
 
 /// Builds the bench once, with the script that its users run, which also lints the design.
@@ -62,8 +62,18 @@ fn level_1() -> (u32, u32) {
 
 /// Each planted fault makes the bench fail, naming the stage and signal, both values, the factor.
 pub(crate) fn faults_are_caught() -> Result<(), Failed> {
+    let folder = build_folder().join("verilog-faults");
+    let design = folder.join("design");
+    let plant = crate_folder().join("../../rtl/dv/plant.py");
+    let list = run(Command::new("python3").arg(plant).arg(&design).arg("--list"))?;
+    let mut script = Command::new(crate_folder().join("verilog/run"));
+    script.env("TESS_LIBRARY", libraries()?.archive).env("TESS_VERILOG_BUILD", &folder);
+    run(script.env("TESS_RTL", &design).arg("+random=0"))?;
     for (fault, stage, signal) in FAULTS {
-        let output = output(Command::new(bench()?).arg(format!("+fault={fault}")))?;
+        let line = list.lines().find(|line| line.ends_with(&format!("\t{fault}")));
+        let number = line.and_then(|line| line.split('\t').next()).ok_or("no such fault")?;
+        let mut bench = Command::new(folder.join("Vtb_placer"));
+        let output = output(bench.arg(format!("+fault={number}")))?;
         let said = text(&output.stdout);
         let wrong: Vec<&str> = said.lines().filter(|line| line.starts_with("MISMATCH")).collect();
         let named = |line: &&str| {

@@ -6,8 +6,6 @@
 //   +seed=N        seed of the random factors (default 1)
 //   +stimuli=FILE  a $readmemh file of 32-bit words, one factor each: digit 7 is 1 for center split
 //                  order, digit 6 is 1 for odd, the last six digits are the 15.16 factor
-//   +fault=N       takes a design with a planted fault: 1 factor context, 2 flip, 3 rounding; the run
-//                  must then fail in that stage
 // Each difference prints the word that repeats it as a stimulus.
 module tb_placer;
     import tess_dpi::*;
@@ -43,31 +41,23 @@ module tb_placer;
         logic [16:0] coarse, fine, half_location, location;
     } outputs_t;
 
-    // The design without a fault and one with each; all get the same inputs, one is checked.
-    localparam int DESIGNS = 4;
-    outputs_t outputs[DESIGNS];
     outputs_t out;
-    int       fault = 0;
-    assign out = outputs[fault];
-
-    for (genvar g = 0; g < DESIGNS; g++) begin : g_design
-        tess_placer #(.PLANTED_FAULT(g)) dut (
-            .clk, .rst, .in_valid, .in_factor, .in_odd, .in_center, .in_p,
-            .out_valid        (outputs[g].valid),
-            .out_inv_floor    (outputs[g].inv_floor),
-            .out_inv_ceil     (outputs[g].inv_ceil),
-            .out_fraction     (outputs[g].fraction),
-            .out_half_points  (outputs[g].half_points),
-            .out_split        (outputs[g].split),
-            .out_points       (outputs[g].points),
-            .out_flip         (outputs[g].flip),
-            .out_position     (outputs[g].position),
-            .out_coarse       (outputs[g].coarse),
-            .out_fine         (outputs[g].fine),
-            .out_half_location(outputs[g].half_location),
-            .out_location     (outputs[g].location)
-        );
-    end
+    tess_placer dut (
+        .clk, .rst, .in_valid, .in_factor, .in_odd, .in_center, .in_p,
+        .out_valid        (out.valid),
+        .out_inv_floor    (out.inv_floor),
+        .out_inv_ceil     (out.inv_ceil),
+        .out_fraction     (out.fraction),
+        .out_half_points  (out.half_points),
+        .out_split        (out.split),
+        .out_points       (out.points),
+        .out_flip         (out.flip),
+        .out_position     (out.position),
+        .out_coarse       (out.coarse),
+        .out_fine         (out.fine),
+        .out_half_location(out.half_location),
+        .out_location     (out.location)
+    );
 
     always #5 clk = ~clk;
 
@@ -227,8 +217,6 @@ module tb_placer;
     initial begin
         if ($value$plusargs("seed=%d", seed)) $display("seed %0d", seed);
         if ($value$plusargs("random=%d", random_factors)) $display("%0d random", random_factors);
-        if ($value$plusargs("fault=%d", fault)) $display("planted fault %0d", fault);
-        if (fault < 0 || fault >= DESIGNS) $fatal(1, "there is no fault %0d", fault);
         repeat (3) @(negedge clk);
         rst = 1'b0;
         send_level_1(EVEN, RULER);

@@ -34,7 +34,7 @@ pub(crate) fn run() -> Result<(), String> {
     verdict.demand(level_1.len() as u64 + RANDOM_PATCHES)?;
     println!("level 1, {RANDOM_PATCHES} random patches, 100 resets: {verdict}");
     stages::part(&bench.folder)?;
-    faults::run(&bench)?;
+    faults::run()?;
     clocks::run(&bench)
 }
 

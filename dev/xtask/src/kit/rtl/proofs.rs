@@ -1,6 +1,6 @@
 //! Proofs with Yosys and an SMT solver: for all inputs and any number of clocks, not for those of a test.
 
-use super::sources;
+use super::{faults, sources};
 use crate::command::{self, in_file, target};
 use crate::setup;
 use std::fs;
@@ -19,7 +19,7 @@ struct Proof {
     depth: u32,
     /// Z3 is asked once and need not remember: with products seconds instead of minutes, without them longer.
     is_asked_once: bool,
-    /// A fault that the design has for a proof to fail on, as Verilog defines.
+    /// A planted fault that it fails on.
     fault: Option<&'static str>,
 }
 
@@ -30,7 +30,7 @@ const PROOFS: &[Proof] = &[
         files: &["tess_fork", "prove_fork"],
         depth: 6,
         is_asked_once: false,
-        fault: Some("TESS_PROOF_FAULT=13"),
+        fault: Some("a patch leaves the front end when the points' stage alone has taken it"),
     },
     Proof {
         says: "tess_factors neither drops nor doubles a patch",
@@ -59,7 +59,7 @@ const PROOFS: &[Proof] = &[
         ],
         depth: 4,
         is_asked_once: false,
-        fault: Some("TESS_PROOF_FAULT=10"),
+        fault: Some("a stall loses the last point"),
     },
     Proof {
         says: "tess_connect neither drops nor doubles a primitive",
@@ -82,7 +82,7 @@ const PROOFS: &[Proof] = &[
         files: &["tess_place_position", "prove_place"],
         depth: 0,
         is_asked_once: false,
-        fault: Some("TESS_PROOF_FLIP_FAULT=1"),
+        fault: Some("mirroring forgets the parity of the edge"),
     },
     Proof {
         says: "tess_place_blend equals the second half of the formula of section 5",
@@ -90,7 +90,7 @@ const PROOFS: &[Proof] = &[
         files: &["tess_place_blend", "prove_place_blend"],
         depth: 0,
         is_asked_once: true,
-        fault: Some("TESS_PROOF_ROUNDING_FAULT=1"),
+        fault: Some("the blend is cut off, not rounded"),
     },
 ];
 
@@ -100,7 +100,6 @@ const PROOFS: &[Proof] = &[
 /// A tool is missing, a proof fails, or one holds although a fault is planted.
 pub(crate) fn run() -> Result<(), String> {
     setup::provide(&[setup::YOSYS, setup::SOLVER])?;
-    copy()?;
     for proof in PROOFS {
         let began = Instant::now();
         proof.write(None)?;
@@ -111,9 +110,9 @@ pub(crate) fn run() -> Result<(), String> {
         let Some(fault) = proof.fault else { continue };
         proof.write(Some(fault))?;
         if proof.fails()?.is_none() {
-            return Err(format!("proved with {fault}, which makes it wrong: {}", proof.says));
+            return Err(format!("proved, though {fault}: {}", proof.says));
         }
-        println!("    with {fault} it fails, as it must");
+        println!("    it fails if {fault}, as it must");
     }
     Ok(())
 }
@@ -123,24 +122,24 @@ fn folder() -> PathBuf {
 }
 
 /// Copies the design and the proofs to one folder. Proofs of a module's registers go to its end, as Yosys binds nothing.
-fn copy() -> Result<(), String> {
-    fs::create_dir_all(folder()).map_err(|error| in_file(&folder(), &error))?;
+fn copy(fault: Option<&str>) -> Result<(), String> {
+    faults::plant(&folder(), fault)?;
     let formal = sources().join("dv/formal");
-    for from in [sources(), formal.clone()] {
-        for entry in fs::read_dir(&from).map_err(|error| in_file(&from, &error))? {
-            let file = entry.map_err(|error| in_file(&from, &error))?.path();
-            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            if name.ends_with(".sv") || name.ends_with(".svh") {
-                let mut text = fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
-                let inside = formal.join(name.replace("tess_", "inside_") + "h");
-                if name.starts_with("tess_")
-                    && let Ok(inside) = fs::read_to_string(inside)
-                {
-                    text = text.replace("\nendmodule", &format!("\n{inside}endmodule"));
-                }
-                fs::write(folder().join(&name), text).map_err(|error| in_file(&file, &error))?;
+    for entry in fs::read_dir(&formal).map_err(|error| in_file(&formal, &error))? {
+        let file = entry.map_err(|error| in_file(&formal, &error))?.path();
+        let text = fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
+        let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let (to, text) = match name.strip_prefix("inside_").and_then(|rest| rest.strip_suffix("h"))
+        {
+            None => (folder().join(&name), text),
+            Some(module) => {
+                let module = folder().join(format!("tess_{module}"));
+                let design =
+                    fs::read_to_string(&module).map_err(|error| in_file(&module, &error))?;
+                (module, design.replace("\nendmodule", &format!("\n{text}endmodule")))
             }
-        }
+        };
+        fs::write(&to, text).map_err(|error| in_file(&to, &error))?;
     }
     Ok(())
 }
@@ -151,12 +150,12 @@ impl Proof {
     }
 
     /// Has Yosys write what is to be proved.
-    fn write(&self, define: Option<&str>) -> Result<(), String> {
-        let define = define.map(|define| format!("-D {define} ")).unwrap_or_default();
+    fn write(&self, fault: Option<&str>) -> Result<(), String> {
+        copy(fault)?;
         let files: Vec<String> = self.files.iter().map(|name| format!("{name}.sv")).collect();
         // Outputs that no property looks at go, and the multipliers behind them.
         let script = format!(
-            "read_verilog -sv -formal {define}-I . tess_pkg.sv {}; hierarchy -top {}; proc; flatten; \
+            "read_verilog -sv -formal -I . tess_pkg.sv {}; hierarchy -top {}; proc; flatten; \
              delete -output; opt -full -nosdff -nodffe; opt_clean -purge; dffunmap; opt_clean; write_smt2 -wires {}",
             files.join(" "),
             self.top,

@@ -1,11 +1,11 @@
 """Runs the placer's bench in a simulator.
 
     python -m tess_model.examples.cocotb, or in a copy of this folder python run.py
-                  [--sim verilator|icarus] [--fault N] [--random N] [--seed N] [--coverage FILE]
+                  [--sim verilator|icarus] [--random N] [--seed N] [--coverage FILE]
                   [--testcase level_1_stimuli|random_stimuli] [--rtl FOLDER]
 
 The design is that of the folder `design`, or of `--rtl`; what is built goes to ./sim_build. Exit status: 0
-equal, 1 different, 2 no design. `--fault` takes a design with a planted fault: 1 factor context, 2 flip, 3 rounding; the run then fails.
+equal, 1 different, 2 no design.
 """
 
 import argparse
@@ -22,7 +22,6 @@ PLACER = ["factor_context", "place_blend", "place_position", "placer", "reciproc
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Runs the placer's bench in a simulator.")
     parser.add_argument("--sim", choices=["verilator", "icarus"], default="verilator")
-    parser.add_argument("--fault", type=int, choices=range(4), default=0)
     parser.add_argument("--random", type=int, default=500, help="random factors, every point of each")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--coverage", type=Path, default=Path("coverage.xml"), help="file to add to")
@@ -43,12 +42,11 @@ def sources(rtl: Path) -> "list[Path]":
 def main() -> int:
     options = arguments()
     sys.path.insert(0, str(HERE))  # the simulator's interpreter gets this path, and looks for the bench
-    build = (options.build / f"{options.sim}-{options.fault}").resolve()
+    build = (options.build / options.sim).resolve()
     runner = get_runner(options.sim)
     runner.build(
         verilog_sources=sources(options.rtl),
         hdl_toplevel="tess_placer",
-        parameters={"PLANTED_FAULT": options.fault},
         build_dir=build,
         timescale=("1ns", "1ps"),
     )
