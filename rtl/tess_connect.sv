@@ -72,7 +72,15 @@ module tess_connect (
     logic [12:0]                      index;      // of its first point, where points are joined in order
 
     function automatic logic [6:0] points_of(input logic [tess_pkg::COUNTS_BITS-1:0] all, input logic [2:0] i);
-        points_of = all[7*i +: 7];
+        // Constant places: an index times 7 would be a multiplier and a shifter.
+        case (i)
+            3'd0:    points_of = all[0*7 +: 7];
+            3'd1:    points_of = all[1*7 +: 7];
+            3'd2:    points_of = all[2*7 +: 7];
+            3'd3:    points_of = all[3*7 +: 7];
+            3'd4:    points_of = all[4*7 +: 7];
+            default: points_of = all[5*7 +: 7];
+        endcase
     endfunction
 
     // Along edge `edge_number`, with the outer row an outer edge: the points of the outer factor and of the inside one.

@@ -79,10 +79,21 @@ module tess_factors (
         end
     end
 
+    logic [31:0] bits; // of factor k
+    always_comb begin
+        case (k)
+            3'd0:    bits = factors[0*32 +: 32];
+            3'd1:    bits = factors[1*32 +: 32];
+            3'd2:    bits = factors[2*32 +: 32];
+            3'd3:    bits = factors[3*32 +: 32];
+            3'd4:    bits = factors[4*32 +: 32];
+            default: bits = factors[5*32 +: 32];
+        endcase
+    end
     logic [22:0] fixed_next;
     logic        odd_next;
     tess_factor factor (
-        .bits        (factors[32*k +: 32]),
+        .bits        (bits),
         .partitioning(domain == tess_pkg::ISOLINE && k == 3'd0 ? tess_pkg::INTEGER : partitioning),
         .is_inside   (k >= outer_count),
         .has_frame   (has_frame),
@@ -147,7 +158,9 @@ module tess_factors (
         end else if (advance) begin
             counted_valid <= context_valid && context_last;
             if (context_valid) begin
-                out_contexts[tess_pkg::CONTEXT_BITS*context_k +: tess_pkg::CONTEXT_BITS] <= made;
+                for (int i = 0; i < tess_pkg::FACTORS; i++) begin
+                    if (context_k == 3'(i)) out_contexts[tess_pkg::CONTEXT_BITS*i +: tess_pkg::CONTEXT_BITS] <= made;
+                end
                 counted         <= context_patch;
                 counted_culled  <= context_culled;
                 all_one         <= (starts || all_one) && fixed == 23'h01_0000;

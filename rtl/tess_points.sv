@@ -48,7 +48,15 @@ module tess_points (
 
     function automatic tess_context_t context_of(
             input logic [tess_pkg::CONTEXTS_BITS-1:0] all, input logic [2:0] i);
-        context_of = all[tess_pkg::CONTEXT_BITS*i +: tess_pkg::CONTEXT_BITS];
+        // Constant places: an index times 70 would be a multiplier and a shifter.
+        case (i)
+            3'd0:    context_of = all[0*tess_pkg::CONTEXT_BITS +: tess_pkg::CONTEXT_BITS];
+            3'd1:    context_of = all[1*tess_pkg::CONTEXT_BITS +: tess_pkg::CONTEXT_BITS];
+            3'd2:    context_of = all[2*tess_pkg::CONTEXT_BITS +: tess_pkg::CONTEXT_BITS];
+            3'd3:    context_of = all[3*tess_pkg::CONTEXT_BITS +: tess_pkg::CONTEXT_BITS];
+            3'd4:    context_of = all[4*tess_pkg::CONTEXT_BITS +: tess_pkg::CONTEXT_BITS];
+            default: context_of = all[5*tess_pkg::CONTEXT_BITS +: tess_pkg::CONTEXT_BITS];
+        endcase
     endfunction
 
     logic               is_quad;
