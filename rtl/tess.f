@@ -2,6 +2,7 @@
 // `verilator -F rtl/tess.f --top-module tess_top`. Bender.yml and tess.core are written from it by `cargo xtask rtl --names`.
 +incdir+.
 tess_pkg.sv
+tess_delay.sv
 tess_reciprocal.sv
 tess_factor.sv
 tess_factor_context.sv
@@ -10,6 +11,7 @@ tess_fork.sv
 tess_place_position.sv
 tess_place_blend.sv
 tess_place.sv
+tess_combine.sv
 tess_points.sv
 tess_mask.sv
 tess_rows.sv

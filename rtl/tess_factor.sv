@@ -1,6 +1,13 @@
 // Clamps, rounds and converts one factor (specification, section 3, steps 2 to 7, and section 2).
-// Combinational. No floating-point unit: a positive binary32 number compares as its bits do.
-module tess_factor (
+// No floating-point unit: a positive binary32 number compares as its bits do.
+//
+// Combinational; with REGISTERED in three clocks (clamp, align, round), the last of which is the caller's register.
+`include "tess_types.svh"
+module tess_factor #(
+    parameter bit REGISTERED = 1'b0
+) (
+    input  logic        clk,          // with REGISTERED
+    input  logic        advance,
     input  logic [31:0] bits,         // binary32, any pattern
     input  logic [1:0]  partitioning, // integer for the density of isolines
     input  logic        is_inside,
@@ -8,26 +15,22 @@ module tess_factor (
     output logic [22:0] fixed,        // 15.16, 1..64
     output logic        odd           // parity
 );
+    localparam int CLOCKS = REGISTERED ? 1 : 0; // of each step
     localparam logic [30:0] F32_1       = 31'h3F80_0000;
     localparam logic [30:0] F32_1_FRAME = 31'h3F80_0080; // 1 + 2^-16
     localparam logic [30:0] F32_2       = 31'h4000_0000;
     localparam logic [30:0] F32_63      = 31'h427C_0000;
     localparam logic [30:0] F32_64      = 31'h4280_0000;
 
-    logic        is_integer;
+    // ---- clamp ---------------------------------------------------------------------------------
+
     logic        is_nan;
     logic [30:0] low;
     logic [30:0] high;
     /* verilator lint_off UNUSEDSIGNAL */ // three bits of the exponent are enough
     logic [30:0] clamped;
     /* verilator lint_on UNUSEDSIGNAL */
-    logic [2:0]  exponent;
-    logic [29:0] wide;       // 7.23
-    logic [6:0]  whole;      // the ceiling
-    logic        rounds_up;
-
     always_comb begin
-        is_integer = !partitioning[1];
         is_nan = (&bits[30:23]) && (|bits[22:0]);
         low  = F32_1;
         high = F32_64;
@@ -41,16 +44,38 @@ module tess_factor (
         else if (bits[30:0] > high)                 clamped = high;
     end
 
+    // ---- align ---------------------------------------------------------------------------------
+
+    logic [25:0] to_align;
+    tess_delay #(.WIDTH(26), .CLOCKS(CLOCKS)) at_align (.clk, .advance, .in(clamped[25:0]), .out(to_align));
+
+    logic [2:0]  exponent;
+    logic [29:0] aligned; // 7.23
     always_comb begin
         // The clamped exponent is 127..133, so its low three bits are 7, 0, 1, ... 5.
-        exponent = clamped[25:23] + 3'd1;
-        wide = {6'd0, 1'b1, clamped[22:0]} << exponent;
+        exponent = to_align[25:23] + 3'd1;
+        aligned  = {6'd0, 1'b1, to_align[22:0]} << exponent;
+    end
+
+    // ---- round ---------------------------------------------------------------------------------
+
+    logic [29:0] wide;
+    logic        is_integer, is_odd, was_inside;
+    tess_delay #(.WIDTH(30), .CLOCKS(CLOCKS)) at_round (.clk, .advance, .in(aligned), .out(wide));
+    tess_delay #(.WIDTH(3), .CLOCKS(2 * CLOCKS)) modes (
+        .clk, .advance,
+        .in ({!partitioning[1], partitioning == tess_pkg::FRACTIONAL_ODD, is_inside}),
+        .out({is_integer, is_odd, was_inside})
+    );
+
+    logic [6:0] whole; // the ceiling
+    logic       rounds_up;
+    always_comb begin
         // Every bit behind the point counts, those below 2^-16 too.
         whole = wide[29:23] + {6'd0, |wide[22:0]};
         // To the nearest multiple of 2^-16, ties to even.
         rounds_up = wide[6] && ((|wide[5:0]) || wide[7]);
         fixed = is_integer ? {whole, 16'd0} : wide[29:7] + {22'd0, rounds_up};
-        odd = is_integer ? whole[0] && !(is_inside && whole == 7'd1)
-                         : partitioning == tess_pkg::FRACTIONAL_ODD;
+        odd = is_integer ? whole[0] && !(was_inside && whole == 7'd1) : is_odd;
     end
 endmodule

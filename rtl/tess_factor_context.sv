@@ -1,6 +1,12 @@
 // The context of a factor: six numbers, computed once per factor (specification, sections 4 and 10).
-// Combinational. In: 15.16 factor, 1..63 if odd, 1 or 2..64 if even.
-module tess_factor_context (
+// In: 15.16 factor, 1..63 if odd, 1 or 2..64 if even.
+//
+// Combinational; with REGISTERED in three clocks (half, points, the rest), the last of which is the caller's register.
+module tess_factor_context #(
+    parameter bit REGISTERED = 1'b0
+) (
+    input  logic        clk,         // with REGISTERED
+    input  logic        advance,
     input  logic [22:0] factor,
     input  logic        odd,
     input  logic        center,      // split order: 0 ruler, 1 center
@@ -11,20 +17,30 @@ module tess_factor_context (
     output logic [5:0]  split,       // 0..33
     output logic [6:0]  points       // 2..65
 );
+    localparam int CLOCKS = REGISTERED ? 1 : 0; // of each step
+    localparam logic [22:0] ONE  = 23'h01_0000;
     localparam logic [22:0] HALF = 23'h00_8000;
 
-    logic [22:0] rounded_half;
-    logic [22:0] half;
-    logic [6:0]  floor_points;
-    logic [6:0]  ceil_points;
-    logic [6:0]  edge_points;
-    logic [22:0] edge_half;
-    logic [6:0]  odd_top, even_top; // the points of the floor without their highest bit
+    // ---- half ----------------------------------------------------------------------------------
 
-    // The integer part of a 7.16 number, after rounding up.
-    function automatic logic [6:0] ceil_int(input logic [22:0] x);
-        ceil_int = x[22:16] + 7'(|x[15:0]);
-    endfunction
+    logic [22:0] rounded_half, half_next, half;
+    always_comb begin
+        rounded_half = (factor + 23'd1) >> 1;
+        half_next = rounded_half + ((odd || factor == ONE) ? HALF : 23'd0);
+    end
+    tess_delay #(.WIDTH(23), .CLOCKS(CLOCKS)) at_points (.clk, .advance, .in(half_next), .out(half));
+
+    // ---- points --------------------------------------------------------------------------------
+
+    logic [6:0] ceil_next, floor_points, ceil_points;
+    logic       is_odd, is_center;
+    assign ceil_next = half[22:16] + 7'(|half[15:0]);
+    tess_delay #(.WIDTH(30), .CLOCKS(CLOCKS)) at_rest (
+        .clk, .advance, .in({half, ceil_next}), .out({floor_points, fraction, ceil_points}));
+    tess_delay #(.WIDTH(2), .CLOCKS(2 * CLOCKS)) modes (
+        .clk, .advance, .in({odd, center}), .out({is_odd, is_center}));
+
+    // ---- the rest ------------------------------------------------------------------------------
 
     function automatic logic [6:0] drop_msb(input logic [6:0] x);
         drop_msb = x;
@@ -33,36 +49,25 @@ module tess_factor_context (
         end
     endfunction
 
-    always_comb begin
-        rounded_half = (factor + 23'd1) >> 1;
-        half = rounded_half;
-        if (odd || rounded_half == HALF) half = rounded_half + HALF; // HALF: even factor 1
-
-        floor_points = half[22:16];
-        ceil_points  = ceil_int(half);
-        fraction     = half[15:0];
-        half_points  = ceil_points[5:0];
-        edge_half    = odd ? rounded_half + HALF : rounded_half;
-        edge_points  = ceil_int(edge_half);
-        points       = odd ? edge_points << 1 : (edge_points << 1) + 7'd1;
-    end
-
+    logic [6:0] odd_top, even_top; // the points of the floor without their highest bit
     assign odd_top  = drop_msb(floor_points - 7'd1);
     assign even_top = drop_msb(floor_points);
     always_comb begin
-        if (floor_points == ceil_points)      split = 6'(ceil_points + 7'd1); // no point reaches it
-        else if (center)                      split = 6'(ceil_points - (odd ? 7'd2 : 7'd1));
-        else if (odd && floor_points == 7'd1) split = 6'd0;
-        else if (odd)                         split = 6'((odd_top << 1) + 7'd1);
-        else                                  split = 6'((even_top << 1) + 7'd1);
+        half_points = ceil_points[5:0];
+        points      = {ceil_points[5:0], !is_odd}; // section 14.1
+        if (floor_points == ceil_points)         split = 6'(ceil_points + 7'd1); // no point reaches it
+        else if (is_center)                      split = 6'(ceil_points - (is_odd ? 7'd2 : 7'd1));
+        else if (is_odd && floor_points == 7'd1) split = 6'd0;
+        else if (is_odd)                         split = 6'((odd_top << 1) + 7'd1);
+        else                                     split = 6'((even_top << 1) + 7'd1);
     end
 
     tess_reciprocal floor_reciprocal (
-        .n    ((floor_points << 1) - {6'd0, odd}),
+        .n    ((floor_points << 1) - {6'd0, is_odd}),
         .value(inv_floor)
     );
     tess_reciprocal ceil_reciprocal (
-        .n    ((ceil_points << 1) - {6'd0, odd}),
+        .n    ((ceil_points << 1) - {6'd0, is_odd}),
         .value(inv_ceil)
     );
 endmodule

@@ -1,10 +1,22 @@
 // The front end: raw factors in, the contexts and counts of a patch out (specification, sections 3, 4, 12.6).
 //
-// One factor goes through each clock, in three steps:
-//   issue    tess_factor clamps, rounds and converts factor k
-//   context  tess_factor_context makes its context, which goes to place k of `contexts`
-//   counts   when all have theirs: the numbers of points and primitives
-// A quad takes 9 clocks, and the next patch is 7 clocks behind it. While a finished patch waits, everything waits.
+// One factor goes through each clock. A patch of six:
+//
+//   clock     1   2   3   4   5   6   7   8   9  10  11  12  13  14  15
+//   select    0   1   2   3   4   5   .   .                              factor k, of the patch that is accepted in clock 0
+//   clamp         0   1   2   3   4   5                                  tess_factor
+//   align             0   1   2   3   4   5
+//   round                 0   1   2   3   4   5
+//   half                      0   1   2   3   4   5                      tess_factor_context
+//   points                        0   1   2   3   4   5
+//   the rest                          0   1   2   3   4   5              to its places in `contexts`
+//   counts                                                  +   x   +    offered behind clock 15
+//
+// The next patch is selected from clock 7 on: its contexts are made while the one before is counted and waits in
+// `out_contexts`. Only where that one still waits and the next one is complete, everything stands still.
+//
+// Places of contexts: 0 to 3 the outer edges; 4 along u and 5 along v, which on triangles are the same, and on isolines
+// the detail and the density.
 `include "tess_types.svh"
 module tess_factors (
     input  logic         clk,
@@ -20,18 +32,23 @@ module tess_factors (
 
     output logic                                out_valid,
     input  logic                                out_ready,
-    output tess_patch_t                    out_patch,
+    output tess_patch_t                         out_patch,
     output logic [tess_pkg::CONTEXTS_BITS-1:0]  out_contexts
 );
-    logic advance;
-    assign advance = !out_valid || out_ready;
+    localparam int BITS = tess_pkg::CONTEXT_BITS;
 
-    // ---- the patch whose factors are issued ----------------------------------------------------
+    logic is_complete; // `contexts` holds those of a whole patch
+    logic is_occupied; // so does `out_contexts`
+    logic advance;
+    assign advance = !(is_complete && is_occupied);
+
+    // ---- select --------------------------------------------------------------------------------
 
     logic         busy;
     logic [1:0]   domain, partitioning, out;
     logic         center;
     logic [191:0] factors;
+    logic [5:0]   is_positive, is_large; // of each factor: above 0; above 1 + 2^-17
     logic [2:0]   k;
 
     logic [2:0] factor_count, outer_count;
@@ -40,25 +57,21 @@ module tess_factors (
         outer_count  = (domain == tess_pkg::ISOLINE) ? 3'd2 : (domain == tess_pkg::TRIANGLE) ? 3'd3 : 3'd4;
     end
 
-    // Steps 1 and 4 look at all factors of the patch. Greater than zero: not negative, not zero, not NaN.
-    logic [5:0] is_positive, is_large, is_there, is_outer;
+    // Steps 1 and 4 look at all factors of the patch. Positive: not negative, not zero, not NaN.
+    logic [5:0] comes_positive, comes_large, is_there, is_outer;
     for (genvar i = 0; i < tess_pkg::FACTORS; i++) begin : g_factor
         logic [31:0] x;
-        assign x = factors[32*i +: 32];
-        assign is_positive[i] = !x[31] && x[30:0] != 31'd0 && x[30:0] <= 31'h7F80_0000;
-        assign is_large[i]    = is_positive[i] && x[30:0] > 31'h3F80_0040;
-        assign is_there[i]    = 3'(i) < factor_count;
-        assign is_outer[i]    = 3'(i) < outer_count;
+        assign x = in_factors[32*i +: 32];
+        assign comes_positive[i] = !x[31] && x[30:0] != 31'd0 && x[30:0] <= 31'h7F80_0000;
+        assign comes_large[i]    = !x[31] && x[30:0] > 31'h3F80_0040 && x[30:0] <= 31'h7F80_0000;
+        assign is_there[i]       = 3'(i) < factor_count;
+        assign is_outer[i]       = 3'(i) < outer_count;
     end
-    logic is_culled, has_frame;
-    assign is_culled = (is_outer & ~is_positive) != 6'd0;
-    assign has_frame = (is_there & is_large) != 6'd0;
-
-    logic issues, issues_last, context_valid;
-    // The first factor of a patch waits until the contexts of the patch before have been counted.
-    assign issues      = busy && !(k == 3'd0 && context_valid);
-    assign issues_last = issues && (is_culled || k == factor_count - 3'd1);
-    assign in_ready    = advance && (!busy || issues_last);
+    logic is_culled, has_frame, issues_last;
+    assign is_culled   = (is_outer & ~is_positive) != 6'd0;
+    assign has_frame   = (is_there & is_large) != 6'd0;
+    assign issues_last = busy && (is_culled || k == factor_count - 3'd1);
+    assign in_ready    = !rst && advance && (!busy || issues_last);
 
     always_ff @(posedge clk) begin
         if (rst) begin
@@ -71,70 +84,99 @@ module tess_factors (
                 out          <= in_out;
                 center       <= in_center;
                 factors      <= in_factors;
+                is_positive  <= comes_positive;
+                is_large     <= comes_large;
                 k            <= 3'd0;
-            end else if (issues) begin
+            end else if (busy) begin
                 busy <= !issues_last;
                 k    <= k + 3'd1;
             end
         end
     end
 
-    logic [31:0] bits; // of factor k
+    // Factor k, and how it is processed. An index times 32 would be a shifter.
+    logic [31:0] bits_next, bits;
+    logic [1:0]  mode;
+    logic        is_inside, framed;
     always_comb begin
         case (k)
-            3'd0:    bits = factors[0*32 +: 32];
-            3'd1:    bits = factors[1*32 +: 32];
-            3'd2:    bits = factors[2*32 +: 32];
-            3'd3:    bits = factors[3*32 +: 32];
-            3'd4:    bits = factors[4*32 +: 32];
-            default: bits = factors[5*32 +: 32];
+            3'd0:    bits_next = factors[0*32 +: 32];
+            3'd1:    bits_next = factors[1*32 +: 32];
+            3'd2:    bits_next = factors[2*32 +: 32];
+            3'd3:    bits_next = factors[3*32 +: 32];
+            3'd4:    bits_next = factors[4*32 +: 32];
+            default: bits_next = factors[5*32 +: 32];
         endcase
     end
-    logic [22:0] fixed_next;
-    logic        odd_next;
-    tess_factor factor (
-        .bits        (bits),
-        .partitioning(domain == tess_pkg::ISOLINE && k == 3'd0 ? tess_pkg::INTEGER : partitioning),
-        .is_inside   (k >= outer_count),
-        .has_frame   (has_frame),
-        .fixed       (fixed_next),
-        .odd         (odd_next)
-    );
-
-    // ---- the factor whose context is made ------------------------------------------------------
-
-    tess_patch_t context_patch; // without counts
-    logic             context_last, context_culled, context_is_outer;
-    logic [2:0]       context_k;
-    logic [22:0]      fixed;
-    logic             odd;
-
     always_ff @(posedge clk) begin
-        if (rst) begin
-            context_valid <= 1'b0;
-        end else if (advance) begin
-            context_valid           <= issues;
-            context_last            <= issues_last;
-            context_culled          <= is_culled;
-            context_is_outer        <= k < outer_count;
-            context_k               <= k;
-            fixed                   <= fixed_next;
-            odd                     <= odd_next;
-            context_patch.domain    <= domain;
-            context_patch.out       <= out;
-            context_patch.center    <= center;
-            context_patch.minimum   <= domain != tess_pkg::ISOLINE;
-            context_patch.points    <= 13'd0;
-            context_patch.primitives <= 14'd0;
+        if (advance) begin
+            bits      <= bits_next;
+            mode      <= (domain == tess_pkg::ISOLINE && k == 3'd0) ? tess_pkg::INTEGER : partitioning;
+            is_inside <= k >= outer_count;
+            framed    <= has_frame;
         end
     end
 
+    // ---- clamp, align, round -------------------------------------------------------------------
+
+    logic [22:0] fixed_next, fixed;
+    logic        odd_next, odd;
+    tess_factor #(.REGISTERED(1'b1)) factor (
+        .clk, .advance,
+        .bits, .partitioning(mode), .is_inside, .has_frame(framed),
+        .fixed(fixed_next), .odd(odd_next)
+    );
+    always_ff @(posedge clk) begin
+        if (advance) begin
+            fixed <= fixed_next;
+            odd   <= odd_next;
+        end
+    end
+
+    // ---- half, points, the rest of a context ---------------------------------------------------
+
+    // What goes beside a factor: to where it is fixed, and to where its context is made.
+    typedef struct packed {
+        logic [1:0] domain;
+        logic [1:0] out;
+        logic       center;
+        logic       culled;
+        logic       is_outer;
+        logic       last;
+        logic [2:0] k;
+    } tag_t;
+    localparam int TAG_BITS = 11;
+    tag_t       selected, fixed_tag, context_tag;
+    logic [5:0] valids; // of the six clocks from select to points
+    logic       is_one; // the factor equals ONE
+    assign selected.domain   = domain;
+    assign selected.out      = out;
+    assign selected.center   = center;
+    assign selected.culled   = is_culled;
+    assign selected.is_outer = k < outer_count;
+    assign selected.last     = issues_last;
+    assign selected.k        = k;
+    tess_delay #(.WIDTH(TAG_BITS), .CLOCKS(4)) to_fixed (.clk, .advance, .in(selected), .out(fixed_tag));
+    tess_delay #(.WIDTH(TAG_BITS), .CLOCKS(2)) to_context (.clk, .advance, .in(fixed_tag), .out(context_tag));
+
+    always_ff @(posedge clk) begin
+        if (rst)          valids <= 6'd0;
+        else if (advance) valids <= {valids[4:0], busy};
+    end
+
+    logic          context_valid, context_last;
+    logic [2:0]    context_k;
     tess_context_t made;
-    assign made.odd = odd;
-    tess_factor_context factor_context (
+    assign context_valid = valids[5];
+    assign context_last  = context_tag.last;
+    assign context_k     = context_tag.k;
+    tess_delay #(.WIDTH(2), .CLOCKS(2)) beside (
+        .clk, .advance, .in({odd, fixed == 23'h01_0000}), .out({made.odd, is_one}));
+    tess_factor_context #(.REGISTERED(1'b1)) factor_context (
+        .clk, .advance,
         .factor     (fixed),
         .odd        (odd),
-        .center     (context_patch.center),
+        .center     (fixed_tag.center),
         .inv_floor  (made.inv_floor),
         .inv_ceil   (made.inv_ceil),
         .fraction   (made.fraction),
@@ -143,73 +185,110 @@ module tess_factors (
         .points     (made.points)
     );
 
-    // ---- the patch whose elements are counted --------------------------------------------------
+    // ---- the patch whose contexts are made -----------------------------------------------------
 
-    tess_patch_t counted;
-    logic             counted_valid, counted_culled;
-    logic             all_one;     // every factor so far equals ONE
-    logic [8:0]       outer_edges; // the sum of n - 1 over the outer edges so far: B of section 12.6
-    logic             starts;
-    assign starts = context_k == 3'd0;
+    logic [BITS*tess_pkg::FACTORS-1:0] contexts;
+    /* verilator lint_off UNUSEDSIGNAL */ // which factor it is of
+    tag_t       whole;       // of its last factor
+    /* verilator lint_on UNUSEDSIGNAL */
+    logic       all_one;     // every factor equals ONE
+    logic [8:0] ring_points; // the sum of n - 1 over the outer edges
+    logic [6:0] wide, tall;  // their product counts the points inside, or those of the lines
+    logic       is_quad, is_isoline, starts, sets_wide, sets_tall;
+    logic [6:0] half;
+    assign is_quad    = context_tag.domain == tess_pkg::QUAD;
+    assign is_isoline = context_tag.domain == tess_pkg::ISOLINE;
+    assign starts     = context_k == 3'd0;
+    assign sets_wide  = context_k == (is_quad ? 3'd4 : is_isoline ? 3'd1 : 3'd3);
+    assign sets_tall  = context_k == (is_quad ? 3'd5 : is_isoline ? 3'd0 : 3'd3);
+    assign half       = made.points >> 1;
 
     always_ff @(posedge clk) begin
         if (rst) begin
-            counted_valid <= 1'b0;
+            is_complete <= 1'b0;
         end else if (advance) begin
-            counted_valid <= context_valid && context_last;
-            if (context_valid) begin
-                for (int i = 0; i < tess_pkg::FACTORS; i++) begin
-                    if (context_k == 3'(i)) out_contexts[tess_pkg::CONTEXT_BITS*i +: tess_pkg::CONTEXT_BITS] <= made;
-                end
-                counted         <= context_patch;
-                counted_culled  <= context_culled;
-                all_one         <= (starts || all_one) && fixed == 23'h01_0000;
-                if (starts)                outer_edges <= {2'd0, made.points} - 9'd1;
-                else if (context_is_outer) outer_edges <= outer_edges + {2'd0, made.points} - 9'd1;
+            is_complete <= context_valid && context_last;
+        end
+        if (advance && context_valid) begin
+            whole   <= context_tag;
+            all_one <= (starts || all_one) && is_one;
+            if (starts)                    ring_points <= {2'd0, made.points} - 9'd1;
+            else if (context_tag.is_outer) ring_points <= ring_points + {2'd0, made.points} - 9'd1;
+            for (int i = 0; i < 4; i++) begin
+                if (context_k == 3'(i)) contexts[BITS*i +: BITS] <= made;
+            end
+            // Quad: (n4 - 2)(n5 - 2). Isoline: n1 (n0 - 1). Triangle, with h = n3 / 2: 3h (h - 1) + 1 or 3(h - 1)(h - 1).
+            if (sets_wide) begin
+                contexts[BITS*4 +: BITS] <= made;
+                wide <= is_quad ? made.points - 7'd2 : is_isoline ? made.points : half - 7'd1;
+            end
+            if (sets_tall) begin
+                contexts[BITS*5 +: BITS] <= made;
+                if (is_quad)             tall <= made.points - 7'd2;
+                else if (is_isoline)     tall <= made.points - 7'd1;
+                else if (made.points[0]) tall <= half + (half << 1);
+                else                     tall <= half + (half << 1) - 7'd3;
             end
         end
     end
 
-    // The point counts that the numbers of elements are made of.
-    logic [12:0] n0, n1, n3, n4, n5, half, inner_points, points, edges;
-    logic [13:0] primitives;
-    logic        is_minimum;
+    // ---- the patch that is counted, then offered -----------------------------------------------
+
+    logic        moves, product_valid, sum_valid;
+    assign moves       = is_complete && !is_occupied;
+    assign is_occupied = product_valid || sum_valid || out_valid;
+
+    logic [1:0]  counted_domain, counted_out;
+    logic        counted_culled, is_minimum;
+    logic [12:0] product, minuend, ring13;
+    logic [6:0]  lines;      // of an isoline patch
+    logic [13:0] subtrahend; // primitives are this less than the points, or than twice the points
+    assign ring13 = {4'd0, out_patch.ring_points};
     always_comb begin
-        n0 = {6'd0, out_contexts[0*tess_pkg::CONTEXT_BITS +: 7]};
-        n1 = {6'd0, out_contexts[1*tess_pkg::CONTEXT_BITS +: 7]};
-        n3 = {6'd0, out_contexts[3*tess_pkg::CONTEXT_BITS +: 7]};
-        n4 = {6'd0, out_contexts[4*tess_pkg::CONTEXT_BITS +: 7]};
-        n5 = {6'd0, out_contexts[5*tess_pkg::CONTEXT_BITS +: 7]};
-        is_minimum = counted.minimum && all_one;
-        edges = 13'(outer_edges);
-        half = n3 >> 1;
-        inner_points = 13'd0;
-        if (counted.domain == tess_pkg::QUAD) inner_points = (n4 - 13'd2) * (n5 - 13'd2);
-        else if (n3[0])                       inner_points = 13'd3 * half * (half - 13'd1) + 13'd1;
-        else                                  inner_points = 13'd3 * (half - 13'd1) * (half - 13'd1);
-
-        if (counted.domain == tess_pkg::ISOLINE) points = (n0 - 13'd1) * n1;
-        else if (is_minimum)                     points = (counted.domain == tess_pkg::QUAD) ? 13'd4 : 13'd3;
-        else                                     points = edges + inner_points;
-
-        if (counted.out == tess_pkg::POINT)           primitives = {1'b0, points};
-        else if (counted.domain == tess_pkg::ISOLINE) primitives = {1'b0, (n0 - 13'd1) * (n1 - 13'd1)};
-        else if (counted.out == tess_pkg::LINE)       primitives = {1'b0, points} - 14'd1;
-        else if (is_minimum)                          primitives = {1'b0, points} - 14'd2;
-        else                                          primitives = {points, 1'b0} - 14'd2 - {1'b0, edges};
+        minuend = product;
+        if (counted_domain == tess_pkg::TRIANGLE) minuend = product + {12'd0, out_contexts[BITS*4]};
     end
 
     always_ff @(posedge clk) begin
         if (rst) begin
-            out_valid <= 1'b0;
-        end else if (advance) begin
-            out_valid <= counted_valid;
-            if (counted_valid) begin
-                out_patch            <= counted;
-                out_patch.minimum    <= is_minimum;
-                out_patch.points     <= counted_culled ? 13'd0 : points;
-                out_patch.primitives <= counted_culled ? 14'd0 : primitives;
-            end
+            product_valid <= 1'b0;
+            sum_valid     <= 1'b0;
+            out_valid     <= 1'b0;
+        end else begin
+            product_valid <= moves;
+            sum_valid     <= product_valid;
+            out_valid     <= sum_valid || (out_valid && !out_ready);
         end
+        if (moves) begin
+            out_contexts          <= contexts;
+            out_patch.domain      <= whole.domain;
+            out_patch.out         <= whole.out;
+            out_patch.center      <= whole.center;
+            out_patch.ring_points <= ring_points;
+            counted_domain        <= whole.domain;
+            counted_out           <= whole.out;
+            counted_culled        <= whole.culled;
+            is_minimum            <= all_one && whole.domain != tess_pkg::ISOLINE;
+            product               <= 13'(wide) * 13'(tall);
+            lines                 <= tall;
+        end
+        if (product_valid) begin
+            out_patch.minimum <= is_minimum;
+            if (counted_culled)                           out_patch.points <= 13'd0;
+            else if (is_minimum)                          out_patch.points <= (counted_domain == tess_pkg::QUAD) ? 13'd4 : 13'd3;
+            else if (counted_domain == tess_pkg::ISOLINE) out_patch.points <= product;
+            else                                          out_patch.points <= minuend + ring13;
+
+            if (counted_culled || counted_out == tess_pkg::POINT) subtrahend <= 14'd0;
+            else if (counted_domain == tess_pkg::ISOLINE)         subtrahend <= {7'd0, lines};
+            else if (counted_out == tess_pkg::LINE)               subtrahend <= 14'd1;
+            else if (is_minimum)                                  subtrahend <= 14'd2;
+            else                                                  subtrahend <= {1'b0, ring13} + 14'd2;
+        end
+        if (sum_valid) out_patch.primitives <= (is_doubled ? {out_patch.points, 1'b0} : {1'b0, out_patch.points}) - subtrahend;
     end
+
+    // Triangles, but those of the minimum patch: two a point, without those of the border.
+    logic is_doubled;
+    assign is_doubled = counted_out[1] && counted_domain != tess_pkg::ISOLINE && !is_minimum;
 endmodule

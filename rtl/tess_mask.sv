@@ -1,13 +1,11 @@
 // The positions of a half edge that have a point: bit k - 1 is set if position k has one (specification, section 14.3).
 // Combinational.
 module tess_mask (
-    input  logic [6:0]  points, // of the factor, 2..65
+    input  logic [5:0]  half,   // half steps, 0..32: half_points, less one if odd
     input  logic        center, // split order: 0 ruler, 1 center
     output logic [31:0] mask
 );
-    logic [5:0]  half; // half steps: half_points, less one if odd
     logic [31:0] ruler;
-    assign half = 6'((points - 7'd1) >> 1);
     always_comb begin
         case (half)
             6'd2: ruler = 32'h00010000;

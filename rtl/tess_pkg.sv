@@ -23,11 +23,27 @@ package tess_pkg;
     localparam logic [16:0] ONE_THIRD = 17'h0_5555;
     localparam logic [15:0] TWO_THIRDS = 16'hAAAA;
 
+    // Where the walk of the points is (section 6).
+    localparam logic [2:0] AT_LINE   = 3'd0;
+    localparam logic [2:0] AT_CORNER = 3'd1;
+    localparam logic [2:0] AT_OUTER  = 3'd2;
+    localparam logic [2:0] AT_RING   = 3'd3;
+    localparam logic [2:0] AT_CENTRE = 3'd4;
+
     // Kinds of stitches (sections 7.2, 7.3 and 7.4).
-    localparam logic [1:0] TRANSITION          = 2'd0;
-    localparam logic [1:0] RING                = 2'd1;
-    localparam logic [1:0] STRIP               = 2'd2; // all diagonals forward
-    localparam logic [1:0] STRIP_EXCEPT_MIDDLE = 2'd3;
+    localparam logic [2:0] STRAIGHT            = 3'd0; // no stitch: the outer row advances alone
+    localparam logic [2:0] TRANSITION          = 3'd1;
+    localparam logic [2:0] RING                = 3'd2;
+    localparam logic [2:0] STRIP               = 3'd3; // all diagonals forward
+    localparam logic [2:0] STRIP_EXCEPT_MIDDLE = 3'd4;
+
+    // Steps of a transition (section 7.2), in this order.
+    localparam logic [2:0] FIRST        = 3'd0;
+    localparam logic [2:0] OUT          = 3'd1;
+    localparam logic [2:0] MIDDLE_INNER = 3'd2;
+    localparam logic [2:0] MIDDLE_OUTER = 3'd3;
+    localparam logic [2:0] BACK         = 3'd4;
+    localparam logic [2:0] LAST         = 3'd5;
 
     localparam int CONTEXT_BITS = 70; // of tess_context_t
     // A patch has at most six factors: outer first, then inside. Vectors hold one context for each.

@@ -1,110 +1,166 @@
-// The next step of a stitch: which row advances, and which row the triangle's first vertex lies on
-// (specification, sections 7.2 to 7.4; 14.3 for the masks). Combinational.
+// Walks a stitch, one step a clock: which row advances, and on which row the primitive begins (specification, sections
+// 7.2 to 7.4; 14.3 for the masks).
 //
-// A transition walks two half edges in split order. A mask for each row has a bit for every position that has a
-// point, so the next step is the lowest set bit of both masks; on the way back it is the highest.
+// A transition walks two half edges in split order. Its mask has a bit for every position of each row that has a
+// point, so the next step is the lowest bit; the way back walks the mask with its bits reversed. Of which row that bit is
+// is found a clock later, from the bits of the outer row.
+//
+//   mask of outer positions 2, 3 and inner position 2:  ..0011'1000     bit 2k inner, 2k + 1 outer, positions from 0 here
+//   way out   lowest bits:   inner 1, outer 1, outer 2 ..
+`include "tess_types.svh"
 module tess_stitch (
-    input  logic [1:0]  kind,         // of tess_pkg
-    input  logic [6:0]  outer_at,     // entries that the stitch has come to
-    input  logic [6:0]  inner_at,
-    input  logic [6:0]  inner_points, // points on the inner row
-    input  logic        outer_odd,    // transition: parities of the two factors
-    input  logic        inside_odd,
-    input  logic        outer_empty,  // transition: the outer half edge has no steps
-    input  logic [31:0] outer_all,    // transition: the masks of the half edges, bit k - 1 for position k
-    input  logic [31:0] inner_all,
-    input  logic [31:0] outer_left,   // transition: what is left of them on this way
-    input  logic [31:0] inner_left,
-    input  logic [3:0]  done,         // transition: first step, middle inner, middle outer, on the way back
+    input  logic         clk,
+    input  logic         rst,
+    input  logic         advance,     // everything moves on
+    input  logic         ahead_valid,
+    output logic         takes,       // `ahead` is taken
+    input  tess_stitch_t ahead,
 
-    output logic        advances_outer,
-    output logic        begins_outer,
-    output logic [31:0] outer_left_next,
-    output logic [31:0] inner_left_next,
-    output logic [3:0]  done_next
+    output logic         step_valid,
+    output logic         step_begins, // it is the first one of `step_stitch`
+    output tess_step_t   step,
+    output tess_stitch_t step_stitch
 );
-    localparam logic [1:0] TRANSITION = tess_pkg::TRANSITION;
-    localparam logic [1:0] RING       = tess_pkg::RING;
-    localparam logic [1:0] STRIP      = tess_pkg::STRIP;
+    // ---- the walk ------------------------------------------------------------------------------
 
-    localparam int FIRST = 0, MIDDLE_INNER = 1, MIDDLE_OUTER = 2, BACK = 3;
+    logic         walks;
+    tess_stitch_t here;
+    logic [6:0]   to_come;    // steps of this stitch behind this one
+    logic         is_first, is_odd; // the number of the step: 0; odd
+    logic [6:0]   pairs;      // before the middle; negative behind it
+    logic [2:0]   phase;      // of a transition
+    logic [5:0]   masked;     // steps of this way behind this one
+    logic [63:0]  left;       // of the mask
 
-    logic [31:0] outer_back, inner_back, out_bit, back_bit;
-    always_comb begin
-        outer_back = done[BACK] ? outer_left : outer_all;
-        inner_back = done[BACK] ? inner_left : inner_all;
-        out_bit  = lowest(outer_left | inner_left);
-        back_bit = highest(outer_back | inner_back);
+    logic ends;
+    assign ends  = to_come == 7'd0;
+    assign takes = advance && ahead_valid && (!walks || ends);
+
+    logic [63:0] reversed;
+    for (genvar i = 0; i < 64; i++) begin : g_reversed
+        assign reversed[i] = here.mask[63-i];
     end
 
-    function automatic logic [31:0] lowest(input logic [31:0] x);
-        lowest = x & (~x + 32'd1);
-    endfunction
+    // What follows the steps of each kind, those left out that this transition does not have.
+    logic       has_masked, ends_way;
+    logic [2:0] behind_inner, behind_out, behind_first, behind_outer, phase_next;
+    assign has_masked   = here.masked != 6'd0;
+    assign ends_way     = masked == 6'd1;
+    assign behind_outer = has_masked ? tess_pkg::BACK : tess_pkg::LAST;
+    assign behind_inner = here.has_outer ? tess_pkg::MIDDLE_OUTER : behind_outer;
+    assign behind_out   = here.has_inner ? tess_pkg::MIDDLE_INNER : behind_inner;
+    assign behind_first = has_masked ? tess_pkg::OUT : behind_out;
+    always_comb begin
+        case (phase)
+            tess_pkg::FIRST:        phase_next = behind_first;
+            tess_pkg::OUT:          phase_next = ends_way ? behind_out : tess_pkg::OUT;
+            tess_pkg::MIDDLE_INNER: phase_next = behind_inner;
+            tess_pkg::MIDDLE_OUTER: phase_next = behind_outer;
+            tess_pkg::BACK:         phase_next = ends_way ? tess_pkg::LAST : tess_pkg::BACK;
+            default:                phase_next = tess_pkg::LAST;
+        endcase
+    end
 
-    function automatic logic [31:0] highest(input logic [31:0] x);
-        highest = 32'd0;
-        for (int i = 0; i < 32; i++) begin
-            if (x[i]) highest = 32'd1 << i;
+    logic is_masked, holds;
+    assign is_masked = phase == tess_pkg::OUT || phase == tess_pkg::BACK;
+    assign holds     = phase == tess_pkg::FIRST;
+    always_ff @(posedge clk) begin
+        if (rst)                       walks <= 1'b0;
+        else if (takes)                walks <= 1'b1;
+        else if (advance && ends)      walks <= 1'b0;
+
+        if (takes) begin
+            here     <= ahead;
+            to_come  <= ahead.further;
+            is_first <= 1'b1;
+            is_odd   <= 1'b0;
+            pairs    <= ahead.middle;
+            phase    <= ahead.begins;
+            masked   <= ahead.masked;
+            left     <= ahead.mask;
+        end else if (advance) begin
+            to_come  <= to_come - 7'd1;
+            is_first <= 1'b0;
+            is_odd   <= !is_odd;
+            // A pair ends with its second step; the first step of a ring stands before its pairs.
+            if (here.kind == tess_pkg::RING ? !is_odd && !is_first : is_odd) pairs <= pairs - 7'd1;
+            phase    <= phase_next;
+            masked   <= (is_masked && !ends_way) ? masked - 6'd1 : here.masked;
+            if (is_masked && !ends_way) left <= left & (left - 64'd1);
+            else if (!holds)            left <= reversed;
         end
-    endfunction
-
-    // Ring stitches and strips: steps come in pairs. A ring stitch has one step of the outer row before its pairs,
-    // and one behind them.
-    logic [6:0] step, pair;
-    logic       is_second, is_before_middle, is_end, is_middle_quad;
-    always_comb begin
-        step = outer_at + inner_at;
-        pair = ((kind == RING) ? step - 7'd1 : step) >> 1;
-        is_second        = step[0] != (kind == RING);
-        is_before_middle = pair < (inner_points >> 1);
-        is_end           = step == 7'd0 || step == 7'({inner_points, 1'b0} - 8'd1);
-        is_middle_quad   = pair == (inner_points - 7'd1) >> 1;
     end
 
+    // ---- the step, but for the row of a mask's bit ---------------------------------------------
+
+    tess_step_t next;
+    logic       is_before_middle, is_middle;
+    assign is_before_middle = !pairs[6];
+    assign is_middle        = pairs == 7'd0;
     always_comb begin
-        advances_outer  = 1'b1;
-        begins_outer    = 1'b1;
-        outer_left_next = outer_left;
-        inner_left_next = inner_left;
-        done_next       = done;
-        if (kind == TRANSITION) begin
-            if (!done[FIRST] && !outer_empty) begin
-                done_next[FIRST] = 1'b1;
-            end else if (!done[BACK] && (outer_left | inner_left) != 32'd0) begin
-                // At one position the inner row comes first.
-                advances_outer = (inner_left & out_bit) == 32'd0;
-                begins_outer   = advances_outer;
-                if (advances_outer) outer_left_next = outer_left & ~out_bit;
-                else                inner_left_next = inner_left & ~out_bit;
-            end else if (!done[MIDDLE_INNER] && inside_odd) begin
-                advances_outer = 1'b0;
-                begins_outer   = 1'b0;
-                done_next[MIDDLE_INNER] = 1'b1;
-            end else if (!done[MIDDLE_OUTER] && outer_odd) begin
-                begins_outer = 1'b0;
-                done_next[MIDDLE_OUTER] = 1'b1;
-            end else if ((outer_back | inner_back) != 32'd0) begin
-                // On the way back the outer row comes first.
-                advances_outer = (outer_back & back_bit) != 32'd0;
-                begins_outer   = advances_outer;
-                outer_left_next = advances_outer ? outer_back & ~back_bit : outer_back;
-                inner_left_next = advances_outer ? inner_back : inner_back & ~back_bit;
-                done_next[BACK] = 1'b1;
+        next.last           = here.last && ends;
+        next.advances_outer = 1'b1;
+        next.begins_outer   = 1'b1;
+        case (here.kind)
+            tess_pkg::TRANSITION: begin
+                next.advances_outer = phase != tess_pkg::MIDDLE_INNER;
+                next.begins_outer   = phase != tess_pkg::MIDDLE_INNER && phase != tess_pkg::MIDDLE_OUTER;
             end
-            // Otherwise the last step, on the outer row.
-        end else if (kind == RING) begin
-            // Diagonals are mirrored about the middle.
-            if (!is_end) begin
-                advances_outer = is_second == is_before_middle;
-                begins_outer   = is_before_middle;
+            tess_pkg::RING: begin
+                // Diagonals are mirrored about the middle.
+                if (!is_first && !ends) begin
+                    next.advances_outer = !is_odd == is_before_middle;
+                    next.begins_outer   = is_before_middle;
+                end
             end
-        end else if (kind == STRIP) begin
-            advances_outer = !is_second;
-            begins_outer   = 1'b0;
-        end else begin
-            // All diagonals forward but one.
-            advances_outer = is_second == is_middle_quad;
-            begins_outer   = is_middle_quad ? 1'b1 : !is_second;
+            tess_pkg::STRIP: begin
+                next.advances_outer = !is_odd;
+                next.begins_outer   = 1'b0;
+            end
+            tess_pkg::STRIP_EXCEPT_MIDDLE: begin
+                // All diagonals forward but one.
+                next.advances_outer = is_odd == is_middle;
+                next.begins_outer   = is_middle || !is_odd;
+            end
+            default: begin
+            end
+        endcase
+    end
+
+    logic         made_valid, made_begins, made_masked, made_back;
+    tess_step_t   made;
+    tess_stitch_t made_stitch;
+    logic [31:0]  lowest; // the outer row's bits of it
+    logic [63:0]  borrow;
+    assign borrow = left - 64'd1;
+    always_ff @(posedge clk) begin
+        if (rst)          made_valid <= 1'b0;
+        else if (advance) made_valid <= walks;
+        if (advance) begin
+            made        <= next;
+            made_begins <= is_first;
+            made_stitch <= here;
+            made_masked <= here.kind == tess_pkg::TRANSITION && is_masked;
+            made_back   <= phase == tess_pkg::BACK;
+            for (int i = 0; i < 32; i++) lowest[i] <= left[2*i+1] && !borrow[2*i+1];
+        end
+    end
+
+    // ---- the row -------------------------------------------------------------------------------
+
+    logic is_outer;
+    assign is_outer = (lowest != 32'd0) != made_back;
+    always_ff @(posedge clk) begin
+        if (rst)          step_valid <= 1'b0;
+        else if (advance) step_valid <= made_valid;
+        if (advance) begin
+            step        <= made;
+            step_begins <= made_begins;
+            step_stitch <= made_stitch;
+            if (made_masked) begin
+                step.advances_outer <= is_outer;
+                step.begins_outer   <= is_outer;
+            end
         end
     end
 endmodule

@@ -153,17 +153,26 @@ module tb_tess;
 
     // ---- checking ------------------------------------------------------------------------------
 
-    // The front end: each factor as it is converted, then its context. Culled patches have none.
+    // Factors as they are converted, two clocks before their contexts.
+    logic [22:0] fixed[2];
+    always @(posedge clk) begin
+        if (axis.top.stage_factors.advance) begin
+            fixed[0] <= axis.top.stage_factors.fixed;
+            fixed[1] <= fixed[0];
+        end
+    end
+
+    // The front end: each factor and its context. Culled patches have none.
     function automatic void check_factor();
         stimulus_t s = of_factors[0];
         int unsigned k = 32'(axis.top.stage_factors.context_k);
         processed_t p = model_process(config_of(s), s.x, k);
-        bit is_culled = axis.top.stage_factors.context_culled;
+        bit is_culled = axis.top.stage_factors.context_tag.culled;
         compare(s, FACTORS_CULLED, k, 32'(is_culled), 32'(p.outcome == CULLED));
         if (!is_culled && p.outcome != CULLED) begin
             context_t c = model_context(p.fixed, p.parity, split_order_e'(s.split));
-            compare(s, FACTORS_FIXED, k, 32'(axis.top.stage_factors.fixed), p.fixed);
-            compare(s, FACTORS_ODD, k, 32'(axis.top.stage_factors.odd), int'(p.parity));
+            compare(s, FACTORS_FIXED, k, 32'(fixed[1]), p.fixed);
+            compare(s, FACTORS_ODD, k, 32'(axis.top.stage_factors.made.odd), int'(p.parity));
             compare(s, FACTOR_CONTEXT_FRACTION, k, 32'(axis.top.stage_factors.made.fraction), c.fraction);
             compare(s, FACTOR_CONTEXT_HALF_POINTS, k, 32'(axis.top.stage_factors.made.half_points), c.half_points);
             compare(s, FACTOR_CONTEXT_POINTS, k, 32'(axis.top.stage_factors.made.points), c.points);

@@ -63,6 +63,7 @@ endmodule
 // Section 14.1: ranges of what the front end makes.
 module tess_check_factors (
     input logic        clk, rst, advance, context_valid, context_culled, out_valid, out_ready,
+    input logic        fixed_valid, fixed_culled,
     input logic [22:0] fixed,
     input logic [6:0]  points,
     input logic [5:0]  half_points, split,
@@ -72,7 +73,7 @@ module tess_check_factors (
 );
     logic is_made;
     assign is_made = context_valid && !context_culled;
-    `TESS_CHECK("factors", "fixed", !is_made || (fixed >= 23'h01_0000 && fixed <= 23'h40_0000))
+    `TESS_CHECK("factors", "fixed", !fixed_valid || fixed_culled || (fixed >= 23'h01_0000 && fixed <= 23'h40_0000))
     `TESS_CHECK("factor_context", "points", !is_made || (points >= 7'd2 && points <= 7'd65))
     `TESS_CHECK("factor_context", "half_points", !is_made || (half_points >= 6'd1 && half_points <= 6'd32))
     `TESS_CHECK("factor_context", "split", !is_made || split <= 6'd33)
@@ -84,17 +85,17 @@ module tess_check_factors (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_points, out_primitives}));
 endmodule
 bind tess_factors tess_check_factors checks (
-    .clk, .rst, .advance, .context_valid, .context_culled, .out_valid, .out_ready, .fixed,
-    .points(made.points), .half_points(made.half_points), .split(made.split),
+    .clk, .rst, .advance, .context_valid, .context_culled(context_tag.culled), .out_valid, .out_ready,
+    .fixed_valid(valids[3]), .fixed_culled(fixed_tag.culled), .fixed, .points(made.points), .half_points(made.half_points), .split(made.split),
     .inv_floor(made.inv_floor), .inv_ceil(made.inv_ceil),
     .out_points(out_patch.points), .out_primitives(out_patch.primitives)
 );
 
 // Positions are on their edges, ring numbers climb by one, locations end at ONE.
 module tess_check_points (
-    input logic        clk, rst, active, start_valid, start_ready, out_valid, out_ready, out_last,
+    input logic        clk, rst, active, start_valid, start_ready, walks, out_valid, out_ready, out_last,
     input logic [5:0]  ring,
-    input logic [12:0] index, patch_points, start_points,
+    input logic [12:0] start_points,
     input logic [6:0]  a_p, a_points, b_p, b_points,
     input logic        is_placed, // the placers' results are used
     input logic [16:0] out_u, out_v
@@ -107,9 +108,8 @@ module tess_check_points (
         was_start   <= start_valid && start_ready;
     end
     `TESS_CHECK("points", "ring", !(active && was_active && !was_start) || ring == ring_before || ring == ring_before + 6'd1)
-    `TESS_CHECK("points", "index", !active || index < patch_points)
-    `TESS_CHECK("points", "a_p", !(active && is_placed) || a_p < a_points)
-    `TESS_CHECK("points", "b_p", !(active && is_placed) || b_p < b_points)
+    `TESS_CHECK("points", "a_p", !(walks && is_placed) || a_p < a_points)
+    `TESS_CHECK("points", "b_p", !(walks && is_placed) || b_p < b_points)
     `TESS_CHECK("points", "u", !out_valid || out_u <= 17'h1_0000)
     `TESS_CHECK("points", "v", !out_valid || out_v <= 17'h1_0000)
     tess_check_stream #(.STAGE("points"), .WIDTH(35)) stream (
@@ -119,47 +119,53 @@ module tess_check_points (
         .passes(out_valid && out_ready), .last(out_last));
 endmodule
 bind tess_points tess_check_points checks (
-    .clk, .rst, .active, .start_valid, .start_ready, .out_valid, .out_ready, .out_last, .ring, .index,
-    .patch_points(patch.points), .start_points(start_patch.points), .a_p, .a_points(a_context.points), .b_p,
-    .b_points(b_context.points), .is_placed(at != AT_CORNER), .out_u, .out_v
+    .clk, .rst, .active, .start_valid, .start_ready, .walks, .out_valid, .out_ready, .out_last, .ring,
+    .start_points(start_patch.points), .a_p, .a_points(a_context.points), .b_p,
+    .b_points(b_context.points), .is_placed(here.at != AT_CORNER), .out_u, .out_v
 );
 
-// Indices are numbers of the patch's points, rings climb by one, a stitch stays on its rows.
+// Indices are numbers of the patch's points, a stitch stays on its rows.
 module tess_check_connect (
-    input logic        clk, rst, advance, active, start_valid, start_ready, out_valid, out_ready, out_last,
-    input logic [12:0] patch_points,
+    input logic        clk, rst, start_valid, start_ready, out_valid, out_ready, out_last,
+    input logic [12:0] start_points,
     input logic [13:0] start_primitives,
-    input logic [5:0]  ring,
-    input logic        is_stitch,
-    input logic [6:0]  outer_at, inner_at, outer_points, inner_points,
     input logic [1:0]  out_size,
     input logic [12:0] out_i0, out_i1, out_i2
 );
-    logic [12:0] points; // of the patch whose primitive is offered
-    logic [5:0]  ring_before;
-    logic        was_active, was_start;
-    always_ff @(posedge clk) begin
-        if (advance) points <= patch_points;
-        ring_before <= ring;
-        was_active  <= active && !rst;
-        was_start   <= start_valid && start_ready;
+    logic [12:0] counts[$]; // points of the patches whose primitives are to come, the oldest first
+    logic [12:0] points;
+    assign points = (counts.size() == 0) ? 13'd0 : counts[0];
+    always @(posedge clk) begin
+        if (rst) begin
+            counts.delete();
+        end else begin
+            if (out_valid && out_ready && out_last && counts.size() != 0) void'(counts.pop_front());
+            if (start_valid && start_ready && start_primitives != 14'd0) counts.push_back(start_points);
+        end
     end
-    `TESS_CHECK("connect", "ring", !(active && was_active && !was_start) || ring == ring_before || ring == ring_before + 6'd1)
-    `TESS_CHECK("connect", "outer_at", !(active && is_stitch) || outer_at < outer_points)
-    `TESS_CHECK("connect", "inner_at", !(active && is_stitch) || inner_at < inner_points)
     `TESS_CHECK("connect", "i0", !out_valid || out_i0 < points)
     `TESS_CHECK("connect", "i1", !out_valid || out_i1 < points)
     `TESS_CHECK("connect", "i2", !out_valid || out_i2 < points)
     `TESS_CHECK("connect", "size", !out_valid || out_size != 2'd0)
     tess_check_stream #(.STAGE("connect"), .WIDTH(42)) stream (
         .clk, .rst, .valid(out_valid), .ready(out_ready), .data({out_size, out_i0, out_i1, out_i2, out_last}));
-    tess_check_counts #(.STAGE("connect")) counts (
+    tess_check_counts #(.STAGE("connect")) counts_check (
         .clk, .rst, .start(start_valid && start_ready), .elements(start_primitives),
         .passes(out_valid && out_ready), .last(out_last));
 endmodule
 bind tess_connect tess_check_connect checks (
-    .clk, .rst, .advance, .active, .start_valid, .start_ready, .out_valid, .out_ready, .out_last,
-    .patch_points(patch.points), .start_primitives(start_patch.primitives), .ring,
-    .is_stitch(at == AT_STITCH || at == AT_STRIP), .outer_at, .inner_at, .outer_points, .inner_points,
-    .out_size, .out_i0, .out_i1, .out_i2
+    .clk, .rst, .start_valid, .start_ready, .out_valid, .out_ready, .out_last,
+    .start_points(start_patch.points), .start_primitives(start_patch.primitives), .out_size, .out_i0, .out_i1, .out_i2
+);
+
+// Neither row of a stitch advances behind its last entry.
+module tess_check_rows (
+    input logic       clk, rst, advance, valid, is_stitch, advances_outer,
+    input logic [6:0] outer_left, inner_left
+);
+    `TESS_CHECK("connect", "outer_left", !(valid && is_stitch && advances_outer) || outer_left != 7'd0)
+    `TESS_CHECK("connect", "inner_left", !(valid && is_stitch && !advances_outer) || inner_left != 7'd0)
+endmodule
+bind tess_rows tess_check_rows checks (
+    .clk, .rst, .advance, .valid, .is_stitch(size == 2'd3), .advances_outer(here.advances_outer), .outer_left, .inner_left
 );

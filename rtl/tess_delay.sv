@@ -1,0 +1,24 @@
+// The value of CLOCKS clocks before, not counting those in which `advance` is 0. CLOCKS 0: a wire.
+module tess_delay #(
+    parameter int WIDTH  = 1,
+    parameter int CLOCKS = 1
+) (
+    /* verilator lint_off UNUSEDSIGNAL */ // a wire has no clock
+    input  logic             clk,
+    input  logic             advance,
+    /* verilator lint_on UNUSEDSIGNAL */
+    input  logic [WIDTH-1:0] in,
+    output logic [WIDTH-1:0] out
+);
+    if (CLOCKS == 0) begin : g_wire
+        assign out = in;
+    end else begin : g_registers
+        logic [CLOCKS*WIDTH-1:0] values; // the newest in the lowest bits
+        if (CLOCKS == 1) begin : g_one
+            always_ff @(posedge clk) if (advance) values <= in;
+        end else begin : g_line
+            always_ff @(posedge clk) if (advance) values <= {values[(CLOCKS-1)*WIDTH-1:0], in};
+        end
+        assign out = values[CLOCKS*WIDTH-1 -: WIDTH];
+    end
+endmodule
