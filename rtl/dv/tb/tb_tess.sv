@@ -4,8 +4,9 @@
 //                   blanks instead of commas; more words on the line are not looked at)
 //   +random=N       that many random patches behind them, most of them small (default 0)
 //   +seed=N         seed of everything random (default 1)
-//   +gaps           random gaps between patches, random back-pressure on each stream
-//   +resets=N       N resets, each in the middle of a patch, before anything is checked
+//   +gaps           random gaps between patches, back-pressure of several kinds on each stream
+//   +resets=N       N resets before anything is checked, each with up to four patches on their way
+//   +covered        fails unless every bin of tess_sequences.svh is hit
 //   +alone          each patch waits until the one before is out: latencies
 //   +fault=N        the design has fault N (plant.py), so ends soon after a difference
 // Exit: PASS, or $fatal. Each difference prints the patch as a line that `tess explain` and +stimuli take.
@@ -278,11 +279,15 @@ module tb_tess;
         return state;
     endfunction
 
+    // Where the rules of section 3 change: 1, 1 + 2^-17 and 1 + 2^-16, 2, 63, 64.
+    int unsigned THRESHOLDS[6] = '{32'h3F80_0000, 32'h3F80_0040, 32'h3F80_0080, 32'h4000_0000, 32'h427C_0000, 32'h4280_0000};
+
     // A factor: mostly small and near integers, now and then any bits at all.
     function automatic int unsigned random_factor();
         int unsigned kind = random() % 16;
         int unsigned fixed, exponent, bits;
         if (kind == 0) return random();
+        if (kind == 1) return THRESHOLDS[random() % 6] + random() % 3 - 1;
         fixed = 32'h1_0000 + random() % (32'h1_0000 << (random() % 7));
         if (kind < 8) fixed = (fixed & 32'hFFFF_0000) + (random() % 8 == 0 ? random() % 64 : 0);
         if (fixed > 32'h40_0000) fixed = 32'h40_0000;
@@ -302,8 +307,50 @@ module tb_tess;
         s.split        = random() % 4 == 0;
         for (int unsigned i = 0; i < 6; i++) s.x[i] = random_factor();
         if (random() % 4 == 0) for (int unsigned i = 1; i < 6; i++) s.x[i] = s.x[0];
+        // One factor near a threshold that the others, all ONE, do not hide.
+        if (random() % 16 == 0) begin
+            for (int unsigned i = 0; i < 6; i++) s.x[i] = 32'h3F80_0000;
+            s.x[random() % 6] = THRESHOLDS[random() % 3] + random() % 3 - 1;
+        end
         return s;
     endfunction
+
+    // ---- back-pressure -------------------------------------------------------------------------
+
+    // How a consumer waits, for 16 to 143 clocks: not at all, in every fourth clock, in every other, all the time.
+    int unsigned manner[3] = '{0, 0, 0}, remains = 0;
+    // The stream whose patches are finished before the others begin them; 3: none.
+    int unsigned first = 3;
+
+    function automatic bit is_ready(input int unsigned stream, input int unsigned due);
+        int unsigned due_first = (first == 0) ? of_counts.size() : (first == 1) ? of_points.size() : of_primitives.size();
+        if (first != 3) return stream == first || due > due_first;
+        case (manner[stream])
+            0:       return 1'b1;
+            1:       return random() % 4 != 0;
+            2:       return cycles[0] == 1'(stream);
+            default: return 1'b0;
+        endcase
+    endfunction
+
+    function automatic void press_back();
+        if (remains == 0) begin
+            remains = 16 + random() % 128;
+            first   = random() % 8;
+            if (first > 3) first = 3;
+            foreach (manner[i]) manner[i] = random() % 4;
+            // Now and then one stream alone waits.
+            if (random() % 4 == 0) manner = '{0, 0, 0};
+            if (manner[0] + manner[1] + manner[2] == 0) manner[random() % 3] = 3;
+        end
+        remains--;
+        void'(is_empty());
+        counts_ready    = is_ready(0, of_counts.size());
+        point_ready     = is_ready(1, of_points.size());
+        primitive_ready = is_ready(2, of_primitives.size());
+    endfunction
+
+    `include "tess_sequences.svh"
 
     // ---- driving -------------------------------------------------------------------------------
 
@@ -320,14 +367,9 @@ module tb_tess;
         patch_out          = offered.out;
         patch_center       = offered.split;
         patch_factors      = offered.x;
-        if (gaps) begin
-            int unsigned bits;
-            bits = random();
-            counts_ready    = bits[1:0] != 2'd0;
-            point_ready     = bits[3:2] != 2'd0;
-            primitive_ready = bits[5:4] != 2'd0;
-        end
+        if (gaps) press_back();
         #1;
+        cover_sequences();
         cycles++;
         idle++;
         if (!rst) begin
@@ -338,6 +380,7 @@ module tb_tess;
                 has_primitive = 1'b0;
                 is_offered  = 1'b0;
                 is_accepted = 1'b1;
+                cover_patch();
                 of_factors.push_back(offered);
                 of_counts.push_back(offered);
                 of_points.push_back(offered);
@@ -349,7 +392,7 @@ module tb_tess;
             if (primitive_valid && primitive_ready) check_primitive();
             if (differences.size() != 0) show();
             count_clocks();
-            if (idle > 20000) begin
+            if (idle > 2000) begin
                 if (of_points.size() != 0) compare(of_points[0], POINTS_VALID, next_point, 0, 1);
                 if (of_primitives.size() != 0) compare(of_primitives[0], CONNECT_VALID, next_primitive, 0, 1);
                 show();
@@ -427,14 +470,16 @@ module tb_tess;
         return 0;
     endfunction
 
-    // Resets in the middle of a patch; nothing of it may be left.
+    // Resets with patches on their way, one of which may wait in the fork; nothing of them may be left.
     task automatic reset_in_the_middle(input int unsigned count);
         repeat (count) begin
-            send(random_stimulus());
+            repeat (1 + random() % 4) send(random_stimulus());
             repeat (random() % 40) @(posedge clk);
             @(negedge clk);
+            #2;
+            cover_reset();
             rst = 1'b1;
-            repeat (2) @(negedge clk);
+            repeat (1 + random() % 2) @(negedge clk);
             #2;
             of_factors.delete();
             of_counts.delete();
@@ -451,6 +496,7 @@ module tb_tess;
             patches_checked, points_checked, primitives_checked, cycles, mismatches);
         if (alone) $display("latency: first point %0d clocks, first primitive %0d clocks", point_latency, primitive_latency);
         else if (!gaps) $display("between patches: at most %0d clocks", most_silent);
+        if ($test$plusargs("covered") != 0 && sequences_missed() != 0) $fatal(1, "FAIL: sequences are not covered");
         if (tess_check_pkg::failures != 0) $fatal(1, "FAIL: %0d assertions", tess_check_pkg::failures);
         if (mismatches != 0) $fatal(1, "FAIL");
         if (points_checked == 0 || primitives_checked == 0) $fatal(1, "FAIL: nothing was checked");

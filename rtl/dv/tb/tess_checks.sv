@@ -16,7 +16,8 @@ endpackage
 // A stream: an element that is not taken stays, and is offered until it is; a reset withdraws it.
 module tess_check_stream #(
     parameter string STAGE = "",
-    parameter int    WIDTH = 1
+    parameter int    WIDTH = 1,
+    parameter bit    COMES = 1'b0 // a stream that the design takes: a reset does not withdraw it
 ) (
     input logic             clk, rst,
     input logic             valid, ready,
@@ -31,7 +32,7 @@ module tess_check_stream #(
     end
     `TESS_CHECK(STAGE, "valid", !is_stalled || valid)
     `TESS_CHECK(STAGE, "data", !is_stalled || data == stalled)
-    `TESS_CHECK(STAGE, "reset", !was_reset || !valid)
+    `TESS_CHECK(STAGE, "reset", COMES || !was_reset || !valid)
 endmodule
 
 // A stream against the counts that its stage was started with: as many elements, `last` with the last alone.
@@ -59,6 +60,24 @@ module tess_check_counts #(
         end
     end
 endmodule
+
+// The ports of the whole: each stream keeps what waits, the patches too, and a patch offered during a reset is not taken.
+module tess_check_top (
+    input logic         clk, rst, patch_valid, patch_ready, counts_valid, counts_ready,
+    input logic [198:0] patch,
+    input logic [26:0]  counts
+);
+    always @(posedge clk) if (rst && patch_ready) tess_check_pkg::failed("patch", "ready");
+    tess_check_stream #(.STAGE("patch"), .WIDTH(199), .COMES(1'b1)) patches (
+        .clk, .rst, .valid(patch_valid && !rst), .ready(patch_ready), .data(patch));
+    tess_check_stream #(.STAGE("counts"), .WIDTH(27)) counted (
+        .clk, .rst, .valid(counts_valid), .ready(counts_ready), .data(counts));
+endmodule
+bind tess_top tess_check_top checks (
+    .clk, .rst, .patch_valid, .patch_ready, .counts_valid, .counts_ready,
+    .patch({patch_domain, patch_partitioning, patch_out, patch_center, patch_factors}),
+    .counts({counts_points, counts_primitives})
+);
 
 // Section 14.1: ranges of what the front end makes.
 module tess_check_factors (

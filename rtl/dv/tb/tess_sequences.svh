@@ -1,0 +1,82 @@
+// Functional coverage of sequences, for tb_tess: which patch follows which, and where in a patch the circuit is stalled or
+// reset. Positions of a stream are those of the element that is offered.
+string POSITIONS[4] = '{"only", "first", "middle", "last"};
+string STREAMS[3] = '{"counts", "points", "primitives"};
+string KINDS[5] = '{"isoline", "triangle", "quad", "minimum", "culled"};
+
+int unsigned sequences[string]; // hits by bin
+
+function automatic void hit(input string bin);
+    if (sequences.exists(bin)) sequences[bin]++;
+    else sequences[bin] = 1;
+endfunction
+
+// ---- a patch after a patch ---------------------------------------------------------------------
+
+int unsigned kind_before = 5;
+function automatic void cover_patch();
+    int unsigned kind = 32'(offered.domain);
+    if (offered.points == 0) kind = 4;
+    else if (offered.domain != 2'(ISOLINE) && offered.points == ((offered.domain == 2'(QUAD)) ? 4 : 3)) kind = 3;
+    if (kind_before != 5) hit({KINDS[kind], " after ", KINDS[kind_before]});
+    kind_before = kind;
+endfunction
+
+// ---- stalls and resets by position -------------------------------------------------------------
+
+int unsigned stalled_for[3] = '{0, 0, 0}; // clocks
+
+function automatic string position_of(input int unsigned stream);
+    int unsigned next = (stream == 1) ? next_point : next_primitive;
+    bit          is_last = (stream == 1) ? point_last : primitive_last;
+    if (stream == 0) return "only";
+    return POSITIONS[(next == 0) ? (is_last ? 0 : 1) : (is_last ? 3 : 2)];
+endfunction
+
+// Every clock, before anything passes.
+function automatic void cover_sequences();
+    bit [2:0] waits;
+    waits = {primitive_valid && !primitive_ready, point_valid && !point_ready, counts_valid && !counts_ready};
+    for (int unsigned stream = 0; stream < 3; stream++) begin
+        stalled_for[stream] = (waits[stream] && !rst) ? stalled_for[stream] + 1 : 0;
+        if (stalled_for[stream] == 1) hit({"stall of ", STREAMS[stream], ", ", position_of(stream)});
+        if (stalled_for[stream] == 32) hit({"long stall of ", STREAMS[stream], ", ", position_of(stream)});
+        if (stalled_for[stream] == 8 && !(|(waits & ~(3'd1 << stream)))) hit({STREAMS[stream], " alone wait"});
+    end
+endfunction
+
+function automatic void cover_reset();
+    if (axis.top.stage_fork.in_valid)
+        hit($sformatf("reset with a patch in the fork, taken by %03b", axis.top.stage_fork.took));
+    if (point_valid) hit({"reset of points, ", position_of(1)});
+    if (primitive_valid) hit({"reset of primitives, ", position_of(2)});
+    if (counts_valid) hit("reset of counts, only");
+    if (!point_valid && !primitive_valid) hit("reset before the first element");
+    if (patch_valid) hit("reset with a patch offered");
+endfunction
+
+// ---- the verdict -------------------------------------------------------------------------------
+
+function automatic int unsigned missed(input string bin);
+    if (sequences.exists(bin)) return 0;
+    $display("not covered: %s", bin);
+    return 1;
+endfunction
+
+// How many bins have no hit; names them.
+function automatic int unsigned sequences_missed();
+    sequences_missed = missed("reset before the first element") + missed("reset of counts, only");
+    foreach (KINDS[i]) foreach (KINDS[j]) sequences_missed += missed({KINDS[i], " after ", KINDS[j]});
+    for (int unsigned stream = 0; stream < 3; stream++) begin
+        sequences_missed += missed({STREAMS[stream], " alone wait"});
+        foreach (POSITIONS[i]) if (stream != 0 || i == 0) begin
+            string place = {STREAMS[stream], ", ", POSITIONS[i]};
+            sequences_missed += missed({"stall of ", place}) + missed({"long stall of ", place});
+            if (stream != 0) sequences_missed += missed({"reset of ", place});
+        end
+    end
+    // Bits of `took`: points, primitives, counts. All three would have let the patch go.
+    for (int unsigned took = 0; took < 7; took++)
+        sequences_missed += missed($sformatf("reset with a patch in the fork, taken by %03b", 3'(took)));
+    $display("sequences: %0d bins are hit, %0d are not", sequences.num(), sequences_missed);
+endfunction
