@@ -48,6 +48,7 @@ module tess_placer (
     logic [6:0] p_1;
 
     tess_factor_context factor_context (
+        .clk, .advance(1'b1),
         .factor     (in_factor),
         .odd        (in_odd),
         .center     (in_center),
@@ -72,6 +73,7 @@ module tess_placer (
     logic      valid_2;
 
     tess_place_position place_position (
+        .clk, .advance(1'b1),
         .inv_floor  (context_1.inv_floor),
         .inv_ceil   (context_1.inv_ceil),
         .half_points(context_1.half_points),
@@ -95,6 +97,7 @@ module tess_placer (
     logic [16:0] half_location_next, location_next;
 
     tess_place_blend place_blend (
+        .clk, .advance(1'b1),
         .fraction     (context_2.fraction),
         .flip         (position_2.flip),
         .middle       (position_2.middle),

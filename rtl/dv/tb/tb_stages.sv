@@ -11,6 +11,7 @@ module tb_stages;
     localparam int unsigned MAX_SHOWN = 20;
     // Points that are placed in one clock: a clock of the simulator costs more than a placement.
     localparam int unsigned LANES = 16;
+    localparam int unsigned CLOCKS = 6; // of a placement
     int unsigned     mismatches = 0;
     longint unsigned contexts_checked = 0, places_checked = 0, factors_checked = 0;
 
@@ -32,10 +33,10 @@ module tb_stages;
     tess_context_t made;
     logic          odd;
     logic [6:0]    p [LANES];        // of as many points at a time
-    logic [16:0]   location [LANES]; // of the points of the clock before
+    logic [16:0]   location [LANES]; // of the points of CLOCKS clocks before
     assign made.odd = odd;
     tess_factor_context factor_context (
-        .factor, .odd, .center,
+        .clk, .advance(1'b1), .factor, .odd, .center,
         .inv_floor  (made.inv_floor),
         .inv_ceil   (made.inv_ceil),
         .fraction   (made.fraction),
@@ -70,13 +71,16 @@ module tb_stages;
         check_places(fixed, c.points);
     endtask
 
-    // Two stages: behind the edge for some points the locations of those before are there.
+    // The locations of some points are there CLOCKS edges later.
     task automatic check_places(input int unsigned fixed, input int unsigned points);
-        for (int unsigned next = 0; next < points + LANES; next += LANES) begin
+        for (int unsigned next = 0; next < points + CLOCKS * LANES; next += LANES) begin
             for (int unsigned lane = 0; lane < LANES; lane++) p[lane] = (next + lane < points) ? 7'(next + lane) : 7'd0;
             #1 clk = 1'b1;
             #1 clk = 1'b0;
-            if (next != 0) for (int unsigned lane = 0; lane < LANES; lane++) check_place(fixed, points, next - LANES + lane, location[lane]);
+            if (next + LANES >= CLOCKS * LANES) begin
+                for (int unsigned lane = 0; lane < LANES; lane++)
+                    check_place(fixed, points, next + LANES - CLOCKS * LANES + lane, location[lane]);
+            end
         end
     endtask
 
@@ -96,7 +100,8 @@ module tb_stages;
     logic        is_inside, has_frame;
     logic [22:0] fixed;
     logic        fixed_odd;
-    tess_factor processing (.bits, .partitioning, .is_inside, .has_frame, .fixed, .odd(fixed_odd));
+    tess_factor processing (
+        .clk, .advance(1'b1), .bits, .partitioning, .is_inside, .has_frame, .fixed, .odd(fixed_odd));
 
     // A triangle patch: the factor is outer 0 or inside; the frame comes from outer 1, or from the factor itself.
     task automatic check_factor(input int unsigned word, input int unsigned number, input bit framed);
