@@ -67,6 +67,7 @@ module tess_connect (
     logic                             is_first_ring;
     logic [1:0]                       side;       // number of the edge
     logic [6:0]                       m_u, m_v;   // points on the inner rows of this ring, along u and v
+    logic                             strip_along_u;
 
     function automatic logic [6:0] points_of(input logic [tess_pkg::COUNTS_BITS-1:0] all, input logic [2:0] i);
         case (i)
@@ -79,12 +80,11 @@ module tess_connect (
         endcase
     endfunction
 
-    logic       is_quad, is_last_side, is_last_ring, strip_along_u;
+    logic       is_quad, is_last_side, is_last_ring;
     logic [6:0] n_outside, m, detail;
     assign is_quad       = patch.domain == tess_pkg::QUAD;
     assign is_last_side  = side == (is_quad ? 2'd3 : 2'd2);
     assign is_last_ring  = m_u <= 7'd2 || m_v <= 7'd2;
-    assign strip_along_u = m_u > m_v;
     assign n_outside     = points_of(counts, {1'b0, side});
     assign detail        = points_of(counts, 3'd4);
     assign m             = (at == AT_MIDDLE ? strip_along_u : side[0]) ? m_u : m_v;
@@ -143,6 +143,7 @@ module tess_connect (
             side          <= 2'd0;
             m_u           <= points_of(start_counts, 3'd4) - 7'd2;
             m_v           <= points_of(start_counts, 3'd5) - 7'd2;
+            strip_along_u <= points_of(start_counts, 3'd4) > points_of(start_counts, 3'd5);
             if (start_patch.out == tess_pkg::POINT)           at <= AT_SEQUENCE;
             else if (start_patch.domain == tess_pkg::ISOLINE) at <= AT_LINE;
             else if (start_patch.out == tess_pkg::LINE)       at <= AT_SEQUENCE;

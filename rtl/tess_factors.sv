@@ -142,19 +142,17 @@ module tess_factors (
         logic       center;
         logic       culled;
         logic       is_outer;
-        logic       last;
         logic [2:0] k;
     } tag_t;
-    localparam int TAG_BITS = 11;
+    localparam int TAG_BITS = 10;
     tag_t       selected, fixed_tag, context_tag;
-    logic [5:0] valids; // of the six clocks from select to points
+    logic [5:0] valids, lasts; // of the six clocks from select to points
     logic       is_one; // the factor equals ONE
     assign selected.domain   = domain;
     assign selected.out      = out;
     assign selected.center   = center;
     assign selected.culled   = is_culled;
     assign selected.is_outer = k < outer_count;
-    assign selected.last     = issues_last;
     assign selected.k        = k;
     tess_delay #(.WIDTH(TAG_BITS), .CLOCKS(4)) to_fixed (.clk, .advance, .in(selected), .out(fixed_tag));
     tess_delay #(.WIDTH(TAG_BITS), .CLOCKS(2)) to_context (.clk, .advance, .in(fixed_tag), .out(context_tag));
@@ -162,13 +160,14 @@ module tess_factors (
     always_ff @(posedge clk) begin
         if (rst)          valids <= 6'd0;
         else if (advance) valids <= {valids[4:0], busy};
+        if (advance)      lasts <= {lasts[4:0], issues_last};
     end
 
     logic          context_valid, context_last;
     logic [2:0]    context_k;
     tess_context_t made;
     assign context_valid = valids[5];
-    assign context_last  = context_tag.last;
+    assign context_last  = lasts[5];
     assign context_k     = context_tag.k;
     tess_delay #(.WIDTH(2), .CLOCKS(2)) beside (
         .clk, .advance, .in({odd, fixed == 23'h01_0000}), .out({made.odd, is_one}));
@@ -239,14 +238,14 @@ module tess_factors (
     assign is_occupied = product_valid || sum_valid || out_valid;
 
     logic [1:0]  counted_domain, counted_out;
-    logic        counted_culled, is_minimum;
-    logic [12:0] product, minuend, ring13;
+    logic        is_minimum;
+    logic [12:0] product, inner, ring13; // inner: points inside
     logic [6:0]  lines;      // of an isoline patch
     logic [13:0] subtrahend; // primitives are this less than the points, or than twice the points
     assign ring13 = {4'd0, out_patch.ring_points};
     always_comb begin
-        minuend = product;
-        if (counted_domain == tess_pkg::TRIANGLE) minuend = product + {12'd0, out_contexts[BITS*4]};
+        inner = product;
+        if (counted_domain == tess_pkg::TRIANGLE) inner = product + {12'd0, out_contexts[BITS*4]};
     end
 
     always_ff @(posedge clk) begin
@@ -255,9 +254,10 @@ module tess_factors (
             sum_valid     <= 1'b0;
             out_valid     <= 1'b0;
         end else begin
-            product_valid <= moves;
+            // A culled patch has nothing to be counted.
+            product_valid <= moves && !whole.culled;
             sum_valid     <= product_valid;
-            out_valid     <= sum_valid || (out_valid && !out_ready);
+            out_valid     <= (moves && whole.culled) || sum_valid || (out_valid && !out_ready);
         end
         if (moves) begin
             out_contexts          <= contexts;
@@ -265,25 +265,26 @@ module tess_factors (
             out_patch.out         <= whole.out;
             out_patch.center      <= whole.center;
             out_patch.ring_points <= ring_points;
+            out_patch.minimum     <= 1'b0;
+            out_patch.points      <= 13'd0;
+            out_patch.primitives  <= 14'd0;
             counted_domain        <= whole.domain;
             counted_out           <= whole.out;
-            counted_culled        <= whole.culled;
             is_minimum            <= all_one && whole.domain != tess_pkg::ISOLINE;
             product               <= 13'(wide) * 13'(tall);
             lines                 <= tall;
         end
         if (product_valid) begin
             out_patch.minimum <= is_minimum;
-            if (counted_culled)                           out_patch.points <= 13'd0;
-            else if (is_minimum)                          out_patch.points <= (counted_domain == tess_pkg::QUAD) ? 13'd4 : 13'd3;
+            if (is_minimum)                               out_patch.points <= (counted_domain == tess_pkg::QUAD) ? 13'd4 : 13'd3;
             else if (counted_domain == tess_pkg::ISOLINE) out_patch.points <= product;
-            else                                          out_patch.points <= minuend + ring13;
+            else                                          out_patch.points <= inner + ring13;
 
-            if (counted_culled || counted_out == tess_pkg::POINT) subtrahend <= 14'd0;
-            else if (counted_domain == tess_pkg::ISOLINE)         subtrahend <= {7'd0, lines};
-            else if (counted_out == tess_pkg::LINE)               subtrahend <= 14'd1;
-            else if (is_minimum)                                  subtrahend <= 14'd2;
-            else                                                  subtrahend <= {1'b0, ring13} + 14'd2;
+            if (counted_out == tess_pkg::POINT)           subtrahend <= 14'd0;
+            else if (counted_domain == tess_pkg::ISOLINE) subtrahend <= {7'd0, lines};
+            else if (counted_out == tess_pkg::LINE)       subtrahend <= 14'd1;
+            else if (is_minimum)                          subtrahend <= 14'd2;
+            else                                          subtrahend <= {1'b0, ring13} + 14'd2;
         end
         if (sum_valid) out_patch.primitives <= (is_doubled ? {out_patch.points, 1'b0} : {1'b0, out_patch.points}) - subtrahend;
     end

@@ -1,30 +1,30 @@
-// tess_connect neither drops nor doubles an element, whatever the patches and however the consumer waits: the primitives
-// of all patches that it has accepted are those that have left, those to come of the patch in the walk, and the one that
-// is offered. The same holds for the patches' last primitives. Proved by induction.
+// tess_connect neither drops nor doubles a primitive where it describes stitches: the primitives of all patches that it has
+// accepted are those of the stitches that were taken, of the one ahead, and those to be described. The same holds for
+// the patches' last ones. Proved by induction; prove_stitch and prove_rows go on from there.
 module prove_connect (
     input logic        clk, rst,
-    input logic        starts, active,
-    input logic [13:0] start_primitives, patch_primitives, number,
-    input logic        out_valid, out_last, out_ready
+    input logic        starts, active, is_first, edge_valid, ahead_valid, ahead_last, takes,
+    input logic [13:0] start_primitives, patch_primitives, remaining,
+    input logic [6:0]  ahead_further
 );
-    logic        has_begun = 1'b0, stalled;
-    logic [15:0] held;
-    logic [7:0]  held_patches;
-    ledger #(.WIDTH(14)) ledger (
-        .clk(clk), .rst(rst), .starts(starts), .elements(start_primitives), .leaves(out_valid && out_ready),
-        .leaves_last(out_last), .held(held), .held_patches(held_patches)
-    );
+    logic        has_begun = 1'b0;
+    logic [15:0] accepted, taken, to_describe;
+    logic [7:0]  accepted_patches, taken_patches;
     always_ff @(posedge clk) begin
-        has_begun <= 1'b1;
-        stalled   <= !rst && out_valid && !out_ready;
+        has_begun        <= 1'b1;
+        accepted         <= rst ? 16'd0 : accepted + (starts ? 16'(start_primitives) : 16'd0);
+        taken            <= rst ? 16'd0 : taken + (takes ? 16'(ahead_further) + 16'd1 : 16'd0);
+        accepted_patches <= rst ? 8'd0 : accepted_patches + 8'(starts && start_primitives != 14'd0);
+        taken_patches    <= rst ? 8'd0 : taken_patches + 8'(takes && ahead_last);
     end
     always_comb begin
+        to_describe = !active ? 16'd0 : is_first ? 16'(patch_primitives) : 16'(remaining) + 16'd1;
         if (!has_begun) assume (rst);
         if (has_begun && !rst) begin
-            assert (!active || number < patch_primitives);
-            assert (held == (active ? 16'(patch_primitives - number) : 16'd0) + 16'(out_valid));
-            assert (held_patches == 8'(active) + 8'(out_valid && out_last));
-            if (stalled) assert (out_valid);
+            assert (!edge_valid || (active && !is_first));
+            assert (!active || !is_first || patch_primitives != 14'd0);
+            assert (16'(accepted - taken) == to_describe + (ahead_valid ? 16'(ahead_further) + 16'd1 : 16'd0));
+            assert (8'(accepted_patches - taken_patches) == 8'(active) + 8'(ahead_valid && ahead_last));
         end
     end
 endmodule

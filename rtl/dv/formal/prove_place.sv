@@ -1,6 +1,7 @@
 // tess_place_position equals the first half of the formula of section 5, computed here in 64 bits, for every input in
 // range: the widths of section 14.1 suffice. Proved for all inputs at once.
 module prove_place_position (
+    input logic        clk, advance,
     input logic [16:0] inv_floor, inv_ceil,
     input logic [5:0]  half_points, split,
     input logic        odd,

@@ -1,6 +1,7 @@
 // tess_place_blend equals the second half of the formula of section 5, computed here in 64 bits, for every input in
 // range: the widths of section 14.1 suffice. Proved for all inputs at once.
 module prove_place_blend (
+    input logic        clk, advance,
     input logic [15:0] fraction,
     input logic        flip, middle,
     input logic [16:0] coarse, fine
