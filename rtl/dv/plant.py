@@ -6,7 +6,8 @@
 
 The list has the form of the project's other lists of faults: `in FILE` and `seen by WHO` hold until they are said again,
 `kind WORD` too; then `fault NAME`, `<<<`, the text, `===`, the wrong text, `>>>`. The text stands in its file once. It is an
-expression, `assign` with one, or whole statements of a procedure, so that a switch can choose between it and the wrong one.
+expression, `assign` with one (declarations may stand before a wrong one), or whole statements of a procedure, so that a switch
+can choose between it and the wrong one.
 """
 
 import argparse
@@ -73,9 +74,11 @@ def chosen(right: str, others: "list[tuple[int, str]]") -> str:
     if head is None:
         tests = "".join(f"if (tess_fault_pkg::number == {n}) begin {wrong} end else " for n, wrong in others)
         return f"{tests}begin {right} end"
-    assert all(wrong.startswith(head[0]) for _, wrong in others), f"other signals than {head[0]}"
-    start = head.end()
-    return head[0] + chosen(right[start:-1], [(n, wrong[start:-1]) for n, wrong in others]) + ";"
+    # What stands before a wrong `assign` declares what it needs.
+    parts = [(number, *wrong.rpartition(head[0].lstrip())) for number, wrong in others]
+    assert all(found for _, _, found, _ in parts), f"other signals than {head[0]}"
+    values = chosen(right[head.end() : -1], [(number, value[:-1]) for number, _, _, value in parts])
+    return "".join(before for _, before, _, _ in parts) + head[0] + values + ";"
 
 
 def switched(text: str, planted: "list[Fault]") -> str:

@@ -167,7 +167,7 @@ class Bench:
 
     def see_primitive(self, data: int, last: bool) -> None:
         indices = [data & 0x1FFF, data >> 16 & 0x1FFF, data >> 32 & 0x1FFF]
-        self.board.primitive(indices[: data >> 48], last)
+        self.board.primitive(indices, last, size=data >> 48)
 
     async def drain(self) -> None:
         """Waits until all is there, or nothing comes any more."""

@@ -199,7 +199,11 @@ module tb_tess;
         stimulus_t s;
         point_t p;
         while (of_points.size() != 0 && of_points[0].points == 0) void'(of_points.pop_front());
-        if (of_points.size() == 0) $fatal(1, "a point came that no patch has");
+        if (of_points.size() == 0) begin
+            compare(offered, POINTS_VALID, 0, 1, 0);
+            show();
+            $fatal(1, "FAIL: a point came that no patch has");
+        end
         s = of_points[0];
         p = model_point(config_of(s), s.x, next_point);
         compare(s, POINTS_U, next_point, 32'(point_u), p.u);
@@ -218,7 +222,11 @@ module tb_tess;
         stimulus_t s;
         primitive_t p;
         while (of_primitives.size() != 0 && of_primitives[0].primitives == 0) void'(of_primitives.pop_front());
-        if (of_primitives.size() == 0) $fatal(1, "a primitive came that no patch has");
+        if (of_primitives.size() == 0) begin
+            compare(offered, CONNECT_VALID, 0, 1, 0);
+            show();
+            $fatal(1, "FAIL: a primitive came that no patch has");
+        end
         s = of_primitives[0];
         p = model_primitive(config_of(s), s.x, next_primitive);
         compare(s, CONNECT_SIZE, next_primitive, 32'(primitive_size), p.size);
@@ -288,6 +296,14 @@ module tb_tess;
         int unsigned fixed, exponent, bits;
         if (kind == 0) return random();
         if (kind == 1) return THRESHOLDS[random() % 6] + random() % 3 - 1;
+        if (kind == 2) begin
+            case (random() % 8)
+                0:       return 32'h7FC0_0000 ^ (random() & 32'h803F_FFFF); // NaN
+                1:       return 32'h7F80_0000;                              // infinity
+                2:       return 1 + random() % 32'h007F_FFFF;               // below the normal numbers
+                default: return 32'h3F80_0040 + (random() & 32'h0000_FF80); // half of 2^-16 behind the point: a tie
+            endcase
+        end
         fixed = 32'h1_0000 + random() % (32'h1_0000 << (random() % 7));
         if (kind < 8) fixed = (fixed & 32'hFFFF_0000) + (random() % 8 == 0 ? random() % 64 : 0);
         if (fixed > 32'h40_0000) fixed = 32'h40_0000;
@@ -308,16 +324,22 @@ module tb_tess;
         for (int unsigned i = 0; i < 6; i++) s.x[i] = random_factor();
         if (random() % 4 == 0) for (int unsigned i = 1; i < 6; i++) s.x[i] = s.x[0];
         // One factor near a threshold that the others, all ONE, do not hide.
-        if (random() % 16 == 0) begin
+        if (random() % 8 == 0) begin
+            if (random() % 2 == 0) s.partitioning = 2'(FRACTIONAL_ODD);
             for (int unsigned i = 0; i < 6; i++) s.x[i] = 32'h3F80_0000;
-            s.x[random() % 6] = THRESHOLDS[random() % 3] + random() % 3 - 1;
+            s.x[random() % 4] = THRESHOLDS[random() % 3] + random() % 3 - 1;
+        end
+        // The most rings.
+        if (random() % 256 == 0) begin
+            s.domain = 2'(QUAD);
+            for (int unsigned i = 4; i < 6; i++) s.x[i] = (random() % 2 == 0) ? 32'h4280_0000 : 32'h4278_0000; // 64, 62
         end
         return s;
     endfunction
 
     // ---- back-pressure -------------------------------------------------------------------------
 
-    // How a consumer waits, for 16 to 143 clocks: not at all, in every fourth clock, in every other, all the time.
+    // How each consumer waits for a while: not at all, in every fourth clock, in every other, all the time.
     int unsigned manner[3] = '{0, 0, 0}, remains = 0;
     // The stream whose patches are finished before the others begin them; 3: none.
     int unsigned first = 3;
@@ -335,15 +357,18 @@ module tb_tess;
 
     function automatic void press_back();
         if (remains == 0) begin
-            remains = 16 + random() % 128;
-            first   = random() % 8;
-            if (first > 3) first = 3;
-            foreach (manner[i]) manner[i] = random() % 4;
-            // Now and then one stream alone waits.
-            if (random() % 4 == 0) manner = '{0, 0, 0};
-            if (manner[0] + manner[1] + manner[2] == 0) manner[random() % 3] = 3;
+            int unsigned kind = random() % 16;
+            remains = 64 + random() % 128;
+            first   = (kind == 0) ? random() % 3 : 3;
+            foreach (manner[i]) manner[i] = random() % ((kind < 4) ? 3 : 2);
+            if (kind >= 14) begin // one alone, all of them
+                remains = 40;
+                foreach (manner[i]) manner[i] = (kind == 14) ? 0 : 3;
+                manner[random() % 3] = 3;
+            end
         end
-        remains--;
+        // A stream that should come first and does not is waited for.
+        if (first == 3 || idle < 2) remains--;
         void'(is_empty());
         counts_ready    = is_ready(0, of_counts.size());
         point_ready     = is_ready(1, of_points.size());
@@ -392,7 +417,7 @@ module tb_tess;
             if (primitive_valid && primitive_ready) check_primitive();
             if (differences.size() != 0) show();
             count_clocks();
-            if (idle > 2000) begin
+            if (idle > 2000 && (is_offered || !is_empty())) begin
                 if (of_points.size() != 0) compare(of_points[0], POINTS_VALID, next_point, 0, 1);
                 if (of_primitives.size() != 0) compare(of_primitives[0], CONNECT_VALID, next_primitive, 0, 1);
                 show();
@@ -414,7 +439,7 @@ module tb_tess;
         is_offered         = 1'b1;
         while (!is_accepted) @(posedge clk);
         // A design with a fault may go wrong for ever, or seldom; what is shown is enough.
-        if (fault != 0 && mismatches != 0) patches_behind++;
+        if (fault != 0 && mismatches + tess_check_pkg::failures != 0) patches_behind++;
         if (mismatches > MAX_SHOWN || patches_behind > 100) give_verdict();
         if (alone) drain();
     endtask
@@ -475,7 +500,13 @@ module tb_tess;
         repeat (count) begin
             repeat (1 + random() % 4) send(random_stimulus());
             repeat (random() % 40) @(posedge clk);
+            // Half of them at the last element of a stream.
             @(negedge clk);
+            case (random() % 4)
+                0: for (int unsigned i = 0; i < 4096 && !is_empty() && !(point_valid && point_last); i++) @(negedge clk);
+                1: for (int unsigned i = 0; i < 4096 && !is_empty() && !(primitive_valid && primitive_last); i++) @(negedge clk);
+                default: ;
+            endcase
             #2;
             cover_reset();
             rst = 1'b1;

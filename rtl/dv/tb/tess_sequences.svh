@@ -69,7 +69,7 @@ function automatic int unsigned sequences_missed();
     foreach (KINDS[i]) foreach (KINDS[j]) sequences_missed += missed({KINDS[i], " after ", KINDS[j]});
     for (int unsigned stream = 0; stream < 3; stream++) begin
         sequences_missed += missed({STREAMS[stream], " alone wait"});
-        foreach (POSITIONS[i]) if (stream != 0 || i == 0) begin
+        foreach (POSITIONS[i]) if ((stream == 0 && i == 0) || (stream == 1 && i != 0) || stream == 2) begin // a patch has two points at least
             string place = {STREAMS[stream], ", ", POSITIONS[i]};
             sequences_missed += missed({"stall of ", place}) + missed({"long stall of ", place});
             if (stream != 0) sequences_missed += missed({"reset of ", place});

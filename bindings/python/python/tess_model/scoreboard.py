@@ -106,10 +106,11 @@ class Scoreboard:
         """A point came; ``u`` and ``v`` are 16.16."""
         self._compare("point", {"u": u, "v": v, "last": int(last)})
 
-    def primitive(self, indices: Sequence[int], last: bool) -> None:
-        """A primitive came, with its 1 to 3 indices."""
+    def primitive(self, indices: Sequence[int], last: bool, size: "int | None" = None) -> None:
+        """A primitive came, with its 1 to 3 indices; or with all three fields and ``size``, and the unused ones must be 0."""
         i0, i1, i2 = (*indices, 0, 0)[:3]
-        self._compare("primitive", {"size": len(indices), "i0": i0, "i1": i1, "i2": i2, "last": int(last)})
+        size = len(indices) if size is None else size
+        self._compare("primitive", {"size": size, "i0": i0, "i1": i1, "i2": i2, "last": int(last)})
 
     def reset(self) -> None:
         """The circuit was reset: nothing that it has taken is due."""

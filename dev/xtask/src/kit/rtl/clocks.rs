@@ -1,19 +1,37 @@
 //! How many clocks the workloads of `tess bench` take, without back-pressure.
 
 use super::bench::{Bench, Verdict};
+use super::sources;
+use crate::command::in_file;
 use tess_verify::Case;
 use tess_verify::generate::{Calls, Workload};
 
 /// Points of a workload that are enough; what is behind them is left out.
 const POINTS: u64 = 100_000;
 
-/// Prints latencies, then a row of a table for each workload.
+/// Clocks between two patches, and from a patch to its first element, at most.
+const BETWEEN: u64 = 8;
+const LATENCY: u64 = 30;
+
+/// Prints latencies, then a row of a table for each workload; both must stand in docs/rtl.md.
 ///
 /// # Errors
-/// A patch differs from the model.
+/// A patch differs from the model, or a clock from the document.
 pub(crate) fn run(bench: &Bench) -> Result<(), String> {
+    let document = sources().with_file_name("docs/rtl.md");
+    let document = std::fs::read_to_string(&document).map_err(|e| in_file(&document, &e))?;
     let (_, said) = bench.compare_aloud(&["+random=1000", "+alone"])?;
-    println!("\nclocks, one patch alone: {}", line(&said, "latency: ")?);
+    let latency = line(&said, "latency: ")?;
+    println!("\nclocks, one patch alone: {latency}");
+    let latencies: Vec<u64> = latency.split(' ').filter_map(|word| word.parse().ok()).collect();
+    let [point, primitive] = latencies[..] else { return Err(format!("`{latency}`")) };
+    let mut wrong = Vec::new();
+    if point.max(primitive) > LATENCY
+        || !document
+            .contains(&format!("{point} clocks for a point and {primitive} for a primitive"))
+    {
+        wrong.push(latency.to_owned());
+    }
     println!(
         "\n| workload | patches | points | primitives | clocks | points a clock | primitives a clock | clocks between patches |"
     );
@@ -25,9 +43,18 @@ pub(crate) fn run(bench: &Bench) -> Result<(), String> {
         let stimuli = bench.stimuli(&file, &beginning(&workload))?;
         let (verdict, said) = bench.compare_aloud(&[&stimuli])?;
         let between = line(&said, "between patches: at most ")?.replace(" clocks", "");
-        println!("{}", row(&workload.name, verdict, &between));
+        let row = row(&workload.name, verdict, &between);
+        println!("{row}");
+        if !between.parse().is_ok_and(|clocks: u64| clocks <= BETWEEN) || !document.contains(&row) {
+            wrong.push(row);
+        }
     }
-    Ok(())
+    match wrong.is_empty() {
+        true => Ok(()),
+        false => {
+            Err(format!("docs/rtl.md says otherwise, or a bar is missed:\n{}", wrong.join("\n")))
+        }
+    }
 }
 
 /// The first patches, with enough points together.
