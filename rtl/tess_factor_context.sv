@@ -32,13 +32,20 @@ module tess_factor_context #(
 
     // ---- points --------------------------------------------------------------------------------
 
-    logic [6:0] ceil_next, floor_points, ceil_points;
-    logic       is_odd, is_center;
-    assign ceil_next = half[22:16] + 7'(|half[15:0]);
-    tess_delay #(.WIDTH(30), .CLOCKS(CLOCKS)) at_rest (
-        .clk, .advance, .in({half, ceil_next}), .out({floor_points, fraction, ceil_points}));
-    tess_delay #(.WIDTH(2), .CLOCKS(2 * CLOCKS)) modes (
-        .clk, .advance, .in({odd, center}), .out({is_odd, is_center}));
+    logic       odd_here, is_odd, is_center, has_fraction;
+    logic [6:0] floor_points, ceil_points;
+    logic [6:0] floor_before, ceil_before; // less one if odd
+    tess_delay #(.WIDTH(1), .CLOCKS(CLOCKS)) parity_here (.clk, .advance, .in(odd), .out(odd_here));
+    assign has_fraction = half[15:0] != 16'd0;
+    logic [6:0] less_odd;
+    assign less_odd = half[22:16] - {6'd0, odd_here};
+    tess_delay #(.WIDTH(44), .CLOCKS(CLOCKS)) at_rest (
+        .clk, .advance,
+        .in ({half, half[22:16] + 7'(has_fraction), less_odd, less_odd + 7'(has_fraction)}),
+        .out({floor_points, fraction, ceil_points, floor_before, ceil_before})
+    );
+    tess_delay #(.WIDTH(1), .CLOCKS(CLOCKS)) parity (.clk, .advance, .in(odd_here), .out(is_odd));
+    tess_delay #(.WIDTH(1), .CLOCKS(2 * CLOCKS)) order (.clk, .advance, .in(center), .out(is_center));
 
     // ---- the rest ------------------------------------------------------------------------------
 
@@ -50,24 +57,24 @@ module tess_factor_context #(
     endfunction
 
     logic [6:0] odd_top, even_top; // the points of the floor without their highest bit
-    assign odd_top  = drop_msb(floor_points - 7'd1);
+    assign odd_top  = drop_msb(floor_before);
     assign even_top = drop_msb(floor_points);
     always_comb begin
         half_points = ceil_points[5:0];
         points      = {ceil_points[5:0], !is_odd}; // section 14.1
         if (floor_points == ceil_points)         split = 6'(ceil_points + 7'd1); // no point reaches it
-        else if (is_center)                      split = 6'(ceil_points - (is_odd ? 7'd2 : 7'd1));
+        else if (is_center)                      split = 6'(ceil_before - 7'd1);
         else if (is_odd && floor_points == 7'd1) split = 6'd0;
         else if (is_odd)                         split = 6'((odd_top << 1) + 7'd1);
         else                                     split = 6'((even_top << 1) + 7'd1);
     end
 
     tess_reciprocal floor_reciprocal (
-        .n    ((floor_points << 1) - {6'd0, is_odd}),
+        .n    ({floor_before[5:0], is_odd}),
         .value(inv_floor)
     );
     tess_reciprocal ceil_reciprocal (
-        .n    ((ceil_points << 1) - {6'd0, is_odd}),
+        .n    ({ceil_before[5:0], is_odd}),
         .value(inv_ceil)
     );
 endmodule

@@ -9,6 +9,7 @@ pub(crate) fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["rtl", "--long"] => rtl::long(),
         ["rtl", "--prove"] => rtl::prove(),
         ["rtl", "--synth"] => rtl::synthesize(),
+        ["rtl", "--place"] => rtl::place(),
         ["rtl", "--names"] => rtl::write_names(),
         _ => return None,
     })

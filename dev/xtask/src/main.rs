@@ -72,7 +72,7 @@ usage: cargo xtask <command>
           single stages; plant its faults; print clocks for the workloads of `tess bench`
   rtl --names
           write anew the names of signals, stages and modules that the bench prints, and the lists of sources
-  rtl --long | --prove | --synth
+  rtl --long | --prove | --synth | --place
           compare level 2, 10 million random patches and every input of single stages, which takes hours and goes on
           where it stopped; prove handshakes and placement; print what the circuit costs
   install --prefix FOLDER [--target TARGET]

@@ -1,4 +1,4 @@
-// tess_stitch and tess_rows as the proof of tess_connect sees them: stitches are taken at any time, primitives are any.
+// tess_stitch, tess_rows and tess_mask as the proof of tess_connect sees them: stitches are taken at any time, the rest is 0.
 `include "tess_types.svh"
 module tess_stitch (
     input  logic         clk, rst, advance, ahead_valid,
@@ -22,4 +22,11 @@ module tess_rows (
     output logic         out_last
 );
     assign {out_valid, out_size, out_i0, out_i1, out_i2, out_last} = '0;
+endmodule
+module tess_mask (
+    input  logic [5:0]  half,
+    input  logic        center,
+    output logic [31:0] mask
+);
+    assign mask = '0;
 endmodule

@@ -7,6 +7,7 @@ mod cost;
 mod faults;
 mod long;
 mod names;
+mod place;
 mod proofs;
 mod stages;
 
@@ -60,6 +61,14 @@ pub(crate) fn prove() -> Result<(), String> {
 /// A tool is missing or fails.
 pub(crate) fn synthesize() -> Result<(), String> {
     cost::run()
+}
+
+/// Places and routes the circuit, and prints the clock that it reaches.
+///
+/// # Errors
+/// A tool cannot be had or fails, or the clock is not reached.
+pub(crate) fn place() -> Result<(), String> {
+    place::run()
 }
 
 /// Writes the names that the bench prints anew.
