@@ -10,7 +10,27 @@
 //   triangle     A: place(inside, ring), the ring's distance; B: place(inside, along)
 //   centre       as a ring of a quad; one third on triangles
 //
-// PICTURE
+// A quad with the factors 2, 3, 2, 3 outside, 4 (u) and 3 (v) inside: counts 3, 4, 3, 4, 5 and 4, so 16 points.
+// `tess explain quad --outer 2,3,2,3 --inner 4,3 --partitioning integer --point N` prints each of them.
+//
+//   v = 1   0---9---8---7          edge           along      across   points
+//           | 10  15  14 |         outer, u = 0   2, 1       -        0, 1       backward
+//           1            6         outer, v = 0   0, 1, 2    -        2 to 4     forward
+//           | 11  12  13 |         outer, u = 1   0, 1       -        5, 6       forward
+//   v = 0   2---3---4---5          outer, v = 1   3, 2, 1    -        7 to 9     backward
+//                                  ring 1, 0      v 2        u 1      10         end_v = 4 - 1 - 1 = 2
+//                                  ring 1, 1      u 1, 2     v 1      11, 12
+//                                  ring 1, 2      v 1        u 3      13         end_u = 5 - 1 - 1 = 3
+//                                  ring 1, 3      u 3, 2     v 2      14, 15
+//
+// Ring r has end_u - r and end_v - r points on its edges, so rest_u = 5 - 2 - 2r further ones; ring 2 would have none, so
+// ring 1 is the innermost.
+//
+// What must hold:
+// - start_patch.points is the patch's count, from tess_factors: it ends the walk, and a culled patch has 0.
+// - What is described and not walked, `remaining` and `ahead`, is what the patch has left (dv/formal).
+// - `along` and `across` are below the points of their contexts, which stay with the edge while the next patch is described.
+// - Registers behind `ahead` change only where `advance` is 1, so nothing is lost while out_ready is 0.
 `include "tess_types.svh"
 module tess_points (
     input  logic                               clk,
