@@ -12,9 +12,10 @@ import pytest
 BENCH = Path(__file__).resolve().parents[3] / "rtl" / "dv" / "cocotb"
 BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb")) / "top"
 FAULTS = {
-    "9": "stage=points module=tess_points signal=v point ",
-    "13": "stage=connect module=tess_connect signal=i1 primitive ",
-    "15": "stage=points module=tess_points signal=u point ",
+    "24": "stage=points module=tess_points signal=v point ",
+    "36": "stage=connect module=tess_connect signal=i1 primitive ",
+    "57": "stage=points module=tess_points signal=u point ",
+    "80": "stage=connect module=tess_connect signal=i2 primitive ",
 }
 
 
