@@ -56,6 +56,24 @@ fn a_right_device_passes() {
     assert_eq!((report.cases, report.mismatches), (1, 0), "{report:?}");
 }
 
+/// A device that fails at every hundredth patch, whichever thread checks it; and one that fails once more.
+#[test]
+fn differences_at_regular_distances_have_a_period() {
+    let mut outputs = vec![(case(TRIANGLE), right(TRIANGLE)); 1000];
+    (49..1000).step_by(100).for_each(|i| outputs[i].1.indices.rotate_left(3));
+    for threads in [1, 3] {
+        let report = observe_all("device", &outputs, Strength::default(), threads);
+        assert_eq!((report.mismatches, report.period()), (10, Some(100)), "{threads} threads");
+    }
+    outputs[60].1.indices.rotate_left(3);
+    let report = observe_all("device", &outputs, Strength::default(), 3);
+    assert_eq!((report.mismatches, report.period()), (11, None), "one between");
+    let report = observe_all("device", &outputs[..160], Strength::default(), 1);
+    assert_eq!((report.mismatches, report.period()), (3, None), "50, 61 and 150");
+    let report = observe_all("device", &outputs[100..300], Strength::default(), 1);
+    assert_eq!((report.mismatches, report.period()), (2, None), "two are too few");
+}
+
 #[test]
 fn stages_of_a_device_are_told_apart() {
     let truncated = right(&TRIANGLE.replace("40733333", "40733300"));

@@ -30,6 +30,7 @@ pub struct Report {
     /// The first differences, at most [`MAX_DIFFERENCES`], in the order of the file.
     pub differences: Vec<Difference>,
     groups: Groups,
+    numbers: Numbers,
     /// What explains every difference so far; `None` if there is none.
     explained: Option<Explained>,
 }
@@ -52,6 +53,14 @@ impl Report {
         self.groups.sorted()
     }
 
+    /// The largest distance, of 8 or more, that the numbers of all records that differ are multiples of apart, if there are
+    /// three or more: a device that keeps something between patches may fail at every so many.
+    #[must_use]
+    pub const fn period(&self) -> Option<u64> {
+        let Numbers { gap, .. } = self.numbers;
+        if self.mismatches >= 3 && gap >= 8 { Some(gap) } else { None }
+    }
+
     /// Adds what explains a difference.
     pub(super) fn explain(&mut self, explained: Explained) {
         let before = self.explained.unwrap_or([true; Way::OF_FILES.len()]);
@@ -66,6 +75,7 @@ impl Report {
     /// Adds a difference.
     pub(super) fn differ(&mut self, difference: Difference) {
         self.mismatches += 1;
+        self.numbers.add(Numbers { first: difference.number, gap: 0 });
         self.groups.add(&difference);
         if self.differences.len() < MAX_DIFFERENCES {
             self.differences.push(difference);
@@ -79,11 +89,34 @@ impl Report {
         }
         self.cases += other.cases;
         self.mismatches += other.mismatches;
+        if other.mismatches > 0 {
+            self.numbers.add(other.numbers);
+        }
         self.known += other.known;
         self.groups.join(other.groups);
         self.differences.extend(other.differences);
         self.differences.sort_by_key(|difference| difference.number);
         self.differences.truncate(MAX_DIFFERENCES);
+    }
+}
+
+/// The numbers of records that differ: one of them, and what the distances between them are multiples of.
+#[derive(Clone, Copy, Debug, Default)]
+struct Numbers {
+    /// From 1; 0 if there is none.
+    first: u64,
+    gap: u64,
+}
+
+impl Numbers {
+    fn add(&mut self, other: Self) {
+        let apart = if self.first == 0 { 0 } else { self.first.abs_diff(other.first) };
+        self.first = other.first;
+        for mut rest in [apart, other.gap] {
+            while rest > 0 {
+                (self.gap, rest) = (rest, self.gap % rest);
+            }
+        }
     }
 }
 

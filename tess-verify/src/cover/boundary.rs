@@ -96,10 +96,11 @@ pub(super) fn observe(
 fn clamping(partitioning: Partitioning, raw: f32, hit: &mut impl FnMut(&str)) {
     let fixed = |factor| FixedFactor::from_f32(factor).to_bits();
     let (low, high) = partitioning.range();
+    let is = |end: f32| raw.to_bits() == end.to_bits();
     match raw {
-        _ if raw == low => hit("clamp_low/above"),
+        _ if is(low) => hit("clamp_low/above"),
         _ if raw < low && fixed(raw) + 2 >= fixed(low) => hit("clamp_low/below"),
-        _ if raw == high => hit("clamp_high/below"),
+        _ if is(high) => hit("clamp_high/below"),
         _ if raw > high && fixed(raw) <= fixed(high) + 1 => hit("clamp_high/above"),
         _ => {}
     }

@@ -110,7 +110,7 @@ fn clamp(list: &mut Vec<Threshold>, domain: Domain, partitioning: Partitioning) 
 fn round(list: &mut Vec<Threshold>, domain: Domain) {
     for partitioning in [Partitioning::Integer, Partitioning::Pow2] {
         for turn in 0..6 {
-            let power = |p: usize| 127 + ((p + turn) % 6) as u32;
+            let power = |p: usize| [127, 128, 129, 130, 131, 132][(p + turn) % 6];
             let of = |bits: &dyn Fn(u32) -> u32| {
                 let factor = |p| f32::from_bits(bits(power(p)));
                 case(partitioning, PatchFactors::from_fn(domain, factor))

@@ -17,15 +17,16 @@ use crate::input::{self, Reader};
 use crate::output::{Role, counted, note, progress, refuse_shared, stdout};
 use failures::Failures;
 use indicatif::ProgressBar;
+use std::collections::HashSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use strength::StrengthArgs;
-use tess_verify::check::{self, CheckError, Difference, MAX_DIFFERENCES, Report, Tested};
+use tess_verify::check::{self, CheckError, Checked, Difference, MAX_DIFFERENCES, Report, Tested};
 use tess_verify::rules::Specification;
 use tess_verify::vectors::{Cases, Kind, Record, VectorError, VectorFile};
-use tess_verify::{Backend, Named};
+use tess_verify::{Backend, Case, Named};
 
 /// Compare a file of test vectors, or the listings of a device under test, with a backend
 #[derive(Debug, clap::Args)]
@@ -161,8 +162,10 @@ fn compare(
     let failures = failures.transpose()?;
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
     let asked = asked.as_mut().map(|asked| asked as _);
+    let right = Mutex::new(HashSet::new());
     let report = check::check_asked(file, asked, &known.cases, &mut backends, tested, &|checked| {
         bar.inc(checked.records.len() as u64);
+        note_right(&mut right.lock().unwrap_or_else(PoisonError::into_inner), checked);
         recorder.update(|report| record::add(report, checked));
         if let Some(failures) = &failures {
             failures.add(checked);
@@ -191,7 +194,9 @@ fn compare(
         _ => format!("tested: the backend {backend}; right: {name}"),
     };
     let backend = args.options.words(backend);
-    show(&report, &sides, &backend).map_err(|error| Failure::write(Path::new("-"), error))?;
+    let right = right.into_inner().unwrap_or_else(PoisonError::into_inner);
+    show(&report, &sides, &backend, &right)
+        .map_err(|error| Failure::write(Path::new("-"), error))?;
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
 }
 
@@ -288,7 +293,7 @@ fn open(path: &Path) -> Result<Reader, Failure> {
     input::open(path).map_err(|error| Failure::file("read", path, &error))
 }
 
-fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
+fn show(report: &Report, sides: &str, backend: &str, right: &HashSet<Case>) -> io::Result<()> {
     let mut out = stdout();
     if report.mismatches > 0 {
         writeln!(out, "{sides}")?;
@@ -312,7 +317,15 @@ fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
     } else {
         report.differences.iter().take(if turn.is_some() { 1 } else { MAX_DIFFERENCES }).collect()
     };
-    all.iter().try_for_each(|difference| show_one(&mut out, difference, backend))?;
+    for difference in &all {
+        show_one(&mut out, difference, backend)?;
+        if difference.case.is_some_and(|case| right.contains(&case)) {
+            writeln!(
+                out,
+                "  passes alone: the same case is right in another record, so what came before matters"
+            )?;
+        }
+    }
     let hidden = report.mismatches - all.len() as u64;
     if hidden > 0 {
         writeln!(out, "and {hidden} more")?;
@@ -321,8 +334,20 @@ fn show(report: &Report, sides: &str, backend: &str) -> io::Result<()> {
         let all = counted(report.mismatches, "difference");
         writeln!(out, "{} would accept all {all}: {}", way.options(), way.words())?;
     }
+    if let Some(period) = report.period() {
+        writeln!(out, "the numbers of all records that differ are multiples of {period} apart")?;
+    }
     writeln!(out, "{report}")?;
     out.flush()
+}
+
+/// Notes cases that are right, of at most the first million records. A case that differs elsewhere depends on what the
+/// device was asked before.
+fn note_right(right: &mut HashSet<Case>, checked: Checked<'_>) {
+    const MOST: usize = 1 << 20;
+    let pairs = checked.records.iter().zip(checked.different);
+    let cases = pairs.filter(|(_, different)| !**different).filter_map(|(one, _)| one.case());
+    right.extend(cases.take(MOST.saturating_sub(right.len())));
 }
 
 /// A difference with where its first wrong element comes from in the model, and the commands that show it again.
