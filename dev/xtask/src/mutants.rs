@@ -48,7 +48,7 @@ const SUBJECTS: &[Subject] = &[
             Pass {
                 tests: "-C=--features=rayon -C=--lib -C=--test=buffers -C=--test=threads",
                 files: &[
-                    "data/level",
+                    "cpu/level",
                     "interface/tessellator",
                     "threads/part",
                     "threads/pool",

@@ -18,13 +18,20 @@ async fn open(instance: &wgpu::Instance) -> Gpu {
     Gpu { device, queue, info: adapter.get_info() }
 }
 
+/// As a program makes one, whose cache is there from an earlier run or not. Making wgpu's cache is `unsafe`, so that
+/// these tests have none.
+fn tessellator(device: &wgpu::Device, cache: Option<&wgpu::PipelineCache>) -> Tessellator {
+    let new = Tessellator::new(device);
+    cache.into_iter().fold(new, Tessellator::with_pipeline_cache)
+}
+
 #[test]
 fn a_stage_makes_the_pipelines_that_no_other_has() {
     let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle());
     let gpu = pollster::block_on(open(&instance));
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let scene = crate::scene::Scene::on(gpu, Domain::Quad, config, Vec::new());
-    let shared = Tessellator::new(&scene.gpu.device);
+    let shared = tessellator(&scene.gpu.device, None);
     let right = source(Domain::Quad);
     let build = |text: &str, change: fn(StageBuilder<'_>) -> StageBuilder<'_>| {
         let builder = TessellationStage::builder(text, Domain::Quad, config, PATCHES)
