@@ -34,6 +34,23 @@ fn equal_files() {
     }
 }
 
+/// A device that fails at every hundredth patch, with the cases of an older level.
+#[test]
+fn devices_that_keep_something() {
+    let listing = tess("patch tri --outer 3,3,3 --inner 3 --output triangle_cw").stdout;
+    let (_, right) = listing.split_once('\n').expect("a header");
+    let first = right.lines().nth(2).expect("a point");
+    let wrong = right.replacen(first, "00000 0ffff", 1);
+    let records = (0..500).map(|i| if i % 100 == 49 { &*wrong } else { right });
+    let header = "# tess-vectors 1 kind=listings count=500 source=device level=1\n";
+    let run = tess_with_input("check -", &(header.to_owned() + &records.collect::<String>()));
+    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    assert_eq!(run.stderr, "tess: cases of level 1, version 1; the newest is 2\n");
+    assert_eq!(run.stdout.matches("\n  passes alone: ").count(), 5, "{}", run.stdout);
+    let end = "differ are multiples of 100 apart\n500 cases, 5 mismatches\n";
+    assert!(run.stdout.ends_with(end), "{}", run.stdout);
+}
+
 /// The last hex or decimal digit of the last row is changed.
 #[test]
 fn different_files() {
