@@ -127,8 +127,10 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     let file = read(args.name(), open(&args.file)?).map_err(|e| failure(e.into()))?;
     let asked = args.asked(file.header().kind)?;
     let asked_header = asked.as_ref().and_then(Cases::header);
-    if let Some((level, version)) = asked_header.or(Some(file.header())).and_then(record::level) {
-        note(&format!("cases of level {level}, version {version}"));
+    let level = asked_header.or(Some(file.header())).and_then(record::level);
+    let newest = LEVEL_VERSION.to_string();
+    if let Some((level, version)) = level.filter(|(_, version)| *version != newest) {
+        note(&format!("cases of level {level}, version {version}; the newest is {newest}"));
     }
     let placed = record::place(args.shard, file.header(), asked_header)?;
     let known = args.known.read(read_known)?;
