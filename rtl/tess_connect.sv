@@ -24,7 +24,7 @@
 // What must hold:
 // - start_patch.primitives is the patch's count, from tess_factors: it ends the walk, and a culled patch has 0.
 // - Indices are below 4225, so 13 bits hold them; a patch has at most 8192 primitives, so 14 bits count them.
-// - What is described and not walked, `remaining` and `ahead`, is what the patch has left (dv/formal).
+// - What is described and not walked, `remaining` and `ahead`, is what the patch has left.
 // - Registers behind `ahead` change only where `advance` is 1, so nothing is lost while out_ready is 0.
 `include "tess_types.svh"
 module tess_connect (
