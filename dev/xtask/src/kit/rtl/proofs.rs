@@ -108,14 +108,6 @@ const PROOFS: &[Proof] = &[
         ],
     },
     Proof {
-        says: "tess_factor_context equals section 4 for every factor",
-        top: "prove_context",
-        files: &["tess_delay", "tess_reciprocal", "tess_factor_context", "prove_context"],
-        depth: 0,
-        is_asked_once: true,
-        faults: &["a half is cut off, not rounded up", "reciprocals are cut off, not rounded"],
-    },
-    Proof {
         says: "tess_place_position equals the first half of the formula of section 5",
         top: "prove_place_position",
         files: &["tess_delay", "tess_place_position", "prove_place"],
