@@ -327,7 +327,7 @@ module tb_tess;
         if (random() % 8 == 0) begin
             if (random() % 2 == 0) s.partitioning = 2'(FRACTIONAL_ODD);
             for (int unsigned i = 0; i < 6; i++) s.x[i] = 32'h3F80_0000;
-            s.x[random() % 4] = THRESHOLDS[random() % 3] + random() % 3 - 1;
+            s.x[random() % 6] = THRESHOLDS[random() % 3] + random() % 3 - 1;
         end
         // The most rings.
         if (random() % 256 == 0) begin
