@@ -34,8 +34,8 @@ proptest! {
         prop_assert_eq!(tess_edge_by_distance(a, b, eye, scale).to_bits(), distance.to_bits());
         let (one, rone) = corner(ra.to_array(), other);
         let (two, rtwo) = corner(rb.to_array(), reye.normalize_or_zero().to_array());
-        let curved = factors::edge_by_curvature([rone, rtwo], segment * 0.01);
-        prop_assert_eq!(tess_edge_by_curvature(one, two, segment * 0.01).to_bits(), curved.to_bits());
+        let curved = factors::edge_by_curvature([rone, rtwo], segment);
+        prop_assert_eq!(tess_edge_by_curvature(one, two, segment).to_bits(), curved.to_bits());
     }
 
     #[test]

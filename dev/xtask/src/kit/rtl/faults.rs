@@ -120,8 +120,7 @@ mod tests {
         let faults = list().expect("a list");
         assert!(faults.len() >= 90, "all faults");
         for Fault { name, seen_by, .. } in &faults {
-            let names =
-                |known: Signal| *seen_by == format!("{} {}", known.stage, known.name);
+            let names = |known: Signal| *seen_by == format!("{} {}", known.stage, known.name);
             let is_known =
                 seen_by == "clocks" || seen_by.starts_with("assertion ") || signals().any(names);
             assert!(is_known, "{name}: {seen_by}");

@@ -24,6 +24,7 @@ use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use strength::StrengthArgs;
 use tess_verify::check::{self, CheckError, Checked, Difference, MAX_DIFFERENCES, Report, Tested};
+use tess_verify::generate::LEVEL_VERSION;
 use tess_verify::rules::Specification;
 use tess_verify::vectors::{Cases, Kind, Record, VectorError, VectorFile};
 use tess_verify::{Backend, Case, Named};
