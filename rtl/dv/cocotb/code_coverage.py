@@ -31,6 +31,7 @@ def read(file: Path) -> "dict[Point, int]":
             continue
         fields = dict(part.split("\x02", 1) for part in found[1].split("\x01") if part)
         kind, module = fields["page"].split("/")
+        module = module.split("__")[0]  # Verilator names the parameters behind it
         what = f"toggle {fields['o']}"
         if kind != "v_toggle":
             source = sources.setdefault(fields["f"], Path(fields["f"]).read_text().splitlines())
