@@ -5,7 +5,8 @@
     python3 plant.py --list              number, kind, module, who sees it, name: a line each, between tabs
 
 The list has the form of the project's other lists of faults: `in FILE` and `seen by WHO` hold until they are said again,
-`kind WORD` too; then `fault NAME`, `<<<`, the text, `===`, the wrong text, `>>>`. The text stands in its file once. It is an
+`kind WORD` too; then `fault NAME := TEXT ==> WRONG TEXT`, or for several lines `fault NAME`, `<<<`, the text, `===`, the wrong
+text, `>>>`. The text stands in its file once. It is an
 expression, `assign` with one (declarations may stand before a wrong one), or whole statements of a procedure, so that a switch
 can choose between it and the wrong one.
 """
@@ -53,12 +54,15 @@ def faults(file: Path = DV / "circuit.faults") -> "list[Fault]":
     for line in lines:
         word = next((word for word in ("in ", "seen by ", "kind ", "fault ") if line.startswith(word)), "")
         if word == "fault ":
-            assert next(lines) == "<<<", f"{line}: `<<<` follows"
-            block = "\n".join(iter(lambda: next(lines), ">>>"))
-            right, wrong = block.split("\n===", 1)
-            found.append(
-                Fault(len(found) + 1, said["in "], said["kind "], said["seen by "], line[6:], right, wrong.lstrip("\n"))
-            )
+            name, is_line, change = line[6:].partition(" := ")
+            if is_line:
+                right, arrow, wrong = change.partition(" ==>")
+                assert arrow, f"{line}: no ` ==> `"
+            else:
+                assert next(lines) == "<<<", f"{line}: `<<<` follows"
+                right, wrong = "\n".join(iter(lambda: next(lines), ">>>")).split("\n===", 1)
+            wrong = wrong.removeprefix(" ").lstrip("\n")
+            found.append(Fault(len(found) + 1, said["in "], said["kind "], said["seen by "], name, right, wrong))
         elif word:
             said[word] = line[len(word) :]
         else:

@@ -46,7 +46,7 @@ pub(crate) fn equals_model() -> Result<(), Failed> {
     std::fs::write(&file, lines)?;
     let stimuli = format!("+stimuli={}", file.display());
     let mut bench = Command::new(bench()?);
-    let said = run(bench.args([&stimuli, "+random=20000", "+gaps", "+resets=400", "+covered"]))?;
+    let said = run(bench.args([&stimuli, "+random=20000", "+gaps", "+resets=800", "+covered"]))?;
     Ok(verdict(&said, count)?)
 }
 

@@ -31,7 +31,7 @@ pub(crate) fn run() -> Result<(), String> {
     let level_1: Vec<Case> = Selection::level(GenLevel::One, 1).cases().collect();
     let stimuli = bench.stimuli("level-1", &level_1)?;
     let random = format!("+random={RANDOM_PATCHES}");
-    let verdict = bench.compare(&[&stimuli, &random, "+gaps", "+resets=400", "+covered"])?;
+    let verdict = bench.compare(&[&stimuli, &random, "+gaps", "+resets=800", "+covered"])?;
     verdict.demand(level_1.len() as u64 + RANDOM_PATCHES)?;
     println!("level 1, {RANDOM_PATCHES} random patches, 400 resets: {verdict}");
     stages::part(&bench.folder)?;
