@@ -28,7 +28,9 @@ fn recorded() -> Vec<(PathBuf, Value)> {
 /// The digests and numbers of patches that the model has for level 1, with one freedom and `fault`.
 fn model(flush: bool, fault: impl Fn(&Case, &mut Vec<u32>)) -> BTreeMap<Names, (u64, Digests)> {
     let mut all = BTreeMap::<Names, (u64, Digests)>::new();
-    for case in cases(Selection::level(GenLevel::One, 1), Shard::WHOLE) {
+    // The devices were asked for the level's first version.
+    let level = Selection { version: 1, ..Selection::level(GenLevel::One, 1) };
+    for case in cases(level, Shard::WHOLE) {
         let names =
             [case.domain().name(), case.config.partitioning.name(), case.config.output.name()];
         let [domain, partitioning, output] = names.map(str::to_owned);
