@@ -45,7 +45,8 @@ impl Exclusions {
         Ok(())
     }
 
-    /// Reads patterns as [`Self::add`] takes them, one a line. Empty lines and what follows a `#` are left out.
+    /// Reads patterns, one a line: a bin's path, or its first parts, of which each may be `*` for any. Empty lines and what
+    /// follows a `#` are left out.
     ///
     /// # Errors
     /// A pattern of no bin, with its line.

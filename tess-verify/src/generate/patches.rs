@@ -21,7 +21,7 @@ pub(super) fn random_factor(random: &mut SplitMix64) -> f32 {
 
 /// A random patch whose output is small in the mean, for comparing many of them.
 ///
-/// Every kind of [`random_factor`] in every position. Those in range are at most 6, except for one
+/// Factors of every kind in every position. Those in range are at most 6, except for one
 /// position of every eighth patch and all of every 64th, which take them from the whole range.
 /// Another 64th has nothing above 1, as minimum patches do.
 #[must_use]
