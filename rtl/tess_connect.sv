@@ -240,6 +240,14 @@ module tess_connect (
     tess_mask mask_outer (.half(outer_half), .center(edge_center), .mask(outer_mask));
     tess_mask mask_inner (.half(inner_half), .center(edge_center), .mask(inner_mask));
 
+    // Bit 2 p + 1 of both: position p of the outer row; bit 2 p: that of the inner one. A vector of its own, as Icarus Verilog 11
+    // takes no variable index into a member.
+    logic [63:0] both_masks;
+    always_comb for (int i = 0; i < 32; i++) begin
+        both_masks[2*i]     = inner_mask[i];
+        both_masks[2*i + 1] = outer_mask[i];
+    end
+
     tess_stitch_t described, ahead;
     always_comb begin
         described.last      = is_last_edge;
@@ -253,10 +261,7 @@ module tess_connect (
         else if (edge_inner_last[6:1] != 0)  described.begins = tess_pkg::OUT;
         else if (described.has_inner)        described.begins = tess_pkg::MIDDLE_INNER;
         else                                 described.begins = tess_pkg::MIDDLE_OUTER;
-        for (int i = 0; i < 32; i++) begin
-            described.mask[2*i]     = inner_mask[i];
-            described.mask[2*i + 1] = outer_mask[i];
-        end
+        described.mask      = both_masks;
         described.middle         = edge_middle;
         described.outer_last     = edge_outer_last;
         described.outer_base     = outer_base + {12'd0, edge_strip_along_u};

@@ -18,7 +18,7 @@ DESIGN = Path(__file__).resolve().parents[3] / "rtl"
 FAULTS = [
     ("factor_context", "(factor + 23'd1) >> 1", "factor >> 1", "factor_context signal=fraction"),
     ("place_position", "{6'd0, odd}", "7'd0", "place_position signal=position"),
-    ("place_blend", " + 33'(HALF)", "", "place_blend signal=half_location"),
+    ("place_blend", "coarse + HALF", "coarse", "place_blend signal=half_location"),
 ]
 
 

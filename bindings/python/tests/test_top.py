@@ -13,7 +13,7 @@ BENCH = Path(__file__).resolve().parents[3] / "rtl" / "dv" / "cocotb"
 BUILD = Path(os.environ.get("TESS_COCOTB_BUILD", "target/cocotb")) / "top"
 FAULTS = {
     "24": "stage=points module=tess_points signal=v point ",
-    "36": "stage=connect module=tess_connect signal=i1 primitive ",
+    "36": "stage=connect module=tess_connect signal=i2 primitive ",
     "57": "stage=points module=tess_points signal=u point ",
     "80": "stage=connect module=tess_connect signal=i2 primitive ",
 }

@@ -53,6 +53,7 @@ def simulate(options: argparse.Namespace, build: Path) -> bool:
         hdl_toplevel="tess_axis",
         build_dir=build,
         timescale=("1ns", "1ps"),
+        always=True,  # another design may have older files
     )
     results = runner.test(
         test_module="top_bench",

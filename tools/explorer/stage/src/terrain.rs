@@ -1,6 +1,6 @@
 //! The frames of the terrain, their picture, and the model's verdict.
 
-use crate::{Report, config};
+use crate::{StageReport, config};
 use tess_core::{Patch, PatchFactors};
 use tess_gpu::layout::PackedPoint;
 use tess_wgpu::stage::Feedback;
@@ -28,7 +28,7 @@ pub(crate) async fn draw(
     gpu: &Gpu,
     mut stage: TessellationStage,
     is_wrong: bool,
-) -> Result<Report, Error> {
+) -> Result<StageReport, Error> {
     let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
         size: wgpu::Extent3d { width: SIZE, height: SIZE, depth_or_array_layers: 1 },
@@ -62,7 +62,7 @@ pub(crate) async fn draw(
     };
     let (Feedback { points, primitives, .. }, picture) = last;
     let difference = difference(gpu, &stage, points, primitives, is_wrong).await?;
-    Ok(Report {
+    Ok(StageReport {
         frames,
         first_scale: first.map_or(0.0, |first| first.scale),
         points: u32::try_from(points).unwrap_or(u32::MAX),

@@ -16,7 +16,7 @@ from cocotb.runner import get_results, get_runner
 
 HERE = Path(__file__).resolve().parent
 RTL = HERE / "design"
-PLACER = ["factor_context", "place_blend", "place_position", "placer", "reciprocal"]
+PLACER = ["delay", "factor_context", "place_blend", "place_position", "placer", "reciprocal"]
 
 
 def arguments() -> argparse.Namespace:
@@ -49,6 +49,7 @@ def main() -> int:
         hdl_toplevel="tess_placer",
         build_dir=build,
         timescale=("1ns", "1ps"),
+        always=True,  # another design may have older files
     )
     results = runner.test(
         test_module="bench",
