@@ -127,6 +127,7 @@ module tess_connect (
     end
 
     logic describes, passes, ends_patch; // to edge_; from there to ahead; and it is the last one
+    logic edge_valid, ahead_valid, takes; // there is one in edge_; in ahead; the walk takes that
     assign describes   = active && (!edge_valid || passes) && !ends_patch;
     assign start_ready = !active || ends_patch;
 
@@ -167,7 +168,6 @@ module tess_connect (
 
     // ---- the edge ------------------------------------------------------------------------------
 
-    logic        edge_valid;
     logic        edge_stitch, edge_closes, edge_descends, edge_strip, edge_strip_along_u, edge_center, edge_swaps;
     logic [1:0]  edge_size;
     logic [6:0]  edge_further, edge_outer_last, edge_inner_last, edge_middle, edge_offset;
@@ -277,7 +277,6 @@ module tess_connect (
         described.swaps          = edge_swaps;
     end
 
-    logic ahead_valid, takes;
     always_ff @(posedge clk) begin
         if (rst)         ahead_valid <= 1'b0;
         else if (passes) ahead_valid <= 1'b1;

@@ -243,6 +243,10 @@ module tess_factors (
     logic [6:0]  lines;      // of an isoline patch
     logic [13:0] subtrahend; // primitives are this less than the points, or than twice the points
     assign ring13 = {4'd0, out_patch.ring_points};
+
+    // Triangles, but those of the minimum patch: two a point, without those of the border.
+    logic is_doubled;
+    assign is_doubled = counted_out[1] && counted_domain != tess_pkg::ISOLINE && !is_minimum;
     always_comb begin
         inner = product;
         if (counted_domain == tess_pkg::TRIANGLE) inner = product + {12'd0, out_contexts[BITS*4]};
@@ -288,8 +292,4 @@ module tess_factors (
         end
         if (sum_valid) out_patch.primitives <= (is_doubled ? {out_patch.points, 1'b0} : {1'b0, out_patch.points}) - subtrahend;
     end
-
-    // Triangles, but those of the minimum patch: two a point, without those of the border.
-    logic is_doubled;
-    assign is_doubled = counted_out[1] && counted_domain != tess_pkg::ISOLINE && !is_minimum;
 endmodule
