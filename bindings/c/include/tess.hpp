@@ -46,6 +46,7 @@ enum class Level : uint32_t {
     avx2 = TESS_LEVEL_AVX2,
     avx512 = TESS_LEVEL_AVX512
 };
+enum class Triangles : uint32_t { specified = TESS_TRIANGLES_SPECIFIED, vertex_cache = TESS_TRIANGLES_VERTEX_CACHE };
 enum class Numbering : uint32_t { per_patch = TESS_NUMBERING_PER_PATCH, per_batch = TESS_NUMBERING_PER_BATCH };
 
 /// A status that is not TESS_OK.
@@ -115,8 +116,7 @@ public:
     /// Allocates all memory that later calls need.
     void reserve() { check(tess_batch_reserve(batch.get())); }
 
-    /// TESS_TRIANGLES_SPECIFIED or TESS_TRIANGLES_VERTEX_CACHE.
-    void set_triangles(uint32_t order) { check(tess_batch_set_triangles(batch.get(), order)); }
+    void set_triangles(Triangles order) { check(tess_batch_set_triangles(batch.get(), uint32_t(order))); }
     void set_threads(uint32_t threads) { check(tess_batch_set_threads(batch.get(), threads)); }
 
     template <class Factors>

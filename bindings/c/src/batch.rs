@@ -154,7 +154,9 @@ unsafe fn remade(
     boundary::check(batch)?;
     // SAFETY: not null, made by `tess_batch_create` and in no other call, as promised.
     let batch = unsafe { &mut *batch };
-    batch.tessellator = make(batch.tessellator.clone());
+    // Another one of the same configuration stands there meanwhile: it takes no memory.
+    let another = Tessellator::new(batch.tessellator.config());
+    batch.tessellator = make(std::mem::replace(&mut batch.tessellator, another));
     Ok(())
 }
 

@@ -212,7 +212,7 @@ pub unsafe extern "C" fn tess_dpi_primitive(
 
 /// The number of the `i`-th coverage bin that a patch hits; `TESS_OUT_OF_RANGE` behind the last.
 ///
-/// Bins are numbered as `tess_verify::coverage` lists them, in alphabetical order; one that is hit
+/// Bins are numbered as `tess_verify::cover` lists them, in alphabetical order; one that is hit
 /// twice comes twice. Unlike the other functions this one allocates.
 ///
 /// # Safety
