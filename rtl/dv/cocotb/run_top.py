@@ -4,7 +4,7 @@
                       [--testcase NAME] [--build FOLDER] [--coverage FILE]
 
 Exit status: 0 equal, and every hole in the code coverage is named in holes.txt; 1 otherwise. `--fault` takes a design
-with a planted fault of rtl/dv/tb/faults.txt. `--elements` bounds the systematic part, 0 leaves it out: 10 million have all
+with a planted fault of rtl/dv/circuit.faults. `--elements` bounds the systematic part, 0 leaves it out: 10 million have all
 of it, and then the functional coverage must be whole. Code is covered in Verilator alone.
 """
 

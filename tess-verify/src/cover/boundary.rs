@@ -28,8 +28,7 @@ const SIDES: [&str; 2] = ["below", "above"];
 pub(super) fn bins(domain: Domain, partitioning: Partitioning) -> Vec<String> {
     let is_isoline = domain == Domain::Isoline;
     let is_integer = partitioning.has_integer_factors();
-    let mut bins: Vec<String> =
-        ["sign/above"].iter().map(|bin| format!("boundary/{bin}")).collect();
+    let mut bins = vec!["boundary/sign/above".to_owned()];
     let mut both = |is_there: bool, names: &[&str], others: &[&str]| {
         let sided =
             names.iter().flat_map(|name| SIDES.map(|side| format!("boundary/{name}/{side}")));

@@ -20,6 +20,9 @@ use tess_verify::generate::{GenLevel, Selection};
 /// Random patches behind level 1; the bench draws them itself.
 const RANDOM_PATCHES: u64 = 20_000;
 
+/// Resets in front of them, so many that every bin of sequences is hit.
+const RESETS: u64 = 800;
+
 /// Compares the circuit with the model: level 1 and random patches under back-pressure, gaps and resets, parts of the
 /// single stages, every planted fault, then clocks.
 ///
@@ -31,9 +34,10 @@ pub(crate) fn run() -> Result<(), String> {
     let level_1: Vec<Case> = Selection::level(GenLevel::One, 1).cases().collect();
     let stimuli = bench.stimuli("level-1", &level_1)?;
     let random = format!("+random={RANDOM_PATCHES}");
-    let verdict = bench.compare(&[&stimuli, &random, "+gaps", "+resets=800", "+covered"])?;
+    let resets = format!("+resets={RESETS}");
+    let verdict = bench.compare(&[&stimuli, &random, "+gaps", &resets, "+covered"])?;
     verdict.demand(level_1.len() as u64 + RANDOM_PATCHES)?;
-    println!("level 1, {RANDOM_PATCHES} random patches, 400 resets: {verdict}");
+    println!("level 1, {RANDOM_PATCHES} random patches, {RESETS} resets: {verdict}");
     stages::part(&bench.folder)?;
     faults::run()?;
     clocks::run(&bench)
