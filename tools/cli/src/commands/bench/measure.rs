@@ -5,8 +5,9 @@
     reason = "rates and ratios of measurements"
 )]
 
-use super::core::CoreRunner;
-use super::runner::{Amount, Runner, WorkingSet};
+use super::core::{self, CoreKernel};
+use super::cpu::CpuRunner;
+use super::runner::{Amount, Description, Runner, WorkingSet};
 use super::table::{Row, name_of};
 use crate::failure::Failure;
 use std::fmt;
@@ -28,12 +29,12 @@ pub(crate) struct Plan<'a> {
 
 impl Plan<'_> {
     /// The name of a row of this runner.
-    fn name(&self, runner: &dyn Runner) -> String {
-        let order = match runner.order() {
+    fn name(&self, description: &Description) -> String {
+        let order = match description.order {
             Order::Specification => "",
             Order::VertexCache => ", vertex-cache order",
         };
-        format!("{}{}{order}", self.workload.name, runner.remark())
+        format!("{}{}{order}", self.workload.name, description.remark)
     }
 }
 
@@ -51,8 +52,10 @@ impl fmt::Display for Plan<'_> {
 /// # Errors
 /// The output differs from the model's (exit code 1), or a run failed.
 pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Failure> {
-    let mut core = Core::prepare(runner, plan)?;
-    if runner.is_device() {
+    let description = runner.description().clone();
+    let Description { threads, sleeps, is_device, .. } = description;
+    let mut core = Core::prepare(&description, plan)?;
+    if is_device {
         for _ in 0..plan.samples {
             (0..core.parts.len()).try_for_each(|part| core.take(part))?;
         }
@@ -61,8 +64,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
     check_digest(runner, plan.workload)?;
     let mut run = Times::new(parts.len());
     let mut fill = Times::new(parts.len());
-    let in_turn = if runner.is_device() { 0 } else { core.parts.len() };
-    let (threads, sleeps) = (runner.threads(), runner.sleeps());
+    let in_turn = if is_device { 0 } else { core.parts.len() };
     let take =
         |times: &mut Times, part, run: &mut dyn FnMut() -> Result<Duration, BackendError>| {
             if sleeps { times.take_one(part, run) } else { times.take(part, threads, run) }
@@ -79,12 +81,12 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
     let (amount, seconds) = (parts.into_iter().sum::<Amount>(), run.seconds());
     let patches_per_s = amount.patches as f64 / seconds;
     Ok(Row {
-        workload: plan.name(runner),
-        backend: runner.backend(),
-        level: runner.level(),
+        workload: plan.name(&description),
+        backend: description.backend,
+        level: description.level,
         working_set: plan.working_set.name(),
         threads,
-        index_type: name_of(runner.index_type()),
+        index_type: name_of(description.index_type),
         patches_per_s,
         triangles_per_s: amount.triangles as f64 / seconds,
         bytes_per_s: amount.bytes as f64 / seconds,
@@ -94,19 +96,19 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
 }
 
 fn check_digest(runner: &mut dyn Runner, workload: &Workload) -> Result<(), Failure> {
-    let (expected, observed) = (workload.digest(runner.order()), runner.digest()?);
+    let Description { order, backend, .. } = *runner.description();
+    let (expected, observed) = (workload.digest(order), runner.digest()?);
     if expected == observed {
         return Ok(());
     }
     Err(Failure::different(format!(
-        "{} gives digest {observed:016x}, the model {expected:016x}; not timed",
-        runner.backend()
+        "{backend} gives digest {observed:016x}, the model {expected:016x}; not timed"
     )))
 }
 
 /// The core beside another backend; without any parts beside itself.
 struct Core {
-    runner: CoreRunner,
+    runner: CpuRunner<CoreKernel>,
     parts: Vec<Amount>,
     times: Times,
 }
@@ -114,10 +116,10 @@ struct Core {
 impl Core {
     /// Gets ready to run a workload in the working set of the plan; beside a device, whose memory is not
     /// the core's, in the working set `cache`.
-    fn prepare(beside: &dyn Runner, plan: Plan<'_>) -> Result<Self, Failure> {
-        let set = if beside.is_device() { WorkingSet::Cache } else { plan.working_set };
-        let mut runner = CoreRunner::single();
-        let parts = match beside.backend() {
+    fn prepare(beside: &Description, plan: Plan<'_>) -> Result<Self, Failure> {
+        let set = if beside.is_device { WorkingSet::Cache } else { plan.working_set };
+        let mut runner = core::runner();
+        let parts = match beside.backend {
             "core" => Vec::new(),
             _ => runner.prepare(plan.workload, set)?,
         };
@@ -213,23 +215,19 @@ mod tests {
     /// Takes a second for each part, and half a second to fill its bytes.
     struct Slow {
         digest: u64,
+        description: Description,
+    }
+
+    impl Slow {
+        fn new(digest: u64) -> Self {
+            let description = core::runner().description().clone();
+            Self { digest, description: Description { backend: "slow", ..description } }
+        }
     }
 
     impl Runner for Slow {
-        fn backend(&self) -> &'static str {
-            "slow"
-        }
-
-        fn level(&self) -> String {
-            String::new()
-        }
-
-        fn threads(&self) -> u32 {
-            1
-        }
-
-        fn index_type(&self) -> tess_verify::generate::IndexWidth {
-            tess_verify::generate::IndexWidth::U32
+        fn description(&self) -> &Description {
+            &self.description
         }
 
         fn prepare(
@@ -260,14 +258,14 @@ mod tests {
         let workload = &Workload::named("uniform-1")[0];
         let plan = Plan { workload, working_set: WorkingSet::Cache, samples: 1 };
         let digest = workload.digest(Order::Specification);
-        let row = measure(&mut Slow { digest }, plan).expect("it is right");
+        let row = measure(&mut Slow::new(digest), plan).expect("it is right");
         let patches = workload.patches.len() as f64;
         assert_eq!(row.patches_per_s.to_bits(), patches.to_bits(), "a second for all");
         assert_eq!(row.triangles_per_s.to_bits(), (2.0 * patches).to_bits(), "two for each");
         assert_eq!(row.bytes_per_s.to_bits(), (3.0 * patches).to_bits(), "three for each");
         assert_eq!(row.fill_ratio.to_bits(), 0.5f64.to_bits(), "filling takes half the time");
         assert!(row.core_ratio < 0.5, "the core takes no second: {}", row.core_ratio);
-        let failure = measure(&mut Slow { digest: digest ^ 1 }, plan).map(|_| ());
+        let failure = measure(&mut Slow::new(digest ^ 1), plan).map(|_| ());
         let failure = failure.expect_err("a result that is wrong is not timed");
         assert_eq!(failure.exit as u8, 1, "{failure}");
         assert!(failure.to_string().contains("slow gives digest"), "{failure}");

@@ -1,6 +1,7 @@
 //! `tess bench`: how fast the backends are on this machine.
 
 mod core;
+mod cpu;
 #[cfg(feature = "gpu")]
 mod gpu;
 mod measure;
@@ -140,7 +141,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 /// Measures and prints row by row. What cannot be measured is left out and named at the end; the
 /// first such row says the exit code.
 fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Result<Exit, Failure> {
-    let mut before = if json { "[\n".to_owned() } else { heading(runner) };
+    let mut before = if json { "[\n".to_owned() } else { heading(runner.description()) };
     let bar = output::progress(plans.len() as u64, "measurements");
     let mut left_out = Vec::new();
     for plan in plans {
@@ -170,7 +171,7 @@ fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Resul
 /// Exit code 3 if the backend is not available.
 fn runner(name: BackendName, options: RunnerOptions) -> Result<Box<dyn Runner>, Failure> {
     match name {
-        BackendName::Core => Ok(Box::new(core::CoreRunner::single())),
+        BackendName::Core => Ok(Box::new(core::runner())),
         BackendName::Simd => simd::runner(options),
         #[cfg(feature = "gpu")]
         BackendName::Gpu => Ok(Box::new(gpu::GpuRunner::new(options)?)),

@@ -2,10 +2,11 @@
 
 use clap::ValueEnum;
 use std::iter::Sum;
+use std::ops::Range;
 use std::time::Duration;
 use tess_simd::{Level, Order};
 use tess_verify::BackendError;
-use tess_verify::generate::{IndexWidth, Workload};
+use tess_verify::generate::{IndexWidth, Totals, Workload};
 
 /// Where a runner's output goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -38,6 +39,18 @@ pub(crate) struct Amount {
     pub(crate) bytes: u64,
 }
 
+impl Amount {
+    pub(crate) const fn of(totals: &Totals, index_type: IndexWidth) -> Self {
+        let bytes = totals.bytes(index_type);
+        Self { patches: totals.patches, triangles: totals.primitives, bytes }
+    }
+}
+
+/// What some patches of a workload amount to.
+pub(crate) fn totals(workload: &Workload, patches: &Range<usize>) -> Totals {
+    Workload { patches: workload.patches[patches.clone()].to_vec(), ..workload.clone() }.totals()
+}
+
 impl Sum for Amount {
     fn sum<I: Iterator<Item = Self>>(amounts: I) -> Self {
         amounts.fold(Self::default(), |sum, more| Self {
@@ -48,6 +61,28 @@ impl Sum for Amount {
     }
 }
 
+/// What is timed, and how.
+#[derive(Clone, Debug)]
+pub(crate) struct Description {
+    /// Name of the backend.
+    pub(crate) backend: &'static str,
+    /// CPU level or name of the adapter.
+    pub(crate) level: String,
+    /// Threads it runs on.
+    pub(crate) threads: u32,
+    /// Width of the indices it writes.
+    pub(crate) index_type: IndexWidth,
+    /// The order of the triangles it writes.
+    pub(crate) order: Order,
+    /// The text behind the workload's name in a row.
+    pub(crate) remark: String,
+    /// Whether threads sleep when a run begins, so that it is timed with waking them.
+    pub(crate) sleeps: bool,
+    /// Whether it runs on a separate device, so that the core's times need not be taken in turn
+    /// with its own, nor in the same working set.
+    pub(crate) is_device: bool,
+}
+
 /// An implementation that can be timed.
 ///
 /// A workload runs in parts, so that runs which are compared lie close together in time: a part is
@@ -55,38 +90,8 @@ impl Sum for Amount {
 /// [`Runner::run`] and [`Runner::fill`] write the same bytes to the same buffers in the same order;
 /// on one thread neither allocates. Both give their own time, so that a device can use its clock.
 pub(crate) trait Runner {
-    /// Name of the backend.
-    fn backend(&self) -> &'static str;
-
-    /// CPU level or name of the adapter.
-    fn level(&self) -> String;
-
-    /// Threads it runs on.
-    fn threads(&self) -> u32;
-
-    /// Whether threads sleep when a run begins, so that it is timed with waking them.
-    fn sleeps(&self) -> bool {
-        false
-    }
-
-    /// The text behind the workload's name in a row.
-    fn remark(&self) -> String {
-        String::new()
-    }
-
-    /// The order of the triangles it writes.
-    fn order(&self) -> Order {
-        Order::Specification
-    }
-
-    /// Width of the indices it writes.
-    fn index_type(&self) -> IndexWidth;
-
-    /// Whether it runs on a separate device, so that the core's times need not be taken in turn
-    /// with its own, nor in the same working set.
-    fn is_device(&self) -> bool {
-        false
-    }
+    /// What is timed, and how.
+    fn description(&self) -> &Description;
 
     /// Gets everything ready to run a workload in a working set, buffers included, and says what
     /// each part amounts to.

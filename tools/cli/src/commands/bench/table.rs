@@ -1,7 +1,7 @@
 //! Results: as objects for programs, as a table for people.
 #![expect(clippy::float_arithmetic, reason = "units of measurements")]
 
-use super::runner::Runner;
+use super::runner::Description;
 use crate::output::json;
 use serde::Serialize;
 use tess_verify::generate::IndexWidth;
@@ -25,14 +25,12 @@ pub(crate) struct Row {
 /// The lines above the rows: what was timed, and the columns; rates in millions and in GB (10^9
 /// bytes).
 #[must_use]
-pub(crate) fn heading(runner: &dyn Runner) -> String {
+pub(crate) fn heading(description: &Description) -> String {
+    let Description { backend, level, threads, .. } = description;
     format!(
-        "backend {} ({}), threads {}, {} indices\n\
+        "backend {backend} ({level}), threads {threads}, {} indices\n\
          {:<34} {:<6} {:>12} {:>13} {:>8} {:>8} {:>8}\n",
-        runner.backend(),
-        runner.level(),
-        runner.threads(),
-        name_of(runner.index_type()),
+        name_of(description.index_type),
         "workload",
         "set",
         "Mpatches/s",

@@ -1,14 +1,13 @@
 //! The compute shaders under the clock of their device.
 
-use super::runner::{Amount, Runner, RunnerOptions, WorkingSet};
+use super::runner::{Amount, Description, Runner, RunnerOptions, WorkingSet, totals};
 use crate::backends::gpu::{device_error, setup_of, split_by_patch};
 use crate::failure::Failure;
 use fill::Fill;
-use std::ops::Range;
 use std::time::{Duration, Instant};
-use tess_core::{Counts, PatchFactors};
+use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
-use tess_gpu::{Copies, Order, Setup};
+use tess_gpu::{Copies, Setup};
 use tess_verify::BackendError;
 use tess_verify::generate::{Calls, IndexWidth, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
@@ -31,9 +30,8 @@ pub(super) struct GpuRunner {
     stopwatch: Stopwatch,
     tessellator: Tessellator,
     fill: Fill,
-    index_type: IndexWidth,
+    description: Description,
     copies: Copies,
-    order: Order,
     workload: Option<(Setup, Vec<PatchFactors>)>,
     batches: Vec<Timed>,
     last_use: Option<Instant>,
@@ -56,14 +54,23 @@ impl GpuRunner {
         })?;
         let tessellator = Tessellator::new(&gpu.device);
         let fill = Fill::new(&gpu);
+        let description = Description {
+            backend: "gpu",
+            level: gpu.name(),
+            threads: 1,
+            index_type: options.index_type,
+            order: options.order,
+            remark: if options.no_copies { ", no copies".to_owned() } else { String::new() },
+            sleeps: false,
+            is_device: true,
+        };
         Ok(Self {
             gpu,
             stopwatch,
             tessellator,
             fill,
-            index_type: options.index_type,
+            description,
             copies: if options.no_copies { Copies::Never } else { Copies::WhereAlike },
-            order: options.order,
             workload: None,
             batches: Vec::new(),
             last_use: None,
@@ -95,11 +102,7 @@ impl GpuRunner {
         ];
         Ok(Timed {
             batch,
-            amount: Amount {
-                patches: totals.patches * repeats,
-                triangles: totals.primitives * repeats,
-                bytes: totals.bytes(self.index_type) * repeats,
-            },
+            amount: (0..repeats).map(|_| Amount::of(&totals, self.description.index_type)).sum(),
             fills: spans
                 .into_iter()
                 .flat_map(|(buffer, bytes)| self.fill.spans(&self.gpu, buffer, bytes * repeats))
@@ -116,7 +119,7 @@ impl GpuRunner {
         let buffer = |label, bytes: u64| {
             self.gpu.buffer(label, bytes.next_multiple_of(16), usage).map_err(device_error)
         };
-        let index_bytes = match self.index_type {
+        let index_bytes = match self.description.index_type {
             IndexWidth::U16 => 2 * indices,
             IndexWidth::U32 => 4 * indices,
         };
@@ -149,35 +152,8 @@ impl GpuRunner {
 }
 
 impl Runner for GpuRunner {
-    fn backend(&self) -> &'static str {
-        "gpu"
-    }
-
-    fn level(&self) -> String {
-        self.gpu.name()
-    }
-
-    fn threads(&self) -> u32 {
-        1
-    }
-
-    fn order(&self) -> Order {
-        self.order
-    }
-
-    fn index_type(&self) -> IndexWidth {
-        self.index_type
-    }
-
-    fn remark(&self) -> String {
-        match self.copies {
-            Copies::WhereAlike => String::new(),
-            Copies::Never => ", no copies".to_owned(),
-        }
-    }
-
-    fn is_device(&self) -> bool {
-        true
+    fn description(&self) -> &Description {
+        &self.description
     }
 
     fn prepare(
@@ -186,20 +162,18 @@ impl Runner for GpuRunner {
         working_set: WorkingSet,
     ) -> Result<Vec<Amount>, BackendError> {
         let first = workload.patches.first().ok_or_else(|| BackendError::new("no patches"))?;
-        let (copies, order) = (self.copies, self.order);
-        let setup = setup_of(first.domain(), workload.config, self.index_type);
+        let Description { index_type, order, .. } = self.description;
+        let copies = self.copies;
+        let setup = setup_of(first.domain(), workload.config, index_type);
         let setup = Setup { copies, order, ..setup };
-        let counts: Vec<_> = workload.counts().collect();
         let (ranges, repeats) = match (working_set, workload.calls) {
-            (WorkingSet::Cache, _) | (_, Calls::Group) => {
-                (workload.cache_batches(self.index_type), 1)
-            }
+            (WorkingSet::Cache, _) | (_, Calls::Group) => (workload.cache_batches(index_type), 1),
             (WorkingSet::Stream, _) => {
                 let whole = std::iter::once(0..workload.patches.len()).collect();
-                (whole, workload.stream_repeats(self.index_type))
+                (whole, workload.stream_repeats(index_type))
             }
         };
-        let totals: Vec<_> = ranges.iter().map(|range| totals(&counts, range)).collect();
+        let totals: Vec<_> = ranges.iter().map(|range| totals(workload, range)).collect();
         let most = |figure: fn(&Totals) -> u64| totals.iter().map(figure).max().unwrap_or(0);
         let (points, indices) = self.outputs(
             most(|totals| totals.points) * repeats,
@@ -239,17 +213,6 @@ impl Runner for GpuRunner {
         self.time(|encoder| {
             self.part(part).iter().for_each(|timed| self.fill.encode(encoder, &timed.fills));
         })
-    }
-}
-
-fn totals(counts: &[Counts], range: &Range<usize>) -> Totals {
-    let counts = &counts[range.clone()];
-    let sum = |figure: fn(&Counts) -> u32| counts.iter().map(|c| u64::from(figure(c))).sum();
-    Totals {
-        patches: range.len() as u64,
-        points: sum(|counts| counts.points),
-        primitives: sum(|counts| counts.primitives),
-        indices: sum(|counts| counts.indices),
     }
 }
 
