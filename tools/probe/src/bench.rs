@@ -5,7 +5,7 @@ use crate::error::Error;
 use crate::modes::with_modes;
 use crate::shaders::{EMPTY_VERT, EVALUATE_TESE, EVALUATE_VERT, FACTORS_TESC, FLAT_FRAG, words};
 use crate::vulkan::{
-    Buffer, Commands, Compute, Gpu, Pass, Pipeline, Program, STAGES, Spirv, Vertices,
+    Buffer, Commands, Compute, Gpu, Pass, Pipeline, Program, STAGES, Spirv, Vertices, pipeline,
 };
 use ash::vk;
 use serde::Serialize;
@@ -148,9 +148,8 @@ impl Bench {
             (vk::ShaderStageFlags::FRAGMENT, &fragment),
         ];
         let drawn = [(vk::ShaderStageFlags::VERTEX, &vertex[..]), tessellating[3]];
-        let make = |pass: &Pass, shaders: &[_], vertices| {
-            Pipeline::new(gpu, &program, pass, shaders, vertices)
-        };
+        let make =
+            |pass: &Pass, shaders: &[_], vertices| pipeline(gpu, &program, pass, shaders, vertices);
         let setup = Setup::new(domain, config);
         let plan = plan(gpu, setup, workload, patches.len(), repeats)?;
         let words = factor_words(patches);
@@ -230,10 +229,10 @@ impl Bench {
     fn bind(&self, device: &ash::Device, to: vk::CommandBuffer, pipeline: &Pipeline) {
         let in_a_row = self.patches.isqrt() + 1;
         let constants = [0u32.to_le_bytes(), in_a_row.to_le_bytes()].concat();
-        let (point, layout) = (vk::PipelineBindPoint::GRAPHICS, self.program.layout);
+        let (point, layout) = (vk::PipelineBindPoint::GRAPHICS, self.program.layout());
         // SAFETY: the command buffer is being recorded in a pass that the pipeline was made for.
         unsafe {
-            device.cmd_bind_pipeline(to, point, pipeline.handle);
+            device.cmd_bind_pipeline(to, point, **pipeline);
             device.cmd_bind_descriptor_sets(to, point, layout, 0, &[self.program.set], &[]);
             device.cmd_push_constants(to, layout, STAGES, 0, &constants);
         }
@@ -247,7 +246,7 @@ impl Bench {
 
     fn draw_computed(&self, device: &ash::Device, to: vk::CommandBuffer, compute: &Compute) {
         self.bind(device, to, &self.compute_drawn);
-        let buffer = |resource| compute.buffer(resource).handle;
+        let buffer = |resource| *compute.buffer(resource).handle;
         let (points, indices) = (buffer(Resource::Points), buffer(Resource::Indices));
         // SAFETY: a pipeline is bound; the arguments and what they draw were written by the commands
         // before, with a barrier behind them.

@@ -1,11 +1,12 @@
 //! A device's output for patches: `gl_TessCoord` of each vertex, bit for bit.
 
+use crate::cases::groups;
 use crate::draws::{DRAW_VERTICES, Draw, draws, words_of};
 use crate::error::Error;
 use crate::info::Info;
 use crate::modes::with_modes;
 use crate::shaders::{CAPTURE_TESE, EMPTY_VERT, FACTORS_TESC, POINTS_TESE, words};
-use crate::vulkan::{Buffer, Commands, Gpu, Pass, Pipeline, Program, STAGES, Vertices};
+use crate::vulkan::{Buffer, Commands, Gpu, Pass, Pipeline, Program, STAGES, Vertices, pipeline};
 use ash::vk;
 use std::collections::HashMap;
 use std::ptr::null;
@@ -133,6 +134,24 @@ impl Prober {
         self.method
     }
 
+    /// Shows `take` the device's output for each case; `progress` takes how many were shown since its last call.
+    pub(crate) fn each(
+        &mut self,
+        cases: &[Case],
+        progress: &mut dyn FnMut(u64),
+        mut take: impl FnMut(&Case, &Captured) -> Result<(), Error>,
+    ) -> Result<(), Error> {
+        for group in groups(cases) {
+            for part in group.chunks(SUBMISSION_PATCHES) {
+                let factors: Vec<PatchFactors> = part.iter().map(|case| case.factors).collect();
+                let captured = self.capture(part[0].domain(), part[0].config, &factors)?;
+                part.iter().zip(&captured).try_for_each(|(case, one)| take(case, one))?;
+                progress(part.len() as u64);
+            }
+        }
+        Ok(())
+    }
+
     /// The device's output for patches of one domain, in their order.
     ///
     /// # Errors
@@ -241,18 +260,18 @@ impl Prober {
         // SAFETY: the command buffer is being recorded inside of a pass that the pipeline was made
         // for; the pipeline, the set and the buffers outlive the submission, which is waited for.
         unsafe {
-            device.cmd_bind_pipeline(commands, point, pipeline.handle);
+            device.cmd_bind_pipeline(commands, point, **pipeline);
             device.cmd_bind_descriptor_sets(
                 commands,
                 point,
-                program.layout,
+                program.layout(),
                 0,
                 &[program.set],
                 &[],
             );
             if let Some(feedback) = self.feedback() {
                 let output = &buffers.output;
-                let (handles, sizes) = ([output.handle], [output.bytes]);
+                let (handles, sizes) = ([*output.handle], [output.bytes]);
                 let (bind, begin) = (
                     feedback.fp().cmd_bind_transform_feedback_buffers_ext,
                     feedback.fp().cmd_begin_transform_feedback_ext,
@@ -264,7 +283,7 @@ impl Prober {
             }
             for &(first, count) in draws {
                 let first = first.to_le_bytes();
-                device.cmd_push_constants(commands, program.layout, STAGES, 0, &first);
+                device.cmd_push_constants(commands, program.layout(), STAGES, 0, &first);
                 device.cmd_draw(commands, count, 1, 0, 0);
             }
             if let Some(feedback) = self.feedback() {
@@ -336,7 +355,7 @@ impl Prober {
             (vk::ShaderStageFlags::TESSELLATION_EVALUATION, &evaluation),
         ];
         let (program, pass) = (&buffers.program, &self.pass);
-        let pipeline = Pipeline::new(&self.gpu, program, pass, &shaders, Vertices::Patches)?;
+        let pipeline = pipeline(&self.gpu, program, pass, &shaders, Vertices::Patches)?;
         self.pipelines.insert(key, pipeline);
         Ok(())
     }

@@ -1,17 +1,12 @@
 //! A whole probe: cases in, a report out.
 
 use crate::capture::Prober;
-use crate::cases::groups;
 use crate::error::Error;
 use crate::judge::Judge;
 use crate::report::Report;
 use std::sync::Arc;
-use tess_core::PatchFactors;
 use tess_verify::Case;
 use tess_verify::check::{Known, Strength};
-
-/// Patches that are captured before they are compared.
-const AT_ONCE: usize = 4096;
 
 /// Asks a device every case and compares what it gives. `progress` is called with the number of cases
 /// that were compared since its last call.
@@ -39,15 +34,9 @@ pub fn probe_known(
     mut progress: impl FnMut(u64),
 ) -> Result<Report, Error> {
     let mut judge = Judge::new(prober.info(), prober.method(), strength).with_known(known);
-    for group in groups(cases) {
-        for part in group.chunks(AT_ONCE) {
-            let factors: Vec<PatchFactors> = part.iter().map(|case| case.factors).collect();
-            let captured = prober.capture(part[0].domain(), part[0].config, &factors)?;
-            for (case, captured) in part.iter().zip(&captured) {
-                judge.add(case, captured);
-            }
-            progress(part.len() as u64);
-        }
-    }
+    prober.each(cases, &mut progress, |case, captured| {
+        judge.add(case, captured);
+        Ok(())
+    })?;
     Ok(judge.finish())
 }

@@ -1,16 +1,13 @@
 //! A device judged by what a standard demands.
 
 use crate::capture::{Method, Prober};
-use crate::cases::{asked, groups};
+use crate::cases::asked;
 use crate::error::Error;
 use crate::output::output;
-use tess_core::{PatchFactors, SplitOrder};
+use tess_core::SplitOrder;
 use tess_verify::Case;
 use tess_verify::generate::Selection;
 use tess_verify::rules::{Checker, RulesReport, Specification};
-
-/// Patches that are captured before they are judged.
-const AT_ONCE: usize = 4096;
 
 /// Asks a device the selected cases of the standard split order, repeated ones too, and judges what it gives by
 /// the rules of a standard. `progress` is called with the number of cases that were judged since its last call.
@@ -30,18 +27,12 @@ pub fn rules(
     let selection = Selection { split: Some(SplitOrder::Ruler), ..selection };
     let cases: Vec<Case> = selection.cases().map(|case| asked(&case)).collect();
     let mut checker = Checker::new(specification);
-    for group in groups(&cases) {
-        for part in group.chunks(AT_ONCE) {
-            let factors: Vec<PatchFactors> = part.iter().map(|case| case.factors).collect();
-            let captured = prober.capture(part[0].domain(), part[0].config, &factors)?;
-            for (case, captured) in part.iter().zip(&captured) {
-                let output = output(captured).ok_or_else(|| {
-                    Error::Capture(format!("{case}: a coordinate is no multiple of 2^-16"))
-                })?;
-                checker.add(case, &output);
-            }
-            progress(part.len() as u64);
-        }
-    }
+    prober.each(&cases, &mut progress, |case, captured| {
+        let output = output(captured).ok_or_else(|| {
+            Error::Capture(format!("{case}: a coordinate is no multiple of 2^-16"))
+        })?;
+        checker.add(case, &output);
+        Ok(())
+    })?;
     Ok(checker.report())
 }

@@ -1,6 +1,6 @@
 //! Buffers in memory that the host or the device is near to.
 
-use super::{Commands, Gpu};
+use super::{Commands, Gpu, Owned};
 use crate::error::Error;
 use ash::vk;
 use std::sync::Arc;
@@ -9,8 +9,8 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct Buffer {
     gpu: Arc<Gpu>,
-    pub(crate) handle: vk::Buffer,
-    memory: vk::DeviceMemory,
+    pub(crate) handle: Owned<vk::Buffer>,
+    memory: Owned<vk::DeviceMemory>,
     pub(crate) bytes: u64,
     is_mapped: bool,
 }
@@ -54,7 +54,7 @@ impl Buffer {
         // SAFETY: the command buffer is being recorded; both buffers have so many bytes and outlive
         // the submission, which is waited for.
         commands.run(|device, to| unsafe {
-            device.cmd_copy_buffer(to, staging.handle, buffer.handle, &region);
+            device.cmd_copy_buffer(to, *staging.handle, *buffer.handle, &region);
         })?;
         Ok(buffer)
     }
@@ -67,7 +67,7 @@ impl Buffer {
         // SAFETY: the command buffer is being recorded; both buffers have so many bytes and outlive
         // the submission, which is waited for.
         commands.run(|device, to| unsafe {
-            device.cmd_copy_buffer(to, self.handle, staging.handle, &region);
+            device.cmd_copy_buffer(to, *self.handle, *staging.handle, &region);
         })?;
         staging.read(words)
     }
@@ -81,14 +81,11 @@ impl Buffer {
     ) -> Result<Self, Error> {
         let bytes = bytes.max(16).next_multiple_of(16);
         let create = vk::BufferCreateInfo::default().size(bytes).usage(usage);
-        // SAFETY: the device is alive, as `gpu` is.
-        let handle = unsafe { gpu.device.create_buffer(&create, None) }
-            .map_err(Error::of("vkCreateBuffer"))?;
-        let memory = vk::DeviceMemory::null();
-        // From here on dropping it frees the handle.
-        let mut buffer = Self { gpu: Arc::clone(gpu), handle, memory, bytes, is_mapped };
+        let calls = (ash::Device::create_buffer as _, ash::Device::destroy_buffer as _);
+        // SAFETY: any device makes such buffers.
+        let handle = unsafe { Owned::new(gpu, "vkCreateBuffer", calls, &create) }?;
         // SAFETY: the buffer is the device's.
-        let needs = unsafe { gpu.device.get_buffer_memory_requirements(handle) };
+        let needs = unsafe { gpu.device.get_buffer_memory_requirements(*handle) };
         let memory_type = wanted
             .iter()
             .find_map(|&wanted| memory_type(gpu, needs.memory_type_bits, wanted))
@@ -96,13 +93,13 @@ impl Buffer {
         let allocate = vk::MemoryAllocateInfo::default()
             .allocation_size(needs.size)
             .memory_type_index(memory_type);
+        let calls = (ash::Device::allocate_memory as _, ash::Device::free_memory as _);
         // SAFETY: the type is one of the device's.
-        buffer.memory = unsafe { gpu.device.allocate_memory(&allocate, None) }
-            .map_err(Error::of("vkAllocateMemory"))?;
+        let memory = unsafe { Owned::new(gpu, "vkAllocateMemory", calls, &allocate) }?;
         // SAFETY: both are new, of this device, and the memory is as large as the buffer needs.
-        unsafe { gpu.device.bind_buffer_memory(handle, buffer.memory, 0) }
+        unsafe { gpu.device.bind_buffer_memory(*handle, *memory, 0) }
             .map_err(Error::of("vkBindBufferMemory"))?;
-        Ok(buffer)
+        Ok(Self { gpu: Arc::clone(gpu), handle, memory, bytes, is_mapped })
     }
 
     /// Writes words at the beginning.
@@ -126,14 +123,14 @@ impl Buffer {
         let flags = vk::MemoryMapFlags::empty();
         // SAFETY: the memory is visible to the host and not mapped: this is the only place that maps
         // it, and it unmaps it below.
-        let start = unsafe { self.gpu.device.map_memory(self.memory, 0, vk::WHOLE_SIZE, flags) }
+        let start = unsafe { self.gpu.device.map_memory(*self.memory, 0, vk::WHOLE_SIZE, flags) }
             .map_err(Error::of("vkMapMemory"))?;
         // SAFETY: mapped memory is aligned to 64 bytes and as large as the buffer, and any bits are
         // words; the device does not use it, since each submission is waited for.
         let mapped = unsafe { std::slice::from_raw_parts_mut(start.cast::<u32>(), words) };
         let result = with(mapped);
         // SAFETY: it was mapped above, and no reference to it is left.
-        unsafe { self.gpu.device.unmap_memory(self.memory) };
+        unsafe { self.gpu.device.unmap_memory(*self.memory) };
         Ok(result)
     }
 }
@@ -143,14 +140,4 @@ fn memory_type(gpu: &Gpu, among: u32, wanted: vk::MemoryPropertyFlags) -> Option
     let mut fitting =
         types.filter(|(number, ty)| among >> number & 1 == 1 && ty.property_flags.contains(wanted));
     fitting.next().map(|(number, _)| number)
-}
-
-impl Drop for Buffer {
-    fn drop(&mut self) {
-        // SAFETY: nothing that runs uses them, as each submission is waited for; null is allowed.
-        unsafe {
-            self.gpu.device.destroy_buffer(self.handle, None);
-            self.gpu.device.free_memory(self.memory, None);
-        }
-    }
 }

@@ -1,6 +1,6 @@
 //! Recording commands and waiting for them.
 
-use super::Gpu;
+use super::{Gpu, Owned};
 use crate::error::Error;
 use ash::vk;
 use std::sync::Arc;
@@ -9,9 +9,9 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub(crate) struct Commands {
     gpu: Arc<Gpu>,
-    pool: vk::CommandPool,
+    queries: Owned<vk::QueryPool>,
     buffer: vk::CommandBuffer,
-    queries: vk::QueryPool,
+    _pool: Owned<vk::CommandPool>,
     count: u32,
 }
 
@@ -21,28 +21,24 @@ impl Commands {
         let create = vk::CommandPoolCreateInfo::default()
             .queue_family_index(gpu.family)
             .flags(vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER);
-        // SAFETY: the device is alive and has this family.
-        let pool = unsafe { gpu.device.create_command_pool(&create, None) }
-            .map_err(Error::of("vkCreateCommandPool"))?;
-        let (buffer, none) = (vk::CommandBuffer::null(), vk::QueryPool::null());
-        // From here on dropping it frees the pool.
-        let mut commands = Self { gpu: Arc::clone(gpu), pool, buffer, queries: none, count };
+        let calls = (ash::Device::create_command_pool as _, ash::Device::destroy_command_pool as _);
+        // SAFETY: the device has this family.
+        let pool = unsafe { Owned::new(gpu, "vkCreateCommandPool", calls, &create) }?;
         let allocate =
-            vk::CommandBufferAllocateInfo::default().command_pool(pool).command_buffer_count(1);
+            vk::CommandBufferAllocateInfo::default().command_pool(*pool).command_buffer_count(1);
         // SAFETY: the pool is the device's.
         let buffers = unsafe { gpu.device.allocate_command_buffers(&allocate) }
             .map_err(Error::of("vkAllocateCommandBuffers"))?;
-        commands.buffer = buffers[0];
         let create = vk::QueryPoolCreateInfo::default().query_type(queries).query_count(count);
+        let calls = (ash::Device::create_query_pool as _, ash::Device::destroy_query_pool as _);
         // SAFETY: the type is core, or that of an extension that the caller has made sure of.
-        commands.queries = unsafe { gpu.device.create_query_pool(&create, None) }
-            .map_err(Error::of("vkCreateQueryPool"))?;
-        Ok(commands)
+        let queries = unsafe { Owned::new(gpu, "vkCreateQueryPool", calls, &create) }?;
+        Ok(Self { gpu: Arc::clone(gpu), queries, buffer: buffers[0], _pool: pool, count })
     }
 
     /// The pool of queries, all of which are reset when a submission begins.
-    pub(crate) const fn queries(&self) -> vk::QueryPool {
-        self.queries
+    pub(crate) fn queries(&self) -> vk::QueryPool {
+        *self.queries
     }
 
     /// Records what `record` calls, submits it and waits for its end.
@@ -62,7 +58,7 @@ impl Commands {
             device
                 .begin_command_buffer(self.buffer, &begin)
                 .map_err(Error::of("vkBeginCommandBuffer"))?;
-            device.cmd_reset_query_pool(self.buffer, self.queries, 0, self.count);
+            device.cmd_reset_query_pool(self.buffer, *self.queries, 0, self.count);
         }
         record(device, self.buffer);
         let buffers = [self.buffer];
@@ -83,18 +79,8 @@ impl Commands {
         let mut results = vec![[0; N]; self.count as usize];
         let flags = vk::QueryResultFlags::TYPE_64 | vk::QueryResultFlags::WAIT;
         // SAFETY: every query of the pool was begun and ended by the submission before.
-        unsafe { self.gpu.device.get_query_pool_results(self.queries, 0, &mut results, flags) }
+        unsafe { self.gpu.device.get_query_pool_results(*self.queries, 0, &mut results, flags) }
             .map_err(Error::of("vkGetQueryPoolResults"))?;
         Ok(results)
-    }
-}
-
-impl Drop for Commands {
-    fn drop(&mut self) {
-        // SAFETY: nothing runs, as each submission is waited for; null is allowed.
-        unsafe {
-            self.gpu.device.destroy_query_pool(self.queries, None);
-            self.gpu.device.destroy_command_pool(self.pool, None);
-        }
     }
 }

@@ -4,6 +4,8 @@ mod buffer;
 mod commands;
 mod compute;
 mod gpu;
+mod interface;
+mod owned;
 mod pipeline;
 
 pub(crate) use buffer::Buffer;
@@ -12,4 +14,6 @@ pub(crate) use compute::Compute;
 pub use compute::Spirv;
 pub(crate) use gpu::Gpu;
 pub use gpu::list;
-pub(crate) use pipeline::{Pass, Pipeline, Program, STAGES, Vertices};
+use interface::{Interface, Sets};
+use owned::Owned;
+pub(crate) use pipeline::{Pass, Pipeline, Program, STAGES, Vertices, pipeline};

@@ -1,7 +1,8 @@
 //! Render passes and pipelines with or without tessellation.
 
-use super::{Buffer, Gpu};
+use super::{Buffer, Gpu, Interface, Owned, Sets};
 use crate::error::Error;
+use ash::prelude::VkResult;
 use ash::vk;
 use std::sync::Arc;
 
@@ -11,11 +12,9 @@ pub(crate) type Shader<'a> = (vk::ShaderStageFlags, &'a [u32]);
 /// The shaders' interface: storage buffers in set 0, numbered from 0, and two words of push constants.
 #[derive(Debug)]
 pub(crate) struct Program {
-    gpu: Arc<Gpu>,
-    set_layout: vk::DescriptorSetLayout,
-    pub(crate) layout: vk::PipelineLayout,
-    pool: vk::DescriptorPool,
     pub(crate) set: vk::DescriptorSet,
+    _sets: Sets,
+    interface: Interface,
 }
 
 /// The stages that see buffers and constants.
@@ -24,77 +23,16 @@ pub(crate) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::ALL_GRAPHI
 impl Program {
     /// An interface with these buffers bound.
     pub(crate) fn new(gpu: &Arc<Gpu>, buffers: &[&Buffer]) -> Result<Self, Error> {
-        let mut program = Self {
-            gpu: Arc::clone(gpu),
-            set_layout: vk::DescriptorSetLayout::null(),
-            layout: vk::PipelineLayout::null(),
-            pool: vk::DescriptorPool::null(),
-            set: vk::DescriptorSet::null(),
-        };
-        program.make(buffers)?;
-        Ok(program)
-    }
-
-    fn make(&mut self, buffers: &[&Buffer]) -> Result<(), Error> {
-        let device = &self.gpu.device;
         let ty = vk::DescriptorType::STORAGE_BUFFER;
-        let binding = |(number, _)| {
-            vk::DescriptorSetLayoutBinding::default()
-                .binding(number)
-                .descriptor_type(ty)
-                .descriptor_count(1)
-                .stage_flags(STAGES)
-        };
-        let bindings: Vec<_> = (0..).zip(buffers).map(binding).collect();
-        let create = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
-        // SAFETY: the structures live through the call.
-        self.set_layout = unsafe { device.create_descriptor_set_layout(&create, None) }
-            .map_err(Error::of("vkCreateDescriptorSetLayout"))?;
-        let layouts = [self.set_layout];
-        let constants = [vk::PushConstantRange::default().stage_flags(STAGES).size(8)];
-        let create = vk::PipelineLayoutCreateInfo::default()
-            .set_layouts(&layouts)
-            .push_constant_ranges(&constants);
-        // SAFETY: as above; the layout of the set is the device's.
-        self.layout = unsafe { device.create_pipeline_layout(&create, None) }
-            .map_err(Error::of("vkCreatePipelineLayout"))?;
-        let count = u32::try_from(buffers.len()).unwrap_or(u32::MAX).max(1);
-        let sizes = [vk::DescriptorPoolSize::default().ty(ty).descriptor_count(count)];
-        let create = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
-        // SAFETY: as above.
-        self.pool = unsafe { device.create_descriptor_pool(&create, None) }
-            .map_err(Error::of("vkCreateDescriptorPool"))?;
-        let allocate = vk::DescriptorSetAllocateInfo::default()
-            .descriptor_pool(self.pool)
-            .set_layouts(&layouts);
-        // SAFETY: the pool has room for this set.
-        let sets = unsafe { device.allocate_descriptor_sets(&allocate) }
-            .map_err(Error::of("vkAllocateDescriptorSets"))?;
-        self.set = sets[0];
-        for (number, buffer) in (0..).zip(buffers) {
-            let bound =
-                [vk::DescriptorBufferInfo::default().buffer(buffer.handle).range(vk::WHOLE_SIZE)];
-            let write = vk::WriteDescriptorSet::default()
-                .dst_set(self.set)
-                .dst_binding(number)
-                .descriptor_type(ty)
-                .buffer_info(&bound);
-            // SAFETY: nothing runs that uses the set.
-            unsafe { device.update_descriptor_sets(&[write], &[]) };
-        }
-        Ok(())
+        let interface = Interface::new(gpu, STAGES, buffers.iter().map(|_| ty), 8)?;
+        let sets = Sets::new(gpu, 1, buffers.len())?;
+        let bound = buffers.iter().map(|buffer| (ty, *buffer.handle, 0, vk::WHOLE_SIZE));
+        let set = sets.bind(&interface, bound)?;
+        Ok(Self { set, _sets: sets, interface })
     }
-}
 
-impl Drop for Program {
-    fn drop(&mut self) {
-        let device = &self.gpu.device;
-        // SAFETY: nothing runs, as each submission is waited for; null is allowed.
-        unsafe {
-            device.destroy_descriptor_pool(self.pool, None);
-            device.destroy_pipeline_layout(self.layout, None);
-            device.destroy_descriptor_set_layout(self.set_layout, None);
-        }
+    pub(crate) fn layout(&self) -> vk::PipelineLayout {
+        *self.interface.layout
     }
 }
 
@@ -102,78 +40,69 @@ impl Drop for Program {
 #[derive(Debug)]
 pub(crate) struct Pass {
     gpu: Arc<Gpu>,
-    pub(crate) pass: vk::RenderPass,
-    framebuffer: vk::Framebuffer,
-    image: vk::Image,
-    memory: vk::DeviceMemory,
-    view: vk::ImageView,
+    framebuffer: Owned<vk::Framebuffer>,
+    pass: Owned<vk::RenderPass>,
+    /// What it draws to, if it does.
+    image: Option<Image>,
     size: u32,
-    draws: bool,
 }
 
 const FORMAT: vk::Format = vk::Format::R8G8B8A8_UNORM;
 
-impl Pass {
-    /// A pass of `size` by `size` pixels; without `draws` there are none to write.
-    pub(crate) fn new(gpu: &Arc<Gpu>, size: u32, draws: bool) -> Result<Self, Error> {
-        let mut pass = Self {
-            gpu: Arc::clone(gpu),
-            pass: vk::RenderPass::null(),
-            framebuffer: vk::Framebuffer::null(),
-            image: vk::Image::null(),
-            memory: vk::DeviceMemory::null(),
-            view: vk::ImageView::null(),
-            size,
-            draws,
-        };
-        if draws {
-            pass.make_image()?;
-        }
-        pass.make_pass()?;
-        Ok(pass)
-    }
+/// An image with its memory and a view of it.
+#[derive(Debug)]
+struct Image {
+    view: Owned<vk::ImageView>,
+    _image: Owned<vk::Image>,
+    _memory: Owned<vk::DeviceMemory>,
+}
 
-    fn make_image(&mut self) -> Result<(), Error> {
-        let device = &self.gpu.device;
+impl Image {
+    /// `size` by `size` pixels.
+    fn new(gpu: &Arc<Gpu>, size: u32) -> Result<Self, Error> {
+        let device = &gpu.device;
         let create = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(FORMAT)
-            .extent(vk::Extent3D { width: self.size, height: self.size, depth: 1 })
+            .extent(vk::Extent3D { width: size, height: size, depth: 1 })
             .mip_levels(1)
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
             .usage(vk::ImageUsageFlags::COLOR_ATTACHMENT);
+        let calls = (ash::Device::create_image as _, ash::Device::destroy_image as _);
         // SAFETY: every device draws to images of this format and usage.
-        self.image =
-            unsafe { device.create_image(&create, None) }.map_err(Error::of("vkCreateImage"))?;
+        let image = unsafe { Owned::new(gpu, "vkCreateImage", calls, &create) }?;
         // SAFETY: the image is the device's.
-        let needs = unsafe { device.get_image_memory_requirements(self.image) };
+        let needs = unsafe { device.get_image_memory_requirements(*image) };
         let allocate = vk::MemoryAllocateInfo::default()
             .allocation_size(needs.size)
             .memory_type_index(needs.memory_type_bits.trailing_zeros());
+        let calls = (ash::Device::allocate_memory as _, ash::Device::free_memory as _);
         // SAFETY: the type is one of those that the image takes.
-        self.memory = unsafe { device.allocate_memory(&allocate, None) }
-            .map_err(Error::of("vkAllocateMemory"))?;
+        let memory = unsafe { Owned::new(gpu, "vkAllocateMemory", calls, &allocate) }?;
         // SAFETY: both are new and the memory is large enough.
-        unsafe { device.bind_image_memory(self.image, self.memory, 0) }
+        unsafe { device.bind_image_memory(*image, *memory, 0) }
             .map_err(Error::of("vkBindImageMemory"))?;
         let range = vk::ImageSubresourceRange::default()
             .aspect_mask(vk::ImageAspectFlags::COLOR)
             .level_count(1)
             .layer_count(1);
         let create = vk::ImageViewCreateInfo::default()
-            .image(self.image)
+            .image(*image)
             .view_type(vk::ImageViewType::TYPE_2D)
             .format(FORMAT)
             .subresource_range(range);
+        let calls = (ash::Device::create_image_view as _, ash::Device::destroy_image_view as _);
         // SAFETY: the image has memory and this format.
-        self.view = unsafe { device.create_image_view(&create, None) }
-            .map_err(Error::of("vkCreateImageView"))?;
-        Ok(())
+        let view = unsafe { Owned::new(gpu, "vkCreateImageView", calls, &create) }?;
+        Ok(Self { view, _image: image, _memory: memory })
     }
+}
 
-    fn make_pass(&mut self) -> Result<(), Error> {
-        let device = &self.gpu.device;
+impl Pass {
+    /// A pass of `size` by `size` pixels; without `draws` there are none to write.
+    pub(crate) fn new(gpu: &Arc<Gpu>, size: u32, draws: bool) -> Result<Self, Error> {
+        let image = draws.then(|| Image::new(gpu, size)).transpose()?;
         let attachments = [vk::AttachmentDescription::default()
             .format(FORMAT)
             .samples(vk::SampleCountFlags::TYPE_1)
@@ -182,25 +111,25 @@ impl Pass {
             .final_layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)];
         let references =
             [vk::AttachmentReference::default().layout(vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL)];
-        let used = usize::from(self.draws);
+        let used = usize::from(draws);
         let subpasses = [vk::SubpassDescription::default().color_attachments(&references[..used])];
         let create = vk::RenderPassCreateInfo::default()
             .attachments(&attachments[..used])
             .subpasses(&subpasses);
+        let calls = (ash::Device::create_render_pass as _, ash::Device::destroy_render_pass as _);
         // SAFETY: the structures live through the call.
-        self.pass = unsafe { device.create_render_pass(&create, None) }
-            .map_err(Error::of("vkCreateRenderPass"))?;
-        let views = [self.view];
+        let pass = unsafe { Owned::new(gpu, "vkCreateRenderPass", calls, &create) }?;
+        let views: Vec<vk::ImageView> = image.iter().map(|image| *image.view).collect();
         let create = vk::FramebufferCreateInfo::default()
-            .render_pass(self.pass)
-            .attachments(&views[..used])
-            .width(self.size)
-            .height(self.size)
+            .render_pass(*pass)
+            .attachments(&views)
+            .width(size)
+            .height(size)
             .layers(1);
+        let calls = (ash::Device::create_framebuffer as _, ash::Device::destroy_framebuffer as _);
         // SAFETY: the view has the attachment's format.
-        self.framebuffer = unsafe { device.create_framebuffer(&create, None) }
-            .map_err(Error::of("vkCreateFramebuffer"))?;
-        Ok(())
+        let framebuffer = unsafe { Owned::new(gpu, "vkCreateFramebuffer", calls, &create) }?;
+        Ok(Self { gpu: Arc::clone(gpu), framebuffer, pass, image, size })
     }
 
     fn area(&self) -> vk::Rect2D {
@@ -213,30 +142,16 @@ impl Pass {
         let device = &self.gpu.device;
         let clear = [vk::ClearValue::default()];
         let begin = vk::RenderPassBeginInfo::default()
-            .render_pass(self.pass)
-            .framebuffer(self.framebuffer)
+            .render_pass(*self.pass)
+            .framebuffer(*self.framebuffer)
             .render_area(self.area())
-            .clear_values(&clear[..usize::from(self.draws)]);
+            .clear_values(&clear[..usize::from(self.image.is_some())]);
         // SAFETY: the command buffer is being recorded, and the pass outlives what is recorded: it is
         // submitted and waited for while the caller borrows it.
         unsafe { device.cmd_begin_render_pass(commands, &begin, vk::SubpassContents::INLINE) };
         draws(device);
         // SAFETY: the pass was begun above.
         unsafe { device.cmd_end_render_pass(commands) };
-    }
-}
-
-impl Drop for Pass {
-    fn drop(&mut self) {
-        let device = &self.gpu.device;
-        // SAFETY: nothing runs, as each submission is waited for; null is allowed.
-        unsafe {
-            device.destroy_framebuffer(self.framebuffer, None);
-            device.destroy_render_pass(self.pass, None);
-            device.destroy_image_view(self.view, None);
-            device.destroy_image(self.image, None);
-            device.free_memory(self.memory, None);
-        }
     }
 }
 
@@ -250,63 +165,29 @@ pub(crate) enum Vertices {
 }
 
 /// A graphics pipeline.
-#[derive(Debug)]
-pub(crate) struct Pipeline {
-    gpu: Arc<Gpu>,
-    pub(crate) handle: vk::Pipeline,
+pub(crate) type Pipeline = Owned<vk::Pipeline>;
+
+/// A module of SPIR-V. A pipeline needs its modules only while it is made.
+pub(super) fn module(gpu: &Arc<Gpu>, words: &[u32]) -> Result<Owned<vk::ShaderModule>, Error> {
+    let create = vk::ShaderModuleCreateInfo::default().code(words);
+    let calls = (ash::Device::create_shader_module as _, ash::Device::destroy_shader_module as _);
+    // SAFETY: the words are naga's, or SPIR-V that spirv-val accepts, but for the modes that `modes.rs`
+    // replaces by others of the same kind.
+    unsafe { Owned::new(gpu, "vkCreateShaderModule", calls, &create) }
 }
 
-impl Pipeline {
-    /// A pipeline of these shaders; it rasterises if the pass has pixels.
-    pub(crate) fn new(
-        gpu: &Arc<Gpu>,
-        program: &Program,
-        pass: &Pass,
-        shaders: &[Shader<'_>],
-        vertices: Vertices,
-    ) -> Result<Self, Error> {
-        let mut modules = Vec::new();
-        let made = modules_of(gpu, shaders, &mut modules)
-            .and_then(|()| pipeline(gpu, program, pass, &modules, vertices));
-        for (_, module) in modules {
-            // SAFETY: a pipeline needs its modules only while it is made.
-            unsafe { gpu.device.destroy_shader_module(module, None) };
-        }
-        made.map(|handle| Self { gpu: Arc::clone(gpu), handle })
-    }
-}
-
-impl Drop for Pipeline {
-    fn drop(&mut self) {
-        // SAFETY: nothing runs, as each submission is waited for.
-        unsafe { self.gpu.device.destroy_pipeline(self.handle, None) };
-    }
-}
-
-fn modules_of(
-    gpu: &Gpu,
-    shaders: &[Shader<'_>],
-    modules: &mut Vec<(vk::ShaderStageFlags, vk::ShaderModule)>,
-) -> Result<(), Error> {
-    for &(stage, words) in shaders {
-        let create = vk::ShaderModuleCreateInfo::default().code(words);
-        // SAFETY: the words are SPIR-V that spirv-val accepts, but for the modes that `modes.rs`
-        // replaces by others of the same kind.
-        let module = unsafe { gpu.device.create_shader_module(&create, None) };
-        modules.push((stage, module.map_err(Error::of("vkCreateShaderModule"))?));
-    }
-    Ok(())
-}
-
-fn pipeline(
-    gpu: &Gpu,
+/// A pipeline of these shaders; it rasterises if the pass has pixels.
+pub(crate) fn pipeline(
+    gpu: &Arc<Gpu>,
     program: &Program,
     pass: &Pass,
-    modules: &[(vk::ShaderStageFlags, vk::ShaderModule)],
+    shaders: &[Shader<'_>],
     vertices: Vertices,
-) -> Result<vk::Pipeline, Error> {
-    let stage = |&(stage, module): &_| {
-        vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module).name(c"main")
+) -> Result<Pipeline, Error> {
+    let module = |&(stage, words): &Shader<'_>| Ok((stage, module(gpu, words)?));
+    let modules: Vec<_> = shaders.iter().map(module).collect::<Result<_, Error>>()?;
+    let stage = |(stage, module): &(_, Owned<_>)| {
+        vk::PipelineShaderStageCreateInfo::default().stage(*stage).module(**module).name(c"main")
     };
     let stages: Vec<_> = modules.iter().map(stage).collect();
     let bindings = [vk::VertexInputBindingDescription::default().stride(8)];
@@ -330,14 +211,14 @@ fn pipeline(
     let viewport =
         vk::PipelineViewportStateCreateInfo::default().viewports(&viewports).scissors(&scissors);
     let raster = vk::PipelineRasterizationStateCreateInfo::default()
-        .rasterizer_discard_enable(!pass.draws)
+        .rasterizer_discard_enable(pass.image.is_none())
         .line_width(1.0);
     let samples = vk::PipelineMultisampleStateCreateInfo::default()
         .rasterization_samples(vk::SampleCountFlags::TYPE_1);
     let blends = [vk::PipelineColorBlendAttachmentState::default()
         .color_write_mask(vk::ColorComponentFlags::RGBA)];
     let blend = vk::PipelineColorBlendStateCreateInfo::default()
-        .attachments(&blends[..usize::from(pass.draws)]);
+        .attachments(&blends[..usize::from(pass.image.is_some())]);
     let mut create = vk::GraphicsPipelineCreateInfo::default()
         .stages(&stages)
         .vertex_input_state(&input)
@@ -346,14 +227,27 @@ fn pipeline(
         .rasterization_state(&raster)
         .multisample_state(&samples)
         .color_blend_state(&blend)
-        .layout(program.layout)
-        .render_pass(pass.pass);
+        .layout(program.layout())
+        .render_pass(*pass.pass);
     if vertices == Vertices::Patches {
         create = create.tessellation_state(&tessellation);
     }
-    let cache = vk::PipelineCache::null();
+    let calls = (graphics_pipeline as _, ash::Device::destroy_pipeline as _);
     // SAFETY: all handles are the device's, and the structures live through the call.
-    let made = unsafe { gpu.device.create_graphics_pipelines(cache, &[create], None) };
-    made.map(|pipelines| pipelines[0])
-        .map_err(|(_, result)| Error::of("vkCreateGraphicsPipelines")(result))
+    unsafe { Owned::new(gpu, "vkCreateGraphicsPipelines", calls, &create) }
+}
+
+/// `vkCreateGraphicsPipelines` for one pipeline.
+///
+/// # Safety
+/// As for that function.
+unsafe fn graphics_pipeline(
+    device: &ash::Device,
+    create: &vk::GraphicsPipelineCreateInfo<'_>,
+    callbacks: Option<&vk::AllocationCallbacks<'_>>,
+) -> VkResult<vk::Pipeline> {
+    let (cache, create) = (vk::PipelineCache::null(), [*create]);
+    // SAFETY: as the caller says.
+    let made = unsafe { device.create_graphics_pipelines(cache, &create, callbacks) };
+    made.map(|pipelines| pipelines[0]).map_err(|(_, result)| result)
 }
