@@ -9,7 +9,6 @@ pub struct Bytes<'a>(pub &'a [u8]);
 
 impl Bytes<'_> {
     /// Whether all bytes were taken.
-    #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -93,7 +92,6 @@ fn setting(byte: u8) -> (Domain, Config) {
 }
 
 /// The bytes that [`Bytes::batch`] reads back as these patches.
-#[must_use]
 pub fn batch_bytes(domain: Domain, config: Config, patches: &[PatchFactors]) -> Vec<u8> {
     let byte = (0..SETTINGS).find(|&byte| setting(byte) == (domain, config));
     let mut bytes = vec![byte.expect("every setting is one byte")];
@@ -105,7 +103,6 @@ pub fn batch_bytes(domain: Domain, config: Config, patches: &[PatchFactors]) -> 
 
 /// The bytes that [`Bytes::batch`] reads as `count` patches: these again and again, the bits of
 /// their factors growing by `step`.
-#[must_use]
 pub fn repeated_bytes(plain: &[u8], count: u8, step: u32) -> Vec<u8> {
     let (setting, patches) = plain.split_at(1);
     [&[setting[0] + SETTINGS, count], &step.to_le_bytes()[..], patches].concat()

@@ -38,7 +38,6 @@ pub fn plant_fault() {
 }
 
 /// Whether the fault is planted.
-#[must_use]
 pub fn fault_is_planted() -> bool {
     static ASKED_FOR: OnceLock<bool> = OnceLock::new();
     PLANTED.load(Ordering::Relaxed)
@@ -63,7 +62,6 @@ pub fn compare_with_model(
 
 /// A message with the case in a form that can be run again: the line goes into a file that starts
 /// with `# tess-vectors 1 kind=listings count=1 source=fuzz` or the like, the command into a shell.
-#[must_use]
 pub fn repeatable(case: &Case, message: &str) -> String {
     format!("\n{case}\n{}\n{message}", case.command())
 }

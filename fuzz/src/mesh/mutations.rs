@@ -4,7 +4,6 @@ use super::seeds::chunk;
 use serde_json::{Value, json};
 
 /// Variants of a seed of one target.
-#[must_use]
 pub fn of(target: &str, seed: &[u8]) -> Vec<Vec<u8>> {
     let mut variants = of_bytes(seed);
     match target {

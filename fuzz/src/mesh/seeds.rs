@@ -10,7 +10,6 @@ const CUBE: &str =
 const FACES: &str = "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
 
 /// OBJ files.
-#[must_use]
 pub fn obj() -> Vec<Vec<u8>> {
     let attributes = "vt 0 0\nvt 1 0 0\nvt 0.5\nvn 0 0 1\nvn 0 1e-3 -2.5E1\n";
     let texts = [
@@ -30,7 +29,6 @@ pub fn obj() -> Vec<Vec<u8>> {
 }
 
 /// Bezier patch files.
-#[must_use]
 pub fn bpt() -> Vec<Vec<u8>> {
     let rows = |end: &str, line_end: &str| {
         let row = |k: usize| format!("{} {} {}{end}{line_end}", k % 4, k / 4, k % 3);
@@ -131,7 +129,6 @@ fn floats(numbers: &[f32]) -> Vec<u8> {
 }
 
 /// glTF and GLB files.
-#[must_use]
 pub fn gltf() -> Vec<Vec<u8>> {
     let bytes = [0u8, 1, 2, 0, 2, 3];
     let shorts: Vec<u8> = bytes.iter().flat_map(|&byte| [byte, 0]).collect();
@@ -219,7 +216,6 @@ pub fn gltf() -> Vec<Vec<u8>> {
 }
 
 /// PNG files: every colour type and depth, plain and interlaced, on random bytes.
-#[must_use]
 pub fn height_png() -> Vec<Vec<u8>> {
     let kinds = [
         (0, 1),

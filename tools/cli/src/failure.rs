@@ -41,25 +41,21 @@ pub(crate) struct Failure {
 
 impl Failure {
     /// Bad usage or bad input: exit code 2.
-    #[must_use]
     pub(crate) fn bad_input(message: impl Into<String>) -> Self {
         Self { exit: Exit::BadInput, message: message.into() }
     }
 
     /// A result that is not what it must be: exit code 1.
-    #[must_use]
     pub(crate) fn different(message: impl Into<String>) -> Self {
         Self { exit: Exit::Different, message: message.into() }
     }
 
     /// A backend that is not built in or cannot run here: exit code 3.
-    #[must_use]
     pub(crate) fn unavailable(message: impl Into<String>) -> Self {
         Self { exit: Exit::Unavailable, message: message.into() }
     }
 
     /// A place that could not be written: exit code 2; a reader that left ends the program quietly.
-    #[must_use]
     pub(crate) fn write(path: &Path, error: io::Error) -> Self {
         if error.kind() == io::ErrorKind::BrokenPipe {
             return Self { exit: Exit::ReaderLeft, message: String::new() };
@@ -69,7 +65,6 @@ impl Failure {
     }
 
     /// A file that could not be read or written: exit code 2.
-    #[must_use]
     pub(crate) fn file(action: &str, path: &Path, error: &dyn Error) -> Self {
         let why = error.to_string();
         // The crate of temporary files names its own file behind the cause.

@@ -49,7 +49,6 @@ Examples:
   tess bench --workload uniform-16              how fast on this machine";
 
 /// Runs the program on the process's arguments and says how it ended.
-#[must_use]
 pub fn main() -> ExitCode {
     let mut program = command_line();
     let words: Vec<OsString> = std::env::args_os().collect();

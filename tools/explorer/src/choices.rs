@@ -30,7 +30,6 @@ struct PartitioningChoice {
 
 /// Domains with their factors, partitionings with their ranges, outputs and split orders: JSON.
 #[wasm_bindgen]
-#[must_use]
 pub fn choices() -> String {
     let domain = |&(name, domain): &(&'static str, Domain)| DomainChoice {
         name,
@@ -60,7 +59,6 @@ pub fn factor_bits(text: &str) -> Result<u32, JsError> {
 
 /// The shortest text that [`factor_bits`] reads back to these bits.
 #[wasm_bindgen]
-#[must_use]
 pub fn factor_text(bits: u32) -> String {
     let decimal = f32::from_bits(bits).to_string();
     let same = factor(&decimal).is_ok_and(|value| value.to_bits() == bits);
@@ -69,7 +67,6 @@ pub fn factor_text(bits: u32) -> String {
 
 /// The factor `steps` units in the last place above or below; NaN stays as it is.
 #[wasm_bindgen]
-#[must_use]
 pub fn step_factor(bits: u32, steps: i32) -> u32 {
     let step = if steps < 0 { f32::next_down } else { f32::next_up };
     let steps = steps.unsigned_abs().min(65536);

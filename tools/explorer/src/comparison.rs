@@ -27,7 +27,6 @@ struct Comparison {
 
 /// The first difference of two results, and the numbers of everything that differs: JSON.
 #[wasm_bindgen]
-#[must_use]
 pub fn compare(expected: &PatchView, observed: &PatchView) -> String {
     let (expected, observed) = (&expected.listing, &observed.listing);
     let first = Mismatch::between(&expected.case, &observed.output, &expected.output);
@@ -85,13 +84,11 @@ impl ListingFile {
     }
 
     /// The case lines, in order, one a line.
-    #[must_use]
     pub fn cases(&self) -> String {
         self.lines.join("\n")
     }
 
     /// The listing of a case line.
-    #[must_use]
     pub fn listing(&self, line: &str) -> Option<PatchView> {
         self.listings.get(line).cloned()
     }

@@ -23,7 +23,6 @@ struct Curiosity {
 
 /// Groups of named case lines: JSON.
 #[wasm_bindgen]
-#[must_use]
 pub fn curiosities() -> String {
     json(&[
         CuriosityGroup { name: "Transitions", cases: transitions() },

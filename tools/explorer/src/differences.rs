@@ -15,7 +15,6 @@ const MOST: usize = 200;
 
 /// Differences from the model, in words; nothing if they are too many for a link.
 #[wasm_bindgen]
-#[must_use]
 pub fn difference_words(expected: &PatchView, observed: &PatchView) -> Option<String> {
     let (expected, observed) = (&expected.listing, &observed.listing);
     let [points, primitives] = differing(expected, observed);
@@ -49,7 +48,6 @@ pub fn difference_words(expected: &PatchView, observed: &PatchView) -> Option<St
 #[wasm_bindgen]
 impl PatchView {
     /// The listing that differs so from this patch; nothing if the words are malformed.
-    #[must_use]
     pub fn with_differences(&self, words: &str) -> Option<Self> {
         let Listing { case, output, .. } = &self.listing;
         let mut output = output.clone();

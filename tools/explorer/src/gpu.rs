@@ -115,26 +115,22 @@ impl GpuBatch {
     }
 
     /// Buffers, shaders and dispatches: JSON.
-    #[must_use]
     pub fn manifest(&self) -> String {
         json(&self.to_manifest())
     }
 
     /// The contents of the buffer `Job`.
-    #[must_use]
     pub fn jobs(&self) -> Vec<u8> {
         self.plan.jobs()
     }
 
     /// The contents of the buffer `Factors`.
-    #[must_use]
     pub fn factors(&self) -> Vec<u32> {
         factor_words(&self.patches)
     }
 
     /// The first difference between the model and what the shaders wrote, in words; nothing if every
     /// bit is equal. `points` has two words for each point.
-    #[must_use]
     pub fn difference(&self, points: &[u32], indices: &[u32]) -> Option<String> {
         let (mut points, mut indices) = (points.as_chunks::<2>().0, indices);
         for &factors in &self.patches {
@@ -152,7 +148,6 @@ impl GpuBatch {
     }
 
     /// Output of the shaders for the batch's first patch, as a listing.
-    #[must_use]
     pub fn listing(&self, points: &[u32], indices: &[u32]) -> String {
         let points = points.as_chunks::<2>().0.iter().map(unpacked).collect();
         let output = Tessellation { points, indices: indices.to_vec() };
@@ -161,7 +156,6 @@ impl GpuBatch {
     }
 
     /// Triangles, segments or points of the whole batch.
-    #[must_use]
     pub fn primitives(&self) -> u32 {
         capacity(self.setup.config, &self.patches).primitives
     }

@@ -56,85 +56,71 @@ impl PatchView {
     }
 
     /// The case as a line that `tess check` reads.
-    #[must_use]
     pub fn line(&self) -> String {
         self.listing.case.to_string()
     }
 
     /// The `tess patch` command of the case.
-    #[must_use]
     pub fn command(&self) -> String {
         self.listing.case.command()
     }
 
     /// u and v of each point, 16.16 bits.
-    #[must_use]
     pub fn points(&self) -> Vec<u32> {
         self.listing.output.points.iter().flat_map(|p| [p.u.to_bits(), p.v.to_bits()]).collect()
     }
 
     /// The index list.
-    #[must_use]
     pub fn indices(&self) -> Vec<u32> {
         self.listing.output.indices.clone()
     }
 
     /// Indices of a primitive: 1, 2 or 3.
-    #[must_use]
     pub fn primitive_size(&self) -> usize {
         self.listing.case.primitive_size()
     }
 
     /// Every stage as `tess explain` prints it.
-    #[must_use]
     pub fn explain(&self) -> String {
         self.explanation(Part::Patch).map_or_else(String::new, |report| report.to_string())
     }
 
     /// Where a point comes from, as `tess explain --point` prints it.
-    #[must_use]
     pub fn point_text(&self, i: u32) -> Option<String> {
         self.explanation(Part::Point(i)).map(|report| report.to_string())
     }
 
     /// The same as JSON.
-    #[must_use]
     pub fn point_json(&self, i: u32) -> Option<String> {
         self.explanation(Part::Point(i)).map(|report| json(&report))
     }
 
     /// Where a primitive comes from, as `tess explain --primitive` prints it.
-    #[must_use]
     pub fn primitive_text(&self, t: u32) -> Option<String> {
         self.explanation(Part::Primitive(t)).map(|report| report.to_string())
     }
 
     /// The same as JSON.
-    #[must_use]
     pub fn primitive_json(&self, t: u32) -> Option<String> {
         self.explanation(Part::Primitive(t)).map(|report| json(&report))
     }
 
     /// The listing alone, as it stands in a vector file.
-    #[must_use]
     pub fn listing(&self) -> String {
         self.listing.to_string()
     }
 
     /// The file that `tess patch` writes by default.
-    #[must_use]
     pub fn text(&self) -> String {
         self.listing.to_file("core")
     }
 
     /// The file of `tess patch --format csv`.
-    #[must_use]
     pub fn csv(&self) -> String {
         self.listing.to_csv("core")
     }
 
     /// The file of `tess patch --format obj`.
-    #[must_use]
     pub fn obj(&self) -> String {
         self.listing.to_obj()
     }
@@ -166,21 +152,18 @@ impl PatchView {
 
     /// Twice the signed area of each triangle in units of 2^-32: positive as the output primitive
     /// demands, 0 without area, negative where it is flipped.
-    #[must_use]
     pub fn areas(&self) -> Vec<f64> {
         marks::areas(&self.listing)
     }
 
     /// For each point of an outer edge or a line: 1 in the exact middle of an even edge, 2 where the
     /// edge is split; else 0.
-    #[must_use]
     pub fn point_marks(&self) -> Vec<u8> {
         marks::points(&self.patch)
     }
 
     /// A copy with one fault, so that a comparison can be seen to fail: the lowest bit of the
     /// middle point's u is the other one.
-    #[must_use]
     pub fn with_fault(&self) -> Self {
         let mut faulty = self.clone();
         let points = &mut faulty.listing.output.points;

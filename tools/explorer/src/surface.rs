@@ -36,7 +36,6 @@ impl SurfaceView {
     }
 
     /// Centre and radius of a sphere around the model.
-    #[must_use]
     pub fn sphere(&self) -> Vec<f32> {
         let (low, high) = self.model.bounds();
         let centre = low.midpoint(high);
@@ -44,7 +43,6 @@ impl SurfaceView {
     }
 
     /// How many patches there are.
-    #[must_use]
     pub fn patches(&self) -> usize {
         self.model.len()
     }
@@ -82,38 +80,32 @@ impl SurfaceView {
     }
 
     /// x, y and z of each vertex.
-    #[must_use]
     pub fn positions(&self) -> Vec<f32> {
         self.vertices.iter().flat_map(|vertex| vertex.position.to_array()).collect()
     }
 
     /// The unit normal of each vertex.
-    #[must_use]
     pub fn normals(&self) -> Vec<f32> {
         self.vertices.iter().flat_map(|vertex| vertex.normal.to_array()).collect()
     }
 
     /// Three vertices for each triangle.
-    #[must_use]
     pub fn indices(&self) -> Vec<u32> {
         self.indices.clone()
     }
 
     /// The patches as a batch for the GPU, with room for any factors.
-    #[must_use]
     pub fn batch(&self) -> GpuBatch {
         GpuBatch::to_draw(self.config, &self.factors)
     }
 
     /// The raw factors, as the batch's buffer `Factors` holds them.
-    #[must_use]
     pub fn factor_words(&self) -> Vec<u32> {
         factor_words(&self.factors)
     }
 
     /// Words that the WGSL of [`Self::wgsl`] reads: 16 control points of each patch, x, y, z and 1, rows along
     /// v; then, where there are any, 4 corner and 4 edge normals of each patch, with a fourth number of 0.
-    #[must_use]
     pub fn nets(&self) -> Vec<f32> {
         let surfaces = || (0..self.model.len()).map(|number| *self.model.patch(number).surface());
         let points = surfaces().flat_map(|surface| net(&surface)).flat_map(|p| p.to_array());
@@ -127,7 +119,6 @@ impl SurfaceView {
 
     /// WGSL with the functions `surface_position` and `surface_normal` of a patch's number, u and v. They read
     /// `nets`, an array of `vec4f`, which the caller declares.
-    #[must_use]
     pub fn wgsl(&self) -> String {
         let normal = match self.model.patch(0).surface() {
             Surface::PnQuad(_) => {

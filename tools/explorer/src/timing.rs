@@ -9,7 +9,6 @@ use wasm_bindgen::prelude::wasm_bindgen;
 
 /// The names of the workloads of batches: JSON.
 #[wasm_bindgen]
-#[must_use]
 pub fn workload_names() -> String {
     let named = ["uniform", "terrain", "character", "mosaic", "mosaic-even"];
     let names = named.iter().flat_map(|name| Workload::named(name)).map(|workload| workload.name);

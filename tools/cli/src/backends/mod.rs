@@ -64,7 +64,6 @@ fn cpu_level(name: &str) -> Result<Level, String> {
 
 impl BackendName {
     /// The name on a command line.
-    #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Core => "core",
@@ -131,7 +130,6 @@ impl BackendOptions {
     }
 
     /// The words on a command line that choose this backend in this way.
-    #[must_use]
     pub(crate) fn words(self, backend: &str) -> String {
         match self.index_type {
             IndexWidth::U16 => format!("{backend} --index-type u16"),

@@ -84,13 +84,11 @@ impl OnePatch {
     }
 
     /// The patch.
-    #[must_use]
     pub(crate) const fn case(&self) -> &Case {
         &self.listing.case
     }
 
     /// The output.
-    #[must_use]
     pub(crate) const fn output(&self) -> &Tessellation {
         &self.listing.output
     }

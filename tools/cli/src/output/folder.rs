@@ -52,7 +52,6 @@ impl NewFolder {
     }
 
     /// Where its files are written.
-    #[must_use]
     pub(crate) fn path(&self) -> &Path {
         self.folder.path()
     }

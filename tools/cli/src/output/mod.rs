@@ -94,7 +94,6 @@ impl OutputArgs {
     }
 
     /// Whether the result goes to stdout.
-    #[must_use]
     pub(crate) fn is_stdout(&self) -> bool {
         matches!(Destination::of(&self.file), Ok(Destination::Stdout))
     }
@@ -110,7 +109,6 @@ impl OutputArgs {
 
 /// A progress bar over `length` of what `unit` names, on stderr if that is a terminal. Its message,
 /// if one is set, says what is being done.
-#[must_use]
 pub(crate) fn progress(length: u64, unit: &str) -> ProgressBar {
     let template = format!("{{bar:30}} {{human_pos}}/{{human_len}} {unit}, {{eta}} left  {{msg}}");
     let style = ProgressStyle::with_template(&template);

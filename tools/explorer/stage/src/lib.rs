@@ -28,13 +28,11 @@ pub struct StageReport {
 #[wasm_bindgen]
 impl StageReport {
     /// The first difference between what the stage stored and the model; nothing if every bit is equal.
-    #[must_use]
     pub fn difference(&self) -> String {
         self.difference.clone()
     }
 
     /// The picture, RGBA, 256 by 256.
-    #[must_use]
     pub fn pixels(&self) -> Vec<u8> {
         self.pixels.clone()
     }

@@ -8,7 +8,6 @@ const MIB: u64 = 1 << 20;
 /// Consecutive batches that together have about a mebibyte of output, from the bytes of each.
 ///
 /// A batch of one patch alone is too short for a clock; larger ones are parts of their own.
-#[must_use]
 pub(crate) fn parts(batch_bytes: &[u64]) -> Vec<Range<usize>> {
     let mut parts = Vec::new();
     let (mut start, mut bytes) = (0, 0);

@@ -19,7 +19,6 @@ pub(crate) enum WorkingSet {
 
 impl WorkingSet {
     /// Its name in reports.
-    #[must_use]
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Cache => "cache",

@@ -24,7 +24,6 @@ pub(crate) struct Row {
 
 /// The lines above the rows: what was timed, and the columns; rates in millions and in GB (10^9
 /// bytes).
-#[must_use]
 pub(crate) fn heading(description: &Description) -> String {
     let Description { backend, level, threads, .. } = description;
     format!(
@@ -51,7 +50,6 @@ pub(super) const fn name_of(index_type: IndexWidth) -> &'static str {
 
 impl Row {
     /// One line of the table.
-    #[must_use]
     pub(crate) fn line(&self) -> String {
         format!(
             "{:<34} {:<6} {:>12.4} {:>13.1} {:>8.2} {:>8.4} {:>8.2}\n",
@@ -66,7 +64,6 @@ impl Row {
     }
 
     /// The element of a JSON array.
-    #[must_use]
     pub(crate) fn json(&self) -> String {
         let object = json(self);
         let lines: Vec<_> = object.lines().map(|line| format!("  {line}")).collect();

@@ -55,7 +55,6 @@ impl ViewArgs {
     }
 
     /// The camera, for a surface with these points.
-    #[must_use]
     pub(crate) fn view(&self, points: &[Vec3], up: Up) -> View {
         let first = points.first().copied().unwrap_or_default();
         let grow = |(low, high): (Vec3, Vec3), &point: &Vec3| (low.min(point), high.max(point));
