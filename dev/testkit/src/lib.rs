@@ -1,6 +1,7 @@
 //! Tools of the project's own tests beside `tess-verify`: backends with planted faults, which every
 //! comparison must notice, lists of faults in sources, the invariants of spec section 12, and options crossed by pairs.
 
+pub mod circuit;
 pub mod faults;
 pub mod invariants;
 pub mod listed;

@@ -1,7 +1,7 @@
 //! Lists of faults: a text of a source, and a wrong one in its place.
 //!
 //! ```text
-//! in tess-gpu/shaders                            the folder of the sources
+//! in tess-gpu/shaders                            the folder of the sources, or a file
 //! seen by tess-wgpu/tests/exact.rs boundaries    a file of tests, and words that select some of them
 //! fault half factors are rounded down := (factor + 1u) >> 1u ==> factor >> 1u
 //! equivalent: REASON                             no test can see the fault
@@ -15,14 +15,14 @@
 //! ```
 //!
 //! `in` and `seen by` hold until the next one. A text on the line of its fault has no space at its ends, and the new one
-//! may be empty. `cargo xtask mutants planted` and tests of the shaders read such lists.
+//! may be empty. `cargo xtask mutants planted`, the circuit's benches and tests of the shaders read such lists.
 
 /// One wrong text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ListedFault {
     /// The fault.
     pub name: String,
-    /// The folder of the source, from the root of the repository.
+    /// The folder of the source or the source, from the root of the repository.
     pub folder: String,
     /// The file of the tests that must see it.
     pub tests: String,
@@ -30,8 +30,10 @@ pub struct ListedFault {
     pub filters: Vec<String>,
     /// Why no test can see it.
     pub equivalent: Option<String>,
-    right: String,
-    wrong: String,
+    /// The text of the source.
+    pub right: String,
+    /// The text in its place.
+    pub wrong: String,
 }
 
 impl ListedFault {

@@ -70,6 +70,9 @@ usage: cargo xtask <command>
           ways to tessellate; `ci` leaves it out, as Bevy takes long to build
   rtl     lint the circuit and compare it with the model in Verilator: level 1, random patches under back-pressure,
           single stages; plant its faults; print clocks for the workloads of `tess bench`
+  rtl --plant FOLDER [NUMBER]
+          write the design to FOLDER with every fault of rtl/dv/circuit.faults behind a simulation's `+fault=NUMBER`, or
+          with one; print their numbers
   rtl --names
           write anew the names of signals, stages and modules that the bench prints, and the lists of sources
   rtl --long | --prove | --synth | --place
@@ -153,6 +156,8 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["explorer", "--serve"] => explorer::serve(),
         ["explorer", "--test"] => explorer::test(),
         ["integrations"] => after_setup(&integrations::run),
+        ["rtl", "--plant", folder] => mutants::plant_in_circuit(folder, None),
+        ["rtl", "--plant", folder, number] => mutants::plant_in_circuit(folder, Some(number)),
         ["rtl", ..] => return with_kit(words),
         ["install", "--prefix", folder] => install::run(folder, None),
         ["install", "--prefix", folder, "--target", target] => install::run(folder, Some(target)),

@@ -1,11 +1,14 @@
 //! Planted faults: `cargo mutants` changes one thing at a time and demands that a test fails.
 
+// The testkit's modules alone, as this program is built before the libraries.
+#[path = "../../testkit/src/circuit.rs"]
+#[expect(unreachable_pub, reason = "it is public in the testkit")]
+pub(crate) mod circuit;
 mod built;
 mod fault;
-// The testkit's parser alone, as this program is built before the libraries.
 #[path = "../../testkit/src/listed.rs"]
 #[expect(unreachable_pub, reason = "it is public in the testkit")]
-mod listed;
+pub(crate) mod listed;
 mod planted;
 
 use crate::command::{cargo, shown, workspace};
@@ -105,6 +108,22 @@ const EQUIVALENT: &str = "dev/xtask/faults/survivors.tsv";
 /// Plants the faults of `dev/xtask/faults`; see [`planted::run`].
 pub(crate) fn planted(words: &[&str]) -> Result<(), String> {
     planted::run(words)
+}
+
+/// Writes the design of the circuit to a folder, with every fault or with one, and prints the numbers of those it has.
+///
+/// # Errors
+/// `number` is no number of a fault, or see [`circuit::plant`].
+pub(crate) fn plant_in_circuit(folder: &str, number: Option<&str>) -> Result<(), String> {
+    let number = number.map(|number| number.parse().map_err(|error| format!("{number}: {error}")));
+    let number: Option<usize> = number.transpose()?;
+    circuit::plant(&workspace(), folder.as_ref(), number)?;
+    for (own, fault) in circuit::faults(&workspace())? {
+        if number.is_none_or(|number| number == own) {
+            println!("{own:>3} {}: {}", fault.folder, fault.name);
+        }
+    }
+    Ok(())
 }
 
 /// Plants every fault in `package`; `rest` are options for `cargo mutants`, such as a file or a

@@ -45,7 +45,7 @@ def simulate(options: argparse.Namespace, build: Path) -> bool:
     design = RTL
     if options.fault:
         design = build / "design"
-        subprocess.run([sys.executable, HERE.parent / "plant.py", design, "--fault", str(options.fault)], check=True)
+        subprocess.run(["cargo", "xtask", "rtl", "--plant", design, str(options.fault)], check=True, cwd=RTL)
     runner.build(
         verilog_sources=[design / file for file in FILES],
         includes=[design],

@@ -8,7 +8,7 @@
 //   +resets=N       N resets before anything is checked, each with up to four patches on their way
 //   +covered        fails unless every bin of tess_sequences.svh is hit
 //   +alone          each patch waits until the one before is out: latencies
-//   +fault=N        the design has fault N (plant.py), so ends soon after a difference
+//   +fault=N        the design has fault N (`cargo xtask rtl --plant`), so ends soon after a difference
 // Exit: PASS, or $fatal. Each difference prints the patch as a line that `tess explain` and +stimuli take.
 module tb_tess;
     import tess_dpi::*;

@@ -1,12 +1,26 @@
 //! The circuit in `rtl/` against the model, in Verilator, with the script that its users run.
 
-use super::tools::{build_folder, crate_folder, libraries, output, run, text};
+use super::tools::{build_folder, crate_folder, libraries, output, repository, run, text};
 use libtest_mimic::Failed;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
+use std::time::Instant;
+use tess_testkit::circuit;
+use tess_testkit::listed::ListedFault;
 use tess_verify::generate::{GenLevel, Selection};
+
+/// Random patches that find every fault, and those by whose clocks the slow ones are found.
+const ALL: [&str; 3] = ["+random=20000", "+gaps", "+resets=200"];
+const TIMED: [&str; 1] = ["+random=500"];
+
+/// The script that builds and runs the benches.
+fn script() -> Result<Command, String> {
+    let mut script = Command::new(repository().join("rtl/dv/run"));
+    script.env("TESS_LIBRARY", libraries()?.archive);
+    Ok(script)
+}
 
 /// Lints the design and builds the bench, once.
 fn bench() -> Result<PathBuf, String> {
@@ -16,9 +30,8 @@ fn bench() -> Result<PathBuf, String> {
 
 fn build() -> Result<PathBuf, String> {
     let folder = build_folder().join("rtl");
-    let mut script = Command::new(crate_folder().join("../../rtl/dv/run"));
-    script.env("TESS_LIBRARY", libraries()?.archive).env("TESS_VERILOG_BUILD", &folder);
-    let said = run(script.args(["+random=100", "+resets=10"]))?;
+    let mut script = script()?;
+    let said = run(script.env("TESS_VERILOG_BUILD", &folder).args(["+random=100", "+resets=10"]))?;
     verdict(&said, 100)?;
     Ok(folder.join("Vtb_tess"))
 }
@@ -50,58 +63,76 @@ pub(crate) fn equals_model() -> Result<(), Failed> {
     Ok(verdict(&said, count)?)
 }
 
-/// Each planted fault makes the bench fail, naming the stage, the signal, both values and the patch.
+/// Each planted fault makes the bench fail, naming the stage, the signal, both values and the patch; or it costs clocks.
 pub(crate) fn faults_are_caught() -> Result<(), Failed> {
     let folder = build_folder().join("rtl");
-    let mut script = Command::new(crate_folder().join("../../rtl/dv/run"));
-    script.env("TESS_LIBRARY", libraries()?.archive).env("TESS_VERILOG_BUILD", &folder);
-    run(script.args(["--faults", "--build"]))?;
-    let bench = || {
+    run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--faults", "--build"]))?;
+    let bench = |fault: usize, arguments: &[&str]| {
         let mut bench = Command::new(folder.join("faults/Vtb_tess"));
-        bench.args(["+random=20000", "+gaps", "+resets=200"]);
+        bench.arg(format!("+fault={fault}")).args(arguments);
         bench
     };
-    verdict(&run(&mut bench())?, 20_000)?;
-    let planter = crate_folder().join("../../rtl/dv/plant.py");
-    for line in run(Command::new("python3").arg(planter).arg("--list"))?.lines() {
-        let words: Vec<&str> = line.split('\t').collect();
-        let [number, _, _, seen_by, _] = words[..] else {
-            return Err(format!("not NUMBER KIND MODULE SEEN NAME: {line}").into());
+    verdict(&run(&mut bench(0, &ALL))?, 20_000)?;
+    let clocks = clocks(&run(&mut bench(0, &TIMED))?)?;
+    for (number, fault) in circuit::faults(&repository())? {
+        let began = Instant::now();
+        let ListedFault { name, tests: seen_by, filters: words, .. } = &fault;
+        let (is_seen, said) = if seen_by == "clocks" {
+            let said = run(&mut bench(number, &TIMED))?;
+            verdict(&said, 500)?;
+            (self::clocks(&said)? > clocks, said)
+        } else {
+            let output = output(&mut bench(number, &ALL))?;
+            let said = text(&output.stdout);
+            let is_named = names(&said, seen_by, words).ok_or("`seen by` names no signal")?;
+            (!output.status.success() && is_named, said)
         };
-        // Lost clocks are judged by `cargo xtask rtl`.
-        if seen_by == "clocks" {
-            continue;
+        let seen_by = format!("{seen_by} {}", words.join(" "));
+        if !is_seen {
+            return Err(format!("fault {number}, {name}: not seen by {seen_by}:\n{said}").into());
         }
-        let (kind, seen_by) = seen_by
-            .strip_prefix("assertion ")
-            .map_or(("MISMATCH", seen_by), |by| ("ASSERTION", by));
-        let (stage, signal) = seen_by.split_once(' ').ok_or("not STAGE SIGNAL")?;
-        let output = output(bench().arg(format!("+fault={number}")))?;
-        let said = text(&output.stdout);
-        let is_named = |line: &&str| line.starts_with("MISMATCH") || line.starts_with("ASSERTION");
-        let first = said.lines().find(is_named).unwrap_or_default();
-        let is_whole = kind == "ASSERTION"
-            || [" observed=0x", " expected=0x"].iter().all(|word| first.contains(word))
-                && said.contains("    case ");
-        let named = first.starts_with(&format!("{kind} stage={stage} signal={signal} "));
-        if output.status.success() || !named || !is_whole {
-            return Err(format!("fault {line} was not reported:\n{said}").into());
-        }
+        let seconds = began.elapsed().as_secs_f32();
+        println!("  {number:>2} {}: {name}: {}, {seconds:.1} s", fault.folder, seen_by.trim_end());
     }
     Ok(())
 }
 
-/// Single stages equal the model at the ends of their ranges.
+/// Whether the first report of a bench is what a list's `seen by` says; `None` if that is not `[assertion] STAGE SIGNAL`.
+fn names(said: &str, seen_by: &str, words: &[String]) -> Option<bool> {
+    let (kind, stage, signal) = match (seen_by, words) {
+        ("assertion", [stage, signal]) => ("ASSERTION", stage.as_str(), signal),
+        (stage, [signal]) => ("MISMATCH", stage, signal),
+        _ => return None,
+    };
+    let is_report = |line: &&str| line.starts_with("MISMATCH") || line.starts_with("ASSERTION");
+    let first = said.lines().find(is_report).unwrap_or_default();
+    let is_whole = kind == "ASSERTION"
+        || [" observed=0x", " expected=0x"].iter().all(|word| first.contains(word))
+            && said.contains("    case ");
+    Some(is_whole && first.starts_with(&format!("{kind} stage={stage} signal={signal} ")))
+}
+
+/// The clocks of a tally.
+fn clocks(said: &str) -> Result<u64, String> {
+    let tally = said.lines().find_map(|line| line.strip_suffix(" clocks, 0 mismatches"));
+    let number = tally.and_then(|tally| tally.rsplit(' ').next()?.parse().ok());
+    number.ok_or_else(|| format!("no tally:\n{said}"))
+}
+
+/// Single stages equal the model: the factors about 1, 2, 63 and 64, and 4096 patterns about 1.
 pub(crate) fn stages_equal_model() -> Result<(), Failed> {
-    let mut script = Command::new(crate_folder().join("../../rtl/dv/run"));
-    script.env("TESS_LIBRARY", libraries()?.archive);
-    script.env("TESS_VERILOG_BUILD", build_folder().join("rtl"));
-    let said = run(script.args(["--stages", "+first=4194177", "+factors=128"]))?;
-    if !said.lines().any(|line| line.ends_with(" places, 0 processed factors, 0 mismatches")) {
-        return Err(format!("no tally:\n{said}").into());
+    let folder = build_folder().join("rtl");
+    run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--stages", "--build"]))?;
+    let compare = |arguments: &[&str], tally: &str| {
+        let said = run(Command::new(folder.join("stages/Vtb_stages")).args(arguments))?;
+        let is_said = said.lines().any(|line| line.ends_with(tally));
+        if is_said { Ok(()) } else { Err(format!("no tally:\n{said}")) }
+    };
+    for first in [0x1_0000, 0x1_FFC0, 0x2_FFC0, 0x3E_FFC0, 0x3F_FF81] {
+        let first = format!("+first={first}");
+        compare(&[&first, "+factors=128"], " places, 0 processed factors, 0 mismatches")?;
     }
-    let bench = build_folder().join("rtl/stages/Vtb_stages");
-    run(Command::new(&bench).args(["+bits=3f7ff800", "+words=4096"]))?;
+    compare(&["+bits=3f7ff800", "+words=4096"], ", 0 mismatches")?;
     Ok(())
 }
 

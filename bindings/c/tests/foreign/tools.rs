@@ -10,6 +10,11 @@ pub(crate) fn crate_folder() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// The folder of the repository.
+pub(crate) fn repository() -> PathBuf {
+    crate_folder().join("../..")
+}
+
 /// A folder for what the tests build. It stays, so that a simulator's build is soon done again. One
 /// process has it at a time: another that runs the same tests waits.
 pub(crate) fn build_folder() -> &'static Path {

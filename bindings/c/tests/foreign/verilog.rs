@@ -1,12 +1,13 @@
 //! The Verilog placer against the model, in Verilator.
 
-use super::tools::{build_folder, crate_folder, libraries, output, run, text};
+use super::tools::{build_folder, crate_folder, libraries, output, repository, run, text};
 use libtest_mimic::Failed;
 use std::path::PathBuf;
 use std::process::Command;
 use std::sync::OnceLock;
 use tess_core::fixed_point::{HALF, ONE};
 use tess_core::{FactorContext, FixedFactor, Parity, SplitOrder};
+use tess_testkit::circuit;
 
 /// The planted faults of `rtl/dv/circuit.faults`, and the stage and the signal that must be named.
 const FAULTS: &[(&str, &str, &str)] = &[
@@ -64,14 +65,13 @@ fn level_1() -> (u32, u32) {
 pub(crate) fn faults_are_caught() -> Result<(), Failed> {
     let folder = build_folder().join("verilog-faults");
     let design = folder.join("design");
-    let plant = crate_folder().join("../../rtl/dv/plant.py");
-    let list = run(Command::new("python3").arg(plant).arg(&design).arg("--list"))?;
+    circuit::plant(&repository(), &design, None)?;
+    let list = circuit::faults(&repository())?;
     let mut script = Command::new(crate_folder().join("verilog/run"));
     script.env("TESS_LIBRARY", libraries()?.archive).env("TESS_VERILOG_BUILD", &folder);
     run(script.env("TESS_RTL", &design).arg("+random=0"))?;
     for (fault, stage, signal) in FAULTS {
-        let line = list.lines().find(|line| line.ends_with(&format!("\t{fault}")));
-        let number = line.and_then(|line| line.split('\t').next()).ok_or("no such fault")?;
+        let (number, _) = list.iter().find(|(_, one)| one.name == *fault).ok_or("no such fault")?;
         let mut bench = Command::new(folder.join("Vtb_placer"));
         let output = output(bench.arg(format!("+fault={number}")))?;
         let said = text(&output.stdout);

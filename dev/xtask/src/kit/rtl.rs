@@ -4,43 +4,27 @@
 mod bench;
 mod clocks;
 mod cost;
-mod faults;
 mod long;
 mod names;
 mod place;
 mod proofs;
 mod stages;
 
+use crate::setup;
+use crate::test;
 use bench::Bench;
 use std::fmt::Write as _;
 use std::path::PathBuf;
 use tess_verify::Case;
-use tess_verify::generate::{GenLevel, Selection};
 
-/// Random patches behind level 1; the bench draws them itself.
-const RANDOM_PATCHES: u64 = 20_000;
-
-/// Resets in front of them, so many that every bin of sequences is hit.
-const RESETS: u64 = 800;
-
-/// Compares the circuit with the model: level 1 and random patches under back-pressure, gaps and resets, parts of the
-/// single stages, every planted fault, then clocks.
+/// Compares the circuit with the model and plants its faults, as the tests of the C interface do; then clocks.
 ///
 /// # Errors
 /// A tool is missing, the lint warns, an element differs, or a planted fault is not found.
 pub(crate) fn run() -> Result<(), String> {
-    let bench = Bench::built()?;
-    println!("\nlint: no warnings");
-    let level_1: Vec<Case> = Selection::level(GenLevel::One, 1).cases().collect();
-    let stimuli = bench.stimuli("level-1", &level_1)?;
-    let random = format!("+random={RANDOM_PATCHES}");
-    let resets = format!("+resets={RESETS}");
-    let verdict = bench.compare(&[&stimuli, &random, "+gaps", &resets, "+covered"])?;
-    verdict.demand(level_1.len() as u64 + RANDOM_PATCHES)?;
-    println!("level 1, {RANDOM_PATCHES} random patches, {RESETS} resets: {verdict}");
-    stages::part(&bench.folder)?;
-    faults::run()?;
-    clocks::run(&bench)
+    setup::provide(&[setup::VERILATOR, setup::SYSTEMC])?;
+    test::run(&["bindings/c/tests/foreign.rs", "rtl_"])?;
+    clocks::run(&Bench::built()?)
 }
 
 /// Compares for hours, and goes on where an earlier run has stopped.

@@ -40,11 +40,7 @@ pub(super) const BEYOND: &[Need] = &[
         is_there: || has_program("Xvfb"),
     },
     VERILATOR,
-    Need {
-        what: "SystemC (tests of the SystemC modules)",
-        packages: &["libsystemc-dev"],
-        is_there: || Path::new("/usr/include/systemc").exists(),
-    },
+    SYSTEMC,
     ICARUS,
     PYTHON,
 ];
@@ -61,6 +57,13 @@ pub(crate) const VERILATOR: Need = Need {
     what: "Verilator with a C++ compiler and make (benches of the SystemVerilog interface and of the circuit)",
     packages: &["verilator", "g++", "make"],
     is_there: || ["verilator", "c++", "make"].into_iter().all(has_program),
+};
+
+/// The library of the `SystemC` modules.
+pub(crate) const SYSTEMC: Need = Need {
+    what: "SystemC (tests of the SystemC modules)",
+    packages: &["libsystemc-dev"],
+    is_there: || Path::new("/usr/include/systemc").exists(),
 };
 
 /// Synthesis of the circuit, and what proofs are made of.

@@ -72,22 +72,10 @@ impl Bench {
     /// # Errors
     /// A tool is missing, the lint warns, or a build fails.
     pub(crate) fn built() -> Result<Self, String> {
-        Self::of(&["--build"], target().join("rtl"))
-    }
-
-    /// As [`Self::built`], of a copy of the design that has the planted faults behind `+fault=N`.
-    ///
-    /// # Errors
-    /// As for [`Self::built`]; a fault has no place in the design.
-    pub(crate) fn with_faults() -> Result<Self, String> {
-        Self::of(&["--faults", "--build"], target().join("rtl"))
-            .map(|bench| Self { program: bench.folder.join("faults/Vtb_tess"), ..bench })
-    }
-
-    fn of(words: &[&str], folder: PathBuf) -> Result<Self, String> {
         setup::provide(&[setup::VERILATOR])?;
+        let folder = target().join("rtl");
         let mut script = Command::new(sources().join("dv/run"));
-        script.args(words).env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", &folder);
+        script.arg("--build").env("TESS_LIBRARY", library()?).env("TESS_VERILOG_BUILD", &folder);
         command::run(&mut script)?;
         Ok(Self { program: folder.join("Vtb_tess"), folder })
     }

@@ -100,6 +100,9 @@ fn text() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::command::workspace;
+    use crate::mutants::circuit;
+    use crate::mutants::listed::ListedFault;
 
     #[test]
     fn the_files_are_up_to_date() {
@@ -118,6 +121,17 @@ mod tests {
             listed, "a:\n  - tess_d.sv\n  - tess_b.sv\n  - dv/x.sv\n",
             "in the list's place and order"
         );
+    }
+
+    /// Each fault of the circuit is seen by a signal that there is.
+    #[test]
+    fn faults_name_signals() {
+        let faults = circuit::faults(&workspace()).expect("a list");
+        assert!(faults.len() >= 90, "all faults");
+        for (_, ListedFault { name, tests: stage, filters, .. }) in &faults {
+            let names = |known: Signal| known.stage == stage && [known.name] == filters[..];
+            assert!(matches!(&stage[..], "clocks" | "assertion") || signals().any(names), "{name}");
+        }
     }
 
     /// Each module is a file of that name, and has the signal.

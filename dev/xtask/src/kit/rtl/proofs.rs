@@ -1,7 +1,8 @@
 //! Proofs with Yosys and an SMT solver: for all inputs and any number of clocks, not for those of a test.
 
-use super::{faults, sources};
-use crate::command::{self, in_file, target};
+use super::sources;
+use crate::command::{self, in_file, target, workspace};
+use crate::mutants::circuit;
 use crate::setup;
 use std::fs;
 use std::path::PathBuf;
@@ -158,7 +159,15 @@ fn folder() -> PathBuf {
 
 /// Copies the design and the proofs to one folder. Proofs of a module's registers go to its end, as Yosys binds nothing.
 fn copy(fault: Option<&str>) -> Result<(), String> {
-    faults::plant(&folder(), fault)?;
+    let number = match fault {
+        None => 0,
+        Some(name) => {
+            let faults = circuit::faults(&workspace())?;
+            let found = faults.into_iter().find(|(_, fault)| fault.name == name);
+            found.ok_or_else(|| format!("no fault `{name}`"))?.0
+        }
+    };
+    circuit::plant(&workspace(), &folder(), Some(number))?;
     let formal = sources().join("dv/formal");
     for entry in fs::read_dir(&formal).map_err(|error| in_file(&formal, &error))? {
         let file = entry.map_err(|error| in_file(&formal, &error))?.path();

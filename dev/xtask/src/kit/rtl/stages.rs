@@ -30,21 +30,6 @@ impl Inputs {
     }
 }
 
-/// The part that every run of `cargo xtask rtl` does: the factors about 1, 2, 63 and 64, and 4096 patterns about 1.
-///
-/// # Errors
-/// A value differs, or the bench cannot be built.
-pub(crate) fn part(folder: &Path) -> Result<(), String> {
-    let stages = Stages::built(folder)?;
-    println!();
-    let factors = [0x1_0000, 0x1_FFC0, 0x2_FFC0, 0x3E_FFC0, 0x3F_FF81];
-    for inputs in factors.map(|first| Inputs::Factors(first, 128)) {
-        println!("{}", stages.compare(inputs)?);
-    }
-    println!("{}", stages.compare(Inputs::Words(0x3F7F_F800, 4096))?);
-    Ok(())
-}
-
 /// Every input, in ranges of about a minute each.
 pub(crate) fn all() -> Vec<Inputs> {
     let cut = |range: Range<u32>, size: u32| {
