@@ -4,7 +4,6 @@
 #[path = "../../testkit/src/circuit.rs"]
 #[expect(unreachable_pub, reason = "it is public in the testkit")]
 pub(crate) mod circuit;
-mod built;
 mod fault;
 #[path = "../../testkit/src/listed.rs"]
 #[expect(unreachable_pub, reason = "it is public in the testkit")]

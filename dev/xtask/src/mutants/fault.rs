@@ -12,13 +12,6 @@ pub(super) struct Planted {
     pub(super) text: String,
 }
 
-impl Planted {
-    /// Whether built programs have the file's text as it is.
-    pub(super) fn is_shader(&self) -> bool {
-        self.file.extension().is_some_and(|extension| extension == "wgsl")
-    }
-}
-
 /// All faults of the files in `folder`, by file and in their order.
 ///
 /// # Errors

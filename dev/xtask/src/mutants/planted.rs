@@ -1,11 +1,9 @@
 //! Faults planted by hand: `cargo xtask mutants planted`.
 //!
 //! A fault changes a copy of the tree, in which one program of tests is built again and run; the sources themselves
-//! are not touched. A fault of a shader changes a copy of the program instead; see [`built`]. Switches in the code, one
-//! build for all faults, would be quicker, but the published crates would have them, and the tests would run on another
-//! build than the one that is published.
+//! are not touched. Switches in the code, one build for all faults, would be quicker, but the published crates would
+//! have them, and the tests would run on another build than the one that is published.
 
-use super::built;
 use super::fault::{self, Planted};
 use super::listed::ListedFault;
 use crate::command::{self, in_file, workspace};
@@ -55,14 +53,16 @@ pub(super) fn run(words: &[&str]) -> Result<(), String> {
     if !places.is_empty() {
         return Err(places.join("\n"));
     }
-    let mut rig = Rig { files, copied: None, sound: BTreeSet::new() };
+    let tree = copy(&files)?;
+    let mut sound = BTreeSet::new();
     let mut wrong = Vec::new();
     for (number, fault) in (1..).zip(&faults) {
-        let planted = fault::plant(fault, &workspace(), &rig.files)?;
-        let fate = match rig.in_programs(fault, &planted)? {
-            Some(fate) => fate,
-            None => rig.in_sources(fault, &planted)?,
-        };
+        if sound.insert((&fault.tests, &fault.filters)) && fate_in(&tree, fault)? != Fate::Survived
+        {
+            return Err(format!("{}: fails or does not compile without a fault", fault.tests));
+        }
+        let planted = fault::plant(fault, &workspace(), &files)?;
+        let fate = fate(&tree, fault, &planted)?;
         let line = format!("{}: {}: {fate}", planted.file.display(), fault.name);
         println!("[{number} of {}] {line}", faults.len());
         let expected = if fault.equivalent.is_some() { Fate::Survived } else { Fate::Seen };
@@ -78,67 +78,14 @@ pub(super) fn run(words: &[&str]) -> Result<(), String> {
     }
 }
 
-/// Where faults are planted.
-struct Rig {
-    files: Vec<PathBuf>,
-    /// The copy of the tree, once a fault needs it.
-    copied: Option<Tree>,
-    /// The tests that passed without a fault, with the root of the tree that they were built in.
-    sound: BTreeSet<(PathBuf, String, Vec<String>)>,
-}
-
-impl Rig {
-    /// The fate of a shader's fault, planted in the workspace's own programs; `None` if they cannot take it.
-    fn in_programs(
-        &mut self,
-        fault: &ListedFault,
-        planted: &Planted,
-    ) -> Result<Option<Fate>, String> {
-        if !planted.is_shader() {
-            return Ok(None);
-        }
-        let own = Tree { root: workspace(), target: command::target() };
-        self.expect_sound(&own, fault)?;
-        let file = own.root.join(&planted.file);
-        let original = fs::read_to_string(&file).map_err(|error| in_file(&file, &error))?;
-        let jobs = suite::programs(&own, &fault.tests)?;
-        let with_fault = |job: &Job| {
-            built::with_fault(Path::new(job.command.get_program()), &planted.text, &original)
-        };
-        let programs: Option<Vec<PathBuf>> =
-            jobs.iter().map(with_fault).collect::<Result<_, _>>()?;
-        let Some(programs) = programs else { return Ok(None) };
-        fate_of(fault, jobs.iter().zip(programs.iter().map(PathBuf::as_path))).map(Some)
-    }
-
-    /// The fate of a fault that is planted in the copy of the tree, which is then as it was.
-    fn in_sources(&mut self, fault: &ListedFault, planted: &Planted) -> Result<Fate, String> {
-        let tree = match self.copied.take() {
-            Some(tree) => tree,
-            None => copy(&self.files)?,
-        };
-        self.expect_sound(&tree, fault)?;
-        let file = tree.root.join(&planted.file);
-        let original = fs::read(&file).map_err(|error| in_file(&file, &error))?;
-        fs::write(&file, &planted.text).map_err(|error| in_file(&file, &error))?;
-        let fate = fate(&tree, fault);
-        fs::write(&file, original).map_err(|error| in_file(&file, &error))?;
-        self.copied = Some(tree);
-        fate
-    }
-
-    /// Runs the tests of a fault once without it.
-    fn expect_sound(&mut self, tree: &Tree, fault: &ListedFault) -> Result<(), String> {
-        let tests = (tree.root.clone(), fault.tests.clone(), fault.filters.clone());
-        if !self.sound.insert(tests) {
-            return Ok(());
-        }
-        let jobs = suite::programs(tree, &fault.tests)?;
-        match fate_of(fault, own_programs(&jobs))? {
-            Fate::Survived => Ok(()),
-            _ => Err(format!("{}: fails without a fault", fault.tests)),
-        }
-    }
+/// The fate of a fault that is planted in the copy of the tree, which is then as it was.
+fn fate(tree: &Tree, fault: &ListedFault, planted: &Planted) -> Result<Fate, String> {
+    let file = tree.root.join(&planted.file);
+    let original = fs::read(&file).map_err(|error| in_file(&file, &error))?;
+    fs::write(&file, &planted.text).map_err(|error| in_file(&file, &error))?;
+    let fate = fate_in(tree, fault);
+    fs::write(&file, original).map_err(|error| in_file(&file, &error))?;
+    fate
 }
 
 /// The faults that one of these words selects.
@@ -153,26 +100,17 @@ fn chosen(words: &[&str]) -> Result<Vec<ListedFault>, String> {
 }
 
 /// Whether the tests of a fault see what is in the tree.
-fn fate(tree: &Tree, fault: &ListedFault) -> Result<Fate, String> {
+fn fate_in(tree: &Tree, fault: &ListedFault) -> Result<Fate, String> {
     let Ok(jobs) = suite::programs(tree, &fault.tests) else { return Ok(Fate::Refused) };
-    fate_of(fault, own_programs(&jobs))
-}
-
-/// Each job with the program that it has.
-fn own_programs(jobs: &[Job]) -> impl Iterator<Item = (&Job, &Path)> {
-    jobs.iter().map(|job| (job, Path::new(job.command.get_program())))
-}
-
-/// Whether one of these programs, each run as its job says, sees a fault.
-fn fate_of<'a>(
-    fault: &ListedFault,
-    programs: impl Iterator<Item = (&'a Job, &'a Path)>,
-) -> Result<Fate, String> {
     let mut fate = Fate::Survived;
-    for (Job { command, .. }, program) in programs {
+    for Job { command, .. } in &jobs {
         // A fault can make a loop endless.
         let mut limited = Command::new("timeout");
-        limited.arg(PATIENCE).arg(program).args(command.get_args()).args(&fault.filters);
+        limited
+            .arg(PATIENCE)
+            .arg(command.get_program())
+            .args(command.get_args())
+            .args(&fault.filters);
         if let Some(folder) = command.get_current_dir() {
             limited.current_dir(folder);
         }
