@@ -4,11 +4,11 @@
 //! patches opens a configuration once, gives it one patch after another, and reads points and indices
 //! from memory. The patches go the way of [`tess_batch_patch`](crate::batch::tess_batch_patch).
 
-use super::{write_counts, write_each};
+use super::{factors_of, sizes, write_each};
 use crate::boundary;
 use crate::status::{TESS_INTERNAL, TESS_OUT_OF_RANGE, TessStatus, answer};
-use crate::types::{TessConfig, TessCounts, TessPoint};
-use tess_core::{Counts, Domain, DomainPoint, MAX_INDICES, MAX_POINTS, PatchFactors};
+use crate::types::{TessConfig, TessPoint};
+use tess_core::{Counts, Domain, DomainPoint, MAX_INDICES, MAX_POINTS};
 use tess_simd::{CountedPatch, Tessellator};
 
 /// A configuration and the patch that was tessellated last. Made by `tess_dpi_open`, given back to
@@ -86,13 +86,11 @@ pub unsafe extern "C" fn tess_dpi_patch(
         boundary::check(held)?;
         // SAFETY: not null, made by `tess_dpi_open` and in no other call, as the caller promises.
         let held = unsafe { &mut *held };
-        let factors = [f0, f1, f2, f3, f4, f5].map(f32::from_bits);
-        let factors = PatchFactors::from_fn(held.domain, |i| factors[i]);
+        let factors = factors_of(held.domain, [f0, f1, f2, f3, f4, f5]);
         let written = held.tessellator.patch(factors, &mut held.points, &mut held.indices);
         held.counts = written.map_err(|_| TESS_INTERNAL)?; // no patch is larger than the room
-        let counts = TessCounts::from(held.counts);
         // SAFETY: every pointer is writable, as the caller promises.
-        unsafe { write_counts(counts, points, primitives, indices) }
+        unsafe { write_each([points, primitives, indices], sizes(held.counts)) }
     })
 }
 
@@ -115,7 +113,7 @@ pub unsafe extern "C" fn tess_dpi_held_point(
         let points = held.points.get(..held.counts.points as usize).ok_or(TESS_INTERNAL)?;
         let point = TessPoint::from(*points.get(i as usize).ok_or(TESS_OUT_OF_RANGE)?);
         // SAFETY: both are writable, as the caller promises.
-        unsafe { write_each([(u, point.u), (v, point.v)]) }
+        unsafe { write_each([u, v], [point.u, point.v]) }
     })
 }
 
@@ -137,6 +135,6 @@ pub unsafe extern "C" fn tess_dpi_held_index(
         let indices = held.indices.get(..held.counts.indices as usize).ok_or(TESS_INTERNAL)?;
         let found = *indices.get(i as usize).ok_or(TESS_OUT_OF_RANGE)?;
         // SAFETY: it is writable, as the caller promises.
-        unsafe { write_each([(index, found)]) }
+        unsafe { write_each([index], [found]) }
     })
 }
