@@ -1,33 +1,14 @@
 //! `tess_check_rules`: devices that are right, break rules, fail, and have nothing that is asked for.
 
-use super::samples::answer;
-use std::ffi::{CStr, c_char, c_void};
+use super::samples::{Fault, device, text};
+use std::ffi::{c_char, c_void};
 use std::ptr::null_mut;
 use tess_capi::device::{TESS_DEVICE_UNSUPPORTED, TessDevice};
 use tess_capi::rules::{TESS_SPECIFICATION_D3D11, TESS_SPECIFICATION_VULKAN, tess_check_rules};
 use tess_capi::status::{
     TESS_DIFFERENT, TESS_LEFT_OUT, TESS_NULL_POINTER, TESS_OK, TESS_UNKNOWN_VALUE,
 };
-use tess_capi::types::{TESS_DOMAIN_ISOLINE, TESS_OUTPUT_LINE, TessConfig, TessCounts, TessPoint};
-
-/// Fault of a device: an answer without an output, or none and the model's output is changed.
-type Fault = fn(&TessConfig, &mut TessCounts) -> i32;
-
-unsafe extern "C" fn device(
-    user: *mut c_void,
-    config: *const TessConfig,
-    factors: *const f32,
-    factor_count: usize,
-    points: *mut TessPoint,
-    indices: *mut u32,
-    counts: *mut TessCounts,
-) -> i32 {
-    // SAFETY: the device is called as its type says; `user` is the test's fault.
-    unsafe {
-        answer(config, factors, factor_count, points, indices, counts);
-        (*user.cast::<Fault>())(&*config, &mut *counts)
-    }
-}
+use tess_capi::types::{TESS_DOMAIN_ISOLINE, TESS_OUTPUT_LINE, TessConfig};
 
 /// Judges lines of isolines alone, which are quick.
 fn judge(specification: u32, mut fault: Fault) -> (u32, String) {
@@ -36,12 +17,7 @@ fn judge(specification: u32, mut fault: Fault) -> (u32, String) {
     let (room, size) = (report.as_mut_ptr(), report.len());
     // SAFETY: an array of this function, and a device that keeps to its type.
     let status = unsafe { tess_check_rules(specification, 0, 1, Some(device), user, room, size) };
-    if report[0] == 1 {
-        return (status, String::new());
-    }
-    // SAFETY: a report ends with a zero byte.
-    let report = unsafe { CStr::from_ptr(report.as_ptr()) };
-    (status, report.to_str().expect("text").to_owned())
+    (status, text(&report))
 }
 
 const fn is_lines(config: &TessConfig) -> bool {
@@ -50,7 +26,7 @@ const fn is_lines(config: &TessConfig) -> bool {
 
 #[test]
 fn the_model_holds_direct3d_and_breaks_vulkan() {
-    let lines: Fault = |config, _| if is_lines(config) { 0 } else { TESS_DEVICE_UNSUPPORTED };
+    let lines: Fault = |config, _, _| if is_lines(config) { 0 } else { TESS_DEVICE_UNSUPPORTED };
     let (status, report) = judge(TESS_SPECIFICATION_D3D11, lines);
     assert_eq!(status, TESS_OK, "{report}");
     assert!(report.contains("\nisolines     held ") && report.contains(" 0 broken"), "{report}");
@@ -62,7 +38,7 @@ fn the_model_holds_direct3d_and_breaks_vulkan() {
 
 #[test]
 fn a_broken_rule_is_found() {
-    let (status, report) = judge(TESS_SPECIFICATION_D3D11, |config, counts| {
+    let (status, report) = judge(TESS_SPECIFICATION_D3D11, |config, counts, _| {
         counts.indices = counts.indices.saturating_sub(2);
         if is_lines(config) { 0 } else { TESS_DEVICE_UNSUPPORTED }
     });
@@ -72,19 +48,19 @@ fn a_broken_rule_is_found() {
 
 #[test]
 fn devices_that_fail_or_have_nothing() {
-    let (status, report) = judge(TESS_SPECIFICATION_VULKAN, |_, _| 9);
+    let (status, report) = judge(TESS_SPECIFICATION_VULKAN, |_, _, _| 9);
     assert_eq!(status, TESS_DIFFERENT, "{report}");
     assert!(
         report.starts_with("case ") && report.ends_with("\nthe tessellator answered 9\n"),
         "{report}"
     );
-    let (status, _) = judge(TESS_SPECIFICATION_VULKAN, |_, _| TESS_DEVICE_UNSUPPORTED);
+    let (status, _) = judge(TESS_SPECIFICATION_VULKAN, |_, _, _| TESS_DEVICE_UNSUPPORTED);
     assert_eq!(status, TESS_LEFT_OUT, "nothing was judged");
 }
 
 #[test]
 fn wrong_arguments_are_refused() {
-    let mut fault: Fault = |_, _| TESS_DEVICE_UNSUPPORTED;
+    let mut fault: Fault = |_, _, _| TESS_DEVICE_UNSUPPORTED;
     let user = (&raw mut fault).cast::<c_void>();
     let call = |specification, device: TessDevice| {
         // SAFETY: a device that keeps to its type, and no room.

@@ -1,5 +1,6 @@
 //! Patches to compare with: every configuration, factors of every kind.
 
+use std::ffi::{CStr, c_char, c_void};
 use tess_capi::patch::tess_patch;
 use tess_capi::status::TESS_OK;
 use tess_capi::types::{
@@ -44,6 +45,36 @@ pub(super) unsafe fn answer(
         )
     };
     assert_eq!(status, TESS_OK, "a patch");
+}
+
+/// Change to the model's answer, and what the device answers.
+pub(super) type Fault = fn(&TessConfig, &mut TessCounts, *mut u32) -> i32;
+
+/// The model's own answer, then the fault that `user` points to.
+pub(super) unsafe extern "C" fn device(
+    user: *mut c_void,
+    config: *const TessConfig,
+    factors: *const f32,
+    factor_count: usize,
+    points: *mut TessPoint,
+    indices: *mut u32,
+    counts: *mut TessCounts,
+) -> i32 {
+    // SAFETY: the device is called as its type says; `user` is the fault that the test gave.
+    unsafe {
+        answer(config, factors, factor_count, points, indices, counts);
+        (*user.cast::<Fault>())(&*config, &mut *counts, indices)
+    }
+}
+
+/// The text that a function wrote to room full of ones; empty if it wrote none.
+pub(super) fn text(room: &[c_char]) -> String {
+    if room[0] == 1 {
+        assert!(room.iter().all(|&byte| byte == 1), "nothing is written");
+        return String::new();
+    }
+    // SAFETY: a text ends with a zero byte.
+    unsafe { CStr::from_ptr(room.as_ptr()) }.to_str().expect("text").to_owned()
 }
 
 /// Factors that go different ways through the stages: ends, exact and nearly exact integers,
