@@ -10,7 +10,7 @@ use std::error::Error;
 use std::fmt;
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::Case;
-use tess_verify::check::{Order, Report, Strength, Way, check_device};
+use tess_verify::check::{ListOrder, Report, Strength, Way, check_device};
 use tess_verify::vectors::fixed;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -55,7 +55,7 @@ pub(crate) fn judge(capture: &str) -> Result<Verdicts, Box<dyn Error>> {
         return Err("the capture has no patches".into());
     }
     let strength = |order| Strength { order, ..Strength::default() };
-    let (sequence, any) = (strength(Order::Sequence), strength(Order::Any));
+    let (sequence, any) = (strength(ListOrder::Sequence), strength(ListOrder::Any));
     let in_order = patches.iter().filter(|(case, output)| sequence.accepts(case, output)).count();
     let wrong: Vec<_> = patches.iter().filter(|(case, o)| !any.accepts(case, o)).collect();
     let ways = wrong.iter().map(|(case, output)| {

@@ -24,7 +24,7 @@ pub use known::Known;
 pub(crate) use patches::tessellate;
 pub use report::{CheckError, Difference, MAX_DIFFERENCES, MismatchGroup, Report};
 pub use second::SecondFormulation;
-pub use strength::{Conversion, Denormals, Elements, Order, Strength, flushed, vertices};
+pub use strength::{Conversion, Denormals, Elements, ListOrder, Strength, flushed, vertices};
 pub use verify::{Subject, SubjectRow, VerifyPlan, verify};
 pub use ways::Way;
 
@@ -208,7 +208,7 @@ impl<R: BufRead> Source<'_, R> {
         self.taken += 1;
         if let (Record::Coordinates(_), Tested::Listings(strength)) = (&record, tested)
             && strength.elements == Elements::Points
-            && strength.order != Order::Any
+            && strength.order != ListOrder::Any
         {
             let message = "vertices by coordinates do not show the order of points: compare \
                            primitives, or points in any order";

@@ -15,7 +15,7 @@
 //!
 //! ```
 //! use tess_verify::Case;
-//! use tess_verify::check::Order;
+//! use tess_verify::check::ListOrder;
 //! use tess_verify::rules::{Checker, Rule, Specification, Verdict};
 //!
 //! let mut checker = Checker::new(Specification::Vulkan);

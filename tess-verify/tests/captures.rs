@@ -5,21 +5,22 @@ use std::fmt::Write;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, OutputPrimitive, Tessellation};
 use tess_verify::check::{
-    CheckError, Elements, Known, Order, Report, Strength, Tested, Way, check, check_asked, vertices,
+    CheckError, Elements, Known, ListOrder, Report, Strength, Tested, Way, check, check_asked,
+    vertices,
 };
 use tess_verify::generate::{GenLevel, Selection};
 use tess_verify::vectors::{Cases, Listing, Record, VectorFile};
 use tess_verify::{Backend, Case, CoreBackend};
 
-const ANY: Strength = strength(Order::Any);
-const SEQUENCE: Strength = strength(Order::Sequence);
-const EXACT: Strength = strength(Order::Exact);
+const ANY: Strength = strength(ListOrder::Any);
+const SEQUENCE: Strength = strength(ListOrder::Sequence);
+const EXACT: Strength = strength(ListOrder::Exact);
 const TRI: &str = "case tri fractional_odd triangle_cw ruler 40200000 40400000 40600000 40200000";
 const QUAD: &str = "case quad integer triangle_cw ruler \
                     40400000 40400000 40400000 40400000 40400000 40400000";
 const HEADER: &str = "# tess-vectors 1 kind=listings source=capture\n";
 
-const fn strength(order: Order) -> Strength {
+const fn strength(order: ListOrder) -> Strength {
     use tess_verify::check::{Conversion, Denormals};
     let (conversion, denormals) = (Conversion::Exact, Denormals::Keep);
     Strength { order, elements: Elements::Primitives, conversion, denormals }

@@ -2,7 +2,7 @@
 
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::check::{
-    CheckError, Conversion, Denormals, Element, Elements, Order, Report, SpecStage, Strength,
+    CheckError, Conversion, Denormals, Element, Elements, ListOrder, Report, SpecStage, Strength,
     Tested, check,
 };
 use tess_verify::vectors::{Listing, VectorFile};
@@ -101,7 +101,7 @@ fn stages_of_a_device_are_told_apart() {
 fn strength_applies_to_devices() {
     let mut turned = right(TRIANGLE);
     turned.indices[..3].rotate_left(1);
-    let any = Strength { order: Order::Any, ..Strength::default() };
+    let any = Strength { order: ListOrder::Any, ..Strength::default() };
     assert_eq!(observe(case(TRIANGLE), turned.clone(), any).mismatches, 0, "leading vertex");
     assert_eq!(observe(case(TRIANGLE), turned, Strength::default()).mismatches, 1, "exact order");
 
@@ -122,7 +122,7 @@ fn strength_applies_to_devices() {
 /// The model's sequence by coordinates: any numbering of points, no other order of primitives.
 #[test]
 fn sequences_are_compared_by_coordinates() {
-    let sequence = Strength { order: Order::Sequence, ..Strength::default() };
+    let sequence = Strength { order: ListOrder::Sequence, ..Strength::default() };
     let right = right(TRIANGLE);
     let points = right.indices.iter().map(|&index| right.points[index as usize]).collect();
     let listed = Tessellation { points, indices: (0..).take(right.indices.len()).collect() };
@@ -162,7 +162,7 @@ fn points_alone() {
 }
 
 const ANY: Strength = Strength {
-    order: Order::Any,
+    order: ListOrder::Any,
     elements: Elements::Primitives,
     conversion: Conversion::Exact,
     denormals: Denormals::Keep,
@@ -437,7 +437,7 @@ fn differences_beside_a_legal_conversion() {
     let mut wrong = right(&TIE.replace("40400020", "40400040"));
     let last = wrong.points.len() - 1;
     wrong.points[last] = DomainPoint::from_bits(3, 4);
-    let strength = Strength { order: Order::Exact, ..WITHIN_06_ULP };
+    let strength = Strength { order: ListOrder::Exact, ..WITHIN_06_ULP };
     let shown = shown(&observe(case(TIE), wrong, strength));
     assert!(shown.starts_with(&format!("point {last} u: observed 0x00003")), "{shown}");
 }

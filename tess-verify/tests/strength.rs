@@ -2,7 +2,7 @@
 
 use tess_core::{DomainPoint, Tessellation};
 use tess_verify::Case;
-use tess_verify::check::{Conversion, Denormals, Elements, Order, Strength, flushed};
+use tess_verify::check::{Conversion, Denormals, Elements, ListOrder, Strength, flushed};
 
 const QUAD: &str = "case quad fractional_odd triangle_cw ruler \
                     40600000 40200000 40a00000 40400000 40900000 40d00000";
@@ -16,7 +16,7 @@ fn output(case: &Case) -> Tessellation {
 }
 
 fn any_order() -> Strength {
-    Strength { order: Order::Any, ..Strength::default() }
+    Strength { order: ListOrder::Any, ..Strength::default() }
 }
 
 /// The same mesh with its points reversed, its triangles reversed and each turned.
@@ -32,7 +32,7 @@ fn shuffled(tessellation: &Tessellation) -> Tessellation {
 #[test]
 fn every_strength_accepts_the_model() {
     let case = case(QUAD);
-    for order in [Order::Exact, Order::Any] {
+    for order in [ListOrder::Exact, ListOrder::Any] {
         for elements in [Elements::Primitives, Elements::Points] {
             let strength = Strength { order, elements, ..Strength::default() };
             assert!(strength.accepts(&case, &output(&case)), "{strength:?}");
@@ -89,7 +89,7 @@ fn points_alone() {
 #[test]
 fn points_alone_in_order() {
     let case = case(QUAD);
-    for order in [Order::Exact, Order::Sequence] {
+    for order in [ListOrder::Exact, ListOrder::Sequence] {
         let strength = Strength { order, elements: Elements::Points, ..Strength::default() };
         let good = Tessellation { indices: Vec::new(), ..output(&case) };
         assert!(strength.accepts(&case, &good), "{order:?}: indices do not count");
@@ -106,7 +106,7 @@ fn points_alone_in_order() {
 #[test]
 fn a_sequence_has_its_length() {
     let case = case(QUAD);
-    let strength = Strength { order: Order::Sequence, ..Strength::default() };
+    let strength = Strength { order: ListOrder::Sequence, ..Strength::default() };
     let good = output(&case);
     let mut longer = good.clone();
     longer.indices.extend_from_slice(&good.indices[..3]);
@@ -155,7 +155,7 @@ fn each_value_has_a_neighbour_of_its_own() {
 /// culled patch, and points that no primitive uses are wrong in both.
 #[test]
 fn a_sequence_is_never_weaker_than_any_order() {
-    let sequence = Strength { order: Order::Sequence, ..Strength::default() };
+    let sequence = Strength { order: ListOrder::Sequence, ..Strength::default() };
     let [quad, culled] = [case(QUAD), case(&QUAD.replace("40600000", "00000000"))];
     let changes: [fn(&mut Tessellation); 6] = [
         |_| {},

@@ -8,7 +8,7 @@ use arbitrary::{Arbitrary, Unstructured};
 use std::ffi::{c_char, c_void};
 use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_verify::Case;
-use tess_verify::check::{Conversion, Denormals, Order, Strength, check_device};
+use tess_verify::check::{Conversion, Denormals, ListOrder, Strength, check_device};
 use tess_verify::generate::{GenLevel, Selection};
 
 /// Order: the model's, index for index.
@@ -31,7 +31,7 @@ pub const TESS_CONVERSION_WITHIN_0_6_ULP: u32 = 1;
 /// A configuration's field: any value.
 pub const TESS_ANY: u32 = 0xFFFF_FFFF;
 
-const ORDERS: [Order; 3] = [Order::Exact, Order::Sequence, Order::Any];
+const ORDERS: [ListOrder; 3] = [ListOrder::Exact, ListOrder::Sequence, ListOrder::Any];
 const DENORMALS: [Denormals; 2] = [Denormals::Keep, Denormals::Flush];
 const CONVERSIONS: [Conversion; 2] = [Conversion::Exact, Conversion::Within06Ulp];
 

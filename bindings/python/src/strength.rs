@@ -2,11 +2,11 @@
 
 use crate::errors::argument;
 use pyo3::PyResult;
-use tess_verify::check::{Conversion, Denormals, Elements, Order, Strength};
+use tess_verify::check::{Conversion, Denormals, Elements, ListOrder, Strength};
 
 /// The orders that `tess check` knows.
-const ORDERS: [(&str, Order); 3] =
-    [("exact", Order::Exact), ("sequence", Order::Sequence), ("any", Order::Any)];
+const ORDERS: [(&str, ListOrder); 3] =
+    [("exact", ListOrder::Exact), ("sequence", ListOrder::Sequence), ("any", ListOrder::Any)];
 
 /// Values that `tess check` takes as `--order`, `--points`, `--conversion` and `--denormals`.
 pub(crate) fn strength(

@@ -5,7 +5,7 @@ use super::report::Explained;
 use crate::case::Case;
 use crate::check::compare::{self, Element, Mismatch, SpecStage};
 use crate::check::strength::{
-    Alternatives, Difference, Elements, Order, Strength, first_difference, first_stray,
+    Alternatives, Difference, Elements, ListOrder, Strength, first_difference, first_stray,
 };
 use crate::check::ways::Way;
 use crate::generate::from_fixed;
@@ -30,7 +30,7 @@ pub(super) fn check(case: &Case, observed: &Tessellation, strength: Strength) ->
 /// order is the model's sequence; third coordinates are compared in any strength.
 pub(super) fn check_coordinates(coordinates: &Coordinates, strength: Strength) -> Found {
     let order = match strength.order {
-        Order::Exact => Order::Sequence,
+        ListOrder::Exact => ListOrder::Sequence,
         order => order,
     };
     let (case, output) = (&coordinates.case, coordinates.output());
@@ -55,13 +55,15 @@ fn first_mismatch(case: &Case, observed: &Tessellation, strength: Strength) -> O
     let case = nearest(case, observed, strength);
     let expected = case.patch().tessellate();
     let found = match (strength.order, strength.elements) {
-        (Order::Exact, Elements::Primitives) => Mismatch::between(&case, observed, &expected),
-        (Order::Sequence, Elements::Primitives) => compare::sequences(&case, observed, &expected)
-            .or_else(|| first_stray(observed, &expected).map(unordered)),
-        (Order::Exact | Order::Sequence, Elements::Points) => {
+        (ListOrder::Exact, Elements::Primitives) => Mismatch::between(&case, observed, &expected),
+        (ListOrder::Sequence, Elements::Primitives) => {
+            compare::sequences(&case, observed, &expected)
+                .or_else(|| first_stray(observed, &expected).map(unordered))
+        }
+        (ListOrder::Exact | ListOrder::Sequence, Elements::Points) => {
             compare::points_alone(observed, &expected)
         }
-        (Order::Any, elements) => {
+        (ListOrder::Any, elements) => {
             first_difference(elements, &case, observed, &expected).map(unordered)
         }
     };
@@ -78,10 +80,10 @@ fn nearest(case: &Case, observed: &Tessellation, strength: Strength) -> Case {
     let wrong_points = |choice: &u64| {
         let expected = alternatives.case(*choice).patch().tessellate();
         match strength.order {
-            Order::Exact => {
+            ListOrder::Exact => {
                 observed.points.iter().zip(&expected.points).filter(|(a, b)| a != b).count()
             }
-            Order::Sequence | Order::Any => {
+            ListOrder::Sequence | ListOrder::Any => {
                 observed.points.iter().filter(|point| !expected.points.contains(point)).count()
             }
         }

@@ -20,7 +20,7 @@
 //!
 //! ```
 //! use tess_verify::Case;
-//! use tess_verify::check::{Conversion, Order, Strength};
+//! use tess_verify::check::{Conversion, ListOrder, Strength};
 //!
 //! let quad = |u0| format!("case quad fractional_odd triangle_cw ruler {u0} 40200000 40a00000 40500000 40900000 40d00000");
 //! let case: Case = quad("40400020").parse()?; // 3 + 2^-17
@@ -31,9 +31,9 @@
 //! device.indices.rotate_left(3);
 //!
 //! let conversion = Conversion::Within06Ulp;
-//! let both = Strength { order: Order::Any, conversion, ..Strength::default() };
+//! let both = Strength { order: ListOrder::Any, conversion, ..Strength::default() };
 //! assert!(both.accepts(&case, &device));
-//! assert!(!Strength { order: Order::Any, ..Strength::default() }.accepts(&case, &device));
+//! assert!(!Strength { order: ListOrder::Any, ..Strength::default() }.accepts(&case, &device));
 //! assert!(!Strength { conversion, ..Strength::default() }.accepts(&case, &device));
 //! # Ok::<(), tess_verify::CaseError>(())
 //! ```
@@ -64,12 +64,12 @@ pub(crate) use unordered::{Difference, first_difference, first_stray};
 /// Whether points and primitives must come in the model's order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Order {
+pub enum ListOrder {
     /// The model's order, index for index.
     #[default]
     Exact,
     /// The model's order of primitives and of their vertices, each vertex by its coordinates: however
-    /// points are numbered. The places of points are compared as in [`Order::Any`], so an output that
+    /// points are numbered. The places of points are compared as in [`ListOrder::Any`], so an output that
     /// this order accepts is accepted in any order too. Points alone are compared in the model's order.
     Sequence,
     /// Any order, and any leading vertex of a triangle; its orientation counts.
@@ -113,7 +113,7 @@ pub enum Denormals {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Strength {
     /// Order.
-    pub order: Order,
+    pub order: ListOrder,
     /// Elements.
     pub elements: Elements,
     /// Conversion.
@@ -136,15 +136,15 @@ impl Strength {
     #[must_use]
     pub fn equal(self, case: &Case, observed: &Tessellation, expected: &Tessellation) -> bool {
         match (self.order, self.elements) {
-            (Order::Exact, Elements::Primitives) => observed == expected,
-            (Order::Sequence, Elements::Primitives) => {
+            (ListOrder::Exact, Elements::Primitives) => observed == expected,
+            (ListOrder::Sequence, Elements::Primitives) => {
                 vertices(observed).eq(vertices(expected))
                     && first_stray(observed, expected).is_none()
             }
-            (Order::Exact | Order::Sequence, Elements::Points) => {
+            (ListOrder::Exact | ListOrder::Sequence, Elements::Points) => {
                 observed.points == expected.points
             }
-            (Order::Any, elements) => {
+            (ListOrder::Any, elements) => {
                 first_difference(elements, case, observed, expected).is_none()
             }
         }

@@ -2,7 +2,7 @@
 //! mistakes that turn a whole output round.
 
 use crate::case::Case;
-use crate::check::strength::{Conversion, Denormals, Order, Strength};
+use crate::check::strength::{Conversion, Denormals, ListOrder, Strength};
 use std::collections::BTreeSet;
 use tess_core::fixed_point::ONE;
 use tess_core::{Config, DomainPoint, OutputPrimitive, Tessellation};
@@ -126,7 +126,7 @@ impl Way {
             !observed.points.is_empty() && strength.accepts(&case, &turn_round(observed, turn))
         };
         match self {
-            Self::Order => Strength { order: Order::Any, ..strength }.accepts(case, observed),
+            Self::Order => Strength { order: ListOrder::Any, ..strength }.accepts(case, observed),
             Self::Flush => flush.accepts(case, observed),
             Self::Conversion => convert(strength).accepts(case, observed),
             Self::FlushAndConversion => convert(flush).accepts(case, observed),

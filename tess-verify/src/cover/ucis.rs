@@ -10,7 +10,7 @@ use std::fmt::{self, Write};
 use std::io::{self, Read};
 
 /// A line of the file: the text around a bin's hits, or a whole line.
-enum Line<'a> {
+enum UcisLine<'a> {
     Fixed(String),
     Bin { bin: &'a str, before: String, after: &'static str },
 }
@@ -31,8 +31,9 @@ const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 const TAIL: &str = "</cgInstance>\n</covergroupCoverage>\n</instanceCoverages>\n</UCIS>";
 const AFTER_HITS: &str = r#""/></range></coverpointBin>"#;
 
-fn lines<'a>(coverage: &'a Coverage) -> Vec<Line<'a>> {
-    let fixed = |text: &str| text.lines().map(|line| Line::Fixed(line.into())).collect::<Vec<_>>();
+fn lines<'a>(coverage: &'a Coverage) -> Vec<UcisLine<'a>> {
+    let fixed =
+        |text: &str| text.lines().map(|line| UcisLine::Fixed(line.into())).collect::<Vec<_>>();
     let mut lines = fixed(HEAD);
     let mut of_group: Option<(&'a str, usize)> = None;
     for (bin, _) in coverage.bins() {
@@ -40,9 +41,9 @@ fn lines<'a>(coverage: &'a Coverage) -> Vec<Line<'a>> {
         let number = match of_group {
             Some((last, number)) if last == group => number + 1,
             last => {
-                lines.extend(last.map(|_| Line::Fixed("</coverpoint>".into())));
-                lines.push(Line::Fixed(format!(r#"<coverpoint name="{group}" key="0">"#)));
-                lines.push(Line::Fixed("<options/>".into()));
+                lines.extend(last.map(|_| UcisLine::Fixed("</coverpoint>".into())));
+                lines.push(UcisLine::Fixed(format!(r#"<coverpoint name="{group}" key="0">"#)));
+                lines.push(UcisLine::Fixed("<options/>".into()));
                 0
             }
         };
@@ -50,9 +51,9 @@ fn lines<'a>(coverage: &'a Coverage) -> Vec<Line<'a>> {
         let before = format!(
             r#"<coverpointBin name="{name}" type="bins" key="0"><range from="{number}" to="{number}"><contents coverageCount=""#
         );
-        lines.push(Line::Bin { bin, before, after: AFTER_HITS });
+        lines.push(UcisLine::Bin { bin, before, after: AFTER_HITS });
     }
-    lines.push(Line::Fixed("</coverpoint>".into()));
+    lines.push(UcisLine::Fixed("</coverpoint>".into()));
     lines.extend(fixed(TAIL));
     lines
 }
@@ -63,8 +64,8 @@ pub(super) fn write(coverage: &Coverage) -> String {
     for line in lines(coverage) {
         // Writing to a String does not fail.
         _ = match line {
-            Line::Fixed(line) => writeln!(text, "{line}"),
-            Line::Bin { bin, before, after } => {
+            UcisLine::Fixed(line) => writeln!(text, "{line}"),
+            UcisLine::Bin { bin, before, after } => {
                 writeln!(text, "{before}{}{after}", coverage.hits(bin).unwrap_or(0))
             }
         };
@@ -97,11 +98,11 @@ fn read(text: &str) -> Result<Coverage, UcisError> {
             return Err(error("the file goes on: it is truncated".into()));
         };
         match line {
-            Line::Fixed(line) if line == text => {}
-            Line::Fixed(line) => {
+            UcisLine::Fixed(line) if line == text => {}
+            UcisLine::Fixed(line) => {
                 return Err(error(format!("expected {}, not {}", quoted(&line), quoted(text))));
             }
-            Line::Bin { bin, before, after } => {
+            UcisLine::Bin { bin, before, after } => {
                 let hits = text.strip_prefix(&before).and_then(|rest| rest.strip_suffix(after));
                 let digits = hits.filter(|hits| hits.bytes().all(|byte| byte.is_ascii_digit()));
                 let hits = digits.and_then(|hits| hits.parse().ok());
@@ -126,7 +127,7 @@ fn read(text: &str) -> Result<Coverage, UcisError> {
 /// A text is no coverage file of this program, or one of a version with other bins.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct UcisError {
-    /// Line, from 1.
+    /// UcisLine, from 1.
     line: usize,
     /// What was expected there.
     expected: String,

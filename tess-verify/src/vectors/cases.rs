@@ -12,7 +12,7 @@ use std::io::{BufRead, Chain, Cursor, Read};
 /// It ends after the first error. A text without a case is an error.
 #[derive(Debug)]
 pub struct Cases<R> {
-    source: Source<R>,
+    source: CaseSource<R>,
     /// Whether a text without a case is right, if it says so by a header or a remark.
     may_be_empty: bool,
     found: bool,
@@ -20,7 +20,7 @@ pub struct Cases<R> {
 }
 
 #[derive(Debug)]
-enum Source<R> {
+enum CaseSource<R> {
     File(VectorFile<Begun<R>>),
     Lines(Lines<Begun<R>>),
 }
@@ -75,9 +75,9 @@ impl<R: BufRead> Cases<R> {
                 let message = format!("{kind} has no single patches; listings and patches have");
                 return Err(file.lines.error("kind", message));
             }
-            Source::File(file)
+            CaseSource::File(file)
         } else {
-            Source::Lines(Lines::new(name, reader))
+            CaseSource::Lines(Lines::new(name, reader))
         };
         let may_be_empty = emptiness == Emptiness::Accepted;
         Ok(Self { source, may_be_empty, found: false, ended: false })
@@ -86,15 +86,15 @@ impl<R: BufRead> Cases<R> {
     /// The first line of a vector file; `None` of case lines alone.
     pub const fn header(&self) -> Option<&Header> {
         match &self.source {
-            Source::File(file) => Some(file.header()),
-            Source::Lines(_) => None,
+            CaseSource::File(file) => Some(file.header()),
+            CaseSource::Lines(_) => None,
         }
     }
 
     fn read(&mut self) -> Result<Option<Case>, VectorError> {
         match &mut self.source {
-            Source::File(file) => Ok(file.next().transpose()?.and_then(|record| record.case())),
-            Source::Lines(lines) => {
+            CaseSource::File(file) => Ok(file.next().transpose()?.and_then(|record| record.case())),
+            CaseSource::Lines(lines) => {
                 while let Some(line) = lines.next()? {
                     if line.text.starts_with('#') {
                         self.found |= self.may_be_empty;

@@ -4,7 +4,7 @@ use crate::capture::{Captured, Method};
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, DomainPoint, Tessellation};
 use tess_verify::Case;
-use tess_verify::check::{Elements, Order, Strength, vertices};
+use tess_verify::check::{Elements, ListOrder, Strength, vertices};
 use tess_verify::vectors::fixed;
 
 /// The nearest to the model that a captured patch is; the first is the nearest.
@@ -30,7 +30,7 @@ pub(crate) fn any_order(method: Method) -> Strength {
         Method::Primitives => Elements::Primitives,
         Method::Points => Elements::Points,
     };
-    Strength { order: Order::Any, elements, ..Strength::default() }
+    Strength { order: ListOrder::Any, elements, ..Strength::default() }
 }
 
 /// Compares a patch with the model's output for it. `None` instead of an output if it has coordinates that are no 16.16 numbers.
@@ -56,7 +56,7 @@ pub(crate) fn verdict(
 
 /// The extent to which the order of the model's primitives is kept.
 fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Verdict {
-    let sequence = Strength { order: Order::Sequence, ..Strength::default() };
+    let sequence = Strength { order: ListOrder::Sequence, ..Strength::default() };
     if sequence.equal(case, observed, expected) {
         return Verdict::Sequence;
     }

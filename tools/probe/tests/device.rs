@@ -7,7 +7,7 @@ use std::process::Command;
 use tess_core::{Domain, Partitioning};
 use tess_probe::{Prober, Report, cases, list, probe};
 use tess_verify::Case;
-use tess_verify::check::{Denormals, Order, Strength};
+use tess_verify::check::{Denormals, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 
 const SHADERS: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/shaders");
@@ -22,7 +22,7 @@ fn is_lavapipe(prober: &Prober) -> bool {
 }
 
 fn in_any_order() -> Strength {
-    Strength { order: Order::Any, denormals: Denormals::Flush, ..Strength::default() }
+    Strength { order: ListOrder::Any, denormals: Denormals::Flush, ..Strength::default() }
 }
 
 fn report(prober: &mut Prober, cases: &[Case], strength: Strength) -> Report {
@@ -42,7 +42,7 @@ fn devices_are_listed() {
 #[test]
 fn the_device_is_exact() {
     let mut prober = Prober::open(0).expect("the tests have a Vulkan driver");
-    let order = if is_lavapipe(&prober) { Order::Sequence } else { Order::Any };
+    let order = if is_lavapipe(&prober) { ListOrder::Sequence } else { ListOrder::Any };
     let strength = Strength { order, ..in_any_order() };
     let report = report(&mut prober, &some(1500), strength);
     assert_eq!((report.different, report.unexplained.patches), (0, 0), "{report}");

@@ -10,7 +10,7 @@ use std::sync::{Arc, OnceLock};
 use tess_core::Domain;
 use tess_probe::{Captured, Info, Judge, Method, Report, Way};
 use tess_verify::Case;
-use tess_verify::check::{Denormals, Known, Order, Strength};
+use tess_verify::check::{Denormals, Known, ListOrder, Strength};
 
 const LINE: &str = "case quad fractional_odd triangle_cw ruler 40a00000 40d00000 40e00000 40500000 40a80000 40c00000";
 const DENORMAL: &str = "case tri integer triangle_cw ruler 00000001 40400000 40400000 40400000";
@@ -50,7 +50,7 @@ fn float(number: u32) -> u32 {
 }
 
 fn any() -> Strength {
-    Strength { order: Order::Any, ..Strength::default() }
+    Strength { order: ListOrder::Any, ..Strength::default() }
 }
 
 /// The verdict on one patch after a fault is planted in its capture.
@@ -70,7 +70,7 @@ fn explained(report: &Report) -> Vec<Way> {
 #[test]
 fn exact_captures_are_equal_in_order() {
     for line in [LINE, DENORMAL, CULLED] {
-        let report = judged(line, Strength { order: Order::Sequence, ..any() }, |_| {});
+        let report = judged(line, Strength { order: ListOrder::Sequence, ..any() }, |_| {});
         assert_eq!(
             (report.different, report.odd, report.rows[0].sequence),
             (0, 0, 1),
@@ -157,7 +157,7 @@ fn other_orders_are_told_apart() {
     let report = judged(LINE, any(), moved);
     assert_eq!((report.different, report.rows[0].order), (0, 1), "another order: {report}");
     for fault in [&turned as &dyn Fn(&mut Captured), &moved] {
-        let strength = Strength { order: Order::Sequence, ..any() };
+        let strength = Strength { order: ListOrder::Sequence, ..any() };
         assert_eq!(judged(LINE, strength, fault).different, 1, "in sequence they differ");
     }
 }

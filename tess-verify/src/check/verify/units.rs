@@ -65,10 +65,10 @@ const RANDOM_PATCHES: u64 = 4096;
 ///
 /// A unit is made when it is asked for: there may be more than fit into memory.
 #[derive(Clone, Debug)]
-pub(super) struct Units(Source);
+pub(super) struct Units(UnitSource);
 
 #[derive(Clone, Debug)]
-enum Source {
+enum UnitSource {
     Patches(Vec<Case>),
     Random { patches: u64, seed: u64, configurations: Vec<(Domain, Config)> },
     Values,
@@ -80,15 +80,15 @@ impl Units {
     pub(super) fn of(subject: Subject) -> Self {
         Self(match subject {
             Subject::Level1 => {
-                Source::Patches(Selection::level(GenLevel::One, 1).cases().collect())
+                UnitSource::Patches(Selection::level(GenLevel::One, 1).cases().collect())
             }
-            Subject::Level2 => Source::Patches(beyond_level_one().collect()),
-            Subject::Factors => Source::Values,
-            Subject::Locations => Source::Buckets(buckets().collect()),
-            Subject::Transitions => Source::Patches(transitions().collect()),
-            Subject::Interiors => Source::Patches(interiors().collect()),
+            Subject::Level2 => UnitSource::Patches(beyond_level_one().collect()),
+            Subject::Factors => UnitSource::Values,
+            Subject::Locations => UnitSource::Buckets(buckets().collect()),
+            Subject::Transitions => UnitSource::Patches(transitions().collect()),
+            Subject::Interiors => UnitSource::Patches(interiors().collect()),
             Subject::Random { patches, seed } => {
-                Source::Random { patches, seed, configurations: configurations().collect() }
+                UnitSource::Random { patches, seed, configurations: configurations().collect() }
             }
         })
     }
@@ -96,12 +96,12 @@ impl Units {
     /// How many there are.
     pub(super) fn count(&self) -> u64 {
         match &self.0 {
-            Source::Patches(cases) => cases.len().div_ceil(PATCHES) as u64,
-            Source::Random { patches, configurations, .. } => {
+            UnitSource::Patches(cases) => cases.len().div_ceil(PATCHES) as u64,
+            UnitSource::Random { patches, configurations, .. } => {
                 patches.div_ceil(RANDOM_PATCHES) * configurations.len() as u64
             }
-            Source::Values => Partitioning::ALL.len() as u64 * VALUE_UNITS,
-            Source::Buckets(buckets) => buckets.len() as u64,
+            UnitSource::Values => Partitioning::ALL.len() as u64 * VALUE_UNITS,
+            UnitSource::Buckets(buckets) => buckets.len() as u64,
         }
     }
 
@@ -109,10 +109,10 @@ impl Units {
     pub(super) fn get(&self, number: u64) -> Option<Unit> {
         let index = usize::try_from(number).ok()?;
         match &self.0 {
-            Source::Patches(cases) => {
+            UnitSource::Patches(cases) => {
                 cases.chunks(PATCHES).nth(index).map(|cases| Unit::Patches(cases.to_vec()))
             }
-            Source::Random { patches, seed, configurations } => {
+            UnitSource::Random { patches, seed, configurations } => {
                 let of_each = patches.div_ceil(RANDOM_PATCHES);
                 let configuration = usize::try_from(number.checked_div(of_each)?).ok()?;
                 let &(domain, config) = configurations.get(configuration)?;
@@ -121,13 +121,13 @@ impl Units {
                 let patches = RANDOM_PATCHES.min(patches - number * RANDOM_PATCHES);
                 Some(Unit::Random(RandomUnit { domain, config, seed, patches }))
             }
-            Source::Values => {
+            UnitSource::Values => {
                 let &partitioning =
                     Partitioning::ALL.get(usize::try_from(number / VALUE_UNITS).ok()?)?;
                 let first = u32::try_from(number % VALUE_UNITS).ok()? * VALUES;
                 Some(Unit::Values { partitioning, first })
             }
-            Source::Buckets(buckets) => {
+            UnitSource::Buckets(buckets) => {
                 let &(split, parity, bucket) = buckets.get(index)?;
                 Some(Unit::Bucket { split, parity, bucket })
             }

@@ -9,7 +9,7 @@ use std::fmt::{self, Display, Formatter};
 use std::io::{BufRead, Write};
 use std::path::Path;
 use tess_core::Tessellation;
-use tess_verify::check::{Order, Strength};
+use tess_verify::check::{ListOrder, Strength};
 use tess_verify::rules::{Checker, RuleRow, RulesReport, Specification, Verdict};
 use tess_verify::vectors::{Kind, Record, VectorError, VectorFile};
 use tess_verify::{Case, Named};
@@ -65,9 +65,9 @@ impl BesideModel {
         let expected = case.patch().tessellate();
         let is_equal =
             |order| Strength { order, ..Strength::default() }.equal(case, observed, &expected);
-        if is_equal(Order::Sequence) {
+        if is_equal(ListOrder::Sequence) {
             self.equal += 1;
-        } else if is_equal(Order::Any) {
+        } else if is_equal(ListOrder::Any) {
             self.reordered += 1;
         } else {
             self.different += 1;

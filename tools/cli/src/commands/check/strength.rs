@@ -4,7 +4,7 @@ use crate::backends::BackendName;
 use crate::failure::Failure;
 use clap::ValueEnum;
 use tess_verify::Named;
-use tess_verify::check::{Conversion, Denormals, Elements, Order, Strength, Tested};
+use tess_verify::check::{Conversion, Denormals, Elements, ListOrder, Strength, Tested};
 use tess_verify::vectors::Kind;
 
 /// The strength of a comparison with a device under test (spec section 13).
@@ -84,9 +84,9 @@ impl StrengthArgs {
     fn strength(&self) -> Strength {
         Strength {
             order: match self.order {
-                OrderName::Exact => Order::Exact,
-                OrderName::Sequence => Order::Sequence,
-                OrderName::Any => Order::Any,
+                OrderName::Exact => ListOrder::Exact,
+                OrderName::Sequence => ListOrder::Sequence,
+                OrderName::Any => ListOrder::Any,
             },
             elements: if self.points { Elements::Points } else { Elements::Primitives },
             conversion: self.conversion.into(),

@@ -15,7 +15,7 @@ use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use tess_probe::{First, Prober, Report, Row, cases, list, probe_known};
-use tess_verify::check::{Order, Strength};
+use tess_verify::check::{ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::rules::Specification;
 use tess_verify::show::{self, DrawOptions};
@@ -213,8 +213,8 @@ impl Args {
     fn strength(&self) -> Strength {
         Strength {
             order: match self.order {
-                OrderName::Sequence => Order::Sequence,
-                OrderName::Any => Order::Any,
+                OrderName::Sequence => ListOrder::Sequence,
+                OrderName::Any => ListOrder::Any,
             },
             conversion: self.conversion.into(),
             denormals: self.denormals.into(),
