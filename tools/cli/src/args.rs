@@ -4,9 +4,27 @@ use crate::campaign::{Placed, ShardArgs};
 use crate::failure::Failure;
 use crate::output::{counted, note};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
+use tess_core::{Config, Domain, Order, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_verify::generate::{GenLevel, LEVEL_VERSION, Selection, Shard};
 use tess_verify::{Case, Named, factor};
+
+/// An order of triangles.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum OrderName {
+    /// That of the specification
+    Specification,
+    /// The same triangles for a vertex cache
+    Cache,
+}
+
+impl From<OrderName> for Order {
+    fn from(name: OrderName) -> Self {
+        match name {
+            OrderName::Specification => Self::Specification,
+            OrderName::Cache => Self::VertexCache,
+        }
+    }
+}
 
 /// The arguments that describe one patch.
 #[derive(Clone, Debug, clap::Args)]

@@ -13,6 +13,7 @@ use tempfile::TempDir;
 pub(crate) struct NewFolder {
     folder: TempDir,
     becomes: PathBuf,
+    replaces: bool,
     _guard: Guard,
 }
 
@@ -39,6 +40,14 @@ impl NewFolder {
                 "it exists already; give a new folder",
             ));
         }
+        Self::replacing(path).map(|new| Self { replaces: false, ..new })
+    }
+
+    /// Begins a folder that takes the place of one with everything in it.
+    ///
+    /// # Errors
+    /// It cannot be made.
+    pub(crate) fn replacing(path: &Path) -> io::Result<Self> {
         let (folder, guard) = ending::guarded(|| {
             #[cfg_attr(not(unix), expect(unused_mut, reason = "only Unix gives permissions"))]
             let mut builder = temporary();
@@ -48,7 +57,7 @@ impl NewFolder {
             let temporary = folder.path().to_owned();
             Ok((folder, Box::new(move || _ = fs::remove_dir_all(temporary))))
         })?;
-        Ok(Self { folder, becomes: path.to_owned(), _guard: guard })
+        Ok(Self { folder, becomes: path.to_owned(), replaces: true, _guard: guard })
     }
 
     /// Where its files are written.
@@ -61,7 +70,15 @@ impl NewFolder {
     /// # Errors
     /// It cannot be put there; then it is removed.
     pub(crate) fn finish(mut self) -> io::Result<()> {
-        fs::rename(self.folder.path(), &self.becomes)?;
+        let aside = temporary().tempdir_in(folder_of(&self.becomes))?;
+        let old = aside.path().join("old");
+        if self.replaces {
+            fs::rename(&self.becomes, &old)?;
+        }
+        if let Err(error) = fs::rename(self.folder.path(), &self.becomes) {
+            _ = fs::rename(&old, &self.becomes);
+            return Err(error);
+        }
         self.folder.disable_cleanup(true);
         Ok(())
     }

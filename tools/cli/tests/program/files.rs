@@ -233,6 +233,27 @@ fn terminal() -> fs::File {
     theirs
 }
 
+/// `--force` replaces what the command wrote, whole, and nothing else.
+#[test]
+#[cfg(feature = "shaders")]
+fn shaders_replace_only_shaders() {
+    let folder = directory("shaders_replace_only_shaders");
+    let write = |options: &str| shell(&format!("$TESS shaders {options} -o out"), &folder);
+    fs::create_dir(folder.join("out")).expect("an empty folder");
+    done(&write("--force --target wgsl"));
+    assert_eq!(write("--target wgsl").code, Some(2), "it is there");
+    done(&write("--force --target spirv --order cache"));
+    let written = names(&folder.join("out"));
+    assert!(written.contains(&"manifest.json".into()), "{written:?}");
+    assert!(written.iter().all(|name| !name.ends_with(".wgsl")), "nothing old stays: {written:?}");
+    let manifest = fs::read_to_string(folder.join("out/manifest.json")).expect("a manifest");
+    assert!(manifest.contains("\"order\": \"cache\""), "{manifest:.600}");
+    fs::write(folder.join("out/manifest.json"), "{}").expect("another's");
+    let refused = write("--force --target wgsl");
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert_eq!((names(&folder), names(&folder.join("out"))), (vec!["out".into()], written));
+}
+
 /// Several files need a folder, and stdout is none.
 #[test]
 fn folders_are_not_stdout() {

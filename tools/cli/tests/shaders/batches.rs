@@ -1,6 +1,6 @@
 //! Batches: factors with the words that the model gives for them.
 
-use tess_core::{Config, Domain, PatchFactors};
+use tess_core::{Config, Domain, Order, PatchFactors};
 use tess_verify::generate::{SplitMix64, random_patch};
 use tess_verify::{Case, Named};
 
@@ -17,6 +17,7 @@ pub(crate) struct Form {
     pub(crate) is_f32: bool,
     pub(crate) is_narrow: bool,
     pub(crate) is_per_patch: bool,
+    pub(crate) is_for_cache: bool,
 }
 
 /// Files that the host must write.
@@ -58,7 +59,7 @@ impl Batch {
         let pick =
             |choice: bool, yes: &'static str, no: &'static str| if choice { yes } else { no };
         format!(
-            "--domain {} --partitioning {} --output {} --split {} --points {} --index-type {} --numbering {}",
+            "--domain {} --partitioning {} --output {} --split {} --points {} --index-type {} --numbering {} --order {}",
             self.domain.name(),
             partitioning.name(),
             output.name(),
@@ -66,6 +67,7 @@ impl Batch {
             pick(form.is_f32, "f32", "packed"),
             pick(form.is_narrow, "u16", "u32"),
             pick(form.is_per_patch, "per-patch", "per-batch"),
+            pick(form.is_for_cache, "cache", "specification"),
         )
     }
 
@@ -79,7 +81,8 @@ impl Batch {
         let (mut points, mut indices) = (Vec::new(), Vec::new());
         let (mut base, mut count) = (0u32, 0u32);
         for (number, &factors) in (0u64..).zip(&self.patches) {
-            let whole = Case { config: self.config, factors }.patch().tessellate();
+            let order = if form.is_for_cache { Order::VertexCache } else { Order::Specification };
+            let whole = Case { config: self.config, factors }.patch().tessellate_in(order);
             for point in &whole.points {
                 let (u, v) = (u64::from(point.u.to_bits()), u64::from(point.v.to_bits()));
                 let word = if form.is_f32 {

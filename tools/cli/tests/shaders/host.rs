@@ -65,6 +65,7 @@ fn form(number: usize) -> Form {
         is_f32: number % 2 == 1,
         is_narrow: is_per_patch && number.is_multiple_of(2),
         is_per_patch,
+        is_for_cache: number % 4 == 3,
     }
 }
 

@@ -10,13 +10,13 @@ mod runner;
 mod simd;
 mod table;
 
+use crate::args::OrderName;
 use crate::backends::{BackendName, BackendOptions};
 use crate::failure::{Exit, Failure};
 use crate::output::{self, note, print};
 use measure::{Plan, measure};
 use runner::{Runner, RunnerOptions, WorkingSet};
 use table::heading;
-use tess_simd::Order;
 use tess_verify::generate::Workload;
 
 /// Time the named workloads against filling the same bytes and against the core
@@ -69,24 +69,6 @@ pub(crate) struct Args {
     /// Print one JSON array of objects
     #[arg(long)]
     json: bool,
-}
-
-/// An order of triangles.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum OrderName {
-    /// That of the specification
-    Specification,
-    /// The same triangles for a vertex cache
-    Cache,
-}
-
-impl From<OrderName> for Order {
-    fn from(name: OrderName) -> Self {
-        match name {
-            OrderName::Specification => Self::Specification,
-            OrderName::Cache => Self::VertexCache,
-        }
-    }
 }
 
 /// Runs the command.

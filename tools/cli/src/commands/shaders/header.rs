@@ -64,6 +64,7 @@ fn constants(manifest: &Manifest) -> Vec<String> {
         text("SPLIT", setup.split),
         text("POINTS_FORM", setup.points),
         text("NUMBERING", setup.numbering),
+        text("ORDER", setup.order),
         text("TABLES_FILE", TABLES_FILE),
         number("FACTORS_PER_PATCH", &setup.factors_per_patch),
         number("INDICES_PER_PRIMITIVE", &setup.indices_per_primitive),

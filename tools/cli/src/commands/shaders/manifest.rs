@@ -5,8 +5,12 @@ use super::structures::Structure;
 use super::translation::Translation;
 use serde::Serialize;
 use tess_gpu::sizes::ALIGNMENT;
-use tess_gpu::{IndexType, Numbering, PointFormat, Resource, Setup};
+use tess_gpu::{IndexType, Numbering, Order, PointFormat, Resource, Setup};
 use tess_verify::Named;
+
+/// The file of the manifest, and what its first entry says.
+pub(super) const FILE: &str = "manifest.json";
+pub(super) const FORMAT: &str = "tess-shaders 1";
 
 /// The file of the tables' contents.
 pub(super) const TABLES_FILE: &str = "tables.bin";
@@ -36,6 +40,7 @@ pub(super) struct Described {
     pub(super) points: &'static str,
     pub(super) index_type: &'static str,
     pub(super) numbering: &'static str,
+    pub(super) order: &'static str,
     pub(super) factors_per_patch: u32,
     pub(super) indices_per_primitive: u32,
     pub(super) bytes_per_index: u32,
@@ -120,7 +125,7 @@ impl Manifest {
     ) -> Self {
         let role = |resource| Role { resource, host: Host::of(resource) };
         Self {
-            format: "tess-shaders 1",
+            format: FORMAT,
             version: env!("CARGO_PKG_VERSION"),
             translation,
             setup: Described::new(setup),
@@ -155,6 +160,10 @@ impl Described {
             points: point,
             index_type: index,
             numbering,
+            order: match setup.order {
+                Order::Specification => "specification",
+                Order::VertexCache => "cache",
+            },
             factors_per_patch: setup.factors(),
             indices_per_primitive: setup.indices_per_primitive(),
             bytes_per_index: setup.index_type.bytes(),

@@ -10,7 +10,7 @@ mod structures;
 mod tests;
 mod translation;
 
-use crate::args::name_of;
+use crate::args::{OrderName, name_of};
 use crate::failure::{Exit, Failure};
 use crate::output::{NewFolder, json, refuse_stdout};
 use clap::ValueEnum;
@@ -37,7 +37,8 @@ nothing else. Tests compile spirv, glsl and hlsl; of msl only what C++ shares.
 Examples:
   tess shaders --target spirv --domain quad -o shaders/
   tess shaders --target hlsl --domain tri --partitioning fractional_odd --points f32 -o shaders/
-  tess shaders --target spirv --checks none -o shaders/   faster; see docs/performance.md")]
+  tess shaders --target spirv --checks none -o shaders/   faster; see docs/performance.md
+  tess shaders --target wgsl --order cache --force -o build/shaders/   as a step of a build")]
 pub(crate) struct Args {
     /// Language of the shaders
     #[arg(long, value_name = "NAME")]
@@ -66,9 +67,15 @@ pub(crate) struct Args {
     /// Which point has index 0
     #[arg(long, value_name = "NAME", default_value = "per-batch")]
     numbering: NumberingName,
+    /// Order of the triangles
+    #[arg(long, value_name = "NAME", default_value = "specification")]
+    order: OrderName,
     /// Whether the shaders check every access and every loop
     #[arg(long, value_name = "WHICH", default_value = "full")]
     checks: Checks,
+    /// Replace the folder if this command wrote it, or if it is empty
+    #[arg(long)]
+    force: bool,
     /// New folder to write
     #[arg(short = 'o', long = "out", value_name = "FOLDER")]
     folder: PathBuf,
@@ -101,19 +108,30 @@ enum NumberingName {
 /// Runs the command.
 ///
 /// # Errors
-/// The folder is there already or cannot be written.
+/// The folder is there already and not to be replaced, or cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     refuse_stdout(&args.folder, "the shaders are several files")?;
     let setup = args.setup();
     let translation = Translation { target: args.target, checks: args.checks };
     let shaders = Shaders::new(setup, translation)?;
     let write = || {
-        let new = NewFolder::create(&args.folder)?;
+        let new = if args.force && is_ours(&args.folder) {
+            NewFolder::replacing(&args.folder)?
+        } else {
+            NewFolder::create(&args.folder)?
+        };
         shaders.write(new.path())?;
         new.finish()
     };
     write().map_err(|error| Failure::write(&args.folder, error))?;
     Ok(Exit::Done)
+}
+
+/// Whether a folder has a manifest of this command, or nothing.
+fn is_ours(folder: &Path) -> bool {
+    let is_empty = fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none());
+    let manifest = fs::read_to_string(folder.join(manifest::FILE)).unwrap_or_default();
+    is_empty || manifest.contains(&format!("\"format\": \"{}\"", manifest::FORMAT))
 }
 
 impl Args {
@@ -133,6 +151,7 @@ impl Args {
                 IndexName::U16 => IndexType::U16,
                 IndexName::U32 => IndexType::U32,
             },
+            order: self.order.into(),
             ..Setup::new(self.domain, config)
         }
     }
@@ -189,7 +208,7 @@ impl Shaders {
             fs::write(folder.join(name), text)?;
         }
         fs::write(folder.join(manifest::TABLES_FILE), &self.tables)?;
-        fs::write(folder.join("manifest.json"), json(&self.manifest))?;
+        fs::write(folder.join(manifest::FILE), json(&self.manifest))?;
         fs::write(folder.join("tess_shaders.h"), header::text(&self.manifest))
     }
 }
