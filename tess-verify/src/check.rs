@@ -46,6 +46,8 @@ pub enum Tested {
     /// The file: its listings are what a device gave, and each must equal the model's as closely as
     /// the strength says. The backends are not asked.
     Listings(Strength),
+    /// The file, but only that it answers what was asked; what it answers is not compared.
+    Answers,
 }
 
 /// A part of a file that was checked: consecutive records, or nearly so.
@@ -104,7 +106,7 @@ pub fn check_asked<R: BufRead + Send>(
         return Err(CheckError::NoListings(header.kind));
     }
     let how = How { header, tested };
-    let expected = asked.map(Expected::new);
+    let expected = asked.map(|asked| Expected::new(asked, known));
     let source = Mutex::new(Source { file, expected, taken: 0, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, known, backend.as_mut(), checked);

@@ -10,6 +10,7 @@
 //! are settled; what is best for the rest depends on what comes behind it. So a case is looked for as
 //! far as fewer than [`WINDOW`] are missing, and it is a place to go on from only if what follows agrees.
 
+use super::Known;
 use super::alignment::{Said, Step, align};
 use super::findings::{Findings, Found};
 use crate::case::Case;
@@ -41,13 +42,15 @@ pub(super) struct Expected<'a> {
     /// What becomes of the first answers and cases, as far as it is settled.
     steps: VecDeque<Step>,
     said: Said,
+    known: &'a Known,
     missing: Findings,
 }
 
 impl<'a> Expected<'a> {
-    pub(super) fn new(asked: Asked<'a>) -> Self {
+    pub(super) fn new(asked: Asked<'a>, known: &'a Known) -> Self {
         Self {
             asked,
+            known,
             next: VecDeque::new(),
             due: 1,
             ahead: VecDeque::new(),
@@ -159,6 +162,7 @@ impl<'a> Expected<'a> {
     fn miss(&mut self) {
         if let Some(case) = self.next.pop_front() {
             let found = Found::Different(missing(), Some(case));
+            let found = found.unless_known(Some(case), self.known);
             self.missing.add(self.due, None, found, || None);
             self.due += 1;
         }

@@ -5,8 +5,10 @@ use super::report::Explained;
 use super::{Difference, Report};
 use crate::case::Case;
 use crate::check::Known;
-use crate::check::compare::Mismatch;
+use crate::check::compare::{Element, Mismatch};
+use crate::check::known::MISSING;
 use crate::check::strength::Conversions;
+use std::fmt::Display;
 
 /// What is found of a record.
 pub(super) enum Found {
@@ -30,7 +32,12 @@ impl Found {
 
     /// The same, unless it is a difference that is known of this case.
     pub(super) fn unless_known(self, case: Option<Case>, known: &Known) -> Self {
-        let is_known = case.is_some_and(|case| known.excuses(&case, self.is_different()));
+        let difference: Option<&dyn Display> = match &self {
+            Self::Different(mismatch, _) if mismatch.element == Element::Record => Some(&MISSING),
+            Self::Different(mismatch, _) | Self::Explained(mismatch, ..) => Some(mismatch),
+            _ => None,
+        };
+        let is_known = case.is_some_and(|case| known.excuses(&case, difference));
         if is_known { Self::Known } else { self }
     }
 

@@ -1,71 +1,273 @@
-//! Differences of a device that are known: a baseline, under which a documented deviation is no mismatch.
+//! Differences that are known: a baseline, under which a documented deviation is no mismatch.
+//!
+//! ```text
+//! # remarks, and cases that may differ in any way and for ever
+//! case isoline integer line ruler 3f800000 40000000
+//! # SUBJECT | what is expected, * for anything | owner | last day | reason
+//! case isoline integer line ruler 3f800000 40400000 | missing | ada | 2027-06-30 | culls density 1
+//! rule segments | 1029 | ada | 2027-06-30 | levels are converted before they are rounded
+//! ```
 
-use crate::case::Case;
+use crate::case::{Case, CaseError};
+use crate::names::Named;
+use crate::quote::quoted;
+use crate::rules::{Rule, Specification};
+use crate::vectors::{Cases, VectorError};
 use std::collections::HashMap;
+use std::fmt::{self, Display};
+use std::io::BufRead;
+use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The cases that may differ, and what became of each. Threads may share it.
+/// What a case without an answer is expected to be.
+pub(super) const MISSING: &str = "missing";
+
+/// The cases and rules that may differ, and what became of each. Threads may share it.
 ///
-/// The default has no case, so it excuses nothing.
+/// The default has none, so it excuses nothing.
 #[derive(Debug, Default)]
 pub struct Known {
-    /// Each case once, in the order in which they were given.
-    entries: Vec<(Case, Seen)>,
-    /// Where each case stands among the entries.
-    places: HashMap<Case, usize>,
+    /// Name of the file.
+    file: String,
+    /// Each subject once, in the order in which they were given.
+    entries: Vec<Entry>,
+    /// Where each subject stands among the entries.
+    places: HashMap<KnownSubject, usize>,
 }
 
-/// What was seen of a case that may differ.
-#[derive(Debug, Default)]
-struct Seen {
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum KnownSubject {
+    Case(Case),
+    Rule(Rule),
+}
+
+/// A line, and what was seen of it.
+#[derive(Debug)]
+struct Entry {
+    subject: KnownSubject,
+    /// Number of the line, from 1.
+    line: u64,
+    /// Without them, the case may differ in any way but by having no answer.
+    terms: Option<Terms>,
     equal: AtomicBool,
+    /// It differed as expected.
     different: AtomicBool,
+    /// It differed in this way, which was not expected.
+    other: OnceLock<String>,
+}
+
+/// How, for how long and why something may differ, and who answers for it.
+#[derive(Debug)]
+struct Terms {
+    expected: String,
+    owner: String,
+    until: String,
+    reason: String,
+    is_expired: bool,
+}
+
+impl From<Case> for Entry {
+    fn from(case: Case) -> Self {
+        Self::new(KnownSubject::Case(case), 0, None)
+    }
+}
+
+impl Entry {
+    fn new(subject: KnownSubject, line: u64, terms: Option<Terms>) -> Self {
+        let (equal, different, other) = Default::default();
+        Self { subject, line, terms, equal, different, other }
+    }
+
+    fn parse(text: &str, line: u64, today: &str) -> Result<Self, CaseError> {
+        let error = |field, message| CaseError { field, message };
+        let mut fields = text.splitn(5, '|').map(str::trim);
+        let subject = fields.next().unwrap_or_default();
+        let subject = match subject.strip_prefix("rule ") {
+            Some(rule) => KnownSubject::Rule(
+                Rule::from_name(rule).map_err(|e| error(Rule::WHAT, e.to_string()))?,
+            ),
+            None => KnownSubject::Case(subject.parse()?),
+        };
+        let fields: Vec<&str> = fields.collect();
+        let [expected, owner, until, reason] = match fields[..] {
+            [] if matches!(subject, KnownSubject::Case(_)) => {
+                return Ok(Self::new(subject, line, None));
+            }
+            [a, b, c, d] if fields.iter().all(|field| !field.is_empty()) => [a, b, c, d],
+            _ => {
+                let form = "behind the case or rule stand | EXPECTED | OWNER | UNTIL | REASON";
+                return Err(error("terms", form.to_owned()));
+            }
+        };
+        let is_rule = matches!(subject, KnownSubject::Rule(_));
+        if is_rule && expected != "*" && expected.parse::<u64>().is_err() {
+            let message = format!("{} is neither a number nor *", quoted(expected));
+            return Err(error("expected", message));
+        }
+        if !is_date(until) {
+            let message = format!("{} is no date such as 2027-06-30", quoted(until));
+            return Err(error("until", message));
+        }
+        let is_expired = until < today;
+        let [expected, owner, until, reason] = [expected, owner, until, reason].map(str::to_owned);
+        Ok(Self::new(subject, line, Some(Terms { expected, owner, until, reason, is_expired })))
+    }
+
+    fn is_for(&self, rules: Option<Specification>) -> bool {
+        let is_missing = self.terms.as_ref().is_some_and(|terms| terms.expected == MISSING);
+        match self.subject {
+            KnownSubject::Rule(_) => rules.is_some(),
+            KnownSubject::Case(_) => rules.is_none() || is_missing,
+        }
+    }
+
+    /// Notes a difference, or that there is none. True if there is one as expected.
+    fn excuses(&self, difference: Option<&dyn Display>) -> bool {
+        let Some(text) = difference.map(ToString::to_string) else {
+            self.equal.store(true, Ordering::Relaxed);
+            return false;
+        };
+        let is_expected = match &self.terms {
+            Some(terms) if terms.is_expired => false,
+            Some(terms) if terms.expected != "*" => terms.expected == text,
+            _ => text != MISSING,
+        };
+        if is_expected {
+            self.different.store(true, Ordering::Relaxed);
+        } else {
+            _ = self.other.set(text);
+        }
+        is_expected
+    }
+
+    /// What is wrong with the line's terms, if the `whole` of the work was done or a part of it.
+    fn fault(&self, terms: &Terms, whole: bool) -> Option<String> {
+        let Terms { expected, until, .. } = terms;
+        let is = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
+        match self.other.get() {
+            _ if terms.is_expired => Some(format!("expired on {until}")),
+            Some(other) => Some(format!("expects {}, not {}", quoted(expected), quoted(other))),
+            None if is(&self.different) => None,
+            None if whole || is(&self.equal) => Some("is unused, nothing differs so".to_owned()),
+            None => None,
+        }
+    }
+}
+
+/// Whether a text is a date such as 2027-06-30. Dates compare as texts.
+fn is_date(text: &str) -> bool {
+    let numbers: Vec<&str> = text.split('-').collect();
+    let is_number = |text: &str, digits, range: std::ops::RangeInclusive<u32>| {
+        text.len() == digits && text.parse().is_ok_and(|number: u32| range.contains(&number))
+    };
+    matches!(numbers[..], [year, month, day]
+        if is_number(year, 4, 1..=9999) && is_number(month, 2, 1..=12) && is_number(day, 2, 1..=31))
+}
+
+/// The line, without what is around its fields.
+impl Display for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.subject {
+            KnownSubject::Case(case) => case.fmt(f)?,
+            KnownSubject::Rule(rule) => write!(f, "rule {}", rule.name())?,
+        }
+        let Some(Terms { expected, owner, until, reason, .. }) = &self.terms else { return Ok(()) };
+        write!(f, " | {expected} | {owner} | {until} | {reason}")
+    }
 }
 
 /// A baseline of these cases; a case that is given twice counts once.
 impl FromIterator<Case> for Known {
     fn from_iter<T: IntoIterator<Item = Case>>(cases: T) -> Self {
         let mut known = Self::default();
-        for case in cases {
-            let next = known.entries.len();
-            if *known.places.entry(case).or_insert(next) == next {
-                known.entries.push((case, Seen::default()));
-            }
-        }
+        cases.into_iter().for_each(|case| known.add(case.into()));
         known
     }
 }
 
 impl Known {
-    /// Notes whether a case differs. True if it does and may.
-    pub fn excuses(&self, case: &Case, is_different: bool) -> bool {
-        let Some(&place) = self.places.get(case) else { return false };
-        let seen = &self.entries[place].1;
-        let which = if is_different { &seen.different } else { &seen.equal };
-        which.store(true, Ordering::Relaxed);
-        is_different
+    /// Reads a baseline: lines, or a vector file of cases. If a standard is judged by, these are its rules and the
+    /// cases without an answer; else all cases. The other lines are left out. `today` is such as `2027-06-30`.
+    ///
+    /// # Errors
+    /// A line that is malformed, or has terms for a subject that stands in two lines; a file without a line or remark.
+    pub fn read(
+        name: &str,
+        reader: impl BufRead,
+        rules: Option<Specification>,
+        today: &str,
+    ) -> Result<Self, VectorError> {
+        let mut cases = Cases::maybe_empty(name, reader)?;
+        let mut known = Self { file: name.to_owned(), ..Self::default() };
+        while let Some(entry) = cases.read(Entry::from, |text, line| {
+            let entry = Entry::parse(text, line, today)?;
+            let first = known.places.get(&entry.subject).map(|&place| &known.entries[place]);
+            match first.filter(|first| first.terms.is_some() || entry.terms.is_some()) {
+                Some(first) => {
+                    let message = format!("stands in line {} too", first.line);
+                    Err(CaseError { field: "subject", message })
+                }
+                None => Ok(entry),
+            }
+        })? {
+            known.add(entry);
+        }
+        known.entries.retain(|entry| entry.is_for(rules));
+        let subjects = known.entries.iter().map(|entry| entry.subject);
+        known.places = subjects.zip(0..).collect();
+        Ok(known)
     }
 
-    /// How many cases may differ.
-    #[must_use]
-    pub fn entries(&self) -> usize {
-        self.entries.len()
+    fn add(&mut self, entry: Entry) {
+        let next = self.entries.len();
+        if *self.places.entry(entry.subject).or_insert(next) == next {
+            self.entries.push(entry);
+        }
     }
 
-    /// How many of them were asked and differed, at least once.
+    /// Notes how a case differs, if it does. True if it does and may.
+    pub fn excuses(&self, case: &Case, difference: Option<&dyn Display>) -> bool {
+        self.note(KnownSubject::Case(*case), difference)
+    }
+
+    /// Notes how often a rule is broken. True if it is, and may be so often.
+    pub fn excuses_rule(&self, rule: Rule, broken: u64) -> bool {
+        self.note(KnownSubject::Rule(rule), (broken > 0).then_some(&broken as _))
+    }
+
+    fn note(&self, subject: KnownSubject, difference: Option<&dyn Display>) -> bool {
+        self.places.get(&subject).is_some_and(|&place| self.entries[place].excuses(difference))
+    }
+
+    /// The lines, without remarks and what is around their fields.
+    pub fn lines(&self) -> impl Iterator<Item = String> {
+        self.entries.iter().map(ToString::to_string)
+    }
+
+    /// How many of them were asked and differed as expected, at least once.
     #[must_use]
     pub fn different(&self) -> usize {
-        self.entries.iter().filter(|(_, seen)| seen.different.load(Ordering::Relaxed)).count()
+        self.entries.iter().filter(|entry| entry.different.load(Ordering::Relaxed)).count()
     }
 
-    /// The cases that were asked and no longer differ, in the order in which they were given.
-    #[must_use]
-    pub fn gone(&self) -> Vec<Case> {
-        let is_gone = |seen: &Seen| {
-            seen.equal.load(Ordering::Relaxed) && !seen.different.load(Ordering::Relaxed)
+    /// The lines without terms whose cases were asked and no longer differ, in the order in which they were given.
+    pub fn gone(&self) -> impl Iterator<Item = String> {
+        let is_gone = |entry: &&Entry| {
+            let is = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
+            entry.terms.is_none() && is(&entry.equal) && !is(&entry.different)
         };
-        let gone = self.entries.iter().filter(|(_, seen)| is_gone(seen));
-        gone.map(|(case, _)| *case).collect()
+        self.entries.iter().filter(is_gone).map(ToString::to_string)
+    }
+
+    /// What is wrong with lines that have terms, each with its place: one has expired, or expects what did not
+    /// happen. If the `whole` of the work was done, that includes what was not asked.
+    #[must_use]
+    pub fn faults(&self, whole: bool) -> Vec<String> {
+        let fault = |entry: &Entry| {
+            let fault = entry.fault(entry.terms.as_ref()?, whole)?;
+            Some(format!("{}:{}: {fault}: {entry}", self.file, entry.line))
+        };
+        self.entries.iter().filter_map(fault).collect()
     }
 }
 
@@ -81,11 +283,14 @@ mod tests {
         };
         let [differs, gone, both, unasked, other] = [1, 2, 3, 4, 5].map(case);
         let known = Known::from_iter([differs, both, gone, unasked, gone]);
-        assert!(known.excuses(&differs, true), "it may differ");
-        assert!(!known.excuses(&gone, false), "equal needs no excuse");
-        assert!(!known.excuses(&both, false) && known.excuses(&both, true), "asked twice");
-        assert!(!known.excuses(&other, true), "it may not differ");
-        assert_eq!((known.entries(), known.different()), (4, 2), "each case once");
-        assert_eq!(known.gone(), [gone], "neither what differed once nor what was not asked");
+        assert!(known.excuses(&differs, Some(&"so")), "it may differ");
+        assert!(!known.excuses(&gone, None), "equal needs no excuse");
+        assert!(!known.excuses(&both, None) && known.excuses(&both, Some(&1)), "asked twice");
+        assert!(!known.excuses(&other, Some(&1)), "it may not differ");
+        assert!(!known.excuses(&unasked, Some(&MISSING)), "that is to be said");
+        assert_eq!((known.lines().count(), known.different()), (4, 2), "each case once");
+        let lines: Vec<String> = known.gone().collect();
+        assert_eq!(lines, [gone.to_string()], "neither what differed once nor what was not asked");
+        assert_eq!(known.faults(true), [""; 0], "nothing has terms");
     }
 }

@@ -18,8 +18,10 @@ pub(super) fn single(
     backend: &mut dyn Backend,
     records: &[Record],
 ) -> Result<Vec<Found>, BackendError> {
-    if let Tested::Listings(strength) = how.tested {
-        return Ok(listings(records, strength));
+    match how.tested {
+        Tested::Backend => {}
+        Tested::Listings(strength) => return Ok(listings(records, strength)),
+        Tested::Answers => return Ok(records.iter().map(|_| Found::Equal).collect()),
     }
     let cases: Vec<Case> = records.iter().filter_map(Record::case).collect();
     let outputs = tessellate(backend, &cases)?;

@@ -3,7 +3,7 @@
 use super::header::MAGIC;
 use super::lines::Lines;
 use super::{Emptiness, Header, VectorError, VectorFile};
-use crate::case::Case;
+use crate::case::{Case, CaseError};
 use std::io::{BufRead, Chain, Cursor, Read};
 
 /// The cases of a text: of a vector file whose records are single patches, or lines that begin with
@@ -91,16 +91,24 @@ impl<R: BufRead> Cases<R> {
         }
     }
 
-    fn read(&mut self) -> Result<Option<Case>, VectorError> {
+    /// What comes next: what `of_case` makes of a record, or `parse` of a line and its number.
+    pub(crate) fn read<T>(
+        &mut self,
+        of_case: impl FnOnce(Case) -> T,
+        parse: impl FnOnce(&str, u64) -> Result<T, CaseError>,
+    ) -> Result<Option<T>, VectorError> {
         match &mut self.source {
-            CaseSource::File(file) => Ok(file.next().transpose()?.and_then(|record| record.case())),
+            CaseSource::File(file) => {
+                Ok(file.next().transpose()?.and_then(|record| record.case()).map(of_case))
+            }
             CaseSource::Lines(lines) => {
                 while let Some(line) = lines.next()? {
                     if line.text.starts_with('#') {
                         self.found |= self.may_be_empty;
                     } else if !line.text.is_empty() {
-                        let case = line.text.parse::<Case>();
-                        return case.map(Some).map_err(|e| line.error(e.field, e.message));
+                        self.found = true;
+                        let parsed = parse(line.text, line.place.line);
+                        return parsed.map(Some).map_err(|e| line.error(e.field, e.message));
                     }
                 }
                 if self.found { Ok(None) } else { Err(lines.error("case", "there is no case")) }
@@ -116,8 +124,7 @@ impl<R: BufRead> Iterator for Cases<R> {
         if self.ended {
             return None;
         }
-        let case = self.read().transpose();
-        self.found = true;
+        let case = self.read(|case| case, |text, _| text.parse()).transpose();
         self.ended = !matches!(case, Some(Ok(_)));
         case
     }

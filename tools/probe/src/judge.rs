@@ -81,10 +81,12 @@ impl Judge {
             self.strength.equal(case, observed, &expected) || self.strength.accepts(case, observed)
         };
         let equal = third && observed.as_ref().is_some_and(is_equal);
-        if self.known.excuses(case, !equal) {
+        let found =
+            (!equal).then(|| self.describe(self.strength, case, captured, observed.as_ref()));
+        if self.known.excuses(case, found.as_ref().map(|found| &found.difference as _)) {
             self.excused += 1;
-        } else if !equal {
-            self.differ(case, captured, observed.as_ref());
+        } else if let Some(found) = found {
+            self.differ(found);
         }
         let in_any_order = matches!(verdict, Verdict::Sequence | Verdict::Leading | Verdict::Order);
         if !in_any_order || !third {
@@ -93,12 +95,11 @@ impl Judge {
     }
 
     /// Counts a difference that is not known.
-    fn differ(&mut self, case: &Case, captured: &Captured, observed: Option<&Tessellation>) {
+    fn differ(&mut self, found: First) {
         self.different += 1;
-        self.row(case).0.different += 1;
-        let described = self.describe(self.strength, case, captured, observed);
-        *self.stages.entry(described.stage.clone()).or_default() += 1;
-        self.first_different.get_or_insert(described);
+        self.row(&found.case).0.different += 1;
+        *self.stages.entry(found.stage.clone()).or_default() += 1;
+        self.first_different.get_or_insert(found);
     }
 
     fn explain(

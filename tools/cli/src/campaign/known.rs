@@ -1,30 +1,36 @@
-//! The `--known` option: cases that may differ, as a documented deviation of a device does.
+//! The `--known` option: what may differ, as a documented deviation of a device does.
 
+use super::Placed;
 use super::invocation::digest;
 use super::recorder::Recorder;
-use super::report::KnownCases;
-use crate::failure::Failure;
+use super::report::{First, KnownCases, Part};
+use crate::failure::{Exit, Failure};
+use crate::input;
 use crate::output::{Role, counted, note};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
-use tess_verify::Case;
+use std::time::{SystemTime, UNIX_EPOCH};
 use tess_verify::check::Known;
+use tess_verify::generate::Shard;
+use tess_verify::rules::Specification;
 
 /// The `--known` option.
 #[derive(Clone, Debug, clap::Args)]
 pub(crate) struct KnownArgs {
-    /// Cases that may differ: lines that begin with `case`, or a vector file such as --failures writes
+    /// What may differ: lines that begin with `case` or `rule`, or a vector file such as --failures writes
     ///
-    /// Their differences are counted as known and are no mismatches. What no longer differs is named on stderr. A
-    /// header without records, or remarks alone, are a baseline of no cases; an empty file is refused.
+    /// Such differences are counted as known and are no mismatches. Behind a case or rule may stand ` | EXPECTED |
+    /// OWNER | UNTIL | REASON` (docs/campaigns.md): a line that has expired, or is not met, is exit code 1. Cases
+    /// alone that no longer differ are named on stderr. A header without records, or remarks alone, are a baseline
+    /// of nothing; an empty file is refused.
     #[arg(long, value_name = "FILE")]
     known: Option<PathBuf>,
 }
 
-/// The cases that may differ, and the file that they stand in.
+/// What may differ, and the file that it stands in.
 #[derive(Debug, Default)]
 pub(crate) struct Baseline {
-    pub(crate) cases: Arc<Known>,
+    pub(crate) known: Arc<Known>,
     /// The report's entry of the file, before anything is compared.
     file: Option<KnownCases>,
 }
@@ -47,38 +53,42 @@ impl KnownArgs {
         Ok(())
     }
 
-    /// The baseline, of no cases without the option.
+    /// The baseline for a comparison, or for judging by rules; of nothing without the option.
     ///
     /// # Errors
-    /// Those of `read`.
-    pub(crate) fn read<I, E>(
-        &self,
-        read: impl FnOnce(&Path) -> Result<I, Failure>,
-    ) -> Result<Baseline, Failure>
-    where
-        I: IntoIterator<Item = Result<Case, E>>,
-        E: ToString,
-    {
+    /// It cannot be read or is malformed.
+    pub(crate) fn read(&self, rules: Option<Specification>) -> Result<Baseline, Failure> {
         let Some(path) = &self.known else { return Ok(Baseline::default()) };
         if path.as_os_str() == "-" {
             return Err(Failure::bad_input("--known is kept from run to run: give a file"));
         }
-        let cases: Result<Vec<Case>, E> = read(path)?.into_iter().collect();
-        let cases = cases.map_err(|error| Failure::bad_input(error.to_string()))?;
-        let digest = Some(digest_of(&cases));
-        let cases = Arc::new(Known::from_iter(cases));
-        let (file, entries) = (Some(path.to_string_lossy().into_owned()), cases.entries() as u64);
+        let reader = input::open(path).map_err(|error| Failure::file("read", path, &error))?;
+        let since = SystemTime::now().duration_since(UNIX_EPOCH);
+        let today = date(since.map_or(0, |since| since.as_secs()) / 86_400);
+        let known = Known::read(&input::name(path), reader, rules, &today)
+            .map_err(|error| Failure::bad_input(error.to_string()))?;
+        let mut lines: Vec<String> = known.lines().map(|line| line + "\n").collect();
+        let entries = lines.len() as u64;
+        // Of the set of lines: neither order nor remarks change it.
+        lines.sort_unstable();
+        let digest = Some(digest(lines.concat().as_bytes()));
+        let file = Some(path.to_string_lossy().into_owned());
         let file = Some(KnownCases { file, digest, entries, ..KnownCases::default() });
-        Ok(Baseline { cases, file })
+        Ok(Baseline { known: Arc::new(known), file })
     }
 }
 
-/// Digest of the set of these cases: neither order nor remarks change it.
-fn digest_of(cases: &[Case]) -> String {
-    let mut lines: Vec<String> = cases.iter().map(|case| format!("{case}\n")).collect();
-    lines.sort_unstable();
-    lines.dedup();
-    digest(lines.concat().as_bytes())
+/// The date of a day since 1970, such as 2027-06-30.
+fn date(day: u64) -> String {
+    // A year begins with March, so that its leap day is the last.
+    let day = day + 719_468;
+    let (era, day) = (day / 146_097, day % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (next, month) = if month < 10 { (0, month + 3) } else { (1, month - 9) };
+    format!("{:04}-{month:02}-{day:02}", 400 * era + year + next)
 }
 
 impl Baseline {
@@ -87,18 +97,63 @@ impl Baseline {
         recorder.update(|report| report.known.clone_from(&self.file));
     }
 
-    /// Says which cases no longer differ, and puts what became of the baseline into the report.
-    pub(crate) fn conclude(&self, recorder: &Recorder) {
-        let gone: Vec<String> = self.cases.gone().iter().map(ToString::to_string).collect();
+    /// Ends a run and writes its report. If it came to its end, that says what became of the baseline, and it is a
+    /// difference if a line has expired or is not met.
+    ///
+    /// # Errors
+    /// The run's; a report that cannot be written.
+    pub(crate) fn finish(
+        &self,
+        recorder: Recorder,
+        placed: Placed,
+        ended: Result<Exit, Failure>,
+    ) -> Result<Exit, Failure> {
+        let ended = ended.map(|exit| self.conclude(&recorder, placed, exit));
+        recorder.finish(ended)
+    }
+
+    fn conclude(&self, recorder: &Recorder, placed: Placed, exit: Exit) -> Exit {
+        let gone: Vec<String> = self.known.gone().collect();
         if !gone.is_empty() {
             let lines: String = gone.iter().map(|line| format!("\n  {line}")).collect();
             let number = counted(gone.len() as u64, "case");
             note(&format!("no longer different, though known: {number}{lines}"));
         }
+        let faults = self.known.faults(placed.shard == Shard::WHOLE);
+        faults.iter().for_each(|fault| note(fault));
         recorder.update(|report| {
             if let Some(known) = &mut report.known {
-                (known.different, known.gone) = (self.cases.different() as u64, gone);
+                (known.different, known.gone) = (self.known.different() as u64, gone);
+            }
+            if let Some(fault) = faults.first() {
+                let number = faults.len() as u64;
+                let first = Some(First { case: None, difference: fault.clone() });
+                let name = "baseline".to_owned();
+                report.add_parts([Part { name, cases: number, mismatches: number, first }]);
             }
         });
+        if faults.is_empty() || exit != Exit::Done { exit } else { Exit::Different }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::date;
+
+    /// Around leap days, of which 2100 has none.
+    #[test]
+    fn days_have_dates() {
+        for (day, expected) in [
+            (0, "1970-01-01"),
+            (11_015, "2000-02-28"),
+            (11_016, "2000-02-29"),
+            (11_017, "2000-03-01"),
+            (20_999, "2027-06-30"),
+            (47_540, "2100-02-28"),
+            (47_541, "2100-03-01"),
+            (47_846, "2100-12-31"),
+        ] {
+            assert_eq!(date(day), expected, "day {day}");
+        }
     }
 }

@@ -14,6 +14,6 @@ pub(crate) mod report;
 mod shard;
 
 pub(crate) use invocation::Invocation;
-pub(crate) use known::{Baseline, KnownArgs};
+pub(crate) use known::KnownArgs;
 pub(crate) use recorder::{Recorder, ReportArgs};
 pub(crate) use shard::{Placed, ShardArgs, shard};

@@ -410,6 +410,61 @@ fn known_differences() {
     assert!(run.stderr.contains("there is no case"), "{}", run.stderr);
 }
 
+/// A line with terms excuses what it expects, until its day; one that is not met is a difference.
+#[test]
+fn known_differences_have_terms() {
+    let folder = directory("known_terms");
+    let (faulty, case) = faulty_listing();
+    fs::write(folder.join("device.txt"), &faulty).expect("written");
+    let run = tess_in(&folder, "check device.txt");
+    let shown = run.stdout.lines().skip_while(|line| !line.ends_with(&case)).nth(1);
+    let found = shown.expect("a difference").trim();
+    let equal = faulty.lines().find(|line| line.starts_with("case ")).expect("another case");
+    let other = "case tri integer point center 40a00000 40a00000 40a00000 40a00000";
+    let terms = |case: &str, expected: &str| {
+        format!("{case} | {expected} | ada | 9999-12-31 | rounds half up\n")
+    };
+    let right = terms(&case, found);
+    for (known, words, code, says) in [
+        (&right, "", 0, ""),
+        (&terms(&case, "*"), "", 0, ""),
+        (&terms(&case, "missing"), "", 1, "k.txt:1: expects `missing`, not `"),
+        (&right.replacen("observed", "observes", 1), "", 1, "k.txt:1: expects `"),
+        (&right.replace("9999", "2020"), "", 1, "k.txt:1: expired on 2020-12-31"),
+        (&(right.clone() + &terms(equal, "*")), "", 1, "k.txt:2: is unused"),
+        (&(right.clone() + &terms(equal, "*")), "--shard 1/2", 1, "k.txt:2: is unused"),
+        (&(right.clone() + &terms(other, "*")), "", 1, "k.txt:2: is unused"),
+        (&(right.clone() + &terms(other, "*")), "--shard 1/2", 0, ""),
+        (&(right.clone() + "rule cover | 1 | ada | 9999-12-31 | not judged here"), "", 0, ""),
+        (&(right.clone() + &case), "", 2, "k.txt:2: subject: stands in line 1 too"),
+    ] {
+        fs::write(folder.join("k.txt"), known).expect("written");
+        let run =
+            tess_in(&folder, &format!("check device.txt --known k.txt --report r.jsonl {words}"));
+        assert_eq!(run.code, Some(code), "{known}{}{}", run.stdout, run.stderr);
+        assert!(
+            run.stderr.contains(says) && run.stderr.is_empty() == says.is_empty(),
+            "{}",
+            run.stderr
+        );
+    }
+    fs::write(folder.join("one.txt"), format!("{case}\n{other}\n")).expect("written");
+    fs::write(folder.join("k.txt"), terms(other, "missing")).expect("written");
+    let asked = format!("{case}\n");
+    let answer = tess_with_input("patch --cases -", &asked).stdout;
+    fs::write(folder.join("answer.txt"), answer).expect("written");
+    for (words, code) in [("", 1), ("--known k.txt", 0)] {
+        let run = tess_in(&folder, &format!("check answer.txt --cases one.txt {words}"));
+        assert_eq!(run.code, Some(code), "{}{}", run.stdout, run.stderr);
+    }
+    fs::write(folder.join("k.txt"), terms(equal, "*")).expect("written");
+    let report = "check device.txt --known k.txt --report r.jsonl --shard 1/1";
+    assert_eq!(tess_in(&folder, report).code, Some(1), "unused");
+    let merged = tess_in(&folder, "merge r.jsonl");
+    assert_eq!(merged.code, Some(1), "{}{}", merged.stdout, merged.stderr);
+    assert!(merged.stdout.contains("\nbaseline "), "{}", merged.stdout);
+}
+
 /// When the device is mended, the baseline that is written anew has no record; it excuses nothing and is no error.
 #[test]
 fn baselines_that_became_empty() {

@@ -1,13 +1,13 @@
 //! `--rules` of `tess gen`, `check` and `verify`.
 
-use crate::support::{tess, tess_with_input};
+use crate::campaigns::{json, tess_in};
+use crate::support::{directory, tess, tess_with_input};
+use std::fs::write;
 
 /// The rules of Vulkan that the model breaks on three lines, and those that it does not.
 #[test]
 fn a_capture_is_judged() {
-    let lines = "case tri integer triangle_cw ruler 40800000 40a00000 40400000 40a00000\n\
-                 case isoline fractional_odd line ruler 3f800000 40400001\n";
-    let listings = tess_with_input("patch --cases -", lines).stdout;
+    let listings = tess_with_input("patch --cases -", &LINES.concat()).stdout;
     let run = tess_with_input("check - --rules vulkan", &listings);
     assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
     let example = "  line 0 has 3 segments, its level 3.0000002 asks for 5\n  \
@@ -27,6 +27,73 @@ fn a_capture_is_judged() {
     assert!(run.stdout.contains("symmetric    broken"), "{}", run.stdout);
     let different = "patches beside the model: 1 equal, 0 in another order, 1 different\n";
     assert!(run.stdout.ends_with(different), "{}", run.stdout);
+}
+
+const LINES: [&str; 2] = [
+    "case tri integer triangle_cw ruler 40800000 40a00000 40400000 40a00000\n",
+    "case isoline fractional_odd line ruler 3f800000 40400001\n",
+];
+
+/// A baseline says how often a rule is broken and which answers are missing; nothing else passes.
+#[test]
+fn deviations_have_terms() {
+    let folder = directory("deviations_have_terms");
+    let file = |name: &str, text: &str| write(folder.join(name), text).expect("written");
+    file("asked.txt", &LINES.concat());
+    file("whole.txt", &tess_with_input("patch --cases -", &LINES.concat()).stdout);
+    file("part.txt", &tess_with_input("patch --cases -", LINES[1]).stdout);
+    let run = |device: &str, known: &str| {
+        file("known.txt", known);
+        let words = format!("check {device} --rules vulkan --cases asked.txt --known known.txt");
+        tess_in(&folder, &(words + " --report r.jsonl"))
+    };
+    let broken = run("whole.txt", "# none\n");
+    assert_eq!(broken.code, Some(1), "{}{}", broken.stdout, broken.stderr);
+    let rules =
+        broken.stdout.lines().filter(|line| line.contains(" broken ") && !line.contains(','));
+    let rules = rules.map(|line| line.split_whitespace().collect::<Vec<_>>());
+    let baseline: String = rules
+        .map(|row| format!("rule {} | {} | ada | 9999-12-31 | as the model\n", row[0], row[2]))
+        .collect();
+    let missing = format!("{} | missing | ada | 9999-12-31 | too large\n", LINES[0].trim());
+    let both = format!("{baseline}{missing}");
+    let line = "rule cover | 1 | ada | 9999-12-31 | unused";
+    for (device, known, code, says) in [
+        ("whole.txt", &baseline, 0, ""),
+        ("part.txt", &both, 0, ""),
+        ("part.txt", &baseline, 1, ""),
+        ("whole.txt", &both, 1, "2: is unused"),
+        ("whole.txt", &(baseline.clone() + line), 1, ": is unused, nothing differs so: rule cover"),
+        ("whole.txt", &baseline.replacen("| 1 |", "| 2 |", 1), 1, "1: expects `2`, not `1`: rule"),
+        ("whole.txt", &baseline.replace("9999", "2020"), 1, "known.txt:1: expired on 2020-12-31"),
+        ("whole.txt", &line.replace("cover", "covre"), 2, "known.txt:1: rule: "),
+        ("whole.txt", &line.replace("12-31", "13-31"), 2, "known.txt:1: until: "),
+        ("whole.txt", &line.replace("| 1 |", "| so |"), 2, "known.txt:1: expected: "),
+        ("whole.txt", &line.replace("ada", ""), 2, "known.txt:1: terms: "),
+        ("whole.txt", &"rule cover".to_owned(), 2, "known.txt:1: terms: "),
+        (
+            "whole.txt",
+            &format!("{line}\n\n{line}"),
+            2,
+            "known.txt:3: subject: stands in line 1 too",
+        ),
+    ] {
+        let run = run(device, known);
+        assert_eq!(run.code, Some(code), "{known}{}{}", run.stdout, run.stderr);
+        assert!(
+            run.stderr.contains(says) && run.stderr.is_empty() == says.is_empty(),
+            "{}",
+            run.stderr
+        );
+        if code < 2 {
+            let report = json(&folder.join("r.jsonl"));
+            assert_eq!(report["mismatches"] == 0, code == 0, "{report}");
+        }
+    }
+    let run = run("part.txt", &baseline);
+    let missing = format!("record 1 is missing: {}", LINES[0]);
+    assert!(run.stdout.contains(&missing), "{}", run.stdout);
+    assert!(run.stdout.contains("\n2 cases, 1 mismatches of answers\n"), "{}", run.stdout);
 }
 
 /// One command says that a device conforms to Vulkan and has another order than Direct3D's.

@@ -10,7 +10,7 @@ pub(crate) use strength::{ConversionName, DenormalsName};
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
-use crate::campaign::{Baseline, Invocation, KnownArgs, Recorder, ReportArgs, ShardArgs};
+use crate::campaign::{Invocation, KnownArgs, Recorder, ReportArgs, ShardArgs};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
 use crate::input::{self, Reader};
@@ -23,7 +23,9 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::thread::available_parallelism;
 use strength::StrengthArgs;
-use tess_verify::check::{self, CheckError, Checked, Difference, MAX_DIFFERENCES, Report, Tested};
+use tess_verify::check::{
+    self, CheckError, Checked, Difference, Known, MAX_DIFFERENCES, Report, Tested,
+};
 use tess_verify::generate::LEVEL_VERSION;
 use tess_verify::rules::Specification;
 use tess_verify::vectors::{Cases, Kind, Record, VectorError, VectorFile};
@@ -56,7 +58,7 @@ does (--order any, --denormals flush, --conversion 0.6ulp), a line says that. Of
 those of each stage and configuration, and the one with the smallest case is shown of each.
 
 With --rules, listings are judged by what a standard demands of output, without the model: each rule with
-its section, how many patches it judged and broke, and the smallest patches that break it. `tess gen --rules`
+its section, how many patches it judged and broke, and the smallest patches that break it. --cases and --known count. `tess gen --rules`
 makes patches that exercise every rule (docs/rules.md). The last line says how many patches are the model's, in
 its order or another: Direct3D 11 demands that order, Vulkan and OpenGL do not. It does not decide the exit code.
 
@@ -69,7 +71,7 @@ Examples:
   tess patch tri --outer 3,4,5 --inner 4 | tess check -
   ./my-device | tess check - --order any --conversion 0.6ulp
   tess check device.txt --cases asked.txt --failures failing.txt
-  tess check device.txt --rules vulkan
+  tess check device.txt --rules vulkan --cases asked.txt --known baseline.txt
   tess check device.txt --known deviations.txt
   tess check device-3.txt --cases asked-3.txt --report report-3.jsonl --junit junit-3.xml")]
 pub(crate) struct Args {
@@ -87,7 +89,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
     #[arg(conflicts_with_all = [
         "backend", "cpu_level", "index_type", "order", "primitives", "points", "conversion",
-        "denormals", "cases", "failures", "coverage", "known",
+        "denormals", "failures", "coverage",
     ])]
     rules: Option<Specification>,
     /// What was asked: records that answer other cases, too few or too many are differences
@@ -134,20 +136,18 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
         note(&format!("cases of level {level}, version {version}; the newest is {newest}"));
     }
     let placed = record::place(args.shard, file.header(), asked_header)?;
-    let known = args.known.read(read_known)?;
+    let known = args.known.read(args.rules)?;
     let recorder = args.report.begin(invocation, placed)?;
     known.note(&recorder);
     asked_header
         .into_iter()
         .for_each(|asked| recorder.update(|report| record::add_asked(report, asked)));
     let ended = match args.rules {
-        Some(specification) => rules::run(file, specification, &recorder),
-        None => {
-            backends.and_then(|backends| compare(args, file, asked, &known, backends, &recorder))
-        }
+        Some(specification) => rules::run(file, asked, specification, &known.known, &recorder),
+        None => backends
+            .and_then(|backends| compare(args, file, asked, &known.known, backends, &recorder)),
     };
-    known.conclude(&recorder);
-    recorder.finish(ended)
+    known.finish(recorder, placed, ended)
 }
 
 /// Compares the records of a file.
@@ -155,7 +155,7 @@ fn compare(
     args: &Args,
     file: VectorFile<Reader>,
     mut asked: Option<Cases<Reader>>,
-    known: &Baseline,
+    known: &Known,
     mut backends: Vec<Box<dyn Backend>>,
     recorder: &Recorder,
 ) -> Result<Exit, Failure> {
@@ -166,7 +166,7 @@ fn compare(
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
     let asked = asked.as_mut().map(|asked| asked as _);
     let right = Mutex::new(HashSet::new());
-    let report = check::check_asked(file, asked, &known.cases, &mut backends, tested, &|checked| {
+    let report = check::check_asked(file, asked, known, &mut backends, tested, &|checked| {
         bar.inc(checked.records.len() as u64);
         note_right(&mut right.lock().unwrap_or_else(PoisonError::into_inner), checked);
         recorder.update(|report| record::add(report, checked));
@@ -274,14 +274,6 @@ fn backends(args: &Args) -> Result<Vec<Box<dyn Backend>>, Failure> {
 /// It cannot be read, or begins wrongly.
 pub(crate) fn read_cases(path: &Path) -> Result<Cases<Reader>, Failure> {
     open_cases(path, Cases::new)
-}
-
-/// The cases of a baseline, which may have become empty: a header without records, or remarks alone.
-///
-/// # Errors
-/// It cannot be read, or begins wrongly.
-pub(crate) fn read_known(path: &Path) -> Result<Cases<Reader>, Failure> {
-    open_cases(path, Cases::maybe_empty)
 }
 
 /// The cases of a file, read by either constructor of [`Cases`].

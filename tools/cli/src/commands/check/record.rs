@@ -51,7 +51,7 @@ pub(super) fn finish(report: &mut Report, found: &check::Report) {
     report.add_stages(found.groups().iter().map(|group| (group.stage, group.mismatches)));
 }
 
-fn first(difference: &Difference) -> First {
+pub(super) fn first(difference: &Difference) -> First {
     let case = difference.case.map(|case| case.to_string());
     First { case, difference: difference.mismatch.to_string() }
 }

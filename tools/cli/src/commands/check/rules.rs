@@ -1,26 +1,31 @@
 //! `tess check --rules`: a device's listings, judged by what a standard demands.
 
+use super::{failure, record};
 use crate::campaign::Recorder;
 use crate::campaign::report::{First, Part};
 use crate::failure::{Exit, Failure};
+use crate::input::Reader;
 use crate::output::{progress, stdout};
 use indicatif::ProgressBar;
 use std::fmt::{self, Display, Formatter};
-use std::io::{BufRead, Write};
+use std::io::Write;
 use std::path::Path;
+use std::sync::{Mutex, PoisonError};
 use tess_core::Tessellation;
-use tess_verify::check::{ListOrder, Strength};
-use tess_verify::rules::{Checker, RuleRow, RulesReport, Specification, Verdict};
-use tess_verify::vectors::{Kind, Record, VectorError, VectorFile};
-use tess_verify::{Case, Named};
+use tess_verify::check::{self, Known, ListOrder, Strength, Tested};
+use tess_verify::rules::{Checker, RuleRow, RulesReport, Specification};
+use tess_verify::vectors::{Cases, Kind, Record, VectorFile};
+use tess_verify::{Backend, Case, CoreBackend, Named};
 
-/// Judges every listing of a file and prints the verdicts.
+/// Judges every listing of a file and prints the verdicts, and which of the `asked` cases it does not answer.
 ///
 /// # Errors
-/// A file that is malformed, truncated or too long, or has no listings.
-pub(super) fn run<R: BufRead>(
-    file: VectorFile<R>,
+/// A file that is malformed, truncated or too long, or has no listings; the asked cases cannot be read.
+pub(super) fn run(
+    file: VectorFile<Reader>,
+    mut asked: Option<Cases<Reader>>,
     specification: Specification,
+    known: &Known,
     recorder: &Recorder,
 ) -> Result<Exit, Failure> {
     let kind = file.header().kind;
@@ -31,25 +36,41 @@ pub(super) fn run<R: BufRead>(
         )));
     }
     let bar = file.header().count.map_or_else(ProgressBar::hidden, |n| progress(n, "records"));
-    let (mut checker, mut beside) = (Checker::new(specification), BesideModel::default());
-    let mut judge = |case: &Case, output: &Tessellation| {
-        checker.add(case, output);
-        beside.add(case, output);
-    };
-    for record in file {
-        match record.map_err(|error: VectorError| Failure::bad_input(error.to_string()))? {
-            Record::Listing(listing) => judge(&listing.case, &listing.output),
-            Record::Coordinates(vertices) => judge(&vertices.case, &vertices.output()),
-            _ => {}
-        }
-        bar.inc(1);
-    }
+    let judges = Mutex::new((Checker::new(specification), BesideModel::default()));
+    // One thread, so that records come in their order.
+    let mut model: [Box<dyn Backend>; 1] = [Box::new(CoreBackend)];
+    let answered = asked.as_mut().map(|asked| asked as _);
+    let answers =
+        check::check_asked(file, answered, known, &mut model, Tested::Answers, &|checked| {
+            let mut judges = judges.lock().unwrap_or_else(PoisonError::into_inner);
+            let (checker, beside) = &mut *judges;
+            let mut judge = |case: &Case, output: &Tessellation| {
+                checker.add(case, output);
+                beside.add(case, output);
+            };
+            for record in checked.records {
+                match record {
+                    Record::Listing(listing) => judge(&listing.case, &listing.output),
+                    Record::Coordinates(vertices) => judge(&vertices.case, &vertices.output()),
+                    _ => {}
+                }
+            }
+            bar.inc(checked.records.len() as u64);
+        });
     bar.finish_and_clear();
-    let report = checker.report();
-    recorder.update(|record| record.add_parts(parts("listings", &report)));
-    let ended = show(&report)?;
+    let answers = answers.map_err(failure)?;
+    let (checker, beside) = judges.into_inner().unwrap_or_else(PoisonError::into_inner);
+    if asked.is_some() {
+        let (cases, mismatches) = (answers.cases, answers.mismatches);
+        let first = answers.differences.first().map(record::first);
+        let name = "listings answers".to_owned();
+        recorder.update(|record| record.add_parts([Part { name, cases, mismatches, first }]));
+        answers.differences.iter().try_for_each(|difference| print(&format!("{difference}\n")))?;
+        print(&format!("{answers} of answers\n"))?;
+    }
+    let ended = conclude("listings", &checker.report(), known, recorder)?;
     print(&beside)?;
-    Ok(ended)
+    Ok(if answers.mismatches > 0 { Exit::Different } else { ended })
 }
 
 /// How patches compare with the model, vertex by vertex. No standard but Direct3D's asks for its order.
@@ -85,27 +106,36 @@ impl Display for BesideModel {
     }
 }
 
-/// The rules of a report as parts of a run: how many patches each judged and how many of them break it.
-pub(crate) fn parts(tested: &str, report: &RulesReport) -> Vec<Part> {
-    let part = |row: &RuleRow| {
+/// Prints a report and adds each rule to the run's: how many patches it judged, and how many of them break it.
+/// Different if a rule is broken, unless so often is known.
+///
+/// # Errors
+/// It cannot be written.
+pub(crate) fn conclude(
+    tested: &str,
+    report: &RulesReport,
+    known: &Known,
+    recorder: &Recorder,
+) -> Result<Exit, Failure> {
+    print(report)?;
+    let mut exit = Exit::Done;
+    for row in &report.rows {
+        let (name, RuleRow { broken, judged, .. }) = (row.rule.name(), row);
+        let is_known = known.excuses_rule(row.rule, *broken);
+        if is_known {
+            print(&format!("known: {name} is broken {broken} times\n"))?;
+        } else if *broken > 0 {
+            exit = Exit::Different;
+        }
         let first = row.smallest.as_ref().map(|example| {
             let cases: Vec<String> = example.cases.iter().map(ToString::to_string).collect();
             First { case: Some(cases.join("\n")), difference: example.what.clone() }
         });
-        let name = format!("{tested} {}", row.rule.name());
-        Part { name, cases: row.judged, mismatches: row.broken, first }
-    };
-    report.rows.iter().map(part).collect()
-}
-
-/// Prints a report; different if a rule is broken.
-///
-/// # Errors
-/// It cannot be written.
-pub(crate) fn show(report: &RulesReport) -> Result<Exit, Failure> {
-    print(report)?;
-    let is_broken = report.rows.iter().any(|row| row.verdict() == Verdict::Broken);
-    Ok(if is_broken { Exit::Different } else { Exit::Done })
+        let (name, mismatches) = (format!("{tested} {name}"), if is_known { 0 } else { *broken });
+        let part = Part { name, cases: *judged, mismatches, first: first.filter(|_| !is_known) };
+        recorder.update(|record| record.add_parts([part]));
+    }
+    Ok(exit)
 }
 
 fn print(what: &impl Display) -> Result<(), Failure> {

@@ -3,10 +3,10 @@
 #[cfg(feature = "shaders")]
 mod bench;
 
-use super::check::{ConversionName, DenormalsName, read_known, rules};
+use super::check::{ConversionName, DenormalsName, rules};
 use crate::args::{SelectionArgs, name_of};
 use crate::campaign::report::{First as FirstOf, Part, Report as Record};
-use crate::campaign::{Baseline, Invocation, KnownArgs, Placed, Recorder, ReportArgs};
+use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs};
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
 use crate::output::form;
@@ -14,8 +14,9 @@ use crate::output::{OutputArgs, Role, json, note, progress, refuse_shared};
 use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tess_probe::{First, Prober, Report, Row, cases, list, probe_known};
-use tess_verify::check::{ListOrder, Strength};
+use tess_verify::check::{Known, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::rules::Specification;
 use tess_verify::show::{self, DrawOptions};
@@ -70,7 +71,7 @@ pub(crate) struct Args {
     draw_vertices: usize,
     /// Instead, judge the device by the rules of this standard: vulkan, opengl or d3d11 (docs/rules.md)
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
-    #[arg(conflicts_with_all = ["level", "given", "points", "picture", "json", "known"])]
+    #[arg(conflicts_with_all = ["level", "given", "points", "picture", "json"])]
     rules: Option<Specification>,
     /// Write the report as JSON (docs/probe.md explains it)
     #[arg(long)]
@@ -124,7 +125,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
         Some(_) => args.selection.shard.whole("probe --rules")?,
         None => args.selection.shard.place()?,
     };
-    let known = args.known.read(read_known)?;
+    let known = args.known.read(args.rules)?;
     args.output.require_writable()?;
     let picture = args.picture.as_deref().map(Picture::prepare).transpose()?;
     let drawn = picture.iter().map(|picture| Role::output("--picture", &picture.output.file));
@@ -133,10 +134,10 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     let recorder = args.report.begin(invocation, placed)?;
     known.note(&recorder);
     let ended = match args.rules {
-        Some(specification) => args.judge(specification, &recorder),
-        None => args.compare(placed, picture.as_ref(), &known, &recorder),
+        Some(specification) => args.judge(specification, &known.known, &recorder),
+        None => args.compare(placed, picture.as_ref(), &known.known, &recorder),
     };
-    recorder.finish(ended)
+    known.finish(recorder, placed, ended)
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "for map_err")]
@@ -150,7 +151,7 @@ impl Args {
         &self,
         placed: Placed,
         picture: Option<&Picture>,
-        known: &Baseline,
+        known: &Arc<Known>,
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
         let args = self;
@@ -167,12 +168,10 @@ impl Args {
             open(args.device).map_err(unavailable)?.with_draw_vertices(args.draw_vertices);
         let bar = progress(cases.len() as u64, "patches");
         let strength = args.strength();
-        let report =
-            probe_known(&mut prober, &cases, strength, &known.cases, |patches| bar.inc(patches));
+        let report = probe_known(&mut prober, &cases, strength, known, |patches| bar.inc(patches));
         bar.finish_and_clear();
         let report = report.map_err(unavailable)?;
         recorder.update(|record| note_parts(record, &report));
-        known.conclude(recorder);
         if let (Some(picture), Some(first)) = (picture, &report.unexplained.first) {
             picture.draw(first)?;
         }
@@ -197,7 +196,12 @@ impl Args {
     }
 
     /// Judges the device by the rules of a standard.
-    fn judge(&self, specification: Specification, recorder: &Recorder) -> Result<Exit, Failure> {
+    fn judge(
+        &self,
+        specification: Specification,
+        known: &Known,
+        recorder: &Recorder,
+    ) -> Result<Exit, Failure> {
         let mut prober = Prober::open(self.device).map_err(unavailable)?;
         let selection = Selection { level: GenLevel::Rules, ..self.selection.selection() };
         let bar = progress(selection.cases().count() as u64, "patches");
@@ -205,9 +209,7 @@ impl Args {
             tess_probe::rules(&mut prober, selection, specification, |patches| bar.inc(patches));
         bar.finish_and_clear();
         note(&prober.info().to_string());
-        let report = report.map_err(unavailable)?;
-        recorder.update(|record| record.add_parts(rules::parts("device", &report)));
-        rules::show(&report)
+        rules::conclude("device", &report.map_err(unavailable)?, known, recorder)
     }
 
     fn strength(&self) -> Strength {

@@ -1,6 +1,6 @@
 //! `tess verify`: every backend against the model.
 
-use super::check::{read_known, rules};
+use super::check::rules;
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
 use crate::campaign::report::{First, Part, Report};
@@ -59,7 +59,7 @@ pub(crate) struct Args {
     random: Option<u64>,
     /// Instead, judge by the rules of this standard: vulkan, opengl or d3d11
     #[arg(long, value_name = "NAME", value_parser = name_of::<Specification>())]
-    #[arg(conflicts_with_all = ["exhaustive", "subject", "random", "given", "known"])]
+    #[arg(conflicts_with_all = ["exhaustive", "subject", "random", "given"])]
     rules: Option<Specification>,
     /// Seed of the random patches
     #[arg(long, value_name = "N", default_value_t = 1, requires = "random")]
@@ -84,16 +84,15 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     };
     let roles = args.known.role().into_iter().chain([Role::stdout()]).chain(args.report.roles());
     refuse_shared(&roles.collect::<Vec<_>>())?;
-    let known = args.known.read(read_known)?;
+    let known = args.known.read(args.rules)?;
     let workers = args.workers()?;
     let recorder = args.report.begin(invocation, placed)?;
     known.note(&recorder);
     let ended = match args.rules {
-        Some(specification) => args.judge(specification, &recorder),
-        None => args.compare(workers, placed, &known.cases, &recorder),
+        Some(specification) => args.judge(specification, &known.known, &recorder),
+        None => args.compare(workers, placed, &known.known, &recorder),
     };
-    known.conclude(&recorder);
-    recorder.finish(ended)
+    known.finish(recorder, placed, ended)
 }
 
 impl Args {
@@ -139,7 +138,12 @@ impl Args {
     }
 
     /// Judges each backend by the rules of a standard.
-    fn judge(&self, specification: Specification, recorder: &Recorder) -> Result<Exit, Failure> {
+    fn judge(
+        &self,
+        specification: Specification,
+        known: &Known,
+        recorder: &Recorder,
+    ) -> Result<Exit, Failure> {
         let split = Some(SplitOrder::Ruler);
         let selection = Selection { split, ..Selection::level(GenLevel::Rules, 1) };
         let cases: Vec<_> = selection.cases().collect();
@@ -152,9 +156,7 @@ impl Args {
                 check_rules(backend.as_mut(), cases, specification, |n| bar.set_position(n));
             bar.finish_and_clear();
             note(&format!("{}: {}", backend.name(), backend.device()));
-            let report = report?;
-            recorder.update(|record| record.add_parts(rules::parts(backend.name(), &report)));
-            if rules::show(&report)? == Exit::Different {
+            if rules::conclude(backend.name(), &report?, known, recorder)? == Exit::Different {
                 exit = Exit::Different;
             }
         }

@@ -37,16 +37,14 @@ const CHECKED_BY: [&str; 5] = [
 const RULES: (usize, &str) = (11, "--rules d3d11");
 
 /// The options that exclude `--rules`, which judges listings without a backend.
-const NOT_JUDGED: [(usize, &str); 9] = [
+const NOT_JUDGED: [(usize, &str); 7] = [
     (2, "--order sequence"),
     (2, "--order any"),
     (3, "--points"),
     (3, "--primitives"),
     (4, "--conversion 0.6ulp"),
     (5, "--denormals flush"),
-    (6, "--cases cases.txt"),
     (7, "--failures failures.txt"),
-    (9, "--known known.txt"),
 ];
 
 fn of_checks() -> Crossed {
