@@ -9,7 +9,7 @@ use crate::data::format::IndexFormat;
 use crate::data::point_writer::PointWriter;
 use crate::data::ranges::Ranges;
 use crate::kernels;
-use crate::kernels::emit::{Caches, Offsets, Packets};
+use crate::kernels::emit::{Caches, Offsets, OneWriters, Packets};
 use crate::kernels::repeat::Repeat;
 use crate::stages::counts::PartCounts;
 #[cfg(target_arch = "x86_64")]
@@ -65,12 +65,12 @@ at_each_level! {
 at_each_level! {
     /// [`kernels::emit::emit_one`] at a level, points as in [`emit`].
     fn emit_one<W: PointWriter, I: IndexFormat>(
-        settings: &Settings,
-        packet: &Packet,
-        out: (W, &mut [I]),
-        caches: &mut Caches,
+        to: &mut OneWriters<'_, W, I>,
+        a: u64,
+        b: u64,
+        c: u64,
         lookup: &mut Lookup,
-    ) = kernels::emit::emit_one, avx512 = emit_one_by_permutes;
+    ) -> bool = kernels::emit::emit_one, avx512 = emit_one_by_permutes;
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -90,16 +90,16 @@ with_avx512! {
     }
 
     fn emit_one_by_permutes<W: PointWriter, I: IndexFormat>(
-        settings: &Settings,
-        packet: &Packet,
-        out: (W, &mut [I]),
-        caches: &mut Caches,
+        to: &mut OneWriters<'_, W, I>,
+        a: u64,
+        b: u64,
+        c: u64,
         _: &mut Lookup,
-    ) {
+    ) -> bool {
         let permute = |patch: PacketPatch<'_>, codes: &[Code], out: &mut W| {
             permute::emit(patch, codes, out);
         };
-        kernels::emit::emit_one(settings, packet, out, caches, &mut Permutes(permute));
+        kernels::emit::emit_one(to, a, b, c, &mut Permutes(permute))
     }
 }
 

@@ -67,6 +67,7 @@ macro_rules! at_each_level {
             $(-> $result:ty)? = $kernel:path $(, avx512 = $special:path)?;
     ) => {
         $(#[$doc])*
+        #[inline]
         pub(crate) fn $name $(<$($type: $bound),*>)? (level: $crate::Level, $($arg: $arg_type),*)
             $(-> $result)?
         {
@@ -93,13 +94,19 @@ macro_rules! at_each_level {
                 }
             }
 
+            // Apart, so that choosing a level needs no registers and no stack.
+            #[inline(never)]
+            fn baseline $(<$($type: $bound),*>)? ($($arg: $arg_type),*) $(-> $result)? {
+                $kernel($($arg),*)
+            }
+
             match level {
                 #[cfg(target_arch = "x86_64")]
                 $crate::Level::Avx2 => avx2($($arg),*),
                 #[cfg(target_arch = "x86_64")]
                 $crate::Level::Avx512 => avx512($($arg),*),
                 // Elsewhere it is the only level that is available.
-                _ => $kernel($($arg),*),
+                _ => baseline($($arg),*),
             }
         }
     };

@@ -34,7 +34,7 @@ pub(crate) trait PointRoom: Sized + Send {
     /// The first points, which it has, and those behind them.
     fn split_at(self, points: usize) -> (Self, Self);
 
-    fn is_empty(&self) -> bool;
+    fn len(&self) -> usize;
 }
 
 impl<P: OutputPoint> PointRoom for &mut [P] {
@@ -56,8 +56,8 @@ impl<P: OutputPoint> PointRoom for &mut [P] {
         self.split_at_mut(points)
     }
 
-    fn is_empty(&self) -> bool {
-        (**self).is_empty()
+    fn len(&self) -> usize {
+        (**self).len()
     }
 }
 

@@ -1,33 +1,20 @@
 //! The caller's buffers, in formats that are known at run time.
 //!
 //! Below the public interface nothing depends on the formats' types, so that everything is compiled
-//! once, in this crate, for each pair of formats. [`AnyBuffers::give`] makes them types again, once a call.
+//! once, in this crate, for each pair of formats. [`with_types`] makes them types again, once a call.
 
 use crate::data::error::{Buffer, Error};
 use crate::data::format::{AnyIndices, AnyPoints, IndexFormat, OutputPoint};
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
 use crate::data::output::{Buffers, PatchRange};
-use crate::data::point_writer::PointRoom;
 
 /// Buffers as the caller gives them.
 #[derive(Debug)]
 pub(crate) struct AnyBuffers<'a> {
-    points: AnyPoints<'a>,
-    indices: AnyIndices<'a>,
-    ranges: Option<&'a mut [PatchRange]>,
-}
-
-/// Takes buffers of any formats.
-pub(crate) trait Taker {
-    type Done;
-
-    fn take<P: PointRoom, I: IndexFormat>(
-        self,
-        points: P,
-        indices: &mut [I],
-        ranges: Option<&mut [PatchRange]>,
-    ) -> Self::Done;
+    pub(crate) points: AnyPoints<'a>,
+    pub(crate) indices: AnyIndices<'a>,
+    pub(crate) ranges: Option<&'a mut [PatchRange]>,
 }
 
 impl<'a, P: OutputPoint, I: IndexFormat> From<Buffers<'a, P, I>> for AnyBuffers<'a> {
@@ -43,31 +30,24 @@ impl<'a, I: IndexFormat> From<ApartBuffers<'a, I>> for AnyBuffers<'a> {
     }
 }
 
-impl AnyBuffers<'_> {
-    /// Gives the buffers away.
-    #[inline]
-    pub(crate) fn give<T: Taker>(self, to: T) -> T::Done {
-        let Self { points, indices, ranges } = self;
+/// Runs an expression with [`AnyBuffers`] as what they are: points, indices and perhaps ranges.
+macro_rules! with_types {
+    ($buffers:expr, |$points:ident, $indices:ident, $ranges:ident| $run:expr) => {{
+        use $crate::data::format::{AnyIndices::*, AnyPoints::*};
+        let $crate::data::target::AnyBuffers { points, indices, ranges: $ranges } = $buffers;
         match (points, indices) {
-            (AnyPoints::F32(points), AnyIndices::U16(indices)) => to.take(points, indices, ranges),
-            (AnyPoints::F32(points), AnyIndices::U32(indices)) => to.take(points, indices, ranges),
-            (AnyPoints::Fixed(points), AnyIndices::U16(indices)) => {
-                to.take(points, indices, ranges)
-            }
-            (AnyPoints::Fixed(points), AnyIndices::U32(indices)) => {
-                to.take(points, indices, ranges)
-            }
+            (F32($points), U16($indices)) => $run,
+            (F32($points), U32($indices)) => $run,
+            (Fixed($points), U16($indices)) => $run,
+            (Fixed($points), U32($indices)) => $run,
             #[cfg(feature = "apart")]
-            (AnyPoints::F32Apart(points), AnyIndices::U16(indices)) => {
-                to.take(points, indices, ranges)
-            }
+            (F32Apart($points), U16($indices)) => $run,
             #[cfg(feature = "apart")]
-            (AnyPoints::F32Apart(points), AnyIndices::U32(indices)) => {
-                to.take(points, indices, ranges)
-            }
+            (F32Apart($points), U32($indices)) => $run,
         }
-    }
+    }};
 }
+pub(crate) use with_types;
 
 /// The first `needed` elements of a caller's buffer and up to `more` behind them.
 ///

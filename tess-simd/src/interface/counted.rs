@@ -10,7 +10,7 @@ use crate::data::output::ApartBuffers;
 use crate::data::output::{BatchCounts, Buffers, Numbering, Output, PatchRange};
 use crate::data::point_writer::PointRoom;
 use crate::data::ranges::Ranges;
-use crate::data::target::{AnyBuffers, Taker, first};
+use crate::data::target::{AnyBuffers, first, with_types};
 use crate::kernels::emit::Offsets;
 use crate::stages::counts::PartCounts;
 use crate::stages::packet::Packet;
@@ -132,7 +132,29 @@ impl<'a> Counted<'a> {
         numbering: Numbering,
         target: AnyBuffers<'_>,
     ) -> Result<BatchCounts, Error> {
-        target.give(BatchWriter { counted: self, numbering })
+        with_types!(target, |points, indices, ranges| {
+            self.write_as(numbering, points, indices, ranges)
+        })
+    }
+
+    fn write_as<I: IndexFormat>(
+        &mut self,
+        numbering: Numbering,
+        points: impl PointRoom,
+        indices: &mut [I],
+        ranges: Option<&mut [PatchRange]>,
+    ) -> Result<BatchCounts, Error> {
+        self.check_indices::<I>(numbering)?;
+        let counts = self.counts();
+        let ranges = ranges.map(|ranges| first(ranges, Buffer::Ranges, counts.patches, 0));
+        let ranges = Ranges::new(ranges.transpose()?);
+        let points = points.first(counts.points, 0)?;
+        let indices = first(indices, Buffer::Indices, counts.indices, 0)?;
+        let Self { level, settings, batch, slicing, slices, kept, .. } = *self;
+        let part = Part { batch, points, indices, ranges, first: Offsets::default() };
+        let share = Share { part, slice: slicing.patches, counts: slices };
+        self.workspaces.emit(Job { level, settings, numbering, kept }, share);
+        Ok(counts)
     }
 
     /// Whether the largest index fits.
@@ -143,35 +165,5 @@ impl<'a> Counted<'a> {
             }
             _ => Ok(()),
         }
-    }
-}
-
-/// Writes a counted batch into buffers that are large enough.
-struct BatchWriter<'a, 'b> {
-    counted: &'a mut Counted<'b>,
-    numbering: Numbering,
-}
-
-impl Taker for BatchWriter<'_, '_> {
-    type Done = Result<BatchCounts, Error>;
-
-    fn take<P: PointRoom, I: IndexFormat>(
-        self,
-        points: P,
-        indices: &mut [I],
-        ranges: Option<&mut [PatchRange]>,
-    ) -> Result<BatchCounts, Error> {
-        let Self { counted, numbering } = self;
-        counted.check_indices::<I>(numbering)?;
-        let counts = counted.counts();
-        let ranges = ranges.map(|ranges| first(ranges, Buffer::Ranges, counts.patches, 0));
-        let ranges = Ranges::new(ranges.transpose()?);
-        let points = points.first(counts.points, 0)?;
-        let indices = first(indices, Buffer::Indices, counts.indices, 0)?;
-        let Counted { level, settings, batch, slicing, slices, kept, .. } = *counted;
-        let part = Part { batch, points, indices, ranges, first: Offsets::default() };
-        let share = Share { part, slice: slicing.patches, counts: slices };
-        counted.workspaces.emit(Job { level, settings, numbering, kept }, share);
-        Ok(counts)
     }
 }

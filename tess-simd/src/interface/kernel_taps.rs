@@ -10,7 +10,7 @@ use crate::data::lanes::{Column, LANES, MAX_FACTORS};
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointRoom;
 use crate::data::ranges::Ranges;
-use crate::kernels::emit::{Caches, Offsets, Packets};
+use crate::kernels::emit::{Caches, Offsets, OneWriters, Packets};
 use crate::kernels::kernel_taps::{Kernel, TapInput, TapOutput};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
@@ -175,8 +175,8 @@ impl Tap {
             Kernel::CountAndKeep => *part = levels::count_and_keep(*level, config, &batch, kept),
             Kernel::ProcessOne => {
                 self.ones.clear();
-                for &factors in &work.patches {
-                    let (domain, [a, b, c]) = (factors.domain(), pairs(factors));
+                for factors in &work.patches {
+                    let (domain, [a, b, c]) = pairs(factors);
                     let one = &mut self.one;
                     let counts = levels::process_one(*level, one, config, domain, a, b, c);
                     self.ones.push(counts);
@@ -188,10 +188,10 @@ impl Tap {
 
     /// Writes points and indices in their formats.
     fn write(&mut self) {
-        let Self { kernel, level, format, numbering, work, made, caches, .. } = self;
+        let Self { kernel, level, format, numbering, work, made, one, caches, .. } = self;
         let (kernel, level, numbering) = (*kernel, *level, *numbering);
         let TapOutput { points, floats, apart, indices, narrow, ranges, lookup, words, .. } = made;
-        let mut to = TapTarget { kernel, level, numbering, work, caches, lookup, ranges };
+        let mut to = TapTarget { kernel, level, numbering, work, one, caches, lookup, ranges };
         let end = match format {
             Format::FixedU32 => to.write(&mut points[..], indices),
             Format::F32U32 => to.write(&mut floats[..], indices),
@@ -211,6 +211,7 @@ struct TapTarget<'a> {
     level: Level,
     numbering: Numbering,
     work: &'a TapInput,
+    one: &'a mut OnePatch,
     caches: &'a mut Caches,
     lookup: &'a mut Lookup,
     ranges: &'a mut [PatchRange],
@@ -223,19 +224,32 @@ impl TapTarget<'_> {
         mut points: impl PointRoom,
         mut indices: &mut [I],
     ) -> Offsets {
-        let Self { kernel, level, numbering, work, caches, lookup, ranges } = self;
+        let Self { kernel, level, numbering, work, one, caches, lookup, ranges } = self;
         let (settings, packets) = (&work.settings, &work.packets[..]);
         let mut end = Offsets::default();
         match kernel {
             Kernel::WritePoints => levels::of_points(*level, work, points.writer()),
             Kernel::WriteIndices => levels::of_indices(*level, work, indices),
             Kernel::EmitOne => {
-                for packet in packets {
-                    let patch = packet.patch(0);
-                    let out = (points.writer(), &mut *indices);
-                    levels::emit_one(*level, settings, packet, out, caches, lookup);
-                    points = points.split_at(patch.points() as usize).1;
-                    indices = indices.split_at_mut(patch.indices() as usize).1;
+                for patch in &work.patches {
+                    let (domain, [a, b, c]) = pairs(patch);
+                    {
+                        let most_points = points.len();
+                        let (points, indices) = (points.writer(), &mut *indices);
+                        let to = &mut OneWriters {
+                            settings,
+                            domain,
+                            points,
+                            most_points,
+                            indices,
+                            one,
+                            caches,
+                        };
+                        levels::emit_one(*level, to, a, b, c, lookup);
+                    }
+                    let counts = one.counts();
+                    points = points.split_at(counts.points as usize).1;
+                    indices = indices.split_at_mut(counts.indices as usize).1;
                 }
             }
             Kernel::Repeat => {
@@ -281,8 +295,7 @@ fn work(kernel: Kernel, level: Level, input: &Input) -> TapInput {
         Vec::new()
     };
     let raw = patches.chunks(LANES).map(raw_column).collect();
-    let at_once = if kernel == Kernel::EmitOne { 1 } else { Chunk::PATCHES };
-    let packets = patches.chunks(at_once).flat_map(|patches| {
+    let packets = patches.chunks(Chunk::PATCHES).flat_map(|patches| {
         let mut packets = [Packet::EMPTY; Chunk::PACKETS];
         levels::process(level, config, &Batch::from(patches), &mut packets);
         packets.into_iter().take(patches.len().div_ceil(LANES))

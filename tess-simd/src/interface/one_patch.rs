@@ -1,19 +1,15 @@
 //! One patch a call, for callers that have no batch.
 //!
-//! Such a call goes through no chunk, no slices and no pool: the front end takes the one patch ([`Packet`]'s
-//! `one`), and the kernel of batches writes it as the only patch of a packet, from the same templates. So
-//! whatever one of the two ways has learned of a topology, the other knows. A patch with the factors of the one
-//! before skips the front end.
-//!
-//! [`Packet`]: crate::stages::packet::Packet
+//! Such a call goes through no chunk, no slices and no pool: one kernel takes the patch through the front end
+//! (`stages/packet/one`) and, if it is compact, writes it; the kernel of batches writes any other. Both use the templates
+//! of batches. A patch with the factors of the one before skips the front end, so that a write after a count does.
 
-use crate::data::error::{Buffer, Error};
+use crate::data::error::Error;
 use crate::data::format::{IndexFormat, OutputPoint};
 #[cfg(feature = "apart")]
 use crate::data::output::ApartBuffers;
-use crate::data::output::{Buffers, PatchRange};
-use crate::data::point_writer::PointRoom;
-use crate::data::target::{AnyBuffers, Taker, first};
+use crate::data::output::Buffers;
+use crate::data::target::{AnyBuffers, with_types};
 use crate::interface::tessellator::Tessellator;
 use tess_core::{Counts, PatchFactors};
 
@@ -23,6 +19,7 @@ use tess_core::{Counts, PatchFactors};
 #[must_use = "a count alone writes nothing"]
 pub struct CountedPatch<'a> {
     tessellator: &'a mut Tessellator,
+    factors: PatchFactors,
     counts: Counts,
 }
 
@@ -59,7 +56,7 @@ impl Tessellator {
         points: &mut [P],
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        self.count_patch(factors).write(points, indices)
+        self.write_one(&factors.into(), Buffers::new(points, indices).into())
     }
 
     /// [`Tessellator::patch`] with points in two arrays, all u and all v.
@@ -74,14 +71,26 @@ impl Tessellator {
         v: &mut [f32],
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        self.count_patch(factors).write_apart(u, v, indices)
+        self.write_one(&factors.into(), ApartBuffers::new(u, v, indices).into())
     }
 
     /// Counts one patch: the sizes of the buffers that it needs, and then a `write` into them.
     pub fn count_patch(&mut self, factors: impl Into<PatchFactors>) -> CountedPatch<'_> {
-        let (level, config) = (self.level, self.settings.config);
-        let counts = self.workspaces.one().process(level, config, factors.into());
-        CountedPatch { tessellator: self, counts }
+        let factors = factors.into();
+        let counts = self.workspaces.one().count_one(self.level, self.settings.config, &factors);
+        CountedPatch { tessellator: self, factors, counts }
+    }
+
+    fn write_one(
+        &mut self,
+        factors: &PatchFactors,
+        buffers: AnyBuffers<'_>,
+    ) -> Result<Counts, Error> {
+        const MORE: usize = CountedPatch::OVERRUN;
+        let (how, workspace) = ((self.level, &self.settings), self.workspaces.one());
+        with_types!(buffers, |points, indices, _ranges| {
+            workspace.emit_one::<_, MORE>(how, factors, points, indices)
+        })
     }
 }
 
@@ -107,7 +116,7 @@ impl CountedPatch<'_> {
         points: &mut [P],
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        self.write_into(Buffers::new(points, indices).into())
+        self.tessellator.write_one(&self.factors, Buffers::new(points, indices).into())
     }
 
     /// [`CountedPatch::write`] with points in two arrays, all u and all v.
@@ -121,29 +130,6 @@ impl CountedPatch<'_> {
         v: &mut [f32],
         indices: &mut [I],
     ) -> Result<Counts, Error> {
-        self.write_into(ApartBuffers::new(u, v, indices).into())
-    }
-
-    fn write_into(&mut self, target: AnyBuffers<'_>) -> Result<Counts, Error> {
-        target.give(self)
-    }
-}
-
-impl Taker for &mut CountedPatch<'_> {
-    type Done = Result<Counts, Error>;
-
-    #[inline]
-    fn take<P: PointRoom, I: IndexFormat>(
-        self,
-        points: P,
-        indices: &mut [I],
-        _: Option<&mut [PatchRange]>,
-    ) -> Result<Counts, Error> {
-        const MORE: usize = CountedPatch::OVERRUN;
-        let Tessellator { level, settings, workspaces, .. } = &mut *self.tessellator;
-        let points = points.first(self.counts.points as usize, MORE)?;
-        let indices = first(indices, Buffer::Indices, self.counts.indices as usize, MORE)?;
-        workspaces.one().emit_one(*level, settings, points, indices);
-        Ok(self.counts)
+        self.tessellator.write_one(&self.factors, ApartBuffers::new(u, v, indices).into())
     }
 }

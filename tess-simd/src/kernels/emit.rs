@@ -52,11 +52,11 @@ use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointWriter;
 use crate::data::writer::Writer;
 use crate::stages::connect::{self, cache_order};
-use crate::stages::packet::{Packet, PacketPatch};
+use crate::stages::packet::{OnePatch, Packet, PacketPatch};
 use crate::stages::points::{self, CompactPoints, LocationTables};
 use crate::stages::settings::Settings;
 use crate::stages::template::{CompactPoint, Start, Template, Templates, long};
-use tess_core::DomainPoint;
+use tess_core::{Domain, DomainPoint};
 
 /// Packets to write.
 #[derive(Debug)]
@@ -154,25 +154,45 @@ pub(crate) fn emit<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
     first
 }
 
-/// Writes the first patch of a packet, a compact one that is not culled, its indices counted from its own first
-/// point.
+/// Where a single patch goes, and what is kept from patch to patch: together, so that calls pass few arguments.
+pub(crate) struct OneWriters<'a, W, I> {
+    pub(crate) settings: &'a Settings,
+    pub(crate) domain: Domain,
+    pub(crate) points: W,
+    /// As many as `points` has room for.
+    pub(crate) most_points: usize,
+    pub(crate) indices: &'a mut [I],
+    pub(crate) one: &'a mut OnePatch,
+    pub(crate) caches: &'a mut Caches,
+}
+
+/// Takes one patch ([`pairs`](crate::stages::packet::pairs)) through the front end and writes it, its indices counted
+/// from its own first point. Returns whether it was written: it is if it is compact, not culled, and has room.
 ///
 /// [`emit`] would be correct, but sets up state that only large patches use.
 #[inline(always)]
 pub(crate) fn emit_one<W: PointWriter, I: IndexFormat, M: CompactPoints<W>>(
-    settings: &Settings,
-    packet: &Packet,
-    (mut points, indices): (W, &mut [I]),
-    caches: &mut Caches,
+    to: &mut OneWriters<'_, W, I>,
+    a: u64,
+    b: u64,
+    c: u64,
     compact_points: &mut M,
-) {
-    let patch = packet.patch(0);
-    let Caches { tables, templates } = caches;
+) -> bool {
+    let OneWriters { settings, domain, points, most_points, indices, one, caches } = to;
+    let Caches { tables, templates } = &mut **caches;
+    let counts = one.process(settings.config, *domain, a, b, c);
+    let patch = one.packet().patch(0);
+    let has_room =
+        counts.points as usize <= *most_points && counts.indices as usize <= indices.len();
+    if !has_room || counts.points == 0 || !patch.is_compact() {
+        return false;
+    }
     templates.make_room();
     let template = templates.find(patch, (settings, tables), M::kept);
     let template = templates.get(template);
-    points_of(patch, template, &mut points, compact_points);
+    points_of(patch, template, points, compact_points);
     indices_of(patch, template, 0, &mut Writer::new(indices));
+    true
 }
 
 /// Writes a packet of compact patches, stage by stage, so that a wrongly predicted branch in one stage discards no

@@ -3,11 +3,13 @@
 use crate::cpu::level::Level;
 use crate::data::batch::Batch;
 use crate::data::chunk::{Chunk, Stretch};
+use crate::data::error::{Buffer, Error};
 use crate::data::format::IndexFormat;
 use crate::data::output::{Numbering, PatchRange};
 use crate::data::point_writer::PointRoom;
 use crate::data::ranges::Ranges;
-use crate::kernels::emit::{Caches, Offsets, Packets};
+use crate::data::target::first;
+use crate::kernels::emit::{Caches, Offsets, OneWriters, Packets};
 use crate::kernels::repeat::Repeat;
 use crate::levels;
 use crate::stages::packet::{OnePatch, Packet, pairs};
@@ -89,37 +91,49 @@ impl Workspace {
     }
 
     /// Takes one patch through the front end and returns its output sizes.
-    pub(crate) fn process(
+    pub(crate) fn count_one(
         &mut self,
         level: Level,
         config: Config,
-        factors: PatchFactors,
+        factors: &PatchFactors,
     ) -> Counts {
-        let [a, b, c] = pairs(factors);
-        levels::process_one(level, &mut self.memory().one, config, factors.domain(), a, b, c)
+        let (domain, [a, b, c]) = pairs(factors);
+        levels::process_one(level, &mut self.memory().one, config, domain, a, b, c)
     }
 
-    /// Writes the patch that was processed last. What lies behind it in the buffers may be overwritten.
-    pub(crate) fn emit_one<I: IndexFormat>(
+    /// Writes one patch, and perhaps up to `MORE` elements behind it in either buffer. Returns its output sizes.
+    ///
+    /// # Errors
+    /// [`Error::BufferTooSmall`]; then nothing is written.
+    pub(crate) fn emit_one<I: IndexFormat, const MORE: usize>(
         &mut self,
-        level: Level,
-        settings: &Settings,
+        (level, settings): (Level, &Settings),
+        factors: &PatchFactors,
         mut points: impl PointRoom,
         indices: &mut [I],
-    ) {
+    ) -> Result<Counts, Error> {
+        let (domain, [a, b, c]) = pairs(factors);
         let WorkspaceMemory { one, lookup, caches, .. } = self.memory();
-        let (packet, points) = (one.packet(), points.writer());
-        let patch = packet.patch(0);
-        if patch.points() == 0 {
-            return;
+        let written = {
+            let most_points = points.len();
+            let (points, indices) = (points.writer(), &mut *indices);
+            let to =
+                &mut OneWriters { settings, domain, points, most_points, indices, one, caches };
+            levels::emit_one(level, to, a, b, c, lookup)
+        };
+        let counts = one.counts();
+        if written {
+            return Ok(counts);
         }
-        if patch.is_compact() {
-            return levels::emit_one(level, settings, packet, (points, indices), caches, lookup);
+        let mut points = points.first(counts.points as usize, MORE)?;
+        let indices = first(indices, Buffer::Indices, counts.indices as usize, MORE)?;
+        if counts.points != 0 {
+            let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
+            let (packets, ranges) = (from_ref(one.packet()), &mut [PatchRange::default()]);
+            let packets = Packets { packets, first, numbering, ranges };
+            levels::emit(level, settings, packets, (points.writer(), indices), caches, lookup);
         }
-        let (first, numbering) = (Offsets::default(), Numbering::PerPatch);
-        let ranges = &mut [PatchRange::default()];
-        let packets = Packets { packets: from_ref(packet), first, numbering, ranges };
-        levels::emit(level, settings, packets, (points, indices), caches, lookup);
+        Ok(counts)
     }
 }
 
@@ -177,6 +191,6 @@ pub(crate) fn emit<P: PointRoom, I: IndexFormat>(
         indices = indices.split_at_mut((end.indices - first.indices) as usize).1;
         first = end;
     }
-    debug_assert!(points.is_empty(), "the points were counted");
+    debug_assert!(points.len() == 0, "the points were counted");
     debug_assert!(indices.is_empty(), "the indices were counted");
 }

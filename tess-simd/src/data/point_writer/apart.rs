@@ -34,8 +34,9 @@ impl PointRoom for [&mut [f32]; 2] {
         ([u, v], [more_u, more_v])
     }
 
-    fn is_empty(&self) -> bool {
-        self.iter().all(|array| array.is_empty())
+    fn len(&self) -> usize {
+        let [u, v] = self;
+        u.len().min(v.len())
     }
 }
 

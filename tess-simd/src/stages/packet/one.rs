@@ -30,7 +30,7 @@ type RawFactors = [[f32; 1]; ROWS];
 
 /// Pairs of raw factors, the first of each pair in the lower half, zeros behind them. They travel in registers: a
 /// vector that is loaded from memory would wait for factors written in pieces.
-pub(crate) type RawPairs = [u64; MAX_FACTORS / 2];
+type RawPairs = [u64; MAX_FACTORS / 2];
 
 impl OnePatch {
     /// A patch that is culled, as all its factors are 0.
@@ -45,6 +45,11 @@ impl OnePatch {
     /// The packet with the patch.
     pub(crate) const fn packet(&self) -> &Packet {
         &self.packet
+    }
+
+    /// The output sizes of the patch; zeros if it is culled.
+    pub(crate) const fn counts(&self) -> Counts {
+        self.counts
     }
 
     /// Processes the raw factors of one patch, unless they are those of the patch before. Returns its output
@@ -116,11 +121,11 @@ fn side_by_side(factors: PatchFactors) -> RawFactors {
     raw.map(|factor| [factor])
 }
 
-/// The raw factors of one patch in pairs.
+/// The domain and the raw factors of one patch, in pairs.
 #[inline(always)]
-pub(crate) fn pairs(factors: PatchFactors) -> RawPairs {
-    let raw = side_by_side(factors).map(|[factor]| u64::from(factor.to_bits()));
-    from_fn(|i| raw[2 * i] | (raw[2 * i + 1] << 32))
+pub(crate) fn pairs(factors: &PatchFactors) -> (Domain, RawPairs) {
+    let raw = side_by_side(*factors).map(|[factor]| u64::from(factor.to_bits()));
+    (factors.domain(), from_fn(|i| raw[2 * i] | (raw[2 * i + 1] << 32)))
 }
 
 /// The factors of which [`pairs`] made these.
