@@ -96,7 +96,7 @@ fn integers<const L: usize, const F: usize>(
 
 /// 1 where every row has it.
 #[inline(always)]
-fn all<T: Copy, const L: usize>(rows: &[[T; L]], has: impl Fn(T) -> bool) -> [u32; L] {
+pub(crate) fn all<T: Copy, const L: usize>(rows: &[[T; L]], has: impl Fn(T) -> bool) -> [u32; L] {
     let mut all = [1; L];
     for row in rows {
         for lane in 0..L {

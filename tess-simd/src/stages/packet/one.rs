@@ -6,7 +6,7 @@
 
 use super::Packet;
 use crate::data::lanes::{MAX_FACTORS, set};
-use crate::stages::factors::{Processed, process};
+use crate::stages::factors::{Processed, all, process};
 use core::array::from_fn;
 use tess_core::{Config, Counts, Domain, PatchFactors};
 
@@ -81,9 +81,18 @@ impl OnePatch {
         self.counts
     }
 
+    /// Whether the patch is a minimum patch that is not culled.
+    #[inline(always)]
+    const fn is_minimum(&self) -> bool {
+        self.kept[0] != 0 && self.packet.patch(0).is_minimum()
+    }
+
     /// Makes the packet from raw factors, unless it has the processed ones.
     #[inline(always)]
     fn process_as(&mut self, config: Config, domain: Domain, raw: &RawFactors, other: bool) {
+        if !other && self.is_minimum() && are_at_most_one(&raw[..domain.factors()]) {
+            return;
+        }
         let processed = process(config.partitioning, domain, raw);
         let kept = kept(&processed);
         let differences = (0..ROWS).fold(0, |any, i| any | (kept[i] ^ self.kept[i]));
@@ -92,6 +101,12 @@ impl OnePatch {
             self.counts = self.packet.keep_one(config, domain, 0, &processed);
         }
     }
+}
+
+/// Whether all factors are in (0, 1]: where there are minimum patches, they make one.
+#[inline(always)]
+fn are_at_most_one(raw: &[[f32; 1]]) -> bool {
+    all(raw, |factor| factor.to_bits().wrapping_sub(1) < 1.0_f32.to_bits()) == [1]
 }
 
 /// Processed factors in one vector: zeros if the patch is culled, as the others are at least 1. In one
@@ -180,5 +195,50 @@ impl Packet {
         set(&mut self.counts.points, lane, counts.points);
         set(&mut self.counts.indices, lane, counts.indices);
         counts.of_patch(config, domain)
+    }
+}
+
+#[cfg(all(test, feature = "std"))]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+    use tess_core::{OutputPrimitive, Partitioning};
+
+    /// A domain, and patches of it whose factors are alike but for one.
+    fn near_minimum(domain: Domain) -> Vec<PatchFactors> {
+        let factors = [0.0, f32::from_bits(1), 0.5, 1.0, 1.0_f32.next_up(), 2.0, -1.0, f32::NAN];
+        let mut patches = Vec::new();
+        for [most, one] in factors.map(|most| factors.map(|one| [most, one])).as_flattened() {
+            for place in 0..domain.factors() {
+                let mut raw = [*most; MAX_FACTORS];
+                raw[place] = *one;
+                patches.extend(PatchFactors::from_slice(domain, &raw[..domain.factors()]));
+            }
+        }
+        patches
+    }
+
+    /// Whatever came before, minimum patches that were culled or have other factors included.
+    #[test]
+    fn minimum_patches_follow_from_their_factors() {
+        use Partitioning::{FractionalEven, FractionalOdd, Integer, Pow2};
+        let domains = [Domain::Triangle, Domain::Quad];
+        let patches: Vec<_> = domains.into_iter().flat_map(near_minimum).collect();
+        for partitioning in [Integer, Pow2, FractionalOdd, FractionalEven] {
+            let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
+            let processed = |one: &mut OnePatch, patch| {
+                let (domain, [a, b, c]) = pairs(patch);
+                one.process(config, domain, a, b, c)
+            };
+            for before in patches.iter().step_by(7) {
+                for patch in &patches {
+                    let (mut one, mut other) = (OnePatch::CULLED, OnePatch::CULLED);
+                    processed(&mut one, before);
+                    let expected = processed(&mut other, patch);
+                    let counts = processed(&mut one, patch);
+                    assert_eq!(counts, expected, "{partitioning:?}, {before:?}, then {patch:?}");
+                }
+            }
+        }
     }
 }
