@@ -161,12 +161,12 @@ mod alone {
 
     at_each_level! {
         /// [`kernel_taps::of_numbers`] at a level.
-        fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) = kernel_taps::of_numbers;
+        fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool = kernel_taps::of_numbers;
     }
 
     at_each_level! {
         /// [`kernel_taps::of_patches`] at a level.
-        fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) = kernel_taps::of_patches;
+        fn of_patches(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool = kernel_taps::of_patches;
     }
 
     at_each_level! {

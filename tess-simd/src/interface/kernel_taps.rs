@@ -150,19 +150,13 @@ impl Tap {
     /// Runs the kernel over the input.
     pub fn run(&mut self) {
         let Self { kernel, level, work, made, .. } = self;
-        match *kernel {
-            Kernel::Process
-            | Kernel::Count
-            | Kernel::CountAndKeep
-            | Kernel::ProcessOne
-            | Kernel::Emit
-            | Kernel::EmitOne
-            | Kernel::Repeat
-            | Kernel::WritePoints
-            | Kernel::WriteIndices => self.run_kernel(),
-            Kernel::CompactPoints => levels::compact_points(*level, work, made),
-            kernel if is_of_patches(kernel) => levels::of_patches(*level, kernel, work, made),
-            kernel => levels::of_numbers(*level, kernel, work, made),
+        let (kernel, level) = (*kernel, *level);
+        if kernel == Kernel::CompactPoints {
+            levels::compact_points(level, work, made);
+        } else if !levels::of_numbers(level, kernel, work, made)
+            && !levels::of_patches(level, kernel, work, made)
+        {
+            self.run_kernel();
         }
     }
 
@@ -311,23 +305,4 @@ fn raw_column(patches: &[PatchFactors]) -> Column<f32> {
         patch.iter().enumerate().for_each(|(i, factor)| column[i][lane] = factor);
     }
     column
-}
-
-/// Whether a kernel is one of [`levels::of_patches`].
-const fn is_of_patches(kernel: Kernel) -> bool {
-    use Kernel::{CacheOrder, Codes, CompactTemplate, ConnectU16, ConnectU32};
-    use Kernel::{Points, RowsU16, RowsU32, Tables, Template};
-    matches!(
-        kernel,
-        CacheOrder
-            | Codes
-            | CompactTemplate
-            | ConnectU16
-            | ConnectU32
-            | Points
-            | RowsU16
-            | RowsU32
-            | Tables
-            | Template
-    )
 }

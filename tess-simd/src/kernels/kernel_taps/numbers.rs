@@ -16,9 +16,9 @@ use tess_core::Partitioning;
 use tess_core::fixed_point::ONE;
 use tess_core::stitch::Diagonals;
 
-/// Runs a stage whose input are numbers.
+/// Runs a stage whose input are numbers or raw factors; returns whether the kernel is one.
 #[inline(always)]
-pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) {
+pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
     let (numbers, words) = (&work.numbers[..], &mut made.words);
     words.clear();
     let (odd, split) = (work.parity.odd(), work.settings.config.split);
@@ -55,13 +55,14 @@ pub(crate) fn of_numbers(kernel: Kernel, work: &TapInput, made: &mut TapOutput) 
                 words.extend(codes[..length].iter().map(|&code| i32::from(code).cast_unsigned()));
             }
         }
-        _ => of_raw(kernel, work, made),
+        _ => return of_raw(kernel, work, made),
     }
+    true
 }
 
 /// Runs a stage whose input are raw factors. Loops, as a closure in `extend` would miss the level's instructions.
 #[inline(always)]
-fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) {
+fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) -> bool {
     let config = work.settings.config;
     match kernel {
         Kernel::Factors => {
@@ -98,8 +99,9 @@ fn of_raw(kernel: Kernel, work: &TapInput, made: &mut TapOutput) {
                 }
             }
         }
-        _ => debug_assert!(false, "{kernel:?} takes no numbers"),
+        _ => return false,
     }
+    true
 }
 
 /// The bounds of an inside factor beside factors of 3.

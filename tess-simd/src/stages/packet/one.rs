@@ -198,10 +198,10 @@ impl Packet {
     }
 }
 
-#[cfg(all(test, feature = "std"))]
+#[cfg(test)]
 mod tests {
     use super::*;
-    use std::vec::Vec;
+    use alloc::vec::Vec;
     use tess_core::{OutputPrimitive, Partitioning};
 
     /// A domain, and patches of it whose factors are alike but for one.
