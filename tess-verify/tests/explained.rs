@@ -4,11 +4,11 @@
 use tess_core::{Domain, DomainPoint, Tessellation};
 use tess_verify::Case;
 use tess_verify::check::{
-    Conversion, Denormals, Elements, Order, Report, SpecStage, Strength, Way, check_device,
+    Conversion, Denormals, Elements, ListOrder, Report, SpecStage, Strength, Way, check_device,
 };
 
 const ANY: Strength = Strength {
-    order: Order::Any,
+    order: ListOrder::Any,
     elements: Elements::Primitives,
     conversion: Conversion::Exact,
     denormals: Denormals::Keep,

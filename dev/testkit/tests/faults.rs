@@ -5,8 +5,8 @@ use std::sync::atomic::Ordering;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_testkit::faults::{Fault, Faulty};
 use tess_verify::check::{
-    CheckError, Conversion, Element, MAX_DIFFERENCES, Order, Report, SpecStage, Strength, Tested,
-    check, check_device,
+    CheckError, Conversion, Element, ListOrder, MAX_DIFFERENCES, Report, SpecStage, Strength,
+    Tested, check, check_device,
 };
 use tess_verify::vectors::VectorFile;
 use tess_verify::{Backend, Case, CoreBackend};
@@ -203,7 +203,7 @@ fn wrong_records() {
 /// A device's faults are seen in any order too: none of them is one of order alone.
 #[test]
 fn faults_of_devices_in_any_order() {
-    let any = Strength { order: Order::Any, ..Strength::default() };
+    let any = Strength { order: ListOrder::Any, ..Strength::default() };
     let within = Strength { conversion: Conversion::Within06Ulp, ..any };
     let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
     let factors = [2.5, 3.0, 7.5, 5.0].map(|factor| {
