@@ -1,8 +1,12 @@
 //! Verification of backends: it compares what it says, in any number of shards and threads.
 
-use tess_verify::check::{Known, SecondFormulation, Subject, SubjectRow, VerifyPlan, verify};
+use tess_core::{Config, PatchFactors, Tessellation};
+use tess_verify::check::{
+    Known, SecondFormulation, Subject, SubjectRow, Tested, VerifyPlan, check, verify,
+};
 use tess_verify::generate::Shard;
-use tess_verify::{Backend, BackendError};
+use tess_verify::vectors::{Listing, VectorFile};
+use tess_verify::{Backend, BackendError, CoreBackend};
 
 /// One part in 61 of every subject (and far less of the largest).
 fn small_plan() -> VerifyPlan {
@@ -61,6 +65,59 @@ fn factors_agree_with_binary64() {
         &VerifyPlan { subjects: vec![Subject::Factors], shard },
     );
     assert_eq!((rows[0].compared, rows[0].first.as_deref()), (4 << 20, None), "four units");
+}
+
+/// The model, but that one of so many patches in a row has a point too many.
+struct Stateful {
+    every: u64,
+    asked: u64,
+}
+
+impl Backend for Stateful {
+    fn name(&self) -> &'static str {
+        "stateful"
+    }
+
+    fn device(&self) -> String {
+        String::new()
+    }
+
+    fn tessellate(
+        &mut self,
+        config: Config,
+        patches: &[PatchFactors],
+    ) -> Result<Vec<Tessellation>, BackendError> {
+        let mut outputs = CoreBackend.tessellate(config, patches)?;
+        for output in &mut outputs {
+            self.asked += 1;
+            if self.asked.is_multiple_of(self.every) {
+                output.points.push(Default::default());
+            }
+        }
+        Ok(outputs)
+    }
+}
+
+/// A patch that differs is asked for again: right by itself if every thousandth fails, wrong if each does.
+#[test]
+fn what_came_before_is_told_from_the_patch() {
+    for (every, passes_alone) in [(1000, true), (1, false)] {
+        let plan = VerifyPlan { subjects: vec![Subject::Interiors], shard: Shard::WHOLE };
+        let [row] = &run(&mut [vec![Box::new(Stateful { every, asked: 0 })]], &plan)[..] else {
+            panic!("one row")
+        };
+        assert!(row.mismatches > 7, "{row:?}");
+        assert_eq!(row.passes_alone, passes_alone, "{row:?}");
+        let case = "case tri integer line ruler 3f800000 3f800000 3f800000 3f800000";
+        let one = Listing::of_model(case.parse().expect("a case")).to_file("model");
+        let (header, listing) = one.split_once('\n').expect("a header");
+        let text = header.replace("count=1", "count=3000") + "\n" + &listing.repeat(3000);
+        let file = VectorFile::new("model", text.as_bytes()).expect("a file");
+        let mut backends: [Box<dyn Backend>; 1] = [Box::new(Stateful { every, asked: 0 })];
+        let report = check(file, &mut backends, Tested::Backend, &|_| ()).expect("it runs");
+        assert_eq!(report.mismatches, if passes_alone { 3 } else { 3000 });
+        assert!(report.differences.iter().all(|one| one.passes_alone == passes_alone), "{every}");
+    }
 }
 
 #[test]

@@ -163,7 +163,7 @@ impl<'a> Expected<'a> {
         if let Some(case) = self.next.pop_front() {
             let found = Found::Different(missing(), Some(case));
             let found = found.unless_known(Some(case), self.known);
-            self.missing.add(self.due, None, found, || None);
+            self.missing.add(self.due, None, found, Default::default);
             self.due += 1;
         }
     }

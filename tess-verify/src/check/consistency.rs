@@ -31,7 +31,14 @@ pub(super) fn conflicts(mut uses: Vec<Use>) -> Report {
             let Use { number, line, case, .. } = used;
             let case = Some(case);
             report.explain(Explained::default());
-            report.differ(Difference { number, line, mismatch, case, file: None });
+            report.differ(Difference {
+                number,
+                line,
+                mismatch,
+                case,
+                file: None,
+                passes_alone: false,
+            });
         }
     }
     report

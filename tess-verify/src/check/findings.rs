@@ -54,13 +54,14 @@ pub(super) struct Findings {
 }
 
 impl Findings {
-    /// Adds what was found of record `number`, which `file` can show again on its own.
+    /// Adds what was found of record `number`. Of one that is shown, `again` gives the record as a file, and whether it
+    /// passes alone.
     pub(super) fn add(
         &mut self,
         number: u64,
         line: Option<u64>,
         found: Found,
-        file: impl FnOnce() -> Option<String>,
+        again: impl FnOnce() -> (Option<String>, bool),
     ) {
         self.report.cases += 1;
         match found {
@@ -70,29 +71,26 @@ impl Findings {
                 self.uses.push(Use { number, line, case, conversions });
             }
             Found::Different(mismatch, case) => {
-                let difference = Difference { number, line, mismatch, case, file: None };
-                self.differ(difference, Explained::default(), file);
+                self.differ((number, line), mismatch, case, Explained::default(), again);
             }
             Found::Explained(mismatch, case, explained) => {
-                let case = Some(case);
-                self.differ(
-                    Difference { number, line, mismatch, case, file: None },
-                    explained,
-                    file,
-                );
+                self.differ((number, line), mismatch, Some(case), explained, again);
             }
         }
     }
 
     fn differ(
         &mut self,
-        difference: Difference,
+        (number, line): (u64, Option<u64>),
+        mismatch: Mismatch,
+        case: Option<Case>,
         explained: Explained,
-        file: impl FnOnce() -> Option<String>,
+        again: impl FnOnce() -> (Option<String>, bool),
     ) {
         self.report.explain(explained);
-        let file = if self.report.shows(&difference) { file() } else { None };
-        self.report.differ(Difference { file, ..difference });
+        let found = Difference { number, line, mismatch, case, file: None, passes_alone: false };
+        let (file, passes_alone) = if self.report.shows(&found) { again() } else { (None, false) };
+        self.report.differ(Difference { file, passes_alone, ..found });
     }
 
     /// Adds what another worker found.
@@ -129,7 +127,7 @@ mod tests {
             let found = Found::Different(mismatch, Some(line.parse().expect("a case")));
             findings.add(number, None, found, || {
                 made.push(number);
-                Some(format!("file {number}"))
+                (Some(format!("file {number}")), false)
             });
         }
         let expected: Vec<u64> = (1..=first).chain([first + 3]).collect();

@@ -142,6 +142,9 @@ pub struct Difference {
     pub case: Option<Case>,
     /// The record alone as a vector file; `None` for a listing, which may be long.
     pub file: Option<String>,
+    /// Whether it is right when the backend is asked for it again by itself: what came before matters. A device that
+    /// only gave a file is not asked.
+    pub passes_alone: bool,
 }
 
 impl Difference {

@@ -7,7 +7,7 @@ use crate::case::Case;
 use crate::check::Known;
 use crate::check::compare::{self, Mismatch, SpecStage};
 use crate::check::sequences::bucket;
-use crate::check::tessellate;
+use crate::check::{Strength, check_case, tessellate};
 use crate::core_backend::CoreBackend;
 use crate::names::Named;
 use std::collections::BTreeMap;
@@ -32,6 +32,8 @@ pub struct SubjectRow {
     pub known: u64,
     /// The first difference, as text.
     pub first: Option<String>,
+    /// Whether its patch is right when it is asked for again by itself: what came before matters.
+    pub passes_alone: bool,
 }
 
 /// Compares everything in the plan's shard. A patch that differs is no mismatch if that is `known`.
@@ -95,12 +97,14 @@ struct Compared {
     known: u64,
     /// The first difference that is not known, as text, and its stage.
     first: Option<(SpecStage, String)>,
+    passes_alone: bool,
 }
 
 impl SubjectRow {
-    const fn new(subject: Subject, backend: &'static str) -> Self {
-        let stages = BTreeMap::new();
-        Self { subject, backend, compared: 0, mismatches: 0, stages, known: 0, first: None }
+    fn new(subject: Subject, backend: &'static str) -> Self {
+        let (stages, first) = (BTreeMap::new(), None);
+        let (compared, mismatches, known, passes_alone) = (0, 0, 0, false);
+        Self { subject, backend, compared, mismatches, stages, known, first, passes_alone }
     }
 
     fn add(&mut self, unit: Compared) {
@@ -109,7 +113,9 @@ impl SubjectRow {
         if let Some((stage, first)) = unit.first {
             self.mismatches += 1;
             *self.stages.entry(stage).or_default() += 1;
-            self.first.get_or_insert(first);
+            if self.first.is_none() {
+                (self.first, self.passes_alone) = (Some(first), unit.passes_alone);
+            }
         }
     }
 }
@@ -118,7 +124,7 @@ impl Compared {
     /// Elements that are no patches, of which none is known.
     fn values(elements: u64, name: &str, mismatch: Option<Mismatch>) -> Self {
         let first = mismatch.map(|mismatch| (mismatch.stage, format!("{name}: {mismatch}")));
-        Self { elements, known: 0, first }
+        Self { elements, known: 0, first, passes_alone: false }
     }
 }
 
@@ -142,7 +148,7 @@ fn compare_patches(
 ) -> Result<Compared, BackendError> {
     let observed = tessellate(backend, cases)?;
     let mut expected = Tessellation::default();
-    let mut compared = Compared { elements: cases.len() as u64, known: 0, first: None };
+    let mut compared = Compared::values(cases.len() as u64, "", None);
     for (case, observed) in cases.iter().zip(&observed) {
         expected.points.clear();
         expected.indices.clear();
@@ -150,9 +156,10 @@ fn compare_patches(
         let mismatch = Mismatch::between(case, observed, &expected);
         if known.excuses(case, mismatch.as_ref().map(|found| found as _)) {
             compared.known += 1;
-        } else if let Some(mismatch) = mismatch {
-            let text = || format!("{case}\n  {mismatch}\n  {}", case.command());
-            compared.first.get_or_insert_with(|| (mismatch.stage, text()));
+        } else if let Some(mismatch) = mismatch.filter(|_| compared.first.is_none()) {
+            let text = format!("{case}\n  {mismatch}\n  {}", case.command());
+            compared.first = Some((mismatch.stage, text));
+            compared.passes_alone = check_case(backend, case, Strength::default())?.is_none();
         }
     }
     Ok(compared)

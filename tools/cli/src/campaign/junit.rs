@@ -99,10 +99,7 @@ fn of_part(part: &Part) -> Outcome {
         return Outcome::Passed;
     }
     let Part { cases, mismatches, .. } = part;
-    let first = part.first.as_ref().map(|first| {
-        let case = first.case.iter().map(|case| format!("{case}\n")).collect::<String>();
-        format!("first: {case}{}", first.difference)
-    });
+    let first = part.first.as_ref().map(|first| format!("first: {}", first.text("\n")));
     Outcome::Failed(format!("{mismatches} of {cases} differ"), first.unwrap_or_default())
 }
 

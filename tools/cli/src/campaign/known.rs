@@ -127,7 +127,8 @@ impl Baseline {
             }
             if let Some(fault) = faults.first() {
                 let number = faults.len() as u64;
-                let first = Some(First { case: None, difference: fault.clone() });
+                let first =
+                    Some(First { case: None, difference: fault.clone(), ..First::default() });
                 let name = "baseline".to_owned();
                 report.add_parts([Part { name, cases: number, mismatches: number, first }]);
             }

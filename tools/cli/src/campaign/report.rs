@@ -46,6 +46,9 @@ pub(crate) struct Report {
     pub(crate) stages: BTreeMap<String, u64>,
     #[serde(default)]
     pub(crate) first: Option<First>,
+    /// What the numbers of all records that differ are multiples of apart.
+    #[serde(default)]
+    pub(crate) period: Option<u64>,
     /// The fate of the baseline, if there is one.
     #[serde(default)]
     pub(crate) known: Option<KnownCases>,
@@ -72,13 +75,29 @@ pub(crate) enum State {
 }
 
 /// A difference.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct First {
     /// The case line, if one patch shows it.
     pub(crate) case: Option<String>,
     /// The difference.
     pub(crate) difference: String,
+    /// Whether the case is known to be right by itself.
+    #[serde(default)]
+    pub(crate) passes_alone: bool,
+}
+
+/// What is said of a case that differs and passes alone.
+pub(crate) const PASSES_ALONE: &str = "passes alone: asked again, or in another record, the same case is right, so what came before matters";
+
+impl First {
+    /// The case, the difference, and whether it passes alone, with this between them.
+    pub(crate) fn text(&self, between: &str) -> String {
+        let Self { case, difference, passes_alone } = self;
+        let alone = passes_alone.then_some(PASSES_ALONE);
+        let parts = [case.as_deref(), Some(difference), alone].into_iter().flatten();
+        parts.collect::<Vec<_>>().join(between)
+    }
 }
 
 /// The baseline, and what became of the known differences.

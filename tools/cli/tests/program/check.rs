@@ -1,5 +1,6 @@
 //! `tess check`: exit codes and messages for good, damaged and malformed files of every kind.
 
+use crate::campaigns::json;
 use crate::support::{directory, tess, tess_with_input};
 use std::fs::{read_to_string, write};
 
@@ -43,10 +44,18 @@ fn devices_that_keep_something() {
     let wrong = right.replacen(first, "00000 0ffff", 1);
     let records = (0..500).map(|i| if i % 100 == 49 { &*wrong } else { right });
     let header = "# tess-vectors 1 kind=listings count=500 source=device level=1\n";
-    let run = tess_with_input("check -", &(header.to_owned() + &records.collect::<String>()));
+    let folder = directory("devices_that_keep_something");
+    let file = |name: &str| folder.join(name).display().to_string();
+    let words = format!("check - --report {} --junit {}", file("r.jsonl"), file("r.xml"));
+    let run = tess_with_input(&words, &(header.to_owned() + &records.collect::<String>()));
     assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
     assert_eq!(run.stderr, "tess: cases of level 1, version 1; the newest is 2\n");
     assert_eq!(run.stdout.matches("\n  passes alone: ").count(), 5, "{}", run.stdout);
+    let report = json(&folder.join("r.jsonl"));
+    let said = (&report["period"], &report["first"]["passes_alone"]);
+    assert_eq!(said, (&100.into(), &true.into()), "{report}");
+    let xml = read_to_string(file("r.xml")).expect("written");
+    assert!(xml.contains("&#10;passes alone: "), "{xml}");
     let end = "differ are multiples of 100 apart\n500 cases, 5 mismatches\n";
     assert!(run.stdout.ends_with(end), "{}", run.stdout);
 }

@@ -10,6 +10,7 @@ pub(crate) use strength::{ConversionName, DenormalsName};
 
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
+use crate::campaign::report::PASSES_ALONE;
 use crate::campaign::{Invocation, KnownArgs, Recorder, ReportArgs, ShardArgs};
 use crate::coverage_file::{self, CoverageFile};
 use crate::failure::{Exit, Failure};
@@ -180,7 +181,11 @@ fn compare(
         }
     });
     bar.finish_and_clear();
-    let report = report.map_err(failure)?;
+    let mut report = report.map_err(failure)?;
+    let right = right.into_inner().unwrap_or_else(PoisonError::into_inner);
+    for difference in &mut report.differences {
+        difference.passes_alone |= difference.case.is_some_and(|case| right.contains(&case));
+    }
     recorder.update(|record| record::finish(record, &report));
     if let Some(coverage) = coverage {
         let coverage = coverage.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -197,7 +202,6 @@ fn compare(
         _ => format!("tested: the backend {backend}; right: {name}"),
     };
     let backend = args.options.words(backend);
-    let right = right.into_inner().unwrap_or_else(PoisonError::into_inner);
     show(&report, &sides, &backend, &right)
         .map_err(|error| Failure::write(Path::new("-"), error))?;
     Ok(if report.mismatches == 0 { Exit::Done } else { Exit::Different })
@@ -314,11 +318,9 @@ fn show(report: &Report, sides: &str, backend: &str, right: &HashSet<Case>) -> i
     };
     for difference in &all {
         show_one(&mut out, difference, backend)?;
-        if difference.case.is_some_and(|case| right.contains(&case)) {
-            writeln!(
-                out,
-                "  passes alone: the same case is right in another record, so what came before matters"
-            )?;
+        let is_right = |case| right.contains(&case);
+        if difference.passes_alone || difference.case.is_some_and(is_right) {
+            writeln!(out, "  {PASSES_ALONE}")?;
         }
     }
     let hidden = report.mismatches - all.len() as u64;

@@ -48,12 +48,14 @@ pub(super) fn finish(report: &mut Report, found: &check::Report) {
     // The threads of a check take turns in no order.
     report.parts.sort_by(|a, b| a.name.cmp(&b.name));
     report.first = found.differences.first().map(first);
+    report.period = found.period();
     report.add_stages(found.groups().iter().map(|group| (group.stage, group.mismatches)));
 }
 
 pub(super) fn first(difference: &Difference) -> First {
     let case = difference.case.map(|case| case.to_string());
-    First { case, difference: difference.mismatch.to_string() }
+    let (difference, passes_alone) = (difference.mismatch.to_string(), difference.passes_alone);
+    First { case, difference, passes_alone }
 }
 
 /// Adds the bins that the file hits.

@@ -129,7 +129,8 @@ pub(crate) fn conclude(
         }
         let first = row.smallest.as_ref().map(|example| {
             let cases: Vec<String> = example.cases.iter().map(ToString::to_string).collect();
-            First { case: Some(cases.join("\n")), difference: example.what.clone() }
+            let difference = example.what.clone();
+            First { case: Some(cases.join("\n")), difference, ..First::default() }
         });
         let (name, mismatches) = (format!("{tested} {name}"), if is_known { 0 } else { *broken });
         let part = Part { name, cases: *judged, mismatches, first: first.filter(|_| !is_known) };

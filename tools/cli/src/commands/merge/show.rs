@@ -4,7 +4,7 @@ use super::again::{Pattern, command_of};
 use super::campaign::{Campaign, Fault, LISTED, SHOWN, option_words};
 use super::read::Found;
 use crate::campaign::junit::{Outcome, Suite, Test, seconds};
-use crate::campaign::report::{First, Report, State};
+use crate::campaign::report::{Report, State};
 use crate::output::counted;
 use std::fmt::Write;
 
@@ -50,14 +50,9 @@ fn differing(text: &mut String, campaign: &Campaign) {
     for Found { place, report } in differing.iter().take(SHOWN) {
         let Report { shard, shards, cases, mismatches, .. } = report;
         _ = writeln!(text, "shard {shard}/{shards} differs: {mismatches} of {cases} ({place})");
-        report.first.iter().for_each(|first| _ = writeln!(text, "  {}", words(first, "\n  ")));
+        report.first.iter().for_each(|first| _ = writeln!(text, "  {}", first.text("\n  ")));
     }
     more(text, differing.len() as u64, "differing shard");
-}
-
-fn words(first: &First, between: &str) -> String {
-    let case = first.case.iter().map(|case| format!("{case}{between}")).collect::<String>();
-    case + &first.difference
 }
 
 fn faults(text: &mut String, campaign: &Campaign) {
@@ -220,6 +215,6 @@ fn outcome(report: &Report) -> Outcome {
     if *mismatches == 0 {
         return Outcome::Passed;
     }
-    let first = report.first.as_ref().map(|first| words(first, "\n")).unwrap_or_default();
+    let first = report.first.as_ref().map(|first| first.text("\n")).unwrap_or_default();
     Outcome::Failed(format!("{mismatches} of {cases} differ"), first)
 }

@@ -246,7 +246,11 @@ fn verdict(report: &Report) -> Exit {
 }
 
 fn first(first: &First) -> FirstOf {
-    FirstOf { case: Some(first.line.clone()), difference: first.difference.clone() }
+    FirstOf {
+        case: Some(first.line.clone()),
+        difference: first.difference.clone(),
+        ..FirstOf::default()
+    }
 }
 
 /// Whether a row counts this case.

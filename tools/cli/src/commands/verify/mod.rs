@@ -3,7 +3,7 @@
 use super::check::rules;
 use crate::args::name_of;
 use crate::backends::{BackendName, BackendOptions};
-use crate::campaign::report::{First, Part, Report};
+use crate::campaign::report::{First, PASSES_ALONE, Part, Report};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs, ShardArgs};
 use crate::failure::{Exit, Failure};
 use crate::output::{Role, note, print, progress, refuse_shared};
@@ -205,11 +205,13 @@ fn report_empty(table: &[SubjectRow], placed: Placed) {
 /// Adds the rows of one subject to the report.
 fn record(report: &mut Report, table: &[SubjectRow]) {
     for row in table {
+        let passes_alone = row.passes_alone;
         let first = row.first.as_ref().map(|text| match text.split_once('\n') {
             Some((case, difference)) => {
-                First { case: Some(case.to_owned()), difference: difference.trim().to_owned() }
+                let difference = difference.trim().to_owned();
+                First { case: Some(case.to_owned()), difference, passes_alone }
             }
-            None => First { case: None, difference: text.clone() },
+            None => First { case: None, difference: text.clone(), passes_alone },
         });
         let name = format!("{} {}", row.subject.name(), row.backend);
         let (cases, mismatches) = (row.compared, row.mismatches);
@@ -233,9 +235,12 @@ fn lines(table: &[SubjectRow]) -> String {
     for SubjectRow { subject, backend, known, .. } in table.iter().filter(|row| row.known > 0) {
         _ = writeln!(text, "known of {} in {backend}: {known}", subject.name());
     }
-    for SubjectRow { subject, backend, first, .. } in table {
+    for SubjectRow { subject, backend, first, passes_alone, .. } in table {
         if let Some(first) = first {
             _ = writeln!(text, "first of {} in {backend}: {first}", subject.name());
+        }
+        if *passes_alone {
+            _ = writeln!(text, "  {PASSES_ALONE}");
         }
     }
     text
