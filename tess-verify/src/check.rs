@@ -56,6 +56,8 @@ pub enum Tested {
 pub struct Checked<'a> {
     /// Number of the first record, from 1. The calls come in no order.
     pub first: u64,
+    /// The case of the record before the first.
+    pub before: Option<Case>,
     /// The records.
     pub records: &'a [Record],
     /// For each, whether it is wrong for the case that it states. A record that is right for its case but
@@ -107,7 +109,7 @@ pub fn check_asked<R: BufRead + Send>(
     }
     let how = How { header, tested };
     let expected = asked.map(|asked| Expected::new(asked, known));
-    let source = Mutex::new(Source { file, expected, taken: 0, stopped: None });
+    let source = Mutex::new(Source { file, expected, taken: 0, last: None, stopped: None });
     let run = |backend: &mut Box<dyn Backend>| {
         let result = run(&how, &source, known, backend.as_mut(), checked);
         if result.is_err() {
@@ -167,6 +169,8 @@ struct Source<'a, R> {
     file: VectorFile<R>,
     expected: Option<Expected<'a>>,
     taken: u64,
+    /// The case of the record that was taken last.
+    last: Option<Case>,
     /// Set when no more records are to be taken before the end, with the reason.
     stopped: Option<Result<(), VectorError>>,
 }
@@ -176,6 +180,7 @@ struct Source<'a, R> {
 struct Work {
     /// Number of the first record, from 1.
     first: u64,
+    before: Option<Case>,
     /// For each record that answers another case than was asked, what is wrong about that.
     astray: Vec<Option<Mismatch>>,
     records: Vec<Record>,
@@ -183,7 +188,7 @@ struct Work {
 
 impl<R: BufRead> Source<'_, R> {
     fn next_unit(&mut self, how: &How) -> Option<Work> {
-        let mut unit = Work { first: self.taken + 1, ..Work::default() };
+        let mut unit = Work { first: self.taken + 1, before: self.last, ..Work::default() };
         while self.stopped.is_none() && unit.records.len() < unit_size(how.header.kind) {
             match self.next_record(how.tested) {
                 Ok(Some((record, astray))) => {
@@ -207,7 +212,7 @@ impl<R: BufRead> Source<'_, R> {
             None => self.file.next().transpose()?.map(|record| (record, None)),
         };
         let Some((record, astray)) = next else { return Ok(None) };
-        self.taken += 1;
+        (self.taken, self.last) = (self.taken + 1, record.case());
         if let (Record::Coordinates(_), Tested::Listings(strength)) = (&record, tested)
             && strength.elements == Elements::Points
             && strength.order != ListOrder::Any
@@ -248,7 +253,7 @@ fn run<R: BufRead>(
     let mut findings = Findings::default();
     loop {
         let unit = lock(source).next_unit(how);
-        let Some(Work { first, astray, records }) = unit else { return Ok(findings) };
+        let Some(Work { first, before, astray, records }) = unit else { return Ok(findings) };
         let found = check_unit(how, backend, &records)?;
         let found: Vec<Found> = found
             .into_iter()
@@ -272,7 +277,7 @@ fn run<R: BufRead>(
             };
             findings.add(number, line, found, again);
         }
-        checked(Checked { first, records: &records, different: &different });
+        checked(Checked { first, before, records: &records, different: &different });
     }
 }
 

@@ -59,15 +59,28 @@ impl Default for Coverage {
 }
 
 impl Coverage {
-    /// Counts the bins that a case hits.
+    /// Counts the bins that a case hits by itself.
     ///
     /// # Panics
     /// In debug builds, if a case hits a bin that was not declared: a fault of this module.
-    pub fn record(&mut self, case: &Case) {
+    fn record(&mut self, case: &Case) {
         observe::observe(case, |bin| {
             let declared = self.add(&bin, 1);
             debug_assert!(declared, "bin {bin} is not declared ({case})");
         });
+    }
+
+    /// Counts the bins that the patches of a stream hit, those of sequences too: each patch follows the one before it,
+    /// and the first follows `before`. Part of a stream, such as a shard, has other sequences than the whole.
+    pub fn record_stream(&mut self, before: Option<Case>, cases: impl IntoIterator<Item = Case>) {
+        let mut before = before.map(|case| observe::kind(&case));
+        for case in cases {
+            self.record(&case);
+            let kind = observe::kind(&case);
+            if let Some(before) = before.replace(kind.clone()) {
+                self.add(&format!("sequence/{before}/{kind}"), 1);
+            }
+        }
     }
 
     /// Counts the bins that one factor's context hits, for the bench of a stage that sees no patch:

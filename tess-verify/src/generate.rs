@@ -24,8 +24,8 @@ pub use patches::random_patch;
 #[cfg(feature = "arbitrary")]
 pub(crate) use patches::{factor_up_to, patch_of};
 pub use random::SplitMix64;
+pub use thresholds::thresholds;
 pub(crate) use thresholds::{FIRST_NAN, FRAME, SIGN};
-pub use thresholds::{Threshold, thresholds};
 pub use workloads::{Calls, IndexWidth, Totals, Workload};
 
 use crate::case::Case;

@@ -1,7 +1,6 @@
 //! The generated levels: what they hit, and that they are reproducible.
 
-use std::collections::BTreeSet;
-use tess_core::{Config, Domain, OutputPrimitive, Partitioning, ProcessedPatch, SplitOrder};
+use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_verify::Case;
 use tess_verify::cover::Coverage;
 use tess_verify::generate::{
@@ -86,7 +85,7 @@ fn configurations_can_be_some() {
 #[test]
 fn level_1_hits_every_bin() {
     let mut coverage = Coverage::default();
-    level(GenLevel::One).iter().for_each(|case| coverage.record(case));
+    coverage.record_stream(None, level(GenLevel::One));
     let missed: Vec<_> = coverage.missed().collect();
     assert!(missed.is_empty(), "{} bins missed: {missed:#?}", missed.len());
 }
@@ -124,13 +123,13 @@ fn random_patches_reach_what_there_is() {
     for (domain, config) in configurations() {
         for _ in 0..4000 {
             let case = Case { config, factors: random_patch(domain, &mut random) };
-            coverage.record(&case);
+            coverage.record_stream(None, [case]);
             points += u64::from(case.patch().counts().points);
             cases += 1;
         }
     }
     // Only the list of thresholds lies exactly beside each, and has inside factors of nearly the same size.
-    let rare = ["boundary/", "rings/"];
+    let rare = ["boundary/", "rings/", "sequence/"];
     let missed = coverage.missed().filter(|bin| !rare.iter().any(|group| bin.starts_with(group)));
     let (transitions, others): (Vec<_>, Vec<_>) =
         missed.partition(|bin| bin.starts_with("transition/"));
@@ -140,20 +139,25 @@ fn random_patches_reach_what_there_is() {
     assert!((20..120).contains(&mean), "{mean} points in the mean");
 }
 
-/// What a patch leaves behind may change the next: every kind of patch follows every other and itself.
+/// What a patch leaves behind may change the next: each pair of neighbours in a stream hits its bin, and no other.
 #[test]
-fn level_1_has_every_kind_of_patch_after_every_kind() {
-    let kinds: Vec<_> = level(GenLevel::One)
-        .iter()
-        .map(|case| match case.patch().processed() {
-            ProcessedPatch::Culled => (case.domain(), "culled"),
-            ProcessedPatch::Minimum(_) => (case.domain(), "minimum"),
-            ProcessedPatch::Regular(_) => (case.domain(), "regular"),
-        })
-        .collect();
-    let all: BTreeSet<_> = kinds.iter().copied().collect();
-    let pairs: BTreeSet<_> = kinds.windows(2).map(|pair| (pair[0], pair[1])).collect();
-    assert_eq!((all.len(), pairs.len()), (8, 8 * 8));
+fn sequences_are_pairs_of_neighbours() {
+    let [tri, culled, line] = [
+        "tri fractional_odd triangle_cw ruler 3f800000 3f800000 3f800000 3f800000",
+        "quad integer line ruler 00000000 3f800000 3f800000 3f800000 3f800000 3f800000",
+        "isoline pow2 line center 40000000 40000000",
+    ]
+    .map(|line| format!("case {line}").parse::<Case>().expect("a case"));
+    let mut coverage = Coverage::default();
+    coverage.record_stream(None, [tri, culled]);
+    coverage.record_stream(Some(culled), [line, line]);
+    let hit = coverage.bins().filter(|(bin, hits)| bin.starts_with("sequence/") && *hits == 1);
+    let expected = [
+        "isoline_regular/isoline_regular",
+        "quad_culled/isoline_regular",
+        "tri_minimum/quad_culled",
+    ];
+    assert!(hit.map(|(bin, _)| &bin["sequence/".len()..]).eq(expected), "{coverage}");
 }
 
 /// Level 2 has each boundary in each position of each partitioning with both split orders.
@@ -249,7 +253,7 @@ fn cases_hit_the_bins_that_they_are_of() {
         let words: Vec<&str> = text.splitn(3, ' ').collect();
         let line = format!("case {} {} triangle_cw ruler {}", words[0], words[1], words[2]);
         let mut coverage = Coverage::default();
-        coverage.record(&line.parse().expect("a case"));
+        coverage.record_stream(None, [line.parse().expect("a case")]);
         for bin in hit {
             assert!(coverage.hits(bin).is_some_and(|hits| hits > 0), "{line} hits {bin}");
         }
@@ -269,7 +273,7 @@ fn cases_hit_the_bins_that_they_are_of() {
 fn coverage_notices_what_is_missing() {
     let mut coverage = Coverage::default();
     assert!(coverage.groups().iter().all(|group| group.hit == 0), "nothing is hit at first");
-    level(GenLevel::One).iter().take(100).for_each(|case| coverage.record(case));
+    coverage.record_stream(None, level(GenLevel::One).into_iter().take(100));
     let missed = coverage.missed().filter(|bin| bin.starts_with("transition/")).count();
     assert!(missed > 3000, "100 cases cannot hit every transition, {missed} missed");
 }

@@ -31,7 +31,7 @@ const RECORDED_TOGETHER: usize = 4096;
 /// (2, Group(hit=2, bins=4))
 #[pyclass(frozen, module = "tess_model")]
 #[derive(Default)]
-pub(crate) struct Coverage(Arc<Mutex<tess_verify::cover::Coverage>>);
+pub(crate) struct Coverage(Arc<Mutex<tess_verify::cover::Coverage>>, Arc<Mutex<Option<Case>>>);
 
 #[pymethods]
 impl Coverage {
@@ -44,7 +44,7 @@ impl Coverage {
     /// time, so that a bench can choose the patches that are worth their clocks.
     fn record(&self, py: Python<'_>, patches: &Bound<'_, PyAny>) -> PyResult<usize> {
         if let Ok(patch) = patches.cast::<Patch>() {
-            return Ok(record(&mut self.lock(), &[patch.get().case]));
+            return Ok(self.record_cases(&[patch.get().case]));
         }
         let mut fresh = 0;
         let mut patches = patches.try_iter()?;
@@ -57,7 +57,7 @@ impl Coverage {
                 return Ok(fresh);
             }
             py.check_signals()?;
-            fresh += py.detach(|| record(&mut self.lock(), &cases));
+            fresh += py.detach(|| self.record_cases(&cases));
         }
     }
 
@@ -147,7 +147,7 @@ impl Coverage {
     #[staticmethod]
     fn from_ucis(text: &str) -> PyResult<Self> {
         let read = tess_verify::cover::Coverage::read_ucis(text.as_bytes());
-        read.map(|coverage| Self(Arc::new(Mutex::new(coverage)))).map_err(file_format)
+        read.map(|coverage| Self(Arc::new(Mutex::new(coverage)), Arc::default())).map_err(file_format)
     }
 
     /// Writes a coverage file: UCIS XML.
@@ -167,7 +167,7 @@ impl Coverage {
             let file = Watched::new(File::open(from)?, stop);
             tess_verify::cover::Coverage::read_ucis(file)
         })?;
-        read.map(|coverage| Self(Arc::new(Mutex::new(coverage)))).map_err(|error| {
+        read.map(|coverage| Self(Arc::new(Mutex::new(coverage)), Arc::default())).map_err(|error| {
             match error.kind() {
                 ErrorKind::InvalidData => file_format(format!("{}: {error}", path.display())),
                 _ => error.into(),
@@ -234,18 +234,22 @@ fn patterns(exclude: Option<&Bound<'_, PyAny>>) -> PyResult<Exclusions> {
 impl Coverage {
     /// The same coverage, for another thread.
     pub(crate) fn shared(&self) -> Self {
-        Self(Arc::clone(&self.0))
+        Self(Arc::clone(&self.0), Arc::clone(&self.1))
+    }
+
+    /// Counts the bins that patches hit, which follow those that were recorded last; gives how many of the bins were hit
+    /// for the first time.
+    fn record_cases(&self, cases: &[Case]) -> usize {
+        let mut coverage = self.lock();
+        let mut before = self.1.lock().unwrap_or_else(PoisonError::into_inner);
+        let missed = coverage.missed().count();
+        coverage.record_stream(*before, cases.iter().copied());
+        *before = cases.last().copied().or(*before);
+        missed - coverage.missed().count()
     }
 
     /// The coverage, alone; nothing waits for the interpreter while it holds this.
     pub(crate) fn lock(&self) -> MutexGuard<'_, tess_verify::cover::Coverage> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// Counts the bins that patches hit; gives how many of them were hit for the first time.
-fn record(coverage: &mut tess_verify::cover::Coverage, cases: &[Case]) -> usize {
-    let missed = coverage.missed().count();
-    cases.iter().for_each(|case| coverage.record(case));
-    missed - coverage.missed().count()
 }

@@ -347,7 +347,7 @@ fn run_check(
         if let Some(coverage) = coverage {
             let mut coverage = coverage.lock();
             let cases = checked.records.iter().filter_map(tess_verify::vectors::Record::case);
-            cases.for_each(|case| coverage.record(&case));
+            coverage.record_stream(checked.before, cases);
         }
     })
 }

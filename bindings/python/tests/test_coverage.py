@@ -12,6 +12,11 @@ import tess_model
 from tess_model import Coverage, FileFormatError
 
 
+def of_patches(coverage: Coverage) -> "dict[str, int]":
+    """The hits of single patches: parts of a stream have other sequences than the whole."""
+    return {bin: hits for bin, hits in coverage.bins.items() if not bin.startswith("sequence/")}
+
+
 def of(shard: "tuple[int, int]") -> Coverage:
     coverage = Coverage()
     coverage.record(tess_model.generate(3, count=300, shard=shard))
@@ -21,7 +26,7 @@ def of(shard: "tuple[int, int]") -> Coverage:
 def test_pyucis_reads_two_merged_shards(tmp_path: Path) -> None:
     merged, second = of((1, 2)), of((2, 2))
     merged.merge(second)
-    assert merged == of((1, 1)) and merged != second
+    assert of_patches(merged) == of_patches(of((1, 1))) and merged != second
     file = tmp_path / "coverage.xml"
     merged.write(file)
     assert Coverage.read(file) == merged
@@ -94,7 +99,7 @@ def test_threads_count_together() -> None:
         thread.join()
     once = Coverage()
     once.record(patches)
-    assert coverage.bins == {bin: 4 * hits for bin, hits in once.bins.items()}
+    assert of_patches(coverage) == {bin: 4 * hits for bin, hits in of_patches(once).items()}
 
 
 def test_merging_with_itself_doubles() -> None:

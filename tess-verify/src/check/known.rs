@@ -244,30 +244,26 @@ impl Known {
         self.entries.iter().map(ToString::to_string)
     }
 
-    /// How many of them were asked and differed as expected, at least once.
+    /// What became of the lines: how many were met; the cases alone that were asked and no longer differ; and what is
+    /// wrong with lines that have terms, each with its place: one has expired, or expects what did not happen. If
+    /// the `whole` of the work was done, that includes what was not asked.
     #[must_use]
-    pub fn different(&self) -> usize {
-        self.entries.iter().filter(|entry| entry.different.load(Ordering::Relaxed)).count()
-    }
-
-    /// The lines without terms whose cases were asked and no longer differ, in the order in which they were given.
-    pub fn gone(&self) -> impl Iterator<Item = String> {
-        let is_gone = |entry: &&Entry| {
+    pub fn outcome(&self, whole: bool) -> (usize, Vec<String>, Vec<String>) {
+        let (mut met, mut gone, mut faults) = (0, Vec::new(), Vec::new());
+        for entry in &self.entries {
             let is = |flag: &AtomicBool| flag.load(Ordering::Relaxed);
-            entry.terms.is_none() && is(&entry.equal) && !is(&entry.different)
-        };
-        self.entries.iter().filter(is_gone).map(ToString::to_string)
-    }
-
-    /// What is wrong with lines that have terms, each with its place: one has expired, or expects what did not
-    /// happen. If the `whole` of the work was done, that includes what was not asked.
-    #[must_use]
-    pub fn faults(&self, whole: bool) -> Vec<String> {
-        let fault = |entry: &Entry| {
-            let fault = entry.fault(entry.terms.as_ref()?, whole)?;
-            Some(format!("{}:{}: {fault}: {entry}", self.file, entry.line))
-        };
-        self.entries.iter().filter_map(fault).collect()
+            met += usize::from(is(&entry.different));
+            match &entry.terms {
+                Some(terms) => faults.extend(
+                    entry
+                        .fault(terms, whole)
+                        .map(|fault| format!("{}:{}: {fault}: {entry}", self.file, entry.line)),
+                ),
+                None if is(&entry.equal) && !is(&entry.different) => gone.push(entry.to_string()),
+                None => {}
+            }
+        }
+        (met, gone, faults)
     }
 }
 
@@ -288,9 +284,8 @@ mod tests {
         assert!(!known.excuses(&both, None) && known.excuses(&both, Some(&1)), "asked twice");
         assert!(!known.excuses(&other, Some(&1)), "it may not differ");
         assert!(!known.excuses(&unasked, Some(&MISSING)), "that is to be said");
-        assert_eq!((known.lines().count(), known.different()), (4, 2), "each case once");
-        let lines: Vec<String> = known.gone().collect();
-        assert_eq!(lines, [gone.to_string()], "neither what differed once nor what was not asked");
-        assert_eq!(known.faults(true), [""; 0], "nothing has terms");
+        assert_eq!(known.lines().count(), 4, "each case once");
+        // Neither what differed once nor what was not asked is gone, and nothing has terms.
+        assert_eq!(known.outcome(true), (2, vec![gone.to_string()], vec![]));
     }
 }

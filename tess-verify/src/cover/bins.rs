@@ -4,6 +4,7 @@ use super::boundary;
 use super::observe::{quad_centre, triangle_centre};
 use crate::generate::configurations;
 use crate::names::Named;
+use std::collections::BTreeSet;
 use std::sync::LazyLock;
 use tess_core::{Config, Domain, Parity, Partitioning};
 
@@ -17,17 +18,32 @@ pub(super) fn all() -> &'static [String] {
 pub(super) fn of(configurations: impl IntoIterator<Item = (Domain, Config)>) -> Vec<String> {
     let mut bins = Vec::new();
     let mut stitched = Vec::new();
+    let mut kinds = BTreeSet::new();
     for (domain, config) in configurations {
         bins.extend(of_settings(domain, config));
+        let ways: &[&str] = if can_be_minimum(domain, config) {
+            &["culled", "minimum", "regular"]
+        } else {
+            &["culled", "regular"]
+        };
+        kinds.extend(ways.iter().map(|way| format!("{}_{way}", domain.name())));
         let of = (domain, config.partitioning);
         if !stitched.contains(&of) {
             stitched.push(of);
             bins.extend(of_stitches(domain, config.partitioning));
         }
     }
+    for before in &kinds {
+        bins.extend(kinds.iter().map(|kind| format!("sequence/{before}/{kind}")));
+    }
     bins.sort_unstable();
     bins.dedup();
     bins
+}
+
+/// Factors of `fractional_even` are at least 2.
+fn can_be_minimum(domain: Domain, config: Config) -> bool {
+    domain != Domain::Isoline && config.partitioning != Partitioning::FractionalEven
 }
 
 /// Those of a patch's settings and of single factors.
@@ -80,8 +96,7 @@ fn configuration(bins: &mut Vec<String>, domain: Domain, config: Config) {
     let [output, split] = [config.output.name(), config.split.name()];
     let [domain_name, partitioning] = [domain.name(), config.partitioning.name()];
     bins.push(format!("configuration/{domain_name}/{partitioning}/{output}/{split}"));
-    // Factors of fractional_even are at least 2.
-    if domain != Domain::Isoline && config.partitioning != Partitioning::FractionalEven {
+    if can_be_minimum(domain, config) {
         bins.push(format!("minimum/{domain_name}/{partitioning}/{output}"));
     }
     if domain != Domain::Isoline && config.partitioning == Partitioning::FractionalOdd {
@@ -177,9 +192,8 @@ fn centres(bins: &mut Vec<String>, domain: Domain, parities: &[Parity]) {
 mod tests {
     use super::*;
     use crate::case::Case;
-    use crate::cover::observe::observe;
+    use crate::cover::observe::{kind, observe};
     use crate::generate::{GenLevel, Selection, boundary_factors, thresholds};
-    use std::collections::BTreeSet;
     use tess_core::{OutputPrimitive, PatchFactors, SplitOrder};
 
     /// Factors that hit what a domain's patches can hit: each boundary in each position, every pair of an outer
@@ -229,8 +243,11 @@ mod tests {
             {
                 let config = Config { partitioning, output: OutputPrimitive::Line, split };
                 let mut hit = BTreeSet::new();
-                for &factors in &witnesses {
-                    observe(&Case { config, factors }, |bin| _ = hit.insert(bin));
+                let cases = witnesses.iter().map(|&factors| Case { config, factors });
+                cases.clone().for_each(|case| observe(&case, |bin| _ = hit.insert(bin)));
+                let kinds: BTreeSet<String> = cases.map(|case| kind(&case)).collect();
+                for before in &kinds {
+                    hit.extend(kinds.iter().map(|kind| format!("sequence/{before}/{kind}")));
                 }
                 let declared: BTreeSet<String> = of([(domain, config)]).into_iter().collect();
                 let beyond: Vec<_> = hit.difference(&declared).collect();

@@ -128,7 +128,7 @@ mod tests {
             ..Selection::level(GenLevel::One, 1)
         };
         let mut coverage = Coverage::default();
-        one.cases().for_each(|case| coverage.record(&case));
+        coverage.record_stream(None, one.cases());
         let exclusions = Exclusions::outside(one.configurations());
         for (bin, hits) in coverage.bins().filter(|(bin, _)| exclusions.has(bin)) {
             assert_eq!(hits, 0, "{bin} is excluded");

@@ -29,6 +29,16 @@ pub(super) fn observe(case: &Case, mut hit: impl FnMut(String)) {
     }
 }
 
+/// What a patch may leave behind for the next: its domain, and which way it takes.
+pub(super) fn kind(case: &Case) -> String {
+    let way = match case.patch().processed() {
+        ProcessedPatch::Culled => "culled",
+        ProcessedPatch::Minimum(_) => "minimum",
+        ProcessedPatch::Regular(_) => "regular",
+    };
+    format!("{}_{way}", case.domain().name())
+}
+
 fn culled(case: &Case, hit: &mut impl FnMut(String)) {
     let domain = case.domain();
     for (name, factor) in domain.factor_names().iter().zip(case.factors.outer()) {

@@ -4,7 +4,7 @@ use super::{BinGroup, Coverage, Exclusions};
 use std::fmt::Write;
 
 /// The stages on a patch's way with their sections of the specification, and the groups of each.
-pub(super) const STAGES: [(&str, &str, &[&str]); 6] = [
+pub(super) const STAGES: [(&str, &str, &[&str]); 7] = [
     ("configuration", "1", &["configuration"]),
     (
         "factors",
@@ -15,6 +15,7 @@ pub(super) const STAGES: [(&str, &str, &[&str]); 6] = [
     ("location", "5", &["exceptional"]),
     ("stitch", "7", &["parities", "middle", "transition", "rings", "centre"]),
     ("comparisons", "2 to 7", &["boundary"]),
+    ("streams", "3", &["sequence"]),
 ];
 
 /// The stage that a group's bins tell of.
@@ -95,7 +96,7 @@ mod tests {
             "case quad integer line ruler 40400000 40400000 40400000 40400000 40a00000 40400000";
         let case: Case = line.parse().expect("a case");
         let mut coverage = Coverage::default();
-        coverage.record(&case);
+        coverage.record_stream(None, [case]);
         (coverage, Exclusions::outside([(case.domain(), case.config)]))
     }
 

@@ -150,7 +150,7 @@ mod tests {
     fn some(seed: u64) -> Coverage {
         let mut coverage = Coverage::default();
         let selection = Selection { random: Some(200), ..Selection::level(GenLevel::Three, seed) };
-        selection.cases().for_each(|case| coverage.record(&case));
+        coverage.record_stream(None, selection.cases());
         coverage
     }
 

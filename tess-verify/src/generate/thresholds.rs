@@ -18,8 +18,7 @@ use tess_core::{
     Config, Domain, FixedFactor, OutputPrimitive, Partitioning, PatchFactors, SplitOrder,
 };
 
-/// A bin of the group `boundary` without the group, such as `frame/above`, and a case.
-pub type Threshold = (&'static str, Case);
+type Threshold = (&'static str, Case);
 
 /// The smallest binary32 that is not a number, which lies just above infinity.
 pub(crate) const FIRST_NAN: u32 = 0x7F80_0001;
@@ -28,9 +27,10 @@ pub(crate) const FRAME: [u32; 2] = [0x3F80_0040, 0x3F80_0041];
 pub(crate) const SIGN: u32 = 0x8000_0000;
 const ONE: f32 = 1.0;
 
-/// Every entry, in the order of the specification.
+/// Every entry, in the order of the specification: a bin of the group `boundary` without the group, such as
+/// `frame/above`, and a case.
 #[must_use]
-pub fn thresholds() -> Vec<Threshold> {
+pub fn thresholds() -> Vec<(&'static str, Case)> {
     let mut list = Vec::new();
     for domain in Domain::ALL {
         cull(&mut list, domain);

@@ -176,7 +176,7 @@ fn coverage_bins() {
         let factors = PatchFactors::from_slice(Domain::ALL[domain as usize], &s.factors);
         let case = Case { config: s.patch.config(), factors: factors.expect("all factors") };
         let mut expected = Coverage::default();
-        expected.record(&case);
+        expected.record_stream(None, [case]);
         assert_eq!(observed, expected, "{case}");
     }
 }

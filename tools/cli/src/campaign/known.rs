@@ -113,17 +113,16 @@ impl Baseline {
     }
 
     fn conclude(&self, recorder: &Recorder, placed: Placed, exit: Exit) -> Exit {
-        let gone: Vec<String> = self.known.gone().collect();
+        let (met, gone, faults) = self.known.outcome(placed.shard == Shard::WHOLE);
         if !gone.is_empty() {
             let lines: String = gone.iter().map(|line| format!("\n  {line}")).collect();
             let number = counted(gone.len() as u64, "case");
             note(&format!("no longer different, though known: {number}{lines}"));
         }
-        let faults = self.known.faults(placed.shard == Shard::WHOLE);
         faults.iter().for_each(|fault| note(fault));
         recorder.update(|report| {
             if let Some(known) = &mut report.known {
-                (known.different, known.gone) = (self.known.different() as u64, gone);
+                (known.different, known.gone) = (met as u64, gone);
             }
             if let Some(fault) = faults.first() {
                 let number = faults.len() as u64;

@@ -188,7 +188,7 @@ fn a_whole_campaign() {
         "{}",
         run.stdout
     );
-    tess_in(&folder, "gen --level 3 --count 50 --coverage whole.xml");
+    tess_in(&folder, "coverage c1.xml c2.xml c3.xml --merged whole.xml");
     let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a file");
     assert!(read("a-cov.xml") == read("whole.xml"), "the hits of all shards");
     let csv = read("a.csv");

@@ -58,18 +58,18 @@ fn what_a_device_cannot_hit_is_excluded() {
 fn files_are_added_up_and_reported() {
     let folder = directory("files_are_added_up_and_reported");
     let run = shell(
-        "for i in 1 2; do
-             $TESS gen --level 1 --shard $i/2 --coverage $i.xml > /dev/null
-             $TESS gen --level 1 --shard $i/2 --coverage both.xml > whole.txt
+        "for i in ruler center; do
+             $TESS gen --level 1 --split $i --coverage $i.xml > /dev/null
+             $TESS gen --level 1 --split $i --coverage both.xml > whole.txt
          done
-         $TESS coverage 1.xml - --merged sum.xml --html page.html -o sum.txt --complete < 2.xml &&
+         $TESS coverage ruler.xml - --merged sum.xml --html page.html -o sum.txt --complete < center.xml &&
              cmp sum.xml both.xml && cmp sum.txt whole.txt && tail -n 1 sum.txt",
         &folder,
     );
     assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
     assert!(run.stdout.starts_with("all") && run.stdout.ends_with(" 100.0\n"), "{}", run.stdout);
     let page = fs::read_to_string(folder.join("page.html")).expect("a page");
-    assert!(page.contains("Hits of 1.xml, stdin.") && page.contains("<p>None.</p>"), "{page}");
+    assert!(page.contains("Hits of ruler.xml, stdin.") && page.contains("<p>None.</p>"), "{page}");
 }
 
 /// `--complete` is for batches: holes and wrong exclusions are exit code 1, and so is nothing else.
@@ -93,7 +93,7 @@ fn completeness() {
         assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
         assert!(run.stdout.contains("\nmissed "), "{words}: {}", run.stdout);
     }
-    let run = shell("$TESS coverage tri.xml --exclude no.txt | grep ^missed.*/quad", &folder);
+    let run = shell("$TESS coverage tri.xml --exclude no.txt | grep ^missed.*/quad/", &folder);
     assert_eq!(run.stdout, "", "quads are excluded by name");
 }
 

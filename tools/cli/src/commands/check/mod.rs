@@ -177,7 +177,7 @@ fn compare(
         if let Some(coverage) = &coverage {
             let coverage = &mut coverage.lock().unwrap_or_else(PoisonError::into_inner).coverage;
             let cases = checked.records.iter().filter_map(Record::case);
-            cases.for_each(|case| coverage.record(&case));
+            coverage.record_stream(checked.before, cases);
         }
     });
     bar.finish_and_clear();

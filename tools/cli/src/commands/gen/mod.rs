@@ -183,7 +183,7 @@ impl Args {
         let mut alone = Coverage::default();
         let coverage = file.as_mut().map_or(&mut alone, |file| &mut file.coverage);
         let bar = self.progress(count);
-        bar.wrap_iter(self.cases(placed)).for_each(|case| coverage.record(&case));
+        coverage.record_stream(None, bar.wrap_iter(self.cases(placed)));
         bar.finish_and_clear();
         recorder.update(|report| {
             report.add_parts([part(count)]);
