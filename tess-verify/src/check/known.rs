@@ -66,12 +66,6 @@ struct Terms {
     is_expired: bool,
 }
 
-impl From<Case> for Entry {
-    fn from(case: Case) -> Self {
-        Self::new(KnownSubject::Case(case), 0, None)
-    }
-}
-
 impl Entry {
     fn new(subject: KnownSubject, line: u64, terms: Option<Terms>) -> Self {
         let (equal, different, other) = Default::default();
@@ -176,15 +170,6 @@ impl Display for Entry {
     }
 }
 
-/// A baseline of these cases; a case that is given twice counts once.
-impl FromIterator<Case> for Known {
-    fn from_iter<T: IntoIterator<Item = Case>>(cases: T) -> Self {
-        let mut known = Self::default();
-        cases.into_iter().for_each(|case| known.add(case.into()));
-        known
-    }
-}
-
 impl Known {
     /// Reads a baseline: lines, or a vector file of cases. If a standard is judged by, these are its rules and the
     /// cases without an answer; else all cases. The other lines are left out. `today` is such as `2027-06-30`.
@@ -199,7 +184,8 @@ impl Known {
     ) -> Result<Self, VectorError> {
         let mut cases = Cases::maybe_empty(name, reader)?;
         let mut known = Self { file: name.to_owned(), ..Self::default() };
-        while let Some(entry) = cases.read(Entry::from, |text, line| {
+        let of_record = |case| Entry::new(KnownSubject::Case(case), 0, None);
+        while let Some(entry) = cases.read(of_record, |text, line| {
             let entry = Entry::parse(text, line, today)?;
             let first = known.places.get(&entry.subject).map(|&place| &known.entries[place]);
             match first.filter(|first| first.terms.is_some() || entry.terms.is_some()) {
@@ -210,19 +196,16 @@ impl Known {
                 None => Ok(entry),
             }
         })? {
-            known.add(entry);
+            // Without terms, a case that is given twice counts once.
+            let next = known.entries.len();
+            if *known.places.entry(entry.subject).or_insert(next) == next {
+                known.entries.push(entry);
+            }
         }
         known.entries.retain(|entry| entry.is_for(rules));
         let subjects = known.entries.iter().map(|entry| entry.subject);
         known.places = subjects.zip(0..).collect();
         Ok(known)
-    }
-
-    fn add(&mut self, entry: Entry) {
-        let next = self.entries.len();
-        if *self.places.entry(entry.subject).or_insert(next) == next {
-            self.entries.push(entry);
-        }
     }
 
     /// Notes how a case differs, if it does. True if it does and may.
@@ -278,7 +261,8 @@ mod tests {
             line.parse().expect("a case")
         };
         let [differs, gone, both, unasked, other] = [1, 2, 3, 4, 5].map(case);
-        let known = Known::from_iter([differs, both, gone, unasked, gone]);
+        let text = [differs, both, gone, unasked, gone].map(|case| format!("{case}\n")).concat();
+        let known = Known::read("known", text.as_bytes(), None, "").expect("a baseline");
         assert!(known.excuses(&differs, Some(&"so")), "it may differ");
         assert!(!known.excuses(&gone, None), "equal needs no excuse");
         assert!(!known.excuses(&both, None) && known.excuses(&both, Some(&1)), "asked twice");

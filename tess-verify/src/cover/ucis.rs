@@ -6,14 +6,8 @@
 
 use super::Coverage;
 use crate::quote::quoted;
-use std::fmt::{self, Write};
+use std::fmt::Write;
 use std::io::{self, Read};
-
-/// A line of the file: the text around a bin's hits, or a whole line.
-enum UcisLine<'a> {
-    Fixed(String),
-    Bin { bin: &'a str, before: String, after: &'static str },
-}
 
 const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <UCIS ucisVersion="1.0" writtenBy="tess" writtenTime="2000-01-01T00:00:00">
@@ -29,48 +23,29 @@ const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <cgSourceId file="1" line="1" inlineCount="1"/>
 </cgId>"#;
 const TAIL: &str = "</cgInstance>\n</covergroupCoverage>\n</instanceCoverages>\n</UCIS>";
-const AFTER_HITS: &str = r#""/></range></coverpointBin>"#;
-
-fn lines<'a>(coverage: &'a Coverage) -> Vec<UcisLine<'a>> {
-    let fixed =
-        |text: &str| text.lines().map(|line| UcisLine::Fixed(line.into())).collect::<Vec<_>>();
-    let mut lines = fixed(HEAD);
-    let mut of_group: Option<(&'a str, usize)> = None;
-    for (bin, _) in coverage.bins() {
-        let (group, name) = bin.split_once('/').unwrap_or((bin, bin));
-        let number = match of_group {
-            Some((last, number)) if last == group => number + 1,
-            last => {
-                lines.extend(last.map(|_| UcisLine::Fixed("</coverpoint>".into())));
-                lines.push(UcisLine::Fixed(format!(r#"<coverpoint name="{group}" key="0">"#)));
-                lines.push(UcisLine::Fixed("<options/>".into()));
-                0
-            }
-        };
-        of_group = Some((group, number));
-        let before = format!(
-            r#"<coverpointBin name="{name}" type="bins" key="0"><range from="{number}" to="{number}"><contents coverageCount=""#
-        );
-        lines.push(UcisLine::Bin { bin, before, after: AFTER_HITS });
-    }
-    lines.push(UcisLine::Fixed("</coverpoint>".into()));
-    lines.extend(fixed(TAIL));
-    lines
-}
+/// What stands before the hits of a bin.
+const HITS: &str = "<contents coverageCount=\"";
 
 /// The file.
 pub(super) fn write(coverage: &Coverage) -> String {
-    let mut text = String::new();
-    for line in lines(coverage) {
-        // Writing to a String does not fail.
-        _ = match line {
-            UcisLine::Fixed(line) => writeln!(text, "{line}"),
-            UcisLine::Bin { bin, before, after } => {
-                writeln!(text, "{before}{}{after}", coverage.hits(bin).unwrap_or(0))
-            }
-        };
+    let mut text = format!("{HEAD}\n");
+    let mut of_group = "";
+    let mut number = 0;
+    // Writing to a String does not fail.
+    for (bin, hits) in coverage.bins() {
+        let (group, name) = bin.split_once('/').unwrap_or((bin, bin));
+        if group != of_group {
+            let end = if of_group.is_empty() { "" } else { "</coverpoint>\n" };
+            _ = writeln!(text, "{end}<coverpoint name=\"{group}\" key=\"0\">\n<options/>");
+            (of_group, number) = (group, 0);
+        }
+        _ = writeln!(
+            text,
+            r#"<coverpointBin name="{name}" type="bins" key="0"><range from="{number}" to="{number}">{HITS}{hits}"/></range></coverpointBin>"#
+        );
+        number += 1;
     }
-    text
+    text + "</coverpoint>\n" + TAIL + "\n"
 }
 
 /// More bytes than any file has.
@@ -85,62 +60,43 @@ pub(super) fn read_bounded(reader: impl Read) -> io::Result<Coverage> {
     read(&text).map_err(|error| io::Error::new(io::ErrorKind::InvalidData, error))
 }
 
-/// Reads a file that [`write`] wrote.
-fn read(text: &str) -> Result<Coverage, UcisError> {
+/// Reads a file that [`write`] wrote: as a file without hits, but for the numbers.
+fn read(text: &str) -> Result<Coverage, String> {
+    const NONE: &str = "no coverage file of tess with the bins of this version";
     let mut coverage = Coverage::default();
-    let empty = coverage.clone();
-    let mut found = text.lines();
-    let mut number = 0;
-    for line in lines(&empty) {
-        number += 1;
-        let error = |expected: String| UcisError { line: number, expected };
+    let (empty, none) = (write(&coverage), coverage.clone());
+    let (mut bins, mut found) = (none.bins(), text.lines());
+    let mut line = 0;
+    for expected in empty.lines() {
+        line += 1;
+        let error = |expected: String| format!("line {line}: {NONE}: {expected}");
         let Some(text) = found.next() else {
             return Err(error("the file goes on: it is truncated".into()));
         };
-        match line {
-            UcisLine::Fixed(line) if line == text => {}
-            UcisLine::Fixed(line) => {
-                return Err(error(format!("expected {}, not {}", quoted(&line), quoted(text))));
+        let Some((before, after)) = expected.split_once(HITS) else {
+            if expected != text {
+                return Err(error(format!("expected {}, not {}", quoted(expected), quoted(text))));
             }
-            UcisLine::Bin { bin, before, after } => {
-                let hits = text.strip_prefix(&before).and_then(|rest| rest.strip_suffix(after));
-                let digits = hits.filter(|hits| hits.bytes().all(|byte| byte.is_ascii_digit()));
-                let hits = digits.and_then(|hits| hits.parse().ok());
-                coverage.add(
-                    bin,
-                    hits.ok_or_else(|| {
-                        error(format!("expected the hits of the bin {bin}, not {}", quoted(text)))
-                    })?,
-                );
-            }
-        }
+            continue;
+        };
+        let bin = bins.next().map_or("", |(bin, _)| bin);
+        let hits = text.strip_prefix(before).and_then(|rest| rest.strip_prefix(HITS));
+        let hits = hits.and_then(|rest| rest.strip_suffix(&after[1..]));
+        let digits = hits.filter(|hits| hits.bytes().all(|byte| byte.is_ascii_digit()));
+        let Some(hits) = digits.and_then(|hits| hits.parse().ok()) else {
+            let expected = format!("expected the hits of the bin {bin}, not {}", quoted(text));
+            return Err(error(expected));
+        };
+        coverage.add(bin, hits);
     }
     match found.next() {
         None => Ok(coverage),
         Some(text) => {
-            let expected = format!("expected the end of the file, not {}", quoted(text));
-            Err(UcisError { line: number + 1, expected })
+            let text = quoted(text);
+            Err(format!("line {}: {NONE}: expected the end of the file, not {text}", line + 1))
         }
     }
 }
-
-/// A text is no coverage file of this program, or one of a version with other bins.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct UcisError {
-    /// UcisLine, from 1.
-    line: usize,
-    /// What was expected there.
-    expected: String,
-}
-
-impl fmt::Display for UcisError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { line, expected } = self;
-        write!(f, "line {line}: no coverage file of tess with the bins of this version: {expected}")
-    }
-}
-
-impl std::error::Error for UcisError {}
 
 #[cfg(test)]
 mod tests {
@@ -187,7 +143,7 @@ mod tests {
     #[test]
     fn other_files_are_refused() {
         let text = write(&some(1));
-        let refused = |text: &str| read(text).expect_err("another file").to_string();
+        let refused = |text: &str| read(text).expect_err("another file");
         assert!(refused("").starts_with("line 1: "), "empty");
         let cut = &text[..text.rfind("</UCIS>").expect("the end")];
         assert!(refused(cut).contains("truncated"), "{}", refused(cut));
@@ -221,6 +177,6 @@ mod tests {
         assert_eq!(coverpoints, Coverage::default().groups().len());
         assert_eq!(text.matches("</coverpoint>").count(), coverpoints, "each ends");
         let error = read(&format!("{text}x")).expect_err("a tail");
-        assert_eq!(error.line, text.lines().count() + 1, "{error}");
+        assert!(error.starts_with(&format!("line {}: ", text.lines().count() + 1)), "{error}");
     }
 }

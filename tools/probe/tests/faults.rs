@@ -83,7 +83,8 @@ fn exact_captures_are_equal_in_order() {
 #[test]
 fn known_differences_are_no_verdict() {
     for (known, different, excused) in [(LINE, 0, 1), (DENORMAL, 1, 0)] {
-        let known = Arc::new(Known::from_iter([case(known)]));
+        let known = Known::read("known", known.as_bytes(), None, "").expect("a case");
+        let known = Arc::new(known);
         let mut judge = Judge::new(info(), Method::Primitives, any()).with_known(&known);
         let mut captured = exact(&case(LINE));
         captured.vertices.truncate(3);
