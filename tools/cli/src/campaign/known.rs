@@ -63,9 +63,7 @@ impl KnownArgs {
             return Err(Failure::bad_input("--known is kept from run to run: give a file"));
         }
         let reader = input::open(path).map_err(|error| Failure::file("read", path, &error))?;
-        let since = SystemTime::now().duration_since(UNIX_EPOCH);
-        let today = date(since.map_or(0, |since| since.as_secs()) / 86_400);
-        let known = Known::read(&input::name(path), reader, rules, &today)
+        let known = Known::read(&input::name(path), reader, rules, &today())
             .map_err(|error| Failure::bad_input(error.to_string()))?;
         let mut lines: Vec<String> = known.lines().map(|line| line + "\n").collect();
         let entries = lines.len() as u64;
@@ -76,6 +74,12 @@ impl KnownArgs {
         let file = Some(KnownCases { file, digest, entries, ..KnownCases::default() });
         Ok(Baseline { known: Arc::new(known), file })
     }
+}
+
+#[expect(clippy::disallowed_methods, reason = "lines of a baseline end on a day")]
+fn today() -> String {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    date(since.map_or(0, |since| since.as_secs()) / 86_400)
 }
 
 /// The date of a day since 1970, such as 2027-06-30.
