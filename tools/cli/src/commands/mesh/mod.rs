@@ -21,7 +21,7 @@ use crate::threads::start_pool;
 use clap::builder::ValueParser;
 use glam::Vec3;
 use input::{Input, height};
-use output::{IndexWidth, Options, ResultForm};
+use output::{IndexWidth, MeshFile, Options, ResultForm};
 use pipeline::Job;
 use statistics::{Stage, Statistics};
 use std::io::Write;
@@ -190,14 +190,14 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let up = args.view.up.unwrap_or(up);
     let view = args.view.view(&args.outline(form, &model), up);
     let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
-    let mut sink = output::open(&args.output, form, &options)?;
+    let mut sink = MeshFile::open(&args.output, form, &options)?;
     let job = Job {
         model: &model,
         rule: args.rule.rule(&view),
         partitioning: args.partitioning,
         displaced: displaced.as_ref(),
     };
-    pipeline::run(&job, sink.as_mut(), &mut statistics)?;
+    pipeline::run(&job, &mut sink, &mut statistics)?;
     statistics.time(Stage::Output, || sink.finish())?;
     // Nobody may be listening; the output is there all the same.
     _ = write!(std::io::stderr(), "{statistics}");

@@ -2,7 +2,7 @@
 //!
 //! Beyond the model, memory holds the factors of its patches and one block, whatever the factors.
 
-use super::output::{Block, Sink, Totals};
+use super::output::{Block, MeshFile, Totals};
 use super::statistics::{Stage, Statistics};
 use crate::failure::Failure;
 use crate::output::progress;
@@ -55,7 +55,7 @@ struct Stream<'a> {
 /// Those of the sink.
 pub(crate) fn run(
     job: &Job<'_>,
-    sink: &mut dyn Sink,
+    sink: &mut MeshFile,
     statistics: &mut Statistics,
 ) -> Result<(), Failure> {
     let config = Config::new(job.partitioning, OutputPrimitive::TriangleCw);
@@ -116,7 +116,7 @@ impl Stream<'_> {
         &mut self,
         first: usize,
         factors: &[PatchFactors],
-        sink: &mut dyn Sink,
+        sink: &mut MeshFile,
         statistics: &mut Statistics,
     ) -> Result<(), Failure> {
         let (triangles, quads) = by_domain(first, factors);
@@ -134,7 +134,7 @@ impl Stream<'_> {
         &mut self,
         patches: &[usize],
         batch: Batch<'_>,
-        sink: &mut dyn Sink,
+        sink: &mut MeshFile,
         statistics: &mut Statistics,
     ) -> Result<(), Failure> {
         if patches.is_empty() {

@@ -6,7 +6,7 @@ use super::{Options, Sink, Totals};
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Room for the JSON, which is known last and stands first; the rest is filled with blanks, as
 /// the format has it.
@@ -16,15 +16,11 @@ const JSON_ROOM: usize = 2048;
 const BEFORE_BINARY: usize = 12 + 8 + JSON_ROOM + 8;
 
 /// The file while it grows.
-pub(super) struct Glb {
-    path: PathBuf,
-    binary: Binary,
-}
+pub(super) struct Glb(Binary);
 
 impl Glb {
     pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
-        let file = OutputFile::create(path)?;
-        Ok(Self { path: path.to_owned(), binary: Binary::new(file, BEFORE_BINARY as u64, options) })
+        Ok(Self(Binary::new(OutputFile::create(path)?, BEFORE_BINARY as u64, options)))
     }
 }
 
@@ -51,21 +47,18 @@ fn beginning(json: &str, length: u64) -> io::Result<Vec<u8>> {
 }
 
 impl Sink for Glb {
-    fn begin(&mut self, totals: Totals) -> Result<(), Failure> {
-        self.binary.begin(totals).map_err(|error| Failure::write(&self.path, error))
+    fn begin(&mut self, totals: Totals) -> io::Result<()> {
+        self.0.begin(totals)
     }
 
-    fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
-        self.binary.block(block).map_err(|error| Failure::write(&self.path, error))
+    fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
+        self.0.block(block)
     }
 
-    fn finish(self: Box<Self>) -> Result<(), Failure> {
-        let Self { path, binary } = *self;
-        let failure = |error: io::Error| Failure::write(&path, error);
-        let (file, layout) = binary.finish().map_err(failure)?;
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        let (file, layout) = self.0.finish()?;
         let document = layout.document(None).to_string();
-        let beginning = beginning(&document, layout.length()).map_err(failure)?;
-        file.write_at(&beginning, 0).map_err(failure)?;
-        file.finish().map_err(failure)
+        file.write_at(&beginning(&document, layout.length())?, 0)?;
+        file.finish()
     }
 }

@@ -7,11 +7,10 @@ use crate::failure::Failure;
 use crate::output::OutputFile;
 use serde_json::Value;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Both files while the binary part grows.
 pub(super) struct Gltf {
-    path: PathBuf,
     /// The JSON's name of the binary part.
     uri: String,
     json: OutputFile,
@@ -38,7 +37,7 @@ impl Gltf {
         }
         let json = OutputFile::create(path)?;
         let binary = Binary::new(OutputFile::create(&beside)?, 0, options);
-        Ok(Self { path: path.to_owned(), uri, json, binary })
+        Ok(Self { uri, json, binary })
     }
 }
 
@@ -66,20 +65,19 @@ fn refers_to(gltf: &Path, uri: &str) -> bool {
 }
 
 impl Sink for Gltf {
-    fn begin(&mut self, totals: Totals) -> Result<(), Failure> {
-        self.binary.begin(totals).map_err(|error| Failure::write(&self.path, error))
+    fn begin(&mut self, totals: Totals) -> io::Result<()> {
+        self.binary.begin(totals)
     }
 
-    fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
-        self.binary.block(block).map_err(|error| Failure::write(&self.path, error))
+    fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
+        self.binary.block(block)
     }
 
-    fn finish(self: Box<Self>) -> Result<(), Failure> {
-        let Self { path, uri, mut json, binary } = *self;
-        let failure = |error: io::Error| Failure::write(&path, error);
-        let (binary, layout) = binary.finish().map_err(failure)?;
-        let document = crate::output::json(&layout.document(Some(&uri)));
-        json.write_all(document.as_bytes()).map_err(failure)?;
-        binary.finish().and_then(|()| json.finish()).map_err(failure)
+    fn finish(self: Box<Self>) -> io::Result<()> {
+        let Self { uri, mut json, binary } = *self;
+        let (binary, layout) = binary.finish()?;
+        json.write_all(crate::output::json(&layout.document(Some(&uri))).as_bytes())?;
+        binary.finish()?;
+        json.finish()
     }
 }

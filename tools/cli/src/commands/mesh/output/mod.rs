@@ -11,6 +11,7 @@ use super::input::Up;
 use super::view::View;
 use crate::failure::Failure;
 use crate::output::form::Form;
+use std::io;
 use std::path::{Path, PathBuf};
 use tess_surface::Sample;
 
@@ -34,27 +35,52 @@ pub(crate) struct Totals {
     pub(crate) indices: u64,
 }
 
-/// Takes the result block by block.
-pub(crate) trait Sink {
+/// Takes the result block by block. Errors: the output cannot be written, or the form cannot hold so much.
+trait Sink {
     /// Takes how much there will be, before the first block.
-    ///
-    /// # Errors
-    /// The form cannot hold so much.
-    fn begin(&mut self, _totals: Totals) -> Result<(), Failure> {
+    fn begin(&mut self, _totals: Totals) -> io::Result<()> {
         Ok(())
     }
 
     /// The next vertices and triangles.
-    ///
-    /// # Errors
-    /// The output cannot be written, or the form cannot hold so much.
-    fn block(&mut self, block: &Block<'_>) -> Result<(), Failure>;
+    fn block(&mut self, block: &Block<'_>) -> io::Result<()>;
 
-    /// Ends the output and puts it in its place.
+    /// Ends the output and puts it in its place; after an error nothing is there, or what was there before.
+    fn finish(self: Box<Self>) -> io::Result<()>;
+}
+
+/// The output, whose errors name its file.
+pub(crate) struct MeshFile {
+    path: PathBuf,
+    sink: Box<dyn Sink>,
+}
+
+impl MeshFile {
+    /// Begins an output.
     ///
     /// # Errors
-    /// As for [`Sink::block`]; then nothing is there, or what was there before.
-    fn finish(self: Box<Self>) -> Result<(), Failure>;
+    /// A place that cannot be written to.
+    pub(crate) fn open(path: &Path, form: ResultForm, options: &Options) -> Result<Self, Failure> {
+        let sink: Box<dyn Sink> = match form {
+            ResultForm::Obj => Box::new(obj::Obj::create(path)?),
+            ResultForm::Gltf => Box::new(gltf::Gltf::create(path, options)?),
+            ResultForm::Glb => Box::new(glb::Glb::create(path, options)?),
+            ResultForm::Png => Box::new(picture::Picture::create(path, options)?),
+        };
+        Ok(Self { path: path.to_owned(), sink })
+    }
+
+    pub(crate) fn begin(&mut self, totals: Totals) -> Result<(), Failure> {
+        self.sink.begin(totals).map_err(|error| Failure::write(&self.path, error))
+    }
+
+    pub(crate) fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
+        self.sink.block(block).map_err(|error| Failure::write(&self.path, error))
+    }
+
+    pub(crate) fn finish(self) -> Result<(), Failure> {
+        self.sink.finish().map_err(|error| Failure::write(&self.path, error))
+    }
 }
 
 /// Width of the indices in glTF.
@@ -110,21 +136,4 @@ impl ResultForm {
 /// The second file of a form that has two: the binary part of glTF.
 pub(crate) fn part_beside(path: &Path, form: ResultForm) -> Option<PathBuf> {
     (form == ResultForm::Gltf).then(|| path.with_extension("bin"))
-}
-
-/// The sink for a file.
-///
-/// # Errors
-/// A place that cannot be written to.
-pub(crate) fn open(
-    path: &Path,
-    form: ResultForm,
-    options: &Options,
-) -> Result<Box<dyn Sink>, Failure> {
-    Ok(match form {
-        ResultForm::Obj => Box::new(obj::Obj::create(path)?),
-        ResultForm::Gltf => Box::new(gltf::Gltf::create(path, options)?),
-        ResultForm::Glb => Box::new(glb::Glb::create(path, options)?),
-        ResultForm::Png => Box::new(picture::Picture::create(path, options)?),
-    })
 }

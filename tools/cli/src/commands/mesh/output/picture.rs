@@ -9,7 +9,7 @@ use crate::output::OutputFile;
 use glam::Vec3;
 use png::{BitDepth, ColorType, Compression, Encoder};
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Samples per pixel along each axis.
 const SAMPLES: usize = 3;
@@ -19,7 +19,6 @@ const HALF_LINE: f32 = 0.5;
 
 /// A picture while it is drawn. Its memory is the picture's alone.
 pub(super) struct Picture {
-    path: PathBuf,
     file: OutputFile,
     raster: Raster,
     light: Light,
@@ -40,7 +39,6 @@ impl Picture {
         let samples = (size.0 as usize * SAMPLES, size.1 as usize * SAMPLES);
         let row = |k: usize| clip.row(k).truncate().normalize_or_zero();
         Ok(Self {
-            path: path.to_owned(),
             file: OutputFile::create(path)?,
             raster: Raster::new(samples, clip, [250, 250, 252]),
             light: Light {
@@ -115,7 +113,7 @@ impl Light {
 }
 
 impl Sink for Picture {
-    fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
+    fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
         let Self { raster, light, .. } = self;
         for triangle in block.indices.as_chunks::<3>().0 {
             let corners = triangle.map(|index| &block.vertices[index as usize]);
@@ -124,9 +122,8 @@ impl Sink for Picture {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>) -> Result<(), Failure> {
-        let encoded = self.encode();
-        let Self { path, file, .. } = *self;
-        encoded.and_then(|()| file.finish()).map_err(|error| Failure::write(&path, error))
+    fn finish(mut self: Box<Self>) -> io::Result<()> {
+        self.encode()?;
+        self.file.finish()
     }
 }
