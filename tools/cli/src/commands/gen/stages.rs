@@ -33,68 +33,30 @@ impl Named for Block {
     ];
 }
 
-/// A column: its name and width in bits.
-pub(super) type Column = (&'static str, u32);
-
-const FACTORS: &[Column] = &[
-    ("domain", 2),
-    ("partitioning", 2),
-    ("raw0", 32),
-    ("raw1", 32),
-    ("raw2", 32),
-    ("raw3", 32),
-    ("raw4", 32),
-    ("raw5", 32),
-    ("outcome", 2),
-    ("fixed0", 23),
-    ("odd0", 1),
-    ("fixed1", 23),
-    ("odd1", 1),
-    ("fixed2", 23),
-    ("odd2", 1),
-    ("fixed3", 23),
-    ("odd3", 1),
-    ("fixed4", 23),
-    ("odd4", 1),
-    ("fixed5", 23),
-    ("odd5", 1),
-];
-const CONTEXT: &[Column] = &[
-    ("split_order", 1),
-    ("odd", 1),
-    ("fixed", 23),
-    ("inv_floor", 17),
-    ("inv_ceil", 17),
-    ("fraction", 16),
-    ("half_points", 6),
-    ("split", 6),
-    ("points", 7),
-];
-const PLACE: &[Column] =
-    &[("split_order", 1), ("odd", 1), ("fixed", 23), ("p", 7), ("location", 17)];
-const STITCH: &[Column] = &[
-    ("split_order", 1),
-    ("kind", 2),
-    ("middle_turned", 1),
-    ("outer_points", 7),
-    ("inner_points", 6),
-    ("step", 7),
-    ("outer", 6),
-    ("inner", 6),
-    ("advances_outer", 1),
-    ("begins_outer", 1),
-    ("last", 1),
-];
+/// The columns of a stage's rows, each with its width in bits: first what the stage takes, then what it gives.
+const FACTORS: &str = "domain 2, partitioning 2, raw0 32, raw1 32, raw2 32, raw3 32, raw4 32, raw5 32, \
+    outcome 2, fixed0 23, odd0 1, fixed1 23, odd1 1, fixed2 23, odd2 1, fixed3 23, odd3 1, \
+    fixed4 23, odd4 1, fixed5 23, odd5 1";
+const CONTEXT: &str = "split_order 1, odd 1, fixed 23, inv_floor 17, inv_ceil 17, fraction 16, \
+    half_points 6, split 6, points 7";
+const PLACE: &str = "split_order 1, odd 1, fixed 23, p 7, location 17";
+const STITCH: &str = "split_order 1, kind 2, middle_turned 1, outer_points 7, inner_points 6, step 7, \
+    outer 6, inner 6, advances_outer 1, begins_outer 1, last 1";
 
 impl Block {
-    /// The columns: first what the stage takes, then what it gives.
-    pub(super) const fn columns(self) -> &'static [Column] {
+    const fn layout(self) -> &'static str {
         match self {
             Self::Factors => FACTORS,
             Self::Context => CONTEXT,
             Self::Place => PLACE,
             Self::Stitch => STITCH,
         }
+    }
+
+    /// Name and width of each column.
+    fn columns(self) -> impl Iterator<Item = (&'static str, usize)> {
+        let columns = self.layout().split(", ").filter_map(|column| column.split_once(' '));
+        columns.filter_map(|(name, bits)| Some((name, bits.parse().ok()?)))
     }
 
     /// What the numbers of the columns mean.
@@ -213,7 +175,7 @@ pub(super) fn write_csv(
     block: Block,
     rows: &BTreeSet<Vec<u32>>,
 ) -> io::Result<()> {
-    let names: Vec<&str> = block.columns().iter().map(|(name, _)| *name).collect();
+    let names: Vec<&str> = block.columns().map(|(name, _)| name).collect();
     writeln!(
         out,
         "# tess-stage 1 stage={} count={}: {}",
@@ -223,8 +185,8 @@ pub(super) fn write_csv(
     )?;
     writeln!(out, "{}", names.join(","))?;
     rows.iter().try_for_each(|row| {
-        let digits = block.columns().iter().zip(row).map(|((_, bits), number)| {
-            let digits = bits.div_ceil(4) as usize;
+        let digits = block.columns().zip(row).map(|((_, bits), number)| {
+            let digits = bits.div_ceil(4);
             format!("{number:0digits$x}")
         });
         writeln!(out, "{}", digits.collect::<Vec<_>>().join(","))
@@ -240,21 +202,16 @@ pub(super) fn write_memh(
     block: Block,
     rows: &BTreeSet<Vec<u32>>,
 ) -> io::Result<()> {
-    let columns = block.columns();
-    let bits: u32 = columns.iter().map(|(_, bits)| bits).sum();
-    let layout: Vec<String> = columns.iter().map(|(name, bits)| format!("{name} {bits}")).collect();
-    writeln!(out, "// {} words of {bits} bits: {}", rows.len(), layout.join(", "))?;
+    let bits: usize = block.columns().map(|(_, bits)| bits).sum();
+    writeln!(out, "// {} words of {bits} bits: {}", rows.len(), block.layout())?;
     writeln!(out, "// {}", block.meaning())?;
-    rows.iter().try_for_each(|row| writeln!(out, "{}", word(columns, row)))
+    rows.iter().try_for_each(|row| writeln!(out, "{}", word(block, row)))
 }
 
 /// The numbers side by side, as one number in hex.
-fn word(columns: &[Column], row: &[u32]) -> String {
-    let bits: String = columns
-        .iter()
-        .zip(row)
-        .map(|((_, bits), number)| format!("{number:0width$b}", width = *bits as usize))
-        .collect();
+fn word(block: Block, row: &[u32]) -> String {
+    let columns = block.columns().zip(row);
+    let bits: String = columns.map(|((_, bits), number)| format!("{number:0bits$b}")).collect();
     let padded = "0".repeat(bits.len().next_multiple_of(4) - bits.len()) + &bits;
     let digit =
         |four: &[u8]| four.iter().fold(0, |digit, bit| digit << 1 | u32::from(*bit == b'1'));
@@ -286,10 +243,10 @@ mod tests {
         for &(name, block) in Block::NAMES {
             let rows = all(block);
             assert!(rows.len() > 100, "{name}: {} rows", rows.len());
-            for (at, (column, bits)) in block.columns().iter().enumerate() {
+            for (at, (column, bits)) in block.columns().enumerate() {
                 let most = rows.iter().map(|row| row[at]).max().expect("rows");
                 let needed = 32 - most.leading_zeros();
-                assert_eq!(needed.max(1), *bits, "{name}.{column}: at most {most}");
+                assert_eq!(needed.max(1) as usize, bits, "{name}.{column}: at most {most}");
             }
         }
     }
