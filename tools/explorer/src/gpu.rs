@@ -136,10 +136,13 @@ impl GpuBatch {
         for &factors in &self.patches {
             let case = Case { config: self.setup.config, factors };
             let expected = case.patch().tessellate();
-            let observed = Tessellation {
-                points: take(&mut points, expected.points.len()).iter().map(unpacked).collect(),
-                indices: take(&mut indices, expected.indices.len()).to_vec(),
-            };
+            // As many as are expected, or as there are.
+            let own = expected.points.len().min(points.len());
+            let own = points.split_off(..own).unwrap_or_default().iter();
+            let own_indices = expected.indices.len().min(indices.len());
+            let own_indices = indices.split_off(..own_indices).unwrap_or_default();
+            let observed =
+                Tessellation { points: own.map(unpacked).collect(), indices: own_indices.to_vec() };
             if let Some(mismatch) = Mismatch::between(&case, &observed, &expected) {
                 return Some(format!("{case}: {mismatch}"));
             }
@@ -246,13 +249,6 @@ fn fitting(workload: &Workload, mebibytes: u32) -> usize {
         bytes <= u64::from(mebibytes) << 20
     };
     workload.counts().take_while(fits).count()
-}
-
-/// The first `count` elements, or as many as there are, which are removed.
-fn take<'a, T>(rest: &mut &'a [T], count: usize) -> &'a [T] {
-    let (taken, left) = rest.split_at(count.min(rest.len()));
-    *rest = left;
-    taken
 }
 
 fn unpacked(words: &[u32; 2]) -> DomainPoint {

@@ -33,7 +33,13 @@ impl PatchView {
         }
     }
 
-    fn explanation(&self, part: Part) -> Option<Explanation> {
+    fn explanation(&self, pick: &str) -> Option<Explanation> {
+        let (kind, number) = pick.split_at_checked(1).unwrap_or_default();
+        let part = match kind {
+            "" => Part::Patch,
+            "p" => Part::Point(number.parse().ok()?),
+            _ => Part::Primitive(number.parse().ok()?),
+        };
         Explanation::new(&self.listing.case, part)
     }
 
@@ -80,29 +86,15 @@ impl PatchView {
         self.listing.case.primitive_size()
     }
 
-    /// Every stage as `tess explain` prints it.
-    pub fn explain(&self) -> String {
-        self.explanation(Part::Patch).map_or_else(String::new, |report| report.to_string())
-    }
-
-    /// Where a point comes from, as `tess explain --point` prints it.
-    pub fn point_text(&self, i: u32) -> Option<String> {
-        self.explanation(Part::Point(i)).map(|report| report.to_string())
+    /// Every stage as `tess explain` prints it; of a `pick` such as `p7` or `t12`, where that point or primitive
+    /// comes from. Nothing if there is none.
+    pub fn explain(&self, pick: &str) -> Option<String> {
+        self.explanation(pick).map(|report| report.to_string())
     }
 
     /// The same as JSON.
-    pub fn point_json(&self, i: u32) -> Option<String> {
-        self.explanation(Part::Point(i)).map(|report| json(&report))
-    }
-
-    /// Where a primitive comes from, as `tess explain --primitive` prints it.
-    pub fn primitive_text(&self, t: u32) -> Option<String> {
-        self.explanation(Part::Primitive(t)).map(|report| report.to_string())
-    }
-
-    /// The same as JSON.
-    pub fn primitive_json(&self, t: u32) -> Option<String> {
-        self.explanation(Part::Primitive(t)).map(|report| json(&report))
+    pub fn explain_json(&self, pick: &str) -> Option<String> {
+        self.explanation(pick).map(|report| json(&report))
     }
 
     /// The listing alone, as it stands in a vector file.

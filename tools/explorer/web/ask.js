@@ -36,18 +36,15 @@ export function update(keys) {
 // The element under the pointer, else the one that was picked.
 function show() {
   const pick = over.hover || state.pick;
-  const number = Number(pick.slice(1));
-  const isPoint = pick[0] === "p";
-  const text = pick && (isPoint ? patch.view.point_text(number) : patch.view.primitive_text(number));
-  const json = pick && (isPoint ? patch.view.point_json(number) : patch.view.primitive_json(number));
-  const missing = `There is no ${isPoint ? "point" : "primitive"} ${number}.`;
+  const text = pick && patch.view.explain(pick), json = pick && patch.view.explain_json(pick);
+  const missing = `There is no ${pick[0] === "p" ? "point" : "primitive"} ${Number(pick.slice(1))}.`;
   element("asked").textContent = pick ? text ?? missing : "";
   element("asked-json").textContent = json ? JSON.stringify(JSON.parse(json), null, 2) : "";
 }
 
 // A section for each stage; those that are open stay open.
 function stages() {
-  const [, ...sections] = patch.view.explain().split("\n\n");
+  const [, ...sections] = patch.view.explain("").split("\n\n");
   const parts = sections.join("\n\n").split(/\n\n|\n(?=Decisions)/);
   const old = new Map([...element("stages").children].map((box) => [box.dataset.stage, box]));
   element("stages").replaceChildren(...parts.map((part) => {
