@@ -4,6 +4,7 @@ use crate::compare_with_model;
 use crate::input::Bytes;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use tess_core::{Config, Domain, DomainPoint, PatchFactors, Tessellation};
+use tess_gpu::layout::PackedPoint;
 use tess_gpu::{Numbering, PointFormat, Setup};
 use tess_verify::Case;
 use tess_wgpu::{Gpu, Tessellator};
@@ -30,13 +31,13 @@ pub fn check(data: &[u8]) -> Result<(), String> {
         let (gpu, tessellator) = &mut *device;
         run(gpu, tessellator, first.domain(), config, &patches)?
     };
-    let (mut points, mut indices) = (&output.0[..], &output.1[..]);
+    let (mut points, mut indices) = output;
     for (i, &factors) in patches.iter().enumerate() {
         let case = Case { config, factors };
         let model = case.patch().tessellate();
         let observed = Tessellation {
-            points: take(&mut points, model.points.len()).to_vec(),
-            indices: take(&mut indices, model.indices.len()).to_vec(),
+            points: points.drain(..model.points.len().min(points.len())).collect(),
+            indices: indices.drain(..model.indices.len().min(indices.len())).collect(),
         };
         let name = format!("gpu, patch {i} of {}", patches.len());
         compare_with_model(&name, &case, observed, &model)?;
@@ -65,22 +66,6 @@ fn run(
     let setup = Setup { point_format, numbering, ..Setup::new(domain, config) };
     let output = tessellator.tessellate(gpu, setup, patches);
     let output = output.map_err(|error| error.to_string())?;
-    let points = output.points.iter().map(|&[low, high]| unpack(low, high)).collect();
+    let points = output.points.iter().map(|&words| PackedPoint(words).point()).collect();
     Ok((points, output.indices))
-}
-
-/// u in bits 0..=16, v in bits 17..=33.
-fn unpack(low: u32, high: u32) -> DomainPoint {
-    const COORDINATE: u64 = 0x1_FFFF;
-    let bits = u64::from(high) << 32 | u64::from(low);
-    let [u, v] = [bits & COORDINATE, bits >> 17 & COORDINATE];
-    let word = |bits| u32::try_from(bits).expect("17 bits");
-    DomainPoint::from_bits(word(u), word(v))
-}
-
-/// The next `count` elements, or as many as there are.
-fn take<'a, T>(list: &mut &'a [T], count: usize) -> &'a [T] {
-    let (taken, rest) = list.split_at(count.min(list.len()));
-    *list = rest;
-    taken
 }

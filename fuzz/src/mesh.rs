@@ -4,7 +4,6 @@
 pub mod bpt;
 pub mod gltf;
 pub mod height_png;
-pub mod mutations;
 pub mod obj;
 pub mod seeds;
 

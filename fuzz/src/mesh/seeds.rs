@@ -218,25 +218,16 @@ pub fn gltf() -> Vec<Vec<u8>> {
 /// PNG files: every colour type and depth, plain and interlaced, on random bytes.
 pub fn height_png() -> Vec<Vec<u8>> {
     let kinds = [
-        (0, 1),
-        (0, 2),
-        (0, 4),
-        (0, 8),
-        (0, 16),
-        (2, 8),
-        (2, 16),
-        (3, 1),
-        (3, 2),
-        (3, 4),
-        (3, 8),
-        (4, 8),
-        (4, 16),
-        (6, 8),
-        (6, 16),
+        (0, &[1, 2, 4, 8, 16][..]),
+        (2, &[8, 16]),
+        (3, &[1, 2, 4, 8]),
+        (4, &[8, 16]),
+        (6, &[8, 16]),
     ];
+    let kinds = kinds.iter().flat_map(|&(colour, depths)| depths.iter().map(move |&d| (colour, d)));
     let sizes = [(1u8, 1u8), (5, 3), (9, 10)];
     let mut seeds = Vec::new();
-    for (number, &(colour, depth)) in kinds.iter().enumerate() {
+    for (number, (colour, depth)) in kinds.enumerate() {
         for interlaced in [false, true] {
             let (width, height) = sizes[(number + usize::from(interlaced)) % 3];
             seeds.push(png(width, height, depth, colour, interlaced));
@@ -278,7 +269,8 @@ fn png(width: u8, height: u8, depth: u8, colour: u8, interlaced: bool) -> Vec<u8
     file
 }
 
-pub(super) fn chunk(file: &mut Vec<u8>, kind: &[u8], content: &[u8]) {
+/// Appends a chunk of a PNG file, with its checksum.
+pub fn chunk(file: &mut Vec<u8>, kind: &[u8], content: &[u8]) {
     file.extend(u32::try_from(content.len()).unwrap_or(0).to_be_bytes());
     let start = file.len();
     file.extend(kind);

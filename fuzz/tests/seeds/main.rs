@@ -2,8 +2,10 @@
 //!
 //! One test, as the planted fault is seen by the whole process.
 
+mod mutations;
+
 use std::path::Path;
-use tess_fuzz::mesh::{self, mutations};
+use tess_fuzz::mesh;
 use tess_fuzz::{capi, device, plant_fault, prepare, random_access, seeds, simd, vectors};
 use tess_program::fuzzing;
 

@@ -1,10 +1,10 @@
 //! Faults planted in the seeds of mesh files, the same in every run.
 
-use super::seeds::chunk;
 use serde_json::{Value, json};
+use tess_fuzz::mesh::seeds::chunk;
 
 /// Variants of a seed of one target.
-pub fn of(target: &str, seed: &[u8]) -> Vec<Vec<u8>> {
+pub(crate) fn of(target: &str, seed: &[u8]) -> Vec<Vec<u8>> {
     let mut variants = of_bytes(seed);
     match target {
         "gltf" => variants.extend(of_json(seed)),
