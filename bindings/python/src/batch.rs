@@ -16,7 +16,7 @@ use std::sync::{Mutex, PoisonError};
 use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
 use tess_simd::{BatchCounts, Numbering, OutputPoint, PatchRange};
 use tess_verify::Named;
-use work::{ArrayRoom, How, Sizes, Work};
+use work::{ArrayRoom, How, BatchSizes, BatchWork};
 
 /// Tessellates batches in one configuration, on the CPU's vector units.
 ///
@@ -142,16 +142,16 @@ impl Tessellator {
         self.with(|tessellator, threads| {
             let counted = py.detach(|| threads.run(|| tessellator.count(batch.batch())));
             let counted = counted.map_err(errors::batch)?;
-            let sizes = Sizes::of(&counted, numbering);
+            let sizes = BatchSizes::of(&counted, numbering);
             let arrays = match out {
                 Some(out) => Arrays::given(py, out, sizes.counts)?,
                 None => Arrays::new(py, points, indices, sizes.counts)?,
             };
             if sizes.is_small() {
-                arrays.write(py, Work { threads, numbering, how: How::AtOnce(counted) })?;
+                arrays.write(py, BatchWork { threads, numbering, how: How::AtOnce(counted) })?;
             } else {
                 let how = How::Parts { tessellator, batch: batch.batch(), sizes };
-                arrays.write(py, Work { threads, numbering, how })?;
+                arrays.write(py, BatchWork { threads, numbering, how })?;
             }
             arrays.result(py, sizes.counts)
         })
@@ -179,12 +179,12 @@ impl Tessellator {
 }
 
 /// The patches of an array.
-fn owned(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Patches> {
+fn owned(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<BatchPatches> {
     let flat = arrays::factors(domain, array)?;
     Ok(match domain {
-        Domain::Isoline => Patches::Isolines(of::<2, _>(&flat)?),
-        Domain::Triangle => Patches::Triangles(of::<4, _>(&flat)?),
-        Domain::Quad => Patches::Quads(of::<6, _>(&flat)?),
+        Domain::Isoline => BatchPatches::Isolines(of::<2, _>(&flat)?),
+        Domain::Triangle => BatchPatches::Triangles(of::<4, _>(&flat)?),
+        Domain::Quad => BatchPatches::Quads(of::<6, _>(&flat)?),
     })
 }
 
@@ -193,13 +193,13 @@ fn of<const N: usize, T: From<[f32; N]>>(flat: &[f32]) -> PyResult<Vec<T>> {
 }
 
 /// Patches of one domain in the layout that is the fastest.
-enum Patches {
+enum BatchPatches {
     Isolines(Vec<IsolineFactors>),
     Triangles(Vec<TriangleFactors>),
     Quads(Vec<QuadFactors>),
 }
 
-impl Patches {
+impl BatchPatches {
     fn batch(&self) -> tess_simd::Batch<'_> {
         match self {
             Self::Isolines(all) => all.into(),
@@ -303,7 +303,7 @@ impl<'py> Arrays<'py> {
     }
 
     /// Writes the batch.
-    fn write(&self, py: Python<'py>, work: Work<'_>) -> PyResult<()> {
+    fn write(&self, py: Python<'py>, work: BatchWork<'_>) -> PyResult<()> {
         let mut ranges: Rows<'py, u32> = writable("ranges", &self.ranges)?;
         let ranges = arrays::ranges(ranges.as_slice_mut().map_err(output)?);
         match &self.points {
@@ -323,7 +323,7 @@ impl<'py> Arrays<'py> {
     fn write_indices<P: OutputPoint>(
         &self,
         py: Python<'py>,
-        work: Work<'_>,
+        work: BatchWork<'_>,
         points: &mut [P],
         ranges: &mut [PatchRange],
     ) -> PyResult<()> {

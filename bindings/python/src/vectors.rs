@@ -22,12 +22,12 @@ use tess_verify::vectors::{Header, Kind, Listing, VectorError, write_cases};
 use tess_verify::{Backend, Case, CoreBackend, Named};
 
 /// Cases; `None` for one of another shard.
-type Source = Box<dyn Iterator<Item = Option<Case>> + Send>;
+type CaseSource = Box<dyn Iterator<Item = Option<Case>> + Send>;
 
 /// An iterator over generated patches: what :func:`generate` gives.
 #[pyclass(frozen, module = "tess_model")]
 pub(crate) struct Cases {
-    source: Mutex<Source>,
+    source: Mutex<CaseSource>,
     /// Patches given: `list` takes them without a step of the interpreter between two.
     given: AtomicU32,
 }

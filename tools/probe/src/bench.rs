@@ -5,7 +5,8 @@ use crate::error::Error;
 use crate::modes::with_modes;
 use crate::shaders::{EMPTY_VERT, EVALUATE_TESE, EVALUATE_VERT, FACTORS_TESC, FLAT_FRAG, words};
 use crate::vulkan::{
-    Buffer, Commands, Compute, Gpu, Pass, Pipeline, Program, STAGES, Spirv, Vertices, pipeline,
+    BoundInterface, Commands, Compute, DeviceBuffer, DrawPass, Gpu, Pipeline, STAGES, Spirv,
+    Vertices, pipeline,
 };
 use ash::vk;
 use serde::Serialize;
@@ -18,7 +19,7 @@ use tess_verify::generate::Workload;
 /// Times of one workload: of each, the fastest of several runs.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
-pub struct Times {
+pub struct BenchTimes {
     /// The workload.
     pub workload: String,
     /// Patches, the workload's own repeated.
@@ -55,7 +56,7 @@ pub fn bench(
     workload: &Workload,
     runs: u32,
     spirv: Spirv<'_>,
-) -> Result<Times, Error> {
+) -> Result<BenchTimes, Error> {
     let gpu = Arc::new(Gpu::open(number)?);
     let totals = workload.totals();
     let by_patches = PATCHES.div_ceil(workload.patches.len());
@@ -63,7 +64,7 @@ pub fn bench(
     let repeats = by_patches.min(usize::try_from(by_triangles).unwrap_or(1)).max(1);
     let (repeats, runs) = if gpu.info.is_software { (1, runs.min(2)) } else { (repeats, runs) };
     let patches = workload.patches.repeat(repeats);
-    let bench = Bench::new(&gpu, workload, &patches, repeats, spirv)?;
+    let bench = BothWays::new(&gpu, workload, &patches, repeats, spirv)?;
     let mut best = [f64::INFINITY; Way::ALL.len()];
     for _ in 0..runs.max(1) {
         for (best, way) in best.iter_mut().zip(Way::ALL) {
@@ -72,7 +73,7 @@ pub fn bench(
     }
     bench.check(3 * totals.primitives * repeats as u64)?;
     let [fixed, compute, fixed_drawn, compute_drawn, ordered, ordered_drawn] = best;
-    Ok(Times {
+    Ok(BenchTimes {
         workload: workload.name.clone(),
         patches: patches.len() as u64,
         triangles: totals.primitives * repeats as u64,
@@ -105,23 +106,23 @@ impl Way {
 }
 
 /// Both ways, ready to run.
-struct Bench {
+struct BothWays {
     // Dropped in this order: the device last.
     fixed: Pipeline,
     fixed_drawn: Pipeline,
     compute_drawn: Pipeline,
     compute: Compute,
     ordered: Compute,
-    discarding: Pass,
-    drawing: Pass,
-    program: Program,
-    _factors: Buffer,
+    discarding: DrawPass,
+    drawing: DrawPass,
+    program: BoundInterface,
+    _factors: DeviceBuffer,
     commands: Commands,
     patches: u32,
     gpu: Arc<Gpu>,
 }
 
-impl Bench {
+impl BothWays {
     fn new(
         gpu: &Arc<Gpu>,
         workload: &Workload,
@@ -134,10 +135,10 @@ impl Bench {
         let domain = patches[0].domain();
         let factors: Vec<u32> = patches.iter().flat_map(|&p| words_of(config, p)).collect();
         let usage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let factors = Buffer::uploaded(gpu, &commands, &factors, usage)?;
-        let program = Program::new(gpu, &[&factors])?;
+        let factors = DeviceBuffer::uploaded(gpu, &commands, &factors, usage)?;
+        let program = BoundInterface::new(gpu, &[&factors])?;
         let (discarding, drawing) =
-            (Pass::new(gpu, PICTURE, false)?, Pass::new(gpu, PICTURE, true)?);
+            (DrawPass::new(gpu, PICTURE, false)?, DrawPass::new(gpu, PICTURE, true)?);
         let [empty, control, vertex, fragment] =
             [EMPTY_VERT, FACTORS_TESC, EVALUATE_VERT, FLAT_FRAG].map(words);
         let evaluation = with_modes(&words(EVALUATE_TESE), domain, config);
@@ -148,8 +149,9 @@ impl Bench {
             (vk::ShaderStageFlags::FRAGMENT, &fragment),
         ];
         let drawn = [(vk::ShaderStageFlags::VERTEX, &vertex[..]), tessellating[3]];
-        let make =
-            |pass: &Pass, shaders: &[_], vertices| pipeline(gpu, &program, pass, shaders, vertices);
+        let make = |pass: &DrawPass, shaders: &[_], vertices| {
+            pipeline(gpu, &program, pass, shaders, vertices)
+        };
         let setup = Setup::new(domain, config);
         let plan = plan(gpu, setup, workload, patches.len(), repeats)?;
         let words = factor_words(patches);

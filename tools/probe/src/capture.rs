@@ -1,12 +1,14 @@
 //! A device's output for patches: `gl_TessCoord` of each vertex, bit for bit.
 
 use crate::cases::groups;
-use crate::draws::{DRAW_VERTICES, Draw, draws, words_of};
+use crate::draws::{DRAW_VERTICES, DrawRange, draws, words_of};
 use crate::error::Error;
 use crate::info::Info;
 use crate::modes::with_modes;
 use crate::shaders::{CAPTURE_TESE, EMPTY_VERT, FACTORS_TESC, POINTS_TESE, words};
-use crate::vulkan::{Buffer, Commands, Gpu, Pass, Pipeline, Program, STAGES, Vertices, pipeline};
+use crate::vulkan::{
+    BoundInterface, Commands, DeviceBuffer, DrawPass, Gpu, Pipeline, STAGES, Vertices, pipeline,
+};
 use ash::vk;
 use std::collections::HashMap;
 use std::ptr::null;
@@ -37,8 +39,8 @@ pub struct Captured {
 pub struct Prober {
     // Dropped in this order: the device last.
     pipelines: HashMap<(Domain, Config), Pipeline>,
-    buffers: Option<Buffers>,
-    pass: Pass,
+    buffers: Option<CaptureBuffers>,
+    pass: DrawPass,
     commands: Commands,
     evaluation: Vec<u32>,
     method: Method,
@@ -48,10 +50,10 @@ pub struct Prober {
 
 /// The buffers of a submission, grown when one needs more.
 #[derive(Debug)]
-struct Buffers {
-    program: Program,
-    factors: Buffer,
-    output: Buffer,
+struct CaptureBuffers {
+    program: BoundInterface,
+    factors: DeviceBuffer,
+    output: DeviceBuffer,
 }
 
 /// Words in front of the points that are stored.
@@ -109,7 +111,7 @@ impl Prober {
             Method::Points => vk::QueryType::OCCLUSION,
         };
         let commands = Commands::new(&gpu, queries, 1)?;
-        let pass = Pass::new(&gpu, 1, false)?;
+        let pass = DrawPass::new(&gpu, 1, false)?;
         Ok(Self {
             pipelines: HashMap::new(),
             buffers: None,
@@ -225,7 +227,7 @@ impl Prober {
         domain: Domain,
         config: Config,
         factors: &[u32],
-        draws: &[Draw],
+        draws: &[DrawRange],
         room: usize,
     ) -> Result<usize, Error> {
         self.make_buffers(factors.len(), room)?;
@@ -250,9 +252,9 @@ impl Prober {
     fn record(
         &self,
         commands: vk::CommandBuffer,
-        buffers: &Buffers,
+        buffers: &CaptureBuffers,
         pipeline: &Pipeline,
-        draws: &[Draw],
+        draws: &[DrawRange],
     ) {
         let device = &self.gpu.device;
         let program = &buffers.program;
@@ -320,25 +322,25 @@ impl Prober {
     fn make_buffers(&mut self, factors: usize, room: usize) -> Result<(), Error> {
         let factors = 4 * factors as u64;
         let output = 4 * (4 * room + COUNT_WORDS) as u64;
-        let fit = |b: &Buffers| b.factors.bytes >= factors && b.output.bytes >= output;
+        let fit = |b: &CaptureBuffers| b.factors.bytes >= factors && b.output.bytes >= output;
         if self.buffers.as_ref().is_some_and(fit) {
             return Ok(());
         }
         self.buffers = None;
         let storage = vk::BufferUsageFlags::STORAGE_BUFFER;
-        let factors = Buffer::shared(&self.gpu, factors, storage)?;
+        let factors = DeviceBuffer::shared(&self.gpu, factors, storage)?;
         let usage = match self.method {
             Method::Primitives => vk::BufferUsageFlags::TRANSFORM_FEEDBACK_BUFFER_EXT,
             Method::Points => storage,
         };
-        let output = Buffer::shared(&self.gpu, output, usage)?;
+        let output = DeviceBuffer::shared(&self.gpu, output, usage)?;
         let program = match self.method {
-            Method::Primitives => Program::new(&self.gpu, &[&factors])?,
-            Method::Points => Program::new(&self.gpu, &[&factors, &output])?,
+            Method::Primitives => BoundInterface::new(&self.gpu, &[&factors])?,
+            Method::Points => BoundInterface::new(&self.gpu, &[&factors, &output])?,
         };
         // Their layouts are the same, but for the pipelines' own.
         self.pipelines.clear();
-        self.buffers = Some(Buffers { program, factors, output });
+        self.buffers = Some(CaptureBuffers { program, factors, output });
         Ok(())
     }
 

@@ -4,7 +4,7 @@ use tess_core::{Config, Partitioning, PatchFactors};
 use tess_verify::Case;
 
 /// Patches of a draw: their first, and how many.
-pub(crate) type Draw = (u32, u32);
+pub(crate) type DrawRange = (u32, u32);
 
 /// Words of factors that a patch has in the buffer.
 const FACTOR_WORDS: usize = 6;
@@ -13,8 +13,8 @@ const FACTOR_WORDS: usize = 6;
 pub const DRAW_VERTICES: usize = 49152;
 
 /// Cuts patches into draws of at most `most` vertices, or of one patch.
-pub(crate) fn draws(expected: &[usize], most: usize) -> Vec<Draw> {
-    let mut draws: Vec<Draw> = Vec::new();
+pub(crate) fn draws(expected: &[usize], most: usize) -> Vec<DrawRange> {
+    let mut draws: Vec<DrawRange> = Vec::new();
     let mut vertices = 0;
     for (number, &own) in (0..).zip(expected) {
         vertices += own;

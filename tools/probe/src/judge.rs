@@ -4,8 +4,8 @@ use crate::capture::{Captured, Method};
 use crate::digests::Digests;
 use crate::info::Info;
 use crate::output::output;
-use crate::report::{Explanation, First, Report, Row, Unexplained};
-use crate::verdict::{Verdict, any_order, third_is_right, verdict};
+use crate::report::{ExplainedBy, First, ProbeReport, ProbeRow, Unexplained};
+use crate::verdict::{PatchVerdict, any_order, third_is_right, verdict};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use tess_core::Tessellation;
@@ -22,7 +22,7 @@ pub struct Judge {
     strength: Strength,
     /// The cases that may differ all the same.
     known: Arc<Known>,
-    rows: Vec<(Row, Digests)>,
+    rows: Vec<(ProbeRow, Digests)>,
     different: u64,
     excused: u64,
     stages: BTreeMap<String, u64>,
@@ -88,7 +88,8 @@ impl Judge {
         } else if let Some(found) = found {
             self.differ(found);
         }
-        let in_any_order = matches!(verdict, Verdict::Sequence | Verdict::Leading | Verdict::Order);
+        let in_any_order =
+            matches!(verdict, PatchVerdict::Sequence | PatchVerdict::Leading | PatchVerdict::Order);
         if !in_any_order || !third {
             self.explain(case, captured, observed.as_ref(), third);
         }
@@ -159,12 +160,12 @@ impl Judge {
         First { line, command, difference, stage, case: *case, captured: captured.clone() }
     }
 
-    fn row(&mut self, case: &Case) -> &mut (Row, Digests) {
+    fn row(&mut self, case: &Case) -> &mut (ProbeRow, Digests) {
         let names =
             (case.domain().name(), case.config.partitioning.name(), case.config.output.name());
         let known = self.rows.iter().position(|(row, _)| row.names() == names);
         let at = known.unwrap_or_else(|| {
-            self.rows.push((Row::new(names), Digests::default()));
+            self.rows.push((ProbeRow::new(names), Digests::default()));
             self.rows.len() - 1
         });
         &mut self.rows[at]
@@ -172,18 +173,18 @@ impl Judge {
 
     /// The observations of all patches.
     #[must_use]
-    pub fn finish(self) -> Report {
+    pub fn finish(self) -> ProbeReport {
         let explanations = Way::ALL.into_iter().zip(self.ways).filter(|&(_, patches)| patches > 0);
-        let explanation = |(way, patches): (Way, u64)| Explanation {
+        let explanation = |(way, patches): (Way, u64)| ExplainedBy {
             way,
             words: way.words(),
             is_allowed: way.is_allowed(),
             patches,
             is_all: patches == self.odd,
         };
-        let mut rows: Vec<Row> = self.rows.into_iter().map(|(row, d)| row.with(&d)).collect();
+        let mut rows: Vec<ProbeRow> = self.rows.into_iter().map(|(row, d)| row.with(&d)).collect();
         rows.sort_by(|a, b| a.names().cmp(&b.names()));
-        Report {
+        ProbeReport {
             device: self.info,
             method: match self.method {
                 Method::Primitives => "primitives",

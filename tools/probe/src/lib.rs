@@ -17,7 +17,7 @@ mod shaders;
 mod verdict;
 mod vulkan;
 
-pub use bench::{Times, bench};
+pub use bench::{BenchTimes, bench};
 pub use capture::{Captured, Method, Prober};
 pub use cases::cases;
 pub use digests::Digests;
@@ -26,7 +26,7 @@ pub use error::Error;
 pub use info::Info;
 pub use judge::Judge;
 pub use probe::{probe, probe_known};
-pub use report::{Explanation, First, Report, Row, Unexplained};
+pub use report::{ExplainedBy, First, ProbeReport, ProbeRow, Unexplained};
 pub use rules::rules;
 pub use tess_verify::check::Way;
 pub use vulkan::{Spirv, list};

@@ -3,7 +3,7 @@
 use crate::capture::Prober;
 use crate::error::Error;
 use crate::judge::Judge;
-use crate::report::Report;
+use crate::report::ProbeReport;
 use std::sync::Arc;
 use tess_verify::Case;
 use tess_verify::check::{Known, Strength};
@@ -18,7 +18,7 @@ pub fn probe(
     cases: &[Case],
     strength: Strength,
     progress: impl FnMut(u64),
-) -> Result<Report, Error> {
+) -> Result<ProbeReport, Error> {
     probe_known(prober, cases, strength, &Arc::default(), progress)
 }
 
@@ -32,7 +32,7 @@ pub fn probe_known(
     strength: Strength,
     known: &Arc<Known>,
     mut progress: impl FnMut(u64),
-) -> Result<Report, Error> {
+) -> Result<ProbeReport, Error> {
     let mut judge = Judge::new(prober.info(), prober.method(), strength).with_known(known);
     prober.each(cases, &mut progress, |case, captured| {
         judge.add(case, captured);

@@ -4,7 +4,7 @@ use crate::capture::Captured;
 use crate::digests::Digests;
 use crate::info::Info;
 use crate::output::output;
-use crate::verdict::Verdict;
+use crate::verdict::PatchVerdict;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -15,7 +15,7 @@ use tess_verify::check::Way;
 /// The result of a probe.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
-pub struct Report {
+pub struct ProbeReport {
     /// The device.
     pub device: Info,
     /// The captured elements: `primitives`, or `points` alone.
@@ -33,17 +33,17 @@ pub struct Report {
     /// Patches that are not the model's in any order.
     pub odd: u64,
     /// The freedoms that explain some of the odd ones.
-    pub explanations: Vec<Explanation>,
+    pub explanations: Vec<ExplainedBy>,
     /// Odd patches that no freedom of the specification explains.
     pub unexplained: Unexplained,
     /// A row for each configuration.
-    pub rows: Vec<Row>,
+    pub rows: Vec<ProbeRow>,
 }
 
 /// Something that makes odd patches equal.
 #[derive(Clone, Debug, Serialize)]
 #[non_exhaustive]
-pub struct Explanation {
+pub struct ExplainedBy {
     /// Which.
     pub way: Way,
     /// The device's behaviour.
@@ -97,7 +97,7 @@ impl First {
 /// How the patches of one configuration compare with the model.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
-pub struct Row {
+pub struct ProbeRow {
     /// Domain.
     pub domain: &'static str,
     /// Partitioning.
@@ -130,7 +130,7 @@ pub struct Row {
     pub set_digest: String,
 }
 
-impl Row {
+impl ProbeRow {
     pub(crate) fn new(
         (domain, partitioning, output): (&'static str, &'static str, &'static str),
     ) -> Self {
@@ -156,19 +156,19 @@ impl Row {
         ]
     }
 
-    pub(crate) fn add(&mut self, verdict: Verdict, third_is_right: bool) {
+    pub(crate) fn add(&mut self, verdict: PatchVerdict, third_is_right: bool) {
         self.patches += 1;
         self.third += u64::from(!third_is_right);
         let count = match verdict {
-            Verdict::Sequence => &mut self.sequence,
-            Verdict::Leading => &mut self.leading,
-            Verdict::Order => &mut self.order,
-            Verdict::Connectivity => &mut self.connectivity,
-            Verdict::Coordinates(units) => {
+            PatchVerdict::Sequence => &mut self.sequence,
+            PatchVerdict::Leading => &mut self.leading,
+            PatchVerdict::Order => &mut self.order,
+            PatchVerdict::Connectivity => &mut self.connectivity,
+            PatchVerdict::Coordinates(units) => {
                 self.max_units = self.max_units.max(units);
                 &mut self.coordinates
             }
-            Verdict::Culling => &mut self.culling,
+            PatchVerdict::Culling => &mut self.culling,
         };
         *count += 1;
     }
@@ -205,7 +205,7 @@ fn write_line<T: fmt::Display>(
 }
 
 /// The table for people, then what explains the differences.
-impl fmt::Display for Report {
+impl fmt::Display for ProbeReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "device {}", self.device)?;
         if self.method == "points" {
@@ -220,7 +220,7 @@ impl fmt::Display for Report {
     }
 }
 
-impl Report {
+impl ProbeReport {
     fn write_explanations(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { patches, odd, unexplained, .. } = self;
         if self.rows.iter().any(|row| row.partitioning == "pow2") {

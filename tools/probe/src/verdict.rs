@@ -9,7 +9,7 @@ use tess_verify::vectors::fixed;
 
 /// The nearest to the model that a captured patch is; the first is the nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Verdict {
+pub(crate) enum PatchVerdict {
     /// The model's primitives in the model's order, vertex for vertex.
     Sequence,
     /// The same, but for the vertex that leads a triangle.
@@ -40,25 +40,27 @@ pub(crate) fn verdict(
     observed: Option<&Tessellation>,
     expected: &Tessellation,
     method: Method,
-) -> Verdict {
+) -> PatchVerdict {
     if captured.vertices.is_empty() != expected.points.is_empty() {
-        return Verdict::Culling;
+        return PatchVerdict::Culling;
     }
-    let Some(observed) = observed else { return Verdict::Coordinates(units(captured, expected)) };
+    let Some(observed) = observed else {
+        return PatchVerdict::Coordinates(units(captured, expected));
+    };
     let equal = |method| any_order(method).equal(case, observed, expected);
     match method {
-        Method::Points if equal(method) => Verdict::Order,
+        Method::Points if equal(method) => PatchVerdict::Order,
         Method::Primitives if equal(method) => order(case, observed, expected),
-        Method::Primitives if equal(Method::Points) => Verdict::Connectivity,
-        _ => Verdict::Coordinates(units(captured, expected)),
+        Method::Primitives if equal(Method::Points) => PatchVerdict::Connectivity,
+        _ => PatchVerdict::Coordinates(units(captured, expected)),
     }
 }
 
 /// The extent to which the order of the model's primitives is kept.
-fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Verdict {
+fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> PatchVerdict {
     let sequence = Strength { order: ListOrder::Sequence, ..Strength::default() };
     if sequence.equal(case, observed, expected) {
-        return Verdict::Sequence;
+        return PatchVerdict::Sequence;
     }
     let size = case.primitive_size();
     let [observed, expected] =
@@ -68,9 +70,9 @@ fn order(case: &Case, observed: &Tessellation, expected: &Tessellation) -> Verdi
     };
     let same_length = observed.len() == expected.len();
     if same_length && observed.chunks(size).zip(expected.chunks(size)).all(is_rotated) {
-        Verdict::Leading
+        PatchVerdict::Leading
     } else {
-        Verdict::Order
+        PatchVerdict::Order
     }
 }
 

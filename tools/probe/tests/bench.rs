@@ -3,7 +3,7 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use tess_core::{Config, OutputPrimitive, Partitioning, PatchFactors, QuadFactors};
 use tess_gpu::{Setup, Stage};
-use tess_probe::{Error, Times, bench};
+use tess_probe::{BenchTimes, Error, bench};
 use tess_verify::generate::{Calls, Workload};
 
 fn workload() -> Workload {
@@ -27,7 +27,7 @@ fn spirv(source: &str) -> Result<Vec<u8>, String> {
     Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
 }
 
-fn run(edit: impl Fn(String) -> String) -> Result<Times, Error> {
+fn run(edit: impl Fn(String) -> String) -> Result<BenchTimes, Error> {
     let shaders = |stage: Stage, setup: Setup| spirv(&edit(stage.source(setup)));
     bench(0, &workload(), 2, &shaders)
 }

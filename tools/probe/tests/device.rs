@@ -5,7 +5,7 @@
 
 use std::process::Command;
 use tess_core::{Domain, Partitioning};
-use tess_probe::{Prober, Report, cases, list, probe};
+use tess_probe::{ProbeReport, Prober, cases, list, probe};
 use tess_verify::Case;
 use tess_verify::check::{Denormals, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
@@ -25,7 +25,7 @@ fn in_any_order() -> Strength {
     Strength { order: ListOrder::Any, denormals: Denormals::Flush, ..Strength::default() }
 }
 
-fn report(prober: &mut Prober, cases: &[Case], strength: Strength) -> Report {
+fn report(prober: &mut Prober, cases: &[Case], strength: Strength) -> ProbeReport {
     let report = probe(prober, cases, strength, |_| {}).expect("the device works");
     assert_eq!(report.patches, cases.len() as u64, "every patch is compared");
     report

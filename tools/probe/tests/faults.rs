@@ -8,7 +8,7 @@
 
 use std::sync::{Arc, OnceLock};
 use tess_core::Domain;
-use tess_probe::{Captured, Info, Judge, Method, Report, Way};
+use tess_probe::{Captured, Info, Judge, Method, ProbeReport, Way};
 use tess_verify::Case;
 use tess_verify::check::{Denormals, Known, ListOrder, Strength};
 
@@ -54,7 +54,7 @@ fn any() -> Strength {
 }
 
 /// The verdict on one patch after a fault is planted in its capture.
-fn judged(line: &str, strength: Strength, fault: impl FnOnce(&mut Captured)) -> Report {
+fn judged(line: &str, strength: Strength, fault: impl FnOnce(&mut Captured)) -> ProbeReport {
     let case = case(line);
     let mut captured = exact(&case);
     fault(&mut captured);
@@ -63,7 +63,7 @@ fn judged(line: &str, strength: Strength, fault: impl FnOnce(&mut Captured)) -> 
     judge.finish()
 }
 
-fn explained(report: &Report) -> Vec<Way> {
+fn explained(report: &ProbeReport) -> Vec<Way> {
     report.explanations.iter().map(|explanation| explanation.way).collect()
 }
 

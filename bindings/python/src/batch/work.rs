@@ -12,7 +12,7 @@ use tess_simd::{
 const MOST_BYTES: usize = 64 << 20;
 
 /// A counted batch, to be written.
-pub(super) struct Work<'a> {
+pub(super) struct BatchWork<'a> {
     pub(super) threads: &'a Threads,
     pub(super) numbering: Numbering,
     pub(super) how: How<'a>,
@@ -25,18 +25,18 @@ pub(super) enum How<'a> {
     Parts {
         tessellator: &'a mut Tessellator,
         batch: Batch<'a>,
-        sizes: Sizes,
+        sizes: BatchSizes,
     },
 }
 
 /// A batch that is counted.
 #[derive(Clone, Copy)]
-pub(super) struct Sizes {
+pub(super) struct BatchSizes {
     pub(super) counts: BatchCounts,
     largest_index: Option<u64>,
 }
 
-impl Sizes {
+impl BatchSizes {
     pub(super) fn of(counted: &Counted<'_>, numbering: Numbering) -> Self {
         Self { counts: counted.counts(), largest_index: counted.largest_index(numbering) }
     }
@@ -54,7 +54,7 @@ fn bytes<P, I>(counts: BatchCounts) -> usize {
         + counts.patches * size_of::<PatchRange>()
 }
 
-impl Work<'_> {
+impl BatchWork<'_> {
     /// Writes it without the interpreter's lock.
     ///
     /// # Errors
@@ -155,7 +155,7 @@ impl<'a, P: OutputPoint, I: IndexFormat> ArrayRoom<'a, P, I> {
     ///
     /// # Errors
     /// Those of [`Counted::write`].
-    fn of_sizes(self, sizes: Sizes) -> Result<Self, Error> {
+    fn of_sizes(self, sizes: BatchSizes) -> Result<Self, Error> {
         if let Some(largest) = sizes.largest_index.filter(|&largest| largest > I::LARGEST) {
             return Err(Error::IndexTooLarge { largest, format: I::LARGEST });
         }
@@ -168,7 +168,7 @@ impl<'a, P: OutputPoint, I: IndexFormat> ArrayRoom<'a, P, I> {
     }
 
     /// The room of what is left of a batch that has all of this.
-    fn rest(&mut self, sizes: Sizes, left: BatchCounts) -> ArrayRoom<'_, P, I> {
+    fn rest(&mut self, sizes: BatchSizes, left: BatchCounts) -> ArrayRoom<'_, P, I> {
         let BatchCounts { patches, points, indices } = sizes.counts;
         ArrayRoom {
             points: &mut self.points[points - left.points..],

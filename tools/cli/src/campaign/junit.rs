@@ -5,15 +5,15 @@ use std::fmt::Write;
 
 /// Some test cases under a name.
 #[derive(Clone, Debug)]
-pub(crate) struct Suite {
+pub(crate) struct JunitSuite {
     pub(crate) name: String,
     pub(crate) milliseconds: u64,
-    pub(crate) tests: Vec<Test>,
+    pub(crate) tests: Vec<JunitCase>,
 }
 
 /// One test case. Its class and name stay the same from build to build, so that its history is one.
 #[derive(Clone, Debug)]
-pub(crate) struct Test {
+pub(crate) struct JunitCase {
     pub(crate) class: String,
     pub(crate) name: String,
     pub(crate) milliseconds: Option<u64>,
@@ -30,7 +30,7 @@ pub(crate) enum Outcome {
     Error(String, String),
 }
 
-impl Suite {
+impl JunitSuite {
     /// A run: a test case for each part, and one for the run itself if it did not come to its end.
     pub(crate) fn of_run(report: &Report) -> Self {
         let name = format!("tess {}", report.command);
@@ -39,13 +39,13 @@ impl Suite {
             1 => String::new(),
             of => format!(" (shard {}/{of})", report.shard),
         };
-        let test = |name: &str, outcome| Test {
+        let test = |name: &str, outcome| JunitCase {
             class: class.clone(),
             name: format!("{name}{shard}"),
             milliseconds: None,
             outcome,
         };
-        let mut tests: Vec<Test> =
+        let mut tests: Vec<JunitCase> =
             report.parts.iter().map(|part| test(&part.name, of_part(part))).collect();
         if report.state != State::Done || tests.is_empty() {
             tests.push(test("run", of_end(report)));
@@ -74,7 +74,7 @@ impl Suite {
     }
 }
 
-impl Test {
+impl JunitCase {
     fn write(&self, text: &mut String) {
         let (class, name) = (escaped(&self.class), escaped(&self.name));
         let time = self.milliseconds.map(|time| format!(" time=\"{}\"", seconds(time)));
@@ -145,7 +145,7 @@ mod tests {
         let parts = vec![part("level-1 simd", 0), part("a<b>&\"c\u{1}\"", 2)];
         let (command, message) = ("verify".to_owned(), Some("two\nlines".to_owned()));
         let run = Report { command, parts, message, shard: 3, shards: 8, ..Report::default() };
-        let text = Suite::of_run(&Report { milliseconds: 1050, ..run }).to_xml();
+        let text = JunitSuite::of_run(&Report { milliseconds: 1050, ..run }).to_xml();
         let expected = "\
 <?xml version=\"1.0\" encoding=\"UTF-8\"?>
 <testsuites name=\"tess\" tests=\"3\" failures=\"1\" errors=\"1\" skipped=\"0\" time=\"1.050\">

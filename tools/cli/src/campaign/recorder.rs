@@ -1,7 +1,7 @@
 //! Writes the report of a run when it ends, however it ends.
 
 use super::invocation::{Invocation, commit, executable};
-use super::junit::Suite;
+use super::junit::JunitSuite;
 use super::report::{FORMAT, Report, State};
 use super::shard::Placed;
 use crate::failure::{Exit, Failure};
@@ -77,7 +77,7 @@ impl ReportArgs {
     /// Each file with what belongs into it.
     fn contents(&self, report: &Report) -> impl Iterator<Item = (&Path, String)> {
         let line = self.report.as_deref().map(|path| (path, report.line()));
-        let xml = self.junit.as_deref().map(|path| (path, Suite::of_run(report).to_xml()));
+        let xml = self.junit.as_deref().map(|path| (path, JunitSuite::of_run(report).to_xml()));
         line.into_iter().chain(xml)
     }
 

@@ -183,10 +183,10 @@ impl Report {
     /// It is no report of this form, or contradicts itself; why.
     pub(crate) fn parse(line: &str) -> Result<Self, String> {
         #[derive(Deserialize)]
-        struct Form {
+        struct FormatOnly {
             format: String,
         }
-        let form: Form =
+        let form: FormatOnly =
             serde_json::from_str(line).map_err(|error| format!("no report: {error}"))?;
         if form.format != FORMAT {
             let format = form.format.escape_debug();

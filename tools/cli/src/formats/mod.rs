@@ -3,7 +3,7 @@
 mod json;
 
 use crate::failure::Failure;
-use crate::output::form::Form;
+use crate::output::form::FileForm;
 use clap::ValueEnum;
 use tess_core::Tessellation;
 use tess_verify::show::{DrawOptions, Drawing, draw};
@@ -27,7 +27,7 @@ pub(crate) enum Format {
     Png,
 }
 
-impl Form for Format {
+impl FileForm for Format {
     const DEFAULT: Option<Self> = Some(Self::Text);
     const COMMON_EXTENSIONS: &'static [&'static str] = &["txt"];
 }
@@ -41,7 +41,7 @@ pub(crate) enum PictureFormat {
     Png,
 }
 
-impl Form for PictureFormat {
+impl FileForm for PictureFormat {
     const DEFAULT: Option<Self> = Some(Self::Svg);
 }
 

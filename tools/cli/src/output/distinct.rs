@@ -77,37 +77,37 @@ impl<'a> Role<'a> {
 
 #[derive(PartialEq, Eq, Hash)]
 pub(crate) enum Identity {
-    File(Key),
+    File(FileKey),
     Standard(Standard),
     Place(PathBuf),
 }
 
 /// Device and number of a file: thousands of files need no descriptor each.
 #[cfg(unix)]
-type Key = (u64, u64);
+type FileKey = (u64, u64);
 #[cfg(not(unix))]
-type Key = Handle;
+type FileKey = Handle;
 
 /// The key of a regular file.
 #[cfg(unix)]
-fn key_of(path: &Path) -> Option<Key> {
+fn key_of(path: &Path) -> Option<FileKey> {
     use std::os::unix::fs::MetadataExt;
     path.metadata().ok().map(|found| (found.dev(), found.ino()))
 }
 
 #[cfg(not(unix))]
-fn key_of(path: &Path) -> Option<Key> {
+fn key_of(path: &Path) -> Option<FileKey> {
     Handle::from_path(path).ok()
 }
 
 /// The key of what is open, if that is a regular file.
 #[cfg(unix)]
-fn key(handle: Handle) -> Option<Key> {
+fn key(handle: Handle) -> Option<FileKey> {
     is_regular(handle.as_file()).then(|| (handle.dev(), handle.ino()))
 }
 
 #[cfg(not(unix))]
-fn key(handle: Handle) -> Option<Key> {
+fn key(handle: Handle) -> Option<FileKey> {
     is_regular(handle.as_file()).then_some(handle)
 }
 

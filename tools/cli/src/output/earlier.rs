@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 
 /// A kind of file, by what stands in its beginning.
 #[derive(Clone, Copy, Debug)]
-struct Form {
+struct TrustedForm {
     option: &'static str,
     name: &'static str,
     /// It begins with this,
@@ -31,27 +31,32 @@ struct Form {
 /// How many bytes are looked at.
 const BEGINNING: u64 = 4096;
 
-const fn form(option: &'static str, name: &'static str, [begins, has]: [&'static str; 2]) -> Form {
-    Form { option, name, begins, has }
+const fn form(
+    option: &'static str,
+    name: &'static str,
+    [begins, has]: [&'static str; 2],
+) -> TrustedForm {
+    TrustedForm { option, name, begins, has }
 }
 
 const UCIS: [&str; 2] = ["<?xml", "<UCIS"];
-const REPORT: Form = form("--report", "report", ["{", "\"tess-report "]);
-const JUNIT: Form = form("--junit", "JUnit file", ["<", "<testsuite"]);
-const CHECK: [Form; 3] = [REPORT, JUNIT, form("--failures", "vector file", ["# tess-vectors", ""])];
-const MERGE: [Form; 3] = [
+const REPORT: TrustedForm = form("--report", "report", ["{", "\"tess-report "]);
+const JUNIT: TrustedForm = form("--junit", "JUnit file", ["<", "<testsuite"]);
+const CHECK: [TrustedForm; 3] =
+    [REPORT, JUNIT, form("--failures", "vector file", ["# tess-vectors", ""])];
+const MERGE: [TrustedForm; 3] = [
     form("--csv", "table of shards", ["shard,shards,state,", ""]),
     JUNIT,
     form("--coverage", "coverage file", UCIS),
 ];
-const COVERAGE: [Form; 2] = [
+const COVERAGE: [TrustedForm; 2] = [
     form("--merged", "coverage file", UCIS),
     form("--html", "coverage page", ["<!DOCTYPE html>", "Coverage of the tessellator"]),
 ];
 
 /// The outputs of a command that are trusted when it has ended. What it adds to, as `--coverage` of other
 /// commands, is none: that stays as it was.
-fn trusted(command: &OsStr) -> &'static [Form] {
+fn trusted(command: &OsStr) -> &'static [TrustedForm] {
     match command.to_str() {
         Some("check") => &CHECK,
         Some("merge") => &MERGE,
@@ -62,7 +67,7 @@ fn trusted(command: &OsStr) -> &'static [Form] {
 
 /// A trusted output that the words name.
 struct Named {
-    form: Form,
+    form: TrustedForm,
     path: PathBuf,
     /// The number of the word that has the path.
     at: usize,
@@ -86,8 +91,8 @@ pub(crate) fn remove_earlier(words: &[OsString]) -> Result<(), Failure> {
 }
 
 /// The outputs that a word names, by itself or for the next one.
-fn named(words: &[OsString], at: usize, forms: &'static [Form]) -> Vec<Named> {
-    let named = |form: &Form| {
+fn named(words: &[OsString], at: usize, forms: &'static [TrustedForm]) -> Vec<Named> {
+    let named = |form: &TrustedForm| {
         if words[at] == form.option {
             let path = words.get(at + 1)?.into();
             return Some(Named { form: *form, path, at: at + 1 });
@@ -141,7 +146,7 @@ impl Named {
     }
 }
 
-impl Form {
+impl TrustedForm {
     /// Whether a file begins so. One without a byte may become anything.
     fn fits(&self, file: &Path) -> io::Result<bool> {
         let mut bytes = Vec::new();

@@ -5,7 +5,7 @@ use clap::ValueEnum;
 use std::path::Path;
 
 /// A form that files can have; its names on the command line are extensions of files.
-pub(crate) trait Form: ValueEnum + PartialEq {
+pub(crate) trait FileForm: ValueEnum + PartialEq {
     /// The form of a file without a telling name; `None` if it must be asked for.
     const DEFAULT: Option<Self>;
 
@@ -17,7 +17,7 @@ pub(crate) trait Form: ValueEnum + PartialEq {
 ///
 /// # Errors
 /// The name says another form than the one asked for, or one that there is not.
-pub(crate) fn choose<F: Form>(asked: Option<F>, file: &Path) -> Result<F, Failure> {
+pub(crate) fn choose<F: FileForm>(asked: Option<F>, file: &Path) -> Result<F, Failure> {
     let extension = file.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     let extension = extension.unwrap_or_default();
     let is_common =
@@ -44,10 +44,10 @@ fn is_no_name(file: &Path) -> bool {
     file.starts_with("/dev") || file.starts_with("/proc")
 }
 
-fn name<F: Form>(form: &F) -> String {
+fn name<F: FileForm>(form: &F) -> String {
     form.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }
 
-fn names<F: Form>() -> Vec<String> {
+fn names<F: FileForm>() -> Vec<String> {
     F::value_variants().iter().map(name).collect()
 }

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 /// A buffer with its own memory.
 #[derive(Debug)]
-pub(crate) struct Buffer {
+pub(crate) struct DeviceBuffer {
     gpu: Arc<Gpu>,
     pub(crate) handle: Owned<vk::Buffer>,
     memory: Owned<vk::DeviceMemory>,
@@ -15,7 +15,7 @@ pub(crate) struct Buffer {
     is_mapped: bool,
 }
 
-impl Buffer {
+impl DeviceBuffer {
     /// A buffer that the host reads and writes.
     pub(crate) fn shared(
         gpu: &Arc<Gpu>,

@@ -1,7 +1,7 @@
 //! The compute shaders of `tess-gpu` for one batch: what a host does with a plan.
 
 use super::pipeline::module;
-use super::{Buffer, Commands, Gpu, Interface, Owned, Sets};
+use super::{Commands, DeviceBuffer, Gpu, Interface, Owned, Sets};
 use crate::error::Error;
 use crate::shaders::words;
 use ash::prelude::VkResult;
@@ -21,7 +21,7 @@ pub(crate) struct Compute {
     dispatches: Vec<(Stage, vk::DescriptorSet, Workgroups)>,
     _sets: Sets,
     stages: HashMap<Stage, (Owned<vk::Pipeline>, Interface)>,
-    buffers: HashMap<Resource, Buffer>,
+    buffers: HashMap<Resource, DeviceBuffer>,
 }
 
 impl Compute {
@@ -54,7 +54,7 @@ impl Compute {
     }
 
     /// The buffer of a resource.
-    pub(crate) fn buffer(&self, resource: Resource) -> &Buffer {
+    pub(crate) fn buffer(&self, resource: Resource) -> &DeviceBuffer {
         &self.buffers[&resource]
     }
 
@@ -97,7 +97,7 @@ fn buffers(
     setup: Setup,
     plan: &Plan,
     factors: &[u32],
-) -> Result<HashMap<Resource, Buffer>, Error> {
+) -> Result<HashMap<Resource, DeviceBuffer>, Error> {
     let usage = vk::BufferUsageFlags::STORAGE_BUFFER
         | vk::BufferUsageFlags::UNIFORM_BUFFER
         | vk::BufferUsageFlags::INDIRECT_BUFFER
@@ -111,11 +111,11 @@ fn buffers(
             Resource::Factors => factors.to_vec(),
             Resource::Tables => tables(setup.config.split),
             _ => {
-                let local = Buffer::local(gpu, plan.buffer_size(resource), usage)?;
+                let local = DeviceBuffer::local(gpu, plan.buffer_size(resource), usage)?;
                 return Ok((resource, local));
             }
         };
-        Ok((resource, Buffer::uploaded(gpu, commands, &filled, usage)?))
+        Ok((resource, DeviceBuffer::uploaded(gpu, commands, &filled, usage)?))
     };
     Resource::ALL.into_iter().map(buffer).collect()
 }

@@ -8,7 +8,7 @@ mod interface;
 mod owned;
 mod pipeline;
 
-pub(crate) use buffer::Buffer;
+pub(crate) use buffer::DeviceBuffer;
 pub(crate) use commands::Commands;
 pub(crate) use compute::Compute;
 pub use compute::Spirv;
@@ -16,4 +16,4 @@ pub(crate) use gpu::Gpu;
 pub use gpu::list;
 use interface::{Interface, Sets};
 use owned::Owned;
-pub(crate) use pipeline::{Pass, Pipeline, Program, STAGES, Vertices, pipeline};
+pub(crate) use pipeline::{BoundInterface, DrawPass, Pipeline, STAGES, Vertices, pipeline};

@@ -1,6 +1,6 @@
 //! Render passes and pipelines with or without tessellation.
 
-use super::{Buffer, Gpu, Interface, Owned, Sets};
+use super::{DeviceBuffer, Gpu, Interface, Owned, Sets};
 use crate::error::Error;
 use ash::prelude::VkResult;
 use ash::vk;
@@ -11,7 +11,7 @@ pub(crate) type Shader<'a> = (vk::ShaderStageFlags, &'a [u32]);
 
 /// The shaders' interface: storage buffers in set 0, numbered from 0, and two words of push constants.
 #[derive(Debug)]
-pub(crate) struct Program {
+pub(crate) struct BoundInterface {
     pub(crate) set: vk::DescriptorSet,
     _sets: Sets,
     interface: Interface,
@@ -20,9 +20,9 @@ pub(crate) struct Program {
 /// The stages that see buffers and constants.
 pub(crate) const STAGES: vk::ShaderStageFlags = vk::ShaderStageFlags::ALL_GRAPHICS;
 
-impl Program {
+impl BoundInterface {
     /// An interface with these buffers bound.
-    pub(crate) fn new(gpu: &Arc<Gpu>, buffers: &[&Buffer]) -> Result<Self, Error> {
+    pub(crate) fn new(gpu: &Arc<Gpu>, buffers: &[&DeviceBuffer]) -> Result<Self, Error> {
         let ty = vk::DescriptorType::STORAGE_BUFFER;
         let interface = Interface::new(gpu, STAGES, buffers.iter().map(|_| ty), 8)?;
         let sets = Sets::new(gpu, 1, buffers.len())?;
@@ -38,7 +38,7 @@ impl Program {
 
 /// A render pass with its framebuffer: without an attachment, or with one of 8-bit RGBA.
 #[derive(Debug)]
-pub(crate) struct Pass {
+pub(crate) struct DrawPass {
     gpu: Arc<Gpu>,
     framebuffer: Owned<vk::Framebuffer>,
     pass: Owned<vk::RenderPass>,
@@ -99,7 +99,7 @@ impl Image {
     }
 }
 
-impl Pass {
+impl DrawPass {
     /// A pass of `size` by `size` pixels; without `draws` there are none to write.
     pub(crate) fn new(gpu: &Arc<Gpu>, size: u32, draws: bool) -> Result<Self, Error> {
         let image = draws.then(|| Image::new(gpu, size)).transpose()?;
@@ -179,8 +179,8 @@ pub(super) fn module(gpu: &Arc<Gpu>, words: &[u32]) -> Result<Owned<vk::ShaderMo
 /// A pipeline of these shaders; it rasterises if the pass has pixels.
 pub(crate) fn pipeline(
     gpu: &Arc<Gpu>,
-    program: &Program,
-    pass: &Pass,
+    program: &BoundInterface,
+    pass: &DrawPass,
     shaders: &[Shader<'_>],
     vertices: Vertices,
 ) -> Result<Pipeline, Error> {

@@ -8,7 +8,7 @@
 use super::core::{self, CoreKernel};
 use super::cpu::CpuRunner;
 use super::runner::{Amount, Description, Runner, WorkingSet};
-use super::table::{Row, name_of};
+use super::table::{BenchRow, name_of};
 use crate::failure::Failure;
 use std::fmt;
 use std::time::Duration;
@@ -51,7 +51,7 @@ impl fmt::Display for Plan<'_> {
 ///
 /// # Errors
 /// The output differs from the model's (exit code 1), or a run failed.
-pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Failure> {
+pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<BenchRow, Failure> {
     let description = runner.description().clone();
     let Description { threads, sleeps, is_device, .. } = description;
     let mut core = Core::prepare(&description, plan)?;
@@ -62,11 +62,11 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
     }
     let parts = runner.prepare(plan.workload, plan.working_set)?;
     check_digest(runner, plan.workload)?;
-    let mut run = Times::new(parts.len());
-    let mut fill = Times::new(parts.len());
+    let mut run = PartTimes::new(parts.len());
+    let mut fill = PartTimes::new(parts.len());
     let in_turn = if is_device { 0 } else { core.parts.len() };
     let take =
-        |times: &mut Times, part, run: &mut dyn FnMut() -> Result<Duration, BackendError>| {
+        |times: &mut PartTimes, part, run: &mut dyn FnMut() -> Result<Duration, BackendError>| {
             if sleeps { times.take_one(part, run) } else { times.take(part, threads, run) }
         };
     for _ in 0..plan.samples {
@@ -80,7 +80,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<Row, Fa
     }
     let (amount, seconds) = (parts.into_iter().sum::<Amount>(), run.seconds());
     let patches_per_s = amount.patches as f64 / seconds;
-    Ok(Row {
+    Ok(BenchRow {
         workload: plan.name(&description),
         backend: description.backend,
         level: description.level,
@@ -110,7 +110,7 @@ fn check_digest(runner: &mut dyn Runner, workload: &Workload) -> Result<(), Fail
 struct Core {
     runner: CpuRunner<CoreKernel>,
     parts: Vec<Amount>,
-    times: Times,
+    times: PartTimes,
 }
 
 impl Core {
@@ -123,7 +123,7 @@ impl Core {
             "core" => Vec::new(),
             _ => runner.prepare(plan.workload, set)?,
         };
-        Ok(Self { runner, times: Times::new(parts.len()), parts })
+        Ok(Self { runner, times: PartTimes::new(parts.len()), parts })
     }
 
     /// Takes one more sample of a part.
@@ -139,11 +139,11 @@ impl Core {
 }
 
 /// The samples of each part, in seconds.
-struct Times {
+struct PartTimes {
     parts: Vec<Vec<f64>>,
 }
 
-impl Times {
+impl PartTimes {
     fn new(parts: usize) -> Self {
         Self { parts: vec![Vec::new(); parts] }
     }

@@ -8,7 +8,7 @@ use tess_verify::generate::IndexWidth;
 
 /// One line of results, with the keys that `--json` prints.
 #[derive(Clone, Debug, Serialize)]
-pub(crate) struct Row {
+pub(crate) struct BenchRow {
     pub(super) workload: String,
     pub(super) backend: &'static str,
     pub(super) level: String,
@@ -48,7 +48,7 @@ pub(super) const fn name_of(index_type: IndexWidth) -> &'static str {
     }
 }
 
-impl Row {
+impl BenchRow {
     /// One line of the table.
     pub(crate) fn line(&self) -> String {
         format!(

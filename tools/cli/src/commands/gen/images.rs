@@ -24,7 +24,7 @@ const LAYOUTS: [&str; 4] = [
 
 /// How many words each image has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Words {
+pub(super) struct ImageWords {
     /// Words of `cases.memh` and of `factors.memh`.
     pub(super) cases: u64,
     /// Words of `points.memh`.
@@ -41,8 +41,8 @@ pub(super) struct Words {
 pub(super) fn write_images(
     files: &mut [&mut dyn Write; 5],
     cases: impl Iterator<Item = Case>,
-) -> io::Result<Words> {
-    let mut words = Words::default();
+) -> io::Result<ImageWords> {
+    let mut words = ImageWords::default();
     for (file, layout) in files.iter_mut().zip(LAYOUTS) {
         writeln!(file, "// {layout}")?;
     }
@@ -57,7 +57,11 @@ pub(super) fn write_images(
 }
 
 /// Writes the words of one case behind `words`.
-fn write_case(files: &mut [&mut dyn Write; 5], words: &mut Words, case: &Case) -> io::Result<()> {
+fn write_case(
+    files: &mut [&mut dyn Write; 5],
+    words: &mut ImageWords,
+    case: &Case,
+) -> io::Result<()> {
     let [case_file, factor_file, point_file, primitive_file, _] = files;
     let output = case.patch().tessellate();
     let size = case.primitive_size();
@@ -130,7 +134,7 @@ mod tests {
         let mut texts = [const { Vec::new() }; 5];
         let [a, b, c, d, e] = &mut texts;
         let words = write_images(&mut [a, b, c, d, e], [case, case].into_iter());
-        let expected = Words { cases: 2, points: 6, primitives: 2 };
+        let expected = ImageWords { cases: 2, points: 6, primitives: 2 };
         assert_eq!(words.expect("vectors grow"), expected, "two minimum patches");
         let texts = texts.map(|text| String::from_utf8(text).expect("ASCII"));
         let lines = |i: usize| texts[i].lines().skip(1).map(str::to_owned).collect::<Vec<_>>();
@@ -151,7 +155,7 @@ mod tests {
         let line = "case tri integer triangle_ccw center 3f800000 3f800000 3f800000 7fc00000";
         let case: Case = line.parse().expect("a case");
         let write = |points: u64, primitives: u64| {
-            let mut words = Words { cases: 0, points, primitives };
+            let mut words = ImageWords { cases: 0, points, primitives };
             let mut texts = [const { Vec::new() }; 5];
             let [a, b, c, d, e] = &mut texts;
             let written = write_case(&mut [a, b, c, d, e], &mut words, &case);

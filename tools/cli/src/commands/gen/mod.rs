@@ -11,7 +11,7 @@ use crate::failure::{Exit, Failure};
 use crate::output::{NewFolder, OutputArgs, Role, note, progress, refuse_shared, refuse_stdout};
 use clap::ValueEnum;
 use indicatif::ProgressBar;
-use stages::Block;
+use stages::StageBlock;
 use std::fs::File;
 use std::io::{self, BufWriter, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -52,11 +52,11 @@ pub(crate) struct Args {
     /// Instead of patches, what one stage takes and gives for them: factors, context, place or stitch
     ///
     /// For blocks of a circuit: each distinct row once, as CSV or, with --format readmemh, as one image.
-    #[arg(long, value_name = "NAME", value_parser = name_of::<Block>(), conflicts_with = "coverage")]
-    stage: Option<Block>,
+    #[arg(long, value_name = "NAME", value_parser = name_of::<StageBlock>(), conflicts_with = "coverage")]
+    stage: Option<StageBlock>,
     /// Form of the vectors
     #[arg(long, value_name = "NAME", default_value = "csv")]
-    format: Format,
+    format: VectorFormat,
     /// Instead of vectors, report which coverage bins they hit
     ///
     /// Bins that no selected configuration can hit are excluded. With a FILE, add the hits to what that file holds, as UCIS XML, and report the sum. Shards may
@@ -70,7 +70,7 @@ pub(crate) struct Args {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum Format {
+enum VectorFormat {
     /// Counts and digests, as golden/patches.csv
     Csv,
     /// Whole outputs, as golden/cases.txt
@@ -112,8 +112,10 @@ fn generate(args: &Args, placed: Placed, recorder: &Recorder) -> Result<Exit, Fa
     let bar = args.progress(count);
     let cases = bar.wrap_iter(args.cases(placed));
     let written = match args.format {
-        Format::Csv | Format::Listing => args.output.stream(|out| write_cases(out, &header, cases)),
-        Format::Readmemh => write_folder(&args.output.file, cases),
+        VectorFormat::Csv | VectorFormat::Listing => {
+            args.output.stream(|out| write_cases(out, &header, cases))
+        }
+        VectorFormat::Readmemh => write_folder(&args.output.file, cases),
     };
     bar.finish_and_clear();
     written?;
@@ -151,15 +153,15 @@ impl Args {
     /// Writes the vectors of one stage.
     fn stage(
         &self,
-        block: Block,
+        block: StageBlock,
         count: u64,
         placed: Placed,
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
         let write = match self.format {
-            Format::Csv => stages::write_csv,
-            Format::Readmemh => stages::write_memh,
-            Format::Listing => {
+            VectorFormat::Csv => stages::write_csv,
+            VectorFormat::Readmemh => stages::write_memh,
+            VectorFormat::Listing => {
                 return Err(Failure::bad_input("a stage has no listing: --format csv or readmemh"));
             }
         };
@@ -229,7 +231,8 @@ impl Args {
         }
         notes.extend(self.split.map(|split| ("split".to_owned(), split.name().to_owned())));
         let source = "tess-core".to_owned();
-        let kind = if self.format == Format::Listing { Kind::Listings } else { Kind::Patches };
+        let kind =
+            if self.format == VectorFormat::Listing { Kind::Listings } else { Kind::Patches };
         Header { kind, count: Some(count), source, notes }
     }
 }

@@ -12,7 +12,7 @@ use tess_verify::Named;
 
 /// A stage that a circuit may have as a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Block {
+pub(super) enum StageBlock {
     /// Factor processing of a patch (spec section 3).
     Factors,
     /// The context of a processed factor (spec section 4).
@@ -23,7 +23,7 @@ pub(super) enum Block {
     Stitch,
 }
 
-impl Named for Block {
+impl Named for StageBlock {
     const WHAT: &'static str = "stage";
     const NAMES: &'static [(&'static str, Self)] = &[
         ("factors", Self::Factors),
@@ -43,7 +43,7 @@ const PLACE: &str = "split_order 1, odd 1, fixed 23, p 7, location 17";
 const STITCH: &str = "split_order 1, kind 2, middle_turned 1, outer_points 7, inner_points 6, step 7, \
     outer 6, inner 6, advances_outer 1, begins_outer 1, last 1";
 
-impl Block {
+impl StageBlock {
     const fn layout(self) -> &'static str {
         match self {
             Self::Factors => FACTORS,
@@ -78,25 +78,25 @@ impl Block {
 }
 
 /// The distinct rows that a stage has in the model for some cases, ascending.
-pub(super) fn rows(block: Block, cases: impl Iterator<Item = Case>) -> BTreeSet<Vec<u32>> {
+pub(super) fn rows(block: StageBlock, cases: impl Iterator<Item = Case>) -> BTreeSet<Vec<u32>> {
     let mut rows = BTreeSet::new();
     for case in cases {
         match block {
-            Block::Factors => {
+            StageBlock::Factors => {
                 rows.insert(factors(&case));
             }
-            Block::Context => rows.extend(contexts(&case).map(|(input, context)| {
+            StageBlock::Context => rows.extend(contexts(&case).map(|(input, context)| {
                 let FactorContext {
                     inv_floor, inv_ceil, fraction, half_points, split, points, ..
                 } = context;
                 let numbers = [inv_floor, inv_ceil, fraction, half_points, split, points];
                 [&input[..], &numbers].concat()
             })),
-            Block::Place => rows.extend(contexts(&case).flat_map(|(input, context)| {
+            StageBlock::Place => rows.extend(contexts(&case).flat_map(|(input, context)| {
                 let row = move |p| [&input[..], &[p, place(&context, p).to_bits()]].concat();
                 (0..context.points).map(row)
             })),
-            Block::Stitch => stitches(&case, &mut rows),
+            StageBlock::Stitch => stitches(&case, &mut rows),
         }
     }
     rows
@@ -172,7 +172,7 @@ fn stitches(case: &Case, rows: &mut BTreeSet<Vec<u32>>) {
 /// Those of the writer.
 pub(super) fn write_csv(
     out: &mut dyn Write,
-    block: Block,
+    block: StageBlock,
     rows: &BTreeSet<Vec<u32>>,
 ) -> io::Result<()> {
     let names: Vec<&str> = block.columns().map(|(name, _)| name).collect();
@@ -199,7 +199,7 @@ pub(super) fn write_csv(
 /// Those of the writer.
 pub(super) fn write_memh(
     out: &mut dyn Write,
-    block: Block,
+    block: StageBlock,
     rows: &BTreeSet<Vec<u32>>,
 ) -> io::Result<()> {
     let bits: usize = block.columns().map(|(_, bits)| bits).sum();
@@ -209,7 +209,7 @@ pub(super) fn write_memh(
 }
 
 /// The numbers side by side, as one number in hex.
-fn word(block: Block, row: &[u32]) -> String {
+fn word(block: StageBlock, row: &[u32]) -> String {
     let columns = block.columns().zip(row);
     let bits: String = columns.map(|((_, bits), number)| format!("{number:0bits$b}")).collect();
     let padded = "0".repeat(bits.len().next_multiple_of(4) - bits.len()) + &bits;
@@ -223,9 +223,9 @@ mod tests {
     use super::*;
     use tess_verify::generate::{GenLevel, Selection};
 
-    type Writer = fn(&mut dyn Write, Block, &BTreeSet<Vec<u32>>) -> io::Result<()>;
+    type RowWriter = fn(&mut dyn Write, StageBlock, &BTreeSet<Vec<u32>>) -> io::Result<()>;
 
-    fn all(block: Block) -> BTreeSet<Vec<u32>> {
+    fn all(block: StageBlock) -> BTreeSet<Vec<u32>> {
         rows(block, Selection::level(GenLevel::One, 1).cases().step_by(7))
     }
 
@@ -233,14 +233,14 @@ mod tests {
     #[test]
     fn a_context_number_by_number() {
         let line = "case isoline fractional_odd line ruler 3f800000 40200000";
-        let contexts = rows(Block::Context, [line.parse().expect("a case")].into_iter());
+        let contexts = rows(StageBlock::Context, [line.parse().expect("a case")].into_iter());
         assert!(contexts.contains(&vec![0, 1, 0x28000, 0x10000, 0x5555, 0xc000, 2, 0, 4]));
     }
 
     /// Every number fits its column, and some number needs its whole width.
     #[test]
     fn widths() {
-        for &(name, block) in Block::NAMES {
+        for &(name, block) in StageBlock::NAMES {
             let rows = all(block);
             assert!(rows.len() > 100, "{name}: {} rows", rows.len());
             for (at, (column, bits)) in block.columns().enumerate() {
@@ -254,7 +254,7 @@ mod tests {
     /// A stitch's steps are its triangles: entries advance by one a step, up to the rows' ends.
     #[test]
     fn steps_walk_both_rows() {
-        let rows: Vec<Vec<u32>> = all(Block::Stitch).into_iter().collect();
+        let rows: Vec<Vec<u32>> = all(StageBlock::Stitch).into_iter().collect();
         for pair in rows.windows(2) {
             let [one, two] = pair else { continue };
             let [outer, inner, advances] = [one[6], one[7], one[8]];
@@ -273,13 +273,15 @@ mod tests {
     fn a_row_in_both_forms() {
         let case =
             "case isoline fractional_odd line ruler 3f800000 40200000".parse().expect("a case");
-        let rows: BTreeSet<_> =
-            rows(Block::Place, [case].into_iter()).into_iter().filter(|row| row[3] == 1).collect();
+        let rows: BTreeSet<_> = rows(StageBlock::Place, [case].into_iter())
+            .into_iter()
+            .filter(|row| row[3] == 1)
+            .collect();
         let row = vec![0, 1, 0x28000, 1, 0x4000];
         assert!(rows.contains(&row), "point 1 of 2.5: {rows:x?}");
-        let text = |write: Writer| {
+        let text = |write: RowWriter| {
             let mut text = Vec::new();
-            write(&mut text, Block::Place, &[row.clone()].into()).expect("vectors grow");
+            write(&mut text, StageBlock::Place, &[row.clone()].into()).expect("vectors grow");
             String::from_utf8(text).expect("ASCII")
         };
         let csv = text(write_csv);
@@ -299,13 +301,13 @@ mod tests {
         let split = format!("split_order {}", numbered::<SplitOrder>());
         let domain = format!("domain {}", numbered::<Domain>());
         let partitioning = format!("partitioning {}", numbered::<Partitioning>());
-        for &(name, block) in Block::NAMES {
+        for &(name, block) in StageBlock::NAMES {
             for write in [write_csv, write_memh] {
                 let mut text = Vec::new();
                 write(&mut text, block, &BTreeSet::new()).expect("vectors grow");
                 let text = String::from_utf8(text).expect("ASCII");
                 let heads = [&split, &domain, &partitioning].map(|head| text.contains(head));
-                let is_factors = block == Block::Factors;
+                let is_factors = block == StageBlock::Factors;
                 assert_eq!(heads, [!is_factors, is_factors, is_factors], "{name}: {text}");
             }
         }

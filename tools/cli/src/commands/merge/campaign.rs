@@ -1,7 +1,7 @@
 //! Which reports belong together, which shards they prove, and their sums.
 
 use super::again::quoted;
-use super::read::Found;
+use super::read::FoundReport;
 use crate::campaign::report::{KnownCases, Part, Report, State};
 use crate::failure::Failure;
 use std::cmp::Reverse;
@@ -18,7 +18,7 @@ pub(super) const LISTED: usize = 1_000_000;
 #[derive(Debug)]
 pub(super) struct Campaign {
     /// By shard; more than one where a shard is double.
-    shards: BTreeMap<u64, Vec<Found>>,
+    shards: BTreeMap<u64, Vec<FoundReport>>,
     /// Number of shards.
     pub(super) of: u64,
     /// Where a report of another campaign stands, and why it is one.
@@ -27,7 +27,7 @@ pub(super) struct Campaign {
 
 /// A fault of a shard.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Fault {
+pub(super) enum ShardFault {
     /// It has no report.
     Missing,
     /// It did not come to its end; where that is said, and why.
@@ -94,7 +94,7 @@ pub(super) fn option_words(report: &Report) -> Vec<String> {
 }
 
 /// How a report differs from one of another campaign.
-fn strangeness(report: &Report, usual: &Found) -> String {
+fn strangeness(report: &Report, usual: &FoundReport) -> String {
     let (own, other) = (Identity::of(report).words(), Identity::of(&usual.report).words());
     let differing = own.into_iter().zip(other).find(|(own, other)| own != other);
     let (what, own, other) = match differing {
@@ -115,7 +115,7 @@ fn strangeness(report: &Report, usual: &Found) -> String {
 
 /// The reports of the campaign that most of them are of, the first of several with as many; and the others, each
 /// with why it is another. Both in the order of the reports.
-fn largest(reports: Vec<Found>) -> (Vec<Found>, Vec<(String, String)>) {
+fn largest(reports: Vec<FoundReport>) -> (Vec<FoundReport>, Vec<(String, String)>) {
     let mut numbers = BTreeMap::new();
     let groups: Vec<usize> = reports
         .iter()
@@ -130,8 +130,8 @@ fn largest(reports: Vec<Found>) -> (Vec<Found>, Vec<(String, String)>) {
 }
 
 /// Those reports among them that have another baseline of the same name than most are of another campaign.
-fn of_one_baseline(reports: Vec<Found>) -> (Vec<Found>, Vec<(String, String)>) {
-    let of = |found: &Found| {
+fn of_one_baseline(reports: Vec<FoundReport>) -> (Vec<FoundReport>, Vec<(String, String)>) {
+    let of = |found: &FoundReport| {
         let known = found.report.known.clone()?;
         Some((known.file?, known.digest.unwrap_or_default()))
     };
@@ -141,8 +141,9 @@ fn of_one_baseline(reports: Vec<Found>) -> (Vec<Found>, Vec<(String, String)>) {
     }
     let usual: BTreeMap<&String, String> =
         by_name.iter().map(|(name, digests)| (name, most(digests))).collect();
-    let is_usual = |_, found: &Found| of(found).is_none_or(|(name, digest)| usual[&name] == digest);
-    let why = |report: &Report, _: &Found| {
+    let is_usual =
+        |_, found: &FoundReport| of(found).is_none_or(|(name, digest)| usual[&name] == digest);
+    let why = |report: &Report, _: &FoundReport| {
         let known = report.known.clone().unwrap_or_default();
         let (name, digest) = (known.file.unwrap_or_default(), known.digest.unwrap_or_default());
         let usual = usual.get(&name).map(String::as_str).unwrap_or_default();
@@ -168,14 +169,15 @@ fn most<T: Ord + Clone>(all: &[T]) -> T {
 
 /// The reports that are the campaign's own, and where each other one stands with why it is none.
 fn split(
-    reports: Vec<Found>,
-    is_own: impl Fn(usize, &Found) -> bool,
-    why: impl Fn(&Report, &Found) -> String,
-) -> (Vec<Found>, Vec<(String, String)>) {
+    reports: Vec<FoundReport>,
+    is_own: impl Fn(usize, &FoundReport) -> bool,
+    why: impl Fn(&Report, &FoundReport) -> String,
+) -> (Vec<FoundReport>, Vec<(String, String)>) {
     let (own, others): (Vec<_>, Vec<_>) =
         reports.into_iter().enumerate().partition(|(number, found)| is_own(*number, found));
-    let own: Vec<Found> = own.into_iter().map(|(_, found)| found).collect();
-    let stranger = |(_, found): (usize, Found)| (found.place.clone(), why(&found.report, &own[0]));
+    let own: Vec<FoundReport> = own.into_iter().map(|(_, found)| found).collect();
+    let stranger =
+        |(_, found): (usize, FoundReport)| (found.place.clone(), why(&found.report, &own[0]));
     let strangers = others.into_iter().map(stranger).collect();
     (own, strangers)
 }
@@ -185,7 +187,7 @@ impl Campaign {
     ///
     /// # Errors
     /// No report.
-    pub(super) fn of(reports: Vec<Found>) -> Result<Self, Failure> {
+    pub(super) fn of(reports: Vec<FoundReport>) -> Result<Self, Failure> {
         if reports.is_empty() {
             return Err(Failure::bad_input("there is no report to merge"));
         }
@@ -193,7 +195,7 @@ impl Campaign {
         let (own, others) = of_one_baseline(own);
         strangers.extend(others);
         let of = own[0].report.shards;
-        let mut shards: BTreeMap<u64, Vec<Found>> = BTreeMap::new();
+        let mut shards: BTreeMap<u64, Vec<FoundReport>> = BTreeMap::new();
         for found in own {
             shards.entry(found.report.shard).or_default().push(found);
         }
@@ -201,18 +203,18 @@ impl Campaign {
     }
 
     /// Every report of the campaign, by shard.
-    pub(super) fn all(&self) -> impl Iterator<Item = &Found> {
+    pub(super) fn all(&self) -> impl Iterator<Item = &FoundReport> {
         self.shards.values().flatten()
     }
 
     /// One report of each shard that came to its end.
-    pub(super) fn done(&self) -> impl Iterator<Item = &Found> {
-        let done = |one: &&Found| one.report.state == State::Done;
+    pub(super) fn done(&self) -> impl Iterator<Item = &FoundReport> {
+        let done = |one: &&FoundReport| one.report.state == State::Done;
         self.shards.values().filter_map(move |found| found.iter().find(done))
     }
 
     /// One report of each shard that ran once.
-    pub(super) fn once(&self) -> impl Iterator<Item = &Found> {
+    pub(super) fn once(&self) -> impl Iterator<Item = &FoundReport> {
         self.shards.values().filter_map(|found| match &found[..] {
             [one] if one.report.state == State::Done => Some(one),
             _ => None,
@@ -225,15 +227,15 @@ impl Campaign {
     }
 
     /// The faults of the shards, in their order.
-    pub(super) fn faults(&self) -> impl Iterator<Item = (u64, Fault)> {
+    pub(super) fn faults(&self) -> impl Iterator<Item = (u64, ShardFault)> {
         (1..=self.of).filter_map(|shard| Some((shard, self.fault(shard)?)))
     }
 
-    fn fault(&self, shard: u64) -> Option<Fault> {
-        let Some(found) = self.shards.get(&shard) else { return Some(Fault::Missing) };
+    fn fault(&self, shard: u64) -> Option<ShardFault> {
+        let Some(found) = self.shards.get(&shard) else { return Some(ShardFault::Missing) };
         if let [_, _, ..] = &found[..] {
             let places: Vec<&str> = found.iter().map(|one| one.place.as_str()).collect();
-            return Some(Fault::Double(places.join(", ")));
+            return Some(ShardFault::Double(places.join(", ")));
         }
         let one = &found[0];
         let why = match one.report.state {
@@ -243,7 +245,7 @@ impl Campaign {
                 format!("failed: {}", one.report.message.as_deref().unwrap_or("nothing said why"))
             }
         };
-        Some(Fault::Unfinished(one.place.clone(), why))
+        Some(ShardFault::Unfinished(one.place.clone(), why))
     }
 
     /// Whether every shard ran once, and some case was compared.
@@ -315,7 +317,7 @@ impl Campaign {
     /// A report without hits, or with those of other bins.
     pub(super) fn coverage(&self) -> Result<Coverage, Failure> {
         let mut sum = Coverage::default();
-        for Found { place, report } in self.done() {
+        for FoundReport { place, report } in self.done() {
             let hits = report.coverage.as_deref().unwrap_or_default();
             let bins: Vec<String> = sum.bins().map(|(bin, _)| bin.to_owned()).collect();
             if bins.len() != hits.len() {

@@ -11,7 +11,7 @@ const MAX_BYTES: u64 = 1 << 28;
 
 /// A report, and the file that it stands in.
 #[derive(Debug)]
-pub(super) struct Found {
+pub(super) struct FoundReport {
     pub(super) place: String,
     pub(super) report: Report,
 }
@@ -19,7 +19,7 @@ pub(super) struct Found {
 /// The content of the files.
 #[derive(Debug, Default)]
 pub(super) struct Reports {
-    pub(super) reports: Vec<Found>,
+    pub(super) reports: Vec<FoundReport>,
     /// The files that are not there.
     pub(super) absent: Vec<PathBuf>,
 }
@@ -40,13 +40,13 @@ pub(super) fn reports(paths: &[PathBuf]) -> Result<Reports, Failure> {
     Ok(all)
 }
 
-fn lines(path: &Path, text: &str) -> Result<Vec<Found>, Failure> {
+fn lines(path: &Path, text: &str) -> Result<Vec<FoundReport>, Failure> {
     let name = input::name(path);
     let mut found = Vec::new();
     for (number, line) in (1..).zip(text.lines()) {
         let report = Report::parse(line)
             .map_err(|error| Failure::bad_input(format!("{name}:{number}: {error}")))?;
-        found.push(Found { place: name.clone(), report });
+        found.push(FoundReport { place: name.clone(), report });
     }
     if found.is_empty() {
         return Err(Failure::bad_input(format!(

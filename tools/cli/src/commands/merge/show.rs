@@ -1,9 +1,9 @@
 //! A campaign as text, CSV and `JUnit` XML.
 
 use super::again::{Pattern, command_of};
-use super::campaign::{Campaign, Fault, LISTED, SHOWN, option_words};
-use super::read::Found;
-use crate::campaign::junit::{Outcome, Suite, Test, seconds};
+use super::campaign::{Campaign, LISTED, SHOWN, ShardFault, option_words};
+use super::read::FoundReport;
+use crate::campaign::junit::{JunitCase, JunitSuite, Outcome, seconds};
 use crate::campaign::report::{Report, State};
 use crate::output::counted;
 use std::fmt::Write;
@@ -46,8 +46,9 @@ fn table(text: &mut String, campaign: &Campaign) {
 }
 
 fn differing(text: &mut String, campaign: &Campaign) {
-    let differing: Vec<&Found> = campaign.done().filter(|one| one.report.mismatches > 0).collect();
-    for Found { place, report } in differing.iter().take(SHOWN) {
+    let differing: Vec<&FoundReport> =
+        campaign.done().filter(|one| one.report.mismatches > 0).collect();
+    for FoundReport { place, report } in differing.iter().take(SHOWN) {
         let Report { shard, shards, cases, mismatches, .. } = report;
         _ = writeln!(text, "shard {shard}/{shards} differs: {mismatches} of {cases} ({place})");
         report.first.iter().for_each(|first| _ = writeln!(text, "  {}", first.text("\n  ")));
@@ -64,11 +65,11 @@ fn faults(text: &mut String, campaign: &Campaign) {
     for (shard, fault) in campaign.faults().take(SHOWN) {
         let shard_of = format!("shard {shard}/{}", campaign.of);
         _ = match &fault {
-            Fault::Missing => writeln!(text, "{shard_of} is missing"),
-            Fault::Unfinished(place, why) => writeln!(text, "{shard_of} {why} ({place})"),
-            Fault::Double(places) => writeln!(text, "{shard_of} is double: {places}"),
+            ShardFault::Missing => writeln!(text, "{shard_of} is missing"),
+            ShardFault::Unfinished(place, why) => writeln!(text, "{shard_of} {why} ({place})"),
+            ShardFault::Double(places) => writeln!(text, "{shard_of} is double: {places}"),
         };
-        if !matches!(fault, Fault::Double(_)) {
+        if !matches!(fault, ShardFault::Double(_)) {
             again.push(shard);
         }
     }
@@ -129,7 +130,7 @@ fn summary(text: &mut String, campaign: &Campaign) {
 pub(super) fn csv(campaign: &Campaign) -> String {
     let mut text =
         "shard,shards,state,cases,mismatches,seconds,first,difference,report\n".to_owned();
-    for Found { place, report } in campaign.all() {
+    for FoundReport { place, report } in campaign.all() {
         let state = match report.state {
             State::Done => "done",
             State::Interrupted => "interrupted",
@@ -148,7 +149,7 @@ pub(super) fn csv(campaign: &Campaign) -> String {
         );
     }
     for (shard, fault) in campaign.faults().take(LISTED) {
-        if fault == Fault::Missing {
+        if fault == ShardFault::Missing {
             _ = writeln!(text, "{shard},{},missing,0,0,0.000,,,", campaign.of);
         }
     }
@@ -171,35 +172,37 @@ pub(super) fn junit(campaign: &Campaign) -> String {
     let command = campaign.all().next().map(|one| one.report.command.as_str()).unwrap_or_default();
     let class = format!("tess.{command}");
     let of = campaign.of;
-    let test = |shard: u64, milliseconds, outcome| Test {
+    let test = |shard: u64, milliseconds, outcome| JunitCase {
         class: class.clone(),
         name: format!("shard {shard}/{of}"),
         milliseconds,
         outcome,
     };
-    let mut tests: Vec<(u64, Test)> = campaign
+    let mut tests: Vec<(u64, JunitCase)> = campaign
         .once()
-        .map(|Found { report, .. }| {
+        .map(|FoundReport { report, .. }| {
             let time = Some(report.milliseconds);
             (report.shard, test(report.shard, time, outcome(report)))
         })
         .collect();
     for (shard, fault) in campaign.faults().take(LISTED) {
         let error = match fault {
-            Fault::Missing => Outcome::Error("missing".to_owned(), "it has no report".to_owned()),
-            Fault::Unfinished(place, why) => Outcome::Error(why, place),
-            Fault::Double(places) => Outcome::Error("double".to_owned(), places),
+            ShardFault::Missing => {
+                Outcome::Error("missing".to_owned(), "it has no report".to_owned())
+            }
+            ShardFault::Unfinished(place, why) => Outcome::Error(why, place),
+            ShardFault::Double(places) => Outcome::Error("double".to_owned(), places),
         };
         tests.push((shard, test(shard, None, error)));
     }
     tests.sort_by_key(|(shard, _)| *shard);
-    let more = campaign.faults().nth(LISTED).map(|_| Test {
+    let more = campaign.faults().nth(LISTED).map(|_| JunitCase {
         class: class.clone(),
         name: "more shards".to_owned(),
         milliseconds: None,
         outcome: Outcome::Error("missing".to_owned(), format!("more than {LISTED} are not listed")),
     });
-    let strangers = campaign.strangers.iter().map(|(place, why)| Test {
+    let strangers = campaign.strangers.iter().map(|(place, why)| JunitCase {
         class: class.clone(),
         name: place.clone(),
         milliseconds: None,
@@ -207,7 +210,7 @@ pub(super) fn junit(campaign: &Campaign) -> String {
     });
     let tests = tests.into_iter().map(|(_, test)| test).chain(more).chain(strangers).collect();
     let (name, milliseconds) = (format!("tess {command}"), campaign.milliseconds());
-    Suite { name, milliseconds, tests }.to_xml()
+    JunitSuite { name, milliseconds, tests }.to_xml()
 }
 
 fn outcome(report: &Report) -> Outcome {

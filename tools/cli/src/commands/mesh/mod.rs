@@ -22,14 +22,14 @@ use clap::builder::ValueParser;
 use glam::Vec3;
 use input::{Input, height};
 use output::{IndexWidth, MeshFile, Options, ResultForm};
-use pipeline::Job;
-use statistics::{Stage, Statistics};
+use pipeline::MeshJob;
+use statistics::{MeshStage, Statistics};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use tess_core::Partitioning;
 use tess_surface::{DisplacedModel, Displacement, FactorRule, HeightError, Model, Style};
 use tess_verify::Named;
-use view::{View, ViewArgs};
+use view::{CameraView, ViewArgs};
 
 /// Tessellate a model into a mesh or a picture
 #[derive(Debug, clap::Args)]
@@ -134,8 +134,8 @@ impl RuleArgs {
         }
     }
 
-    fn rule(self, view: &View) -> FactorRule {
-        let View { eye, pixels_per_unit, .. } = *view;
+    fn rule(self, view: &CameraView) -> FactorRule {
+        let CameraView { eye, pixels_per_unit, .. } = *view;
         match self {
             Self { distance: Some(scale), .. } => FactorRule::Distance { eye, scale },
             Self { pixels: Some(segment), .. } => {
@@ -175,30 +175,31 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
         SurfaceName::Flat => Style::Flat,
         SurfaceName::Pn => Style::PointNormal,
     });
-    let (Input { model, up, notes, files }, displacement) = statistics.time(Stage::Load, || {
-        let map = args.displace.as_deref();
-        let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
-        let input = input::load(args.input.as_deref(), style)?;
-        let displacement = map.map(|map| Displacement::new(map, args.height).map_err(too_high));
-        Ok::<_, Failure>((input, displacement.transpose()?))
-    })?;
+    let (Input { model, up, notes, files }, displacement) =
+        statistics.time(MeshStage::Load, || {
+            let map = args.displace.as_deref();
+            let map = map.map(|path| height::load(path, args.max_pixels)).transpose()?;
+            let input = input::load(args.input.as_deref(), style)?;
+            let displacement = map.map(|map| Displacement::new(map, args.height).map_err(too_high));
+            Ok::<_, Failure>((input, displacement.transpose()?))
+        })?;
     refuse_shared(&args.roles(&files, part.as_deref()))?;
     notes.iter().for_each(|line| note(&format!("note: {line}")));
-    let displaced = statistics.time(Stage::Load, || {
+    let displaced = statistics.time(MeshStage::Load, || {
         displacement.as_ref().map(|displacement| DisplacedModel::new(&model, displacement))
     });
     let up = args.view.up.unwrap_or(up);
     let view = args.view.view(&args.outline(form, &model), up);
     let options = Options { up, indices: args.indices, view, wireframe: args.wireframe };
     let mut sink = MeshFile::open(&args.output, form, &options)?;
-    let job = Job {
+    let job = MeshJob {
         model: &model,
         rule: args.rule.rule(&view),
         partitioning: args.partitioning,
         displaced: displaced.as_ref(),
     };
     pipeline::run(&job, &mut sink, &mut statistics)?;
-    statistics.time(Stage::Output, || sink.finish())?;
+    statistics.time(MeshStage::Output, || sink.finish())?;
     // Nobody may be listening; the output is there all the same.
     _ = write!(std::io::stderr(), "{statistics}");
     Ok(Exit::Done)

@@ -2,8 +2,8 @@
 //!
 //! Beyond the model, memory holds the factors of its patches and one block, whatever the factors.
 
-use super::output::{Block, MeshFile, Totals};
-use super::statistics::{Stage, Statistics};
+use super::output::{MeshBlock, MeshFile, Totals};
+use super::statistics::{MeshStage, Statistics};
 use crate::failure::Failure;
 use crate::output::progress;
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ const PATCHES_PER_TASK: usize = 32;
 
 /// The steps that a model takes.
 #[derive(Debug)]
-pub(crate) struct Job<'a> {
+pub(crate) struct MeshJob<'a> {
     /// The patches.
     pub(crate) model: &'a Model,
     /// How finely they are cut.
@@ -43,7 +43,7 @@ struct Group<F> {
 
 /// The state that is kept from block to block.
 struct Stream<'a> {
-    job: &'a Job<'a>,
+    job: &'a MeshJob<'a>,
     tessellator: Tessellator,
     domain_points: Output<[f32; 2], u32>,
     vertices: Vec<Sample>,
@@ -54,7 +54,7 @@ struct Stream<'a> {
 /// # Errors
 /// Those of the sink.
 pub(crate) fn run(
-    job: &Job<'_>,
+    job: &MeshJob<'_>,
     sink: &mut MeshFile,
     statistics: &mut Statistics,
 ) -> Result<(), Failure> {
@@ -66,9 +66,9 @@ pub(crate) fn run(
         vertices: Vec::new(),
     };
     statistics.patches = job.model.len();
-    let factors = statistics.time(Stage::Factors, || job.factors());
-    let totals = statistics.time(Stage::Tessellation, || stream.count(&factors))?;
-    statistics.time(Stage::Output, || sink.begin(totals))?;
+    let factors = statistics.time(MeshStage::Factors, || job.factors());
+    let totals = statistics.time(MeshStage::Tessellation, || stream.count(&factors))?;
+    statistics.time(MeshStage::Output, || sink.begin(totals))?;
     let bar = progress(job.model.len() as u64, "patches");
     for (number, block) in factors.chunks(FACTOR_BLOCK).enumerate() {
         let first = number * FACTOR_BLOCK;
@@ -79,7 +79,7 @@ pub(crate) fn run(
     Ok(())
 }
 
-impl Job<'_> {
+impl MeshJob<'_> {
     /// The factors of all patches.
     fn factors(&self) -> Vec<PatchFactors> {
         let Self { model, rule, partitioning, .. } = self;
@@ -142,17 +142,17 @@ impl Stream<'_> {
         }
         let numbering = Numbering::PerBatch { base_vertex: 0 };
         statistics
-            .time(Stage::Tessellation, || {
+            .time(MeshStage::Tessellation, || {
                 self.tessellator.tessellate(batch, numbering, &mut self.domain_points)
             })
             .map_err(refused)?;
-        statistics.time(Stage::Evaluation, || self.evaluate(patches));
-        let block = Block {
+        statistics.time(MeshStage::Evaluation, || self.evaluate(patches));
+        let block = MeshBlock {
             first_vertex: statistics.vertices,
             vertices: &self.vertices,
             indices: self.domain_points.indices(),
         };
-        statistics.time(Stage::Output, || sink.block(&block))?;
+        statistics.time(MeshStage::Output, || sink.block(&block))?;
         statistics.vertices += block.vertices.len() as u64;
         statistics.triangles += block.indices.len() as u64 / 3;
         Ok(())
@@ -195,7 +195,7 @@ fn by_domain(
     (triangles, quads)
 }
 
-fn evaluate_patch(job: &Job<'_>, number: usize, points: &[[f32; 2]], out: &mut [Sample]) {
+fn evaluate_patch(job: &MeshJob<'_>, number: usize, points: &[[f32; 2]], out: &mut [Sample]) {
     match job.displaced {
         None => job.model.patch(number).samples(points, out),
         Some(displaced) => displaced.patch(number).samples(points, out),

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 /// The stages, in order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Stage {
+pub(crate) enum MeshStage {
     /// Reading the file, checking it and finding neighbours.
     Load,
     /// Factors by rule.
@@ -19,12 +19,12 @@ pub(crate) enum Stage {
     Output,
 }
 
-const STAGES: [(Stage, &str); 5] = [
-    (Stage::Load, "load"),
-    (Stage::Factors, "factors"),
-    (Stage::Tessellation, "tessellation"),
-    (Stage::Evaluation, "evaluation"),
-    (Stage::Output, "output"),
+const STAGES: [(MeshStage, &str); 5] = [
+    (MeshStage::Load, "load"),
+    (MeshStage::Factors, "factors"),
+    (MeshStage::Tessellation, "tessellation"),
+    (MeshStage::Evaluation, "evaluation"),
+    (MeshStage::Output, "output"),
 ];
 
 /// Counts and times of one run.
@@ -41,7 +41,7 @@ pub(crate) struct Statistics {
 
 impl Statistics {
     /// Runs a part of a stage and adds the time that it takes.
-    pub(crate) fn time<T>(&mut self, stage: Stage, part: impl FnOnce() -> T) -> T {
+    pub(crate) fn time<T>(&mut self, stage: MeshStage, part: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = part();
         self.times[stage as usize] += start.elapsed();

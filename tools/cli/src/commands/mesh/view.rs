@@ -28,7 +28,7 @@ pub(crate) struct ViewArgs {
 
 /// A camera at rest.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct View {
+pub(crate) struct CameraView {
     /// Where the eye is.
     pub(crate) eye: Vec3,
     /// From the model's coordinates to clip space: x and y in -w..w on the picture, w the depth.
@@ -55,7 +55,7 @@ impl ViewArgs {
     }
 
     /// The camera, for a surface with these points.
-    pub(crate) fn view(&self, points: &[Vec3], up: Up) -> View {
+    pub(crate) fn view(&self, points: &[Vec3], up: Up) -> CameraView {
         let first = points.first().copied().unwrap_or_default();
         let grow = |(low, high): (Vec3, Vec3), &point: &Vec3| (low.min(point), high.max(point));
         let (low, high) = points.iter().fold((first, first), grow);
@@ -86,7 +86,12 @@ impl ViewArgs {
             row(forward, -near),
             row(forward, 0.0),
         );
-        View { eye, clip: rows.transpose(), size, pixels_per_unit: height / (2.0 * half_height) }
+        CameraView {
+            eye,
+            clip: rows.transpose(),
+            size,
+            pixels_per_unit: height / (2.0 * half_height),
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::commands::shaders::{Checks, spirv};
 use crate::failure::Failure;
 use crate::output::{OutputArgs, json, progress};
 use std::fmt::Write;
-use tess_probe::{Times, bench};
+use tess_probe::{BenchTimes, bench};
 use tess_verify::generate::Workload;
 
 /// How often each way runs; the fastest counts.
@@ -47,7 +47,7 @@ pub(super) fn run(
     clippy::cast_precision_loss,
     reason = "figures for people, of less than 2^53 triangles"
 )]
-fn table(rows: &[Times]) -> String {
+fn table(rows: &[BenchTimes]) -> String {
     let ways = ["fixed ms", "G/s", "ours ms", "G/s", "ordered ms", "G/s"];
     let group = |text: &str| format!("{text:^56}");
     let heads: String =

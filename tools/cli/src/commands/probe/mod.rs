@@ -5,7 +5,7 @@ mod bench;
 
 use super::check::{ConversionName, DenormalsName, rules};
 use crate::args::{SelectionArgs, name_of};
-use crate::campaign::report::{First as FirstOf, Part, Report as Record};
+use crate::campaign::report::{First as FirstOf, Part, Report};
 use crate::campaign::{Invocation, KnownArgs, Placed, Recorder, ReportArgs};
 use crate::failure::{Exit, Failure};
 use crate::formats::PictureFormat;
@@ -15,7 +15,7 @@ use clap::ValueEnum;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use tess_probe::{First, Prober, Report, Row, cases, list, probe_known};
+use tess_probe::{First, ProbeReport, ProbeRow, Prober, cases, list, probe_known};
 use tess_verify::check::{Known, ListOrder, Strength};
 use tess_verify::generate::{GenLevel, Selection, Shard};
 use tess_verify::rules::Specification;
@@ -56,7 +56,7 @@ pub(crate) struct Args {
     selection: SelectionArgs,
     /// Order of primitives that counts as equal
     #[arg(long, value_name = "NAME", default_value = "any")]
-    order: OrderName,
+    order: ProbeOrder,
     /// Conversion of factors that counts as equal
     #[arg(long, value_name = "NAME", default_value = "exact")]
     conversion: ConversionName,
@@ -100,7 +100,7 @@ pub(crate) struct Args {
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
-enum OrderName {
+enum ProbeOrder {
     /// The model's
     Sequence,
     /// Any, and any leading vertex of a triangle
@@ -127,7 +127,7 @@ pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure>
     };
     let known = args.known.read(args.rules)?;
     args.output.require_writable()?;
-    let picture = args.picture.as_deref().map(Picture::prepare).transpose()?;
+    let picture = args.picture.as_deref().map(FirstPicture::prepare).transpose()?;
     let drawn = picture.iter().map(|picture| Role::output("--picture", &picture.output.file));
     let others = args.known.role().into_iter().chain(args.report.roles());
     refuse_shared(&drawn.chain([args.output.role()]).chain(others).collect::<Vec<_>>())?;
@@ -150,7 +150,7 @@ impl Args {
     fn compare(
         &self,
         placed: Placed,
-        picture: Option<&Picture>,
+        picture: Option<&FirstPicture>,
         known: &Arc<Known>,
         recorder: &Recorder,
     ) -> Result<Exit, Failure> {
@@ -215,8 +215,8 @@ impl Args {
     fn strength(&self) -> Strength {
         Strength {
             order: match self.order {
-                OrderName::Sequence => ListOrder::Sequence,
-                OrderName::Any => ListOrder::Any,
+                ProbeOrder::Sequence => ListOrder::Sequence,
+                ProbeOrder::Any => ListOrder::Any,
             },
             conversion: self.conversion.into(),
             denormals: self.denormals.into(),
@@ -226,8 +226,8 @@ impl Args {
 }
 
 /// Says on stderr how it ends.
-fn verdict(report: &Report) -> Exit {
-    let Report { patches, different, known, .. } = report;
+fn verdict(report: &ProbeReport) -> Exit {
+    let ProbeReport { patches, different, known, .. } = report;
     if *different == 0 && *known > 0 {
         note(&format!(
             "equal: {} of {patches} patches; the differences of {known} are known",
@@ -254,14 +254,14 @@ fn first(first: &First) -> FirstOf {
 }
 
 /// Whether a row counts this case.
-fn is_of(row: &Row, case: &Case) -> bool {
+fn is_of(row: &ProbeRow, case: &Case) -> bool {
     let Case { config, .. } = case;
     let names = (case.domain().name(), config.partitioning.name(), config.output.name());
     names == (row.domain, row.partitioning, row.output)
 }
 
 /// Adds the configurations, and where each first differs.
-fn note_parts(record: &mut Record, report: &Report) {
+fn note_parts(record: &mut Report, report: &ProbeReport) {
     record.add_parts(report.rows.iter().map(|row| Part {
         name: format!("{} {} {}", row.domain, row.partitioning, row.output),
         cases: row.patches,
@@ -272,12 +272,12 @@ fn note_parts(record: &mut Record, report: &Report) {
 }
 
 /// A picture to draw if there is something to show.
-struct Picture {
+struct FirstPicture {
     format: PictureFormat,
     output: OutputArgs,
 }
 
-impl Picture {
+impl FirstPicture {
     /// Finds the form and tries the place, before the device is asked.
     ///
     /// # Errors

@@ -18,7 +18,7 @@ pub(crate) struct Bpt {
 }
 
 /// Lines that have anything on them, numbered from 1.
-struct Lines<'a> {
+struct BptLines<'a> {
     lines: Box<dyn Iterator<Item = (usize, &'a [u8])> + 'a>,
     /// The number of the last line that was read.
     line: usize,
@@ -31,7 +31,7 @@ struct Lines<'a> {
 pub(crate) fn parse(bytes: &[u8]) -> Result<Bpt, String> {
     let split = without_mark(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
     let lines = Box::new((1..).zip(split).filter(|(_, line)| !line.is_empty()));
-    let mut lines = Lines { lines, line: 0 };
+    let mut lines = BptLines { lines, line: 0 };
     let mut bpt = Bpt::default();
     let read = lines.file(&mut bpt);
     // A file without any line is named by the one that it should begin with.
@@ -39,7 +39,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Bpt, String> {
     Ok(bpt)
 }
 
-impl<'a> Lines<'a> {
+impl<'a> BptLines<'a> {
     fn file(&mut self, bpt: &mut Bpt) -> Result<(), String> {
         let count = self.count()?;
         for number in 1..=count {

@@ -4,7 +4,7 @@
 //! and display attributes do not change a surface and are skipped. Points and lines have none; they
 //! are skipped and counted. Every other keyword is an error, so that no misspelt line is lost.
 
-use super::text::{Lines, Words, integer, number, quoted, without_mark};
+use super::text::{TextLines, TextWords, integer, number, quoted, without_mark};
 use glam::{Vec2, Vec3};
 use tess_surface::{Face, PolygonMesh, Sides};
 
@@ -41,7 +41,7 @@ struct Corner {
 /// The first line that is malformed, or the first face with an index out of range.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
     let mut obj = Obj::default();
-    for (number, line) in (1..).zip(Lines(without_mark(bytes))) {
+    for (number, line) in (1..).zip(TextLines(without_mark(bytes))) {
         let read = obj.line(number, line);
         read.map_err(|what| format!("line {number}: {}: {what}", quoted(line)))?;
     }
@@ -53,7 +53,7 @@ pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
 
 impl Obj {
     fn line(&mut self, number: usize, line: &[u8]) -> Result<(), String> {
-        let mut words = Words(line);
+        let mut words = TextWords(line);
         let Some(keyword) = words.next() else { return Ok(()) };
         let words = words.take_while(|word| !word.starts_with(b"#"));
         match keyword {

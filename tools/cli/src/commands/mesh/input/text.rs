@@ -21,9 +21,9 @@ pub(super) fn quoted(piece: &[u8]) -> String {
 }
 
 /// The lines of a text, without their ends.
-pub(super) struct Lines<'a>(pub(super) &'a [u8]);
+pub(super) struct TextLines<'a>(pub(super) &'a [u8]);
 
-impl<'a> Iterator for Lines<'a> {
+impl<'a> Iterator for TextLines<'a> {
     type Item = &'a [u8];
 
     fn next(&mut self) -> Option<&'a [u8]> {
@@ -39,9 +39,9 @@ impl<'a> Iterator for Lines<'a> {
 }
 
 /// The words of a line.
-pub(super) struct Words<'a>(pub(super) &'a [u8]);
+pub(super) struct TextWords<'a>(pub(super) &'a [u8]);
 
-impl<'a> Iterator for Words<'a> {
+impl<'a> Iterator for TextWords<'a> {
     type Item = &'a [u8];
 
     #[inline]
@@ -120,7 +120,7 @@ fn any_number(word: &[u8]) -> Result<f32, String> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Lines, Words, decimal, integer, number};
+    use super::{TextLines, TextWords, decimal, integer, number};
 
     #[test]
     fn short_numbers_are_those_of_the_standard_library() {
@@ -171,7 +171,7 @@ mod tests {
     #[test]
     fn lines_and_words() {
         let lines: Vec<_> =
-            Lines(b"a  b\r\n\n c").map(|line| Words(line).collect::<Vec<_>>()).collect();
+            TextLines(b"a  b\r\n\n c").map(|line| TextWords(line).collect::<Vec<_>>()).collect();
         assert_eq!(lines, [vec![&b"a"[..], b"b"], vec![], vec![b"c"]]);
     }
 }

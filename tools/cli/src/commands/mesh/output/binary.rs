@@ -3,7 +3,7 @@
 //! How many vertices and indices there will be is known beforehand. So every thread makes the bytes of a
 //! part of a block, and writes them to their place.
 
-use super::Block;
+use super::MeshBlock;
 use super::{IndexWidth, Options, Totals};
 use crate::commands::mesh::input::Up;
 use crate::output::OutputFile;
@@ -33,14 +33,14 @@ pub(super) struct Binary {
     /// Where the binary part begins in the file.
     start: u64,
     options: Options,
-    layout: Layout,
+    layout: BinaryLayout,
     /// Indices written so far.
     indices: u64,
 }
 
 /// The JSON's description of the binary part.
 #[derive(Clone, Copy)]
-pub(super) struct Layout {
+pub(super) struct BinaryLayout {
     totals: Totals,
     narrow: bool,
     bounds: Bounds,
@@ -50,7 +50,7 @@ pub(super) struct Layout {
 impl Binary {
     pub(super) const fn new(file: OutputFile, start: u64, options: &Options) -> Self {
         let totals = Totals { vertices: 0, indices: 0 };
-        let layout = Layout { totals, narrow: false, bounds: EMPTY, up: options.up };
+        let layout = BinaryLayout { totals, narrow: false, bounds: EMPTY, up: options.up };
         Self { file, start, options: *options, layout, indices: 0 }
     }
 
@@ -68,7 +68,7 @@ impl Binary {
         Ok(())
     }
 
-    pub(super) fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
+    pub(super) fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
         let (low, high) = self.write_vertices(block)?;
         self.layout.bounds = (self.layout.bounds.0.min(low), self.layout.bounds.1.max(high));
         let first = u32::try_from(block.first_vertex).map_err(|_| too_large())?;
@@ -85,7 +85,7 @@ impl Binary {
         Ok(())
     }
 
-    fn write_vertices(&self, block: &Block<'_>) -> io::Result<Bounds> {
+    fn write_vertices(&self, block: &MeshBlock<'_>) -> io::Result<Bounds> {
         let start = self.start + block.first_vertex * STRIDE as u64;
         let parts = block.vertices.par_chunks(PART / STRIDE).enumerate();
         let written = parts.map_init(Vec::new, |bytes, (number, vertices)| {
@@ -103,7 +103,7 @@ impl Binary {
 
     fn write_indices<const N: usize>(
         &self,
-        block: &Block<'_>,
+        block: &MeshBlock<'_>,
         bytes_of: impl Fn(u32) -> [u8; N] + Sync,
     ) -> io::Result<()> {
         let start = self.start + self.layout.vertex_bytes() + self.indices * N as u64;
@@ -119,7 +119,7 @@ impl Binary {
     }
 
     /// Fills up the binary part, a multiple of four bytes.
-    pub(super) fn finish(self) -> io::Result<(OutputFile, Layout)> {
+    pub(super) fn finish(self) -> io::Result<(OutputFile, BinaryLayout)> {
         let Self { file, start, layout, .. } = self;
         let padding = layout.length() - layout.vertex_bytes() - layout.index_bytes();
         let end = start + layout.length();
@@ -144,7 +144,7 @@ fn too_large() -> io::Error {
     io::Error::other("more than 2^32 - 2 vertices, which glTF cannot number; write OBJ")
 }
 
-impl Layout {
+impl BinaryLayout {
     const fn vertex_bytes(&self) -> u64 {
         self.totals.vertices * STRIDE as u64
     }

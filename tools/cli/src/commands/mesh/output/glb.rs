@@ -1,6 +1,6 @@
 //! GLB: JSON and binary part in one file.
 
-use super::Block;
+use super::MeshBlock;
 use super::binary::Binary;
 use super::{Options, Sink, Totals};
 use crate::failure::Failure;
@@ -51,7 +51,7 @@ impl Sink for Glb {
         self.0.begin(totals)
     }
 
-    fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
+    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
         self.0.block(block)
     }
 

@@ -1,6 +1,6 @@
 //! glTF in two files: the JSON, and the binary part beside it with the extension `.bin`.
 
-use super::Block;
+use super::MeshBlock;
 use super::binary::Binary;
 use super::{Options, Sink, Totals};
 use crate::failure::Failure;
@@ -69,7 +69,7 @@ impl Sink for Gltf {
         self.binary.begin(totals)
     }
 
-    fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
+    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
         self.binary.block(block)
     }
 

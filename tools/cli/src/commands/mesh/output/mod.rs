@@ -8,16 +8,16 @@ mod picture;
 mod raster;
 
 use super::input::Up;
-use super::view::View;
+use super::view::CameraView;
 use crate::failure::Failure;
-use crate::output::form::Form;
+use crate::output::form::FileForm;
 use std::io;
 use std::path::{Path, PathBuf};
 use tess_surface::Sample;
 
 /// Part of the result.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Block<'a> {
+pub(crate) struct MeshBlock<'a> {
     /// How many vertices came before.
     pub(crate) first_vertex: u64,
     /// The vertices.
@@ -43,7 +43,7 @@ trait Sink {
     }
 
     /// The next vertices and triangles.
-    fn block(&mut self, block: &Block<'_>) -> io::Result<()>;
+    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()>;
 
     /// Ends the output and puts it in its place; after an error nothing is there, or what was there before.
     fn finish(self: Box<Self>) -> io::Result<()>;
@@ -65,7 +65,7 @@ impl MeshFile {
             ResultForm::Obj => Box::new(obj::Obj::create(path)?),
             ResultForm::Gltf => Box::new(gltf::Gltf::create(path, options)?),
             ResultForm::Glb => Box::new(glb::Glb::create(path, options)?),
-            ResultForm::Png => Box::new(picture::Picture::create(path, options)?),
+            ResultForm::Png => Box::new(picture::PngPicture::create(path, options)?),
         };
         Ok(Self { path: path.to_owned(), sink })
     }
@@ -74,7 +74,7 @@ impl MeshFile {
         self.sink.begin(totals).map_err(|error| Failure::write(&self.path, error))
     }
 
-    pub(crate) fn block(&mut self, block: &Block<'_>) -> Result<(), Failure> {
+    pub(crate) fn block(&mut self, block: &MeshBlock<'_>) -> Result<(), Failure> {
         self.sink.block(block).map_err(|error| Failure::write(&self.path, error))
     }
 
@@ -104,7 +104,7 @@ pub(crate) struct Options {
     /// Width of the indices in glTF.
     pub(crate) indices: IndexWidth,
     /// The camera of pictures.
-    pub(crate) view: View,
+    pub(crate) view: CameraView,
     /// Whether pictures show the triangles' edges.
     pub(crate) wireframe: bool,
 }
@@ -122,7 +122,7 @@ pub(crate) enum ResultForm {
     Png,
 }
 
-impl Form for ResultForm {
+impl FileForm for ResultForm {
     const DEFAULT: Option<Self> = None;
 }
 

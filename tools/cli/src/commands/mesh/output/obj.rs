@@ -1,6 +1,6 @@
 //! OBJ: positions, texture coordinates, normals and triangles, block after block.
 
-use super::Block;
+use super::MeshBlock;
 use super::Sink;
 use crate::failure::Failure;
 use crate::output::OutputFile;
@@ -17,7 +17,7 @@ impl Obj {
 }
 
 impl Sink for Obj {
-    fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
+    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
         for vertex in block.vertices {
             let ([x, y, z], [s, t]) = (vertex.position.to_array(), vertex.texcoord.to_array());
             let [nx, ny, nz] = vertex.normal.to_array();

@@ -1,9 +1,9 @@
 //! PNG pictures: shaded, or with the triangles' edges.
 
-use super::Block;
+use super::MeshBlock;
 use super::raster::{Fragment, Raster};
 use super::{Options, Sink};
-use crate::commands::mesh::view::View;
+use crate::commands::mesh::view::CameraView;
 use crate::failure::Failure;
 use crate::output::OutputFile;
 use glam::Vec3;
@@ -18,7 +18,7 @@ const SAMPLES: usize = 3;
 const HALF_LINE: f32 = 0.5;
 
 /// A picture while it is drawn. Its memory is the picture's alone.
-pub(super) struct Picture {
+pub(super) struct PngPicture {
     file: OutputFile,
     raster: Raster,
     light: Light,
@@ -33,9 +33,9 @@ struct Light {
     wireframe: bool,
 }
 
-impl Picture {
+impl PngPicture {
     pub(super) fn create(path: &Path, options: &Options) -> Result<Self, Failure> {
-        let View { eye, clip, size, .. } = options.view;
+        let CameraView { eye, clip, size, .. } = options.view;
         let samples = (size.0 as usize * SAMPLES, size.1 as usize * SAMPLES);
         let row = |k: usize| clip.row(k).truncate().normalize_or_zero();
         Ok(Self {
@@ -112,8 +112,8 @@ impl Light {
     }
 }
 
-impl Sink for Picture {
-    fn block(&mut self, block: &Block<'_>) -> io::Result<()> {
+impl Sink for PngPicture {
+    fn block(&mut self, block: &MeshBlock<'_>) -> io::Result<()> {
         let Self { raster, light, .. } = self;
         for triangle in block.indices.as_chunks::<3>().0 {
             let corners = triangle.map(|index| &block.vertices[index as usize]);

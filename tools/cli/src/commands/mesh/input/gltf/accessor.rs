@@ -23,9 +23,9 @@ pub(super) fn check(document: &Document) -> Result<(), String> {
 }
 
 /// The property that is wrong, and what is wrong with it.
-type Wrong = (&'static str, String);
+type BrokenRule = (&'static str, String);
 
-fn check_view(document: &Document, view: &BufferView) -> Result<(), Wrong> {
+fn check_view(document: &Document, view: &BufferView) -> Result<(), BrokenRule> {
     let count = document.buffers.len();
     let buffer = document.buffers.get(view.buffer).ok_or_else(|| {
         ("buffer", format!("{} is out of range: there are {count} buffers", view.buffer))
@@ -44,7 +44,7 @@ fn check_view(document: &Document, view: &BufferView) -> Result<(), Wrong> {
     }
 }
 
-fn check_accessor(document: &Document, accessor: &Accessor) -> Result<(), Wrong> {
+fn check_accessor(document: &Document, accessor: &Accessor) -> Result<(), BrokenRule> {
     if accessor.count == 0 {
         return Err(("count", "it is 0; at least 1 is needed".to_owned()));
     }
@@ -66,13 +66,17 @@ fn check_accessor(document: &Document, accessor: &Accessor) -> Result<(), Wrong>
         let view = view(document, number).map_err(|what| ("bufferView", what))?;
         let stride = view.byte_stride.unwrap_or(size);
         let offset = accessor.byte_offset.unwrap_or(0);
-        let bytes = Bytes { offset, stride, size, count: accessor.count };
+        let bytes = ElementBytes { offset, stride, size, count: accessor.count };
         bytes.check(view, accessor.component_type)?;
     }
     accessor.sparse.as_ref().map_or(Ok(()), |sparse| check_sparse(document, accessor, sparse))
 }
 
-fn check_sparse(document: &Document, accessor: &Accessor, sparse: &Sparse) -> Result<(), Wrong> {
+fn check_sparse(
+    document: &Document,
+    accessor: &Accessor,
+    sparse: &Sparse,
+) -> Result<(), BrokenRule> {
     let Sparse { count, indices, values } = sparse;
     if *count == 0 || *count > accessor.count {
         let what = format!("{count} is not from 1 to the accessor's count, {}", accessor.count);
@@ -93,7 +97,7 @@ fn check_sparse(document: &Document, accessor: &Accessor, sparse: &Sparse) -> Re
             let what = format!("bufferViews[{number}] must have no byteStride and no target");
             return Err((path, what));
         }
-        let bytes = Bytes { offset, stride: size, size, count: *count };
+        let bytes = ElementBytes { offset, stride: size, size, count: *count };
         bytes.check(view, component).map_err(|(name, what)| (path, format!("{name}: {what}")))?;
     }
     Ok(())
@@ -113,15 +117,15 @@ fn view(document: &Document, number: usize) -> Result<&BufferView, String> {
 
 /// Elements in a buffer view, all in bytes.
 #[derive(Clone, Copy)]
-struct Bytes {
+struct ElementBytes {
     offset: u64,
     stride: u64,
     size: u64,
     count: u64,
 }
 
-impl Bytes {
-    fn check(&self, view: &BufferView, component: ComponentType) -> Result<(), Wrong> {
+impl ElementBytes {
+    fn check(&self, view: &BufferView, component: ComponentType) -> Result<(), BrokenRule> {
         let &Self { offset, stride, size, count } = self;
         if stride < size {
             return Err(("bufferView", format!("its byteStride {stride} is less than {size}")));

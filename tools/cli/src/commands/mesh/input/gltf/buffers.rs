@@ -1,6 +1,6 @@
 //! The content of buffers: from the file itself, from base64 in it, or from a file beside it.
 
-use super::document::{Buffer, broken};
+use super::document::{GltfBuffer, broken};
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use std::borrow::Cow;
@@ -12,7 +12,7 @@ use std::path::{Component, Path, PathBuf};
 const MOST: u64 = 1 << 32;
 
 /// The result of [`load`].
-pub(super) struct Buffers<'a> {
+pub(super) struct LoadedBuffers<'a> {
     /// Every buffer's content, exactly as long as the buffer says.
     pub(super) contents: Vec<Cow<'a, [u8]>>,
     /// The files beside that were read.
@@ -25,10 +25,10 @@ pub(super) struct Buffers<'a> {
 /// A buffer without content or with too little, a URI that leads out of `folder`, a file that
 /// cannot be read or is no ordinary file, buffers of more than 4 GiB.
 pub(super) fn load<'a>(
-    buffers: &[Buffer],
+    buffers: &[GltfBuffer],
     folder: Option<&Path>,
     blob: Option<&'a [u8]>,
-) -> Result<Buffers<'a>, String> {
+) -> Result<LoadedBuffers<'a>, String> {
     let mut left = MOST;
     let (mut contents, mut files) = (Vec::new(), Vec::new());
     for (number, buffer) in buffers.iter().enumerate() {
@@ -56,7 +56,7 @@ pub(super) fn load<'a>(
         };
         contents.push(exactly(content, length).map_err(|what| broken(&path, what))?);
     }
-    Ok(Buffers { contents, files })
+    Ok(LoadedBuffers { contents, files })
 }
 
 fn exactly(content: Cow<'_, [u8]>, length: u64) -> Result<Cow<'_, [u8]>, String> {

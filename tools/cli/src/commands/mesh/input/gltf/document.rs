@@ -21,7 +21,7 @@ pub(super) struct Document {
     #[serde(default, deserialize_with = "present")]
     pub(super) scene: Option<usize>,
     #[serde(default)]
-    pub(super) scenes: Vec<Scene>,
+    pub(super) scenes: Vec<SceneRoots>,
     #[serde(default)]
     pub(super) nodes: Vec<Node>,
     #[serde(default)]
@@ -31,7 +31,7 @@ pub(super) struct Document {
     #[serde(default)]
     pub(super) buffer_views: Vec<BufferView>,
     #[serde(default)]
-    pub(super) buffers: Vec<Buffer>,
+    pub(super) buffers: Vec<GltfBuffer>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -44,7 +44,7 @@ struct Asset {
 
 /// Root nodes.
 #[derive(Debug, Deserialize)]
-pub(super) struct Scene {
+pub(super) struct SceneRoots {
     #[serde(default)]
     pub(super) nodes: Vec<usize>,
 }
@@ -94,7 +94,7 @@ pub(super) struct Accessor {
     pub(super) normalized: bool,
     pub(super) count: u64,
     #[serde(rename = "type")]
-    pub(super) kind: Kind,
+    pub(super) kind: ElementKind,
     #[serde(default, deserialize_with = "present")]
     pub(super) sparse: Option<Sparse>,
     #[serde(default, deserialize_with = "present")]
@@ -142,7 +142,7 @@ pub(super) struct BufferView {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-pub(super) struct Buffer {
+pub(super) struct GltfBuffer {
     #[serde(default, deserialize_with = "present")]
     pub(super) uri: Option<String>,
     pub(super) byte_length: u64,
@@ -163,7 +163,7 @@ pub(super) enum ComponentType {
 /// How many components an element has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "UPPERCASE")]
-pub(super) enum Kind {
+pub(super) enum ElementKind {
     Scalar,
     Vec2,
     Vec3,
@@ -200,7 +200,7 @@ impl ComponentType {
     }
 }
 
-impl Kind {
+impl ElementKind {
     /// Size of an element in bytes. Columns of matrices begin at multiples of 4 bytes.
     pub(super) const fn size(self, component: ComponentType) -> u64 {
         let (columns, rows) = match self {

@@ -12,9 +12,9 @@ mod primitive;
 mod scene;
 
 use accessor::Data;
-use buffers::Buffers;
+use buffers::LoadedBuffers;
 use document::broken;
-use primitive::Placed;
+use primitive::PlacedPrimitive;
 use scene::out_of_range;
 use std::path::{Path, PathBuf};
 use tess_surface::PolygonMesh;
@@ -44,7 +44,7 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>, most: usize) -> Result<
     let document = document::parse(json)?;
     accessor::check(&document)?;
     let nodes = scene::nodes(&document)?;
-    let Buffers { contents, files } = buffers::load(&document.buffers, folder, blob)?;
+    let LoadedBuffers { contents, files } = buffers::load(&document.buffers, folder, blob)?;
     let data = Data { document: &document, buffers: contents };
     let mut scene = Scene { files, ..Scene::default() };
     for (number, transform) in nodes {
@@ -56,7 +56,7 @@ pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>, most: usize) -> Result<
         for (k, primitive) in primitives.primitives.iter().enumerate() {
             let path = format!("meshes[{mesh}].primitives[{k}]");
             scene.runs.push((scene.mesh.faces.len(), format!("nodes[{number}], {path}")));
-            let placed = Placed { data: &data, primitive, path: &path, transform };
+            let placed = PlacedPrimitive { data: &data, primitive, path: &path, transform };
             placed.append(&mut scene.mesh, most)?;
         }
     }

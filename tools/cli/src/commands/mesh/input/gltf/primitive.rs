@@ -1,7 +1,7 @@
 //! Primitives: triangles of a mesh, moved by a node's transform.
 
 use super::accessor::{Data, float, is_index, unsigned};
-use super::document::{Accessor, ComponentType, Kind, Primitive, broken};
+use super::document::{Accessor, ComponentType, ElementKind, Primitive, broken};
 use super::scene::out_of_range;
 use glam::{Mat3, Mat4, Vec2, Vec3};
 use tess_surface::{Face, PolygonMesh, Sides};
@@ -11,7 +11,7 @@ const TRIANGLES: u32 = 4;
 
 /// Where a primitive stands and how it is placed.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Placed<'a> {
+pub(super) struct PlacedPrimitive<'a> {
     pub(super) data: &'a Data<'a>,
     pub(super) primitive: &'a Primitive,
     /// Its JSON path.
@@ -19,7 +19,7 @@ pub(super) struct Placed<'a> {
     pub(super) transform: Mat4,
 }
 
-impl Placed<'_> {
+impl PlacedPrimitive<'_> {
     /// Appends the triangles, unless vertices or faces then become more than `most`.
     ///
     /// # Errors
@@ -96,8 +96,9 @@ impl Placed<'_> {
         use ComponentType::{Float, UnsignedByte, UnsignedShort};
         let (kind, component) = (accessor.kind, accessor.component_type);
         let right = match (name, kind, component) {
-            ("POSITION" | "NORMAL", Kind::Vec3, Float) | ("TEXCOORD_0", Kind::Vec2, Float) => true,
-            ("TEXCOORD_0", Kind::Vec2, UnsignedByte | UnsignedShort) => accessor.normalized,
+            ("POSITION" | "NORMAL", ElementKind::Vec3, Float)
+            | ("TEXCOORD_0", ElementKind::Vec2, Float) => true,
+            ("TEXCOORD_0", ElementKind::Vec2, UnsignedByte | UnsignedShort) => accessor.normalized,
             ("POSITION" | "NORMAL" | "TEXCOORD_0", ..) => false,
             _ => is_semantic(name).then_some(true).ok_or("has a name that is not known")?,
         };
@@ -146,7 +147,7 @@ impl Placed<'_> {
             .ok_or_else(|| broken(&path, out_of_range(number, accessors.len(), "accessors")))?;
         let wrong = |what| broken(&path, format!("accessors[{number}] {what}"));
         let (kind, component) = (accessor.kind, accessor.component_type);
-        if kind != Kind::Scalar || !is_index(component) || accessor.normalized {
+        if kind != ElementKind::Scalar || !is_index(component) || accessor.normalized {
             let what = format!("is {kind:?} of {component:?}");
             return Err(wrong(format!("{what}; it must be SCALAR of unsigned integers")));
         }
