@@ -72,7 +72,7 @@ fn narrow_indices_that_differ() {
     for backend in narrow() {
         let run =
             tess_with_input(&format!("check - --backend {backend} --index-type u16"), &changed);
-        assert_eq!(run.code, Some(1), "{backend}: {}{}", run.stdout, run.stderr);
+        run.exits(1);
         assert!(run.stdout.ends_with(" cases, 1 mismatches\n"), "{backend}: {}", run.stdout);
         let again = format!("--backend {backend} --index-type u16\n");
         assert!(run.stdout.contains(&again), "{backend}, to see it again: {}", run.stdout);
@@ -87,9 +87,7 @@ fn narrow_indices_where_there_are_none() {
         ("check - --index-type u16", &patch, "--backend simd or gpu"),
         ("check - --backend simd --index-type u8", &patch, "u16 or u32"),
     ] {
-        let run = tess_with_input(words, input);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+        tess_with_input(words, input).exits(2).prints_nothing().says(why);
     }
 }
 
@@ -98,7 +96,7 @@ fn narrow_indices_where_there_are_none() {
 fn a_shard_without_units() {
     let subjects = "--subject transitions --subject interiors";
     let run = tess(&format!("verify --backend simd {subjects} --shard 10/40"));
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
     let line = "tess: nothing to compare in shard 10/40: interiors has fewer than 10 units\n";
     assert_eq!(run.stderr, line, "{}", run.stdout);
     let run = tess(&format!("verify --backend simd {subjects} --shard 3/40"));
@@ -125,7 +123,7 @@ fn no_adapter_is_reported() {
         ("WGPU_BACKEND", "vulkan"),
     ];
     let run = tess_with_environment(&format!("check {GOLDEN}/cases.txt --backend gpu"), &none);
-    assert_eq!(run.code, Some(3), "{}{}", run.stdout, run.stderr);
+    run.exits(3);
     assert!(run.stdout.is_empty() && !run.stderr.is_empty(), "a message: {}", run.stderr);
 }
 
@@ -134,7 +132,7 @@ fn no_adapter_is_reported() {
 fn opengl_equals_recorded_cases() {
     let gl = [("WGPU_BACKEND", "gl")];
     let run = tess_with_environment(&format!("check {GOLDEN}/cases.txt --backend gpu"), &gl);
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
     assert!(run.stdout.ends_with(" cases, 0 mismatches\n"), "{}", run.stdout);
     let bench = "bench --backend gpu --workload uniform-1 --samples 1 --working-set cache";
     let run = tess_with_environment(bench, &gl);
@@ -145,7 +143,7 @@ fn opengl_equals_recorded_cases() {
 #[test]
 fn verify_compares_what_it_says() {
     let run = tess("verify --backend simd --subject transitions --subject interiors");
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
     let words = |name: &str| {
         let line = run.stdout.lines().find(|line| line.starts_with(name));
         line.map(|line| line.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
@@ -159,7 +157,7 @@ fn verify_compares_what_it_says() {
 /// Random patches of each of 96 configurations.
 fn random_patches_are_equal(backend: &str, patches: usize) {
     let run = tess(&format!("verify --backend {backend} --random {patches}"));
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
     let row: Vec<_> =
         run.stdout.lines().nth(1).into_iter().flat_map(str::split_whitespace).collect();
     let all = (96 * patches).to_string();
@@ -188,9 +186,7 @@ fn verify_refuses_what_does_not_go_together() {
         ("--subject random", "invalid value 'random'"),
         ("--seed 7", "--random <N>"),
     ] {
-        let run = tess(&format!("verify --backend simd {words}"));
-        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+        tess(&format!("verify --backend simd {words}")).exits(2).says(why);
     }
 }
 

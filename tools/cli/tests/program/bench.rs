@@ -22,7 +22,7 @@ fn json_has_exactly_the_documented_keys() {
     let words = "bench --workload uniform-2 --workload seed-table/quad-16 \
                  --working-set cache --samples 1 --json";
     let run = tess(words);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    run.exits(0);
     let json: Value = serde_json::from_str(&run.stdout).expect("JSON");
     let rows = json.as_array().expect("an array");
     assert_eq!(rows.len(), 2, "one row for each workload");
@@ -51,9 +51,7 @@ fn bad_options_say_what_would_be_right() {
         ("bench --backend simd --frame 0", "1..=1024"),
     ];
     for (words, remedy) in cases {
-        let run = tess(words);
-        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(remedy), "{words}: {}", run.stderr);
+        tess(words).exits(2).says(remedy);
     }
 }
 
@@ -62,10 +60,10 @@ fn bad_options_say_what_would_be_right() {
 fn frames() {
     let words = "bench --backend simd --workload uniform-2 --working-set cache --samples 1 --json";
     let run = tess(&format!("{words} --frame 2 --threads 2"));
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    run.exits(0);
     let json: Value = serde_json::from_str(&run.stdout).expect("JSON");
     assert_eq!(json[0]["workload"], "uniform-2, frames of 2 MiB", "{json}");
     let run = tess(&format!("{} --frame 2", words.replace("uniform-2", "single/uniform-1")));
-    assert!(run.stderr.contains("its calls have their size: no --frame"), "{}", run.stderr);
+    run.says("its calls have their size: no --frame");
     assert_ne!(run.code, Some(0), "{}", run.stdout);
 }

@@ -16,7 +16,7 @@ const EARLIER: &str = "{\"format\":\"tess-report 1\"}\n";
 
 /// Runs `tess` in a folder.
 pub(crate) fn tess_in(folder: &Folder, words: &str) -> Run {
-    command(words).current_dir(folder).output().expect("tess runs").into()
+    Run::of(command(words).current_dir(folder))
 }
 
 /// A listing of 40 cases with a fault in the last point, and the line of its case.
@@ -39,7 +39,7 @@ fn reports_say_what_was_run_and_found() {
     let folder = directory("reports");
     let run =
         tess_in(&folder, "verify --backend simd --random 20 --seed 7 --shard 2/3 --report r.jsonl");
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    run.exits(0);
     let report = json(&folder.join("r.jsonl"));
     assert_eq!(report["format"], "tess-report 1", "{report}");
     assert_eq!(report["version"], env!("CARGO_PKG_VERSION"), "{report}");
@@ -67,8 +67,7 @@ fn differences_are_in_the_report() {
     let report = folder.join("r.jsonl");
     let xml = folder.join("r.xml");
     let words = format!("check - --report {} --junit {}", report.display(), xml.display());
-    let run = tess_with_input(&words, &faulty);
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    tess_with_input(&words, &faulty).exits(1);
     let report = json(&report);
     assert_eq!((&report["cases"], &report["mismatches"]), (&40.into(), &1.into()), "{report}");
     assert_eq!(report["stages"]["location"], 1, "{report}");
@@ -98,8 +97,7 @@ fn missing_answers_are_in_the_report() {
     fs::write(folder.join("asked.txt"), &asked).expect("written");
     fs::write(folder.join("device.txt"), answers).expect("written");
     let run = tess_in(&folder, "check device.txt --cases asked.txt --report r.jsonl");
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains(&format!("record 9 is missing: {case}\n")), "{}", run.stdout);
+    run.exits(1).prints(format!("record 9 is missing: {case}\n"));
     let report = json(&folder.join("r.jsonl"));
     assert_eq!((&report["cases"], &report["mismatches"]), (&40.into(), &1.into()), "{report}");
     assert_eq!(report["stages"], serde_json::json!({ "answer": 1 }), "{report}");
@@ -118,8 +116,7 @@ fn failed_runs_have_a_report() {
     let truncated = tess("gen --level 3 --count 3").stdout;
     let words =
         format!("check - --report {} --junit {}", report.display(), folder.join("r.xml").display());
-    let run = tess_with_input(&words, &truncated[..truncated.len() - 30]);
-    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    tess_with_input(&words, &truncated[..truncated.len() - 30]).exits(2);
     let report = json(&report);
     assert_eq!(report["state"], "failed", "{report}");
     assert!(report["message"].as_str().is_some_and(|m| m.contains("stdin:5")), "{report}");
@@ -160,8 +157,7 @@ fn places_of_reports_are_tried_first() {
         ("--report one -o one", "are the same file"),
     ] {
         let run = tess_in(&folder, &format!("gen --level 3 --count 2 {option}"));
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{option}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{option}: {}", run.stderr);
+        run.exits(2).prints_nothing().says(why);
     }
     assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 0, "nothing is written");
 }
@@ -181,13 +177,7 @@ fn a_whole_campaign() {
     let folder = directory("merge-whole");
     campaign(&folder);
     let words = "merge r1.jsonl r3.jsonl r2.jsonl --csv a.csv --junit a.xml --coverage a-cov.xml";
-    let run = tess_in(&folder, words);
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
-    assert!(
-        run.stdout.contains("\n3 of 3 shards ran once: 50 cases, 0 mismatches, "),
-        "{}",
-        run.stdout
-    );
+    tess_in(&folder, words).exits(0).prints("\n3 of 3 shards ran once: 50 cases, 0 mismatches, ");
     tess_in(&folder, "coverage c1.xml c2.xml c3.xml --merged whole.xml");
     let read = |name: &str| fs::read_to_string(folder.join(name)).expect("a file");
     assert!(read("a-cov.xml") == read("whole.xml"), "the hits of all shards");
@@ -206,8 +196,7 @@ fn what_is_missing_or_double() {
     let folder = directory("merge-missing");
     campaign(&folder);
     let run = tess_in(&folder, "merge r1.jsonl r3.jsonl --junit a.xml --coverage a-cov.xml");
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
-    assert!(run.stdout.contains("shard 2/3 is missing\n"), "{}", run.stdout);
+    run.exits(2).prints("shard 2/3 is missing\n");
     let again = run.stdout.split_once("run again:\n").expect("a command").1.lines().next();
     let again = again.expect("a line").trim();
     let expected = " gen --level 3 --count 50 --shard 2/3 --coverage c2.xml --report r2.jsonl";
@@ -218,15 +207,13 @@ fn what_is_missing_or_double() {
 
     fs::rename(folder.join("r2.jsonl"), folder.join("away.jsonl")).expect("moved");
     assert_eq!(shell(again, &folder).code, Some(0), "the printed command runs: {again}");
-    let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl");
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl").exits(0);
 
     let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl away.jsonl");
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
-    assert!(run.stdout.contains("shard 2/3 is double: r2.jsonl, away.jsonl\n"), "{}", run.stdout);
+    run.exits(2).prints("shard 2/3 is double: r2.jsonl, away.jsonl\n");
     let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl r4.jsonl");
     assert_eq!(run.code, Some(2), "a file that is not there: {}", run.stdout);
-    assert!(run.stderr.contains("there is no r4.jsonl"), "{}", run.stderr);
+    run.says("there is no r4.jsonl");
 }
 
 /// Each of these differs from the campaign in one thing.
@@ -253,10 +240,9 @@ fn reports_of_other_campaigns() {
         assert_ne!(other, own, "{old}");
         fs::write(folder.join("r2.jsonl"), other).expect("written");
         let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl");
-        assert_eq!(run.code, Some(2), "{new}: {}", run.stdout);
+        run.exits(2);
         let expected = format!("r2.jsonl is of another campaign: {why}");
-        assert!(run.stdout.contains(&expected), "{expected}: {}", run.stdout);
-        assert!(run.stdout.contains("shard 2/3 is missing"), "{new}: {}", run.stdout);
+        run.prints(&expected).prints("shard 2/3 is missing");
     }
 }
 
@@ -272,9 +258,9 @@ fn differing_and_unfinished_shards() {
     );
     fs::write(folder.join("r2.jsonl"), differing).expect("written");
     let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl --csv a.csv --junit a.xml");
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    run.exits(1);
     let shown = "shard 2/3 differs: 2 of 17 (r2.jsonl)\n  case a\n  b, c\n";
-    assert!(run.stdout.contains(shown), "{}", run.stdout);
+    run.prints(shown);
     let csv = fs::read_to_string(folder.join("a.csv")).expect("CSV");
     assert!(csv.contains(",case a,\"b, c\",r2.jsonl\n"), "{csv}");
     let xml = fs::read_to_string(folder.join("a.xml")).expect("JUnit");
@@ -285,9 +271,7 @@ fn differing_and_unfinished_shards() {
         let unfinished = own.replacen("\"state\":\"done\"", &format!("\"state\":\"{state}\""), 1);
         fs::write(folder.join("r2.jsonl"), unfinished).expect("written");
         let run = tess_in(&folder, "merge r1.jsonl r2.jsonl r3.jsonl");
-        assert_eq!(run.code, Some(2), "{state}: {}", run.stdout);
-        assert!(run.stdout.contains(&format!("shard 2/3 {shown} (r2.jsonl)\n")), "{}", run.stdout);
-        assert!(run.stdout.contains("run again:\n"), "{}", run.stdout);
+        run.exits(2).prints(format!("shard 2/3 {shown} (r2.jsonl)\n")).prints("run again:\n");
     }
 }
 
@@ -308,16 +292,12 @@ fn what_is_no_report() {
         (own.clone() + "{}\n", "bad.jsonl:2: no report"),
     ] {
         fs::write(folder.join("bad.jsonl"), &text).expect("written");
-        let run = tess_in(&folder, "merge r1.jsonl bad.jsonl r3.jsonl");
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{why}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{why}: {}", run.stderr);
+        tess_in(&folder, "merge r1.jsonl bad.jsonl r3.jsonl").exits(2).prints_nothing().says(why);
     }
 }
 
 fn with_variables(folder: &Folder, words: &str, variables: &[(&str, &str)]) -> Run {
-    let mut command = command(words);
-    command.current_dir(folder).envs(variables.iter().copied());
-    command.output().expect("tess runs").into()
+    Run::of(command(words).current_dir(folder).envs(variables.iter().copied()))
 }
 
 #[test]
@@ -344,10 +324,10 @@ fn shards_from_the_environment() {
     );
     let run = with_variables(&folder, "gen --level 3 --count 5", &[("JOB_COMPLETION_INDEX", "0")]);
     assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "no total: {}", run.stderr);
-    assert!(run.stderr.contains("TESS_SHARDS is not"), "{}", run.stderr);
+    run.says("TESS_SHARDS is not");
     let run = with_variables(&folder, "verify --backend simd --rules d3d11", &bazel);
     assert_eq!(run.code, Some(2), "it cannot be cut: {}", run.stderr);
-    assert!(run.stderr.contains("cannot be cut into shards"), "{}", run.stderr);
+    run.says("cannot be cut into shards");
 }
 
 /// A file is the shard that its first line notes.
@@ -359,8 +339,7 @@ fn shards_of_files() {
     let run = tess_in(&folder, "check asked.txt --cases asked.txt --report r.jsonl");
     assert_eq!(run.code, Some(2), "the file itself: {}", run.stderr);
     fs::copy(folder.join("asked.txt"), folder.join("device.txt")).expect("copied");
-    let run = tess_in(&folder, "check device.txt --cases asked.txt --report r.jsonl");
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    tess_in(&folder, "check device.txt --cases asked.txt --report r.jsonl").exits(0);
     let report = json(&folder.join("r.jsonl"));
     assert_eq!((&report["shard"], &report["shards"]), (&2.into(), &4.into()), "{report}");
     assert_eq!(
@@ -370,12 +349,7 @@ fn shards_of_files() {
     );
     assert_eq!(report["options"]["asked random"][0], "40", "{report}");
     let run = tess_in(&folder, "check device.txt --shard 3/4");
-    assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(
-        run.stderr.contains("one says shard 3/4, the other shard 2/4 (from FILE)"),
-        "{}",
-        run.stderr
-    );
+    run.exits(2).says("one says shard 3/4, the other shard 2/4 (from FILE)");
 }
 
 /// A deviation that is known is no mismatch; another one is, and one that is gone is named.
@@ -384,8 +358,7 @@ fn known_differences() {
     let folder = directory("known");
     let (faulty, case) = faulty_listing();
     fs::write(folder.join("device.txt"), &faulty).expect("written");
-    let run = tess_in(&folder, "check device.txt --failures known.txt");
-    assert_eq!(run.code, Some(1), "{}", run.stdout);
+    tess_in(&folder, "check device.txt --failures known.txt").exits(1);
     let equal = faulty.lines().find(|line| line.starts_with("case ")).expect("another case");
     fs::write(folder.join("lines.txt"), format!("# documented\n{case}\n{equal}\n"))
         .expect("written");
@@ -393,7 +366,7 @@ fn known_differences() {
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     assert_eq!(run.stdout, "40 cases, 0 mismatches, 1 known\n", "what --failures wrote");
     let run = tess_in(&folder, "check device.txt --known lines.txt --report r.jsonl");
-    assert_eq!(run.code, Some(0), "{}", run.stdout);
+    run.exits(0);
     let gone = format!("tess: no longer different, though known: 1 case\n  {equal}\n");
     assert_eq!(run.stderr, gone, "lines, too");
     let known = &json(&folder.join("r.jsonl"))["known"];
@@ -402,12 +375,11 @@ fn known_differences() {
     fs::write(folder.join("other.txt"), format!("{equal}\n")).expect("written");
     let run = tess_in(&folder, "check device.txt --known other.txt");
     assert_eq!(run.code, Some(1), "it is another case: {}", run.stdout);
-    let run = tess_in(&folder, "verify --backend simd --random 2 --known lines.txt");
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    tess_in(&folder, "verify --backend simd --random 2 --known lines.txt").exits(0);
     fs::write(folder.join("empty.txt"), "").expect("written");
     let run = tess_in(&folder, "check device.txt --known empty.txt");
     assert_eq!(run.code, Some(2), "no case: {}", run.stdout);
-    assert!(run.stderr.contains("there is no case"), "{}", run.stderr);
+    run.says("there is no case");
 }
 
 /// A line with terms excuses what it expects, until its day; one that is not met is a difference.
@@ -473,15 +445,13 @@ fn baselines_that_became_empty() {
     fs::write(folder.join("device.txt"), &faulty).expect("written");
     let made = "gen --level 3 --count 5 --format listing -o right.txt";
     assert_eq!(tess_in(&folder, made).code, Some(0), "a device that is mended");
-    let run = tess_in(&folder, "check right.txt --failures known.txt");
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    tess_in(&folder, "check right.txt --failures known.txt").exits(0);
     fs::write(folder.join("remarks.txt"), "# all mended\n").expect("written");
     for baseline in ["known.txt", "remarks.txt"] {
         let run = tess_in(&folder, &format!("check right.txt --known {baseline}"));
         assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{baseline}: {}", run.stdout);
         let run = tess_in(&folder, &format!("check device.txt --known {baseline}"));
         assert_eq!(run.code, Some(1), "it excuses nothing: {}{}", run.stdout, run.stderr);
-        let run = tess_in(&folder, &format!("verify --backend simd --random 2 --known {baseline}"));
-        assert_eq!(run.code, Some(0), "{baseline}: {}", run.stderr);
+        tess_in(&folder, &format!("verify --backend simd --random 2 --known {baseline}")).exits(0);
     }
 }

@@ -12,7 +12,7 @@ fn filters_select_configurations() {
     let all = "gen --level 1 --domain quad --partitioning integer --count 40";
     let cases = |words: &str| {
         let run = tess(&format!("{all} {words}"));
-        assert_eq!(run.code, Some(0), "{words}: {}", run.stderr);
+        run.exits(0);
         let rows = run.stdout.lines().filter(|line| line.starts_with("quad,integer,"));
         rows.map(str::to_owned).collect::<Vec<_>>()
     };
@@ -50,13 +50,10 @@ fn a_device_that_repeats_one_case_does_not_pass() {
     let (header, body) = right.stdout.split_once('\n').expect("a header");
     let (first, _) = body.split_once("case quad").expect("two cases");
     let run = check(&format!("{header}\n{first}{first}# end\n"));
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains(&format!("observed {TRI}, expected {QUAD}")), "{}", run.stdout);
+    run.exits(1).prints(format!("observed {TRI}, expected {QUAD}"));
     let run = check(&format!("{header}\n{first}# end\n"));
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains(&format!("record 2 is missing: {QUAD}")), "{}", run.stdout);
-    let run = tess_with_input("check - --cases /nowhere", &right.stdout);
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    run.exits(1).prints(format!("record 2 is missing: {QUAD}"));
+    tess_with_input("check - --cases /nowhere", &right.stdout).exits(2);
 }
 
 #[test]
@@ -69,9 +66,9 @@ fn failing_records_are_kept_and_can_be_asked_again() {
     write(&device, &wrong).expect("written");
     let (device, failing) = (device.display(), failing.display());
     let run = tess(&format!("check {device} --order any --failures {failing}"));
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    run.exits(1);
     let beside = "point (10000, 0ffff): observed 1 times (but point (10000, 10000) 0 times, not 1)";
-    assert!(run.stdout.contains(beside), "{}", run.stdout);
+    run.prints(beside);
     let kept = read_to_string(failing.to_string()).expect("a file");
     assert!(kept.contains(QUAD) && !kept.contains(TRI) && kept.ends_with("end\n# end\n"), "{kept}");
     let again = tess(&format!("check {failing}"));
@@ -79,8 +76,7 @@ fn failing_records_are_kept_and_can_be_asked_again() {
     let asked = tess(&format!("patch --cases {failing}"));
     assert_eq!(asked.stdout.matches("\ncase ").count(), 1, "{}", asked.stdout);
     assert_eq!(tess_with_input("check -", &asked.stdout).code, Some(0), "the model is right");
-    let run = tess_with_input(&format!("check - --failures {failing}"), &right);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    tess_with_input(&format!("check - --failures {failing}"), &right).exits(0);
     assert_eq!(tess(&format!("check {failing}")).code, Some(2), "no record is left");
     assert_eq!(tess(&format!("check {failing} --empty")).code, Some(0), "which may be asked for");
     assert_eq!(tess_with_input("check - --failures -", &right).code, Some(2), "no file");
@@ -97,10 +93,10 @@ fn failing_records_that_answer_other_cases() {
     assert_ne!(right, wrong, "a fault is planted in the quad");
     let (asked, failing) = (asked.display(), failing.display());
     let run = tess_with_input(&format!("check - --cases {asked} --failures {failing}"), &wrong);
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    run.exits(1);
     assert!(run.stdout.ends_with("3 cases, 2 mismatches\n"), "{}", run.stdout);
     let note = "1 difference left out of ";
-    assert!(run.stderr.contains(note), "{}", run.stderr);
+    run.says(note);
     let kept = read_to_string(failing.to_string()).expect("a file");
     assert!(kept.contains(QUAD) && !kept.contains(TRI), "{kept}");
 }
@@ -112,9 +108,9 @@ fn a_device_that_turns_the_other_way_reads_one_line() {
     let turned =
         tess_with_input("patch --cases -", &ccw).stdout.replace("triangle_ccw", "triangle_cw");
     let run = tess_with_input("check - --order any", &turned);
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    run.exits(1);
     let line = "one mistake explains all 2 differences: every triangle turns the other way\n";
-    assert!(run.stdout.contains(line), "{}", run.stdout);
+    run.prints(line);
     assert_eq!(run.stdout.matches("\nrecord ").count(), 1, "{}", run.stdout);
     assert!(run.stdout.ends_with("and 1 more\n2 cases, 2 mismatches\n"), "{}", run.stdout);
 }
@@ -127,8 +123,7 @@ fn a_device_that_flushes_denormals_reads_the_option() {
                    points 0\nindices 0\nend\n";
     let run = tess_with_input("check - --order any", listing);
     let line = "--denormals flush would accept all 1 difference: positive denormal outer factors";
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains(line), "{}", run.stdout);
+    run.exits(1).prints(line);
     let run = tess_with_input("check - --order any --denormals flush", listing);
     assert_eq!((run.code, run.stdout.as_str()), (Some(0), "1 cases, 0 mismatches\n"), "granted");
 }
@@ -146,11 +141,9 @@ fn captures_by_coordinates() {
         run.stderr
     );
     let run = tess_with_input("check -", &capture.replace("0 0 1", "0 0 0"));
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains("third coordinate of vertex 1 of primitive 0"), "{}", run.stdout);
+    run.exits(1).prints("third coordinate of vertex 1 of primitive 0");
     for notation in ["hex", "decimal"] {
-        let run = tess_with_input("check -", &capture.replace("float", notation));
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+        tess_with_input("check -", &capture.replace("float", notation)).exits(2).prints_nothing();
     }
 }
 
@@ -196,9 +189,7 @@ fn a_wrong_case_writes_no_file() {
     let file = folder.join("right.txt");
     write(&file, "as it was").expect("written");
     let words = format!("patch --cases - -o {}", file.display());
-    let run = tess_with_input(&words, &format!("{TRI}\ncase cube\n"));
-    assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(run.stderr.contains("stdin:2: "), "{}", run.stderr);
+    tess_with_input(&words, &format!("{TRI}\ncase cube\n")).exits(2).says("stdin:2: ");
     assert_eq!(read_to_string(&file).expect("readable"), "as it was");
 }
 

@@ -30,7 +30,7 @@ fn equal_files() {
     assert_eq!((run.code, run.stdout.as_str()), (Some(0), "51 cases, 0 mismatches\n"), "listings");
     for text in excerpts() {
         let run = tess_with_input("check -", &text);
-        assert_eq!(run.code, Some(0), "{text}{}", run.stderr);
+        run.exits(0);
         assert!(run.stdout.ends_with(" cases, 0 mismatches\n"), "{}", run.stdout);
     }
 }
@@ -48,7 +48,7 @@ fn devices_that_keep_something() {
     let file = |name: &str| folder.join(name).display().to_string();
     let words = format!("check - --report {} --junit {}", file("r.jsonl"), file("r.xml"));
     let run = tess_with_input(&words, &(header.to_owned() + &records.collect::<String>()));
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    run.exits(1);
     assert_eq!(run.stderr, "tess: cases of level 1, version 1; the newest is 2\n");
     assert_eq!(run.stdout.matches("\n  passes alone: ").count(), 5, "{}", run.stdout);
     let report = json(&folder.join("r.jsonl"));
@@ -67,7 +67,7 @@ fn different_files() {
         let text = text.trim_end();
         let last = if text.ends_with('1') { "2" } else { "1" };
         let run = tess_with_input("check -", &format!("{}{last}\n", &text[..text.len() - 1]));
-        assert_eq!(run.code, Some(1), "{text}: {}", run.stderr);
+        run.exits(1);
         assert!(run.stdout.ends_with(" cases, 1 mismatches\n"), "{}", run.stdout);
         assert!(run.stdout.contains("observed ") && run.stdout.contains("expected "), "both");
         assert!(run.stdout.contains("stage: "), "the stage: {}", run.stdout);
@@ -136,7 +136,7 @@ fn malformed_truncated_surplus_and_empty_files() {
         let from_stdin = tess_with_input("check -", &text);
         for (run, source) in [(from_file, path.display().to_string()), (from_stdin, "stdin".into())]
         {
-            assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{name}: {}", run.stderr);
+            run.exits(2).prints_nothing();
             let message = format!("tess: {source}{expected}");
             assert!(run.stderr.starts_with(&message), "{name}: {} is not {message}", run.stderr);
         }
@@ -147,8 +147,7 @@ fn malformed_truncated_surplus_and_empty_files() {
 #[test]
 fn a_truncated_file_with_differences_is_malformed() {
     let text = excerpt("patches.csv", 1000).replace(",1", ",2");
-    let run = tess_with_input("check -", &text[..text.len() - 200]);
-    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+    tess_with_input("check -", &text[..text.len() - 200]).exits(2).prints_nothing();
 }
 
 #[test]
@@ -171,12 +170,12 @@ fn listings_of_a_device() {
         let faulty = device.replacen("\n08000 ", "\n08001 ", 1);
         assert_ne!(device, faulty, "a fault is planted");
         let run = tess_with_input("check -", &faulty);
-        assert_eq!(run.code, Some(1), "{source}: {}", run.stderr);
+        run.exits(1);
         assert!(run.stdout.starts_with("tested: stdin; right: the model\n"), "{}", run.stdout);
-        assert!(run.stdout.contains("u: observed 0x08001, expected 0x08000"), "{}", run.stdout);
+        run.prints("u: observed 0x08001, expected 0x08000");
         let run = tess_with_input("check - --backend core", &faulty);
         assert!(run.stdout.starts_with("tested: the backend core; right: stdin\n"), "{source}");
-        assert!(run.stdout.contains("u: observed 0x08000, expected 0x08001"), "{}", run.stdout);
+        run.prints("u: observed 0x08000, expected 0x08001");
     }
 }
 
@@ -188,9 +187,9 @@ fn unused_points_in_any_order() {
     let moved = junk.replacen("\n0 1 2\n", "\n1 2 3\n", 1);
     assert_ne!(junk, moved, "the triangle is the same");
     let run = tess_with_input("check - --order any", &moved);
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    run.exits(1);
     let point = "point (fffff, 12345): observed 1 times, expected 0 times (stage: location)";
-    assert!(run.stdout.contains(point), "{}", run.stdout);
+    run.prints(point);
 }
 
 /// Neither endless lines nor endless lists fill the memory.
@@ -198,12 +197,11 @@ fn unused_points_in_any_order() {
 #[test]
 fn endless_input() {
     let run = tess("check /dev/zero");
-    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+    run.exits(2).prints_nothing();
     assert!(run.stderr.starts_with("tess: /dev/zero:1: line: longer than 4096"), "{}", run.stderr);
     let patch = tess("patch tri --outer 1,1,1 --inner 1").stdout;
     let run = tess_with_input("check -", &patch.replacen("points 3", "points 99999999999", 1));
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
-    assert!(run.stderr.contains("stdin:3: points: 99999999999 is too many"), "{}", run.stderr);
+    run.exits(2).says("stdin:3: points: 99999999999 is too many");
 }
 
 /// Of many differences each stage and configuration has a line that counts them, and its smallest case is shown.
@@ -215,7 +213,7 @@ fn many_differences() {
         line[..cut].to_owned() + if i > 1 { "0123456789abcdef" } else { "" }
     });
     let run = tess_with_input("check -", &rows.collect::<Vec<_>>().join("\n"));
-    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    run.exits(1);
     let counts = run.stdout.lines().filter(|line| line.contains("  stitch  "));
     let counts: Vec<u64> = counts
         .map(|line| line.split_whitespace().next().expect("a count").parse().expect("a number"))

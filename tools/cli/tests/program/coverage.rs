@@ -20,7 +20,7 @@ fn other_than_coverage_files() {
     ] {
         let script = format!("ulimit -v 2000000; $TESS gen --level 3 --count 1 --coverage {file}");
         let run = shell(&script, &folder);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{file}: {}", run.stderr);
+        run.exits(2).prints_nothing();
         assert!(run.stderr.contains(why) && run.stderr.len() < 500, "{file}: {}", run.stderr);
     }
 }
@@ -38,7 +38,7 @@ fn what_a_device_cannot_hit_is_excluded() {
     let folder = directory("what_a_device_cannot_hit_is_excluded");
     let of = "--domain quad --partitioning integer --output triangle_cw";
     let run = shell(&format!("$TESS gen --level 1 {of} --coverage one.xml"), &folder);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    run.exits(0);
     assert_eq!(row(&run.stdout, "configuration"), ["96", "2", "94", "100.0"], "{}", run.stdout);
     assert_eq!(row(&run.stdout, "transition"), ["4032", "4032", "0", "100.0"], "{}", run.stdout);
     assert_eq!(row(&run.stdout, "exceptional"), ["6", "0", "6", "-"], "{}", run.stdout);
@@ -66,7 +66,7 @@ fn files_are_added_up_and_reported() {
              cmp sum.xml both.xml && cmp sum.txt whole.txt && tail -n 1 sum.txt",
         &folder,
     );
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
     assert!(run.stdout.starts_with("all") && run.stdout.ends_with(" 100.0\n"), "{}", run.stdout);
     let page = fs::read_to_string(folder.join("page.html")).expect("a page");
     assert!(page.contains("Hits of ruler.xml, stdin.") && page.contains("<p>None.</p>"), "{page}");
@@ -90,8 +90,7 @@ fn completeness() {
     ] {
         let run = shell(&format!("$TESS coverage tri.xml {words}"), &folder);
         assert_eq!(run.code, Some(code), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
-        assert!(run.stdout.contains("\nmissed "), "{words}: {}", run.stdout);
+        run.says(why).prints("\nmissed ");
     }
     let run = shell("$TESS coverage tri.xml --exclude no.txt | grep ^missed.*/quad/", &folder);
     assert_eq!(run.stdout, "", "quads are excluded by name");
@@ -117,9 +116,7 @@ fn bad_coverage_files_are_refused() {
         ("a.xml --html /nowhere/a.html", "cannot write /nowhere/a.html"),
         ("a.xml --domain cube", "cube"),
     ] {
-        let run = shell(&format!("$TESS coverage {words}"), &folder);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+        shell(&format!("$TESS coverage {words}"), &folder).exits(2).prints_nothing().says(why);
     }
     assert_eq!(fs::read_dir(&folder).expect("the folder").count(), 3, "nothing is written");
 }

@@ -88,16 +88,15 @@ fn is_left_out(run: &Run, words: &[&str]) -> bool {
     let is_left_out =
         !cfg!(feature = "gpu") && words.iter().any(|words| words.starts_with("--backend gpu"));
     if is_left_out {
-        assert_eq!((run.code, run.stdout.as_str()), (Some(3), ""), "{words:?}: {}", run.stderr);
-        assert!(run.stderr.contains("has no gpu backend"), "{words:?}: {}", run.stderr);
+        run.exits(3).prints_nothing().says("has no gpu backend");
     }
     is_left_out
 }
 
 fn is_refused(run: &Run, words: &str, says: [&str; 2]) {
-    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
+    run.exits(2).prints_nothing();
     for says in says {
-        assert!(run.stderr.contains(says), "{words}: {says} is not in {}", run.stderr);
+        run.says(says);
     }
 }
 
@@ -143,7 +142,7 @@ fn patches_are_the_models_whatever_the_options() {
             if is_left_out(&run, words) {
                 return;
             }
-            assert_eq!(run.code, Some(0), "{case}: {words:?}: {}", run.stderr);
+            run.exits(0);
             let backend = words[0].split(' ').nth(1).unwrap_or("core");
             let form = words[3].split(' ').nth(1).unwrap_or("text");
             is_model(form, &run.stdout, case, backend, &format!("{case}: {words:?}"));
@@ -211,7 +210,7 @@ fn backends_are_verified_whatever_the_options() {
         if is_left_out(&run, words) {
             return;
         }
-        assert_eq!(run.code, Some(0), "{words:?}: {}{}", run.stdout, run.stderr);
+        run.exits(0);
         let rows = run.stdout.lines().filter(|row| row.starts_with("random "));
         let rows: Vec<Vec<_>> = rows.map(|row| row.split_whitespace().collect()).collect();
         assert_eq!(rows.len(), words[0].matches("--backend").count(), "{}", run.stdout);
@@ -246,8 +245,7 @@ fn backends_are_timed_whatever_the_options() {
     let taken = |words: &[&str]| {
         let run = tess(&line(words));
         if !is_left_out(&run, words) {
-            assert_eq!(run.code, Some(0), "{words:?}: {}{}", run.stdout, run.stderr);
-            assert!(run.stdout.contains("uniform-4"), "{words:?}: {}", run.stdout);
+            run.exits(0).prints("uniform-4");
         }
     };
     let refused =

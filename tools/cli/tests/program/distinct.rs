@@ -64,9 +64,7 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 fn refused(command: &str, folder: &Path, before: &BTreeMap<String, Vec<u8>>) {
-    let run = shell(&format!("$TESS {command}"), folder);
-    assert_eq!(run.code, Some(2), "{command}: {}{}", run.stdout, run.stderr);
-    assert!(run.stderr.contains("are the same file"), "{command}: {}", run.stderr);
+    shell(&format!("$TESS {command}"), folder).exits(2).says("are the same file");
     assert!(contents(folder) == *before, "{command}: a file is not as it was");
 }
 

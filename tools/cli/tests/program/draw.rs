@@ -8,7 +8,7 @@ const PATCH: &str = "quad --outer 3,4,5,6 --inner 4,7";
 #[test]
 fn svg_has_every_triangle_and_point() {
     let run = tess(&format!("draw {PATCH}"));
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    run.exits(0);
     let count = |element: &str| run.stdout.matches(element).count();
     assert_eq!((count("<polygon"), count("<circle")), (52, 36), "triangles and points");
     assert!(run.stdout.starts_with("<svg ") && run.stdout.ends_with("</svg>\n"), "whole");
@@ -74,8 +74,7 @@ fn png_is_chosen_by_name_and_has_the_size() {
     let directory = directory("png_is_chosen_by_name");
     let file = directory.join("patch.png");
     for options in ["", "--indices", "--order", "--rings", "--indices --rings"] {
-        let run = tess(&format!("draw {PATCH} {options} --size 300 -o {}", file.display()));
-        assert_eq!(run.code, Some(0), "{options}: {}", run.stderr);
+        tess(&format!("draw {PATCH} {options} --size 300 -o {}", file.display())).exits(0);
         let png = fs::read(&file).expect("the picture");
         assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n", "{options}: signature");
         assert_eq!(&png[16..24], [0, 0, 1, 44, 0, 0, 1, 44], "{options}: 300 x 300");
@@ -85,8 +84,7 @@ fn png_is_chosen_by_name_and_has_the_size() {
 #[test]
 fn numbers_left_out_are_reported() {
     let run = tess("draw quad --outer 64,64,64,64 --inner 64,64 --indices --size 400");
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(run.stderr.contains("4225 numbers left out"), "{}", run.stderr);
+    run.exits(0).says("4225 numbers left out");
 }
 
 /// An equal listing is equal; one with a moved point and a turned triangle shows both.
@@ -118,8 +116,7 @@ fn overlays_show_differences() {
 #[test]
 fn two_backends_are_compared() {
     let run = tess(&format!("draw {PATCH} --backend simd --against core"));
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(run.stderr.contains("0 points and 0 primitives"), "{}", run.stderr);
+    run.exits(0).says("0 points and 0 primitives");
 }
 
 /// A capture of coordinates is drawn with the model's numbers: its right vertices do not differ.
@@ -132,12 +129,9 @@ fn overlays_of_coordinates() {
         coordinates float\n0 1 0\n0 0 1\n1 0 0\nend\n# end\n";
     let draw = format!("draw tri --outer 1,1,1 --inner 1 --overlay {}", file.display());
     fs::write(&file, capture).expect("a capture");
-    let run = tess(&draw);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    tess(&draw).exits(0);
     fs::write(&file, capture.replace("0 0 1", "0 0.5 0.5")).expect("a faulty capture");
-    let run = tess(&draw);
-    assert_eq!(run.code, Some(1), "{}", run.stderr);
-    assert!(run.stderr.contains(": 1 point and 1 primitive\n"), "{}", run.stderr);
+    tess(&draw).exits(1).says(": 1 point and 1 primitive\n");
 }
 
 /// A primitive that cannot be drawn is marked in red and named.
@@ -157,15 +151,14 @@ fn overlays_mark_what_cannot_be_drawn() {
     ] {
         fs::write(&file, &faulty).expect("a faulty listing");
         let run = tess(&format!("draw {patch} --overlay {}", file.display()));
-        assert_eq!(run.code, Some(1), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(words), "{words}: {}", run.stderr);
+        run.exits(1).says(words);
         assert!(run.stdout.contains("#d51f1f"), "{words}: something is red");
     }
     fs::write(&file, format!("{points}indices 0\nend\n")).expect("no indices");
     let run = tess(&format!("draw {patch} --overlay {}", file.display()));
     let all = indices.lines().count() - 2;
     assert_eq!(run.stdout.matches("#d51f1f").count(), all, "an outline for each");
-    assert!(run.stderr.contains(&format!("and {} more", all - 20)), "{}", run.stderr);
+    run.says(format!("and {} more", all - 20));
 }
 
 /// Primitives that are points are numbered in their order, too.

@@ -18,7 +18,7 @@ fn decisions_are_named() {
     ];
     for (patch, sentence) in cases {
         let run = tess(&format!("explain {patch}"));
-        assert_eq!(run.code, Some(0), "{patch}: {}", run.stderr);
+        run.exits(0);
         assert!(run.stdout.contains(sentence), "{patch} says {sentence}:\n{}", run.stdout);
     }
 }
@@ -154,7 +154,7 @@ fn observations_are_checked() {
     ];
     for (element, message) in cases {
         let run = tess(&format!("explain quad --outer 3,4,5,6 --inner 4,7 {element}"));
-        assert_eq!(run.code, Some(2), "{element}");
+        run.exits(2);
         assert!(run.stderr.contains(message), "{element} says {message}:\n{}", run.stderr);
     }
 }

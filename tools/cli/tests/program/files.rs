@@ -17,7 +17,7 @@ fn names(folder: &Path) -> Vec<String> {
 }
 
 fn done(run: &Run) {
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
 }
 
 /// Every command writes its files in the same way: a link stays, and so does the mode of what it
@@ -118,9 +118,7 @@ fn failures_change_nothing() {
     fs::write(folder.join("file"), "file").expect("a file");
     let before = names(&folder);
     for name in ["folder.txt", "circle.txt", "nowhere/a.txt", "file/a.txt"] {
-        let run = tess(&format!("{PATCH} -o {}", folder.join(name).display()));
-        assert_eq!(run.code, Some(2), "{name}: {}", run.stderr);
-        assert!(run.stderr.contains("cannot write"), "{name}: {}", run.stderr);
+        tess(&format!("{PATCH} -o {}", folder.join(name).display())).exits(2).says("cannot write");
     }
     assert_eq!(names(&folder), before, "nothing else");
     let run = tess(&format!("{PATCH} -o /dev/full"));
@@ -141,11 +139,8 @@ fn a_full_stdout() {
         commands.push("patch tri --outer 2,3,4 --inner 5 --backend gpu");
     }
     for words in commands {
-        let run = shell(&format!("$TESS {words} > /dev/full"), &folder);
-        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains("cannot write stdout"), "{words}: {}", run.stderr);
-        let run = shell(&format!("$TESS {words} > /dev/null"), &folder);
-        assert_eq!(run.code, Some(0), "{words}: {}", run.stderr);
+        shell(&format!("$TESS {words} > /dev/full"), &folder).exits(2).says("cannot write stdout");
+        shell(&format!("$TESS {words} > /dev/null"), &folder).exits(0);
     }
 }
 
@@ -155,8 +150,7 @@ fn a_full_stdout() {
 fn messages_have_no_temporary_names() {
     for words in [PATCH.to_owned(), PATCH.replace("patch", "explain"), "mesh".to_owned()] {
         let run = tess(&format!("{words} -o /proc/a.obj"));
-        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains("cannot write /proc/a.obj"), "{words}: {}", run.stderr);
+        run.exits(2).says("cannot write /proc/a.obj");
         assert!(!run.stderr.contains(".tess-"), "{words}: {}", run.stderr);
     }
     let run = tess("gen --level 3 --count 1 --format readmemh -o /proc/a");
@@ -170,9 +164,7 @@ fn the_bin_of_a_gltf() {
     let [gltf, bin] = ["model.gltf", "model.bin"].map(|name| folder.join(name));
     fs::write(&bin, "something else").expect("a file");
     let mesh = format!("mesh --factor 1 -o {}", gltf.display());
-    let run = tess(&mesh);
-    assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(run.stderr.contains("model.bin is there already"), "{}", run.stderr);
+    tess(&mesh).exits(2).says("model.bin is there already");
     assert_eq!(fs::read(&bin).expect("the file"), b"something else", "as it was");
     assert_eq!(names(&folder), ["model.bin"], "nothing else");
 
@@ -194,12 +186,10 @@ fn the_bin_of_a_gltf() {
 fn uris_are_encoded() {
     let folder = directory("uris_are_encoded");
     let gltf = folder.join("a b#c?d%41.gltf");
-    let output = command("mesh --factor 2 -o").arg(&gltf).output().expect("tess runs");
-    done(&output.into());
+    done(&Run::of(command("mesh --factor 2 -o").arg(&gltf)));
     let text = fs::read_to_string(&gltf).expect("the glTF");
     assert!(text.contains("\"a%20b%23c%3Fd%2541.bin\""), "{text}");
-    let again = command("mesh --factor 1 -o").arg(folder.join("out.obj")).arg(&gltf).output();
-    done(&again.expect("tess runs").into());
+    done(&Run::of(command("mesh --factor 1 -o").arg(folder.join("out.obj")).arg(&gltf)));
 }
 
 /// A picture or a binary mesh does not go to a terminal; text does.
@@ -211,10 +201,8 @@ fn no_pictures_on_terminals() {
         ("mesh --factor 1 --format glb -o -".to_owned(), 2),
         (PATCH.to_owned(), 0),
     ] {
-        let terminal = terminal();
-        let output = command(&words).stdout(terminal).output().expect("tess runs");
-        let run = Run::from(output);
-        assert_eq!(run.code, Some(code), "{words}: {}", run.stderr);
+        let run = Run::of(command(&words).stdout(terminal()));
+        run.exits(code);
         assert_eq!(run.stderr.contains("-o FILE"), code == 2, "{words}: {}", run.stderr);
     }
 }
@@ -264,8 +252,7 @@ fn folders_are_not_stdout() {
     }
     for words in commands {
         let run = shell(&format!("$TESS {words}"), &folder);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains("give a folder with -o"), "{words}: {}", run.stderr);
+        run.exits(2).prints_nothing().says("give a folder with -o");
         assert_eq!(names(&folder), [""; 0], "{words}: nothing is made");
     }
 }

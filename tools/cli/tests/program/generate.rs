@@ -11,8 +11,7 @@ fn vectors_can_be_checked() {
     for format in ["csv", "listing"] {
         let vectors = tess(&format!("gen --level 3 --seed 7 --count 60 --format {format}"));
         assert_eq!(vectors.code, Some(0), "{format}: {}", vectors.stderr);
-        let run = tess_with_input("check -", &vectors.stdout);
-        assert_eq!(run.code, Some(0), "{format}: {}{}", run.stdout, run.stderr);
+        tess_with_input("check -", &vectors.stdout).exits(0);
         let wrong = with_last_digit_changed(&vectors.stdout);
         assert_eq!(tess_with_input("check -", &wrong).code, Some(1), "{format}: the fault is seen");
         let again = tess(&format!("gen --level 3 --seed 7 --count 60 --format {format}"));
@@ -33,7 +32,7 @@ fn with_last_digit_changed(vectors: &str) -> String {
 fn shards_are_the_whole() {
     let cases = |words: &str| {
         let run = tess(&format!("gen --level 3 --count 50 --domain tri {words}"));
-        assert_eq!(run.code, Some(0), "{words}: {}", run.stderr);
+        run.exits(0);
         let lines = run.stdout.lines().filter(|line| line.starts_with("tri,"));
         let mut lines: Vec<String> = lines.map(str::to_owned).collect();
         lines.sort();
@@ -51,8 +50,7 @@ fn memory_images_and_coverage() {
     let folder = directory("memh");
     let out = folder.join("vectors");
     let images = format!("gen --level 3 --count 30 --format readmemh -o {}", out.display());
-    let run = tess(&images);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    tess(&images).exits(0);
     for (file, words) in [("cases.memh", 30), ("factors.memh", 30)] {
         let text = fs::read_to_string(out.join(file)).expect("an image");
         let lines = text.lines().filter(|line| !line.starts_with("//") && !line.is_empty());
@@ -60,9 +58,7 @@ fn memory_images_and_coverage() {
     }
     let sizes = fs::read_to_string(out.join("sizes.svh")).expect("sizes");
     assert!(sizes.contains("TESS_CASES 30"), "{sizes}");
-    let run = tess("gen --level 3 --count 30 --coverage");
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(run.stdout.contains("transition"), "{}", run.stdout);
+    tess("gen --level 3 --count 30 --coverage").exits(0).prints("transition");
     assert_eq!(tess("gen --shard 9/3").code, Some(2), "no such part");
     assert_eq!(tess("gen --level 4").code, Some(2), "no such level");
     assert_eq!(tess("gen --format readmemh").code, Some(2), "images need a folder");
@@ -75,7 +71,7 @@ fn coverage_files_merge() {
     let file = |name: &str| folder.join(name).display().to_string();
     let of = |what: &str, name: &str| {
         let run = tess(&format!("{what} --coverage {}", file(name)));
-        assert_eq!(run.code, Some(0), "{what}: {}", run.stderr);
+        run.exits(0);
         run.stdout
     };
     let cases = "gen --level 3 --count 60";
@@ -103,10 +99,10 @@ fn coverage_files_merge() {
     assert_ne!(read("whole.xml"), read("other.xml"), "other cases hit other bins");
     let run = tess(&format!("{cases} --coverage {vectors}"));
     assert_eq!(run.code, Some(2), "no coverage file");
-    assert!(run.stderr.contains("vectors.csv: line 1: "), "{}", run.stderr);
+    run.says("vectors.csv: line 1: ");
     let run = tess(&format!("check {} --coverage {}", PLACE, file("x.xml")));
     assert_eq!(run.code, Some(2), "no patches");
-    assert!(run.stderr.contains("this file's kind is locations"), "{}", run.stderr);
+    run.says("this file's kind is locations");
 }
 
 /// Each of the processes adds its hits to what the others added.
@@ -118,8 +114,7 @@ fn no_hit_is_lost() {
         format!("gen --level 3 --domain tri --count 40 --seed {seed} --coverage {file}")
     };
     for seed in 1..=12 {
-        let run = tess(&words(seed, &file("one.xml")));
-        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        tess(&words(seed, &file("one.xml"))).exits(0);
     }
     let together = (1..=12).map(|seed| {
         let mut tess = command(&words(seed, &file("all.xml")));

@@ -36,7 +36,7 @@ fn examples_run() {
         assert!(examples.len() >= 2, "{command} has examples:\n{help}");
         for example in examples {
             let run = tess(example);
-            assert_eq!(run.code, Some(0), "{example}: {}", run.stderr);
+            run.exits(0);
             assert!(!run.stdout.is_empty(), "{example} prints something");
         }
     }
@@ -63,8 +63,8 @@ fn what_this_build_leaves_out_is_named() {
     ];
     for (feature, words, _) in all.into_iter().filter(|(.., is_there)| !is_there) {
         let run = tess(words);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(3), ""), "{words}: {}", run.stderr);
+        run.exits(3).prints_nothing();
         let advice = format!("build it with --features {feature}");
-        assert!(run.stderr.contains(&advice), "{words}: {}", run.stderr);
+        run.says(&advice);
     }
 }

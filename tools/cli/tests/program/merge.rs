@@ -28,18 +28,17 @@ fn joined_values_are_other_values() {
     let of =
         |shard, domains: &[&str]| report(shard, 2, value!({ "options": { "domain": domains } }));
     let run = merged(&[of(1, &["tri,quad"]), of(2, &["tri", "quad"])]);
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    run.exits(2);
     let why = "an option is domain=tri domain=quad; in stdin:1 it is domain=tri,quad";
-    assert!(run.stdout.contains(why), "{}", run.stdout);
+    run.prints(why);
     let of = |shard, options: Value| report(shard, 2, value!({ "options": options }));
     let run =
         merged(&[of(1, value!({ "a": ["1 b=2"] })), of(2, value!({ "a": ["1"], "b": ["2"] }))]);
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    run.exits(2);
     let run = merged(&[of(1, value!({ "a": ["1 a=2"] })), of(2, value!({ "a": ["1", "2"] }))]);
     let why = "an option is a=1 a=2; in stdin:1 it is a='1 a=2'";
-    assert!(run.stdout.contains(why), "{}", run.stdout);
-    let run = merged(&[of(1, value!({ "a": ["1"] })), of(2, value!({ "a": ["1"] }))]);
-    assert_eq!(run.code, Some(0), "{}", run.stdout);
+    run.prints(why);
+    merged(&[of(1, value!({ "a": ["1"] })), of(2, value!({ "a": ["1"] }))]).exits(0);
 }
 
 /// Baselines of one name must have the same cases; a shard may have one of its own.
@@ -51,18 +50,18 @@ fn baselines_are_compared() {
         report(shard, 3, value!({ "known": known }))
     };
     let run = merged(&[of(1, "k", "0a"), of(2, "k", "0b"), of(3, "k", "0a")]);
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    run.exits(2);
     let why =
         "stdin:2 is of another campaign: the cases of k have the digest 0b; most reports have 0a";
-    assert!(run.stdout.contains(why), "{}", run.stdout);
+    run.prints(why);
     let run = merged(&[of(1, "k1", "0a"), of(2, "k2", "0b"), of(3, "k3", "0a")]);
-    assert_eq!(run.code, Some(0), "{}", run.stdout);
+    run.exits(0);
     let sum = "known differences: 3 of 6 cases of 2 baselines occur\n";
-    assert!(run.stdout.contains(sum), "{}", run.stdout);
+    run.prints(sum);
     let run = merged(&[of(1, "k", "0a"), of(2, "k", "0a"), report(3, 3, value!({}))]);
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    run.exits(2);
     let why = "stdin:3 is of another campaign: the baseline is not given";
-    assert!(run.stdout.contains(why), "{}", run.stdout);
+    run.prints(why);
 }
 
 /// The digest is of the cases, in any order and with any remarks.
@@ -77,7 +76,7 @@ fn baselines_by_their_cases() {
         fs::write(folder.join("k.txt"), text).expect("written");
         let run =
             tess_in(&folder, "verify --backend simd --random 1 --known k.txt --report r.jsonl");
-        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.exits(0);
         let report = json(&folder.join("r.jsonl"));
         assert_eq!(report["known"]["file"], "k.txt", "{report}");
         report["known"]["digest"].as_str().expect("text").to_owned()
@@ -93,7 +92,7 @@ fn every_fault_is_listed() {
     let folder = directory("every_fault_is_listed");
     fs::write(folder.join("r.jsonl"), report(7, 500, value!({}))).expect("written");
     let run = tess_in(&folder, "merge r.jsonl --csv s.csv --junit s.xml");
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
+    run.exits(2);
     let [csv, xml] =
         ["s.csv", "s.xml"].map(|name| fs::read_to_string(folder.join(name)).expect(name));
     assert_eq!(csv.lines().count(), 501, "a heading and every shard");
@@ -113,18 +112,17 @@ fn commands_that_are_certain() {
     let run = tess_in(&folder, "merge a");
     assert!(!run.stdout.contains("level2") && !run.stdout.contains("level3"), "{}", run.stdout);
     let shown = "each with files of its own; shard 1/3 was:\n  # tess check level1/d.txt --report r1 --shard 1/3\n";
-    assert!(run.stdout.contains(shown), "{}", run.stdout);
+    run.prints(shown);
     let stopped = value!({ "words": words("e", "r2"), "state": "interrupted" });
     fs::write(folder.join("b"), report(2, 3, stopped)).expect("written");
     let run = tess_in(&folder, "merge a b");
     let shown =
         "run again:\n  tess check level1/e.txt --report r2 --shard 2/3\nrun again what is missing";
-    assert!(run.stdout.contains(shown), "{}", run.stdout);
+    run.prints(shown);
     let words =
         |n: u64| value!(["tess", "check", "--report", format!("r{n}"), "--", format!("d{n}")]);
     let reports = [1, 2].map(|n| report(n, 3, value!({ "words": words(n) })));
-    let run = merged(&reports);
-    assert!(run.stdout.contains("  tess check --report r3 --shard 3/3 -- d3\n"), "{}", run.stdout);
+    merged(&reports).prints("  tess check --report r3 --shard 3/3 -- d3\n");
 }
 
 /// No sum wraps round.
@@ -134,7 +132,7 @@ fn sums_end_at_the_largest_number() {
     let part = value!([{ "name": "p", "cases": half, "mismatches": 0 }]);
     let of = |shard| report(shard, 2, value!({ "cases": half, "parts": part }));
     let run = merged(&[of(1), of(2)]);
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
     let shown = |name: &str| {
         let line = run.stdout.lines().find(|line| line.starts_with(name)).expect("a row");
         line.split_whitespace().nth(1).expect("a number").to_owned()
@@ -151,8 +149,7 @@ fn the_time_grows_with_the_shards_alone() {
         fs::write(folder.join("all"), all).expect("written");
         let times = (0..3).map(|_| {
             let start = Instant::now();
-            let run = tess_in(&folder, "merge all --csv s.csv --junit s.xml");
-            assert_eq!(run.code, Some(0), "{}", run.stderr);
+            tess_in(&folder, "merge all --csv s.csv --junit s.xml").exits(0);
             start.elapsed()
         });
         times.min().expect("three")
@@ -169,11 +166,8 @@ fn many_files() {
     for shard in 1..=2000 {
         fs::write(name(shard), report(shard, 2000, value!({}))).expect("written");
     }
-    let run = shell("ulimit -n 64; $TESS merge r* --csv s.csv", &folder);
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
-    let run = shell("ulimit -n 64; $TESS merge r* --csv r1", &folder);
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
-    assert!(run.stderr.contains("are the same file"), "{}", run.stderr);
+    shell("ulimit -n 64; $TESS merge r* --csv s.csv", &folder).exits(0);
+    shell("ulimit -n 64; $TESS merge r* --csv r1", &folder).exits(2).says("are the same file");
     assert!(fs::read_to_string(name(1)).is_ok_and(|text| text.starts_with('{')), "it is kept");
 }
 
@@ -192,8 +186,7 @@ fn files_do_not_excuse_themselves() {
         "check d.txt --cases a.txt --known link",
     ] {
         let run = shell(&format!("$TESS {command}"), &folder);
-        assert_eq!(run.code, Some(2), "{command}: {}{}", run.stdout, run.stderr);
-        assert!(run.stderr.contains("itself: every difference would be known"), "{}", run.stderr);
+        run.exits(2).says("itself: every difference would be known");
     }
     assert_eq!(tess_in(&folder, "check a.txt --known copy.txt").code, Some(0), "another file");
 }
@@ -212,8 +205,7 @@ fn failures_are_in_the_order_of_the_file() {
     let file = format!("{}\n{}\n", head.join("\n"), wrong.join("\n"));
     fs::write(folder.join("wrong.csv"), file).expect("written");
     for _ in 0..3 {
-        let run = tess_in(&folder, "check wrong.csv --failures f.csv");
-        assert_eq!(run.code, Some(1), "{}", run.stderr);
+        tess_in(&folder, "check wrong.csv --failures f.csv").exits(1);
         let failures = fs::read_to_string(folder.join("f.csv")).expect("failures");
         let found: Vec<&str> = failures.lines().skip(2).take(wrong.len()).collect();
         assert!(found == wrong, "each in its place");
@@ -228,9 +220,7 @@ fn variables_that_are_no_text() {
         ["TEST_SHARD_INDEX", "TEST_TOTAL_SHARDS", "SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"]
     {
         let script = format!("export {variable}=$(printf '1\\377'); $TESS gen --level 3 --count 2");
-        let run = shell(&script, &folder);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{variable}: {}", run.stderr);
-        assert!(run.stderr.contains("which is no number"), "{variable}: {}", run.stderr);
+        shell(&script, &folder).exits(2).prints_nothing().says("which is no number");
     }
 }
 
@@ -240,8 +230,7 @@ fn long_exclusions() {
     let folder = directory("long_exclusions");
     campaign(&folder);
     let run = tess_in(&folder, "coverage c1.xml --exclude /dev/zero");
-    assert_eq!(run.code, Some(2), "{}", run.stdout);
-    assert!(run.stderr.contains("cannot read /dev/zero: it has more than "), "{}", run.stderr);
+    run.exits(2).says("cannot read /dev/zero: it has more than ");
     let time = |lines: usize| {
         fs::write(folder.join("x.txt"), "*\n".repeat(lines)).expect("written");
         let start = Instant::now();

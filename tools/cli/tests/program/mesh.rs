@@ -31,7 +31,7 @@ pub(crate) fn write(folder: &Path, name: &str, content: impl AsRef<[u8]>) -> Pat
 /// Runs `tess mesh IN [options] -o OUT`, which must do what it is asked for.
 pub(crate) fn mesh(input: &Path, options: &str, output: &Path) -> Run {
     let run = tess(&format!("mesh {} {options} -o {}", input.display(), output.display()));
-    assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{options}: {}", run.stderr);
+    run.exits(0).prints_nothing();
     run
 }
 
@@ -207,7 +207,7 @@ fn bad_input_is_told() {
     for (name, content, message) in bad_obj_files().into_iter().chain(bad_other_files()) {
         let input = write(&folder, name, content);
         let run = tess(&format!("mesh {} -o {}", input.display(), out.display()));
-        assert_eq!(run.code, Some(2), "{name}: {}", run.stderr);
+        run.exits(2);
         let told = run.stderr.contains(message) && run.stderr.contains(name);
         assert!(told, "{name}: `{message}` is not in `{}`", run.stderr);
         assert_eq!(fs::read(&out).unwrap(), b"as it was", "{name}");
@@ -250,9 +250,7 @@ fn bad_usage_is_told() {
         (format!("mesh --surface flat -o {out}"), "the teapot is made of Bezier patches"),
         (format!("mesh --indices 16 -o {out}"), "more than 65535 vertices"),
     ] {
-        let run = tess(&words);
-        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(message), "{words}: `{message}` is not in `{}`", run.stderr);
+        tess(&words).exits(2).says(message);
     }
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 2, "no output was written");
 }

@@ -10,7 +10,7 @@ pub(crate) fn refused(input: &Path, options: &str, message: &str) {
     let out = input.with_file_name("refused.out.obj");
     let run = tess(&format!("mesh {} {options} -o {}", input.display(), out.display()));
     let name = input.file_name().unwrap_or_default().to_string_lossy();
-    assert_eq!(run.code, Some(2), "{name}: {message}: {}", run.stderr);
+    run.exits(2);
     let names_both = run.stderr.contains(message) && run.stderr.contains(&*name);
     assert!(names_both, "{name}: `{message}` is not in `{}`", run.stderr);
     assert!(!out.exists(), "{name}: no output");
@@ -94,11 +94,7 @@ fn obj_files_that_say_the_same() {
     }
     let (run, written) = whole("others.obj", format!("{CUBE}l 1 2 3\np 1\n").as_bytes());
     assert!(written == expected, "lines and points change nothing");
-    assert!(
-        run.stderr.contains("points and lines have no surface: 2 are left out"),
-        "{}",
-        run.stderr
-    );
+    run.says("points and lines have no surface: 2 are left out");
 }
 
 #[test]
@@ -201,8 +197,7 @@ fn images_are_no_larger_than_the_limit() {
     }
     let small = folder.join("small.png");
     mesh(&cube, "--factor 1 --size 8x8", &small);
-    let run = displaced(&cube, &small, "--max-pixels 63");
-    assert!(run.stderr.contains("8 x 8 are more than 63 pixels"), "{}", run.stderr);
+    displaced(&cube, &small, "--max-pixels 63").says("8 x 8 are more than 63 pixels");
     assert_eq!(displaced(&cube, &small, "--max-pixels 64").code, Some(0), "64 are not");
     let whole = fs::read(&small).expect("the image is there");
     let cut = write(&folder, "cut.png", &whole[..whole.len() - 12]);

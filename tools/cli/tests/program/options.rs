@@ -28,9 +28,7 @@ fn options_without_effect_are_refused() {
         (format!("mesh --size 8192x8192 -o {png}"), "at most 16777216 pixels"),
         ("gen --level 1 --coverage --format csv".to_owned(), "cannot be used with"),
     ] {
-        let run = tess(&words);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{words}: {}", run.stderr);
+        tess(&words).exits(2).prints_nothing().says(why);
     }
     assert_eq!(std::fs::read_dir(&folder).expect("the folder").count(), 0, "nothing is written");
 }
@@ -48,8 +46,7 @@ fn options_with_an_effect_are_taken() {
         format!("mesh --pixels 50 --size 80x60 -o {}", out("a.obj")),
         format!("mesh --factor 63 --partitioning fractional_odd -o {}", out("b.obj")),
     ] {
-        let run = tess(&words);
-        assert_eq!(run.code, Some(0), "{words}: {}", run.stderr);
+        tess(&words).exits(0);
     }
 }
 
@@ -59,8 +56,7 @@ fn forms_by_name() {
     let folder = directory("forms_by_name");
     for (name, begins) in [("a.json", "{"), ("a.obj", "# "), ("a.SVG", "<svg "), ("a", "# tess-")] {
         let path = folder.join(name);
-        let run = tess(&format!("patch {PATCH} -o {}", path.display()));
-        assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
+        tess(&format!("patch {PATCH} -o {}", path.display())).exits(0);
         let text = std::fs::read_to_string(&path).expect("the file");
         assert!(text.starts_with(begins), "{name}: {text}");
     }
@@ -72,7 +68,7 @@ fn large_factors_are_noted() {
     for command in ["patch", "draw"] {
         let words = "quad --outer 65,64,1,inf --inner 3,70 --partitioning fractional_odd";
         let run = tess(&format!("{command} {words}"));
-        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        run.exits(0);
         let notes = "tess: note: u0 is 65 and counts as 63, the largest factor\n\
                      tess: note: v0 is 64 and counts as 63, the largest factor\n\
                      tess: note: v1 is inf and counts as 63, the largest factor\n\
@@ -95,8 +91,7 @@ fn negative_numbers_are_values() {
         "patch -1",
     ] {
         let run = tess_with_input(words, "");
-        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains("invalid value '-"), "{words}: {}", run.stderr);
+        run.exits(2).says("invalid value '-");
         assert!(!run.stderr.contains("'-- "), "{words}: {}", run.stderr);
     }
 }

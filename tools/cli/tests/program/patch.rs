@@ -16,7 +16,7 @@ fn golden_cases_are_reproduced() {
         let Record::Listing(listing) = record.expect("a listing") else { panic!("listings alone") };
         let command = listing.case.command();
         let run = tess(command.strip_prefix("tess ").expect("starts with the program"));
-        assert_eq!(run.code, Some(0), "{command}: {}", run.stderr);
+        run.exits(0);
         let expected = listing.to_string();
         let (header, text) = run.stdout.split_once('\n').expect("a header line");
         assert_eq!(header, "# tess-vectors 1 kind=listings count=1 source=tess-core", "{command}");
@@ -83,8 +83,7 @@ fn bad_arguments_say_what_would_be_right() {
     ];
     for (words, remedy) in cases {
         let run = tess(words);
-        assert_eq!(run.code, Some(2), "{words}: {}", run.stderr);
-        assert!(run.stderr.contains(remedy), "{words}: {}", run.stderr);
+        run.exits(2).says(remedy);
         assert_eq!(run.stdout, "", "{words}: nothing on stdout");
     }
 }

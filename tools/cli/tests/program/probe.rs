@@ -7,24 +7,20 @@ const FEW: &str = "--level 3 --seed 3 --count 200";
 #[test]
 fn devices_are_listed() {
     let run = tess("probe --list");
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    run.exits(0);
     assert!(run.stdout.starts_with("0: "), "{}", run.stdout);
 }
 
 #[test]
 fn an_equal_device_ends_with_0() {
-    let run = tess(&format!("probe {FEW} --denormals flush"));
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
-    assert!(run.stderr.contains("equal: all "), "{}", run.stderr);
-    assert!(run.stdout.contains("in order"), "{}", run.stdout);
+    tess(&format!("probe {FEW} --denormals flush")).exits(0).says("equal: all ").prints("in order");
 }
 
 #[test]
 fn reports_are_json_on_request() {
     let folder = directory("probe-json");
     let file = folder.join("report.json");
-    let run = tess(&format!("probe {FEW} --denormals flush --json -o {}", file.display()));
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    tess(&format!("probe {FEW} --denormals flush --json -o {}", file.display())).exits(0);
     let text = std::fs::read_to_string(file).expect("it was written");
     let report: serde_json::Value = serde_json::from_str(&text).expect("it is JSON");
     assert_eq!(report["different"], 0, "{text}");
@@ -43,7 +39,7 @@ fn shards_without_cases_are_done() {
     };
     let runs = [1, 2].map(run);
     for run in &runs {
-        assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+        run.exits(0);
     }
     assert!(runs[1].stderr.contains("tess: no case in shard 2/2\n"), "{}", runs[1].stderr);
     let [one, two] = [1, 2].map(|shard| folder.join(format!("r{shard}.jsonl")));
@@ -60,9 +56,7 @@ fn outputs_are_tried_first() {
         ("--picture /nowhere/first.png", "cannot write /nowhere/first.png"),
         ("-o /nowhere/report.txt", "cannot write /nowhere/report.txt"),
     ] {
-        let run = tess(&format!("probe --device 1000 {option}"));
-        assert_eq!(run.code, Some(2), "{option}: {}", run.stderr);
-        assert!(run.stderr.contains(why), "{option}: {}", run.stderr);
+        tess(&format!("probe --device 1000 {option}")).exits(2).says(why);
     }
 }
 
@@ -76,19 +70,14 @@ fn a_malformed_manifest_is_said() {
     let path = manifest.to_str().expect("text");
     let variables = [("VK_DRIVER_FILES", path), ("VK_ICD_FILENAMES", path)];
     let run = crate::support::tess_with_environment("probe --list", &variables);
-    assert_eq!((run.code, run.stdout.as_str()), (Some(3), ""), "{}", run.stderr);
+    run.exits(3).prints_nothing();
     assert!(run.stderr.contains("manifest") && run.stderr.contains("driver"), "{}", run.stderr);
 }
 
 #[test]
 fn what_cannot_be_done_is_said() {
-    let run = tess("probe --device 1000");
-    assert_eq!(run.code, Some(3), "{}", run.stderr);
-    assert!(run.stderr.contains("there is no Vulkan device 1000"), "{}", run.stderr);
-    let run = tess("probe --level 3 --count 0");
-    assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(run.stderr.contains("select no case"), "{}", run.stderr);
+    tess("probe --device 1000").exits(3).says("there is no Vulkan device 1000");
+    tess("probe --level 3 --count 0").exits(2).says("select no case");
     assert_eq!(tess("probe --level 4").code, Some(2), "there are three levels");
-    let run = tess("probe --bench --workload nothing");
-    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    tess("probe --bench --workload nothing").exits(2);
 }

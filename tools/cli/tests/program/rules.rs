@@ -9,22 +9,18 @@ use std::fs::write;
 fn a_capture_is_judged() {
     let listings = tess_with_input("patch --cases -", &LINES.concat()).stdout;
     let run = tess_with_input("check - --rules vulkan", &listings);
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
+    run.exits(1);
     let example = "  line 0 has 3 segments, its level 3.0000002 asks for 5\n  \
                    case isoline fractional_odd line ruler 3f800000 40400001\n";
-    assert!(run.stdout.contains(example), "{}", run.stdout);
-    assert!(run.stdout.contains("22.3 Tessellator Spacing"), "{}", run.stdout);
-    assert!(run.stdout.contains("2 patches, vulkan: "), "{}", run.stdout);
+    run.prints(example).prints("22.3 Tessellator Spacing").prints("2 patches, vulkan: ");
     let run = tess_with_input("check - --rules d3d11", &listings);
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains(" 0 broken, "), "{}", run.stdout);
+    run.exits(0).prints(" 0 broken, ");
     let equal = "patches beside the model: 2 equal, 0 in another order, 0 different\n";
     assert!(run.stdout.ends_with(equal), "{}", run.stdout);
     let faulty = listings.replacen("\n00000 04000\n", "\n00000 04001\n", 1);
     assert_ne!(faulty, listings, "a fault is planted");
     let run = tess_with_input("check - --rules d3d11", &faulty);
-    assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
-    assert!(run.stdout.contains("symmetric    broken"), "{}", run.stdout);
+    run.exits(1).prints("symmetric    broken");
     let different = "patches beside the model: 1 equal, 0 in another order, 1 different\n";
     assert!(run.stdout.ends_with(different), "{}", run.stdout);
 }
@@ -104,7 +100,7 @@ fn another_order_is_told_from_other_output() {
     let reordered = listing.replacen("\n0 1 6\n", "\n1 6 0\n", 1);
     assert_ne!(reordered, listing, "a triangle begins elsewhere");
     let run = tess_with_input("check - --rules vulkan", &reordered);
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
     let expected = "patches beside the model: 0 equal, 1 in another order, 0 different\n";
     assert!(run.stdout.ends_with(expected), "{}", run.stdout);
 }
@@ -116,8 +112,7 @@ fn rules_are_for_listings() {
     let header = rows.stdout.lines().next().unwrap_or_default();
     assert!(header.contains(" level=rules level-version=2 seed=1 random=3 "), "{header}");
     let run = tess_with_input("check - --rules opengl", &rows.stdout);
-    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
-    assert!(run.stderr.contains("--rules judges listings"), "{}", run.stderr);
+    run.exits(2).prints_nothing().says("--rules judges listings");
     for words in
         ["check - --rules vulkan --order any", "gen --rules --level 2", "check - --rules gl"]
     {
@@ -131,9 +126,9 @@ fn rules_have_no_backend() {
     let listing = tess("patch tri --outer 2,2,2 --inner 2").stdout;
     for words in ["--cpu-level baseline", "--index-type u16", "--index-type u32"] {
         let run = tess_with_input(&format!("check - --rules vulkan {words}"), &listing);
-        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words}: {}", run.stderr);
+        run.exits(2).prints_nothing();
         for name in ["--rules", words.split(' ').next().unwrap_or(words)] {
-            assert!(run.stderr.contains(name), "{words}: {name} is not in {}", run.stderr);
+            run.says(name);
         }
     }
 }
@@ -141,7 +136,7 @@ fn rules_have_no_backend() {
 #[test]
 fn backends_are_judged() {
     let run = tess("verify --backend simd --rules d3d11");
-    assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
+    run.exits(0);
     assert!(
         run.stdout.ends_with("d3d11: 11 rules held, 0 broken, 0 not exercised\n"),
         "{}",

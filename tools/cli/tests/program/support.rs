@@ -1,5 +1,6 @@
 //! Running the program.
 
+use std::fmt;
 use std::io::Write;
 use std::ops::Deref;
 use std::path::Path;
@@ -7,20 +8,58 @@ use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 use tess_verify::vectors::Fnv1a;
 
-/// The result of a run of the program.
+/// The result of a run of the program. Its checks show all of it when they fail.
 pub(crate) struct Run {
+    command: String,
     pub(crate) code: Option<i32>,
     pub(crate) stdout: String,
     pub(crate) stderr: String,
 }
 
-impl From<Output> for Run {
-    fn from(output: Output) -> Self {
-        Self {
-            code: output.status.code(),
-            stdout: String::from_utf8_lossy(&output.stdout).into_owned(),
-            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
-        }
+impl fmt::Display for Run {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { command, code, stdout, stderr } = self;
+        write!(f, "{command} ended with {code:?}\n{stdout}\n{stderr}")
+    }
+}
+
+impl Run {
+    /// Runs a command to its end.
+    pub(crate) fn of(command: &mut Command) -> Self {
+        let output = command.output().expect("the command runs");
+        Self::with(format!("{command:?}"), &output)
+    }
+
+    fn with(command: String, Output { status, stdout, stderr }: &Output) -> Self {
+        let [stdout, stderr] =
+            [stdout, stderr].map(|text| String::from_utf8_lossy(text).into_owned());
+        Self { command, code: status.code(), stdout, stderr }
+    }
+
+    #[track_caller]
+    pub(crate) fn exits(&self, code: i32) -> &Self {
+        assert_eq!(self.code, Some(code), "{self}");
+        self
+    }
+
+    /// On stdout stands this.
+    #[track_caller]
+    pub(crate) fn prints(&self, text: impl AsRef<str>) -> &Self {
+        assert!(self.stdout.contains(text.as_ref()), "no `{}` on stdout: {self}", text.as_ref());
+        self
+    }
+
+    #[track_caller]
+    pub(crate) fn prints_nothing(&self) -> &Self {
+        assert_eq!(self.stdout, "", "{self}");
+        self
+    }
+
+    /// On stderr stands this.
+    #[track_caller]
+    pub(crate) fn says(&self, text: impl AsRef<str>) -> &Self {
+        assert!(self.stderr.contains(text.as_ref()), "no `{}` on stderr: {self}", text.as_ref());
+        self
     }
 }
 
@@ -48,7 +87,7 @@ pub(crate) fn command(words: &str) -> Command {
 pub(crate) fn shell(script: &str, folder: &Path) -> Run {
     let mut shell = Command::new("sh");
     shell.args(["-c", script]).current_dir(folder).env("TESS", env!("CARGO_BIN_EXE_tess"));
-    shell.output().expect("there is a shell").into()
+    Run::of(&mut shell)
 }
 
 /// Runs `tess` with these words and this stdin.
@@ -61,13 +100,13 @@ pub(crate) fn tess_with_input(words: &str, input: &str) -> Run {
         .expect("tess starts");
     // A program that does not read its input may have closed it.
     _ = child.stdin.take().expect("stdin is piped").write_all(input.as_bytes());
-    child.wait_with_output().expect("tess ends").into()
+    Run::with(words.to_owned(), &child.wait_with_output().expect("tess ends"))
 }
 
 /// Runs `tess` with these words and environment variables.
 #[cfg(all(feature = "gpu", target_os = "linux"))]
 pub(crate) fn tess_with_environment(words: &str, variables: &[(&str, &str)]) -> Run {
-    command(words).envs(variables.iter().copied()).output().expect("tess runs").into()
+    Run::of(command(words).envs(variables.iter().copied()))
 }
 
 /// The program.

@@ -34,7 +34,7 @@ fn commands_run_without_threads() {
     ] {
         for threads in [1, 2, 3] {
             let run = with_threads(threads, &words, &folder);
-            assert_eq!(run.code, Some(0), "{words}, {threads}: {}{}", run.stdout, run.stderr);
+            run.exits(0);
             assert!(!run.stderr.contains("panicked"), "{words}, {threads}: {}", run.stderr);
         }
     }

@@ -105,7 +105,7 @@ fn answers_are_judged_whatever_the_options() {
             }
             let said = format!("{case}: {words:?}: {}{}", run.stdout, run.stderr);
             if words[RULES.0].is_empty() {
-                assert_eq!(run.code, Some(1), "{said}");
+                run.exits(1);
                 assert!(run.stdout.ends_with("2 cases, 1 mismatches\n"), "{said}");
                 are_written(&folder, case, words, &said);
             } else {
