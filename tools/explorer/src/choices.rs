@@ -1,51 +1,24 @@
 //! Choices of the page, and factors as people write them.
 
 use crate::{json, thrown};
-use serde::Serialize;
+use serde_json::json;
 use tess_core::{Domain, OutputPrimitive, Partitioning, SplitOrder};
 use tess_verify::{Named, factor};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-#[derive(Serialize)]
-struct Choices {
-    domains: Vec<DomainChoice>,
-    partitionings: Vec<PartitioningChoice>,
-    outputs: Vec<&'static str>,
-    splits: Vec<&'static str>,
-}
-
-#[derive(Serialize)]
-struct DomainChoice {
-    name: &'static str,
-    factors: &'static [&'static str],
-    outer: usize,
-}
-
-#[derive(Serialize)]
-struct PartitioningChoice {
-    name: &'static str,
-    range: (f32, f32),
-}
-
 /// Domains with their factors, partitionings with their ranges, outputs and split orders: JSON.
 #[wasm_bindgen]
 pub fn choices() -> String {
-    let domain = |&(name, domain): &(&'static str, Domain)| DomainChoice {
-        name,
-        factors: domain.factor_names(),
-        outer: domain.outer_factors(),
-    };
-    let partitioning = |&(name, value): &(&'static str, Partitioning)| PartitioningChoice {
-        name,
-        range: value.range(),
-    };
-    json(&Choices {
-        domains: Domain::NAMES.iter().map(domain).collect(),
-        partitionings: Partitioning::NAMES.iter().map(partitioning).collect(),
-        outputs: OutputPrimitive::NAMES.iter().map(|(name, _)| *name).collect(),
-        splits: SplitOrder::NAMES.iter().map(|(name, _)| *name).collect(),
-    })
+    let domain = |&(name, domain): &(&str, Domain)| json!({ "name": name, "factors": domain.factor_names(), "outer": domain.outer_factors() });
+    let partitioning =
+        |&(name, value): &(&str, Partitioning)| json!({ "name": name, "range": value.range() });
+    json(&json!({
+        "domains": Domain::NAMES.iter().map(domain).collect::<Vec<_>>(),
+        "partitionings": Partitioning::NAMES.iter().map(partitioning).collect::<Vec<_>>(),
+        "outputs": OutputPrimitive::NAMES.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
+        "splits": SplitOrder::NAMES.iter().map(|(name, _)| *name).collect::<Vec<_>>(),
+    }))
 }
 
 /// The bits of a factor as `tess` reads it: a decimal number, nan, inf, or `0x` and its bits.

@@ -2,7 +2,7 @@
 
 use crate::patch::PatchView;
 use crate::{json, thrown};
-use serde::Serialize;
+use serde_json::json;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use tess_core::{Config, Tessellation};
@@ -14,25 +14,16 @@ use tess_verify::vectors::{Header, Kind, Record, VectorFile};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-#[derive(Serialize)]
-struct Comparison {
-    equal: bool,
-    /// The first difference in words.
-    first: Option<String>,
-    /// Numbers of the points that differ.
-    points: Vec<usize>,
-    /// Numbers of the primitives that differ.
-    primitives: Vec<usize>,
-}
-
-/// The first difference of two results, and the numbers of everything that differs: JSON.
+/// Whether two results are equal, the first difference in words, and the numbers of the points and the primitives
+/// that differ: JSON.
 #[wasm_bindgen]
 pub fn compare(expected: &PatchView, observed: &PatchView) -> String {
     let (expected, observed) = (&expected.listing, &observed.listing);
     let first = Mismatch::between(&expected.case, &observed.output, &expected.output);
     let [points, primitives] = differing(expected, observed);
     let first = first.map(|mismatch| mismatch.to_string());
-    json(&Comparison { equal: first.is_none(), first, points, primitives })
+    let equal = first.is_none();
+    json(&json!({ "equal": equal, "first": first, "points": points, "primitives": primitives }))
 }
 
 /// The result of `tess-simd` for a case line.

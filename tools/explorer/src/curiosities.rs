@@ -1,94 +1,74 @@
 //! Patches worth a look.
 
 use crate::json;
-use serde::Serialize;
+use serde_json::{Value, json};
 use tess_core::{
-    Config, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning, PatchFactors,
-    QuadFactors, SplitOrder, TriangleFactors, place,
+    Config, Domain, FactorContext, FixedFactor, OutputPrimitive, Parity, Partitioning,
+    PatchFactors, SplitOrder, place,
 };
 use tess_verify::Case;
 use wasm_bindgen::prelude::wasm_bindgen;
 
-#[derive(Serialize)]
-struct CuriosityGroup {
-    name: &'static str,
-    cases: Vec<Curiosity>,
-}
-
-#[derive(Serialize)]
-struct Curiosity {
-    name: String,
-    line: String,
-}
-
 /// Groups of named case lines: JSON.
 #[wasm_bindgen]
 pub fn curiosities() -> String {
-    json(&[
-        CuriosityGroup { name: "Transitions", cases: transitions() },
-        CuriosityGroup { name: "Picture frame and centres", cases: centres() },
-        CuriosityGroup { name: "Culled and special", cases: special() },
-        CuriosityGroup {
-            name: "Locations that go backwards (fractional_even)",
-            cases: backwards(),
-        },
-    ])
+    json(&json!([
+        { "name": "Transitions", "cases": transitions() },
+        { "name": "Picture frame and centres", "cases": centres() },
+        { "name": "Culled and special", "cases": special() },
+        { "name": "Locations that go backwards (fractional_even)", "cases": backwards() },
+    ]))
 }
 
-fn quad(name: &str, partitioning: Partitioning, factors: [f32; 6]) -> Curiosity {
-    curiosity(name, partitioning, QuadFactors::from(factors).into())
-}
-
-fn triangle(name: &str, partitioning: Partitioning, factors: [f32; 4]) -> Curiosity {
-    curiosity(name, partitioning, TriangleFactors::from(factors).into())
-}
-
-fn curiosity(name: &str, partitioning: Partitioning, factors: PatchFactors) -> Curiosity {
+/// A patch of the domain that has as many factors.
+fn named(name: &str, partitioning: Partitioning, factors: &[f32]) -> Value {
+    let domain = if factors.len() == 4 { Domain::Triangle } else { Domain::Quad };
+    let factors = PatchFactors::from_slice(domain, factors).expect("factors of this domain");
     let config = Config::new(partitioning, OutputPrimitive::TriangleCw);
-    Curiosity { name: name.into(), line: Case { config, factors }.to_string() }
+    json!({ "name": name, "line": Case { config, factors }.to_string() })
 }
 
-fn transitions() -> Vec<Curiosity> {
+fn transitions() -> Vec<Value> {
     use Partitioning::{FractionalEven, FractionalOdd, Integer};
     vec![
-        quad("fine inside, coarse edges", Integer, [1.0, 1.0, 1.0, 1.0, 9.0, 9.0]),
-        quad("coarse inside, fine edges", Integer, [16.0, 16.0, 16.0, 16.0, 2.0, 2.0]),
-        quad("a different factor on every side", Integer, [2.0, 5.0, 11.0, 23.0, 7.0, 10.0]),
-        triangle("edges 17, 5, 9 around 3", FractionalOdd, [17.0, 5.0, 9.0, 3.0]),
-        triangle("one edge of 64", FractionalEven, [64.0, 2.0, 2.0, 8.5]),
+        named("fine inside, coarse edges", Integer, &[1.0, 1.0, 1.0, 1.0, 9.0, 9.0]),
+        named("coarse inside, fine edges", Integer, &[16.0, 16.0, 16.0, 16.0, 2.0, 2.0]),
+        named("a different factor on every side", Integer, &[2.0, 5.0, 11.0, 23.0, 7.0, 10.0]),
+        named("edges 17, 5, 9 around 3", FractionalOdd, &[17.0, 5.0, 9.0, 3.0]),
+        named("one edge of 64", FractionalEven, &[64.0, 2.0, 2.0, 8.5]),
     ]
 }
 
-fn centres() -> Vec<Curiosity> {
+fn centres() -> Vec<Value> {
     use Partitioning::{FractionalEven, FractionalOdd, Integer};
     vec![
-        quad("picture frame: inside 1, edges 3", FractionalOdd, [3.0, 3.0, 3.0, 3.0, 1.0, 1.0]),
-        quad("one edge just above 1", FractionalOdd, [1.001, 1.0, 1.0, 1.0, 1.0, 1.0]),
-        quad("centre is a row of points", FractionalEven, [8.0, 8.0, 8.0, 8.0, 4.0, 9.0]),
-        quad("centre is one point", FractionalEven, [4.0, 4.0, 4.0, 4.0, 4.0, 4.0]),
-        quad("centre is a strip of quads", FractionalOdd, [7.0, 7.0, 7.0, 7.0, 3.0, 7.0]),
-        quad("an inside factor of 1", Integer, [4.0, 4.0, 4.0, 4.0, 1.0, 6.0]),
-        triangle("centre is a triangle", FractionalOdd, [5.0, 5.0, 5.0, 5.0]),
-        triangle("centre is a point", FractionalEven, [6.0, 6.0, 6.0, 6.0]),
+        named("picture frame: inside 1, edges 3", FractionalOdd, &[3.0, 3.0, 3.0, 3.0, 1.0, 1.0]),
+        named("one edge just above 1", FractionalOdd, &[1.001, 1.0, 1.0, 1.0, 1.0, 1.0]),
+        named("centre is a row of points", FractionalEven, &[8.0, 8.0, 8.0, 8.0, 4.0, 9.0]),
+        named("centre is one point", FractionalEven, &[4.0, 4.0, 4.0, 4.0, 4.0, 4.0]),
+        named("centre is a strip of quads", FractionalOdd, &[7.0, 7.0, 7.0, 7.0, 3.0, 7.0]),
+        named("an inside factor of 1", Integer, &[4.0, 4.0, 4.0, 4.0, 1.0, 6.0]),
+        named("centre is a triangle", FractionalOdd, &[5.0, 5.0, 5.0, 5.0]),
+        named("centre is a point", FractionalEven, &[6.0, 6.0, 6.0, 6.0]),
     ]
 }
 
-fn special() -> Vec<Curiosity> {
+fn special() -> Vec<Value> {
     use Partitioning::{Integer, Pow2};
     vec![
-        quad("an edge of 0 culls the patch", Integer, [0.0, 4.0, 4.0, 4.0, 4.0, 4.0]),
-        quad("NaN inside counts as the least", Integer, [4.0, 4.0, 4.0, 4.0, f32::NAN, 4.0]),
-        quad("infinity counts as 64", Integer, [f32::INFINITY, 4.0, 4.0, 4.0, 4.0, 4.0]),
-        quad("pow2 from 5", Pow2, [5.0, 5.0, 5.0, 5.0, 5.0, 5.0]),
-        triangle("the minimum patch", Integer, [1.0, 1.0, 1.0, 1.0]),
+        named("an edge of 0 culls the patch", Integer, &[0.0, 4.0, 4.0, 4.0, 4.0, 4.0]),
+        named("NaN inside counts as the least", Integer, &[4.0, 4.0, 4.0, 4.0, f32::NAN, 4.0]),
+        named("infinity counts as 64", Integer, &[f32::INFINITY, 4.0, 4.0, 4.0, 4.0, 4.0]),
+        named("pow2 from 5", Pow2, &[5.0, 5.0, 5.0, 5.0, 5.0, 5.0]),
+        named("the minimum patch", Integer, &[1.0, 1.0, 1.0, 1.0]),
     ]
 }
 
 /// Quads of every factor whose locations go backwards (spec section 12), split order `ruler`.
-fn backwards() -> Vec<Curiosity> {
+fn backwards() -> Vec<Value> {
     let quad_of = |bits: u32| {
         let name = format!("0x{bits:06x} = {}", value(bits));
-        quad(&name, Partitioning::FractionalEven, [value(bits); 6])
+        named(&name, Partitioning::FractionalEven, &[value(bits); 6])
     };
     backward_factors().into_iter().map(quad_of).collect()
 }
@@ -125,7 +105,7 @@ mod tests {
 
     #[test]
     fn every_curiosity_is_a_case() {
-        let groups: Vec<serde_json::Value> = serde_json::from_str(&curiosities()).expect("JSON");
+        let groups: Vec<Value> = serde_json::from_str(&curiosities()).expect("JSON");
         let cases = groups.iter().flat_map(|group| group["cases"].as_array().expect("a list"));
         for case in cases {
             let line = case["line"].as_str().expect("text");
