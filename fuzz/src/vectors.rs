@@ -57,25 +57,29 @@ fn case_survives(case: &Case) -> Result<(), String> {
 }
 
 fn coordinates_survive(coordinates: &Coordinates) -> Result<(), String> {
-    case_survives(&coordinates.case)?;
-    let text = format!("# tess-vectors 1 kind=listings source=fuzz\n{coordinates}# end\n");
-    let mut again = VectorFile::new("again", text.as_bytes()).map_err(|e| e.to_string())?;
-    match again.next() {
-        Some(Ok(Record::Coordinates(same))) if same.to_string() == coordinates.to_string() => Ok(()),
-        other => Err(format!("\n{coordinates}\nis read back as {other:?}")),
-    }
+    let text = coordinates.to_string();
+    survives(
+        &coordinates.case,
+        &text,
+        |again| matches!(again, Record::Coordinates(same) if same.to_string() == text),
+    )
 }
 
 fn listing_survives(listing: &Listing) -> Result<(), String> {
-    case_survives(&listing.case)?;
-    let text = format!("# tess-vectors 1 kind=listings count=1 source=fuzz\n{listing}");
-    let mut again = VectorFile::new("again", text.as_bytes()).map_err(|e| e.to_string())?;
+    survives(
+        &listing.case,
+        &listing.to_string(),
+        |again| matches!(again, Record::Listing(same) if same.case == listing.case && same.output == listing.output),
+    )
+}
+
+/// A record of this text is read back as the same one, and so is its case.
+fn survives(case: &Case, text: &str, is_same: impl Fn(&Record) -> bool) -> Result<(), String> {
+    case_survives(case)?;
+    let file = format!("# tess-vectors 1 kind=listings source=fuzz\n{text}# end\n");
+    let mut again = VectorFile::new("again", file.as_bytes()).map_err(|e| e.to_string())?;
     match again.next() {
-        Some(Ok(Record::Listing(same)))
-            if same.case == listing.case && same.output == listing.output =>
-        {
-            Ok(())
-        }
-        other => Err(format!("\n{listing}\nis read back as {other:?}")),
+        Some(Ok(record)) if is_same(&record) => Ok(()),
+        other => Err(format!("\n{text}\nis read back as {other:?}")),
     }
 }

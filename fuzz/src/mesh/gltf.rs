@@ -28,19 +28,10 @@ pub fn check(data: &[u8]) -> Result<(), String> {
 
 /// A part of the binary form, a JSON path, or the line of text that is not JSON.
 fn names_a_place(message: &str) -> bool {
-    const MEMBERS: [&str; 9] = [
-        "asset",
-        "extensionsRequired",
-        "scenes",
-        "scene",
-        "nodes",
-        "meshes",
-        "accessors",
-        "bufferViews",
-        "buffers",
-    ];
+    const MEMBERS: &str =
+        "asset extensionsRequired scenes scene nodes meshes accessors bufferViews buffers";
     let place = message.split(": ").next().unwrap_or_default();
-    let is_path = MEMBERS.iter().any(|name| {
+    let is_path = MEMBERS.split(' ').any(|name| {
         place.strip_prefix(name).is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
     });
     is_path || place.starts_with("GLB ") || message.contains(" at line ")
