@@ -141,21 +141,6 @@ impl ProbeRow {
         (self.domain, self.partitioning, self.output)
     }
 
-    /// The numbers of the table, from left to right.
-    fn columns(&self) -> [u64; 9] {
-        [
-            self.patches,
-            self.sequence,
-            self.leading,
-            self.order,
-            self.connectivity,
-            self.coordinates,
-            self.max_units.into(),
-            self.culling,
-            self.third,
-        ]
-    }
-
     pub(crate) fn add(&mut self, verdict: PatchVerdict, third_is_right: bool) {
         self.patches += 1;
         self.third += u64::from(!third_is_right);
@@ -178,31 +163,20 @@ impl ProbeRow {
     }
 }
 
-/// The heads of the columns of numbers.
-const COLUMNS: [&str; 9] = [
-    "patches",
-    "in order",
-    "leading",
-    "reorder",
-    "connected",
-    "points",
-    "units",
-    "culling",
-    "third",
-];
+/// A column of numbers: head, width and number.
+type Column = (&'static str, usize, fn(&ProbeRow) -> u64);
 
-/// One line of the table.
-fn write_line<T: fmt::Display>(
-    f: &mut fmt::Formatter<'_>,
-    [domain, partitioning, output]: [&str; 3],
-    columns: [T; 9],
-) -> fmt::Result {
-    write!(f, "{domain:<8} {partitioning:<15} {output:<12}")?;
-    for (column, width) in columns.iter().zip([8, 8, 8, 8, 9, 8, 6, 8, 6]) {
-        write!(f, " {column:>width$}")?;
-    }
-    writeln!(f)
-}
+const COLUMNS: [Column; 9] = [
+    ("patches", 8, |row| row.patches),
+    ("in order", 8, |row| row.sequence),
+    ("leading", 8, |row| row.leading),
+    ("reorder", 8, |row| row.order),
+    ("connected", 9, |row| row.connectivity),
+    ("points", 8, |row| row.coordinates),
+    ("units", 6, |row| row.max_units.into()),
+    ("culling", 8, |row| row.culling),
+    ("third", 6, |row| row.third),
+];
 
 /// The table for people, then what explains the differences.
 impl fmt::Display for ProbeReport {
@@ -211,11 +185,14 @@ impl fmt::Display for ProbeReport {
         if self.method == "points" {
             writeln!(f, "domain points alone: the device does not capture primitives")?;
         }
-        write_line(f, ["domain", "partitioning", "output"], COLUMNS)?;
+        write!(f, "{:<8} {:<15} {:<12}", "domain", "partitioning", "output")?;
+        COLUMNS.iter().try_for_each(|(head, width, _)| write!(f, " {head:>width$}"))?;
         for row in &self.rows {
-            let names = row.names();
-            write_line(f, [names.0, names.1, names.2], row.columns().map(|n| n.to_string()))?;
+            let ProbeRow { domain, partitioning, output, .. } = row;
+            write!(f, "\n{domain:<8} {partitioning:<15} {output:<12}")?;
+            COLUMNS.iter().try_for_each(|(_, width, of)| write!(f, " {:>width$}", of(row)))?;
         }
+        writeln!(f)?;
         self.write_explanations(f)
     }
 }
