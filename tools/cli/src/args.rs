@@ -57,10 +57,7 @@ pub(crate) struct PatchArgs {
 }
 
 impl PatchArgs {
-    /// The patch: its configuration and raw factors.
-    ///
-    /// # Errors
-    /// The domain has other numbers of outer or inside factors.
+    /// The patch: its configuration and raw factors. Errors: the domain has other numbers of outer or inside factors.
     pub(crate) fn case(&self) -> Result<Case, Failure> {
         let config =
             Config { partitioning: self.partitioning, output: self.output, split: self.split };

@@ -12,10 +12,7 @@ pub(crate) fn name(path: &Path) -> String {
     if path.as_os_str() == "-" { "stdin".to_owned() } else { path.display().to_string() }
 }
 
-/// Begins to read.
-///
-/// # Errors
-/// A file that cannot be opened.
+/// Begins to read. Errors: a file that cannot be opened.
 pub(crate) fn open(path: &Path) -> io::Result<Reader> {
     Ok(match path.to_str() {
         Some("-") => Box::new(BufReader::new(io::stdin())),
@@ -23,10 +20,8 @@ pub(crate) fn open(path: &Path) -> io::Result<Reader> {
     })
 }
 
-/// A whole text of at most `max` bytes, so that a device without an end does not fill the memory.
-///
-/// # Errors
-/// It cannot be read, is longer, or is not UTF-8.
+/// A whole text of at most `max` bytes, so that a device without an end does not fill the memory. Errors: it cannot
+/// be read, is longer, or is not UTF-8.
 pub(crate) fn text(path: &Path, max: u64) -> io::Result<String> {
     let mut text = String::new();
     let read = open(path)?.take(max + 1).read_to_string(&mut text)?;

@@ -79,10 +79,7 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Writes what `--help` and `--version` are asked for.
-///
-/// # Errors
-/// Stdout cannot be written.
+/// Writes what `--help` and `--version` are asked for. Errors: stdout cannot be written.
 fn show(help: &clap::Error) -> Result<Exit, Failure> {
     let written = help.print().and_then(|()| io::stdout().flush());
     written.map(|()| Exit::Done).map_err(|error| Failure::write(Path::new("-"), error))

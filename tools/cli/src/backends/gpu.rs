@@ -21,10 +21,7 @@ pub(crate) struct GpuBackend {
 }
 
 impl GpuBackend {
-    /// Opens the adapter, for indices of 16 or 32 bits.
-    ///
-    /// # Errors
-    /// Exit code 3 if there is none.
+    /// Opens the adapter, for indices of 16 or 32 bits. Errors: exit code 3 if there is none.
     pub(crate) fn open(index_type: IndexWidth) -> Result<Self, Failure> {
         let gpu = pollster::block_on(Gpu::open())
             .map_err(|error| Failure::unavailable(error.to_string()))?;

@@ -19,10 +19,7 @@ pub(crate) struct Simd<I> {
 }
 
 impl<I: IndexFormat> Simd<I> {
-    /// A backend that runs at `level`.
-    ///
-    /// # Errors
-    /// This machine cannot run that level.
+    /// A backend that runs at `level`. Errors: this machine cannot run that level.
     pub(crate) fn with_level(level: Level) -> Result<Self, LevelUnavailable> {
         level.require()?;
         Ok(Self { level, tessellators: HashMap::new(), output: Output::new() })

@@ -41,10 +41,7 @@ impl KnownArgs {
         self.known.as_deref().map(|path| Role::input("--known", path))
     }
 
-    /// Refuses a baseline that is the very file which it is to judge.
-    ///
-    /// # Errors
-    /// It is.
+    /// Refuses a baseline that is the very file which it is to judge. Errors: it is.
     pub(crate) fn refuse_judged(&self, what: &str, judged: &Role<'_>) -> Result<(), Failure> {
         if self.role().is_some_and(|known| known.is_same_file(judged)) {
             let message = format!("--known is {what} itself: every difference would be known");

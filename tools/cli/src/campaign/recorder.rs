@@ -38,10 +38,7 @@ impl ReportArgs {
         places.into_iter().filter_map(|(option, path)| Some((option, path.as_deref()?)))
     }
 
-    /// Begins to record a run.
-    ///
-    /// # Errors
-    /// Places that cannot be written or are no files.
+    /// Begins to record a run. Errors: places that cannot be written or are no files.
     pub(crate) fn begin(
         &self,
         invocation: &Invocation,
@@ -146,10 +143,7 @@ impl Recorder {
         }
     }
 
-    /// Writes the report of a run that ended, and gives its end.
-    ///
-    /// # Errors
-    /// The run's; a file that cannot be written.
+    /// Writes the report of a run that ended, and gives its end. Errors: the run's; a file that cannot be written.
     pub(crate) fn finish(self, ended: Result<Exit, Failure>) -> Result<Exit, Failure> {
         let Some(live) = lock(&self.live).take() else { return ended };
         let state = match &ended {

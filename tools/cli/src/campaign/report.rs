@@ -177,10 +177,7 @@ impl Report {
         serde_json::to_string(self).expect("keys are text") + "\n"
     }
 
-    /// The report of a line.
-    ///
-    /// # Errors
-    /// It is no report of this form, or contradicts itself; why.
+    /// The report of a line. Errors: it is no report of this form, or contradicts itself; why.
     pub(crate) fn parse(line: &str) -> Result<Self, String> {
         #[derive(Deserialize)]
         struct FormatOnly {

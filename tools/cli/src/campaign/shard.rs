@@ -44,11 +44,8 @@ impl fmt::Display for Placed {
 }
 
 impl ShardArgs {
-    /// The part to do.
-    ///
-    /// # Errors
-    /// Variables of a batch system that contradict each other, or from which no part follows; a status file
-    /// that cannot be touched.
+    /// The part to do. Errors: variables of a batch system that contradict each other, or from which no part follows;
+    /// a status file that cannot be touched.
     pub(crate) fn place(self) -> Result<Placed, Failure> {
         if let Some(shard) = self.given {
             return Ok(Placed { shard, source: Some(OPTION) });
@@ -73,10 +70,8 @@ impl ShardArgs {
         Ok(placed)
     }
 
-    /// All of what cannot be cut.
-    ///
-    /// # Errors
-    /// A batch system asks for parts, so that everything would be done several times.
+    /// All of what cannot be cut. Errors: a batch system asks for parts, so that everything would be done several
+    /// times.
     pub(crate) fn whole(self, what: &str) -> Result<Placed, Failure> {
         let placed = self.place()?;
         if placed.shard == Shard::WHOLE {

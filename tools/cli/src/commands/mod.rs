@@ -70,10 +70,7 @@ impl LeftOut {
     }
 }
 
-/// Runs a command.
-///
-/// # Errors
-/// As each command says.
+/// Runs a command. Errors: as each command says.
 pub(crate) fn run(command: &Command, invocation: &Invocation) -> Result<Exit, Failure> {
     match command {
         Command::Patch(args) => patch::run(args),

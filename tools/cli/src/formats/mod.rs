@@ -46,10 +46,7 @@ impl FileForm for PictureFormat {
 }
 
 impl PictureFormat {
-    /// The bytes of a picture in this form.
-    ///
-    /// # Errors
-    /// The pixels cannot be encoded.
+    /// The bytes of a picture in this form. Errors: the pixels cannot be encoded.
     pub(crate) fn render(self, drawing: &Drawing) -> Result<Vec<u8>, Failure> {
         match self {
             Self::Svg => Ok(drawing.to_svg().into_bytes()),
@@ -68,10 +65,8 @@ pub(crate) struct OnePatch {
 }
 
 impl OnePatch {
-    /// Has a backend tessellate one patch.
-    ///
-    /// # Errors
-    /// The backend could not run, or returned another number of patches than one.
+    /// Has a backend tessellate one patch. Errors: the backend could not run, or returned another number of patches
+    /// than one.
     pub(crate) fn tessellate(backend: &mut dyn Backend, case: Case) -> Result<Self, Failure> {
         let mut results = backend.tessellate(case.config, &[case.factors])?;
         let name = backend.name();
@@ -95,10 +90,7 @@ impl OnePatch {
 }
 
 impl Format {
-    /// The bytes of a file in this form.
-    ///
-    /// # Errors
-    /// The picture could not be made.
+    /// The bytes of a file in this form. Errors: the picture could not be made.
     pub(crate) fn render(self, patch: &OnePatch) -> Result<Vec<u8>, Failure> {
         Ok(match self {
             Self::Text => patch.listing.to_file(patch.backend).into_bytes(),

@@ -73,11 +73,8 @@ struct Named {
     at: usize,
 }
 
-/// Removes the outputs of earlier runs that these words of a command line name, the program first.
-///
-/// # Errors
-/// The first that is kept because it is no file of its kind, or cannot be removed. The others are removed all
-/// the same.
+/// Removes the outputs of earlier runs that these words of a command line name, the program first. Errors: the first
+/// that is kept because it is no file of its kind, or cannot be removed. The others are removed all the same.
 pub(crate) fn remove_earlier(words: &[OsString]) -> Result<(), Failure> {
     let forms = words.get(1).map_or(&[][..], |command| trusted(command));
     let named: Vec<Named> = (2..words.len()).flat_map(|at| named(words, at, forms)).collect();

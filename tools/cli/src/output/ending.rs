@@ -30,10 +30,7 @@ impl Drop for Guard {
     }
 }
 
-/// Makes something and says what undoes it. No signal ends the process between the two.
-///
-/// # Errors
-/// It cannot be made.
+/// Makes something and says what undoes it. No signal ends the process between the two. Errors: it cannot be made.
 pub(crate) fn guarded<T>(
     make: impl FnOnce() -> io::Result<(T, Cleanup)>,
 ) -> io::Result<(T, Guard)> {

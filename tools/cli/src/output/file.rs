@@ -20,10 +20,8 @@ pub(super) enum Destination {
 }
 
 impl Destination {
-    /// Finds out what is there, following symbolic links.
-    ///
-    /// # Errors
-    /// A folder, a file that may not be written, a circle of links.
+    /// Finds out what is there, following symbolic links. Errors: a folder, a file that may not be written, a circle
+    /// of links.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         const STDOUT: [&str; 4] = ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"];
         if STDOUT.iter().any(|name| path.as_os_str() == *name) {
@@ -92,10 +90,7 @@ pub(super) struct Partial {
 }
 
 impl Partial {
-    /// For a path that is no symbolic link.
-    ///
-    /// # Errors
-    /// The folder cannot be written.
+    /// For a path that is no symbolic link. Errors: the folder cannot be written.
     pub(super) fn of(path: &Path) -> io::Result<Self> {
         let replaced = path.metadata().ok();
         let (file, guard) = ending::guarded(|| {
@@ -124,10 +119,7 @@ impl Partial {
         Ok(file)
     }
 
-    /// Puts the whole file in its place.
-    ///
-    /// # Errors
-    /// It cannot be put there; then it is removed.
+    /// Puts the whole file in its place. Errors: it cannot be put there; then it is removed.
     pub(super) fn persist(self) -> io::Result<()> {
         persist(self.file, &self.path)
     }
@@ -164,10 +156,8 @@ impl Write for Partial {
     }
 }
 
-/// Makes a file of this content, unless there is a file already.
-///
-/// # Errors
-/// The folder cannot be written, or the path is none of a file.
+/// Makes a file of this content, unless there is a file already. Errors: the folder cannot be written, or the path is
+/// none of a file.
 pub(crate) fn create_unless_there(path: &Path, content: &[u8]) -> io::Result<()> {
     let mut partial = Partial::of(&follow(path)?)?;
     partial.write_all(content)?;
@@ -192,10 +182,7 @@ enum Content {
 }
 
 impl OutputFile {
-    /// Begins an output.
-    ///
-    /// # Errors
-    /// The place cannot be written.
+    /// Begins an output. Errors: the place cannot be written.
     pub(crate) fn create(path: &Path) -> Result<Self, Failure> {
         let content = || -> io::Result<Content> {
             Ok(match Destination::of(path)? {
@@ -223,18 +210,12 @@ impl OutputFile {
         }
     }
 
-    /// Writes bytes to a place of the file, from any thread.
-    ///
-    /// # Errors
-    /// They cannot be written.
+    /// Writes bytes to a place of the file, from any thread. Errors: they cannot be written.
     pub(crate) fn write_at(&self, bytes: &[u8], offset: u64) -> io::Result<()> {
         write_at(self.file(), bytes, offset)
     }
 
-    /// Puts the whole output in its place.
-    ///
-    /// # Errors
-    /// It cannot be put there; then nothing is, or what was there before.
+    /// Puts the whole output in its place. Errors: it cannot be put there; then nothing is, or what was there before.
     pub(crate) fn finish(self) -> io::Result<()> {
         match self.content {
             Content::Partial(partial) => partial.persist(),

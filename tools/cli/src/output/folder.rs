@@ -17,10 +17,7 @@ pub(crate) struct NewFolder {
     _guard: Guard,
 }
 
-/// Refuses `-` where a folder is needed.
-///
-/// # Errors
-/// The path is `-`.
+/// Refuses `-` where a folder is needed. Errors: the path is `-`.
 pub(crate) fn refuse_stdout(folder: &Path, why: &str) -> Result<(), Failure> {
     if folder.as_os_str() == "-" {
         return Err(Failure::bad_input(format!("{why}: give a folder with -o")));
@@ -29,10 +26,7 @@ pub(crate) fn refuse_stdout(folder: &Path, why: &str) -> Result<(), Failure> {
 }
 
 impl NewFolder {
-    /// Begins a folder.
-    ///
-    /// # Errors
-    /// It is there already, or cannot be made.
+    /// Begins a folder. Errors: it is there already, or cannot be made.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         if path.symlink_metadata().is_ok() {
             return Err(io::Error::new(
@@ -65,10 +59,7 @@ impl NewFolder {
         self.folder.path()
     }
 
-    /// Puts the whole folder in its place.
-    ///
-    /// # Errors
-    /// It cannot be put there; then it is removed.
+    /// Puts the whole folder in its place. Errors: it cannot be put there; then it is removed.
     pub(crate) fn finish(mut self) -> io::Result<()> {
         let aside = temporary().tempdir_in(folder_of(&self.becomes))?;
         let old = aside.path().join("old");

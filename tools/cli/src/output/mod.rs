@@ -37,18 +37,14 @@ pub(crate) struct OutputArgs {
 }
 
 impl OutputArgs {
-    /// Writes `content` to stdout or to the file.
-    ///
-    /// # Errors
-    /// The place cannot be written; a file that was there is then as it was.
+    /// Writes `content` to stdout or to the file. Errors: the place cannot be written; a file that was there is then
+    /// as it was.
     pub(crate) fn write(&self, content: &[u8]) -> Result<(), Failure> {
         self.stream(|out| out.write_all(content))
     }
 
-    /// Writes to stdout or to the file what `content` writes, as it comes.
-    ///
-    /// # Errors
-    /// The place cannot be written; a file that was there is then as it was.
+    /// Writes to stdout or to the file what `content` writes, as it comes. Errors: the place cannot be written; a
+    /// file that was there is then as it was.
     pub(crate) fn stream(
         &self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -76,10 +72,8 @@ impl OutputArgs {
         }
     }
 
-    /// Refuses a place that cannot be written, before long work for it.
-    ///
-    /// # Errors
-    /// As [`OutputArgs::write`] would; but a pipe is not opened, which waits for its reader.
+    /// Refuses a place that cannot be written, before long work for it. Errors: as [`OutputArgs::write`] would; but a
+    /// pipe is not opened, which waits for its reader.
     pub(crate) fn require_writable(&self) -> Result<(), Failure> {
         let attempt = || match Destination::of(&self.file)? {
             Destination::Stdout | Destination::Stream(_) => Ok(()),
@@ -98,10 +92,8 @@ impl OutputArgs {
         matches!(Destination::of(&self.file), Ok(Destination::Stdout))
     }
 
-    /// Refuses to write bytes that are no text to a terminal.
-    ///
-    /// # Errors
-    /// The result goes to stdout, and that is a terminal.
+    /// Refuses to write bytes that are no text to a terminal. Errors: the result goes to stdout, and that is a
+    /// terminal.
     pub(crate) fn refuse_terminal(&self, what: &str) -> Result<(), Failure> {
         if self.is_stdout() { stdout::refuse_terminal(what) } else { Ok(()) }
     }
@@ -121,10 +113,8 @@ pub(crate) fn progress(length: u64, unit: &str) -> ProgressBar {
     bar
 }
 
-/// Prints results to stdout as soon as they are ready, with the progress bar out of their way.
-///
-/// # Errors
-/// Stdout cannot be written.
+/// Prints results to stdout as soon as they are ready, with the progress bar out of their way. Errors: stdout cannot
+/// be written.
 pub(crate) fn print(bar: &ProgressBar, text: &str) -> Result<(), Failure> {
     let print = || {
         let mut out = stdout();

@@ -23,16 +23,10 @@ pub(super) trait Kernel {
 
     fn exact(point: Self::Point) -> DomainPoint;
 
-    /// Takes the patches that will be written.
-    ///
-    /// # Errors
-    /// They cannot be.
+    /// Takes the patches that will be written. Errors: they cannot be.
     fn take(&mut self, workload: &Workload) -> Result<(), BackendError>;
 
-    /// Tessellates some of the patches into the beginning of the buffers.
-    ///
-    /// # Errors
-    /// The backend failed.
+    /// Tessellates some of the patches into the beginning of the buffers. Errors: the backend failed.
     fn write(
         &mut self,
         patches: &Range<usize>,

@@ -47,10 +47,8 @@ impl fmt::Display for Plan<'_> {
 /// Checks the digest, then times backend, fill and core in turn, part by part; the core alone first,
 /// if the backend runs on a separate device.
 ///
-/// A part's time is the median over the samples; the workload's is the sum over its parts.
-///
-/// # Errors
-/// The output differs from the model's (exit code 1), or a run failed.
+/// A part's time is the median over the samples; the workload's is the sum over its parts. Errors: the output differs
+/// from the model's (exit code 1), or a run failed.
 pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<BenchRow, Failure> {
     let description = runner.description().clone();
     let Description { threads, sleeps, is_device, .. } = description;

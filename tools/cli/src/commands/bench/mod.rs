@@ -71,10 +71,7 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// An unknown workload, a backend that is not available, stdout that cannot be written.
+/// Runs the command. Errors: an unknown workload, a backend that is not available, stdout that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let workloads = find_workloads(&args.workload)?;
     let working_sets = match &args.working_set[..] {
@@ -147,10 +144,7 @@ fn measure_all(runner: &mut dyn Runner, plans: &[Plan<'_>], json: bool) -> Resul
     Ok(left_out.first().map_or(Exit::Done, |(_, failure)| failure.exit))
 }
 
-/// The runner of a backend.
-///
-/// # Errors
-/// Exit code 3 if the backend is not available.
+/// The runner of a backend. Errors: exit code 3 if the backend is not available.
 fn runner(name: BackendName, options: RunnerOptions) -> Result<Box<dyn Runner>, Failure> {
     match name {
         BackendName::Core => Ok(Box::new(core::runner())),

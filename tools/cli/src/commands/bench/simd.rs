@@ -13,10 +13,7 @@ use tess_simd::{Buffers, IndexFormat, Numbering, OwnedBatch, PatchRange, Tessell
 use tess_verify::BackendError;
 use tess_verify::generate::{Calls, IndexWidth, Workload};
 
-/// The runner for these options.
-///
-/// # Errors
-/// The threads cannot be started.
+/// The runner for these options. Errors: the threads cannot be started.
 pub(super) fn runner(options: RunnerOptions) -> Result<Box<dyn Runner>, Failure> {
     // The calling thread is one of the pool, so that a run starts without waiting for another.
     let pool = ThreadPoolBuilder::new()

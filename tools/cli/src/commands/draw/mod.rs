@@ -61,11 +61,8 @@ struct DrawArgs {
     size: u32,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// Wrong number of factors, a backend that is not available, a listing that cannot be read or has
-/// no such patch, an output that cannot be written.
+/// Runs the command. Errors: wrong number of factors, a backend that is not available, a listing that cannot be read
+/// or has no such patch, an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
     let format = form::choose(args.format, &args.output.file)?;
@@ -96,10 +93,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
 }
 
 impl DrawArgs {
-    /// Refuses to show what a patch does not have.
-    ///
-    /// # Errors
-    /// Rings without triangles.
+    /// Refuses to show what a patch does not have. Errors: rings without triangles.
     fn fit(&self, domain: Domain, output: OutputPrimitive) -> Result<(), Failure> {
         if self.rings && !show::has_rings(domain, output) {
             return Err(Failure::bad_input(

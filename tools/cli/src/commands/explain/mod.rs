@@ -58,10 +58,8 @@ fn observation(text: &str) -> Result<(String, u32), String> {
     Ok((signal.to_owned(), number))
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// Wrong number of factors, no such factor, point, primitive or signal, an output that cannot be written.
+/// Runs the command. Errors: wrong number of factors, no such factor, point, primitive or signal, an output that
+/// cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let case = args.patch.case()?;
     let part = args.part();

@@ -79,10 +79,7 @@ enum VectorFormat {
     Readmemh,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// A selection without any case; an output that cannot be written.
+/// Runs the command. Errors: a selection without any case; an output that cannot be written.
 pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     let placed = args.selection.shard.place()?;
     refuse_shared(&args.roles()?)?;
@@ -129,10 +126,7 @@ fn part(cases: u64) -> Part {
 }
 
 impl Args {
-    /// The files of the command.
-    ///
-    /// # Errors
-    /// The coverage file can be none.
+    /// The files of the command. Errors: the coverage file can be none.
     fn roles(&self) -> Result<Vec<Role<'_>>, Failure> {
         let coverage = self.coverage.iter().flatten().map(|path| coverage_file::role(path));
         let coverage: Vec<_> = coverage.collect::<Result<_, _>>()?;

@@ -166,10 +166,8 @@ fn stitches(case: &Case, rows: &mut BTreeSet<Vec<u32>>) {
     });
 }
 
-/// Writes rows as CSV: a comment with what the numbers mean, the columns' names, and the numbers in hex.
-///
-/// # Errors
-/// Those of the writer.
+/// Writes rows as CSV: a comment with what the numbers mean, the columns' names, and the numbers in hex. Errors:
+/// those of the writer.
 pub(super) fn write_csv(
     out: &mut dyn Write,
     block: StageBlock,
@@ -194,9 +192,7 @@ pub(super) fn write_csv(
 }
 
 /// Writes rows as an image for `$readmemh`: a comment with the layout from the top bit down, then one word a row.
-///
-/// # Errors
-/// Those of the writer.
+/// Errors: those of the writer.
 pub(super) fn write_memh(
     out: &mut dyn Write,
     block: StageBlock,

@@ -183,10 +183,7 @@ fn split(
 }
 
 impl Campaign {
-    /// The majority campaign; of several with as many reports, the first.
-    ///
-    /// # Errors
-    /// No report.
+    /// The majority campaign; of several with as many reports, the first. Errors: no report.
     pub(super) fn of(reports: Vec<FoundReport>) -> Result<Self, Failure> {
         if reports.is_empty() {
             return Err(Failure::bad_input("there is no report to merge"));
@@ -311,10 +308,7 @@ impl Campaign {
         (!digests.is_empty()).then_some((digests.len() as u64, sum))
     }
 
-    /// The hits of all shards.
-    ///
-    /// # Errors
-    /// A report without hits, or with those of other bins.
+    /// The hits of all shards. Errors: a report without hits, or with those of other bins.
     pub(super) fn coverage(&self) -> Result<Coverage, Failure> {
         let mut sum = Coverage::default();
         for FoundReport { place, report } in self.done() {

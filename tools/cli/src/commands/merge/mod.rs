@@ -42,10 +42,8 @@ pub(crate) struct Args {
     coverage: Option<PathBuf>,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// A file that is no report; files that cannot be read or written; shards without coverage where it is asked for.
+/// Runs the command. Errors: a file that is no report; files that cannot be read or written; shards without coverage
+/// where it is asked for.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     refuse_shared(&args.roles())?;
     for path in args.outputs().filter_map(|(_, path)| path) {

@@ -161,10 +161,7 @@ fn too_high(error: HeightError) -> Failure {
     Failure::bad_input(format!("--height is too large: {error}"))
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// A model that cannot be read or tessellated, an output that cannot be written.
+/// Runs the command. Errors: a model that cannot be read or tessellated, an output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let form = args.form()?;
     let part = output::part_beside(&args.output, form);
@@ -217,11 +214,8 @@ impl Args {
         inputs.chain([Role::output("-o", &self.output)]).chain(part).collect()
     }
 
-    /// The form of the result.
-    ///
-    /// # Errors
-    /// No form can be told from the name, an option that this form does not have, or bytes for a
-    /// terminal.
+    /// The form of the result. Errors: no form can be told from the name, an option that this form does not have, or
+    /// bytes for a terminal.
     fn form(&self) -> Result<ResultForm, Failure> {
         let form = form::choose(self.format, &self.output)?;
         let is_picture = form == ResultForm::Png;

@@ -49,10 +49,7 @@ struct Stream<'a> {
     vertices: Vec<Sample>,
 }
 
-/// Sends every patch of the model through all stages into `sink`.
-///
-/// # Errors
-/// Those of the sink.
+/// Sends every patch of the model through all stages into `sink`. Errors: those of the sink.
 pub(crate) fn run(
     job: &MeshJob<'_>,
     sink: &mut MeshFile,

@@ -42,11 +42,8 @@ pub(crate) fn without_patch_if_cases(command: clap::Command) -> clap::Command {
     })
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// Wrong number of factors, cases that cannot be read, a backend that is not available, an output that
-/// cannot be written.
+/// Runs the command. Errors: wrong number of factors, cases that cannot be read, a backend that is not available, an
+/// output that cannot be written.
 pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
     let format = form::choose(args.format, &args.output.file)?;
     let patch = match (&args.cases, &args.patch) {

@@ -107,11 +107,8 @@ enum ProbeOrder {
     Any,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// No Vulkan, no such device, one that cannot be captured, or one that fails; no case to ask; an
-/// output that cannot be written.
+/// Runs the command. Errors: no Vulkan, no such device, one that cannot be captured, or one that fails; no case to
+/// ask; an output that cannot be written.
 pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     if args.list {
         return args.list_devices();
@@ -278,10 +275,8 @@ struct FirstPicture {
 }
 
 impl FirstPicture {
-    /// Finds the form and tries the place, before the device is asked.
-    ///
-    /// # Errors
-    /// A name that says no form; a place that cannot be written.
+    /// Finds the form and tries the place, before the device is asked. Errors: a name that says no form; a place that
+    /// cannot be written.
     fn prepare(file: &Path) -> Result<Self, Failure> {
         let format = form::choose(None, file)?;
         let output = OutputArgs { file: file.to_owned() };

@@ -72,10 +72,7 @@ pub(crate) struct Args {
     report: ReportArgs,
 }
 
-/// Runs the command.
-///
-/// # Errors
-/// A backend that is not available.
+/// Runs the command. Errors: a backend that is not available.
 pub(crate) fn run(args: &Args, invocation: &Invocation) -> Result<Exit, Failure> {
     args.options.fit(args.backends())?;
     let placed = match args.rules {

@@ -24,10 +24,7 @@ struct BptLines<'a> {
     line: usize,
 }
 
-/// Reads the patches.
-///
-/// # Errors
-/// The first line that is malformed or missing.
+/// Reads the patches. Errors: the first line that is malformed or missing.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Bpt, String> {
     let split = without_mark(bytes).split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
     let lines = Box::new((1..).zip(split).filter(|(_, line)| !line.is_empty()));

@@ -35,10 +35,7 @@ struct Corner {
     normal: Option<u32>,
 }
 
-/// Reads a file.
-///
-/// # Errors
-/// The first line that is malformed, or the first face with an index out of range.
+/// Reads a file. Errors: the first line that is malformed, or the first face with an index out of range.
 pub(crate) fn parse(bytes: &[u8]) -> Result<Obj, String> {
     let mut obj = Obj::default();
     for (number, line) in (1..).zip(TextLines(without_mark(bytes))) {

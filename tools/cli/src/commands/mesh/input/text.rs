@@ -65,10 +65,7 @@ pub(super) fn integer(word: &[u8]) -> Option<i64> {
     std::str::from_utf8(word).ok()?.parse().ok()
 }
 
-/// A finite number.
-///
-/// # Errors
-/// A word that is no number, or one beyond the range of 32 bits.
+/// A finite number. Errors: a word that is no number, or one beyond the range of 32 bits.
 #[inline]
 pub(super) fn number(word: &[u8]) -> Result<f32, String> {
     decimal(word).map_or_else(|| any_number(word), Ok)

@@ -56,10 +56,7 @@ pub(crate) struct MeshFile {
 }
 
 impl MeshFile {
-    /// Begins an output.
-    ///
-    /// # Errors
-    /// A place that cannot be written to.
+    /// Begins an output. Errors: a place that cannot be written to.
     pub(crate) fn open(path: &Path, form: ResultForm, options: &Options) -> Result<Self, Failure> {
         let sink: Box<dyn Sink> = match form {
             ResultForm::Obj => Box::new(obj::Obj::create(path)?),

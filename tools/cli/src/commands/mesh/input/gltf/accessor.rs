@@ -6,10 +6,8 @@
 use super::document::{Accessor, BufferView, ComponentType, Document, Sparse, broken};
 use std::borrow::Cow;
 
-/// Checks every buffer view and every accessor of a document.
-///
-/// # Errors
-/// The first rule that is broken, with the JSON path.
+/// Checks every buffer view and every accessor of a document. Errors: the first rule that is broken, with the JSON
+/// path.
 pub(super) fn check(document: &Document) -> Result<(), String> {
     for (number, view) in document.buffer_views.iter().enumerate() {
         check_view(document, view)
@@ -156,10 +154,8 @@ pub(super) struct Data<'a> {
 }
 
 impl Data<'_> {
-    /// The elements of an accessor with `N` components, each made of its bytes by `component`.
-    ///
-    /// # Errors
-    /// Sparse indices that are out of range or do not increase, with the JSON path.
+    /// The elements of an accessor with `N` components, each made of its bytes by `component`. Errors: sparse indices
+    /// that are out of range or do not increase, with the JSON path.
     pub(super) fn read<T: Copy + Default, const N: usize>(
         &self,
         number: usize,

@@ -226,10 +226,7 @@ fn present<'de, T: Deserialize<'de>, D: Deserializer<'de>>(from: D) -> Result<Op
     T::deserialize(from).map(Some)
 }
 
-/// Reads the JSON.
-///
-/// # Errors
-/// Text that is not JSON, a value of the wrong type, a document for other readers than this.
+/// Reads the JSON. Errors: text that is not JSON, a value of the wrong type, a document for other readers than this.
 pub(super) fn parse(json: &[u8]) -> Result<Document, String> {
     // The parser would not look at strings that nobody asks for.
     let json = str::from_utf8(json).map_err(|error| {

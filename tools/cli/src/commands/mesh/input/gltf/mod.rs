@@ -34,11 +34,8 @@ pub(crate) struct Scene {
     pub(crate) files: Vec<PathBuf>,
 }
 
-/// Reads the default scene, or the first one, with its nodes' transforms applied. Buffers may be
-/// files in `folder` or below it; `most` limits vertices and triangles.
-///
-/// # Errors
-/// The first rule of glTF that is broken, with its JSON path.
+/// Reads the default scene, or the first one, with its nodes' transforms applied. Buffers may be files in `folder` or
+/// below it; `most` limits vertices and triangles. Errors: the first rule of glTF that is broken, with its JSON path.
 pub(crate) fn parse(bytes: &[u8], folder: Option<&Path>, most: usize) -> Result<Scene, String> {
     let (json, blob) = container::split(bytes)?;
     let document = document::parse(json)?;

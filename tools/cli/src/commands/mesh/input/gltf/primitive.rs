@@ -20,10 +20,8 @@ pub(super) struct PlacedPrimitive<'a> {
 }
 
 impl PlacedPrimitive<'_> {
-    /// Appends the triangles, unless vertices or faces then become more than `most`.
-    ///
-    /// # Errors
-    /// A rule that is broken, with the JSON path.
+    /// Appends the triangles, unless vertices or faces then become more than `most`. Errors: a rule that is broken,
+    /// with the JSON path.
     pub(super) fn append(&self, mesh: &mut PolygonMesh, most: usize) -> Result<(), String> {
         let Self { data, primitive, path, transform } = *self;
         if primitive.mode != TRIANGLES {

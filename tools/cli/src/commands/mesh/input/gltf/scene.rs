@@ -6,10 +6,8 @@
 use super::document::{Document, Node, broken};
 use glam::{Mat4, Quat, Vec3};
 
-/// The nodes of the default scene, or the first one, parents before children.
-///
-/// # Errors
-/// No scene, a node that is out of range or has two parents, a transform that is none.
+/// The nodes of the default scene, or the first one, parents before children. Errors: no scene, a node that is out of
+/// range or has two parents, a transform that is none.
 pub(super) fn nodes(document: &Document) -> Result<Vec<(usize, Mat4)>, String> {
     let parents = parents(document)?;
     let number = document.scene.unwrap_or(0);
