@@ -9,10 +9,7 @@ use tess_core::prepare::{QuadAxes, Reduction, Request, prepare};
 use tess_core::{Domain, Partitioning, PatchFactors};
 use tess_verify::Case;
 
-/// Compares the unrounded and the rounded factors of one request.
-///
-/// # Errors
-/// The first factor that differs.
+/// Compares the unrounded and the rounded factors of one request. Errors: the first factor that differs.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let mut bytes = Bytes(data);
     let (domain, config) = bytes.setting();

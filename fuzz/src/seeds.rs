@@ -22,10 +22,8 @@ pub const TARGETS: [&str; 11] = [
     "gpu",
 ];
 
-/// Writes the seeds of every target to `corpus/TARGET/`; `golden` is the folder of recorded results.
-///
-/// # Errors
-/// Those of the file system.
+/// Writes the seeds of every target to `corpus/TARGET/`; `golden` is the folder of recorded results. Errors: those of
+/// the file system.
 pub fn write(corpus: &Path, golden: &Path) -> io::Result<usize> {
     let mut count = 0;
     for target in TARGETS {
@@ -39,10 +37,7 @@ pub fn write(corpus: &Path, golden: &Path) -> io::Result<usize> {
     Ok(count)
 }
 
-/// The seeds of one target, each with a name.
-///
-/// # Errors
-/// Those of the file system, for the recorded results.
+/// The seeds of one target, each with a name. Errors: those of the file system, for the recorded results.
 pub fn of(target: &str, golden: &Path) -> io::Result<Vec<(String, Vec<u8>)>> {
     match target {
         "vectors" => return recorded(golden),

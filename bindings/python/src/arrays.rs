@@ -14,11 +14,8 @@ use tess_core::{Domain, DomainPoint};
 use tess_simd::PatchRange;
 use tess_verify::Named;
 
-/// The factors of a batch: a copy, so that a thread that writes to the array meanwhile changes
-/// nothing.
-///
-/// # Errors
-/// Nothing of shape (patches, factors of the domain): floats that are binary32 numbers exactly, or uint32 (bit
+/// The factors of a batch: a copy, so that a thread that writes to the array meanwhile changes nothing. Errors:
+/// nothing of shape (patches, factors of the domain): floats that are binary32 numbers exactly, or uint32 (bit
 /// patterns). Other integers are refused: they could be either.
 pub(crate) fn factors(domain: Domain, array: &Bound<'_, PyAny>) -> PyResult<Vec<f32>> {
     let factors = domain.factors();
@@ -66,10 +63,8 @@ fn narrowed(factor: f64) -> Option<f32> {
     (factor.is_nan() || f64::from(narrow).to_bits() == factor.to_bits()).then_some(narrow)
 }
 
-/// Integers as uint32: an array of any integer type, or what numpy makes one of, if nothing is lost.
-///
-/// # Errors
-/// Something else than integers, or one that is negative or 2**32 and more.
+/// Integers as uint32: an array of any integer type, or what numpy makes one of, if nothing is lost. Errors:
+/// something else than integers, or one that is negative or 2**32 and more.
 pub(crate) fn exact_words<'py>(
     what: &str,
     integers: &Bound<'py, PyAny>,
@@ -94,10 +89,8 @@ pub(crate) fn exact_words<'py>(
     Ok(words.cast_into()?)
 }
 
-/// The elements in a new vector.
-///
-/// # Errors
-/// `MemoryError`: a broadcast array can have more elements than there is memory.
+/// The elements in a new vector. Errors: `MemoryError`: a broadcast array can have more elements than there is
+/// memory.
 pub(crate) fn copied<T>(elements: impl ExactSizeIterator<Item = T>) -> PyResult<Vec<T>> {
     let mut copy = Vec::new();
     copy.try_reserve_exact(elements.len()).map_err(|_| {
@@ -107,10 +100,7 @@ pub(crate) fn copied<T>(elements: impl ExactSizeIterator<Item = T>) -> PyResult<
     Ok(copy)
 }
 
-/// An array of zeros.
-///
-/// # Errors
-/// `MemoryError`.
+/// An array of zeros. Errors: `MemoryError`.
 pub(crate) fn zeros<'py, T: Element, D: Dimension>(
     py: Python<'py>,
     shape: impl IntoPyObject<'py>,
@@ -119,10 +109,7 @@ pub(crate) fn zeros<'py, T: Element, D: Dimension>(
     Ok(made.cast_into()?)
 }
 
-/// Refuses numpy's masked arrays, whose mask would be lost.
-///
-/// # Errors
-/// The array is one.
+/// Refuses numpy's masked arrays, whose mask would be lost. Errors: the array is one.
 pub(crate) fn refuse_masked(what: &str, array: &Bound<'_, PyAny>) -> PyResult<()> {
     if array.hasattr("mask")? && array.hasattr("filled")? {
         return Err(argument(format!(
@@ -137,10 +124,8 @@ pub(crate) fn described(array: &Bound<'_, PyUntypedArray>) -> String {
     format!("{} of shape {:?}", array.dtype(), array.shape())
 }
 
-/// An array of `out`, which is C-contiguous (see [`addresses`]), to be written as one slice.
-///
-/// # Errors
-/// It is read-only, misaligned, or borrowed by another call.
+/// An array of `out`, which is C-contiguous (see [`addresses`]), to be written as one slice. Errors: it is read-only,
+/// misaligned, or borrowed by another call.
 pub(crate) fn writable<'py, T: Element, D: Dimension>(
     what: &str,
     array: &Bound<'py, PyArray<T, D>>,
@@ -154,10 +139,8 @@ pub(crate) fn writable<'py, T: Element, D: Dimension>(
     })
 }
 
-/// The addresses that an array of `out` covers.
-///
-/// # Errors
-/// It is not C-contiguous: its elements may lie before its first one, and apart.
+/// The addresses that an array of `out` covers. Errors: it is not C-contiguous: its elements may lie before its first
+/// one, and apart.
 pub(crate) fn addresses<T: Element, D: Dimension>(
     what: &str,
     array: &Bound<'_, PyArray<T, D>>,

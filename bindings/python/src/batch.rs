@@ -159,10 +159,8 @@ impl Tessellator {
 }
 
 impl Tessellator {
-    /// Lends a tessellator that no other call uses, and the threads for it.
-    ///
-    /// # Errors
-    /// Errors of `borrow`; no thread can be started.
+    /// Lends a tessellator that no other call uses, and the threads for it. Errors: errors of `borrow`; no thread can
+    /// be started.
     fn with<T>(
         &self,
         borrow: impl FnOnce(&mut tess_simd::Tessellator, &Threads) -> PyResult<T>,

@@ -11,10 +11,8 @@ use tess_core::{
     TriangleFactors,
 };
 
-/// The context of a 15.16 factor.
-///
-/// # Errors
-/// An unknown name, or a factor that factor processing never gives to this parity.
+/// The context of a 15.16 factor. Errors: an unknown name, or a factor that factor processing never gives to this
+/// parity.
 pub(crate) fn factor_context(
     factor: u32,
     parity: &str,
@@ -106,10 +104,7 @@ pub(crate) fn place<'py>(
     values::placement(py, &placed(&context, p)?)
 }
 
-/// The placement of point `p` of an edge.
-///
-/// # Errors
-/// The edge has no such point.
+/// The placement of point `p` of an edge. Errors: the edge has no such point.
 pub(crate) fn placed(context: &FactorContext, p: u32) -> PyResult<tess_core::place::Placement> {
     if p >= context.points {
         let points = context.points;

@@ -24,10 +24,8 @@ static OWN: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
 pub(crate) struct Threads(Option<Arc<ThreadPool>>);
 
 impl Threads {
-    /// Those of this process, for a tessellator with this many. The interpreter's lock is held.
-    ///
-    /// # Errors
-    /// No thread can be started.
+    /// Those of this process, for a tessellator with this many. The interpreter's lock is held. Errors: no thread can
+    /// be started.
     pub(crate) fn of_this_process(threads: usize) -> PyResult<Self> {
         let process = std::process::id();
         if threads == 1 || claimed_by() == process {

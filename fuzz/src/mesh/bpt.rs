@@ -5,10 +5,7 @@ use glam::{Vec3, Vec4};
 use tess_program::fuzzing;
 use tess_surface::{BezierPatch, Model};
 
-/// Compares one file.
-///
-/// # Errors
-/// The first difference, or a message that names no line.
+/// Compares one file. Errors: the first difference, or a message that names no line.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let read = fuzzing::bpt(data);
     if let Ok(patches) = &read {

@@ -11,10 +11,7 @@ use tess_surface::{Face, PolygonMesh, Sides};
 /// Most vertices and triangles: files of fuzz targets are small, but may repeat what they hold.
 const MOST: usize = 1 << 14;
 
-/// Compares one file.
-///
-/// # Errors
-/// The first difference, or a message that names no place.
+/// Compares one file. Errors: the first difference, or a message that names no place.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let read = fuzzing::gltf(data, MOST);
     if let Ok(mesh) = &read {

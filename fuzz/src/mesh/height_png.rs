@@ -7,10 +7,7 @@ use tess_program::fuzzing::{self, Heights};
 /// Most pixels.
 const MOST: u64 = 1 << 16;
 
-/// Compares one file.
-///
-/// # Errors
-/// The first difference, or an empty message.
+/// Compares one file. Errors: the first difference, or an empty message.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let words = |(width, height, texels): &Heights| {
         let size = [*width as u32, *height as u32];

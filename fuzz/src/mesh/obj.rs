@@ -5,10 +5,7 @@ use glam::{Vec2, Vec3};
 use tess_program::fuzzing;
 use tess_surface::{Face, PolygonMesh, Sides};
 
-/// Compares one file.
-///
-/// # Errors
-/// The first difference, or a message that names no line.
+/// Compares one file. Errors: the first difference, or a message that names no line.
 pub fn check(data: &[u8]) -> Result<(), String> {
     let read = fuzzing::obj(data);
     if let Ok(mesh) = &read {

@@ -26,10 +26,7 @@ pub fn compare(expected: &PatchView, observed: &PatchView) -> String {
     json(&json!({ "equal": equal, "first": first, "points": points, "primitives": primitives }))
 }
 
-/// The result of `tess-simd` for a case line.
-///
-/// # Errors
-/// The line is no case.
+/// The result of `tess-simd` for a case line. Errors: the line is no case.
 #[wasm_bindgen]
 pub fn simd(line: &str) -> Result<PatchView, JsError> {
     let case: Case = line.parse().map_err(thrown)?;
@@ -65,10 +62,7 @@ pub struct ListingFile {
 
 #[wasm_bindgen]
 impl ListingFile {
-    /// Reads listings.
-    ///
-    /// # Errors
-    /// The text is malformed; the message names line and field.
+    /// Reads listings. Errors: the text is malformed; the message names line and field.
     #[wasm_bindgen(constructor)]
     pub fn new(text: &str) -> Result<Self, JsError> {
         Self::read(text).map_err(thrown)

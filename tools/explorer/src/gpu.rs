@@ -22,20 +22,14 @@ pub struct GpuTables;
 
 #[wasm_bindgen]
 impl GpuTables {
-    /// The words of the buffer `Tables`.
-    ///
-    /// # Errors
-    /// An unknown split order.
+    /// The words of the buffer `Tables`. Errors: an unknown split order.
     pub fn words(split: &str) -> Result<Vec<u32>, JsError> {
         Ok(tables(Named::from_name(split).map_err(thrown)?))
     }
 }
 
-/// Every shader that the configuration of a case line can need, by entry point: JSON. For tests of a
-/// browser's compiler.
-///
-/// # Errors
-/// The line is no case.
+/// Every shader that the configuration of a case line can need, by entry point: JSON. For tests of a browser's
+/// compiler. Errors: the line is no case.
 #[wasm_bindgen]
 pub fn shader_sources(line: &str) -> Result<String, JsError> {
     let case: Case = line.parse().map_err(thrown)?;
@@ -89,20 +83,16 @@ struct PassStep {
 
 #[wasm_bindgen]
 impl GpuBatch {
-    /// The patches of case lines, one a line, all of one domain and configuration.
-    ///
-    /// # Errors
-    /// A line that is no case or of another configuration than the first one.
+    /// The patches of case lines, one a line, all of one domain and configuration. Errors: a line that is no case or
+    /// of another configuration than the first one.
     #[wasm_bindgen(constructor)]
     pub fn new(lines: &str) -> Result<Self, JsError> {
         let cases = lines.lines().map(str::parse).collect::<Result<Vec<Case>, _>>();
         Self::of_cases(&cases.map_err(thrown)?).map_err(thrown)
     }
 
-    /// The patches of a workload of `tess bench`, or the first ones, up to this many MiB of output.
-    ///
-    /// # Errors
-    /// There is no workload of that name, or not one of its patches makes so little.
+    /// The patches of a workload of `tess bench`, or the first ones, up to this many MiB of output. Errors: there is
+    /// no workload of that name, or not one of its patches makes so little.
     pub fn workload(name: &str, mebibytes: u32) -> Result<Self, JsError> {
         let all = Workload::named(name);
         let [workload] = &all[..] else {

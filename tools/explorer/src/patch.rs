@@ -51,10 +51,7 @@ impl PatchView {
 
 #[wasm_bindgen]
 impl PatchView {
-    /// The model's result for a case line.
-    ///
-    /// # Errors
-    /// The line is no case; the message says which part is wrong.
+    /// The model's result for a case line. Errors: the line is no case; the message says which part is wrong.
     #[wasm_bindgen(constructor)]
     pub fn new(line: &str) -> Result<Self, JsError> {
         let case: Case = line.parse().map_err(thrown)?;
@@ -117,27 +114,18 @@ impl PatchView {
         self.listing.to_obj()
     }
 
-    /// The picture of `tess draw`: `colours` is plain, order or rings; `size` in pixels.
-    ///
-    /// # Errors
-    /// Unknown colours.
+    /// The picture of `tess draw`: `colours` is plain, order or rings; `size` in pixels. Errors: unknown colours.
     pub fn svg(&self, colours: &str, indices: bool, size: u32) -> Result<String, JsError> {
         Ok(self.drawing(colours, indices, size)?.to_svg())
     }
 
-    /// The same as a PNG file.
-    ///
-    /// # Errors
-    /// Unknown colours, or a size that cannot be drawn.
+    /// The same as a PNG file. Errors: unknown colours, or a size that cannot be drawn.
     pub fn png(&self, colours: &str, indices: bool, size: u32) -> Result<Vec<u8>, JsError> {
         self.drawing(colours, indices, size)?.to_png().map_err(thrown)
     }
 
-    /// Red, green and blue of each primitive, as the pictures have them; `colours` is plain, order or
-    /// rings.
-    ///
-    /// # Errors
-    /// Unknown colours.
+    /// Red, green and blue of each primitive, as the pictures have them; `colours` is plain, order or rings. Errors:
+    /// unknown colours.
     pub fn fills(&self, colours: &str) -> Result<Vec<u8>, JsError> {
         Ok(self.drawing(colours, false, 64)?.fills.concat())
     }

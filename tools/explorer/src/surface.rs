@@ -26,10 +26,7 @@ pub struct SurfaceView {
 
 #[wasm_bindgen]
 impl SurfaceView {
-    /// The surface `flat`, `teapot` or `terrain`, with factors of 1.
-    ///
-    /// # Errors
-    /// Another name.
+    /// The surface `flat`, `teapot` or `terrain`, with factors of 1. Errors: another name.
     #[wasm_bindgen(constructor)]
     pub fn new(name: &str) -> Result<Self, JsError> {
         Self::named(name).map_err(thrown)
@@ -47,18 +44,13 @@ impl SurfaceView {
         self.model.len()
     }
 
-    /// Gives all patches one factor everywhere.
-    ///
-    /// # Errors
-    /// An unknown partitioning.
+    /// Gives all patches one factor everywhere. Errors: an unknown partitioning.
     pub fn uniform(&mut self, partitioning: &str, factor: f32) -> Result<(), JsError> {
         self.set_factors(partitioning, FactorRule::Uniform(factor)).map_err(thrown)
     }
 
-    /// Gives all patches factors by the distance from an eye; `scale` is the factor at distance 1.
-    ///
-    /// # Errors
-    /// An unknown partitioning.
+    /// Gives all patches factors by the distance from an eye; `scale` is the factor at distance 1. Errors: an unknown
+    /// partitioning.
     pub fn by_distance(
         &mut self,
         partitioning: &str,
@@ -71,10 +63,7 @@ impl SurfaceView {
         self.set_factors(partitioning, FactorRule::Distance { eye, scale }).map_err(thrown)
     }
 
-    /// Tessellates on the CPU, and evaluates every point.
-    ///
-    /// # Errors
-    /// The output is too large for this machine.
+    /// Tessellates on the CPU, and evaluates every point. Errors: the output is too large for this machine.
     pub fn tessellate(&mut self) -> Result<(), JsError> {
         self.tessellate_here().map_err(thrown)
     }

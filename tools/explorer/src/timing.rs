@@ -27,10 +27,7 @@ pub struct CpuBench {
 
 #[wasm_bindgen]
 impl CpuBench {
-    /// A workload by name.
-    ///
-    /// # Errors
-    /// There is no workload of that name.
+    /// A workload by name. Errors: there is no workload of that name.
     #[wasm_bindgen(constructor)]
     pub fn new(name: &str) -> Result<Self, JsError> {
         let mut all = Workload::named(name);
@@ -44,10 +41,8 @@ impl CpuBench {
         }
     }
 
-    /// Tessellates every patch once, a mebibyte of output at a time; how many primitives there are.
-    ///
-    /// # Errors
-    /// A batch is too large for this machine.
+    /// Tessellates every patch once, a mebibyte of output at a time; how many primitives there are. Errors: a batch
+    /// is too large for this machine.
     pub fn pass(&mut self) -> Result<f64, JsError> {
         let Self { workload, batches, tessellator, output } = self;
         let mut indices = 0;

@@ -55,10 +55,8 @@ fn bytes<P, I>(counts: BatchCounts) -> usize {
 }
 
 impl BatchWork<'_> {
-    /// Writes it without the interpreter's lock.
-    ///
-    /// # Errors
-    /// Those of [`Counted::write`], and then nothing is written; what a handler of a signal raised.
+    /// Writes it without the interpreter's lock. Errors: those of [`Counted::write`], and then nothing is written;
+    /// what a handler of a signal raised.
     pub(super) fn write<P: OutputPoint, I: IndexFormat>(
         self,
         py: Python<'_>,
@@ -151,10 +149,7 @@ impl<'a, P: OutputPoint, I: IndexFormat> ArrayRoom<'a, P, I> {
         Buffers::new(self.points, self.indices).with_ranges(self.ranges)
     }
 
-    /// The room of the output.
-    ///
-    /// # Errors
-    /// Those of [`Counted::write`].
+    /// The room of the output. Errors: those of [`Counted::write`].
     fn of_sizes(self, sizes: BatchSizes) -> Result<Self, Error> {
         if let Some(largest) = sizes.largest_index.filter(|&largest| largest > I::LARGEST) {
             return Err(Error::IndexTooLarge { largest, format: I::LARGEST });
