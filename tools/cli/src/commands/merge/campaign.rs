@@ -36,52 +36,23 @@ pub(super) enum ShardFault {
     Double(String),
 }
 
-/// The entries that all reports of a campaign have in common.
-#[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Identity<'a> {
-    version: &'a str,
-    commit: &'a str,
-    /// The program's file, if the commit does not say what it was built from.
-    executable: Option<&'a str>,
-    command: &'a str,
-    seed: Option<u64>,
-    shards: u64,
-    options: &'a BTreeMap<String, Vec<String>>,
-    has_baseline: bool,
-}
-
-impl<'a> Identity<'a> {
-    fn of(report: &'a Report) -> Self {
-        // A build of changed or unknown sources is known by its file alone.
-        let is_sure = report.commit != "unknown" && !report.commit.ends_with("+changes");
-        let executable = if is_sure { None } else { report.executable.as_deref() };
-        let Report { version, commit, command, seed, shards, options, known, .. } = report;
-        let has_baseline = known.is_some();
-        Self {
-            version,
-            commit,
-            executable,
-            command,
-            seed: *seed,
-            shards: *shards,
-            options,
-            has_baseline,
-        }
-    }
-
-    /// Its entries by name, in words that are equal only if they are; the options are left out.
-    fn words(&self) -> [(&'static str, String); 6] {
-        let executable = self.executable.map(|digest| format!(" (file {digest})"));
-        let baseline = if self.has_baseline { "given" } else { "not given" };
-        [
-            ("the version", self.version.to_owned()),
-            ("the commit", self.commit.to_owned() + &executable.unwrap_or_default()),
-            ("the command", self.command.to_owned()),
-            ("the seed", self.seed.map_or("none".to_owned(), |seed| seed.to_string())),
-            ("the number of shards", self.shards.to_string()),
-            ("the baseline", baseline.to_owned()),
-        ]
-    }
+/// The entries that all reports of a campaign have in common, by name, in words that are equal only if they are; the
+/// options are left out.
+fn identity(report: &Report) -> [(&'static str, String); 6] {
+    let Report { version, commit, executable, command, seed, shards, known, .. } = report;
+    // A build of changed or unknown sources is known by its file alone.
+    let is_sure = commit != "unknown" && !commit.ends_with("+changes");
+    let file = executable.as_ref().filter(|_| !is_sure);
+    let file = file.map(|digest| format!(" (file {digest})")).unwrap_or_default();
+    let baseline = if known.is_some() { "given" } else { "not given" };
+    [
+        ("the version", version.clone()),
+        ("the commit", commit.clone() + &file),
+        ("the command", command.clone()),
+        ("the seed", seed.map_or("none".to_owned(), |seed| seed.to_string())),
+        ("the number of shards", shards.to_string()),
+        ("the baseline", baseline.to_owned()),
+    ]
 }
 
 /// Options as words: each value with its name, so that `a,b` is not `a` and `b`.
@@ -95,7 +66,7 @@ pub(super) fn option_words(report: &Report) -> Vec<String> {
 
 /// How a report differs from one of another campaign.
 fn strangeness(report: &Report, usual: &FoundReport) -> String {
-    let (own, other) = (Identity::of(report).words(), Identity::of(&usual.report).words());
+    let (own, other) = (identity(report), identity(&usual.report));
     let differing = own.into_iter().zip(other).find(|(own, other)| own != other);
     let (what, own, other) = match differing {
         Some(((what, own), (_, other))) => (what, own, other),
@@ -116,17 +87,10 @@ fn strangeness(report: &Report, usual: &FoundReport) -> String {
 /// The reports of the campaign that most of them are of, the first of several with as many; and the others, each
 /// with why it is another. Both in the order of the reports.
 fn largest(reports: Vec<FoundReport>) -> (Vec<FoundReport>, Vec<(String, String)>) {
-    let mut numbers = BTreeMap::new();
-    let groups: Vec<usize> = reports
-        .iter()
-        .map(|found| {
-            let next = numbers.len();
-            *numbers.entry(Identity::of(&found.report)).or_insert(next)
-        })
-        .collect();
-    let own = most(&groups);
-    drop(numbers);
-    split(reports, |number, _| groups[number] == own, strangeness)
+    let of = |found: &FoundReport| (identity(&found.report), found.report.options.clone());
+    let identities: Vec<_> = reports.iter().map(of).collect();
+    let own = most(&identities);
+    split(reports, |number, _| identities[number] == own, strangeness)
 }
 
 /// Those reports among them that have another baseline of the same name than most are of another campaign.

@@ -172,12 +172,13 @@ pub(super) fn junit(campaign: &Campaign) -> String {
     let command = campaign.all().next().map(|one| one.report.command.as_str()).unwrap_or_default();
     let class = format!("tess.{command}");
     let of = campaign.of;
-    let test = |shard: u64, milliseconds, outcome| JunitCase {
+    let case = |name, milliseconds, outcome| JunitCase {
         class: class.clone(),
-        name: format!("shard {shard}/{of}"),
+        name,
         milliseconds,
         outcome,
     };
+    let test = |shard: u64, time, outcome| case(format!("shard {shard}/{of}"), time, outcome);
     let mut tests: Vec<(u64, JunitCase)> = campaign
         .once()
         .map(|FoundReport { report, .. }| {
@@ -196,17 +197,13 @@ pub(super) fn junit(campaign: &Campaign) -> String {
         tests.push((shard, test(shard, None, error)));
     }
     tests.sort_by_key(|(shard, _)| *shard);
-    let more = campaign.faults().nth(LISTED).map(|_| JunitCase {
-        class: class.clone(),
-        name: "more shards".to_owned(),
-        milliseconds: None,
-        outcome: Outcome::Error("missing".to_owned(), format!("more than {LISTED} are not listed")),
+    let more = campaign.faults().nth(LISTED).map(|_| {
+        let why = format!("more than {LISTED} are not listed");
+        case("more shards".to_owned(), None, Outcome::Error("missing".to_owned(), why))
     });
-    let strangers = campaign.strangers.iter().map(|(place, why)| JunitCase {
-        class: class.clone(),
-        name: place.clone(),
-        milliseconds: None,
-        outcome: Outcome::Error("of another campaign".to_owned(), why.clone()),
+    let strangers = campaign.strangers.iter().map(|(place, why)| {
+        let error = Outcome::Error("of another campaign".to_owned(), why.clone());
+        case(place.clone(), None, error)
     });
     let tests = tests.into_iter().map(|(_, test)| test).chain(more).chain(strangers).collect();
     let (name, milliseconds) = (format!("tess {command}"), campaign.milliseconds());
