@@ -108,32 +108,31 @@ fn from_environment(value: Environment<'_>) -> Result<Placed, String> {
 /// Bazel and googletest count from 0.
 fn bazel(value: Environment<'_>) -> Result<Option<Shard>, String> {
     const OF: &str = "TEST_TOTAL_SHARDS";
-    match (number(value, BAZEL)?, number(value, OF)?) {
-        (None, None) => Ok(None),
-        (Some(part), Some(of)) => part_of(BAZEL, part, OF, of).map(Some),
-        (Some(_), None) => Err(format!("{BAZEL} is set, and {OF} is not")),
-        (None, Some(_)) => Err(format!("{OF} is set, and {BAZEL} is not")),
+    match number(value, BAZEL)? {
+        None if number(value, OF)?.is_some() => Err(format!("{OF} is set, and {BAZEL} is not")),
+        None => Ok(None),
+        Some(part) => part_of(BAZEL, part, OF, other(value, BAZEL, OF)?).map(Some),
     }
 }
 
 /// Kubernetes counts from 0, and does not say how many there are.
 fn kubernetes(value: Environment<'_>) -> Result<Option<Shard>, String> {
-    match (number(value, KUBERNETES)?, number(value, TOTAL)?) {
-        (None, _) => Ok(None),
-        (Some(part), Some(of)) => part_of(KUBERNETES, part, TOTAL, of).map(Some),
-        (Some(_), None) => Err(format!(
-            "{KUBERNETES} is set, and {TOTAL} is not: set it to the completions of the Job"
-        )),
-    }
+    let Some(part) = number(value, KUBERNETES)? else { return Ok(None) };
+    let of = other(value, KUBERNETES, TOTAL)
+        .map_err(|why| format!("{why}: set it to the completions of the Job"))?;
+    part_of(KUBERNETES, part, TOTAL, of).map(Some)
+}
+
+/// A variable that belongs to one that is set.
+fn other(value: Environment<'_>, set: &str, name: &str) -> Result<u64, String> {
+    number(value, name)?.ok_or_else(|| format!("{set} is set, and {name} is not"))
 }
 
 /// Slurm counts from where the array begins. Only a whole array, which begins with 0 or 1 and leaves nothing
 /// out, says which part of everything a task is.
 fn slurm(value: Environment<'_>) -> Result<Option<Shard>, String> {
     let Some(task) = number(value, SLURM)? else { return Ok(None) };
-    let other = |name: &'static str| {
-        number(value, name)?.ok_or_else(|| format!("{SLURM} is set, and {name} is not"))
-    };
+    let other = |name| other(value, SLURM, name);
     let (first, last) = (other("SLURM_ARRAY_TASK_MIN")?, other("SLURM_ARRAY_TASK_MAX")?);
     let count = other("SLURM_ARRAY_TASK_COUNT")?;
     if first > 1 || last < first || last - first != count.wrapping_sub(1) {
