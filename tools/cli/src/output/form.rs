@@ -42,8 +42,9 @@ fn is_no_name(file: &Path) -> bool {
     file.starts_with("/dev") || file.starts_with("/proc")
 }
 
-fn name<F: FileForm>(form: &F) -> String {
-    form.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
+/// The name of a value on the command line.
+pub(crate) fn name(value: &impl ValueEnum) -> String {
+    value.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }
 
 fn names<F: FileForm>() -> Vec<String> {

@@ -10,6 +10,7 @@ use super::cpu::CpuRunner;
 use super::runner::{Amount, Description, Runner, WorkingSet};
 use super::table::{BenchRow, name_of};
 use crate::failure::Failure;
+use crate::output::form::name;
 use std::fmt;
 use std::time::Duration;
 use tess_simd::Order;
@@ -40,7 +41,7 @@ impl Plan<'_> {
 
 impl fmt::Display for Plan<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}, {}", self.workload.name, self.working_set.name())
+        write!(f, "{}, {}", self.workload.name, name(&self.working_set))
     }
 }
 
@@ -82,7 +83,7 @@ pub(crate) fn measure(runner: &mut dyn Runner, plan: Plan<'_>) -> Result<BenchRo
         workload: plan.name(&description),
         backend: description.backend,
         level: description.level,
-        working_set: plan.working_set.name(),
+        working_set: name(&plan.working_set),
         threads,
         index_type: name_of(description.index_type),
         patches_per_s,

@@ -17,16 +17,6 @@ pub(crate) enum WorkingSet {
     Stream,
 }
 
-impl WorkingSet {
-    /// Its name in reports.
-    pub(crate) const fn name(self) -> &'static str {
-        match self {
-            Self::Cache => "cache",
-            Self::Stream => "stream",
-        }
-    }
-}
-
 /// The amount of work of one run of a part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Amount {

@@ -12,7 +12,7 @@ pub(crate) struct BenchRow {
     pub(super) workload: String,
     pub(super) backend: &'static str,
     pub(super) level: String,
-    pub(super) working_set: &'static str,
+    pub(super) working_set: String,
     pub(super) threads: u32,
     pub(super) index_type: &'static str,
     pub(super) patches_per_s: f64,

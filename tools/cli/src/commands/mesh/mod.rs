@@ -231,7 +231,7 @@ impl Args {
         if let Some((_, why)) = needless.iter().find(|(is_needless, _)| *is_needless) {
             return Err(Failure::bad_input(format!(
                 "{why}; {} has no use for it",
-                name_of_form(form)
+                form::name(&form)
             )));
         }
         self.rule.fit(self.partitioning)?;
@@ -247,9 +247,4 @@ impl Args {
         let looks = form == ResultForm::Png || self.rule.looks();
         if looks { outline::outline(model, reach) } else { Vec::new() }
     }
-}
-
-fn name_of_form(form: ResultForm) -> String {
-    use clap::ValueEnum;
-    form.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default()
 }

@@ -9,7 +9,7 @@ use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
 use tess_gpu::{Copies, Setup};
 use tess_verify::BackendError;
-use tess_verify::generate::{Calls, IndexWidth, Totals, Workload};
+use tess_verify::generate::{Calls, Totals, Workload};
 use tess_verify::vectors::Fnv1a;
 use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
 
@@ -114,16 +114,13 @@ impl GpuRunner {
         &self,
         points: u64,
         indices: u64,
+        index_bytes: u64,
     ) -> Result<(wgpu::Buffer, wgpu::Buffer), BackendError> {
         let usage = wgpu::BufferUsages::STORAGE;
         let buffer = |label, bytes: u64| {
             self.gpu.buffer(label, bytes.next_multiple_of(16), usage).map_err(device_error)
         };
-        let index_bytes = match self.description.index_type {
-            IndexWidth::U16 => 2 * indices,
-            IndexWidth::U32 => 4 * indices,
-        };
-        Ok((buffer("points", 8 * points)?, buffer("indices", index_bytes)?))
+        Ok((buffer("points", 8 * points)?, buffer("indices", index_bytes * indices)?))
     }
 
     /// Runs a part until the device has left its idle state.
@@ -178,6 +175,7 @@ impl Runner for GpuRunner {
         let (points, indices) = self.outputs(
             most(|totals| totals.points) * repeats,
             most(|totals| totals.indices) * repeats,
+            setup.index_type.bytes().into(),
         )?;
         self.batches.clear();
         for (range, &totals) in ranges.iter().zip(&totals) {
