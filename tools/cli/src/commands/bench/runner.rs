@@ -90,7 +90,7 @@ pub(crate) trait Runner {
         working_set: WorkingSet,
     ) -> Result<Vec<Amount>, BackendError>;
 
-    /// Runs what is prepared, once over the workload's patches, and digests the output as [`Workload::digest_in`]
+    /// Runs what is prepared, once over the workload's patches, and digests the output as [`Workload::digest`]
     /// does. Errors: the implementation failed.
     fn digest(&mut self) -> Result<u64, BackendError>;
 
