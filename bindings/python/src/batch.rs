@@ -16,7 +16,7 @@ use std::sync::{Mutex, PoisonError};
 use tess_core::{Config, Domain, IsolineFactors, QuadFactors, TriangleFactors};
 use tess_simd::{BatchCounts, Numbering, OutputPoint, PatchRange};
 use tess_verify::Named;
-use work::{ArrayRoom, How, BatchSizes, BatchWork};
+use work::{ArrayRoom, BatchSizes, BatchWork, How};
 
 /// Tessellates batches in one configuration, on the CPU's vector units.
 ///
