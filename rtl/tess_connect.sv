@@ -46,11 +46,13 @@ module tess_connect (
     output logic [12:0]                      out_i2,
     output logic                             out_last
 );
-    localparam logic [2:0] AT_SEQUENCE = 3'd0; // points; lines that join all points
-    localparam logic [2:0] AT_LINE     = 3'd1; // the segments of isolines
-    localparam logic [2:0] AT_MINIMUM  = 3'd2;
-    localparam logic [2:0] AT_STITCH   = 3'd3;
-    localparam logic [2:0] AT_MIDDLE   = 3'd4; // a strip, or the triangle in the middle of a triangle
+    typedef enum logic [2:0] {
+        AT_SEQUENCE, // points; lines that join all points
+        AT_LINE,     // the segments of isolines
+        AT_MINIMUM,
+        AT_STITCH,
+        AT_MIDDLE    // a strip, or the triangle in the middle of a triangle
+    } at_e;
 
     logic advance; // what is behind `ahead`
     assign advance = !out_valid || out_ready;
@@ -63,7 +65,7 @@ module tess_connect (
     /* verilator lint_on UNUSEDSIGNAL */
     logic [tess_pkg::COUNTS_BITS-1:0] counts;
     logic                             is_first;   // no edge of the patch has been described
-    logic [2:0]                       at;
+    at_e                              at;
     logic                             is_first_ring;
     logic [1:0]                       side;       // number of the edge
     logic [6:0]                       m_u, m_v;   // points on the inner rows of this ring, along u and v
@@ -148,7 +150,8 @@ module tess_connect (
             if (start_patch.out == tess_pkg::POINT)           at <= AT_SEQUENCE;
             else if (start_patch.domain == tess_pkg::ISOLINE) at <= AT_LINE;
             else if (start_patch.out == tess_pkg::LINE)       at <= AT_SEQUENCE;
-            else                                              at <= start_patch.minimum ? AT_MINIMUM : AT_STITCH;
+            else if (start_patch.minimum)                     at <= AT_MINIMUM;
+            else                                              at <= AT_STITCH;
         end else if (describes) begin
             is_first <= 1'b0;
             if (at == AT_STITCH) begin

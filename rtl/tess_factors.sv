@@ -48,8 +48,9 @@ module tess_factors (
     logic [1:0]   domain, partitioning, out;
     logic         center;
     logic [191:0] factors;
-    logic [5:0]   is_positive, is_large; // of each factor: above 0; above 1 + 2^-17
+    logic         is_culled, has_frame;
     logic [2:0]   k;
+    logic         issues_last; // k is the last one that is selected: the first one, if the patch is culled
 
     logic [2:0] factor_count, outer_count;
     always_comb begin
@@ -57,21 +58,20 @@ module tess_factors (
         outer_count  = (domain == tess_pkg::ISOLINE) ? 3'd2 : (domain == tess_pkg::TRIANGLE) ? 3'd3 : 3'd4;
     end
 
-    // Steps 1 and 4 look at all factors of the patch. Positive: not negative, not zero, not NaN.
-    logic [5:0] comes_positive, comes_large, is_there, is_outer;
+    // Steps 1 and 4 look at all factors of the patch that comes. Positive: not negative, not zero, not NaN.
+    // Large: above 1 + 2^-17.
+    logic [5:0] is_positive, is_large, is_there, is_outer;
+    assign is_there = (in_domain == tess_pkg::ISOLINE) ? 6'b000011 : (in_domain == tess_pkg::TRIANGLE) ? 6'b001111 : 6'b111111;
+    assign is_outer = (in_domain == tess_pkg::ISOLINE) ? 6'b000011 : (in_domain == tess_pkg::TRIANGLE) ? 6'b000111 : 6'b001111;
     for (genvar i = 0; i < tess_pkg::FACTORS; i++) begin : g_factor
         logic [31:0] x;
         assign x = in_factors[32*i +: 32];
-        assign comes_positive[i] = !x[31] && x[30:0] != 31'd0 && x[30:0] <= 31'h7F80_0000;
-        assign comes_large[i]    = !x[31] && x[30:0] > 31'h3F80_0040 && x[30:0] <= 31'h7F80_0000;
-        assign is_there[i]       = 3'(i) < factor_count;
-        assign is_outer[i]       = 3'(i) < outer_count;
+        assign is_positive[i] = !x[31] && x[30:0] != 31'd0 && x[30:0] <= 31'h7F80_0000;
+        assign is_large[i]    = !x[31] && x[30:0] > 31'h3F80_0040 && x[30:0] <= 31'h7F80_0000;
     end
-    logic is_culled, has_frame, issues_last;
-    assign is_culled   = (is_outer & ~is_positive) != 6'd0;
-    assign has_frame   = (is_there & is_large) != 6'd0;
-    assign issues_last = busy && (is_culled || k == factor_count - 3'd1);
-    assign in_ready    = !rst && advance && (!busy || issues_last);
+    logic comes_culled;
+    assign comes_culled = (is_outer & ~is_positive) != 6'd0;
+    assign in_ready     = !rst && advance && (!busy || issues_last);
 
     always_ff @(posedge clk) begin
         if (rst) begin
@@ -84,12 +84,14 @@ module tess_factors (
                 out          <= in_out;
                 center       <= in_center;
                 factors      <= in_factors;
-                is_positive  <= comes_positive;
-                is_large     <= comes_large;
+                is_culled    <= comes_culled;
+                has_frame    <= (is_there & is_large) != 6'd0;
                 k            <= 3'd0;
+                issues_last  <= comes_culled;
             end else if (busy) begin
-                busy <= !issues_last;
-                k    <= k + 3'd1;
+                busy        <= !issues_last;
+                k           <= k + 3'd1;
+                issues_last <= k == factor_count - 3'd2;
             end
         end
     end

@@ -232,10 +232,9 @@ module tess_points (
     logic          walks;    // there is a point
     logic [6:0]    along;
     logic [6:0]    to_come;  // points of this edge behind this one
+    logic          ends_edge; // none
     tess_context_t a_context, b_context;
-    logic          ends_edge;
-    assign ends_edge = to_come == 7'd0;
-    assign takes     = advance && ahead_valid && (!walks || ends_edge);
+    assign takes = advance && ahead_valid && (!walks || ends_edge);
 
     always_ff @(posedge clk) begin
         if (rst)                             walks <= 1'b0;
@@ -246,11 +245,13 @@ module tess_points (
             here      <= ahead;
             along     <= ahead_start;
             to_come   <= ahead_further;
+            ends_edge <= ahead_further == 7'd0;
             a_context <= ahead_a;
             b_context <= ahead_b;
         end else if (advance && walks) begin
-            along   <= here.backward ? along - 7'd1 : along + 7'd1;
-            to_come <= to_come - 7'd1;
+            along     <= here.backward ? along - 7'd1 : along + 7'd1;
+            to_come   <= to_come - 7'd1;
+            ends_edge <= to_come == 7'd1;
         end
     end
 

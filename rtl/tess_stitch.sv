@@ -26,14 +26,13 @@ module tess_stitch (
     logic         walks;
     tess_stitch_t here;
     logic [6:0]   to_come;    // steps of this stitch behind this one
+    logic         ends;       // none
     logic         is_first, is_odd; // the number of the step: 0; odd
     logic [6:0]   pairs;      // before the middle; negative behind it
     logic [2:0]   phase;      // of a transition
     logic [5:0]   masked;     // steps of this way behind this one
     logic [63:0]  left;       // of the mask
 
-    logic ends;
-    assign ends  = to_come == 7'd0;
     assign takes = advance && ahead_valid && (!walks || ends);
 
     logic [63:0] reversed;
@@ -72,6 +71,7 @@ module tess_stitch (
         if (takes) begin
             here     <= ahead;
             to_come  <= ahead.further;
+            ends     <= ahead.further == 7'd0;
             is_first <= 1'b1;
             is_odd   <= 1'b0;
             pairs    <= ahead.middle;
@@ -80,6 +80,7 @@ module tess_stitch (
             left     <= ahead.mask;
         end else if (advance) begin
             to_come  <= to_come - 7'd1;
+            ends     <= to_come == 7'd1;
             is_first <= 1'b0;
             is_odd   <= !is_odd;
             // A pair ends with its second step; the first step of a ring stands before its pairs.

@@ -1,4 +1,5 @@
-// Structures that the modules share. They stand outside tess_pkg because Icarus Verilog 11 takes none from packages.
+// Structures that the modules share. They stand outside tess_pkg because Icarus Verilog 11 takes none from packages. States
+// that pass through them are no enums, as neither it nor Yosys 0.23 casts to one.
 `ifndef TESS_TYPES
 `define TESS_TYPES
 

@@ -2,5 +2,6 @@
 prove_factors proof (
     .clk(clk), .rst(rst), .starts(in_valid && in_ready), .busy(busy), .valids(valids), .lasts(lasts),
     .is_complete(is_complete), .product_valid(product_valid), .sum_valid(sum_valid), .out_valid(out_valid),
-    .out_ready(out_ready), .k(k), .factor_count(factor_count)
+    .out_ready(out_ready), .k(k), .factor_count(factor_count),
+    .is_culled(is_culled), .issues_last(issues_last)
 );

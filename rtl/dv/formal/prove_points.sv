@@ -3,7 +3,7 @@
 // walk, and those behind the walk. The same holds for the patches' last points. Proved by induction.
 module prove_points (
     input logic        clk, rst,
-    input logic        starts, active, ahead_valid, ahead_last, walks, here_last,
+    input logic        starts, active, ahead_valid, ahead_last, walks, ends_edge, here_last,
     input logic [12:0] start_points, remaining,
     input logic [6:0]  ahead_further, to_come,
     input logic [8:0]  valids, lasts,
@@ -30,6 +30,7 @@ module prove_points (
         end
         if (!has_begun) assume (rst);
         if (has_begun && !rst) begin
+            assert (!walks || ends_edge == (to_come == 7'd0));
             assert (held == (active ? 16'(remaining) + 16'd1 : 16'd0) + (ahead_valid ? 16'(ahead_further) + 16'd1 : 16'd0)
                 + (walks ? 16'(to_come) + 16'd1 : 16'd0) + 16'(behind));
             assert (held_patches == 8'(active) + 8'(ahead_valid && ahead_last) + 8'(walks && here_last) + 8'(behind_patches));
