@@ -119,7 +119,7 @@ fn clocks(said: &str) -> Result<u64, String> {
     number.ok_or_else(|| format!("no tally:\n{said}"))
 }
 
-/// Single stages equal the model: the factors about 1, 2, 63 and 64, and 4096 patterns about 1.
+/// Single stages equal the model: every context, the places of the factors about 1, 2, 3, 63 and 64, and 4096 patterns about 1.
 pub(crate) fn stages_equal_model() -> Result<(), Failed> {
     let folder = build_folder().join("rtl");
     run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--stages", "--build"]))?;
@@ -132,6 +132,8 @@ pub(crate) fn stages_equal_model() -> Result<(), Failed> {
         let first = format!("+first={first}");
         compare(&[&first, "+factors=128"], " places, 0 processed factors, 0 mismatches")?;
     }
+    let all = ["+first=65536", "+factors=4128769", "+contexts"];
+    compare(&all, "16252934 contexts, 0 places, 0 processed factors, 0 mismatches")?;
     compare(&["+bits=3f7ff800", "+words=4096"], ", 0 mismatches")?;
     Ok(())
 }
