@@ -65,7 +65,7 @@ pub(crate) struct Args {
     no_copies: bool,
     /// Order of the triangles that simd and gpu write
     #[arg(long, value_name = "NAME", default_value = "specification")]
-    order: TriangleOrder,
+    order: OrderName,
     /// Print one JSON array of objects
     #[arg(long)]
     json: bool,
@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<Exit, Failure> {
             "--threads goes with --backend simd; core and gpu run on one thread (--threads 1)",
         ));
     }
-    if args.order == TriangleOrder::Cache && args.backend == BackendName::Core {
+    if args.order == OrderName::Cache && args.backend == BackendName::Core {
         return Err(Failure::bad_input("--order cache goes with --backend simd or gpu"));
     }
     if args.frame.is_some()
