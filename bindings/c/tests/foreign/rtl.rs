@@ -64,6 +64,7 @@ pub(crate) fn equals_model() -> Result<(), Failed> {
 }
 
 /// Each planted fault makes the bench fail, naming the stage, the signal, both values and the patch; or it costs clocks.
+#[expect(clippy::print_stdout, reason = "each fault takes a second, and its line says who saw it")]
 pub(crate) fn faults_are_caught() -> Result<(), Failed> {
     let folder = build_folder().join("rtl");
     run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--faults", "--build"]))?;
