@@ -4,32 +4,38 @@ mod stage;
 
 pub use stage::StageError;
 
-use std::fmt;
 use std::pin::pin;
 use std::task::{Context, Poll, Waker};
 use tess_core::Domain;
 use tess_gpu::Resource;
 
 /// Why a device, a buffer or a batch cannot be had.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// No adapter gives a device. Install a Vulkan driver; Debian's `mesa-vulkan-drivers` has one
     /// in software. OpenGL from 4.3 or ES 3.1 on works too, with the feature `gles`. In a browser: it has no
     /// WebGPU, or the page is neither from https nor from localhost.
+    #[error("no graphics adapter could be used ({reason}); {}", remedy())]
     NoDevice {
         /// wgpu's reason for each adapter or backend that was tried, and whether `WGPU_BACKEND` restricts them.
         reason: String,
     },
     /// The device was lost. Open another one and make every object again.
+    #[error("the graphics device was lost: {reason}")]
     DeviceLost {
         /// wgpu's message.
         reason: String,
     },
     /// The device has too little memory left. Free some, or tessellate fewer patches at a time.
+    #[error("the graphics device is out of memory")]
     OutOfMemory,
     /// A limit of the device is too low for any batch. Open the device with WebGPU's default limits or higher ones;
     /// WebGL, and OpenGL without compute shaders, cannot tessellate.
+    #[error(
+        "the device's limit {limit} is {got}, and {needed} is needed; open it with WebGPU's \
+         default limits or higher ones (WebGL has no compute shaders, so it cannot tessellate)"
+    )]
     LimitTooLow {
         /// The limit, a member of `wgpu::Limits`.
         limit: &'static str,
@@ -40,6 +46,10 @@ pub enum Error {
     },
     /// A buffer would be larger than the device allows. Tessellate fewer patches at a time, or open
     /// the device with higher limits ([`crate::Wanted::Everything`]).
+    #[error(
+        "the buffer `{buffer}` needs {needed} bytes, and the device allows {limit}; \
+         tessellate fewer patches at a time"
+    )]
     BufferTooLarge {
         /// Label of the buffer.
         buffer: String,
@@ -49,6 +59,7 @@ pub enum Error {
         limit: u64,
     },
     /// The buffer of factors is too short. Make it longer, or name fewer patches.
+    #[error("the patches have {needed} bytes of factors, their buffer {got}")]
     FactorsTooShort {
         /// Bytes that the patches need.
         needed: u64,
@@ -56,17 +67,20 @@ pub enum Error {
         got: u64,
     },
     /// The caller's buffer lacks the usage `STORAGE`. Create it with that usage.
+    #[error("the buffer of {} lacks the usage STORAGE", name(*.buffer))]
     NotStorage {
         /// Factors, points or indices.
         buffer: Resource,
     },
     /// One buffer serves two purposes. Use different buffers for factors, points and indices.
+    #[error("one buffer is given for {} and for {}; use two", name(.buffers[0]), name(.buffers[1]))]
     SharedBuffer {
         /// The two purposes.
         buffers: [Resource; 2],
     },
     /// A patch has the factors of another domain than the setup. Tessellate the patches of each
     /// domain on their own.
+    #[error("patch {patch} has {got:?} factors, and the setup is for the {expected:?} domain")]
     WrongDomain {
         /// Number of the first such patch.
         patch: usize,
@@ -76,12 +90,19 @@ pub enum Error {
         got: Domain,
     },
     /// A batch has at most 2^30 patches.
+    #[error("{got} patches are more than a batch can have, 2^30")]
     TooManyPatches {
         /// Patches of the batch.
         got: usize,
     },
     /// A group begins before the one in front of it or behind the batch. Put the groups in ascending
     /// order.
+    #[error(
+        "group {group} begins at patch {begin}; it must begin at one of {} to {}, as groups ascend and lie within \
+         the batch",
+        .range[0],
+        .range[1]
+    )]
     MisplacedGroup {
         /// Number of the group.
         group: usize,
@@ -91,12 +112,17 @@ pub enum Error {
         range: [u32; 2],
     },
     /// A batch has at most 2^32 - 1 groups.
+    #[error("{got} groups are more than a batch can have, 2^32 - 1")]
     TooManyGroups {
         /// Groups of the batch.
         got: usize,
     },
     /// The output of a batch exceeds 2^32 - 1 points or primitives, or more points than indices of
     /// 16 bits can number. Tessellate fewer patches at a time.
+    #[error(
+        "{points} points and {primitives} primitives are more than the indices can number; \
+         tessellate fewer patches at a time"
+    )]
     OutputTooLarge {
         /// Points of the batch.
         points: u64,
@@ -105,6 +131,10 @@ pub enum Error {
     },
     /// A batch whose points are computed in the vertex shader has too many patches for one binding.
     /// Make fewer at a time, or let the points be stored.
+    #[error(
+        "{got} patches without a point buffer are more than one binding holds, {most}; \
+         make fewer at a time, or store the points"
+    )]
     TooManyToPull {
         /// Patches of the batch.
         got: u32,
@@ -112,13 +142,18 @@ pub enum Error {
         most: u32,
     },
     /// The device lacks features. Ask for them when it is opened, as [`crate::Gpu::open_with`] does.
+    #[error(
+        "the device lacks {missing}; ask for it when the device is opened, if the adapter has it"
+    )]
     MissingFeatures {
         /// The features that it lacks.
         missing: wgpu::Features,
     },
     /// A tessellation stage cannot be made or used like this.
-    Stage(StageError),
+    #[error(transparent)]
+    Stage(#[from] StageError),
     /// wgpu refused an object or a command, for example to read beyond the end of a buffer.
+    #[error("wgpu refused: {reason}")]
     Refused {
         /// wgpu's message.
         reason: String,
@@ -134,79 +169,6 @@ fn remedy() -> &'static str {
     } else {
         "install a Vulkan driver (in software: Debian's mesa-vulkan-drivers), or build with the feature \
          `gles` for a driver of OpenGL 4.3 or ES 3.1"
-    }
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoDevice { reason } => {
-                write!(f, "no graphics adapter could be used ({reason}); {}", remedy())
-            }
-            Self::DeviceLost { reason } => write!(f, "the graphics device was lost: {reason}"),
-            Self::OutOfMemory => f.write_str("the graphics device is out of memory"),
-            Self::BufferTooLarge { buffer, needed, limit } => write!(
-                f,
-                "the buffer `{buffer}` needs {needed} bytes, and the device allows {limit}; \
-                 tessellate fewer patches at a time"
-            ),
-            Self::LimitTooLow { limit, needed, got } => write!(
-                f,
-                "the device's limit {limit} is {got}, and {needed} is needed; open it with WebGPU's \
-                 default limits or higher ones (WebGL has no compute shaders, so it cannot tessellate)"
-            ),
-            Self::FactorsTooShort { needed, got } => {
-                write!(f, "the patches have {needed} bytes of factors, their buffer {got}")
-            }
-            Self::NotStorage { buffer } => {
-                write!(f, "the buffer of {} lacks the usage STORAGE", name(*buffer))
-            }
-            Self::SharedBuffer { buffers: [first, second] } => write!(
-                f,
-                "one buffer is given for {} and for {}; use two",
-                name(*first),
-                name(*second)
-            ),
-            Self::WrongDomain { patch, expected, got } => write!(
-                f,
-                "patch {patch} has {got:?} factors, and the setup is for the {expected:?} domain"
-            ),
-            Self::TooManyPatches { got } => {
-                write!(f, "{got} patches are more than a batch can have, 2^30")
-            }
-            Self::MisplacedGroup { group, begin, range: [least, greatest] } => write!(
-                f,
-                "group {group} begins at patch {begin}; it must begin at one of {least} to \
-                 {greatest}, as groups ascend and lie within the batch"
-            ),
-            Self::TooManyGroups { got } => {
-                write!(f, "{got} groups are more than a batch can have, 2^32 - 1")
-            }
-            Self::OutputTooLarge { points, primitives } => write!(
-                f,
-                "{points} points and {primitives} primitives are more than the indices can number; \
-                 tessellate fewer patches at a time"
-            ),
-            Self::TooManyToPull { got, most } => write!(
-                f,
-                "{got} patches without a point buffer are more than one binding holds, {most}; \
-                 make fewer at a time, or store the points"
-            ),
-            Self::MissingFeatures { missing } => write!(
-                f,
-                "the device lacks {missing}; ask for it when the device is opened, if the adapter has it"
-            ),
-            Self::Stage(error) => error.fmt(f),
-            Self::Refused { reason } => write!(f, "wgpu refused: {reason}"),
-        }
-    }
-}
-
-impl std::error::Error for Error {}
-
-impl From<StageError> for Error {
-    fn from(error: StageError) -> Self {
-        Self::Stage(error)
     }
 }
 
