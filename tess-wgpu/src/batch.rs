@@ -14,14 +14,7 @@ use tess_gpu::{Capacity, Limits, Plan, Resource, Setup, Stage, Workgroups, Writt
 #[derive(Debug)]
 pub struct Batch {
     plan: Plan,
-    status: wgpu::Buffer,
-    arguments: wgpu::Buffer,
-    draws: wgpu::Buffer,
-    topologies: wgpu::Buffer,
-    contexts: wgpu::Buffer,
-    offsets: wgpu::Buffer,
-    jobs: wgpu::Buffer,
-    tiles: wgpu::Buffer,
+    buffers: Buffers,
     dispatches: Vec<Dispatch>,
 }
 
@@ -38,20 +31,7 @@ impl Batch {
         check(&plan, factors, outputs)?;
         let buffers = Buffers::new(pipelines, &plan, setup, patches, outputs)?;
         let dispatches = dispatches(pipelines, setup, &plan, &buffers)?;
-        let Buffers { status, arguments, draws, topologies, contexts, .. } = buffers;
-        let Buffers { offsets, jobs, tiles, .. } = buffers;
-        Ok(Self {
-            plan,
-            status,
-            arguments,
-            draws,
-            topologies,
-            contexts,
-            offsets,
-            jobs,
-            tiles,
-            dispatches,
-        })
+        Ok(Self { plan, buffers, dispatches })
     }
 
     /// Records everything, from factors to draw arguments, into one compute pass.
@@ -84,7 +64,7 @@ impl Batch {
             match workgroups {
                 Workgroups::Direct([x, y, z]) => pass.dispatch_workgroups(*x, *y, *z),
                 Workgroups::Indirect(at) => {
-                    pass.dispatch_workgroups_indirect(&self.arguments, *at);
+                    pass.dispatch_workgroups_indirect(&self.buffers.arguments, *at);
                 }
             }
             after(&mut pass, *stage);
@@ -100,52 +80,52 @@ impl Batch {
     /// A [`Status`](tess_gpu::layout::Status) after the batch has run.
     #[must_use]
     pub const fn status(&self) -> &wgpu::Buffer {
-        &self.status
+        &self.buffers.status
     }
 
     /// The arguments of `draw_indexed_indirect` at offset 0, after the batch has run: see
     /// [`tess_gpu::layout::DrawIndexed`].
     #[must_use]
     pub const fn draw_arguments(&self) -> &wgpu::Buffer {
-        &self.arguments
+        &self.buffers.arguments
     }
 
     /// The arguments of one `draw_indexed_indirect` for each group, 20 bytes each and in order, after
     /// the batch has run. A batch without groups has none.
     #[must_use]
     pub const fn group_arguments(&self) -> &wgpu::Buffer {
-        &self.draws
+        &self.buffers.draws
     }
 
     /// The [`tess_gpu::layout::Topology`] of each patch, after the batch has run.
     #[must_use]
     pub const fn topologies(&self) -> &wgpu::Buffer {
-        &self.topologies
+        &self.buffers.topologies
     }
 
     /// The packed factor contexts ([`tess_gpu::layout::pack_context`]), after the batch has run.
     #[must_use]
     pub const fn contexts(&self) -> &wgpu::Buffer {
-        &self.contexts
+        &self.buffers.contexts
     }
 
     /// The offsets of patches, blocks and sections, after the batch has run.
     #[must_use]
     pub const fn offsets(&self) -> &wgpu::Buffer {
-        &self.offsets
+        &self.buffers.offsets
     }
 
     /// The [`tess_gpu::layout::Job`] of each part of the batch, 256 bytes apart. A shader of [`tess_gpu::Pull`] binds
     /// the first.
     #[must_use]
     pub const fn jobs(&self) -> &wgpu::Buffer {
-        &self.jobs
+        &self.buffers.jobs
     }
 
     /// The number of the first patch of each tile of the output, after the batch has run.
     #[must_use]
     pub const fn tiles(&self) -> &wgpu::Buffer {
-        &self.tiles
+        &self.buffers.tiles
     }
 }
 

@@ -7,6 +7,7 @@ use crate::pipelines::Pipelines;
 use tess_gpu::{Plan, Resource, Setup, Span};
 
 /// Everything that the stages bind.
+#[derive(Debug)]
 pub(crate) struct Buffers {
     pub(crate) jobs: wgpu::Buffer,
     pub(crate) factors: wgpu::Buffer,

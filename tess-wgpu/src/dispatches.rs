@@ -1,7 +1,8 @@
 //! The dispatches of a plan with their pipelines and bind groups.
 
 use crate::buffers::Buffers;
-use crate::error::{Error, checked};
+use crate::error::Error;
+use crate::pipeline;
 use crate::pipelines::Pipelines;
 use tess_gpu::{Plan, Setup, Stage, Workgroups};
 
@@ -25,20 +26,11 @@ pub(crate) fn dispatches(
     for dispatch in plan.dispatches() {
         let stage = dispatch.stage();
         let pipeline = pipelines.pipeline(stage, setup)?;
-        let entries: Vec<_> = (0..)
+        let bindings = (0..)
             .zip(dispatch.bindings())
-            .map(|(binding, (resource, span))| wgpu::BindGroupEntry {
-                binding,
-                resource: buffers.bound(resource, span),
-            })
-            .collect();
-        let descriptor = wgpu::BindGroupDescriptor {
-            label: Some(stage.entry_point()),
-            layout: &pipeline.get_bind_group_layout(0),
-            entries: &entries,
-        };
-        let device = pipelines.device();
-        let group = checked(device, || device.create_bind_group(&descriptor))?;
+            .map(|(binding, (resource, span))| (binding, buffers.bound(resource, span)));
+        let (label, layout) = (stage.entry_point(), pipeline.get_bind_group_layout(0));
+        let group = pipeline::group(pipelines.device(), label, &layout, bindings)?;
         let workgroups = dispatch.workgroups();
         dispatches.push(Dispatch { stage, pipeline, group, workgroups });
     }

@@ -1,5 +1,6 @@
-//! Compute pipelines of the shaders.
+//! Compute pipelines of the shaders, and bind groups.
 
+use crate::error::{Error, checked};
 use tess_gpu::{Access, Binding, Resource, Stage};
 
 /// The pipeline of a stage's source.
@@ -79,4 +80,17 @@ pub(crate) const fn entry(
         ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
         count: None,
     }
+}
+
+/// A bind group of resources with their numbers.
+pub(crate) fn group<'a>(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    resources: impl IntoIterator<Item = (u32, wgpu::BindingResource<'a>)>,
+) -> Result<wgpu::BindGroup, Error> {
+    let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+    let entries: Vec<_> = resources.into_iter().map(entry).collect();
+    let descriptor = wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries };
+    checked(device, || device.create_bind_group(&descriptor))
 }

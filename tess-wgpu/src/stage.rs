@@ -25,7 +25,7 @@ use crate::{Tessellator, gpu};
 use feedback::Feedbacks;
 use fit::Fit;
 use origin::Origin;
-use output::Output;
+use output::StageOutput;
 use room::{Form, Lull};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use tess_core::{Config, Domain, PatchFactors};
@@ -72,9 +72,9 @@ pub struct TessellationStage {
     pulled: Option<wgpu::BindGroupLayout>,
     /// None if the caller draws with its own.
     pipeline: Option<Arc<wgpu::RenderPipeline>>,
-    output: Output,
+    output: StageOutput,
     /// Other groups and their output, from the next frame on.
-    next: Option<(Vec<u32>, Output)>,
+    next: Option<(Vec<u32>, StageOutput)>,
     feedback: Mutex<Feedbacks>,
     frame: u64,
 }
@@ -258,7 +258,7 @@ impl TessellationStage {
     #[cfg(feature = "measure")]
     #[must_use]
     pub const fn inside(&self) -> (&crate::Batch, [Option<&wgpu::Buffer>; 2]) {
-        let Output { batch, stored, .. } = &self.output;
+        let StageOutput { batch, stored, .. } = &self.output;
         (batch, [stored.points.as_ref(), stored.indices.as_ref()])
     }
 

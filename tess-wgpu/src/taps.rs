@@ -1,6 +1,7 @@
 //! Stage taps: the value of one stage of the shaders, read for comparison with the golden model's.
 
-use crate::error::{Error, checked};
+use crate::error::Error;
+use crate::pipeline::group;
 use crate::{Gpu, Tessellator};
 use tess_gpu::sizes::WORKGROUP;
 use tess_gpu::{Setup, Tap};
@@ -31,20 +32,8 @@ impl Tessellator {
             self.pipelines().tables(setup.config.split)?,
         ];
         let pipeline = self.pipelines().tap(tap, setup)?;
-        let entries: Vec<_> = (0..)
-            .zip(&buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry {
-                binding,
-                resource: buffer.as_entire_binding(),
-            })
-            .collect();
-        let group = checked(&gpu.device, || {
-            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: Some("taps"),
-                layout: &pipeline.get_bind_group_layout(0),
-                entries: &entries,
-            })
-        })?;
+        let bindings = (0..).zip(buffers.iter().map(wgpu::Buffer::as_entire_binding));
+        let group = group(&gpu.device, "taps", &pipeline.get_bind_group_layout(0), bindings)?;
         let most = self.limits().workgroups;
         // A buffer of more input would be too large.
         let workgroups = u32::try_from(count.div_ceil(u64::from(WORKGROUP))).unwrap_or(u32::MAX);

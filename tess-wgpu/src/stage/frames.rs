@@ -1,7 +1,7 @@
 //! Recording frames, and other room between them.
 
 use super::feedback::{self, Feedback};
-use super::output::{Output, Stored};
+use super::output::{StageOutput, Stored};
 use super::{PatchCount, Room, StageError, TessellationStage, fit, locked};
 use crate::error::Error;
 use crate::{Gpu, gpu};
@@ -112,10 +112,10 @@ impl TessellationStage {
         room: Capacity,
         groups: &[u32],
         stored: Stored,
-    ) -> Result<Output, Error> {
+    ) -> Result<StageOutput, Error> {
         let of_batch = (&self.factors, groups);
         let pulled = self.pulled.as_ref();
-        Output::new(&mut self.tessellator, self.form, (room, stored), of_batch, pulled)
+        StageOutput::new(&mut self.tessellator, self.form, (room, stored), of_batch, pulled)
     }
 
     /// Makes more room if a frame needed nearly all of it and the stage may, or gives back what many did not need.

@@ -2,7 +2,7 @@
 
 use super::builder::{Render, StageBuilder};
 use super::choices::{Factors, Overflow, Points};
-use super::output::{Output, Stored};
+use super::output::{StageOutput, Stored};
 use super::room::Lull;
 use super::wgsl::Declaration;
 use super::{Fit, Origin, StageError, TessellationStage};
@@ -83,7 +83,7 @@ async fn stage(
     let fit = (overflow == Overflow::Coarser)
         .then(|| Fit::new(&tessellator, setup, patches, &factors, capacity))
         .transpose()?;
-    let output = Output::new(
+    let output = StageOutput::new(
         &mut tessellator,
         form,
         (capacity, Stored::new(device, form, capacity)?),

@@ -3,7 +3,8 @@
 use super::choices::Points;
 use super::gl;
 use super::room::Form;
-use crate::error::{Error, checked};
+use crate::error::Error;
+use crate::pipeline::group;
 use crate::{Batch, Outputs, Tessellator, gpu};
 use tess_gpu::layout::{DrawIndexed, Job};
 use tess_gpu::{Capacity, Pull, Resource};
@@ -11,7 +12,7 @@ use wgpu::BufferUsages as Usage;
 
 /// A batch with room for its output.
 #[derive(Debug)]
-pub(super) struct Output {
+pub(super) struct StageOutput {
     pub(super) room: Capacity,
     pub(super) batch: Batch,
     pub(super) stored: Stored,
@@ -48,7 +49,7 @@ impl Stored {
     }
 }
 
-impl Output {
+impl StageOutput {
     /// `factors` and the groups' first patches are those of the batch; `pulled` is the layout of what
     /// the vertex shader binds, if it computes its points.
     pub(super) fn new(
@@ -123,16 +124,8 @@ fn bind(
         Resource::Tiles => batch.tiles().as_entire_binding(),
         _ => tables.as_entire_binding(),
     };
-    let entries: Vec<_> = Pull { group: 0, first_binding: 0 }
+    let bindings = Pull { group: 0, first_binding: 0 }
         .bindings(form.setup)
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource: bound(resource) })
-        .collect();
-    let device = tessellator.device();
-    checked(device, || {
-        device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("pulled"),
-            layout,
-            entries: &entries,
-        })
-    })
+        .map(|(number, resource)| (number, bound(resource)));
+    group(tessellator.device(), "pulled", layout, bindings)
 }

@@ -1,10 +1,10 @@
 //! Compute pipelines of the stage, and how their threads are laid out.
 
-use crate::Tessellator;
 use crate::error::{Error, checked};
 use crate::pipelines::PipelineKey;
+use crate::{Tessellator, pipeline};
 use std::sync::Arc;
-use tess_gpu::Access;
+use tess_gpu::{Access, Resource};
 
 /// The threads of a workgroup of the stage's own passes.
 pub(crate) const WORKGROUP: u32 = 64;
@@ -25,30 +25,14 @@ pub(crate) fn bind(
     label: &str,
     buffers: &[Binding<'_>],
 ) -> Result<(wgpu::BindGroupLayout, wgpu::BindGroup), Error> {
-    let entries = (0..)
-        .zip(buffers)
-        .map(|(binding, (_, access))| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: *access == Access::Read },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        })
-        .collect();
+    let entry = |(number, &(_, access)): (u32, &Binding<'_>)| {
+        let storage = tess_gpu::Binding(Resource::Tables, access);
+        pipeline::entry(number, storage, wgpu::ShaderStages::COMPUTE)
+    };
+    let entries = (0..).zip(buffers).map(entry).collect();
     let layout = tessellator.pipelines().layout(label, entries)?;
-    let entries: Vec<_> = (0..)
-        .zip(buffers)
-        .map(|(binding, (buffer, _))| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    let (label, device) = (Some(label), tessellator.device());
-    let descriptor = wgpu::BindGroupDescriptor { label, layout: &layout, entries: &entries };
-    let group = checked(device, || device.create_bind_group(&descriptor))?;
+    let bindings = (0..).zip(buffers.iter().map(|(buffer, _)| buffer.as_entire_binding()));
+    let group = pipeline::group(tessellator.device(), label, &layout, bindings)?;
     Ok((layout, group))
 }
 
