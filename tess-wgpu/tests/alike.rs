@@ -7,7 +7,6 @@ use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::{BLOCK, SHORT_PATCHES};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup};
 use tess_verify::generate::SplitMix64;
-use tess_wgpu::Outputs;
 
 /// Runs of patches with these factors, so many, that begin and end within blocks, each long enough for tiles within whole
 /// blocks; the copies of these begin at various elements of a patch.
@@ -108,11 +107,7 @@ fn blocks_know_whether_their_patches_are_alike() {
         of(9.0, 7),
     ]
     .concat();
-    let count = u32::try_from(patches.len()).expect("a test's patches");
-    let factors = machine.factors(&patches);
-    let batch = machine.tessellator.batch(setup, count, &factors, Outputs::CountOnly);
-    let batch = batch.expect("valid");
-    machine.run(&batch);
+    let batch = machine.counted(setup, &patches);
     let (offsets, topologies) = (machine.words(batch.offsets()), machine.words(batch.topologies()));
     let words =
         |words: &[u32], at: u64| words[2 * usize::try_from(at).expect("in memory")..][..2].to_vec();

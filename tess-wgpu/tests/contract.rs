@@ -12,7 +12,6 @@ use tess_core::{
 use tess_gpu::layout::{Topology, unpack_context};
 use tess_gpu::{IndexType, Numbering, PointFormat, Setup, Tap};
 use tess_verify::generate::SplitMix64;
-use tess_wgpu::Outputs;
 
 fn quads(partitioning: Partitioning) -> Setup {
     Setup::new(Domain::Quad, Config::new(partitioning, OutputPrimitive::TriangleCw))
@@ -175,12 +174,7 @@ fn overflow_is_reported_and_nothing_is_written() {
 fn counting_2_pow_20_patches() {
     let mut machine = Machine::open();
     let setup = quads(Partitioning::Integer);
-    let factors = machine.factors(&uniform(64.0, 1 << 20));
-    let batch = machine
-        .tessellator
-        .batch(setup, 1 << 20, &factors, Outputs::CountOnly)
-        .expect("the factors are there");
-    machine.run(&batch);
+    let batch = machine.counted(setup, &uniform(64.0, 1 << 20));
     let (status, _) = machine.status(&batch);
     assert_eq!(status.points(), 4225 << 20, "points");
     assert_eq!(status.primitives(), 8192 << 20, "triangles");
@@ -201,13 +195,8 @@ fn overflow_beyond_32_bits() {
 fn counting_in_several_portions() {
     let mut machine = Machine::open();
     let setup = quads(Partitioning::Integer);
-    let factors = machine.factors(&uniform(2.0, 1 << 22));
-    let batch = machine
-        .tessellator
-        .batch(setup, 1 << 22, &factors, Outputs::CountOnly)
-        .expect("the factors are there");
+    let batch = machine.counted(setup, &uniform(2.0, 1 << 22));
     assert!(batch.plan().portions() > 1, "{:?}", batch.plan());
-    machine.run(&batch);
     let (status, _) = machine.status(&batch);
     assert_eq!(status.points(), 9 << 22, "points");
     assert_eq!(status.primitives(), 8 << 22, "triangles");
@@ -253,12 +242,7 @@ fn intermediate_buffers() {
         let setup = quads(partitioning);
         let mut patches = common::patches::random(Domain::Quad, 1000, &mut random);
         patches.extend(iter::repeat_with(|| of_ties(&mut random)).take(200));
-        let factors = machine.factors(&patches);
-        let batch = machine
-            .tessellator
-            .batch(setup, 1200, &factors, Outputs::CountOnly)
-            .expect("the factors are there");
-        machine.run(&batch);
+        let batch = machine.counted(setup, &patches);
         let contexts = machine.words(batch.contexts());
         let topologies = machine.words(batch.topologies());
         let stride = contexts.len() / 12;

@@ -125,13 +125,9 @@ fn keep_to(limits: Limits, sizes: &[[u32; 3]]) -> bool {
 
 /// The sizes of a batch's indirect dispatches, in order.
 fn dispatch_sizes(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) -> Vec<[u32; 3]> {
-    let factors = machine.factors(patches);
     let room = needed(machine, setup, patches);
-    let [points, indices] = [2 * room.points, (3 * room.primitives).next_multiple_of(2)]
-        .map(|words| machine.upload(&vec![0; words as usize], BufferUsages::STORAGE));
-    let outputs = Outputs::Buffers { points: &points, indices: &indices };
-    let count = u32::try_from(patches.len()).expect("a test's patches");
-    let batch = machine.tessellator.batch(setup, count, &factors, outputs).expect("valid");
+    let words = [2 * room.points, (3 * room.primitives).next_multiple_of(2)];
+    let (batch, _) = machine.batch(setup, patches, words);
     machine.run(&batch);
     assert!(machine.status(&batch).0.fits(), "it fits");
     let arguments = machine.words(batch.draw_arguments());
@@ -147,11 +143,7 @@ fn dispatch_sizes(machine: &mut Machine, setup: Setup, patches: &[PatchFactors])
 
 /// The patches' needs.
 fn needed(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) -> Capacity {
-    let factors = machine.factors(patches);
-    let count = u32::try_from(patches.len()).expect("a test's patches");
-    let batch = machine.tessellator.batch(setup, count, &factors, Outputs::CountOnly);
-    let batch = batch.expect("valid");
-    machine.run(&batch);
+    let batch = machine.counted(setup, patches);
     let (status, _) = machine.status(&batch);
     let all = |elements: u64| u32::try_from(elements).expect("a test's output");
     Capacity { points: all(status.points()), primitives: all(status.primitives()) }
@@ -209,11 +201,7 @@ fn prefix_sums_are_those_of_a_scalar_scan() {
 }
 
 fn compare_sums(machine: &mut Machine, setup: Setup, patches: &[PatchFactors]) {
-    let count = u32::try_from(patches.len()).expect("a test's patches");
-    let factors = machine.factors(patches);
-    let batch = machine.tessellator.batch(setup, count, &factors, Outputs::CountOnly);
-    let batch = batch.expect("valid");
-    machine.run(&batch);
+    let batch = machine.counted(setup, patches);
     let observed = machine.words(batch.offsets());
     let at = |entry: u64| {
         let first = usize::try_from(2 * entry).expect("in memory");

@@ -1,5 +1,9 @@
 //! A fault of the software driver lavapipe, shown without tess-wgpu's shaders.
 
+#[path = "common/objects.rs"]
+mod objects;
+
+use objects::{compute, dispatch, group, whole};
 use tess_wgpu::{Error, Gpu};
 use wgpu::BufferUsages as Usage;
 
@@ -31,38 +35,11 @@ fn growth(space: &str) -> Result<u64, Error> {
     let body: String = (0..40).map(statement).collect();
     let source = SOURCE.replace("SPACE", space).replace("BODY", &body);
     let device = &gpu.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: None,
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: None,
-        layout: None,
-        module: &module,
-        entry_point: Some("main"),
-        compilation_options: wgpu::PipelineCompilationOptions::default(),
-        cache: None,
-    });
+    let pipeline = compute(device, source, "main", &[]);
     let count = gpu.upload("count", &[0; 16], Usage::UNIFORM | Usage::STORAGE)?;
     let out = gpu.buffer("out", 4096, Usage::STORAGE)?;
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: count.as_entire_binding() },
-            wgpu::BindGroupEntry { binding: 1, resource: out.as_entire_binding() },
-        ],
-    });
-    let run = || {
-        let mut encoder = device.create_command_encoder(&Default::default());
-        {
-            let mut pass = encoder.begin_compute_pass(&Default::default());
-            pass.set_pipeline(&pipeline);
-            pass.set_bind_group(0, &group, &[]);
-            pass.dispatch_workgroups(1, 1, 1);
-        }
-        gpu.run(encoder)
-    };
+    let group = group(device, &pipeline.get_bind_group_layout(0), whole([&count, &out]));
+    let run = || dispatch(&gpu, &pipeline, &[&group], 1);
     (0..200).try_for_each(|_| run())?;
     let before = resident();
     (0..200).try_for_each(|_| run())?;

@@ -3,11 +3,12 @@
 mod common;
 
 use common::device::Machine;
+use common::objects::{compute, dispatch, group, whole};
 use tess_core::{Patch, SplitOrder};
 use tess_gpu::tables;
 use tess_gpu::{Pull, Setup};
 use tess_verify::generate::{SplitMix64, configurations};
-use tess_wgpu::{Batch, Outputs};
+use tess_wgpu::Batch;
 use wgpu::BufferUsages as Usage;
 
 /// A user's shader: asks for one point and one primitive of a patch.
@@ -40,12 +41,7 @@ fn any_element_in_every_configuration() {
     for (domain, config) in configurations() {
         let setup = Setup::new(domain, config);
         let patches = common::patches::random(domain, 100, &mut random);
-        let factors = machine.factors(&patches);
-        let batch = machine
-            .tessellator
-            .batch(setup, 100, &factors, Outputs::CountOnly)
-            .expect("the factors are there");
-        machine.run(&batch);
+        let batch = machine.counted(setup, &patches);
         let mut asked = Vec::new();
         let mut expected = Vec::new();
         for (number, &raw) in (0..).zip(&patches) {
@@ -77,18 +73,7 @@ fn any_element_in_every_configuration() {
 fn ask(machine: &Machine, setup: Setup, batch: &Batch, asked: &[u32], is_apart: bool) -> Vec<u32> {
     let source = Pull { group: 0, first_binding: 2 }.source(setup) + USER;
     let device = &machine.gpu.device;
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some("user"),
-        source: wgpu::ShaderSource::Wgsl(source.into()),
-    });
-    let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label: Some("user"),
-        layout: None,
-        module: &module,
-        entry_point: Some("ask"),
-        compilation_options: Default::default(),
-        cache: None,
-    });
+    let pipeline = compute(device, source, "ask", &[]);
     let count = asked.len() as u64 / 4;
     let answers = machine.gpu.buffer("answers", 28 * count, Usage::STORAGE | Usage::COPY_SRC);
     let answers = answers.expect("the device has room");
@@ -102,25 +87,8 @@ fn ask(machine: &Machine, setup: Setup, batch: &Batch, asked: &[u32], is_apart: 
     if !setup.has_integer_factors() {
         buffers.extend([contexts, batch.jobs()]);
     }
-    let entries: Vec<_> = (0..)
-        .zip(buffers)
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &pipeline.get_bind_group_layout(0),
-        entries: &entries,
-    });
-    let mut encoder = device.create_command_encoder(&Default::default());
-    {
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
-        pass.dispatch_workgroups(u32::try_from(count.div_ceil(64)).expect("few"), 1, 1);
-    }
-    machine.gpu.run(encoder).expect("the device finishes");
+    let group = group(device, &pipeline.get_bind_group_layout(0), whole(buffers));
+    let workgroups = u32::try_from(count.div_ceil(64)).expect("few");
+    dispatch(&machine.gpu, &pipeline, &[&group], workgroups).expect("the device finishes");
     machine.words(&answers)
 }

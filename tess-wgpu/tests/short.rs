@@ -2,15 +2,13 @@
 
 mod common;
 
-use common::device::{Machine, POISON, Written};
+use common::device::{Machine, POISON};
 use common::expected::Expected;
 use common::patches::random;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::sizes::{SHORT_ELEMENTS, SHORT_PATCHES};
 use tess_gpu::{Capacity, Limits, Plan, Setup, Stage};
 use tess_verify::generate::{SplitMix64, configurations};
-use tess_wgpu::Outputs;
-use wgpu::BufferUsages as Usage;
 
 fn setup(domain: Domain) -> Setup {
     let config = Config::new(Partitioning::FractionalEven, OutputPrimitive::TriangleCw);
@@ -61,18 +59,10 @@ fn run_twice(machine: &mut Machine, patches: &[PatchFactors]) -> Result<(), Stri
     let setup = setup(Domain::Quad);
     let expected = Expected::new(setup, patches);
     let (point_words, index_words) = expected.words();
-    let usage = Usage::STORAGE | Usage::COPY_SRC;
-    let factors = machine.factors(patches);
-    let [points, indices] = [point_words, index_words]
-        .map(|words| machine.upload(&vec![POISON; words as usize], usage));
-    let outputs = Outputs::Buffers { points: &points, indices: &indices };
-    let count = u32::try_from(patches.len()).expect("a test's patches");
-    let batch = machine.tessellator.batch(setup, count, &factors, outputs).expect("valid");
+    let (batch, outputs) = machine.batch(setup, patches, [point_words, index_words]);
     machine.run(&batch);
     machine.run(&batch);
-    let (status, draw) = machine.status(&batch);
-    let (points, indices) = (machine.words(&points), machine.words(&indices));
-    expected.compare(&Written { status, draw, points, indices })
+    expected.compare(&machine.written(&batch, &outputs))
 }
 
 #[test]

@@ -7,8 +7,6 @@ use common::expected::Expected;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, QuadFactors};
 use tess_gpu::layout::PackedPoint;
 use tess_gpu::{Setup, Stage};
-use tess_wgpu::Outputs;
-use wgpu::BufferUsages as Usage;
 
 /// A block of words stands in the tour as it is.
 fn assert_words(name: &str, words: &[u32]) {
@@ -33,13 +31,7 @@ fn the_tour_is_what_a_device_writes() {
     let mut machine = Machine::open();
     let expected = Expected::new(setup, &patches);
     let (point_words, index_words) = expected.words();
-    let poisoned = |machine: &Machine, words: u32| {
-        machine.upload(&vec![u32::MAX; words as usize], Usage::STORAGE | Usage::COPY_SRC)
-    };
-    let factors = machine.factors(&patches);
-    let (points, indices) = (poisoned(&machine, point_words), poisoned(&machine, index_words));
-    let outputs = Outputs::Buffers { points: &points, indices: &indices };
-    let batch = machine.tessellator.batch(setup, 1, &factors, outputs).expect("they fit");
+    let (batch, [points, indices]) = machine.batch(setup, &patches, [point_words, index_words]);
     let stages: Vec<_> = batch.plan().dispatches().map(|dispatch| dispatch.stage()).collect();
     assert_eq!(stages, [Stage::Short, Stage::ExpandShort], "section 2");
     machine.run(&batch);

@@ -2,10 +2,14 @@
 
 #[path = "png_of.rs"]
 mod png_of;
+#[path = "target.rs"]
+mod target;
 #[path = "window.rs"]
 mod window;
 
 use std::error::Error;
+#[allow(unused_imports, reason = "each example uses its part")]
+pub(crate) use target::{DEPTH, copy_pixels, depth, image, texture, view_of};
 use tess_wgpu::Gpu;
 
 /// An example's content.
@@ -40,20 +44,6 @@ pub(crate) struct View {
     pub(crate) seconds: f32,
     /// Pixels across and down.
     pub(crate) size: [u32; 2],
-}
-
-/// Format of the depth buffer.
-pub(crate) const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-
-/// Depth as all examples test it.
-pub(crate) fn depth() -> wgpu::DepthStencilState {
-    wgpu::DepthStencilState {
-        format: DEPTH,
-        depth_write_enabled: Some(true),
-        depth_compare: Some(wgpu::CompareFunction::Less),
-        stencil: wgpu::StencilState::default(),
-        bias: wgpu::DepthBiasState::default(),
-    }
 }
 
 /// The options of the command line, as pairs of a name and a value.
@@ -134,37 +124,10 @@ pub(crate) fn picture<S: Show>(
         let view = View { seconds: args.number("seconds", 0.0)?, size };
         show.prepare(gpu, &mut encoder, view)?;
         draw(&show, &mut encoder, [&color, &depth].map(view_of));
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(4 * width),
-            rows_per_image: None,
-        };
-        let buffer = wgpu::TexelCopyBufferInfo { buffer: &pixels, layout };
-        encoder.copy_texture_to_buffer(color.as_image_copy(), buffer, color.size());
+        copy_pixels(&mut encoder, &color, &pixels);
         gpu.run(encoder)?;
     }
     Ok(gpu.read(&pixels, pixels.size())?)
-}
-
-/// A texture to draw into.
-pub(crate) fn texture(gpu: &Gpu, format: wgpu::TextureFormat, size: [u32; 2]) -> wgpu::Texture {
-    let [width, height] = size;
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::COPY_SRC
-            | wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    })
-}
-
-pub(crate) fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// The colour behind everything.
@@ -176,25 +139,6 @@ pub(crate) fn draw<S: Show>(
     encoder: &mut wgpu::CommandEncoder,
     [color, depth]: [wgpu::TextureView; 2],
 ) {
-    let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &color,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(BACKGROUND),
-                store: wgpu::StoreOp::Store,
-            },
-        })],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &depth,
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(1.0),
-                store: wgpu::StoreOp::Discard,
-            }),
-            stencil_ops: None,
-        }),
-        ..Default::default()
-    });
+    let mut pass = target::begin_pass(encoder, [&color, &depth], BACKGROUND);
     show.draw(&mut pass);
 }

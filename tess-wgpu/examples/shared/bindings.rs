@@ -1,10 +1,12 @@
 //! Bind groups of what shaders read.
 
+#![allow(dead_code, reason = "each user has its part")]
+
 use tess_wgpu::Gpu;
+use wgpu::{BindGroup, BindGroupLayout, BindingResource, BindingType, ShaderStages};
 
 /// Something that is bound.
 #[derive(Clone, Copy, Debug)]
-#[allow(dead_code, reason = "each example binds its own")]
 pub(crate) enum Bound<'a> {
     Uniform(&'a wgpu::Buffer),
     Read(&'a wgpu::Buffer),
@@ -17,13 +19,13 @@ pub(crate) enum Bound<'a> {
 }
 
 /// The layout and the bind group of these, bindings 0, 1, ..., for all stages.
-pub(crate) fn bind(gpu: &Gpu, all: &[Bound<'_>]) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
-    let buffer = |ty, has_dynamic_offset| wgpu::BindingType::Buffer {
+pub(crate) fn bind<'a>(gpu: &Gpu, all: &[Bound<'a>]) -> (BindGroupLayout, BindGroup) {
+    let buffer = |ty, has_dynamic_offset| BindingType::Buffer {
         ty,
         has_dynamic_offset,
         min_binding_size: None,
     };
-    let texture = |sample_type| wgpu::BindingType::Texture {
+    let texture = |sample_type| BindingType::Texture {
         sample_type,
         view_dimension: wgpu::TextureViewDimension::D2,
         multisampled: false,
@@ -34,44 +36,51 @@ pub(crate) fn bind(gpu: &Gpu, all: &[Bound<'_>]) -> (wgpu::BindGroupLayout, wgpu
         Bound::Read(_) => buffer(wgpu::BufferBindingType::Storage { read_only: true }, false),
         Bound::Texture(_) => texture(wgpu::TextureSampleType::Float { filterable: false }),
         Bound::Depth(_) => texture(wgpu::TextureSampleType::Depth),
-        Bound::Comparison(_) => wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
+        Bound::Comparison(_) => BindingType::Sampler(wgpu::SamplerBindingType::Comparison),
     };
-    let visibility = wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX_FRAGMENT;
-    let layouts: Vec<_> = (0..)
-        .zip(all)
-        .map(|(binding, bound)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility,
-            ty: kind(bound),
-            count: None,
-        })
-        .collect();
-    let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: None,
-        entries: &layouts,
-    });
-    let entries: Vec<_> = (0..)
-        .zip(all)
-        .map(|(binding, bound)| wgpu::BindGroupEntry {
-            binding,
-            resource: match *bound {
-                Bound::Uniform(buffer) | Bound::Read(buffer) => buffer.as_entire_binding(),
-                Bound::Texture(view) | Bound::Depth(view) => {
-                    wgpu::BindingResource::TextureView(view)
-                }
-                Bound::Comparison(sampler) => wgpu::BindingResource::Sampler(sampler),
-                Bound::Dynamic(buffer) => wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                    buffer,
-                    offset: 0,
-                    size: std::num::NonZeroU64::new(16),
-                }),
-            },
-        })
-        .collect();
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &layout,
-        entries: &entries,
-    });
+    let visibility = ShaderStages::COMPUTE | ShaderStages::VERTEX_FRAGMENT;
+    let layout = layout(&gpu.device, visibility, all.iter().map(kind));
+    let resource = |bound: &Bound<'a>| match *bound {
+        Bound::Uniform(buffer) | Bound::Read(buffer) => buffer.as_entire_binding(),
+        Bound::Texture(view) | Bound::Depth(view) => BindingResource::TextureView(view),
+        Bound::Comparison(sampler) => BindingResource::Sampler(sampler),
+        Bound::Dynamic(buffer) => BindingResource::Buffer(wgpu::BufferBinding {
+            buffer,
+            offset: 0,
+            size: std::num::NonZeroU64::new(16),
+        }),
+    };
+    let group = group(&gpu.device, &layout, (0..).zip(all.iter().map(resource)));
     (layout, group)
+}
+
+/// A layout of the bindings 0, 1, ...
+pub(crate) fn layout(
+    device: &wgpu::Device,
+    visibility: ShaderStages,
+    types: impl IntoIterator<Item = BindingType>,
+) -> BindGroupLayout {
+    let entry = |(binding, ty)| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
+    let entries: Vec<_> = (0..).zip(types).map(entry).collect();
+    let entries = &entries;
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries })
+}
+
+/// A bind group of resources with their numbers.
+pub(crate) fn group<'a>(
+    device: &wgpu::Device,
+    layout: &BindGroupLayout,
+    resources: impl IntoIterator<Item = (u32, BindingResource<'a>)>,
+) -> BindGroup {
+    let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
+    let entries: Vec<_> = resources.into_iter().map(entry).collect();
+    let entries = &entries;
+    device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries })
+}
+
+/// Whole buffers, as the bindings 0, 1, ...
+pub(crate) fn whole<'a>(
+    buffers: impl IntoIterator<Item = &'a wgpu::Buffer>,
+) -> impl Iterator<Item = (u32, BindingResource<'a>)> {
+    (0..).zip(buffers.into_iter().map(wgpu::Buffer::as_entire_binding))
 }

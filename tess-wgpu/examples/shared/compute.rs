@@ -1,6 +1,6 @@
 //! A compute pass of one shader.
 
-use super::picture::bind_group;
+use super::picture::{group, whole};
 use tess_wgpu::Gpu;
 
 /// Records a compute pass of `threads` threads in workgroups of 64, over `buffers` as bindings
@@ -22,6 +22,8 @@ pub(crate) fn encode_compute(
     });
     let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default());
     pass.set_pipeline(&pipeline);
-    pass.set_bind_group(0, &bind_group(gpu, &pipeline.get_bind_group_layout(0), buffers), &[]);
+    let layout = pipeline.get_bind_group_layout(0);
+    let group = group(&gpu.device, &layout, whole(buffers.iter().copied()));
+    pass.set_bind_group(0, &group, &[]);
     pass.dispatch_workgroups(threads.div_ceil(64), 1, 1);
 }

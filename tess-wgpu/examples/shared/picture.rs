@@ -1,6 +1,13 @@
 //! The common part of pictures: a batch tessellated and drawn by one command buffer, and its pixels.
 
+#[path = "bindings.rs"]
+mod bindings;
+#[path = "target.rs"]
+mod target;
+
+pub(crate) use bindings::{group, whole};
 use std::error::Error;
+use target::{DEPTH, begin_pass, copy_pixels, depth, texture, view_of};
 use tess_gpu::Setup;
 use tess_gpu::layout::{DrawIndexed, Status};
 use tess_wgpu::{Batch, Gpu, Outputs, Tessellator};
@@ -12,7 +19,6 @@ pub(crate) const WIDTH: u32 = 960;
 pub(crate) const HEIGHT: u32 = 720;
 
 const COLOR: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// A batch's patches, and how they are drawn.
 #[derive(Debug)]
@@ -64,19 +70,19 @@ pub(crate) fn render(
     let mut tessellator = Tessellator::new(&gpu.device);
     let Scene { setup, patches, factors, .. } = *scene;
     let batch = tessellator.batch_in_groups(setup, patches, &groups, factors, outputs)?;
-    let color = texture(gpu, COLOR, wgpu::TextureUsages::COPY_SRC);
-    let depth = texture(gpu, DEPTH, wgpu::TextureUsages::empty());
+    let [color, depth] = [COLOR, DEPTH].map(|format| texture(gpu, format, [WIDTH, HEIGHT]));
     let pixels =
         gpu.buffer("pixels", u64::from(4 * WIDTH * HEIGHT), Usage::COPY_DST | Usage::COPY_SRC)?;
     let pipeline = render_pipeline(gpu, scene);
 
     batch.encode(&mut encoder);
     {
-        let mut pass = begin_render_pass(&mut encoder, &color, &depth, scene.background);
+        let targets = [&view_of(&color), &view_of(&depth)];
+        let mut pass = begin_pass(&mut encoder, targets, scene.background);
         pass.set_pipeline(&pipeline);
         if let Some(buffer) = scene.read {
             let layout = pipeline.get_bind_group_layout(0);
-            pass.set_bind_group(0, &bind_group(gpu, &layout, &[buffer]), &[]);
+            pass.set_bind_group(0, &group(&gpu.device, &layout, whole([buffer])), &[]);
         }
         pass.set_vertex_buffer(0, points.slice(..));
         pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -104,7 +110,7 @@ fn draw(
     }
     for (number, mesh) in (0..).zip(meshes) {
         let layout = pipeline.get_bind_group_layout(1);
-        pass.set_bind_group(1, &bind_group(gpu, &layout, &[mesh.material]), &[]);
+        pass.set_bind_group(1, &group(&gpu.device, &layout, whole([mesh.material])), &[]);
         let offset = number * size_of::<DrawIndexed>() as u64;
         pass.draw_indexed_indirect(batch.group_arguments(), offset);
     }
@@ -115,84 +121,6 @@ pub(crate) fn module(gpu: &Gpu, source: &str) -> wgpu::ShaderModule {
     gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
         source: wgpu::ShaderSource::Wgsl(source.into()),
-    })
-}
-
-/// Whole buffers as bindings 0, 1, ...
-pub(crate) fn bind_group(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    buffers: &[&wgpu::Buffer],
-) -> wgpu::BindGroup {
-    let entries: Vec<_> = (0..)
-        .zip(buffers)
-        .map(|(binding, buffer)| wgpu::BindGroupEntry {
-            binding,
-            resource: buffer.as_entire_binding(),
-        })
-        .collect();
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout,
-        entries: &entries,
-    })
-}
-
-fn copy_pixels(encoder: &mut wgpu::CommandEncoder, color: &wgpu::Texture, pixels: &wgpu::Buffer) {
-    encoder.copy_texture_to_buffer(
-        color.as_image_copy(),
-        wgpu::TexelCopyBufferInfo {
-            buffer: pixels,
-            layout: wgpu::TexelCopyBufferLayout {
-                offset: 0,
-                bytes_per_row: Some(4 * WIDTH),
-                rows_per_image: None,
-            },
-        },
-        color.size(),
-    );
-}
-
-fn texture(gpu: &Gpu, format: wgpu::TextureFormat, more: wgpu::TextureUsages) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d { width: WIDTH, height: HEIGHT, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | more,
-        view_formats: &[],
-    })
-}
-
-fn begin_render_pass<'a>(
-    encoder: &'a mut wgpu::CommandEncoder,
-    color: &wgpu::Texture,
-    depth: &wgpu::Texture,
-    background: wgpu::Color,
-) -> wgpu::RenderPass<'a> {
-    let color = color.create_view(&wgpu::TextureViewDescriptor::default());
-    let depth = depth.create_view(&wgpu::TextureViewDescriptor::default());
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: &color,
-            depth_slice: None,
-            resolve_target: None,
-            ops: wgpu::Operations {
-                load: wgpu::LoadOp::Clear(background),
-                store: wgpu::StoreOp::Store,
-            },
-        })],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &depth,
-            depth_ops: Some(wgpu::Operations {
-                load: wgpu::LoadOp::Clear(1.0),
-                store: wgpu::StoreOp::Discard,
-            }),
-            stencil_ops: None,
-        }),
-        ..Default::default()
     })
 }
 
@@ -216,13 +144,7 @@ fn render_pipeline(gpu: &Gpu, scene: &Scene<'_>) -> wgpu::RenderPipeline {
             cull_mode: scene.cull,
             ..Default::default()
         },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Less),
-            stencil: wgpu::StencilState::default(),
-            bias: wgpu::DepthBiasState::default(),
-        }),
+        depth_stencil: Some(depth()),
         multisample: wgpu::MultisampleState::default(),
         fragment: Some(wgpu::FragmentState {
             module: &module,

@@ -34,7 +34,9 @@ const TEXELS: u32 = 512;
 impl Show for Terrain {
     fn new(gpu: &Gpu, format: wgpu::TextureFormat, args: &Args) -> Result<Self, Box<dyn Error>> {
         let frame = gpu.buffer("frame", 96, Usage::UNIFORM | Usage::COPY_DST)?;
-        let heights = app::view_of(&height_map(gpu));
+        let heights = hills::heights(TEXELS);
+        let texels = bytemuck::cast_slice(&heights);
+        let heights = app::image(gpu, wgpu::TextureFormat::R32Float, [TEXELS; 2], texels);
         let bound = bind(gpu, &[Bound::Uniform(&frame), Bound::Texture(&heights)]);
         let grid = args.number("grid", 64)?;
         let most_bytes = args.number("bytes", 256 << 20)?;
@@ -151,28 +153,4 @@ fn flight(seconds: f32) -> Camera {
         up: Vec3::Z,
         zoom: 1.5,
     }
-}
-
-/// Hills.
-fn height_map(gpu: &Gpu) -> wgpu::Texture {
-    let heights = hills::heights(TEXELS);
-    let size = wgpu::Extent3d { width: TEXELS, height: TEXELS, depth_or_array_layers: 1 };
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("heights"),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R32Float,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let layout = wgpu::TexelCopyBufferLayout {
-        offset: 0,
-        bytes_per_row: Some(4 * TEXELS),
-        rows_per_image: None,
-    };
-    let bytes = bytemuck::cast_slice(&heights);
-    gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, size);
-    texture
 }

@@ -113,6 +113,39 @@ impl Machine {
         (bytemuck::pod_read_unaligned(&status), bytemuck::pod_read_unaligned(&draw))
     }
 
+    /// A batch that counts these patches, after it has run.
+    pub(crate) fn counted(&mut self, setup: Setup, patches: &[PatchFactors]) -> Batch {
+        let count = u32::try_from(patches.len()).expect("a test's patches");
+        let factors = self.factors(patches);
+        let batch = self.tessellator.batch(setup, count, &factors, Outputs::CountOnly);
+        let batch = batch.expect("the factors are there");
+        self.run(&batch);
+        batch
+    }
+
+    /// A batch that writes to poisoned buffers of these many words, and the buffers.
+    pub(crate) fn batch(
+        &mut self,
+        setup: Setup,
+        patches: &[PatchFactors],
+        words: [u32; 2],
+    ) -> (Batch, [wgpu::Buffer; 2]) {
+        let usage = Usage::STORAGE | Usage::COPY_SRC;
+        let outputs = words.map(|words| self.upload(&vec![POISON; words as usize], usage));
+        let [points, indices] = &outputs;
+        let count = u32::try_from(patches.len()).expect("a test's patches");
+        let (factors, into) = (self.factors(patches), Outputs::Buffers { points, indices });
+        let batch = self.tessellator.batch(setup, count, &factors, into).expect("buffers fit");
+        (batch, outputs)
+    }
+
+    /// What a batch left, with its points and indices.
+    pub(crate) fn written(&self, batch: &Batch, outputs: &[wgpu::Buffer; 2]) -> Written {
+        let (status, draw) = self.status(batch);
+        let [points, indices] = outputs.each_ref().map(|buffer| self.words(buffer));
+        Written { status, draw, points, indices }
+    }
+
     /// Tessellates into poisoned buffers of these many words.
     pub(crate) fn write(
         &mut self,
@@ -121,17 +154,9 @@ impl Machine {
         point_words: u32,
         index_words: u32,
     ) -> Written {
-        let factors = self.factors(patches);
-        let usage = Usage::STORAGE | Usage::COPY_SRC;
-        let poisoned = |words: u32| self.upload(&vec![POISON; words as usize], usage);
-        let points = poisoned(point_words);
-        let indices = poisoned(index_words);
-        let outputs = Outputs::Buffers { points: &points, indices: &indices };
-        let count = u32::try_from(patches.len()).expect("a test's patches");
-        let batch = self.tessellator.batch(setup, count, &factors, outputs).expect("buffers fit");
+        let (batch, outputs) = self.batch(setup, patches, [point_words, index_words]);
         self.run(&batch);
-        let (status, draw) = self.status(&batch);
-        Written { status, draw, points: self.words(&points), indices: self.words(&indices) }
+        self.written(&batch, &outputs)
     }
 
     /// Compares everything that a batch writes with the golden model, and that nothing else is.

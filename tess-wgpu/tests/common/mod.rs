@@ -4,4 +4,5 @@
 
 pub(crate) mod device;
 pub(crate) mod expected;
+pub(crate) mod objects;
 pub(crate) mod patches;

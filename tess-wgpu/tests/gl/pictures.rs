@@ -1,7 +1,7 @@
 //! The stage on OpenGL.
 
 use crate::model::{self, compare};
-use crate::scene::{FORMAT, PATCHES, Scene, source};
+use crate::scene::{PATCHES, Scene, source};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_wgpu::stage::{Points, StageError};
 use tess_wgpu::{Error, Gpu, TessellationStage};
@@ -80,13 +80,7 @@ fn leave_locations_enabled(scene: &Scene, stage: &mut TessellationStage) {
 
 pub(crate) fn flat_members_are_refused(gpu: Gpu) {
     let scene = scene(gpu, Domain::Quad);
-    let build = |source: &str| {
-        TessellationStage::builder(source, scene.domain, scene.config, PATCHES)
-            .bind_group(&scene.layout, &scene.group)
-            .target(FORMAT)
-            .build(&scene.gpu.device)
-            .map(drop)
-    };
+    let build = |source: &str| scene.builder_of(source).build(&scene.gpu.device).map(drop);
     let first = source(scene.domain);
     let refused = |member: &str| {
         Err(Error::Stage(StageError::FlatOfFirstVertex { member: member.to_owned() }))

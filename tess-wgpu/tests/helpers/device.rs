@@ -1,5 +1,6 @@
 //! Calling helpers on a device.
 
+use crate::objects::{compute, dispatch, group, image, layout, storage};
 use crate::{Args, Table};
 use tess_gpu::surfaces;
 use tess_wgpu::Gpu;
@@ -52,39 +53,23 @@ impl Device {
     /// A machine without one is a failure, not a reason to skip.
     pub(crate) fn open() -> Self {
         let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
-        let [width, height] = SIZE.map(u32::from);
-        let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("heights"),
-            size,
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: wgpu::TextureFormat::R32Float,
-            usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-            view_formats: &[],
-        });
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(4 * width),
-            rows_per_image: None,
-        };
         let texels = heights();
-        gpu.queue.write_texture(
-            texture.as_image_copy(),
-            bytemuck::cast_slice(&texels),
-            layout,
-            size,
-        );
-        let map = texture.create_view(&Default::default());
+        let bytes = bytemuck::cast_slice(&texels);
+        let map = image(&gpu, wgpu::TextureFormat::R32Float, SIZE.map(u32::from), bytes);
         Self { gpu, map }
     }
 
     /// The results of a table's calls, with an edit of what the stage joins.
     pub(crate) fn run(&self, edit: impl Fn(&str) -> String, table: &Table) -> Vec<[f32; 4]> {
         let device = &self.gpu.device;
-        let layout = self.layout();
-        let pipeline = self.pipeline(&source(edit, table.call), &layout);
+        let map = wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled: false,
+        };
+        let types = [storage(true), storage(false), map];
+        let layout = layout(device, wgpu::ShaderStages::COMPUTE, types);
+        let pipeline = compute(device, source(edit, table.call), "main", &[&layout]);
         let args: Vec<Args> = table.cases.iter().map(|case| case.args).collect();
         let cases = self.gpu.upload("cases", bytemuck::cast_slice(&args), Usage::STORAGE);
         let cases = cases.expect("there is room");
@@ -92,72 +77,12 @@ impl Device {
         let usage = Usage::STORAGE | Usage::COPY_SRC;
         let results = self.gpu.upload("results", bytemuck::cast_slice(&poison), usage);
         let results = results.expect("there is room");
-        let entry = |binding, resource| wgpu::BindGroupEntry { binding, resource };
-        let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &layout,
-            entries: &[
-                entry(0, cases.as_entire_binding()),
-                entry(1, results.as_entire_binding()),
-                entry(2, wgpu::BindingResource::TextureView(&self.map)),
-            ],
-        });
-        let mut encoder = device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&pipeline);
-        pass.set_bind_group(0, &group, &[]);
+        let map = wgpu::BindingResource::TextureView(&self.map);
+        let resources = [cases.as_entire_binding(), results.as_entire_binding(), map];
+        let group = group(device, &layout, (0..).zip(resources));
         let groups = u32::try_from(args.len().div_ceil(64)).expect("a table is short");
-        pass.dispatch_workgroups(groups, 1, 1);
-        drop(pass);
-        self.gpu.run(encoder).expect("the device finishes");
+        dispatch(&self.gpu, &pipeline, &[&group], groups).expect("the device finishes");
         let bytes = self.gpu.read(&results, results.size()).expect("the device answers");
         bytemuck::pod_collect_to_vec(&bytes)
-    }
-
-    fn pipeline(&self, source: &str, layout: &wgpu::BindGroupLayout) -> wgpu::ComputePipeline {
-        let device = &self.gpu.device;
-        let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("helpers"),
-            source: wgpu::ShaderSource::Wgsl(source.into()),
-        });
-        device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("helpers"),
-            layout: Some(&device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: None,
-                bind_group_layouts: &[Some(layout)],
-                immediate_size: 0,
-            })),
-            module: &module,
-            entry_point: Some("main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
-            cache: None,
-        })
-    }
-
-    fn layout(&self) -> wgpu::BindGroupLayout {
-        let buffer = |binding, read_only| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        };
-        let map = wgpu::BindGroupLayoutEntry {
-            binding: 2,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: false,
-            },
-            count: None,
-        };
-        self.gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: None,
-            entries: &[buffer(0, true), buffer(1, false), map],
-        })
     }
 }

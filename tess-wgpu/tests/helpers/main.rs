@@ -11,6 +11,8 @@ mod beziers;
 mod culling;
 mod device;
 mod factors;
+#[path = "../common/objects.rs"]
+mod objects;
 mod points;
 
 use device::Device;

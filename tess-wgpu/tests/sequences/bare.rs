@@ -1,6 +1,7 @@
 //! A plan of tess-gpu on bare wgpu, and what a batch leaves, whoever ran it.
 
 use crate::common::device::Machine;
+use crate::common::objects;
 use std::collections::HashMap;
 use tess_gpu::{Access, Binding, Plan, Resource, Setup, Stage, Workgroups, tables};
 use tess_wgpu::Batch;
@@ -107,22 +108,10 @@ impl Bare {
             let relevant = stage.relevant(setup);
             let pipeline = pipelines.entry((stage, relevant));
             let pipeline = pipeline.or_insert_with(|| pipeline_of(device, stage, relevant)).clone();
-            let entries: Vec<_> = (0..)
-                .zip(dispatch.bindings())
-                .map(|(binding, (resource, span))| wgpu::BindGroupEntry {
-                    binding,
-                    resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                        buffer: &own.buffers[&resource],
-                        offset: span.offset,
-                        size: std::num::NonZeroU64::new(span.size),
-                    }),
-                })
-                .collect();
-            let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &pipeline.get_bind_group_layout(0),
-                entries: &entries,
+            let bindings = (0..).zip(dispatch.bindings()).map(|(number, (resource, span))| {
+                (number, objects::part(&own.buffers[&resource], span.offset, span.size))
             });
+            let group = objects::group(device, &pipeline.get_bind_group_layout(0), bindings);
             own.dispatches.push((pipeline, group, dispatch.workgroups()));
         }
         own
@@ -145,37 +134,10 @@ impl Bare {
 
 /// The pipeline of a stage, whose layout has all of its bindings.
 fn pipeline_of(device: &wgpu::Device, stage: Stage, setup: Setup) -> wgpu::ComputePipeline {
-    let label = Some(stage.entry_point());
-    let entry = |(binding, &Binding(resource, access)): (u32, &Binding)| {
-        let read_only = access == Access::Read;
-        let ty = match resource {
-            Resource::Job => wgpu::BufferBindingType::Uniform,
-            _ => wgpu::BufferBindingType::Storage { read_only },
-        };
-        wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
-            count: None,
-        }
-    };
-    let entries: Vec<_> = (0..).zip(stage.bindings()).map(entry).collect();
-    let entries = &entries;
-    let group =
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label, entries });
-    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label,
-        bind_group_layouts: &[Some(&group)],
-        immediate_size: 0,
+    let types = stage.bindings().iter().map(|&Binding(resource, access)| match resource {
+        Resource::Job => objects::buffer(wgpu::BufferBindingType::Uniform),
+        _ => objects::storage(access == Access::Read),
     });
-    let source = wgpu::ShaderSource::Wgsl(stage.source(setup).into());
-    let module = device.create_shader_module(wgpu::ShaderModuleDescriptor { label, source });
-    device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-        label,
-        layout: Some(&layout),
-        module: &module,
-        entry_point: label,
-        compilation_options: Default::default(),
-        cache: None,
-    })
+    let layout = objects::layout(device, wgpu::ShaderStages::COMPUTE, types);
+    objects::compute(device, stage.source(setup), stage.entry_point(), &[&layout])
 }

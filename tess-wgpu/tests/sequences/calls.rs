@@ -6,11 +6,11 @@ use tess_verify::generate::{SplitMix64, random_patch};
 
 /// One call. Numbers of setups, batches and buffers count round and round.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Call {
+pub(crate) enum DeviceCall {
     /// The first patches of a domain's buffer of factors become others.
     Fill { domain: Domain, with: Patches },
     /// A batch of the first `count` patches of its domain's buffer, in groups; or a plan in long stages on bare wgpu.
-    Make { setup: usize, count: u32, groups: u32, output: Output, is_bare: bool },
+    Make { setup: usize, count: u32, groups: u32, output: Destination, is_bare: bool },
     /// `count` batches from batch `first` on are encoded into one encoder.
     Run { first: usize, count: usize, then: Then },
     /// The oldest encoder that was kept is submitted.
@@ -22,12 +22,12 @@ pub(crate) enum Call {
     /// Patches in, output back.
     Whole { setup: usize, with: Patches },
     /// A call that is refused.
-    Refused { setup: usize, wrong: Wrong },
+    Refused { setup: usize, wrong: WrongCall },
 }
 
 /// Where a batch writes. A sum is what its patches need at that time, and so much more or less.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Output {
+pub(crate) enum Destination {
     Count,
     /// Buffers that other batches write too.
     Shared {
@@ -61,7 +61,7 @@ pub(crate) enum Then {
 
 /// The mistake of a call.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Wrong {
+pub(crate) enum WrongCall {
     GroupsDescend,
     GroupBehind,
     FewFactors,
@@ -138,20 +138,20 @@ fn patches() -> impl Strategy<Value = Patches> + Clone {
     })
 }
 
-fn output() -> impl Strategy<Value = Output> + Clone {
+fn output() -> impl Strategy<Value = Destination> + Clone {
     let more = || prop_oneof![4 => Just(0), 1 => Just(1), 1 => Just(-1), 1 => 0..3000];
     let room = move || (more(), more());
     prop_oneof![
-        1 => Just(Output::Count),
-        4 => (0..3_usize, 0..3_usize).prop_map(|(points, indices)| Output::Shared { points, indices }),
-        4 => room().prop_map(|(points, primitives)| Output::Own { points, primitives }),
-        2 => room().prop_map(|(points, primitives)| Output::Indices { points, primitives }),
-        2 => room().prop_map(|(points, primitives)| Output::Arguments { points, primitives }),
+        1 => Just(Destination::Count),
+        4 => (0..3_usize, 0..3_usize).prop_map(|(points, indices)| Destination::Shared { points, indices }),
+        4 => room().prop_map(|(points, primitives)| Destination::Own { points, primitives }),
+        2 => room().prop_map(|(points, primitives)| Destination::Indices { points, primitives }),
+        2 => room().prop_map(|(points, primitives)| Destination::Arguments { points, primitives }),
     ]
 }
 
 /// A call; `setups` is how many setups there are.
-pub(crate) fn call(setups: usize) -> impl Strategy<Value = Call> + Clone {
+pub(crate) fn call(setups: usize) -> impl Strategy<Value = DeviceCall> + Clone {
     let domain = prop::sample::select(&Domain::ALL[..]);
     let then = prop::sample::select(vec![
         Then::Submit,
@@ -168,23 +168,23 @@ pub(crate) fn call(setups: usize) -> impl Strategy<Value = Call> + Clone {
     ];
     let groups = prop_oneof![2 => Just(0), 1 => 1..4_u32, 1 => 200..300_u32];
     let wrong = prop::sample::select(vec![
-        Wrong::GroupsDescend,
-        Wrong::GroupBehind,
-        Wrong::FewFactors,
-        Wrong::OneBuffer,
-        Wrong::NotStorage,
-        Wrong::OtherDomain,
+        WrongCall::GroupsDescend,
+        WrongCall::GroupBehind,
+        WrongCall::FewFactors,
+        WrongCall::OneBuffer,
+        WrongCall::NotStorage,
+        WrongCall::OtherDomain,
     ]);
     prop_oneof![
-        6 => (domain, patches()).prop_map(|(domain, with)| Call::Fill { domain, with }),
+        6 => (domain, patches()).prop_map(|(domain, with)| DeviceCall::Fill { domain, with }),
         8 => (0..setups, count, groups, output(), prop::bool::weighted(0.2))
-            .prop_map(|(setup, count, groups, output, is_bare)| Call::Make { setup, count, groups, output, is_bare }),
+            .prop_map(|(setup, count, groups, output, is_bare)| DeviceCall::Make { setup, count, groups, output, is_bare }),
         10 => (0..8_usize, 1..4_usize, then)
-            .prop_map(|(first, count, then)| Call::Run { first, count, then }),
-        2 => Just(Call::Late),
-        1 => (0..8_usize).prop_map(|batch| Call::Forget { batch }),
-        1 => any::<bool>().prop_map(|is_low| Call::Limit { is_low }),
-        1 => (0..setups, patches()).prop_map(|(setup, with)| Call::Whole { setup, with }),
-        1 => (0..setups, wrong).prop_map(|(setup, wrong)| Call::Refused { setup, wrong }),
+            .prop_map(|(first, count, then)| DeviceCall::Run { first, count, then }),
+        2 => Just(DeviceCall::Late),
+        1 => (0..8_usize).prop_map(|batch| DeviceCall::Forget { batch }),
+        1 => any::<bool>().prop_map(|is_low| DeviceCall::Limit { is_low }),
+        1 => (0..setups, patches()).prop_map(|(setup, with)| DeviceCall::Whole { setup, with }),
+        1 => (0..setups, wrong).prop_map(|(setup, wrong)| DeviceCall::Refused { setup, wrong }),
     ]
 }

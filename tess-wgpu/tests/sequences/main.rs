@@ -10,8 +10,8 @@ mod pulling;
 mod sequences;
 mod world;
 
-use calls::Call::{self, Fill, Forget, Late, Limit, Make, Run};
-use calls::{Kind, Output, Patches, Then};
+use calls::DeviceCall::{self, Fill, Forget, Late, Limit, Make, Run};
+use calls::{Destination, Kind, Patches, Then};
 use common::device::Machine;
 
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
@@ -44,7 +44,7 @@ fn replayed(
     machine: &mut Machine,
     kept: &mut Kept,
     setups: &[Setup],
-    calls: &[Call],
+    calls: &[DeviceCall],
 ) -> Result<u64, String> {
     let mut world = World::new(machine, kept, setups, 16_500);
     for (number, &call) in calls.iter().enumerate() {
@@ -59,7 +59,7 @@ fn setups() -> Vec<Setup> {
 }
 
 /// Does a sequence that was found. One of the long run needs its variable.
-fn replay(calls: &[Call]) {
+fn replay(calls: &[DeviceCall]) {
     let outcome = replayed(&mut Machine::open(), &mut Kept::default(), &setups(), calls);
     outcome.unwrap_or_else(|difference| panic!("{difference}"));
 }
@@ -68,7 +68,7 @@ fn replay(calls: &[Call]) {
 fn any_sequence_of_calls_gives_the_models_words() {
     let (mut machine, mut kept) = (Machine::open(), Kept::default());
     let setups = setups();
-    let names = "{calls::{Call::*, Kind::*, Output::*, Then::*, Wrong::*}, tess_core::Domain::*}";
+    let names = "{calls::{DeviceCall::*, Kind::*, Destination::*, Then::*, WrongCall::*}, tess_core::Domain::*}";
     sequences::hold(names, (150, 20), calls::call(setups.len()), |calls| {
         replayed(&mut machine, &mut kept, &setups, calls)
     });
@@ -80,8 +80,8 @@ fn any_sequence_of_calls_gives_the_models_words() {
 fn a_batch_outgrows_its_indices() {
     let large = Patches { kind: Kind::Large, count: 30, seed: 1 };
     let small = Patches { kind: Kind::Any, count: 30, seed: 2 };
-    let output = Output::Shared { points: 2, indices: 2 };
-    let alone = Output::Arguments { points: 0, primitives: 0 };
+    let output = Destination::Shared { points: 2, indices: 2 };
+    let alone = Destination::Arguments { points: 0, primitives: 0 };
     replay(&[
         Fill { domain: Domain::Quad, with: small },
         Make { setup: 6, count: 30, groups: 3, output, is_bare: false },

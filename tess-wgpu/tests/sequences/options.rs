@@ -1,7 +1,7 @@
 //! Every two values of two options of a setup and of a plan, together on a device.
 
-use crate::calls::Call::{Fill, Limit, Make, Run};
-use crate::calls::{Kind, Output, Patches, Then};
+use crate::calls::DeviceCall::{Fill, Limit, Make, Run};
+use crate::calls::{Destination, Kind, Patches, Then};
 use crate::common::device::Machine;
 use crate::world::{Kept, World};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, SplitOrder};
@@ -80,10 +80,10 @@ fn run(machine: &mut Machine, kept: &mut Kept, row: &[usize]) -> Result<[u64; 2]
         _ => Kind::Tiny,
     };
     let output = |[points, primitives]: [i32; 2]| match row[WRITTEN] {
-        0 => Output::Own { points, primitives },
-        1 => Output::Indices { points, primitives },
-        2 => Output::Arguments { points, primitives },
-        _ => Output::Count,
+        0 => Destination::Own { points, primitives },
+        1 => Destination::Indices { points, primitives },
+        2 => Destination::Arguments { points, primitives },
+        _ => Destination::Count,
     };
     let (groups, seed) = (GROUPS[row[11]], row.iter().sum::<usize>() as u64);
     let mut world = World::new(machine, kept, std::slice::from_ref(&setup), count);

@@ -3,6 +3,7 @@
 use crate::bare::Left;
 use crate::common::device::Machine;
 use crate::common::expected::Expected;
+use crate::common::objects::{compute, dispatch, group, part, whole};
 use std::collections::HashMap;
 use tess_gpu::layout::Job;
 use tess_gpu::{Pull, Setup, tables};
@@ -77,51 +78,27 @@ impl Pulling {
         let device = &machine.gpu.device;
         let pipeline = self.0.entry(setup).or_insert_with(|| {
             let source = Pull { group: 0, first_binding: 0 }.source_for_drawing(setup) + USER;
-            let source = wgpu::ShaderSource::Wgsl(source.into());
-            let module = device
-                .create_shader_module(wgpu::ShaderModuleDescriptor { label: Some("user"), source });
-            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some("user"),
-                layout: None,
-                module: &module,
-                entry_point: Some("ask"),
-                compilation_options: Default::default(),
-                cache: None,
-            })
+            compute(device, source, "ask", &[])
         });
         let tables = machine.upload(&tables(setup.config.split), Usage::STORAGE);
         let [points, primitives] = asked;
         let answers = machine
             .upload(&vec![0; 4 * (points + primitives) as usize], Usage::STORAGE | Usage::COPY_SRC);
         let asked = machine.upload(&[points, primitives, 0, 0], Usage::UNIFORM);
-        let whole = wgpu::Buffer::as_entire_binding;
-        let job = wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-            buffer: left.jobs,
-            offset: 0,
-            size: std::num::NonZeroU64::new(size_of::<Job>() as u64),
-        });
-        let mut own = vec![(0, whole(left.topologies)), (1, whole(&tables)), (3, job)];
-        own.extend([(4, whole(left.offsets)), (5, whole(left.tiles))]);
+        let entire = wgpu::Buffer::as_entire_binding;
+        let job = part(left.jobs, 0, size_of::<Job>() as u64);
+        let mut own = vec![(0, entire(left.topologies)), (1, entire(&tables)), (3, job)];
+        own.extend([(4, entire(left.offsets)), (5, entire(left.tiles))]);
         if !setup.has_integer_factors() {
-            own.push((2, whole(left.contexts)));
+            own.push((2, entire(left.contexts)));
         }
-        let bind = |group, entries: Vec<(u32, wgpu::BindingResource<'_>)>| {
-            let entry = |(binding, resource)| wgpu::BindGroupEntry { binding, resource };
-            device.create_bind_group(&wgpu::BindGroupDescriptor {
-                label: None,
-                layout: &pipeline.get_bind_group_layout(group),
-                entries: &entries.into_iter().map(entry).collect::<Vec<_>>(),
-            })
-        };
-        let groups = [bind(0, own), bind(1, vec![(0, whole(&answers)), (1, whole(&asked))])];
-        let mut encoder = device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(pipeline);
-        pass.set_bind_group(0, &groups[0], &[]);
-        pass.set_bind_group(1, &groups[1], &[]);
-        pass.dispatch_workgroups(points.max(primitives).div_ceil(64), 1, 1);
-        drop(pass);
-        machine.gpu.run(encoder).expect("the device finishes");
+        let layout = |number| pipeline.get_bind_group_layout(number);
+        let groups = [
+            &group(device, &layout(0), own),
+            &group(device, &layout(1), whole([&answers, &asked])),
+        ];
+        let workgroups = points.max(primitives).div_ceil(64);
+        dispatch(&machine.gpu, pipeline, &groups, workgroups).expect("the device finishes");
         machine.words(&answers).as_chunks().0.to_vec()
     }
 }

@@ -7,7 +7,7 @@
 mod checks;
 
 use crate::bare::{Bare, Pipelines, Runner};
-use crate::calls::{Call, Kind, Output, Patches, Then};
+use crate::calls::{Destination, DeviceCall, Kind, Patches, Then};
 use crate::common::device::{Machine, POISON};
 use crate::common::expected::Expected;
 use crate::pulling::Pulling;
@@ -123,26 +123,26 @@ impl<'a> World<'a> {
     }
 
     /// Does a call, and says what is wrong afterwards.
-    pub(crate) fn call(&mut self, call: Call) -> Result<(), String> {
+    pub(crate) fn call(&mut self, call: DeviceCall) -> Result<(), String> {
         match call {
-            Call::Fill { domain, with } => self.fill(domain, with),
-            Call::Make { setup, count, groups, output, is_bare } => {
+            DeviceCall::Fill { domain, with } => self.fill(domain, with),
+            DeviceCall::Make { setup, count, groups, output, is_bare } => {
                 let setup = self.setup(setup);
                 self.make((setup, is_bare), count, groups, output)?;
             }
-            Call::Run { first, count, then } => return self.run(first, count, then),
-            Call::Late => {
+            DeviceCall::Run { first, count, then } => return self.run(first, count, then),
+            DeviceCall::Late => {
                 if let Some((encoder, batches)) = self.late.pop_front() {
                     return self.submit(encoder, &batches);
                 }
             }
-            Call::Forget { batch } if !self.batches.is_empty() => {
+            DeviceCall::Forget { batch } if !self.batches.is_empty() => {
                 self.batches.remove(batch % self.batches.len());
             }
-            Call::Forget { .. } => {}
-            Call::Limit { is_low } => self.limits = limit(self.machine, is_low),
-            Call::Whole { setup, with } => return self.whole(self.setup(setup), with),
-            Call::Refused { setup, wrong } => return self.refused(self.setup(setup), wrong),
+            DeviceCall::Forget { .. } => {}
+            DeviceCall::Limit { is_low } => self.limits = limit(self.machine, is_low),
+            DeviceCall::Whole { setup, with } => return self.whole(self.setup(setup), with),
+            DeviceCall::Refused { setup, wrong } => return self.refused(self.setup(setup), wrong),
         }
         Ok(())
     }
@@ -169,7 +169,7 @@ impl<'a> World<'a> {
         (setup, is_bare): (Setup, bool),
         count: u32,
         groups: u32,
-        output: Output,
+        output: Destination,
     ) -> Result<(), String> {
         let mut random = SplitMix64::new(u64::from(groups));
         let mut groups: Vec<u32> = (0..groups).map(|_| random.below(count + 1)).collect();
@@ -179,10 +179,11 @@ impl<'a> World<'a> {
         let outputs = match (output, buffer(stores[0]), buffer(stores[1])) {
             (_, Some(points), Some(indices)) => Outputs::Buffers { points, indices },
             (_, _, Some(indices)) => Outputs::Indices { points: room.points, indices },
-            (Output::Count, ..) => Outputs::CountOnly,
+            (Destination::Count, ..) => Outputs::CountOnly,
             _ => Outputs::Arguments(room),
         };
-        let promised = self.room(setup, room, stores, matches!(output, Output::Arguments { .. }));
+        let promised =
+            self.room(setup, room, stores, matches!(output, Destination::Arguments { .. }));
         let factors = &self.factors[position(setup.domain)].0;
         let runner = if is_bare {
             let given = [
@@ -212,7 +213,8 @@ impl<'a> World<'a> {
             Runner::Batch(Box::new(batch))
         };
         let room = promised;
-        let is_pulled = matches!(output, Output::Indices { .. } | Output::Arguments { .. });
+        let is_pulled =
+            matches!(output, Destination::Indices { .. } | Destination::Arguments { .. });
         let count = count as usize;
         self.batches.push(Rc::new(Made { runner, setup, count, groups, room, stores, is_pulled }));
         Ok(())
@@ -223,7 +225,7 @@ impl<'a> World<'a> {
         &mut self,
         setup: Setup,
         count: u32,
-        output: Output,
+        output: Destination,
     ) -> (Capacity, [Option<usize>; 2]) {
         let patches = &self.factors(setup.domain).1[..count as usize];
         let needed = needed(setup, patches);
@@ -232,20 +234,20 @@ impl<'a> World<'a> {
             primitives: needed.primitives.saturating_add_signed(primitives),
         };
         match output {
-            Output::Count => (Capacity::default(), [None; 2]),
-            Output::Shared { points, indices } => {
+            Destination::Count => (Capacity::default(), [None; 2]),
+            Destination::Shared { points, indices } => {
                 (ALL, [Some(2 * (points % 3)), Some(2 * (indices % 3) + 1)])
             }
-            Output::Own { points, primitives } => {
+            Destination::Own { points, primitives } => {
                 let Capacity { points, primitives } = room(points, primitives);
                 let points = self.store("own points".to_owned(), 2 * points as usize);
                 (ALL, [Some(points), Some(self.indices_for(setup, primitives))])
             }
-            Output::Indices { points, primitives } => {
+            Destination::Indices { points, primitives } => {
                 let room = room(points, primitives);
                 (room, [None, Some(self.indices_for(setup, room.primitives))])
             }
-            Output::Arguments { points, primitives } => (room(points, primitives), [None; 2]),
+            Destination::Arguments { points, primitives } => (room(points, primitives), [None; 2]),
         }
     }
 
@@ -365,10 +367,10 @@ fn position(domain: Domain) -> usize {
 }
 
 /// The kind of plan for this output.
-const fn written(output: Output) -> Written {
+const fn written(output: Destination) -> Written {
     match output {
-        Output::Indices { .. } => Written::Indices,
-        Output::Arguments { .. } => Written::Arguments,
+        Destination::Indices { .. } => Written::Indices,
+        Destination::Arguments { .. } => Written::Arguments,
         _ => Written::Everything,
     }
 }

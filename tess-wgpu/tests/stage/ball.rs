@@ -1,6 +1,8 @@
 //! A ball of quads in the stage: its mesh, its frames, and the position of each point.
 
+use crate::bindings::{Bound, bind};
 use crate::camera::Camera;
+use crate::common::objects::{compute, dispatch, group, image, layout, storage, whole};
 use glam::Vec3;
 use std::collections::BTreeMap;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
@@ -105,29 +107,24 @@ impl Ball {
             upload(bytemuck::bytes_of(&View::flight(0, false)), Usage::UNIFORM | Usage::COPY_DST);
         let quad_buffer = upload(bytemuck::cast_slice(&quads), Usage::STORAGE);
         let corner_buffer = upload(bytemuck::cast_slice(&corners), Usage::STORAGE);
-        let heights = heights(&gpu).create_view(&Default::default());
+        // Unlike heights.
+        let texels: Vec<u8> = (0..=255_u8).map(|k| k.wrapping_mul(89) ^ (k >> 3)).collect();
+        let heights = image(&gpu, wgpu::TextureFormat::R8Unorm, [16, 16], &texels);
         let source = edit(include_str!("ball.wgsl"));
-        let (layout, group) = bind(&gpu, [&view, &quad_buffer, &corner_buffer], &heights);
+        let read = [Bound::Read(&quad_buffer), Bound::Read(&corner_buffer)];
+        let all = [Bound::Uniform(&view), read[0], read[1], Bound::Texture(&heights)];
+        let (users, group) = bind(&gpu, &all);
         let config = Config::new(Partitioning::FractionalOdd, OutputPrimitive::TriangleCw);
         let stage = TessellationStage::builder(&source, Domain::Quad, config, QUADS)
-            .bind_group(&layout, &group)
+            .bind_group(&users, &group)
             .target(wgpu::TextureFormat::Rgba8Unorm)
             .room(Room::WorstCase)
             .build(&gpu.device)
             .unwrap_or_else(|error| panic!("{error}"));
         let joined = TessellationStage::joined(&source, include_str!("positions.wgsl"));
-        let module = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("positions"),
-            source: wgpu::ShaderSource::Wgsl(joined.into()),
-        });
-        let evaluate = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("positions"),
-            layout: Some(&pipeline_layout(&gpu, &layout)),
-            module: &module,
-            entry_point: Some("evaluate"),
-            compilation_options: Default::default(),
-            cache: None,
-        });
+        let own = [true, false, true].map(storage);
+        let own = layout(&gpu.device, wgpu::ShaderStages::COMPUTE, own);
+        let evaluate = compute(&gpu.device, joined, "evaluate", &[&users, &own]);
         Self { gpu, quads, stage, group, view, evaluate }
     }
 
@@ -145,24 +142,11 @@ impl Ball {
         let usage = Usage::STORAGE | Usage::COPY_SRC;
         let size = u64::from(count);
         let placed = self.gpu.buffer("placed", 32 * size, usage).expect("there is room");
-        let buffers = [points, &placed, batch.status()];
-        let entries = [0, 1, 2].map(|binding: u32| wgpu::BindGroupEntry {
-            binding,
-            resource: buffers[binding as usize].as_entire_binding(),
-        });
-        let own = self.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: None,
-            layout: &self.evaluate.get_bind_group_layout(1),
-            entries: &entries,
-        });
-        let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-        let mut pass = encoder.begin_compute_pass(&Default::default());
-        pass.set_pipeline(&self.evaluate);
-        pass.set_bind_group(0, &self.group, &[]);
-        pass.set_bind_group(1, &own, &[]);
-        pass.dispatch_workgroups(count.div_ceil(64), 1, 1);
-        drop(pass);
-        self.gpu.run(encoder).expect("the device finishes");
+        let layout = self.evaluate.get_bind_group_layout(1);
+        let own = group(&self.gpu.device, &layout, whole([points, &placed, batch.status()]));
+        let groups = [&self.group, &own];
+        let workgroups = count.div_ceil(64);
+        dispatch(&self.gpu, &self.evaluate, &groups, workgroups).expect("the device finishes");
         let points = self.gpu.read(points, 8 * size).expect("it answers");
         let placed = self.gpu.read(&placed, 32 * size).expect("it answers");
         of_quads(&bytemuck::pod_collect_to_vec(&points), &bytemuck::pod_collect_to_vec(&placed))
@@ -178,94 +162,4 @@ fn of_quads(points: &[[u32; 2]], placed: &[[[f32; 4]; 2]]) -> Vec<Vec<Placed>> {
         all[packed.patch() as usize].push(Placed { uv, clip, world });
     }
     all
-}
-
-/// A texture of 16 x 16 unlike heights.
-fn heights(gpu: &Gpu) -> wgpu::Texture {
-    let size = wgpu::Extent3d { width: 16, height: 16, depth_or_array_layers: 1 };
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("heights"),
-        size,
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    });
-    let texels: Vec<u8> = (0..=255_u8).map(|k| k.wrapping_mul(89) ^ (k >> 3)).collect();
-    let layout =
-        wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(16), rows_per_image: None };
-    gpu.queue.write_texture(texture.as_image_copy(), &texels, layout, size);
-    texture
-}
-
-const BOTH: wgpu::ShaderStages = wgpu::ShaderStages::COMPUTE.union(wgpu::ShaderStages::VERTEX);
-
-fn bind(
-    gpu: &Gpu,
-    buffers: [&wgpu::Buffer; 3],
-    heights: &wgpu::TextureView,
-) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
-    let read = wgpu::BufferBindingType::Storage { read_only: true };
-    let buffer =
-        |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
-    let texture = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Float { filterable: false },
-        view_dimension: wgpu::TextureViewDimension::D2,
-        multisampled: false,
-    };
-    let kinds = [buffer(wgpu::BufferBindingType::Uniform), buffer(read), buffer(read), texture];
-    let entries: Vec<_> = (0..)
-        .zip(kinds)
-        .map(|(binding, ty)| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: BOTH,
-            ty,
-            count: None,
-        })
-        .collect();
-    let entries = &entries;
-    let descriptor = wgpu::BindGroupLayoutDescriptor { label: None, entries };
-    let layout = gpu.device.create_bind_group_layout(&descriptor);
-    let resources = buffers.map(|buffer| buffer.as_entire_binding());
-    let resources = resources.into_iter().chain([wgpu::BindingResource::TextureView(heights)]);
-    let entries: Vec<_> = (0..)
-        .zip(resources)
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
-        .collect();
-    let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &layout,
-        entries: &entries,
-    });
-    (layout, group)
-}
-
-/// The ball's bindings in group 0, and points, positions and status in group 1.
-fn pipeline_layout(gpu: &Gpu, user: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
-    let entries = [true, false, true].map(|read_only| wgpu::BindGroupLayoutEntry {
-        binding: 0,
-        visibility: wgpu::ShaderStages::COMPUTE,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
-    });
-    let mut number = 0;
-    let entries = entries.map(|entry| {
-        number += 1;
-        wgpu::BindGroupLayoutEntry { binding: number - 1, ..entry }
-    });
-    let own = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: None,
-        entries: &entries,
-    });
-    gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-        label: None,
-        bind_group_layouts: &[Some(user), Some(&own)],
-        immediate_size: 0,
-    })
 }

@@ -1,11 +1,11 @@
 //! Every way to draw gives the model's triangles.
 
 use crate::model::{compare, drawn};
-use crate::scene::{FORMAT, PATCHES, Scene};
+use crate::scene::{PATCHES, Scene};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors};
 use tess_gpu::Order;
+use tess_wgpu::Error;
 use tess_wgpu::stage::{DrawBuffers, Factors, PatchCount, Points, Room, StageError};
-use tess_wgpu::{Error, TessellationStage};
 use wgpu::BufferUsages as Usage;
 
 const WAYS: [Points; 3] = [Points::Stored, Points::Pull, Points::PullWithoutIndices];
@@ -55,9 +55,7 @@ fn a_given_order_is_that_of_every_way_to_draw() {
     assert!(source.contains(unfolded), "{source}");
     let source = source.replace(unfolded, "place(number) + abs(uv - vec2f(0.3, 0.4));");
     let picture = |points, order: Option<Order>| {
-        let builder = TessellationStage::builder(&source, scene.domain, scene.config, PATCHES);
-        let builder = builder.bind_group(&scene.layout, &scene.group).target(FORMAT).points(points);
-        let builder = builder.room(Room::WorstCase);
+        let builder = scene.builder_of(&source).points(points).room(Room::WorstCase);
         let builder = order.into_iter().fold(builder, |builder, order| builder.order(order));
         scene.frame(&mut scene.build(builder), PATCHES.into()).expect("it draws")
     };

@@ -14,11 +14,7 @@ fn quads() -> Scene {
 
 /// Why a stage with this WGSL is refused.
 fn refusal(scene: &Scene, source: &str, points: Points) -> StageError {
-    let built = TessellationStage::builder(source, scene.domain, scene.config, PATCHES)
-        .bind_group(&scene.layout, &scene.group)
-        .points(points)
-        .target(wgpu::TextureFormat::Rgba32Uint)
-        .build(&scene.gpu.device);
+    let built = scene.builder_of(source).points(points).build(&scene.gpu.device);
     match built {
         Err(Error::Stage(error)) => error,
         other => panic!("{other:?}"),
@@ -145,10 +141,7 @@ fn names_of_wgsls_own_are_refused_where_the_stage_uses_them() {
     }
     for declaration in ["fn pow(a: f32) -> f32 { return a; }", "fn at() {}", "const thread = 1;"] {
         let allowed = right.clone() + declaration;
-        let built = TessellationStage::builder(&allowed, scene.domain, scene.config, PATCHES)
-            .bind_group(&scene.layout, &scene.group)
-            .target(wgpu::TextureFormat::Rgba32Uint)
-            .build(&scene.gpu.device);
+        let built = scene.builder_of(&allowed).build(&scene.gpu.device);
         assert_eq!(built.err(), None, "{declaration}: the stage does not use it");
     }
 }
@@ -162,9 +155,7 @@ fn an_unclear_fragment_shader_is_refused() {
     let none =
         right.replace("@fragment", "@must_use").replace("@location(0) vec4<u32> {", "vec4<u32> {");
     let build = |source: &str, chosen: Option<&str>| {
-        let builder = TessellationStage::builder(source, scene.domain, scene.config, PATCHES)
-            .bind_group(&scene.layout, &scene.group)
-            .target(wgpu::TextureFormat::Rgba32Uint);
+        let builder = scene.builder_of(source);
         let builder = match chosen {
             Some(name) => builder.fragment(name).build(&scene.gpu.device),
             None => builder.build(&scene.gpu.device),
@@ -364,12 +355,7 @@ fn bindings_without_a_bind_group_are_named() {
     let right = source(Domain::Quad);
     let sun = "\n@group(1) @binding(0) var<uniform> sun: vec4<f32>;\n";
     let unused = right.clone() + sun;
-    let build = |source: &str| {
-        TessellationStage::builder(source, scene.domain, scene.config, PATCHES)
-            .bind_group(&scene.layout, &scene.group)
-            .target(wgpu::TextureFormat::Rgba32Uint)
-            .build(&scene.gpu.device)
-    };
+    let build = |source: &str| scene.builder_of(source).build(&scene.gpu.device);
     assert_eq!(build(&unused).err(), None, "nothing reads it");
     for user in ["let at = 6u * number", "let at = place(number)", "return vec4<u32>(bitcast"] {
         let wrong = unused.replace(user, &format!("let light = sun.x; {user}"));
@@ -391,9 +377,8 @@ fn pipeline_constants_reach_every_function_or_are_refused() {
         .replace("given[at], ", "scale * given[at], ")
         .replace("vertex.number, 1u", "vertex.number, mark");
     let build = |constants: &[(&str, f64)]| {
-        TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
-            .bind_group(&scene.layout, &scene.group)
-            .target(crate::scene::FORMAT)
+        scene
+            .builder_of(&source)
             .room(Room::WorstCase)
             .constants(constants)
             .build(&scene.gpu.device)

@@ -1,5 +1,6 @@
 //! Frames that are dropped, kept or interrupted leave the stage as it should be.
 
+use crate::common::objects::{group, layout, part, whole};
 use crate::drawing::{scene, some_factors};
 use crate::model::{compare, compare_factors, drawn};
 use crate::scene::{PATCHES, Scene};
@@ -111,19 +112,10 @@ fn bound(
     buffer: &wgpu::Buffer,
 ) -> (wgpu::BindGroupLayout, wgpu::BindGroup) {
     let device = &scene.gpu.device;
-    let entries = &[wgpu::BindGroupLayoutEntry {
-        binding: 0,
-        visibility: wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX,
-        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
-        count: None,
-    }];
-    let layout =
-        device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: None, entries });
-    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
-    });
+    let ty = wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None };
+    let visibility = wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX;
+    let layout = layout(device, visibility, [ty]);
+    let group = group(device, &layout, whole([buffer]));
     (layout, group)
 }
 
@@ -171,25 +163,14 @@ fn dynamic_offsets_choose_factors() {
     let mut scene = scene(Domain::Quad, Partitioning::Integer);
     let reversed: Vec<_> = scene.patches.iter().rev().copied().collect();
     let mut words = tess_gpu::layout::factor_words(&scene.patches);
-    let size = std::num::NonZeroU64::new(4 * words.len() as u64);
+    let size = 4 * words.len() as u64;
     words.resize(64, 0);
     words.extend(tess_gpu::layout::factor_words(&reversed));
     let both =
         scene.gpu.upload("both", bytemuck::cast_slice(&words), Usage::STORAGE).expect("room");
     let ty = wgpu::BufferBindingType::Storage { read_only: true };
     let (layout, _) = bound(&scene, (true, ty), &both);
-    let group = scene.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout: &layout,
-        entries: &[wgpu::BindGroupEntry {
-            binding: 0,
-            resource: wgpu::BindingResource::Buffer(wgpu::BufferBinding {
-                buffer: &both,
-                offset: 0,
-                size,
-            }),
-        }],
-    });
+    let group = group(&scene.gpu.device, &layout, [(0, part(&both, 0, size))]);
     let source = crate::scene::source(Domain::Quad);
     let mut stage = TessellationStage::builder(&source, scene.domain, scene.config, PATCHES)
         .bind_group(&layout, &group)

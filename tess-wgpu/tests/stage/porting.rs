@@ -1,6 +1,7 @@
 //! The WGSL of docs/porting.md is what the stage takes.
 
 use crate::bindings::{Bound, bind};
+use crate::common::objects;
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning};
 use tess_gpu::surfaces;
 use tess_wgpu::{Gpu, TessellationStage};
@@ -17,17 +18,9 @@ fn the_blocks_of_the_porting_guide_compile() {
     let gpu = pollster::block_on(Gpu::open()).unwrap_or_else(|error| panic!("{error}"));
     let buffer = |usage| gpu.buffer("any", 4096, usage).expect("there is room");
     let [uniform, read] = [Usage::UNIFORM, Usage::STORAGE].map(buffer);
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: None,
-        size: wgpu::Extent3d::default(),
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::R8Unorm,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    let texture = texture.create_view(&Default::default());
+    let usage = wgpu::TextureUsages::TEXTURE_BINDING;
+    let texture =
+        objects::view_of(&objects::plain(&gpu, wgpu::TextureFormat::R8Unorm, [1, 1], usage));
     let blocks = blocks();
     assert_eq!(blocks.len(), 3, "terrain, PN triangles, GLSL");
     for (number, block) in blocks.into_iter().enumerate() {

@@ -1,5 +1,6 @@
 //! A stage, its target, and the pixels that it draws.
 
+use crate::common::objects::{copy_pixels, group, layout, plain, storage, view_of, whole};
 use crate::model;
 use tess_core::{Config, Domain, PatchFactors};
 use tess_wgpu::stage::{PatchCount, Room, StageBuilder};
@@ -46,14 +47,6 @@ fn given(gpu: &Gpu, patches: &[PatchFactors]) -> wgpu::Buffer {
     gpu.upload("given", bytes, Usage::STORAGE).expect("the device has room")
 }
 
-fn bind(gpu: &Gpu, layout: &wgpu::BindGroupLayout, factors: &wgpu::Buffer) -> wgpu::BindGroup {
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: factors.as_entire_binding() }],
-    })
-}
-
 /// A device, a target and the patches' factors.
 #[derive(Debug)]
 pub(crate) struct Scene {
@@ -79,31 +72,10 @@ impl Scene {
     /// On this device.
     pub(crate) fn on(gpu: Gpu, domain: Domain, config: Config, patches: Vec<PatchFactors>) -> Self {
         let factors = given(&gpu, &patches);
-        let ty = wgpu::BufferBindingType::Storage { read_only: true };
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: None,
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::COMPUTE,
-                ty: wgpu::BindingType::Buffer {
-                    ty,
-                    has_dynamic_offset: false,
-                    min_binding_size: None,
-                },
-                count: None,
-            }],
-        });
-        let group = bind(&gpu, &layout, &factors);
-        let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: None,
-            size: wgpu::Extent3d { width: SIZE[0], height: SIZE[1], depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let layout = layout(&gpu.device, wgpu::ShaderStages::COMPUTE, [storage(true)]);
+        let group = group(&gpu.device, &layout, whole([&factors]));
+        let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC;
+        let target = plain(&gpu, FORMAT, SIZE, usage);
         let mut source = source(domain);
         if is_gl(&gpu) {
             source = source.replace("@interpolate(flat)", "@interpolate(flat, either)");
@@ -113,7 +85,7 @@ impl Scene {
 
     /// The user's bind group with other factors.
     pub(crate) fn bind(&self, patches: &[PatchFactors]) -> wgpu::BindGroup {
-        bind(&self.gpu, &self.layout, &given(&self.gpu, patches))
+        group(&self.gpu.device, &self.layout, whole([&given(&self.gpu, patches)]))
     }
 
     /// The pixels of these patches by the model.
@@ -157,10 +129,14 @@ impl Scene {
 
     /// A stage of [`PATCHES`] patches at most, before it is built.
     pub(crate) fn builder(&self) -> StageBuilder<'_> {
-        TessellationStage::builder(&self.source, self.domain, self.config, PATCHES)
+        self.builder_of(&self.source).room(Room::WorstCase)
+    }
+
+    /// The same with other WGSL, and without the scene's room.
+    pub(crate) fn builder_of<'a>(&'a self, source: &'a str) -> StageBuilder<'a> {
+        TessellationStage::builder(source, self.domain, self.config, PATCHES)
             .bind_group(&self.layout, &self.group)
             .target(FORMAT)
-            .room(Room::WorstCase)
     }
 
     /// Builds a stage that must be right.
@@ -195,7 +171,7 @@ impl Scene {
         mut encoder: wgpu::CommandEncoder,
         draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
     ) -> Result<Vec<Pixel>, Error> {
-        let view = self.target.create_view(&Default::default());
+        let view = view_of(&self.target);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: &view,
@@ -207,16 +183,9 @@ impl Scene {
         });
         draw(&mut pass);
         drop(pass);
-        let bytes_per_row = 16 * SIZE[0];
-        let size = u64::from(bytes_per_row * SIZE[1]);
+        let size = u64::from(16 * SIZE[0] * SIZE[1]);
         let pixels = self.gpu.buffer("pixels", size, Usage::COPY_DST | Usage::COPY_SRC)?;
-        let layout = wgpu::TexelCopyBufferLayout {
-            offset: 0,
-            bytes_per_row: Some(bytes_per_row),
-            rows_per_image: None,
-        };
-        let buffer = wgpu::TexelCopyBufferInfo { buffer: &pixels, layout };
-        encoder.copy_texture_to_buffer(self.target.as_image_copy(), buffer, self.target.size());
+        copy_pixels(&mut encoder, &self.target, &pixels);
         self.gpu.run(encoder)?;
         Ok(bytemuck::pod_collect_to_vec(&self.gpu.read(&pixels, size)?))
     }

@@ -8,8 +8,8 @@ mod own;
 mod rooms;
 
 use crate::hold::{self, equal};
-use calls::Call::{self, Again, Frame, Give, Group, MakeRoom, Move, Rebuild, Use};
-use calls::{Count, Draw, Form, Source, Then};
+use calls::StageCall::{self, Again, Frame, Give, Group, MakeRoom, Move, Rebuild, Use};
+use calls::{Count, Draw, Source, StageForm, Then};
 use own::Own;
 use std::collections::BTreeMap;
 use tess_core::{Domain, Order, Partitioning};
@@ -19,14 +19,14 @@ use tess_wgpu::{Gpu, Tessellator};
 struct World<'a> {
     gpu: &'a Gpu,
     shared: &'a Tessellator,
-    forms: &'a [Form],
+    forms: &'a [StageForm],
     stages: BTreeMap<usize, Own>,
     used: usize,
     words: u64,
 }
 
 impl World<'_> {
-    fn call(&mut self, call: Call) -> Result<(), String> {
+    fn call(&mut self, call: StageCall) -> Result<(), String> {
         if let Use { stage } = call {
             self.used = stage % self.forms.len();
             return Ok(());
@@ -48,7 +48,7 @@ impl World<'_> {
             Frame { count, from, draw, then } => {
                 return self.frame(count, from, draw, then);
             }
-            Call::Late => {
+            StageCall::Late => {
                 if let Some((encoder, frame, count, recorded)) = own.kept.pop_front() {
                     own.drawn = None;
                     // A bind group is recorded; factors in a buffer are those at the time of the run.
@@ -73,7 +73,7 @@ impl World<'_> {
                 return own.check(&observed, group);
             }
             Again { .. } => {}
-            Call::Refused { wrong } => return own.refused(gpu, wrong),
+            StageCall::Refused { wrong } => return own.refused(gpu, wrong),
         }
         Ok(())
     }
@@ -114,8 +114,8 @@ impl World<'_> {
 /// Does the calls on new stages; returns how many words and pixels were compared.
 fn replayed(
     (gpu, shared): (&Gpu, &Tessellator),
-    forms: &[Form],
-    calls: &[Call],
+    forms: &[StageForm],
+    calls: &[StageCall],
 ) -> Result<u64, String> {
     let mut world = World { gpu, shared, forms, stages: BTreeMap::new(), used: 0, words: 0 };
     for (number, &call) in calls.iter().enumerate() {
@@ -127,17 +127,17 @@ fn replayed(
 }
 
 /// The stages of this run.
-fn forms() -> Vec<Form> {
+fn forms() -> Vec<StageForm> {
     calls::forms(hold::long().is_some())
 }
 
 /// Does a sequence that was found. One of the long run needs its variable.
-fn replay(calls: &[Call]) {
+fn replay(calls: &[StageCall]) {
     replay_on(&forms(), calls);
 }
 
 /// Does a sequence on stages of these forms.
-fn replay_on(forms: &[Form], calls: &[Call]) {
+fn replay_on(forms: &[StageForm], calls: &[StageCall]) {
     let (gpu, shared) = device();
     replayed((&gpu, &shared), forms, calls).unwrap_or_else(|wrong| panic!("{wrong}"));
 }
@@ -153,7 +153,7 @@ fn device() -> (Gpu, Tessellator) {
 fn any_sequence_of_frames_gives_the_models_pictures() {
     let (gpu, shared) = device();
     let forms = forms();
-    let names = "calls::{Call::*, Count::*, Draw::*, Then::*, Wrong::*}";
+    let names = "calls::{StageCall::*, Count::*, Draw::*, Then::*, WrongFrame::*}";
     hold::hold(names, (25, 30), calls::call(forms.len()), |calls| {
         replayed((&gpu, &shared), &forms, calls)
     });
@@ -162,7 +162,7 @@ fn any_sequence_of_frames_gives_the_models_pictures() {
 /// A frame that runs late needs the room of the factors that its buffer has then.
 #[test]
 fn a_late_frame_reads_later_factors() {
-    let form = Form {
+    let form = StageForm {
         domain: Domain::Quad,
         partitioning: Partitioning::Integer,
         points: Points::PullWithoutIndices,
@@ -175,7 +175,7 @@ fn a_late_frame_reads_later_factors() {
     let calls = [
         frame(Then::Keep),
         Give { seed: 16031510608930659577, is_dropped: false },
-        Call::Late,
+        StageCall::Late,
         frame(Then::Submit),
     ];
     replay_on(&[form], &calls);

@@ -1,7 +1,7 @@
 //! Comparisons with the model, and refusals.
 
 use super::{Last, Made, Store, World, position};
-use crate::calls::{Patches, Wrong};
+use crate::calls::{Patches, WrongCall};
 use crate::common::expected::Expected;
 use crate::sequences::equal;
 use tess_core::{Domain, PatchFactors};
@@ -106,19 +106,19 @@ impl World<'_> {
     }
 
     /// A call that is refused, with the error that says why.
-    pub(super) fn refused(&mut self, setup: Setup, wrong: Wrong) -> Result<(), String> {
+    pub(super) fn refused(&mut self, setup: Setup, wrong: WrongCall) -> Result<(), String> {
         let (factors, patches) = &self.factors[position(setup.domain)];
         let [points, indices] = [0, 1].map(|store| &self.stores[store].buffer);
         let plain = self.machine.gpu.buffer("plain", 64, Usage::COPY_DST).expect("there is room");
         let (groups, count, points, indices): (&[u32], _, _, _) = match wrong {
-            Wrong::GroupsDescend => (&[2, 1], 3, points, indices),
-            Wrong::GroupBehind => (&[0, 4], 3, points, indices),
-            Wrong::FewFactors => {
+            WrongCall::GroupsDescend => (&[2, 1], 3, points, indices),
+            WrongCall::GroupBehind => (&[0, 4], 3, points, indices),
+            WrongCall::FewFactors => {
                 (&[], u32::try_from(patches.len()).unwrap_or(u32::MAX) + 1, points, indices)
             }
-            Wrong::OneBuffer => (&[], 3, points, points),
-            Wrong::NotStorage => (&[], 3, points, &plain),
-            Wrong::OtherDomain => {
+            WrongCall::OneBuffer => (&[], 3, points, points),
+            WrongCall::NotStorage => (&[], 3, points, &plain),
+            WrongCall::OtherDomain => {
                 let other =
                     if setup.domain == Domain::Quad { Domain::Triangle } else { Domain::Quad };
                 let patches = [PatchFactors::uniform(other, 1.0)];
@@ -133,14 +133,14 @@ impl World<'_> {
             self.machine.tessellator.batch_in_groups(setup, count, groups, factors, outputs);
         let refused = refused.map(drop);
         let is_right = match wrong {
-            Wrong::GroupsDescend => {
+            WrongCall::GroupsDescend => {
                 matches!(refused, Err(Error::MisplacedGroup { group: 1, begin: 1, .. }))
             }
-            Wrong::GroupBehind => {
+            WrongCall::GroupBehind => {
                 matches!(refused, Err(Error::MisplacedGroup { group: 1, begin: 4, .. }))
             }
-            Wrong::FewFactors => matches!(refused, Err(Error::FactorsTooShort { .. })),
-            Wrong::OneBuffer => matches!(refused, Err(Error::SharedBuffer { .. })),
+            WrongCall::FewFactors => matches!(refused, Err(Error::FactorsTooShort { .. })),
+            WrongCall::OneBuffer => matches!(refused, Err(Error::SharedBuffer { .. })),
             _ => matches!(refused, Err(Error::NotStorage { .. })),
         };
         if is_right { Ok(()) } else { Err(format!("{wrong:?}: {refused:?}")) }

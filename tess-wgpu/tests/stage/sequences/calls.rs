@@ -9,7 +9,7 @@ use tess_wgpu::stage::{Overflow, Points, Room};
 
 /// One call. All but the first go to the stage that is in use; at first that is stage 0.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Call {
+pub(crate) enum StageCall {
     /// Another stage is used, which is built if it has not been.
     Use { stage: usize },
     /// Another stage takes the place of the one in use: of another hull or fragment shader, and on a tessellator of its
@@ -30,7 +30,7 @@ pub(crate) enum Call {
     /// Makes the room that a frame needs.
     MakeRoom { count: u32 },
     /// A call that is refused.
-    Refused { wrong: Wrong },
+    Refused { wrong: WrongFrame },
 }
 
 /// Where the number of patches comes from.
@@ -59,7 +59,7 @@ pub(crate) enum Then {
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Wrong {
+pub(crate) enum WrongFrame {
     Count,
     Offset,
     Groups,
@@ -77,7 +77,7 @@ pub(crate) enum Source {
 
 /// The choices that a stage is made of.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Form {
+pub(crate) struct StageForm {
     pub(crate) domain: Domain,
     pub(crate) partitioning: Partitioning,
     pub(crate) points: Points,
@@ -96,8 +96,8 @@ const ROOMS: [Room; 4] = [
 ];
 
 /// A stage of these values of its options.
-fn form(row: &[usize]) -> Form {
-    Form {
+fn form(row: &[usize]) -> StageForm {
+    StageForm {
         domain: [Domain::Quad, Domain::Triangle][row[0]],
         partitioning: Partitioning::ALL[row[1]],
         points: [Points::Stored, Points::Pull, Points::PullWithoutIndices][row[2]],
@@ -109,7 +109,7 @@ fn form(row: &[usize]) -> Form {
 }
 
 /// The stages: a few, whose pipelines are made quickly, or every two options together.
-pub(crate) fn forms(is_long: bool) -> Vec<Form> {
+pub(crate) fn forms(is_long: bool) -> Vec<StageForm> {
     if is_long {
         let options = Options::new(&[2, 4, 3, 3, 4, 2, 2], |_, _| false);
         return options.rows().iter().map(|row| form(row)).collect();
@@ -139,7 +139,7 @@ pub(crate) fn factors(domain: Domain, seed: u64) -> Vec<PatchFactors> {
 }
 
 /// A call; `stages` is how many stages there are.
-pub(crate) fn call(stages: usize) -> impl Strategy<Value = Call> + Clone {
+pub(crate) fn call(stages: usize) -> impl Strategy<Value = StageCall> + Clone {
     let select = prop::sample::select::<Draw>;
     let draw = prop_oneof![
         4 => Just(Draw::Everything),
@@ -148,20 +148,26 @@ pub(crate) fn call(stages: usize) -> impl Strategy<Value = Call> + Clone {
     ];
     let from = prop_oneof![2 => Just(Count::Host), 1 => Just(Count::Device)];
     let then = prop_oneof![5 => Just(Then::Submit), 1 => Just(Then::Drop), 1 => Just(Then::Keep)];
-    let wrong = vec![Wrong::Count, Wrong::Offset, Wrong::Groups, Wrong::BindGroup, Wrong::Factors];
+    let wrong = vec![
+        WrongFrame::Count,
+        WrongFrame::Offset,
+        WrongFrame::Groups,
+        WrongFrame::BindGroup,
+        WrongFrame::Factors,
+    ];
     prop_oneof![
-        2 => (0..stages).prop_map(|stage| Call::Use { stage }),
+        2 => (0..stages).prop_map(|stage| StageCall::Use { stage }),
         1 => (0..4_u32, prop::bool::weighted(0.2))
-            .prop_map(|(variant, is_alone)| Call::Rebuild { variant, is_alone }),
+            .prop_map(|(variant, is_alone)| StageCall::Rebuild { variant, is_alone }),
         5 => (any::<u64>(), prop::bool::weighted(0.2))
-            .prop_map(|(seed, is_dropped)| Call::Give { seed, is_dropped }),
-        2 => (0..8_u32, any::<bool>()).prop_map(|(by, is_bound)| Call::Move { by, is_bound }),
-        3 => (0..6_u32).prop_map(|groups| Call::Group { groups }),
-        2 => draw.clone().prop_map(|draw| Call::Again { draw }),
+            .prop_map(|(seed, is_dropped)| StageCall::Give { seed, is_dropped }),
+        2 => (0..8_u32, any::<bool>()).prop_map(|(by, is_bound)| StageCall::Move { by, is_bound }),
+        3 => (0..6_u32).prop_map(|groups| StageCall::Group { groups }),
+        2 => draw.clone().prop_map(|draw| StageCall::Again { draw }),
         9 => (prop_oneof![Just(crate::scene::PATCHES), 0..9_u32], from, draw, then)
-            .prop_map(|(count, from, draw, then)| Call::Frame { count, from, draw, then }),
-        1 => Just(Call::Late),
-        1 => (0..9_u32).prop_map(|count| Call::MakeRoom { count }),
-        1 => prop::sample::select(wrong).prop_map(|wrong| Call::Refused { wrong }),
+            .prop_map(|(count, from, draw, then)| StageCall::Frame { count, from, draw, then }),
+        1 => Just(StageCall::Late),
+        1 => (0..9_u32).prop_map(|count| StageCall::MakeRoom { count }),
+        1 => prop::sample::select(wrong).prop_map(|wrong| StageCall::Refused { wrong }),
     ]
 }

@@ -1,7 +1,8 @@
 //! A stage in a sequence of frames, and what the model says of it.
 
-use super::calls::{self, Count, Draw, Form, Source, Wrong};
+use super::calls::{self, Count, Draw, Source, StageForm, WrongFrame};
 use crate::common::expected::Expected;
+use crate::common::objects::{self, group, whole};
 use crate::hold::equal;
 use crate::model::compare;
 use crate::room::scaled;
@@ -19,7 +20,7 @@ const GROUPS: [u32; 4] = [0, 3, 3, 6];
 
 /// A stage, what it reads, and the model's state of it.
 pub(super) struct Own {
-    pub(super) form: Form,
+    pub(super) form: StageForm,
     variant: u32,
     /// The room at first.
     pub(super) first: Capacity,
@@ -47,7 +48,7 @@ pub(super) const PATIENCE: u64 = 2;
 
 /// The scene's WGSL with a grid that a uniform turns. A variant exchanges patches in `hull`, or writes another number
 /// in the fragment shader, or both.
-fn source(form: Form, variant: u32) -> String {
+fn source(form: StageForm, variant: u32) -> String {
     let place = "return vec2<f32>(f32(number % 4u), f32(number / 4u));";
     let text = scene::source(form.domain);
     assert!(text.contains(place), "{text}");
@@ -63,7 +64,7 @@ impl Own {
     /// A stage that takes the place of `old` has its layouts, so that it can share all of its pipelines.
     pub(super) fn new(
         (gpu, shared): (&Gpu, &Tessellator),
-        form: Form,
+        form: StageForm,
         variant: u32,
         old: Option<&Self>,
     ) -> Self {
@@ -83,7 +84,7 @@ impl Own {
         let source = source(form, variant);
         let builder = TessellationStage::builder(&source, form.domain, config, PATCHES)
             .bind_group(&scene.layout, &scene.group)
-            .bind_group(&cameras, &bind(gpu, &cameras, &camera))
+            .bind_group(&cameras, &group(&gpu.device, &cameras, whole([&camera])))
             .target(FORMAT)
             .groups(&GROUPS)
             .tessellator(shared)
@@ -178,7 +179,7 @@ impl Own {
         if is_bound {
             let usage = Usage::UNIFORM | Usage::COPY_DST;
             self.camera = gpu.upload("camera", bytes, usage).expect("room");
-            let group = bind(gpu, &self.cameras, &self.camera);
+            let group = group(&gpu.device, &self.cameras, whole([&self.camera]));
             self.stage.set_bind_group(1, &group).expect("it goes with the layout");
         } else {
             gpu.queue.write_buffer(&self.camera, 0, bytes);
@@ -326,28 +327,28 @@ impl Own {
         if is_little { compare(observed, &self.pixels(&drawn)) } else { Ok(()) }
     }
 
-    pub(super) fn refused(&mut self, gpu: &Gpu, wrong: Wrong) -> Result<(), String> {
+    pub(super) fn refused(&mut self, gpu: &Gpu, wrong: WrongFrame) -> Result<(), String> {
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         let stage = |error| Err(Error::Stage(error));
         let buffer = gpu.upload("short", &[0; 8], Usage::COPY_SRC).expect("room");
         let (observed, expected) = match wrong {
-            Wrong::Count => (
+            WrongFrame::Count => (
                 self.stage.prepare(&mut encoder, PATCHES + 1),
                 stage(StageError::TooManyPatches { got: PATCHES + 1, most: PATCHES }),
             ),
-            Wrong::Offset => (
+            WrongFrame::Offset => (
                 self.stage.prepare(&mut encoder, PatchCount::Device(&buffer, 8)),
                 stage(StageError::BadPatchCount { offset: 8, size: 8, usage: Usage::COPY_SRC }),
             ),
-            Wrong::Groups => (
+            WrongFrame::Groups => (
                 self.stage.set_groups(&[3, 2]),
                 Err(Error::MisplacedGroup { group: 1, begin: 2, range: [3, PATCHES] }),
             ),
-            Wrong::BindGroup => (
+            WrongFrame::BindGroup => (
                 self.stage.set_bind_group(2, &self.scene.group),
                 stage(StageError::NoSuchBindGroup { number: 2, groups: 2 }),
             ),
-            Wrong::Factors if self.form.source == Source::Host => {
+            WrongFrame::Factors if self.form.source == Source::Host => {
                 let got = PATCHES + 1;
                 let patches = vec![PatchFactors::uniform(self.form.domain, 3.0); got as usize];
                 (
@@ -355,7 +356,7 @@ impl Own {
                     stage(StageError::TooManyPatches { got, most: PATCHES }),
                 )
             }
-            Wrong::Factors => (
+            WrongFrame::Factors => (
                 self.stage.set_factors(&mut encoder, &self.patches),
                 stage(StageError::NotHostFactors),
             ),
@@ -365,28 +366,8 @@ impl Own {
 }
 
 fn layout_of_cameras(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let ty = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
-        has_dynamic_offset: false,
-        min_binding_size: None,
-    };
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: None,
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX,
-            ty,
-            count: None,
-        }],
-    })
-}
-
-fn bind(gpu: &Gpu, layout: &wgpu::BindGroupLayout, buffer: &wgpu::Buffer) -> wgpu::BindGroup {
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: None,
-        layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
-    })
+    let uniform = objects::buffer(wgpu::BufferBindingType::Uniform);
+    objects::layout(&gpu.device, wgpu::ShaderStages::VERTEX, [uniform])
 }
 
 pub(super) const fn fits(needed: Capacity, room: Capacity) -> bool {
