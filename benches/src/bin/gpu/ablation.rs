@@ -56,7 +56,7 @@ pub(crate) fn run(arguments: &AblationArguments) -> Result<()> {
         workload.patches.truncate(arguments.patches.map_or(usize::MAX, |patches| patches as usize));
     }
     for workload in &selected {
-        let bench = Bench::new(&gpu, workload, arguments.repeats)?;
+        let bench = WorkloadBench::new(&gpu, workload, arguments.repeats)?;
         println!("{}, {} triangles", workload.name, bench.totals.primitives * bench.repeats);
         for variant in &variants {
             println!("{:<26} {}", variant.name, bench.line(&gpu, &stopwatch, variant)?);
@@ -66,7 +66,7 @@ pub(crate) fn run(arguments: &AblationArguments) -> Result<()> {
 }
 
 /// A workload with the buffers of its working set `stream`.
-struct Bench<'a> {
+struct WorkloadBench<'a> {
     workload: &'a Workload,
     setup: Setup,
     totals: Totals,
@@ -77,7 +77,7 @@ struct Bench<'a> {
     indices: wgpu::Buffer,
 }
 
-impl<'a> Bench<'a> {
+impl<'a> WorkloadBench<'a> {
     fn new(gpu: &Gpu, workload: &'a Workload, repeats: Option<u64>) -> Result<Self> {
         let first = workload.patches.first().ok_or("no patches")?;
         let numbering = Numbering::PerPatch;

@@ -1,13 +1,13 @@
 //! Finds the batch size from which the GPU is faster than one thread of `tess-simd`.
 
 use crate::Result;
+use crate::groups::batch;
 use crate::timing::{SAMPLES, median};
 use std::time::{Duration, Instant};
 use tess_core::{PatchFactors, QuadFactors, TriangleFactors};
-use tess_gpu::layout::factor_words;
-use tess_gpu::{Numbering, Setup};
+use tess_gpu::Numbering;
 use tess_verify::generate::Workload;
-use tess_wgpu::{Batch, Gpu, Outputs, Stopwatch, Tessellator, Wanted};
+use tess_wgpu::{Batch, Gpu, Stopwatch, Tessellator, Wanted};
 
 pub(crate) fn run() -> Result<()> {
     let gpu = pollster::block_on(Gpu::open_with(Wanted::Everything, Stopwatch::FEATURES))?;
@@ -58,22 +58,9 @@ fn on_gpu(
     workload: &Workload,
     count: usize,
 ) -> Result<(f64, f64)> {
-    let patches = &workload.patches[..count.min(workload.patches.len())];
-    let first = patches.first().ok_or("no patches")?;
-    let numbering = Numbering::PerPatch;
-    let setup = Setup { numbering, ..Setup::new(first.domain(), workload.config) };
-    let counts = patches.iter().map(|&raw| tess_core::Patch::new(workload.config, raw).counts());
-    let (points, indices) = counts.fold((0, 0), |(points, indices), counts| {
-        (points + u64::from(counts.points), indices + u64::from(counts.indices))
-    });
-    let usage = wgpu::BufferUsages::STORAGE;
-    let words = factor_words(patches);
-    let factors = gpu.upload("factors", bytemuck::cast_slice(&words), usage)?;
-    let points = gpu.buffer("points", 8 * points, usage)?;
-    let indices = gpu.buffer("indices", (4 * indices).next_multiple_of(8), usage)?;
-    let outputs = Outputs::Buffers { points: &points, indices: &indices };
     let mut tessellator = Tessellator::new(&gpu.device);
-    let batch = tessellator.batch(setup, u32::try_from(count)?, &factors, outputs)?;
+    let of = (workload, Numbering::PerPatch);
+    let batch = batch(gpu, &mut tessellator, of, ..count.min(workload.patches.len()), &[])?;
     let mut device = Vec::new();
     let mut both = Vec::new();
     let start = Instant::now();

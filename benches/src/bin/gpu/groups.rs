@@ -2,7 +2,7 @@
 
 use crate::Result;
 use crate::timing::device_time;
-use std::ops::Range;
+use std::slice::SliceIndex;
 use std::time::Duration;
 use tess_core::PatchFactors;
 use tess_gpu::layout::factor_words;
@@ -25,14 +25,15 @@ pub(crate) fn run() -> Result<()> {
     let begins: Vec<u32> = (0..MESHES).map(|mesh| mesh * count / MESHES).collect();
     println!("{}: {count} patches in {MESHES} meshes, microseconds", workload.name);
     let mut tessellator = Tessellator::new(&gpu.device);
-    let whole = 0..workload.patches.len();
+    let numbering = Numbering::PerBatch;
     for (name, groups) in [("one batch", &[][..]), ("one group", &[0]), ("groups", &begins)] {
-        let batch = batch(&gpu, &mut tessellator, &workload, whole.clone(), groups)?;
+        let batch = batch(&gpu, &mut tessellator, (&workload, numbering), .., groups)?;
         println!("{name:<12} {:>9.1}", time(&gpu, &stopwatch, &[batch])?);
     }
     let ends = begins.iter().skip(1).copied().chain([count]);
     let batches = begins.iter().zip(ends).map(|(&begin, end)| {
-        batch(&gpu, &mut tessellator, &workload, begin as usize..end as usize, &[])
+        let range = begin as usize..end as usize;
+        batch(&gpu, &mut tessellator, (&workload, numbering), range, &[])
     });
     let batches = batches.collect::<Result<Vec<_>>>()?;
     println!("{:<12} {:>9.1}", "batches", time(&gpu, &stopwatch, &batches)?);
@@ -40,16 +41,15 @@ pub(crate) fn run() -> Result<()> {
 }
 
 /// Some of a workload's patches with buffers of their own.
-fn batch(
+pub(crate) fn batch(
     gpu: &Gpu,
     tessellator: &mut Tessellator,
-    workload: &Workload,
-    range: Range<usize>,
+    (workload, numbering): (&Workload, Numbering),
+    range: impl SliceIndex<[PatchFactors], Output = [PatchFactors]>,
     groups: &[u32],
 ) -> Result<Batch> {
     let patches: &[PatchFactors] = &workload.patches[range];
     let first = patches.first().ok_or("no patches")?;
-    let numbering = Numbering::PerBatch;
     let setup = Setup { numbering, ..Setup::new(first.domain(), workload.config) };
     let counts = patches.iter().map(|&raw| tess_core::Patch::new(workload.config, raw).counts());
     let (points, indices) = counts.fold((0, 0), |(points, indices), counts| {
