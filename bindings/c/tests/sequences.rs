@@ -26,7 +26,7 @@ mod sequences {
 
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
 use sequences::calls::{
-    Base::*, Bits, Call::*, Part::*, PatchRuns, Room::*, Threads::*, To, Wrong::*,
+    Base::*, Bits, BufferName::*, Call::*, PatchRuns, Room::*, Threads::*, To, Wrong::*,
 };
 use sequences::calls::{Call, Sequence, Threads};
 use sequences::draw;

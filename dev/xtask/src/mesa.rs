@@ -104,7 +104,7 @@ impl Place {
 
 /// Which part of the work is done.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
+enum Work {
     /// Builds the drivers and compares them.
     All,
     /// Builds the drivers and says where they are.
@@ -126,23 +126,23 @@ pub(crate) fn run(words: &[&str]) -> Result<(), String> {
     let release = release.map_or_else(Release::of_machine, Ok)?;
     println!("Mesa {}, of Debian's {}", release.version, release.codename);
     let place = Place::open(release)?;
-    if matches!(part, Part::All | Part::Build) {
+    if matches!(part, Work::All | Work::Build) {
         build_all(&place)?;
     }
     match part {
-        Part::All | Part::Compare => proof::run(&place),
-        Part::Build => Ok(()),
-        Part::Test => proof::test(&place),
+        Work::All | Work::Compare => proof::run(&place),
+        Work::Build => Ok(()),
+        Work::Test => proof::test(&place),
     }
 }
 
 /// The part of the work, and the release where the words name one.
-fn parse(words: &[&str]) -> Result<(Part, Option<&'static Release>), String> {
+fn parse(words: &[&str]) -> Result<(Work, Option<&'static Release>), String> {
     let (part, rest) = match words {
-        ["build", rest @ ..] => (Part::Build, rest),
-        ["compare", rest @ ..] => (Part::Compare, rest),
-        ["test", rest @ ..] => (Part::Test, rest),
-        rest => (Part::All, rest),
+        ["build", rest @ ..] => (Work::Build, rest),
+        ["compare", rest @ ..] => (Work::Compare, rest),
+        ["test", rest @ ..] => (Work::Test, rest),
+        rest => (Work::All, rest),
     };
     let release = match *rest {
         [] => Some(None),
@@ -176,10 +176,10 @@ mod tests {
     fn a_part_and_a_version_may_be_named() {
         let trixie = Release::of_version("25.0.7");
         assert!(trixie.is_some(), "a version");
-        assert_eq!(parse(&[]), Ok((Part::All, None)), "neither");
-        assert_eq!(parse(&["compare"]), Ok((Part::Compare, None)), "a part");
-        assert_eq!(parse(&["25.0.7"]), Ok((Part::All, trixie)), "a version");
-        assert_eq!(parse(&["test", "25.0.7"]), Ok((Part::Test, trixie)), "both");
+        assert_eq!(parse(&[]), Ok((Work::All, None)), "neither");
+        assert_eq!(parse(&["compare"]), Ok((Work::Compare, None)), "a part");
+        assert_eq!(parse(&["25.0.7"]), Ok((Work::All, trixie)), "a version");
+        assert_eq!(parse(&["test", "25.0.7"]), Ok((Work::Test, trixie)), "both");
         for wrong in [&["24.0"][..], &["25.0.7", "build"], &["build", "25.0.7", "22.3.6"]] {
             let message = parse(wrong).expect_err("the words make no sense");
             assert!(message.contains("22.3.6 of Debian's bookworm and 25.0.7"), "{message}");

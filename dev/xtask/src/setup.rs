@@ -77,7 +77,7 @@ fn apt() -> Command {
 
 /// Installs a Rust toolchain (`stable`, `nightly`, `1.89.0`) with these components and targets
 /// where it is missing.
-pub(crate) fn toolchain(name: &str, parts: &[(Part, &str)]) -> Result<(), String> {
+pub(crate) fn toolchain(name: &str, parts: &[(Extra, &str)]) -> Result<(), String> {
     let mut list = rustup(&["toolchain", "list"]);
     let known = command::output(&mut list).map_err(|error| {
         format!("{error}. Toolchains other than the current one need rustup: https://rustup.rs")
@@ -101,17 +101,17 @@ pub(crate) fn target(target: &str) -> Result<(), String> {
     let current = std::env::var("RUSTUP_TOOLCHAIN").map_err(|_| {
         format!("the target {target} needs a compiler from rustup: https://rustup.rs")
     })?;
-    toolchain(&current, &[(Part::Target, target)])
+    toolchain(&current, &[(Extra::Target, target)])
 }
 
 /// An extension of a toolchain.
 #[derive(Clone, Copy)]
-pub(crate) enum Part {
+pub(crate) enum Extra {
     Component,
     Target,
 }
 
-impl Part {
+impl Extra {
     /// The command of `rustup` for it.
     const fn word(self) -> &'static str {
         match self {

@@ -137,7 +137,7 @@ impl Report {
                 }
                 News::Ended(output) => output.map_err(|error| format!("{name}: {error}"))?,
             };
-            let Output { text, status, seconds } = output;
+            let Captured { text, status, seconds } = output;
             number += 1;
             println!("\n[{number} of {total}] {name}, {seconds} s\n{}\n", text.trim());
             let results = text.lines().filter(|line| self.all.add_line(line)).count();
@@ -179,11 +179,11 @@ pub(crate) fn run(commands: impl IntoIterator<Item = Command>) -> Result<(), Str
 enum News {
     /// The line of a test that has ended, without its first word.
     Test(String),
-    Ended(Result<Output, String>),
+    Ended(Result<Captured, String>),
 }
 
 /// The rest of what a command printed on both of its outputs.
-struct Output {
+struct Captured {
     text: String,
     status: ExitStatus,
     seconds: u64,
@@ -196,7 +196,7 @@ fn at_once() -> usize {
 }
 
 /// Runs a command and keeps its output, but for the lines of tests, which it tells at once.
-fn captured(mut command: Command, tell: impl Fn(String)) -> Result<Output, String> {
+fn captured(mut command: Command, tell: impl Fn(String)) -> Result<Captured, String> {
     let began = Instant::now();
     let (reader, writer) = std::io::pipe().map_err(|error| error.to_string())?;
     let both = writer.try_clone().map_err(|error| error.to_string())?;
@@ -216,7 +216,7 @@ fn captured(mut command: Command, tell: impl Fn(String)) -> Result<Output, Strin
     if !status.success() {
         text += &format!("\nended with {status}");
     }
-    Ok(Output { text, status, seconds: began.elapsed().as_secs() })
+    Ok(Captured { text, status, seconds: began.elapsed().as_secs() })
 }
 
 /// Runs a command and passes its output on; whether it succeeded.

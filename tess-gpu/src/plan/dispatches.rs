@@ -1,7 +1,7 @@
 //! Dispatches in their order, and the buffers that each binds.
 
 use super::Plan;
-use super::jobs::Part;
+use super::jobs::JobPart;
 use crate::bindings::{Binding, Resource};
 use crate::layout::Job;
 use crate::room::{Capacity, Span};
@@ -15,7 +15,7 @@ pub struct Dispatch {
     plan: Plan,
     stage: Stage,
     portion: u32,
-    part: Part,
+    part: JobPart,
 }
 
 /// How many workgroups a dispatch has.
@@ -43,11 +43,11 @@ impl Plan {
             plan,
             stage: Stage::List,
             portion: 0,
-            part: Part::Whole,
+            part: JobPart::Whole,
         });
         let groups: &[Stage] = if self.groups == 0 { &[] } else { &[Stage::Groups] };
         let whole =
-            move |portion| move |&stage| Dispatch { plan, stage, portion, part: Part::Whole };
+            move |portion| move |&stage| Dispatch { plan, stage, portion, part: JobPart::Whole };
         let counting =
             portions.clone().flat_map(move |portion| counting.iter().map(whole(portion)));
         let groups = portions.flat_map(move |portion| groups.iter().map(whole(portion)));
@@ -64,11 +64,11 @@ impl Plan {
         };
         let dispatch = move |stage, part| Dispatch { plan: self, stage, portion, part };
         let first = if self.is_short() { Stage::ExpandShort } else { Stage::Partition };
-        let first = has_room.then(|| dispatch(first, Part::Whole));
-        let points =
-            (0..points).map(move |window| dispatch(Stage::ExpandPoints, Part::Points { window }));
+        let first = has_room.then(|| dispatch(first, JobPart::Whole));
+        let points = (0..points)
+            .map(move |window| dispatch(Stage::ExpandPoints, JobPart::Points { window }));
         let primitives = (0..primitives)
-            .map(move |window| dispatch(Stage::ExpandPrimitives, Part::Primitives { window }));
+            .map(move |window| dispatch(Stage::ExpandPrimitives, JobPart::Primitives { window }));
         first.into_iter().chain(points).chain(primitives)
     }
 }
@@ -127,8 +127,8 @@ impl Dispatch {
             (Resource::Topologies, _) => plan.topologies(portion),
             (Resource::Contexts, _) => plan.contexts(portion),
             (Resource::Offsets, _) => plan.offsets(portion),
-            (Resource::Points, Part::Points { window }) => plan.point_window(window),
-            (Resource::Indices, Part::Primitives { window }) => plan.primitive_window(window),
+            (Resource::Points, JobPart::Points { window }) => plan.point_window(window),
+            (Resource::Indices, JobPart::Primitives { window }) => plan.primitive_window(window),
             _ => whole,
         }
     }

@@ -6,7 +6,7 @@ use crate::sizes::ALIGNMENT;
 
 /// Which part of a portion's work a job is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
+pub(super) enum JobPart {
     /// All of it: counting, partitioning, and the expansions of a short batch.
     Whole,
     /// The points in a window.
@@ -41,11 +41,11 @@ impl Plan {
 
     /// The number of a job. Each portion has one job for the whole of it, one for each window of the
     /// points and one for each window of the primitives; shared/finish.wgsl numbers dispatch sizes so.
-    pub(super) fn job_number(&self, portion: u32, part: Part) -> u32 {
+    pub(super) fn job_number(&self, portion: u32, part: JobPart) -> u32 {
         let in_portion = match part {
-            Part::Whole => 0,
-            Part::Points { window } => 1 + window,
-            Part::Primitives { window } => 1 + self.point_windows() + window,
+            JobPart::Whole => 0,
+            JobPart::Points { window } => 1 + window,
+            JobPart::Primitives { window } => 1 + self.point_windows() + window,
         };
         portion * self.parts() + in_portion
     }
@@ -56,19 +56,21 @@ impl Plan {
     }
 
     /// The part that has this number within its portion.
-    fn part(&self, number: u32) -> Part {
+    fn part(&self, number: u32) -> JobPart {
         match number.checked_sub(1) {
-            None => Part::Whole,
-            Some(window) if window < self.point_windows() => Part::Points { window },
-            Some(window) => Part::Primitives { window: window - self.point_windows() },
+            None => JobPart::Whole,
+            Some(window) if window < self.point_windows() => JobPart::Points { window },
+            Some(window) => JobPart::Primitives { window: window - self.point_windows() },
         }
     }
 
-    fn job(&self, portion: u32, part: Part) -> Job {
+    fn job(&self, portion: u32, part: JobPart) -> Job {
         let (window_first, window_tiles) = match part {
-            Part::Whole => (0, u32::MAX),
-            Part::Points { window } => (window * self.point_window_tiles, self.point_window_tiles),
-            Part::Primitives { window } => {
+            JobPart::Whole => (0, u32::MAX),
+            JobPart::Points { window } => {
+                (window * self.point_window_tiles, self.point_window_tiles)
+            }
+            JobPart::Primitives { window } => {
                 (window * self.primitive_window_tiles, self.primitive_window_tiles)
             }
         };

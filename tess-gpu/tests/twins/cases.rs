@@ -1,6 +1,6 @@
 //! Batches that reach every way through the passes.
 
-use super::run::{Batch, Form, Machine};
+use super::run::{Batch, Machine, PlanForm};
 use tess_core::{Config, Domain, OutputPrimitive, Partitioning, PatchFactors, SplitOrder};
 use tess_gpu::sizes::CATALOGUE_PATCHES;
 use tess_gpu::{
@@ -184,7 +184,7 @@ fn batches_that_write_less() {
     let setup = setup(Domain::Triangle, Partitioning::Pow2);
     for (written, stages) in [(Written::Indices, 5), (Written::Arguments, 4)] {
         let batch = Batch::new(setup, of(Domain::Triangle, 1500, &[0.0, 1.0, 2.5, 7.0]));
-        let batch = Batch { form: Form::Writing(written), ..batch };
+        let batch = Batch { form: PlanForm::Writing(written), ..batch };
         assert_eq!(assert_equal(&mut machine, &batch).len(), stages, "{written:?}");
     }
 }

@@ -23,7 +23,7 @@ pub(crate) struct Machine {
 
 /// Which stages a batch has.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Form {
+pub(crate) enum PlanForm {
     /// Those of a short batch if it is one.
     Any,
     /// Those of a long batch.
@@ -40,7 +40,7 @@ pub(crate) struct Batch {
     /// The room for output; `None` is a little more than the batch needs.
     pub(crate) room: Option<Capacity>,
     pub(crate) limits: Limits,
-    pub(crate) form: Form,
+    pub(crate) form: PlanForm,
     /// The first patch of each group.
     pub(crate) groups: Vec<u32>,
 }
@@ -48,12 +48,12 @@ pub(crate) struct Batch {
 impl Batch {
     pub(crate) fn new(setup: Setup, patches: Vec<PatchFactors>) -> Self {
         let (room, groups) = (None, Vec::new());
-        Self { setup, patches, room, limits: Limits::WEBGPU, form: Form::Any, groups }
+        Self { setup, patches, room, limits: Limits::WEBGPU, form: PlanForm::Any, groups }
     }
 
     /// The same batch in the stages of a long one.
     pub(crate) fn long(self) -> Self {
-        Self { form: Form::Long, ..self }
+        Self { form: PlanForm::Long, ..self }
     }
 
     fn plan(&self, patches: &[Patch]) -> Plan {
@@ -65,9 +65,9 @@ impl Batch {
         let count = u32::try_from(patches.len()).expect("a test's patches");
         let (setup, room) = (self.setup, self.room.unwrap_or(needed));
         let plan = match self.form {
-            Form::Any => Plan::new(setup, count, room, self.limits),
-            Form::Long => Plan::in_long_stages(setup, count, room, self.limits),
-            Form::Writing(written) => Plan::writing(written, setup, count, room, self.limits),
+            PlanForm::Any => Plan::new(setup, count, room, self.limits),
+            PlanForm::Long => Plan::in_long_stages(setup, count, room, self.limits),
+            PlanForm::Writing(written) => Plan::writing(written, setup, count, room, self.limits),
         };
         plan.with_groups(u32::try_from(self.groups.len()).expect("a test's groups"))
     }

@@ -27,38 +27,39 @@ fn bits(sample: &Sample) -> [u32; 6] {
     bits
 }
 
+/// Calls a function with a sample's patch and these numbers; its status and what it gives.
+macro_rules! asked {
+    ($function:ident($s:expr $(, $input:expr)*) -> [$($out:ident),*]) => {{
+        let TessConfig { domain, partitioning, output, split } = $s.config;
+        let [f0, f1, f2, f3, f4, f5] = bits(&$s);
+        $(let mut $out = 0;)*
+        let status = unsafe {
+            $function(
+                domain, partitioning, output, split, f0, f1, f2, f3, f4, f5
+                $(, $input)* $(, &mut $out)*
+            )
+        };
+        (status, [$($out),*])
+    }};
+}
+
 #[test]
 fn sizes() {
     for s in samples() {
-        let TessConfig { domain, partitioning, output, split } = s.config;
-        let [f0, f1, f2, f3, f4, f5] = bits(&s);
-        let mut out = [0u32; 3];
-        let [a, b, c] = out.each_mut().map(|slot| &raw mut *slot);
-        #[rustfmt::skip]
-        let status = unsafe {
-            tess_dpi_count(domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, a, b, c)
-        };
+        let asked = asked!(tess_dpi_count(s) -> [points, primitives, indices]);
         let counts = samples::counts(s.patch.counts());
         let expected = [counts.points, counts.primitives, counts.indices];
-        assert_eq!((status, out), (TESS_OK, expected), "{:?}", s.factors);
+        assert_eq!(asked, (TESS_OK, expected), "{:?}", s.factors);
     }
 }
 
 #[test]
 fn points() {
     for s in samples() {
-        let TessConfig { domain, partitioning, output, split } = s.config;
-        let [f0, f1, f2, f3, f4, f5] = bits(&s);
         let i = s.patch.counts().points / 2;
-        let (mut u, mut v) = (0, 0);
-        #[rustfmt::skip]
-        let status = unsafe {
-            tess_dpi_point(
-                domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, i, &mut u, &mut v,
-            )
-        };
+        let (status, found) = asked!(tess_dpi_point(s, i) -> [u, v]);
         let expected = s.patch.point(i).map(|p| [p.u.to_bits(), p.v.to_bits()]);
-        let observed = (status == TESS_OK).then_some([u, v]);
+        let observed = (status == TESS_OK).then_some(found);
         assert_eq!(observed, expected, "point {i} of {:?}, status {status}", s.factors);
     }
 }
@@ -66,17 +67,8 @@ fn points() {
 #[test]
 fn primitives() {
     for s in samples() {
-        let TessConfig { domain, partitioning, output, split } = s.config;
-        let [f0, f1, f2, f3, f4, f5] = bits(&s);
         let t = s.patch.counts().primitives / 2;
-        let mut out = [0u32; 4];
-        let [a, b, c, d] = out.each_mut().map(|slot| &raw mut *slot);
-        #[rustfmt::skip]
-        let status = unsafe {
-            tess_dpi_primitive(
-                domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, t, a, b, c, d,
-            )
-        };
+        let (status, out) = asked!(tess_dpi_primitive(s, t) -> [size, i0, i1, i2]);
         let observed = (status == TESS_OK).then(|| out[1..=out[0] as usize].to_vec());
         let expected = s.patch.primitive(t).map(|p| p.indices().to_vec());
         assert_eq!(observed, expected, "primitive {t} of {:?}, status {status}", s.factors);
@@ -156,24 +148,16 @@ unsafe fn elements(
 fn coverage_bins() {
     let names: Vec<String> = Coverage::default().bins().map(|(bin, _)| bin.to_owned()).collect();
     for s in samples() {
-        let TessConfig { domain, partitioning, output, split } = s.config;
-        let [f0, f1, f2, f3, f4, f5] = bits(&s);
         let mut observed = Coverage::default();
         for i in 0.. {
-            let mut bin = 0;
-            #[rustfmt::skip]
-            let status = unsafe {
-                tess_dpi_coverage(
-                    domain, partitioning, output, split, f0, f1, f2, f3, f4, f5, i, &mut bin,
-                )
-            };
+            let (status, [bin]) = asked!(tess_dpi_coverage(s, i) -> [bin]);
             if status != TESS_OK {
                 assert_eq!(status, TESS_OUT_OF_RANGE, "behind the last bin of {:?}", s.factors);
                 break;
             }
             assert!(observed.add(&names[bin as usize], 1), "bin {bin}");
         }
-        let factors = PatchFactors::from_slice(Domain::ALL[domain as usize], &s.factors);
+        let factors = PatchFactors::from_slice(Domain::ALL[s.config.domain as usize], &s.factors);
         let case = Case { config: s.patch.config(), factors: factors.expect("all factors") };
         let mut expected = Coverage::default();
         expected.record_stream(None, [case]);

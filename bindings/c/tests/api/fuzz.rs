@@ -1,6 +1,6 @@
 //! `tess_fuzz`: devices that are right, wrong, and beyond all bounds; arguments that are refused.
 
-use super::samples::{Fault, answer, device, text};
+use super::samples::{DeviceFault, answer, device, text};
 use std::ffi::{c_char, c_void};
 use std::ptr::{null, null_mut};
 use tess_capi::device::{TESS_DEVICE_UNSUPPORTED, TessDevice};
@@ -23,11 +23,11 @@ fn in_order(order: u32) -> TessFuzzOptions {
 }
 
 /// Asks about bytes that stand for a triangle patch with the factors 5, 4, 3 and 5.
-fn ask(fault: Fault, order: u32) -> (u32, String) {
+fn ask(fault: DeviceFault, order: u32) -> (u32, String) {
     ask_for(fault, in_order(order))
 }
 
-fn ask_for(mut fault: Fault, options: TessFuzzOptions) -> (u32, String) {
+fn ask_for(mut fault: DeviceFault, options: TessFuzzOptions) -> (u32, String) {
     let data = [2, 2, 0, 1, 60, 0, 3, 12, 4, 3, 12, 3, 3, 12, 2, 3, 12, 4];
     let mut message: [c_char; 400] = [1; 400];
     let user = (&raw mut fault).cast();
@@ -47,7 +47,7 @@ fn a_right_device_is_equal() {
 
 #[test]
 fn faults_are_found_as_the_order_says() {
-    let turned: Fault = |_, counts, indices| {
+    let turned: DeviceFault = |_, counts, indices| {
         assert!(counts.indices >= 3, "a triangle");
         // SAFETY: the patch has three indices.
         unsafe { std::slice::from_raw_parts_mut(indices, 3) }.rotate_left(1);
@@ -77,7 +77,7 @@ fn devices_beyond_bounds_are_findings() {
 
 #[test]
 fn wrong_arguments_are_refused_and_messages_cut_off() {
-    let mut fault: Fault = |_, _, _| 7;
+    let mut fault: DeviceFault = |_, _, _| 7;
     let user = (&raw mut fault).cast::<c_void>();
     let mut message: [c_char; 8] = [1; 8];
     let mut call = |device: TessDevice, order, room| {

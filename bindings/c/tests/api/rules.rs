@@ -1,6 +1,6 @@
 //! `tess_check_rules`: devices that are right, break rules, fail, and have nothing that is asked for.
 
-use super::samples::{Fault, device, text};
+use super::samples::{DeviceFault, device, text};
 use std::ffi::{c_char, c_void};
 use std::ptr::null_mut;
 use tess_capi::device::{TESS_DEVICE_UNSUPPORTED, TessDevice};
@@ -11,7 +11,7 @@ use tess_capi::status::{
 use tess_capi::types::{TESS_DOMAIN_ISOLINE, TESS_OUTPUT_LINE, TessConfig};
 
 /// Judges lines of isolines alone, which are quick.
-fn judge(specification: u32, mut fault: Fault) -> (u32, String) {
+fn judge(specification: u32, mut fault: DeviceFault) -> (u32, String) {
     let mut report: Vec<c_char> = vec![1; 8192];
     let user = (&raw mut fault).cast();
     let (room, size) = (report.as_mut_ptr(), report.len());
@@ -26,7 +26,8 @@ const fn is_lines(config: &TessConfig) -> bool {
 
 #[test]
 fn the_model_holds_direct3d_and_breaks_vulkan() {
-    let lines: Fault = |config, _, _| if is_lines(config) { 0 } else { TESS_DEVICE_UNSUPPORTED };
+    let lines: DeviceFault =
+        |config, _, _| if is_lines(config) { 0 } else { TESS_DEVICE_UNSUPPORTED };
     let (status, report) = judge(TESS_SPECIFICATION_D3D11, lines);
     assert_eq!(status, TESS_OK, "{report}");
     assert!(report.contains("\nisolines     held ") && report.contains(" 0 broken"), "{report}");
@@ -60,7 +61,7 @@ fn devices_that_fail_or_have_nothing() {
 
 #[test]
 fn wrong_arguments_are_refused() {
-    let mut fault: Fault = |_, _, _| TESS_DEVICE_UNSUPPORTED;
+    let mut fault: DeviceFault = |_, _, _| TESS_DEVICE_UNSUPPORTED;
     let user = (&raw mut fault).cast::<c_void>();
     let call = |specification, device: TessDevice| {
         // SAFETY: a device that keeps to its type, and no room.

@@ -48,7 +48,7 @@ pub(super) unsafe fn answer(
 }
 
 /// Change to the model's answer, and what the device answers.
-pub(super) type Fault = fn(&TessConfig, &mut TessCounts, *mut u32) -> i32;
+pub(super) type DeviceFault = fn(&TessConfig, &mut TessCounts, *mut u32) -> i32;
 
 /// The model's own answer, then the fault that `user` points to.
 pub(super) unsafe extern "C" fn device(
@@ -63,7 +63,7 @@ pub(super) unsafe extern "C" fn device(
     // SAFETY: the device is called as its type says; `user` is the fault that the test gave.
     unsafe {
         answer(config, factors, factor_count, points, indices, counts);
-        (*user.cast::<Fault>())(&*config, &mut *counts, indices)
+        (*user.cast::<DeviceFault>())(&*config, &mut *counts, indices)
     }
 }
 

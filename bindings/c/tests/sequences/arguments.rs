@@ -1,6 +1,6 @@
 //! Arguments of a call, and the refusals that explain what is wrong with them.
 
-use super::calls::{Part, Room, To, Wrong};
+use super::calls::{BufferName, Room, To, Wrong};
 use super::memory::GuardedMemory;
 use super::model::Model;
 use std::ffi::c_void;
@@ -74,7 +74,7 @@ impl Arguments {
         });
         fit(buffers, real, sizes, to.keep);
         let bits: Vec<u8> = factors.iter().flat_map(|factor| factor.to_ne_bytes()).collect();
-        buffers[Part::Factors as usize].put(&bits);
+        buffers[BufferName::Factors as usize].put(&bits);
         let mut arguments = Self {
             way,
             at: std::array::from_fn(|i| match i {
@@ -93,13 +93,15 @@ impl Arguments {
         arguments.judge_numbers(to);
         arguments.judge_sizes(model, to);
         let output = arguments.output(to);
-        unsafe { buffers[Part::Output as usize].start().cast::<TessBatchOutput>().write(output) };
+        unsafe {
+            buffers[BufferName::Output as usize].start().cast::<TessBatchOutput>().write(output)
+        };
         arguments
     }
 
     /// The parts that the function looks at.
-    fn parts(&self) -> &'static [Part] {
-        use Part::{Counts, Factors, Indices, Output, Points, Ranges};
+    fn parts(&self) -> &'static [BufferName] {
+        use BufferName::{Counts, Factors, Indices, Output, Points, Ranges};
         match self.way {
             BatchCall::Count => &[Factors, Counts],
             BatchCall::Batch => &[Factors, Points, Indices, Ranges, Counts, Output],
@@ -108,17 +110,19 @@ impl Arguments {
     }
 
     /// Elements that a part is said to have.
-    fn elements(&self, part: Part) -> usize {
+    fn elements(&self, part: BufferName) -> usize {
         match part {
-            Part::Factors => self.floats,
-            Part::Points | Part::Indices | Part::Ranges => self.capacities[part as usize - 1],
-            Part::Counts | Part::Output => 1,
+            BufferName::Factors => self.floats,
+            BufferName::Points | BufferName::Indices | BufferName::Ranges => {
+                self.capacities[part as usize - 1]
+            }
+            BufferName::Counts | BufferName::Output => 1,
         }
     }
 
     /// Makes pointers wrong.
     fn spoil(&mut self, wrong: Wrong) {
-        let used = |part: Part| self.parts().contains(&part) && self.elements(part) > 0;
+        let used = |part: BufferName| self.parts().contains(&part) && self.elements(part) > 0;
         match wrong {
             Wrong::Null(part) => self.at[part as usize] = null_mut(),
             Wrong::Askew(part) => {
@@ -126,7 +130,7 @@ impl Arguments {
                 *pointer = pointer.wrapping_byte_add(1);
             }
             Wrong::Shared(one, other) if one != other && used(one) && used(other) => {
-                let read_alone = |part| part == Part::Output;
+                let read_alone = |part| part == BufferName::Output;
                 if self.way != BatchCall::Count && !read_alone(one) && !read_alone(other) {
                     self.at[one as usize] = self.at[other as usize];
                     self.refused.push(TESS_OVERLAP);
@@ -143,8 +147,8 @@ impl Arguments {
         for &part in self.parts() {
             let (elements, size) = (self.elements(part), self.sizes[part as usize]);
             let alignment = match part {
-                Part::Counts if self.way == BatchCall::Single => 4,
-                Part::Counts | Part::Output => 8,
+                BufferName::Counts if self.way == BatchCall::Single => 4,
+                BufferName::Counts | BufferName::Output => 8,
                 _ => size.min(4),
             };
             let address = self.at[part as usize].addr();

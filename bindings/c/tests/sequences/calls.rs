@@ -105,7 +105,7 @@ pub(crate) enum Base {
 
 /// Arguments of a call.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Part {
+pub(crate) enum BufferName {
     Factors,
     Points,
     Indices,
@@ -118,11 +118,11 @@ pub(crate) enum Part {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Wrong {
     Nothing,
-    Null(Part),
+    Null(BufferName),
     /// A byte beside where it should be.
-    Askew(Part),
+    Askew(BufferName),
     /// The first part lies where the second one does.
-    Shared(Part, Part),
+    Shared(BufferName, BufferName),
     /// One float too many.
     Floats,
 }

@@ -1,6 +1,6 @@
 //! Sequences at random.
 
-use super::calls::{Base, Bits, Call, Part, PatchRuns, Room, Sequence, Threads, To, Wrong};
+use super::calls::{Base, Bits, BufferName, Call, PatchRuns, Room, Sequence, Threads, To, Wrong};
 use proptest::array::{uniform3, uniform4};
 use proptest::collection::vec;
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
@@ -105,8 +105,8 @@ fn room() -> impl Strategy<Value = Room> {
     ]
 }
 
-fn part() -> impl Strategy<Value = Part> {
-    use Part::{Counts, Factors, Indices, Output, Points, Ranges};
+fn part() -> impl Strategy<Value = BufferName> {
+    use BufferName::{Counts, Factors, Indices, Output, Points, Ranges};
     proptest::sample::select(vec![Factors, Points, Indices, Ranges, Counts, Output])
 }
 

@@ -14,7 +14,7 @@ pub(crate) struct Model {
 }
 
 /// Number of a patch, the patch, its output and its range.
-pub(crate) type Part<'a> = (usize, &'a Case, &'a Tessellation, TessRange);
+pub(crate) type PlacedPatch<'a> = (usize, &'a Case, &'a Tessellation, TessRange);
 
 impl Model {
     pub(crate) fn new(config: Config, domain: Domain, order: Order, runs: &[(u8, Bits)]) -> Self {
@@ -49,7 +49,7 @@ impl Model {
     }
 
     /// All patches in their order.
-    pub(crate) fn parts(&self) -> impl Iterator<Item = Part<'_>> {
+    pub(crate) fn parts(&self) -> impl Iterator<Item = PlacedPatch<'_>> {
         let mut next = TessRange::default();
         let all = self
             .runs

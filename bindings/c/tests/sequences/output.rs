@@ -1,7 +1,7 @@
 //! Output of a call, put into images of its buffers, and the first difference of a buffer from it.
 
 use super::arguments::{Arguments, BatchCall};
-use super::calls::{Part, To};
+use super::calls::{BufferName, To};
 use super::memory::Image;
 use super::model::Model;
 use tess_capi::batch::{TESS_INDEX_U16, TESS_NUMBERING_PER_BATCH, TESS_POINT_FIXED, TessRange};
@@ -34,14 +34,14 @@ pub(crate) fn put_output(images: &mut [Image], given: &Arguments, model: &Model,
             };
             for (which, word) in words.into_iter().enumerate() {
                 let at = given.coordinate(to, range.first_point as usize + i, which);
-                *images[Part::Points as usize].element(at) = word.to_ne_bytes();
+                *images[BufferName::Points as usize].element(at) = word.to_ne_bytes();
             }
         }
         let is_numbered = given.way == BatchCall::Batch && to.numbering == TESS_NUMBERING_PER_BATCH;
         let base = if is_numbered { given.base_vertex.wrapping_add(range.first_point) } else { 0 };
         for (i, index) in output.indices.iter().enumerate() {
             let (at, index) = (range.first_index as usize + i, base.wrapping_add(*index));
-            let image = &mut images[Part::Indices as usize];
+            let image = &mut images[BufferName::Indices as usize];
             match u16::try_from(index) {
                 Ok(short) if to.index_type == TESS_INDEX_U16 => {
                     *image.element(at) = short.to_ne_bytes()
@@ -51,7 +51,7 @@ pub(crate) fn put_output(images: &mut [Image], given: &Arguments, model: &Model,
         }
         if given.way == BatchCall::Batch {
             let TessRange { first_point, points, first_index, indices } = range;
-            let image = &mut images[Part::Ranges as usize];
+            let image = &mut images[BufferName::Ranges as usize];
             put_words(image, 4 * number, [first_point, points, first_index, indices]);
         }
     }
@@ -59,7 +59,7 @@ pub(crate) fn put_output(images: &mut [Image], given: &Arguments, model: &Model,
 
 /// The first byte that differs, in words.
 pub(crate) fn described(
-    part: Part,
+    part: BufferName,
     at: isize,
     (observed, expected): (&Image, &Image),
     given: &Arguments,
@@ -75,21 +75,21 @@ pub(crate) fn described(
         return format!("{name}: byte {at}, before the buffer, was written");
     };
     let size = match part {
-        Part::Points | Part::Ranges => 4,
+        BufferName::Points | BufferName::Ranges => 4,
         _ => given.sizes[part as usize],
     };
     let element = byte / size;
     let owner = model.parts().find_map(|(number, case, output, range)| {
         let own = match part {
-            Part::Points => (0..2 * output.points.len()).find_map(|i| {
+            BufferName::Points => (0..2 * output.points.len()).find_map(|i| {
                 let at = given.coordinate(to, range.first_point as usize + i / 2, i % 2);
                 (at == element).then(|| format!("{} of its point {}", ["u", "v"][i % 2], i / 2))
             }),
-            Part::Indices => element
+            BufferName::Indices => element
                 .checked_sub(range.first_index as usize)
                 .filter(|&i| i < output.indices.len())
                 .map(|i| format!("its index {i}")),
-            Part::Ranges if given.way == BatchCall::Batch => {
+            BufferName::Ranges if given.way == BatchCall::Batch => {
                 (element / 4 == number).then(|| format!("word {} of its range", element % 4))
             }
             _ => None,
@@ -98,7 +98,9 @@ pub(crate) fn described(
     });
     match owner {
         Some(owner) => format!("{name}: element {element}, {}; {owner}", values(size, element)),
-        None if part == Part::Counts => format!("counts: byte {byte} is not what the model says"),
+        None if part == BufferName::Counts => {
+            format!("counts: byte {byte} is not what the model says")
+        }
         None => format!("{name}: byte {byte}, which is no output, was written"),
     }
 }

@@ -1,7 +1,7 @@
 //! A batch, and its calls compared with the model.
 
 use super::arguments::{Arguments, BatchCall, Buffers};
-use super::calls::{Bits, Call, Part, PatchRuns, To, Wrong};
+use super::calls::{Bits, BufferName, Call, PatchRuns, To, Wrong};
 use super::memory::{GuardedMemory, Image};
 use super::model::Model;
 use super::output::{described, put_counts, put_output, put_words};
@@ -197,7 +197,7 @@ impl Slot {
         };
         given.check(!self.batch.is_null(), status)?;
         if matches!(status, TESS_OK | TESS_BUFFER_TOO_SMALL) {
-            put_counts(&mut expected[Part::Counts as usize], way, &model);
+            put_counts(&mut expected[BufferName::Counts as usize], way, &model);
         }
         if status == TESS_OK && way != BatchCall::Count {
             put_output(&mut expected, &given, &model, to);
@@ -209,9 +209,14 @@ impl Slot {
         if status == TESS_OK && way == BatchCall::Batch {
             self.ranges = model.parts().map(|(.., range)| range).collect();
         }
-        for part in
-            [Part::Counts, Part::Points, Part::Indices, Part::Ranges, Part::Factors, Part::Output]
-        {
+        for part in [
+            BufferName::Counts,
+            BufferName::Points,
+            BufferName::Indices,
+            BufferName::Ranges,
+            BufferName::Factors,
+            BufferName::Output,
+        ] {
             let observed = self.buffers[part as usize].image();
             let expected = &expected[part as usize];
             if let Some(at) = expected.first_difference(&observed) {
@@ -225,11 +230,11 @@ impl Slot {
     fn leave_overrun(&self, expected: &mut [Image], given: &Arguments, model: &Model, to: &To) {
         let arrays = match to.point_format {
             TESS_POINT_F32_APART => {
-                vec![(Part::Points, 0, 4), (Part::Points, given.capacities[0], 4)]
+                vec![(BufferName::Points, 0, 4), (BufferName::Points, given.capacities[0], 4)]
             }
-            _ => vec![(Part::Points, 0, 8)],
+            _ => vec![(BufferName::Points, 0, 8)],
         };
-        let indices = (Part::Indices, 0, given.sizes[Part::Indices as usize]);
+        let indices = (BufferName::Indices, 0, given.sizes[BufferName::Indices as usize]);
         for (part, first, size) in arrays.into_iter().chain([indices]) {
             let needed = model.sizes()[part as usize - 1];
             let end = given.capacities[part as usize - 1].min(needed + OVERRUN);
@@ -243,10 +248,10 @@ impl Slot {
         let [_, indices, _] = model.sizes();
         match self.fault {
             Some(Fault::IndexAfterRefusal) if self.was_refused && indices > 0 => {
-                self.buffers[Part::Indices as usize].flip(0);
+                self.buffers[BufferName::Indices as usize].flip(0);
             }
             Some(Fault::BehindExact) if given.way == BatchCall::Batch => {
-                self.buffers[Part::Points as usize].flip(8 * given.capacities[0]);
+                self.buffers[BufferName::Points as usize].flip(8 * given.capacities[0]);
             }
             _ => {}
         }
@@ -262,7 +267,7 @@ impl Slot {
             Some(last) => self.ranges.get(last as usize).map_or((0, 0), end),
         };
         let is_right = starts.is_sorted() && starts[2] as usize <= patches;
-        let to = &mut self.buffers[Part::Ranges as usize];
+        let to = &mut self.buffers[BufferName::Ranges as usize];
         to.fit(48, false);
         let mut expected = to.image();
         let ranges = self.ranges.as_ptr();
@@ -277,7 +282,7 @@ impl Slot {
             }
         }
         let right = if is_right { TESS_OK } else { TESS_OUT_OF_RANGE };
-        if status != right || expected != self.buffers[Part::Ranges as usize].image() {
+        if status != right || expected != self.buffers[BufferName::Ranges as usize].image() {
             return Err(format!("status {status}, not {right}, or other groups"));
         }
         Ok(status)

@@ -25,12 +25,12 @@ pub(super) struct Results(BTreeMap<String, String>);
 
 /// piglit's own report.
 #[derive(Deserialize)]
-struct Report {
-    tests: BTreeMap<String, Test>,
+struct PiglitReport {
+    tests: BTreeMap<String, PiglitTest>,
 }
 
 #[derive(Deserialize)]
-struct Test {
+struct PiglitTest {
     result: String,
 }
 
@@ -74,7 +74,8 @@ pub(super) fn run(place: &Place, variant: Variant) -> Result<Results, String> {
     command::run(&mut piglit)?;
     let path = given.join("results.json");
     let text = fs::read_to_string(&path).map_err(|error| in_file(&path, &error))?;
-    let report: Report = serde_json::from_str(&text).map_err(|error| in_file(&path, &error))?;
+    let report: PiglitReport =
+        serde_json::from_str(&text).map_err(|error| in_file(&path, &error))?;
     let tests = report.tests.into_iter();
     let results = Results(tests.map(|(name, test)| (name, test.result)).collect());
     if 2 * results.count("skip") > results.tests() {

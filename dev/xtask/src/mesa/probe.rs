@@ -37,7 +37,7 @@ const ROUNDS: usize = 2;
 
 /// A report of `tess probe --json`, as far as it is used here.
 #[derive(Deserialize)]
-struct Report {
+struct ProbeReport {
     rows: Vec<Row>,
 }
 
@@ -97,7 +97,7 @@ pub(super) struct Times {
 pub(super) fn ask(program: &Path, place: &Place, variant: Variant) -> Result<Vec<Row>, String> {
     let mut answers = Vec::new();
     for (number, (_, arguments)) in QUESTIONS.iter().enumerate() {
-        let row = match probe::<Report>(program, place, variant, arguments) {
+        let row = match probe::<ProbeReport>(program, place, variant, arguments) {
             Ok(report) => Row::sum(&report.rows),
             Err(said) if number == LONG && said.contains(NO_SENSE) => Row::all_wrong(answers[0]),
             Err(said) => return Err(said),
