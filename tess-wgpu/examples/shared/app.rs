@@ -2,6 +2,7 @@
 
 #[path = "png_of.rs"]
 mod png_of;
+#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
 #[path = "target.rs"]
 mod target;
 #[path = "window.rs"]

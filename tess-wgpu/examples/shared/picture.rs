@@ -1,7 +1,9 @@
 //! The common part of pictures: a batch tessellated and drawn by one command buffer, and its pixels.
 
+#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
 #[path = "bindings.rs"]
 mod bindings;
+#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
 #[path = "target.rs"]
 mod target;
 

@@ -2,8 +2,10 @@
 
 #![allow(dead_code, unused_imports, reason = "each test crate uses its part")]
 
+#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
 #[path = "../../examples/shared/bindings.rs"]
 mod bindings;
+#[allow(clippy::duplicate_mod, reason = "tests load several examples")]
 #[path = "../../examples/shared/target.rs"]
 mod target;
 
