@@ -1,0 +1,136 @@
+// Runs the shaders beside this file on a WebGPU device; tess.d.ts states the interface, docs/shaders.md the manifest.
+
+export const unpackWgsl = `
+struct TessPoint { uv: vec2f, of_patch: u32 }
+fn tess_point(packed: vec2u) -> TessPoint {
+    let v = (packed.x >> 17u) | ((packed.y & 3u) << 15u);
+    return TessPoint(vec2f(vec2u(packed.x & 0x1ffffu, v)) / 65536.0, packed.y >> 2u);
+}`;
+
+// A formula of the manifest, which may be its value.
+function value(formula, numbers) {
+  if (typeof formula === "number") return formula;
+  const { constant, terms, multiple } = formula;
+  const sum = terms.reduce((sum, { times, of, per }) => sum + times * Math.ceil(numbers[of] / per), constant);
+  return Math.ceil(sum / multiple) * multiple;
+}
+
+export class Tessellator {
+  static async load(device, { domain, partitioning, base = new URL("./shaders/", import.meta.url) }) {
+    const get = async (name) => {
+      const response = await fetch(new URL(name, base));
+      if (!response.ok) throw new Error(`${response.url}: ${response.status} ${response.statusText}`);
+      return response;
+    };
+    const folder = `${domain}-${partitioning}`;
+    const manifest = await (await get(`${folder}/manifest.json`)).json();
+    const words = await (await get("tables.bin")).arrayBuffer();
+    const tables = device.createBuffer({ size: words.byteLength, usage: GPUBufferUsage.STORAGE | GPUBufferUsage.COPY_DST });
+    device.queue.writeBuffer(tables, 0, words);
+    const type = ({ kind, is_written }) => kind === "uniform" ? kind : is_written ? "storage" : "read-only-storage";
+    const pipeline = async ({ name, file, entry_point: entryPoint, bindings }) => {
+      // Not every stage uses all that it is given.
+      const entries = bindings.map((entry) =>
+        ({ binding: entry.binding, visibility: GPUShaderStage.COMPUTE, buffer: { type: type(entry) } }));
+      const layout = device.createPipelineLayout({ bindGroupLayouts: [device.createBindGroupLayout({ entries })] });
+      const module = device.createShaderModule({ code: await (await get(`${folder}/${file}`)).text() });
+      return [name, await device.createComputePipelineAsync({ layout, compute: { module, entryPoint } })];
+    };
+    const pipelines = new Map(await Promise.all(manifest.stages.map(pipeline)));
+    return Object.assign(new Tessellator(), { device, manifest, tables, pipelines });
+  }
+
+  batch(patches, room = { points: 1, primitives: 1 }) {
+    return new Batch(this, patches, room);
+  }
+
+  async tessellate(factors) {
+    const patches = factors.length / this.manifest.setup.factors_per_patch;
+    const run = async (room, results) => {
+      const batch = this.batch(patches, room);
+      try {
+        this.device.queue.writeBuffer(batch.buffers.factors, 0, new Float32Array(factors));
+        return await batch.read(results);
+      } finally {
+        batch.destroy();
+      }
+    };
+    const [points, pointsHigh, primitives, primitivesHigh] = (await run(undefined, ["status"])).status;
+    const room = { points: points + pointsHigh * 2 ** 32, primitives: primitives + primitivesHigh * 2 ** 32 };
+    const { status, points: packed, indices } = await run(room, ["status", "points", "indices"]);
+    if (status[4] !== 0) throw new Error("the counted room does not hold the batch");
+    const word = (of) => Array.from({ length: points }, (_, i) => of(packed[2 * i], packed[2 * i + 1]));
+    return {
+      uv: Float32Array.from(word((low, high) => [low & 0x1ffff, low >>> 17 | (high & 3) << 15]).flat(), (x) => x / 65536),
+      patches: Uint32Array.from(word((_, high) => high >>> 2)),
+      indices: indices.slice(0, primitives * this.manifest.setup.indices_per_primitive),
+    };
+  }
+}
+
+class Batch {
+  constructor({ device, manifest, tables, pipelines }, patches, { points, primitives }) {
+    const plan = manifest.plans.find((plan) => plan.min_patches <= patches && patches <= plan.max_patches);
+    if (!Number.isInteger(patches) || !plan || points > plan.max_points || primitives > plan.max_primitives) {
+      throw new RangeError(`${patches} patches, ${points} points, ${primitives} primitives: not one batch`);
+    }
+    const { maxComputeWorkgroupsPerDimension: max_workgroups, maxStorageBufferBindingSize: most } = device.limits;
+    const numbers = { patches, points: Math.max(points, 1), primitives: Math.max(primitives, 1), max_workgroups };
+    const of = (formula) => value(formula, numbers);
+    const { STORAGE, COPY_DST, COPY_SRC, UNIFORM, INDIRECT, VERTEX, INDEX } = GPUBufferUsage;
+    const also = { job: UNIFORM, arguments: INDIRECT, points: VERTEX, indices: INDEX };
+    const large = plan.buffers.find(({ bytes }) => of(bytes) > most);
+    if (large) throw new RangeError(`${large.resource} has ${of(large.bytes)} bytes; the device binds ${most}`);
+    this.buffers = Object.fromEntries(plan.buffers.map(({ resource, bytes }) => [resource, resource === "tables" ? tables
+      : device.createBuffer({ label: resource, size: of(bytes), usage: STORAGE | COPY_DST | COPY_SRC | also[resource] })]));
+    const stride = manifest.job_stride / 4;
+    const words = new Uint32Array(stride * plan.jobs.length);
+    plan.jobs.forEach((job, number) => words.set(job.map(of), stride * number));
+    device.queue.writeBuffer(this.buffers.job, 0, words);
+    this.device = device;
+    this.dispatches = plan.dispatches.map(({ stage, bindings, workgroups }) => {
+      const entries = bindings.map(({ resource, offset, bytes }, binding) =>
+        ({ binding, resource: { buffer: this.buffers[resource], offset: of(offset), size: of(bytes) } }));
+      const pipeline = pipelines.get(stage);
+      const group = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries });
+      if ("indirect_at" in workgroups) return { pipeline, group, at: of(workgroups.indirect_at) };
+      const count = of(workgroups.direct), x = Math.min(count, max_workgroups);
+      return { pipeline, group, rows: [x, Math.ceil(count / x)] };
+    });
+  }
+
+  encode(encoder) {
+    const pass = encoder.beginComputePass();
+    for (const { pipeline, group, at, rows } of this.dispatches) {
+      pass.setPipeline(pipeline);
+      pass.setBindGroup(0, group);
+      if (rows) pass.dispatchWorkgroups(...rows);
+      else pass.dispatchWorkgroupsIndirect(this.buffers.arguments, at);
+    }
+    pass.end();
+  }
+
+  async read(names) {
+    const encoder = this.device.createCommandEncoder();
+    this.encode(encoder);
+    const copies = names.map((name) => {
+      const { size } = this.buffers[name];
+      const copy = this.device.createBuffer({ size, usage: GPUBufferUsage.MAP_READ | GPUBufferUsage.COPY_DST });
+      encoder.copyBufferToBuffer(this.buffers[name], 0, copy, 0, size);
+      return copy;
+    });
+    this.device.queue.submit([encoder.finish()]);
+    const words = async (copy) => {
+      await copy.mapAsync(GPUMapMode.READ);
+      const words = new Uint32Array(copy.getMappedRange().slice(0));
+      copy.destroy();
+      return words;
+    };
+    const all = await Promise.all(copies.map(words));
+    return Object.fromEntries(names.map((name, i) => [name, all[i]]));
+  }
+
+  destroy() {
+    for (const [name, buffer] of Object.entries(this.buffers)) if (name !== "tables") buffer.destroy();
+  }
+}
