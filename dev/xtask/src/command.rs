@@ -36,6 +36,20 @@ pub(crate) fn cargo_home() -> Result<PathBuf, String> {
     home.ok_or_else(|| "neither CARGO_HOME nor a home directory".into())
 }
 
+/// Flags of the compiler behind `first`, separated as cargo wants them, that take this machine's folders out of messages
+/// of panics in dependencies, so that what is built has the same bytes everywhere.
+///
+/// # Errors
+/// There is no home directory.
+pub(crate) fn flags_without_folders(first: &str) -> Result<String, String> {
+    let mut flags = vec![first.to_owned()];
+    for registry in fs::read_dir(cargo_home()?.join("registry/src")).into_iter().flatten().flatten()
+    {
+        flags.push(format!("--remap-path-prefix={}/=", registry.path().display()));
+    }
+    Ok(flags.join("\u{1f}"))
+}
+
 /// The message of an error with a file.
 pub(crate) fn in_file(path: &Path, error: &dyn std::fmt::Display) -> String {
     format!("{}: {error}", path.display())
@@ -60,6 +74,17 @@ pub(crate) fn lock_versions(root: &Path, separate: &str) -> Result<(), String> {
         fs::copy(&from, &to).map_err(|error| in_file(&to, &error))?;
     }
     Ok(())
+}
+
+/// This program with other arguments, so that other tests can run meanwhile.
+///
+/// # Errors
+/// This program has no path.
+pub(crate) fn this(arguments: &[&str]) -> Result<Command, String> {
+    let own = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
+    let mut command = Command::new(own);
+    command.args(arguments).current_dir(workspace());
+    Ok(command)
 }
 
 /// The interpreter that the variable `PYTHON` names, or the system's.

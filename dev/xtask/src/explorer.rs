@@ -38,7 +38,10 @@ const BROWSER: &[Need] = &[
 pub(crate) fn build() -> Result<(), String> {
     setup::target(TARGET)?;
     let mut library = cargo("build --package tess-explorer --profile wasm --target");
-    command::run(library.arg(TARGET).env("CARGO_ENCODED_RUSTFLAGS", flags()?))?;
+    command::run(cargo("fetch --locked --target").arg(TARGET))?;
+    // Every browser with WebGPU has SIMD, and so has every other one since 2023.
+    let flags = command::flags_without_folders("-Ctarget-feature=+simd128")?;
+    command::run(library.arg(TARGET).env("CARGO_ENCODED_RUSTFLAGS", flags))?;
     let page = page();
     if page.exists() {
         fs::remove_dir_all(&page).map_err(|error| in_file(&page, &error))?;
@@ -55,19 +58,6 @@ pub(crate) fn build() -> Result<(), String> {
         return Err(format!("the page has {bytes} bytes; it may have {LARGEST}"));
     }
     Ok(())
-}
-
-/// Flags of the compiler, separated as cargo wants them. Every browser with WebGPU has SIMD, and so has every
-/// other one since 2023. Messages of panics name files of dependencies without this machine's folders,
-/// so that the page has the same size everywhere.
-fn flags() -> Result<String, String> {
-    command::run(cargo("fetch --locked --target").arg(TARGET))?;
-    let sources = command::cargo_home()?.join("registry/src");
-    let mut flags = vec!["-Ctarget-feature=+simd128".to_owned()];
-    for registry in fs::read_dir(&sources).into_iter().flatten().flatten() {
-        flags.push(format!("--remap-path-prefix={}/=", registry.path().display()));
-    }
-    Ok(flags.join("\u{1f}"))
 }
 
 /// Writes the JavaScript module of a WebAssembly file of the target folder.
@@ -112,17 +102,10 @@ pub(crate) fn lacking() -> Option<String> {
 /// # Errors
 /// As for [`test()`], but for the tests.
 pub(crate) fn tests(program: &Path) -> Result<Command, String> {
-    setup::provide(BROWSER)?;
     let mut format = cargo("fmt --check --manifest-path");
     command::run(format.arg(source().join("bindgen/Cargo.toml")))?;
     build()?;
-    let modules = target().join("explorer-test");
-    fs::create_dir_all(&modules).map_err(|error| in_file(&modules, &error))?;
-    if !modules.join("node_modules/playwright-core").exists() {
-        let mut npm = Command::new("npm");
-        npm.args(["install", "--no-save", "--no-package-lock", "--no-audit", "--no-fund"]);
-        command::run(npm.arg(PLAYWRIGHT).current_dir(&modules))?;
-    }
+    let modules = modules()?;
     let stage = stage(&modules)?;
     let listener = TcpListener::bind("127.0.0.1:0").map_err(|error| error.to_string())?;
     let address = address(&listener)?;
@@ -135,6 +118,28 @@ pub(crate) fn tests(program: &Path) -> Result<Command, String> {
     Ok(node)
 }
 
+/// Provides a browser, and gives the folder with the library that drives it.
+///
+/// # Errors
+/// One of them cannot be installed.
+pub(crate) fn modules() -> Result<PathBuf, String> {
+    setup::provide(BROWSER)?;
+    let modules = target().join("explorer-test");
+    fs::create_dir_all(&modules).map_err(|error| in_file(&modules, &error))?;
+    if !modules.join("node_modules/playwright-core").exists() {
+        command::run(npm(&modules).arg(PLAYWRIGHT))?;
+    }
+    Ok(modules)
+}
+
+/// `npm install` into a folder, without a description of a package.
+pub(crate) fn npm(folder: &Path) -> Command {
+    let mut npm = Command::new("npm");
+    npm.args(["install", "--no-save", "--no-package-lock", "--no-audit", "--no-fund"]);
+    npm.current_dir(folder);
+    npm
+}
+
 /// Builds the tessellation stage for the browser tests, which is no part of the page; where it is.
 fn stage(folder: &Path) -> Result<PathBuf, String> {
     command::run(cargo("build --package tess-explorer-stage --target").arg(TARGET))?;
@@ -144,7 +149,10 @@ fn stage(folder: &Path) -> Result<PathBuf, String> {
 }
 
 /// The program `tess` that files and texts are compared with: `TESS_PROGRAM`, or one that is built now.
-fn program() -> Result<PathBuf, String> {
+///
+/// # Errors
+/// It does not compile.
+pub(crate) fn program() -> Result<PathBuf, String> {
     std::env::var_os("TESS_PROGRAM").map_or_else(command::program, |program| Ok(program.into()))
 }
 

@@ -29,13 +29,24 @@ const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// # Errors
 /// The system is none of the table above, the build fails, or a file cannot be written.
 pub(crate) fn run(prefix: &str, target: Option<&str>) -> Result<(), String> {
+    run_with(&mut cargo("rustc --release -p tess-capi --lib"), prefix, target)
+}
+
+/// The same with this build.
+///
+/// # Errors
+/// As for [`run`].
+pub(crate) fn run_with(
+    release: &mut Command,
+    prefix: &str,
+    target: Option<&str>,
+) -> Result<(), String> {
     let system = System::of(target.unwrap_or(std::env::consts::OS))?;
     let prefix = std::path::absolute(prefix).map_err(|error| in_file(Path::new(prefix), &error))?;
-    let mut release = cargo("rustc --release -p tess-capi --lib");
     release.args(target.map(|target| format!("--target={target}"))).arg(MESSAGES).arg("--");
     release.args(system.name_of_library());
     let files = Files { prefix, system };
-    files.install(&build(&mut release, system)?)?;
+    files.install(&build(release, system)?)?;
     println!("\ninstalled in {}; compile with", files.prefix.display());
     if system != System::Windows {
         let pkgconfig = files.prefix.join("lib/pkgconfig");
@@ -92,7 +103,7 @@ impl System {
 }
 
 /// The name by which programs find the shared library: another one for each version that may break them.
-fn soname() -> String {
+pub(crate) fn soname() -> String {
     let numbers: Vec<&str> = VERSION.split('.').collect();
     match *numbers {
         ["0", minor, _] => format!("libtess.so.0.{minor}"),
@@ -187,7 +198,7 @@ impl Files {
         if self.system == System::Windows {
             Ok(())
         } else {
-            self.write("lib/pkgconfig/tess.pc", &self.description())
+            self.write("lib/pkgconfig/tess.pc", &description())
         }
     }
 
@@ -221,22 +232,22 @@ impl Files {
         let _ = full;
         Ok(())
     }
+}
 
-    fn description(&self) -> String {
-        format!(
-            "prefix={}\n\
-             includedir=${{prefix}}/include\n\
-             libdir=${{prefix}}/lib\n\
-             \n\
-             Name: tess\n\
-             Description: Bit-exact Direct3D 11 class tessellation\n\
-             Version: {VERSION}\n\
-             Cflags: -I${{includedir}}\n\
-             Libs: -L${{libdir}} -ltess\n\
-             Libs.private: {SYSTEM_LIBRARIES}\n",
-            self.prefix.display()
-        )
-    }
+/// What pkg-config reads. Paths are relative to the file, so that the installation may move.
+fn description() -> String {
+    format!(
+        "prefix=${{pcfiledir}}/../..\n\
+         includedir=${{prefix}}/include\n\
+         libdir=${{prefix}}/lib\n\
+         \n\
+         Name: tess\n\
+         Description: Bit-exact Direct3D 11 class tessellation\n\
+         Version: {VERSION}\n\
+         Cflags: -I${{includedir}}\n\
+         Libs: -L${{libdir}} -ltess\n\
+         Libs.private: {SYSTEM_LIBRARIES}\n"
+    )
 }
 
 /// Copies a file to where another may be, which a running program may use. An equal one stays, with its time.

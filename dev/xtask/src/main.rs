@@ -6,7 +6,7 @@
 //! tests that are not Rust    python, explorer, integrations (Bevy), mesa (build, compare, piglit)
 //! whether tests see faults   mutants (cargo-mutants), mutants/planted (lists in faults/)
 //! results of measurements    records (take: bench -> JSON; performance: JSON -> tables and charts)
-//! for users                  install (header, libraries, tess.pc)
+//! for users                  install (header, libraries, tess.pc), dist (a release's archives)
 //! with the kit compiled in   kit/rtl (the circuit: bench, stages, faults, proofs, cost)
 //! what all of them use       command (runs programs, finds folders), packages (cargo metadata), levels (CPU levels)
 //! ```
@@ -18,6 +18,7 @@
 
 mod ci;
 mod command;
+mod dist;
 mod explorer;
 mod features;
 mod fuzz;
@@ -105,6 +106,9 @@ usage: cargo xtask <command>
           if the test beside one does not see it (each compiles a crate again: hours for all)
   publish [send]
           pack and build every published package as a registry would get it; without `send`, send nothing
+  dist [--try] [PART...]
+          pack a release, or these parts of it, into target/dist: shaders npm covergroups c deb python crates; with
+          `--try` pack twice, compare the bytes, and use each archive where nothing else of the project is
   deny [advisories]
           check the licences and sources of dependencies, and known vulnerabilities on request
   semver REVISION
@@ -162,6 +166,7 @@ fn run(words: &[&str]) -> Option<Result<(), String>> {
         ["install", "--prefix", folder] => install::run(folder, None),
         ["install", "--prefix", folder, "--target", target] => install::run(folder, Some(target)),
         ["mesa", ref words @ ..] => mesa::run(words),
+        ["dist", ref words @ ..] => dist::run(words),
         ["deny"] => publish::deny(false),
         ["deny", "advisories"] => publish::deny(true),
         ["semver", baseline] => publish::semver(baseline),

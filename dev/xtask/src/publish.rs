@@ -1,7 +1,8 @@
 //! Conditions of publishing: packages that build on their own, licences, compatible changes.
 
 use crate::command::{self, cargo, in_file, workspace};
-use crate::{packages, setup};
+use crate::packages::{self, Package};
+use crate::setup;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -32,6 +33,20 @@ fn with_licences(command: &mut Command) -> Result<(), String> {
     };
     let ran = copies(&|from, to| fs::copy(from, to).map(drop)).and_then(|()| command::run(command));
     copies(&|_, to| fs::remove_file(to)).and(ran)
+}
+
+/// Packs every published package; gives the archives.
+///
+/// # Errors
+/// As for [`dry_run`].
+pub(crate) fn pack() -> Result<Vec<PathBuf>, String> {
+    forget_packages()?;
+    let published = packages::published()?;
+    let mut pack = cargo("package --no-verify --allow-dirty");
+    pack.args(published.iter().flat_map(|package| ["--package", &package.name]));
+    with_licences(&mut pack)?;
+    let file = |it: &Package| command::target().join(format!("package/{}.crate", it.full_name()));
+    Ok(published.iter().map(file).collect())
 }
 
 /// Packs and builds every published package as the registry would get it, without sending it.
@@ -126,7 +141,7 @@ const SHOWN: &[&str] = &[
 ];
 
 /// The texts of the licences, in the workspace's folder.
-const LICENCES: &[&str] = &["LICENSE-APACHE", "LICENSE-MIT"];
+pub(crate) const LICENCES: &[&str] = &["LICENSE-APACHE", "LICENSE-MIT"];
 
 /// Files and keys of the manifest that published packages lack, one line for each.
 fn lacking() -> Result<Vec<String>, String> {

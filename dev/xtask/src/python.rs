@@ -31,9 +31,8 @@ pub(crate) fn run_with(program: &Path) -> Result<(), String> {
 /// # Errors
 /// This program has no path.
 pub(crate) fn in_a_process(program: &Path) -> Result<Command, String> {
-    let own = std::env::current_exe().map_err(|error| format!("this program: {error}"))?;
-    let mut command = Command::new(own);
-    command.args(["python", "--program"]).arg(program).current_dir(workspace());
+    let mut command = command::this(&["python", "--program"])?;
+    command.arg(program);
     Ok(command)
 }
 
@@ -50,6 +49,28 @@ fn tests(program: &Path) -> Result<Command, String> {
     let mut tests = environment.python(&["-m", "pytest", "-q", "-p", "no:cacheprovider"]);
     tests.env("TESS_PROGRAM", program).env("TESS_COCOTB_BUILD", target().join("cocotb"));
     Ok(tests)
+}
+
+/// Builds the wheel and the archive of sources of a release made at this time, and gives each to `take`. The wheel's name
+/// says the oldest glibc that maturin found it to run with.
+///
+/// # Errors
+/// A build fails, or `take` does.
+pub(crate) fn release(
+    epoch: &str,
+    take: impl Fn(&Path) -> Result<(), String>,
+) -> Result<(), String> {
+    setup::provide(&[PYTHON])?;
+    command::lock_versions(&workspace(), "bindings/python")?;
+    let environment = Environment::fresh()?;
+    environment.install(TOOLS)?;
+    let flags = command::flags_without_folders("-Cdebuginfo=0")?;
+    for arguments in [&["-m", "maturin", "build", "--release"][..], &["-m", "maturin", "sdist"]] {
+        let mut maturin = environment.python(arguments);
+        maturin.env("SOURCE_DATE_EPOCH", epoch).env("CARGO_ENCODED_RUSTFLAGS", &flags);
+        take(&Environment::build(&mut maturin)?)?;
+    }
+    Ok(())
 }
 
 /// Imports of the tests that see planted faults.
@@ -129,19 +150,23 @@ impl Environment {
         })
     }
 
-    /// Builds the wheel, the only one in its folder.
+    /// Builds the wheel.
     fn wheel(&self) -> Result<PathBuf, String> {
+        Self::build(&mut self.python(&["-m", "maturin", "build", "--release"]))
+    }
+
+    /// Runs a build of maturin, whose file is the only one in its folder.
+    fn build(maturin: &mut Command) -> Result<PathBuf, String> {
         let folder = target().join("wheels");
         if folder.exists() {
             fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))?;
         }
-        let mut build = self.python(&["-m", "maturin", "build", "--release", "--out"]);
-        command::run(build.arg(&folder))?;
+        command::run(maturin.arg("--out").arg(&folder))?;
         let entries = fs::read_dir(&folder).map_err(|error| in_file(&folder, &error))?;
         let files: Vec<PathBuf> = entries.filter_map(|entry| Some(entry.ok()?.path())).collect();
         match &files[..] {
-            [wheel] => Ok(wheel.clone()),
-            others => Err(format!("maturin built {} wheels, not one", others.len())),
+            [file] => Ok(file.clone()),
+            others => Err(format!("maturin built {} files, not one", others.len())),
         }
     }
 

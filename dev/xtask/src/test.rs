@@ -2,7 +2,7 @@
 
 use crate::suite::{self, Extent, Part};
 use crate::tally::{Job, Report};
-use crate::{command, explorer, levels, python, setup};
+use crate::{command, dist, explorer, levels, python, setup};
 
 /// The rule where no browser can be had.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -59,6 +59,9 @@ pub(crate) fn run_all(browser: Browser) -> Result<(), String> {
     })?;
     // Alone, as a page waits for a picture only so long.
     report.one_by_one(explorer)?;
+    if lacking.is_none() {
+        report.one_by_one([dist::for_browsers(&program)?])?;
+    }
     finish(report)
 }
 

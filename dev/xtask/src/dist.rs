@@ -1,0 +1,173 @@
+//! Packs what a release has into `target/dist`, to the same bytes each time, and tries each archive by itself.
+
+mod bill;
+mod c;
+mod pack;
+mod shaders;
+
+use crate::command::{self, in_file, target, workspace};
+use crate::{explorer, packages, publish, python, setup};
+use pack::Release;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// The version of every package but `tess-wgpu`.
+const VERSION: &str = env!("CARGO_PKG_VERSION");
+
+type Pack = fn(&Release) -> Result<(), String>;
+
+/// The parts of a release.
+const PARTS: &[(&str, Pack)] = &[
+    ("shaders", shaders::pack),
+    ("npm", shaders::pack_npm),
+    ("covergroups", covergroups),
+    ("c", c::pack),
+    ("deb", c::pack_deb),
+    ("python", wheel),
+    ("crates", crates),
+];
+
+/// Packs these parts, or all; with `--try` first among them, packs twice, compares, and uses what was packed.
+///
+/// # Errors
+/// There is no such part, a program is missing or fails, two packings differ, or an archive does not serve.
+pub(crate) fn run(words: &[&str]) -> Result<(), String> {
+    let (tries, names) = match words {
+        ["--try", names @ ..] => (true, names),
+        names => (false, names),
+    };
+    let all: Vec<_> = PARTS.iter().map(|(name, _)| *name).collect();
+    if let Some(unknown) = names.iter().find(|name| !all.contains(name)) {
+        return Err(format!("dist: no part {unknown}; there are {}", all.join(" ")));
+    }
+    let is_wanted = |part: &&(&str, _)| names.is_empty() || names.contains(&part.0);
+    let parts: Vec<_> = PARTS.iter().filter(is_wanted).collect();
+    let release = pack(&parts, "dist")?;
+    if tries {
+        let again = pack(&parts, "dist-again")?;
+        same(&release.sums()?, &again.sums()?)?;
+        fs::remove_dir_all(&again.out).map_err(|error| in_file(&again.out, &error))?;
+        parts.iter().try_for_each(|(name, _)| try_it(&release, name))?;
+    }
+    println!("\n{}:\n{}", release.out.display(), release.sums()?);
+    Ok(())
+}
+
+fn pack(parts: &[&(&str, Pack)], folder: &str) -> Result<Release, String> {
+    let release = Release::new(&target().join(folder))?;
+    parts.iter().try_for_each(|(_, pack)| pack(&release))?;
+    release.write_sums()?;
+    Ok(release)
+}
+
+/// Uses a part where nothing else of the project is.
+fn try_it(release: &Release, part: &str) -> Result<(), String> {
+    setup::for_comparisons()?;
+    let modules = if part == "npm" { Some(explorer::modules()?) } else { None };
+    let folder = std::env::temp_dir().join(format!("tess-dist-{}", std::process::id()));
+    pack::empty(&folder)?;
+    let mut script = Command::new("sh");
+    script.arg("-eu").arg(workspace().join("dev/xtask/src/dist/try.sh")).arg(part);
+    script.current_dir(&folder).env("OUT", &release.out).env("ROOT", workspace());
+    script.env_remove("PYTHONPATH").envs(modules.map(|modules| ("EXPLORER_MODULES", modules)));
+    command::run(&mut script)?;
+    fs::remove_dir_all(&folder).map_err(|error| in_file(&folder, &error))
+}
+
+/// Refuses two packings whose sums differ; each line is one file's.
+fn same(first: &str, second: &str) -> Result<(), String> {
+    let differs = |line: &&str| !second.lines().any(|other| other == *line);
+    match first.lines().find(differs) {
+        None if first.lines().count() == second.lines().count() => Ok(()),
+        line => Err(format!("two packings differ: {}", line.unwrap_or("one has more files"))),
+    }
+}
+
+/// The crates as a registry gets them.
+fn crates(release: &Release) -> Result<(), String> {
+    for file in publish::pack()? {
+        release.take(&file)?;
+    }
+    let packages: Vec<_> = packages::published()?.into_iter().map(|package| package.name).collect();
+    bill::write(release, &bill::Of { name: "crates", manifest: "Cargo.toml", packages: &packages })
+}
+
+/// The Python package, built and as sources.
+fn wheel(release: &Release) -> Result<(), String> {
+    python::release(&release.epoch, |file| release.take(file))?;
+    let manifest = "bindings/python/Cargo.toml";
+    bill::write(
+        release,
+        &bill::Of { name: "python", manifest, packages: &["tess-python".to_owned()] },
+    )
+}
+
+/// `tess_uvm` with its covergroups, and the DPI-C interface where its file lists expect it.
+fn covergroups(release: &Release) -> Result<(), String> {
+    let stage = release.stage(&format!("tess-uvm-{VERSION}"))?;
+    pack::copy_tracked("bindings/uvm", &stage.join("uvm"))?;
+    pack::copy_tracked("bindings/c/verilog", &stage.join("c/verilog"))?;
+    pack::copy_tracked("bindings/c/include/tess.h", &stage.join("c/include/tess.h"))?;
+    let file = stage.join("uvm/src/tess_covergroups.svh");
+    command::run(tess()?.args(["coverage", "--covergroups"]).arg(file))?;
+    release.archive(&stage, &format!("tess-uvm-{VERSION}.tar.gz"))
+}
+
+/// The program `tess`, built once.
+fn tess() -> Result<Command, String> {
+    static PROGRAM: OnceLock<Result<PathBuf, String>> = OnceLock::new();
+    PROGRAM.get_or_init(explorer::program).clone().map(Command::new)
+}
+
+/// The command that tries the package for browsers in a process of its own, with this program `tess`.
+///
+/// # Errors
+/// This program has no path.
+pub(crate) fn for_browsers(program: &Path) -> Result<Command, String> {
+    let mut command = command::this(&["dist", "--try", "npm"])?;
+    command.env("TESS_PROGRAM", program);
+    Ok(command)
+}
+
+/// Copies both licences into a folder.
+fn add_licences(folder: &Path) -> Result<(), String> {
+    publish::LICENCES.iter().try_for_each(|name| {
+        let from = workspace().join(name);
+        fs::copy(&from, folder.join(name)).map(drop).map_err(|error| in_file(&from, &error))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The cheapest archive, twice, and a difference that must be seen.
+    #[test]
+    fn archives_have_the_same_bytes() {
+        let sums = |name: &str, text: &str, age: u64| {
+            let out = target().join(format!("tmp/dist-{}-{name}", std::process::id()));
+            let release = Release::new(&out).expect("a folder");
+            let stage = release.stage("notes").expect("a folder");
+            for file in ["b", "a", "c"] {
+                fs::write(stage.join(file), text).expect("written");
+                let file =
+                    fs::File::options().write(true).open(stage.join(file)).expect("it is there");
+                let time = std::time::UNIX_EPOCH + std::time::Duration::from_secs(age);
+                file.set_modified(time).expect("dated");
+            }
+            release.archive(&stage, "notes.tar.gz").expect("packed");
+            release.write_sums().expect("written");
+            let sums = release.sums().expect("read");
+            fs::remove_dir_all(&out).expect("it was made here");
+            sums
+        };
+        let first = sums("first", "text", 0);
+        assert!(first.ends_with("  notes.tar.gz\n"), "{first}");
+        assert_eq!(same(&first, &sums("second", "text", 1)), Ok(()), "sorted, dated, owned alike");
+        let other = same(&first, &sums("other", "test", 0)).expect_err("another text");
+        assert!(other.contains("notes.tar.gz"), "{other}");
+        assert!(same("", &first).is_err() && same(&first, "").is_err(), "a file more");
+    }
+}

@@ -1,0 +1,106 @@
+//! The folder of a release, and archives whose bytes depend on their contents alone.
+
+use crate::command::{self, in_file, workspace};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// A folder that is filled with archives.
+pub(super) struct Release {
+    pub(super) out: PathBuf,
+    /// The time of everything, in seconds since 1970: the commit's, unless `SOURCE_DATE_EPOCH` says another.
+    pub(super) epoch: String,
+}
+
+impl Release {
+    /// An empty one.
+    pub(super) fn new(out: &Path) -> Result<Self, String> {
+        let epoch = match std::env::var("SOURCE_DATE_EPOCH") {
+            Ok(epoch) => epoch,
+            Err(_) => {
+                let mut log = Command::new("git");
+                log.args(["log", "-1", "--format=%ct"]).current_dir(workspace());
+                command::output(&mut log)?.trim().to_owned()
+            }
+        };
+        empty(out)?;
+        Ok(Self { out: out.to_owned(), epoch })
+    }
+
+    /// An empty folder beside the release, of the name that an archive shows, with both licences.
+    pub(super) fn stage(&self, name: &str) -> Result<PathBuf, String> {
+        let stage = self.out.with_extension("stage").join(name);
+        empty(&stage)?;
+        super::add_licences(&stage)?;
+        Ok(stage)
+    }
+
+    /// Packs a folder, which is removed, into `file`. Files that are hard links of each other are packed once.
+    pub(super) fn archive(&self, folder: &Path, file: &str) -> Result<(), String> {
+        let (Some(parent), Some(name)) = (folder.parent(), folder.file_name()) else {
+            return Err(format!("{} has no name", folder.display()));
+        };
+        let mut tar = Command::new("tar");
+        tar.args(["--sort=name", "--owner=0", "--group=0", "--numeric-owner", "--format=gnu"]);
+        tar.args(["--mode=a+rX,u+w,go-w", "-I", "gzip -9n"])
+            .arg(format!("--mtime=@{}", self.epoch));
+        tar.arg("-C").arg(parent).arg("-cf").arg(self.out.join(file)).arg(name);
+        command::run(&mut tar)?;
+        fs::remove_dir_all(parent).map_err(|error| in_file(parent, &error))
+    }
+
+    /// Copies a finished archive.
+    pub(super) fn take(&self, file: &Path) -> Result<(), String> {
+        let to = self.out.join(file.file_name().unwrap_or_default());
+        fs::copy(file, to).map(drop).map_err(|error| in_file(file, &error))
+    }
+
+    fn names(&self) -> Result<Vec<String>, String> {
+        let entries = fs::read_dir(&self.out).map_err(|error| in_file(&self.out, &error))?;
+        let mut names: Vec<_> =
+            entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+        names.sort();
+        Ok(names)
+    }
+
+    pub(super) fn write_sums(&self) -> Result<(), String> {
+        let mut sums = Command::new("sha256sum");
+        let sums = command::output(sums.arg("--").args(self.names()?).current_dir(&self.out))?;
+        fs::write(self.out.join(SUMS), sums).map_err(|error| in_file(&self.out, &error))
+    }
+
+    pub(super) fn sums(&self) -> Result<String, String> {
+        fs::read_to_string(self.out.join(SUMS)).map_err(|error| in_file(&self.out, &error))
+    }
+}
+
+const SUMS: &str = "SHA256SUMS";
+
+/// Makes an empty folder.
+pub(super) fn empty(folder: &Path) -> Result<(), String> {
+    if folder.exists() {
+        fs::remove_dir_all(folder).map_err(|error| in_file(folder, &error))?;
+    }
+    fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))
+}
+
+/// Copies what git tracks of a folder of the workspace, or one file.
+pub(super) fn copy_tracked(from: &str, to: &Path) -> Result<(), String> {
+    let mut list = Command::new("git");
+    list.args(["ls-files", "--", from]).current_dir(workspace());
+    let names = command::output(&mut list)?;
+    if names.is_empty() {
+        return Err(format!("git tracks nothing of {from}"));
+    }
+    for name in names.lines() {
+        let path = workspace().join(name);
+        let to = match name.strip_prefix(from) {
+            Some("") | None => to.to_owned(),
+            Some(inside) => to.join(inside.trim_start_matches('/')),
+        };
+        let folder = to.parent().unwrap_or(&to);
+        let copied = fs::create_dir_all(folder).and_then(|()| fs::copy(&path, &to));
+        copied.map_err(|error| in_file(&path, &error))?;
+    }
+    Ok(())
+}

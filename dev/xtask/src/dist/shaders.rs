@@ -1,0 +1,86 @@
+//! The shaders of the usual setups: in every language for hosts without Rust, and as WGSL with a host for browsers.
+
+use super::pack::{Release, copy_tracked};
+use super::{VERSION, tess};
+use crate::command::{self, in_file, workspace};
+use std::fs;
+use std::path::Path;
+
+const LANGUAGES: [&str; 5] = ["wgsl", "spirv", "glsl", "hlsl", "msl"];
+const DOMAINS: [(&str, &str); 3] =
+    [("isoline", "line"), ("tri", "triangle_cw"), ("quad", "triangle_cw")];
+const PARTITIONINGS: [&str; 4] = ["integer", "pow2", "fractional_odd", "fractional_even"];
+
+/// Writes a folder for each setup into `to`.
+fn write(language: &str, to: &Path) -> Result<(), String> {
+    fs::create_dir_all(to).map_err(|error| in_file(to, &error))?;
+    for (domain, output) in DOMAINS {
+        for partitioning in PARTITIONINGS {
+            let mut shaders = tess()?;
+            shaders.args(["shaders", "--target", language, "--domain", domain, "--output", output]);
+            shaders.args(["--partitioning", partitioning, "-o"]);
+            command::output(shaders.arg(to.join(format!("{domain}-{partitioning}"))))?;
+        }
+    }
+    Ok(())
+}
+
+/// The folders of setups in `folder`.
+fn setups(folder: &Path) -> impl Iterator<Item = std::path::PathBuf> {
+    let names = DOMAINS.iter().flat_map(|(domain, _)| {
+        PARTITIONINGS.iter().map(move |partitioning| format!("{domain}-{partitioning}"))
+    });
+    let folder = folder.to_owned();
+    names.map(move |name| folder.join(name))
+}
+
+/// Keeps one copy of the tables, which depend on the order of splits alone: `keep` says what becomes of each.
+fn share_tables(
+    folder: &Path,
+    shared: &Path,
+    keep: impl Fn(&Path) -> std::io::Result<()>,
+) -> Result<(), String> {
+    let read = |path: &Path| fs::read(path).map_err(|error| in_file(path, &error));
+    for setup in setups(folder) {
+        let own = setup.join("tables.bin");
+        if !shared.exists() {
+            fs::copy(&own, shared).map_err(|error| in_file(&own, &error))?;
+        }
+        if read(&own)? != read(shared)? {
+            return Err(format!("{} differs from the others", own.display()));
+        }
+        fs::remove_file(&own).and_then(|()| keep(&own)).map_err(|error| in_file(&own, &error))?;
+    }
+    Ok(())
+}
+
+pub(super) fn pack(release: &Release) -> Result<(), String> {
+    let name = format!("tess-shaders-{VERSION}");
+    let stage = release.stage(&name)?;
+    copy_tracked("docs/shaders.md", &stage.join("README.md"))?;
+    copy_tracked("bindings/vulkan", &stage.join("vulkan"))?;
+    let shared = stage.join("tables.bin");
+    for language in LANGUAGES {
+        write(language, &stage.join(language))?;
+        share_tables(&stage.join(language), &shared, |own| fs::hard_link(&shared, own))?;
+    }
+    release.archive(&stage, &format!("{name}.tar.gz"))
+}
+
+pub(super) fn pack_npm(release: &Release) -> Result<(), String> {
+    let stage = release.stage("package")?;
+    for file in ["tess.js", "tess.d.ts", "README.md"] {
+        copy_tracked(&format!("bindings/webgpu/{file}"), &stage.join(file))?;
+    }
+    let description = workspace().join("bindings/webgpu/package.json");
+    let text = fs::read_to_string(&description).map_err(|error| in_file(&description, &error))?;
+    fs::write(stage.join("package.json"), text.replace("@VERSION@", VERSION))
+        .map_err(|error| in_file(&stage, &error))?;
+    let shaders = stage.join("shaders");
+    write("wgsl", &shaders)?;
+    // npm unpacks no links, and the host takes the tables from here.
+    share_tables(&shaders, &shaders.join("tables.bin"), |own| {
+        fs::remove_file(own.with_file_name("tess_shaders.h"))
+    })?;
+    release.archive(&stage, &format!("tess-webgpu-{VERSION}.tgz"))
+}
