@@ -147,7 +147,8 @@ impl Coverage {
     #[staticmethod]
     fn from_ucis(text: &str) -> PyResult<Self> {
         let read = tess_verify::cover::Coverage::read_ucis(text.as_bytes());
-        read.map(|coverage| Self(Arc::new(Mutex::new(coverage)), Arc::default())).map_err(file_format)
+        read.map(|coverage| Self(Arc::new(Mutex::new(coverage)), Arc::default()))
+            .map_err(file_format)
     }
 
     /// Writes a coverage file: UCIS XML.

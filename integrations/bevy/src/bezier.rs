@@ -9,7 +9,7 @@ use std::fmt;
 use tess_core::{Domain, PatchFactors, QuadFactors};
 use tess_surface::factors::inside_quad;
 use tess_surface::glam;
-use tess_surface::{BezierPatch, SurfacePatch, Surface};
+use tess_surface::{BezierPatch, Surface, SurfacePatch};
 use tess_wgpu::tess_gpu::surfaces;
 
 /// The control points of a bicubic patch: rows along v, columns along u.

@@ -10,7 +10,7 @@ use tess_core::{Domain, PatchFactors, TriangleFactors};
 use tess_surface::factors::inside_triangle;
 use tess_surface::glam;
 use tess_surface::pn::edge_points;
-use tess_surface::{SurfacePatch, PnCorner, PnTriangle, Surface};
+use tess_surface::{PnCorner, PnTriangle, Surface, SurfacePatch};
 use tess_wgpu::tess_gpu::surfaces;
 
 /// A mesh whose triangles become point-normal triangles: curved, with smooth normals.
