@@ -69,7 +69,7 @@ pub(crate) fn faults_are_caught() -> Result<(), Failed> {
     let folder = build_folder().join("rtl");
     run(script()?.env("TESS_VERILOG_BUILD", &folder).args(["--faults", "--build"]))?;
     let bench = |fault: usize, arguments: &[&str]| {
-        let mut bench = Command::new(folder.join("faults/Vtb_tess"));
+        let mut bench = Command::new(folder.join("faults/bench/Vtb_tess"));
         bench.arg(format!("+fault={fault}")).args(arguments);
         bench
     };
