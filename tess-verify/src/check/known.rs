@@ -152,7 +152,9 @@ impl Entry {
 fn is_date(text: &str) -> bool {
     let numbers: Vec<&str> = text.split('-').collect();
     let is_number = |text: &str, digits, range: std::ops::RangeInclusive<u32>| {
-        text.len() == digits && text.parse().is_ok_and(|number: u32| range.contains(&number))
+        text.len() == digits
+            && text.bytes().all(|byte| byte.is_ascii_digit())
+            && text.parse().is_ok_and(|number: u32| range.contains(&number))
     };
     matches!(numbers[..], [year, month, day]
         if is_number(year, 4, 1..=9999) && is_number(month, 2, 1..=12) && is_number(day, 2, 1..=31))
@@ -253,6 +255,22 @@ impl Known {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn dates_are_of_digits() {
+        assert!(["2027-06-30", "0001-01-01", "9999-12-31"].iter().all(|text| is_date(text)));
+        let none = [
+            "",
+            "2027-6-30",
+            "2027-13-01",
+            "2027-06-32",
+            "2027-06-00",
+            "+027-06-30",
+            "2027-+6-30",
+            "2027-06-3O",
+        ];
+        assert!(!none.iter().any(|text| is_date(text)));
+    }
 
     #[test]
     fn what_became_of_each_case() {
