@@ -91,6 +91,9 @@ pub fn check_rules(
     }
 }
 
+/// What a rule of one patch makes of it; `None` if it could show no fault.
+type Judged = Option<Result<(), String>>;
+
 /// What a rule makes of a patch, or of a patch and one before it: the earlier case, and what is wrong.
 type Judgement = (Option<Case>, Result<(), String>);
 
@@ -98,7 +101,7 @@ impl Checker {
     /// Rules that have judged nothing yet.
     #[must_use]
     pub fn new(specification: Specification) -> Self {
-        let tallies = specification.rules().iter().map(|&rule| Tally::new(rule)).collect();
+        let tallies = specification.rules().map(Tally::new).collect();
         Self { specification, patches: 0, tallies, memory: Memory::default() }
     }
 
@@ -114,7 +117,7 @@ impl Checker {
             }
         };
         let size = answer.size();
-        for &rule in self.specification.rules() {
+        for rule in self.specification.rules() {
             for judgement in self.judge(rule, &answer) {
                 self.note(rule, case, size, judgement);
             }
@@ -132,9 +135,7 @@ impl Checker {
     }
 
     fn judge(&mut self, rule: Rule, answer: &Answer<'_>) -> Vec<Judgement> {
-        let alone = |result: Option<Result<(), String>>| {
-            result.into_iter().map(|result| (None, result)).collect()
-        };
+        let alone = |result: Judged| result.into_iter().map(|result| (None, result)).collect();
         let specification = self.specification;
         match rule {
             Rule::Range => alone(answer.range()),

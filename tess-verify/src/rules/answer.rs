@@ -1,5 +1,6 @@
 //! An output by places, and the rules that need no more.
 
+use super::Judged;
 use crate::case::Case;
 use tess_core::fixed_point::ONE;
 use tess_core::{Domain, OutputPrimitive, Tessellation};
@@ -61,7 +62,7 @@ impl<'a> Answer<'a> {
     }
 
     /// Every vertex lies in the domain.
-    pub(super) fn range(&self) -> Option<Result<(), String>> {
+    pub(super) fn range(&self) -> Judged {
         let is_triangle = self.case.domain() == Domain::Triangle;
         let lies_outside = |&&[u, v]: &&Place| {
             let sum = u64::from(u) + u64::from(v);
@@ -75,7 +76,7 @@ impl<'a> Answer<'a> {
     }
 
     /// No primitive if an outer level is not above 0, and some if all are. A denormal may be either.
-    pub(super) fn discard(&self) -> Option<Result<(), String>> {
+    pub(super) fn discard(&self) -> Judged {
         let mut outer = self.case.factors.outer();
         let discards = outer.clone().any(|level| level.is_nan() || level <= 0.0);
         if !discards && outer.any(f32::is_subnormal) {

@@ -1,5 +1,6 @@
 //! Rules about the vertices of one edge.
 
+use super::Judged;
 use super::answer::Answer;
 use super::levels::{may_touch_outline, segments as asked};
 use super::standard::Specification;
@@ -49,10 +50,7 @@ pub(super) fn lines(answer: &Answer<'_>) -> Vec<Line> {
 }
 
 /// Each line has as many segments as its level asks for.
-pub(super) fn segments(
-    answer: &Answer<'_>,
-    specification: Specification,
-) -> Option<Result<(), String>> {
+pub(super) fn segments(answer: &Answer<'_>, specification: Specification) -> Judged {
     if may_touch_outline(answer.case, specification) {
         return None;
     }
@@ -75,10 +73,7 @@ pub(super) fn segments(
 
 /// On each line with the segments that it should have, they are equally long, but for two that lie
 /// symmetrically under fractional spacing.
-pub(super) fn spacing(
-    answer: &Answer<'_>,
-    specification: Specification,
-) -> Option<Result<(), String>> {
+pub(super) fn spacing(answer: &Answer<'_>, specification: Specification) -> Judged {
     if may_touch_outline(answer.case, specification) {
         return None;
     }
@@ -139,10 +134,7 @@ pub(super) fn shorter(along: &[u32]) -> Option<u32> {
 
 /// Each outer edge has both ends, and with each vertex its mirror image; isolines have the mirror images of
 /// those at u = 0 but for v = 0.
-pub(super) fn symmetric(
-    answer: &Answer<'_>,
-    specification: Specification,
-) -> Option<Result<(), String>> {
+pub(super) fn symmetric(answer: &Answer<'_>, specification: Specification) -> Judged {
     let domain = answer.case.domain();
     if answer.vertices.is_empty() || may_touch_outline(answer.case, specification) {
         return None;

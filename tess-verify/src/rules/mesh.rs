@@ -1,5 +1,6 @@
 //! Rules about the primitives of one patch.
 
+use super::Judged;
 use super::answer::{Answer, Place, position, show};
 use super::edge::TOLERANCE;
 use super::levels::may_touch_outline;
@@ -20,7 +21,7 @@ const fn turn(answer: &Answer<'_>) -> i32 {
 }
 
 /// No triangle turns the other way. One without area turns neither way.
-pub(super) fn orientation(answer: &Answer<'_>) -> Option<Result<(), String>> {
+pub(super) fn orientation(answer: &Answer<'_>) -> Judged {
     let clockwise = i128::from(turn(answer));
     let mut triangles = answer.triangles().peekable();
     triangles.peek()?;
@@ -33,7 +34,7 @@ pub(super) fn orientation(answer: &Answer<'_>) -> Option<Result<(), String>> {
 
 /// The triangles cover the domain once, as far as their edges tell: what is left of their directed edges,
 /// after those that go both ways are taken out, is one walk round the outline.
-pub(super) fn cover(answer: &Answer<'_>) -> Option<Result<(), String>> {
+pub(super) fn cover(answer: &Answer<'_>) -> Judged {
     let mut net: BTreeMap<[Place; 2], i32> = BTreeMap::new();
     for [a, b, c] in answer.triangles() {
         for [from, to] in [[a, b], [b, c], [c, a]] {
@@ -71,10 +72,7 @@ pub(super) fn cover(answer: &Answer<'_>) -> Option<Result<(), String>> {
 
 /// Segments of isolines keep their v and lead from u = 0 to u = 1, none is at v = 1, and the lines are equally
 /// spaced. Each line is walked once; in Direct3D a rounded location may go backwards on the way.
-pub(super) fn isolines(
-    answer: &Answer<'_>,
-    specification: Specification,
-) -> Option<Result<(), String>> {
+pub(super) fn isolines(answer: &Answer<'_>, specification: Specification) -> Judged {
     if answer.case.domain() != Domain::Isoline || answer.has_points() {
         return None;
     }
@@ -114,10 +112,7 @@ fn odd_ends(segments: &[[u32; 2]]) -> Vec<u32> {
 }
 
 /// Each place is a point once.
-pub(super) fn points_once(
-    answer: &Answer<'_>,
-    specification: Specification,
-) -> Option<Result<(), String>> {
+pub(super) fn points_once(answer: &Answer<'_>, specification: Specification) -> Judged {
     let may_touch = may_touch_outline(answer.case, specification);
     if !answer.has_points() || answer.vertices.is_empty() || may_touch {
         return None;
@@ -129,7 +124,7 @@ pub(super) fn points_once(
 }
 
 /// As many primitives as the levels ask for.
-pub(super) fn counts(answer: &Answer<'_>) -> Option<Result<(), String>> {
+pub(super) fn counts(answer: &Answer<'_>) -> Judged {
     let size = answer.case.primitive_size();
     let asked = answer.case.patch().counts().indices as usize / size;
     let found = answer.output.indices.len() / size;

@@ -86,127 +86,57 @@ impl Named for Rule {
     ];
 }
 
-/// The rules of Vulkan and of OpenGL.
-const KHRONOS: &[Rule] = &[
-    Rule::Same,
-    Rule::EdgeLevel,
-    Rule::Symmetric,
-    Rule::EveryEdge,
-    Rule::Winding,
-    Rule::Interior,
-    Rule::Transition,
-    Rule::Range,
-    Rule::Discard,
-    Rule::Segments,
-    Rule::Spacing,
-    Rule::Monotone,
-    Rule::Cover,
-    Rule::Orientation,
-    Rule::Isolines,
-    Rule::PointsOnce,
-    Rule::PointsSame,
-];
-
-/// The rules of Direct3D 11. Rounded locations may go backwards, so a triangle may turn the other way, and
-/// may coincide, so an edge may show fewer segments than it has; `Counts` stands for these.
-const D3D11: &[Rule] = &[
-    Rule::Same,
-    Rule::EdgeLevel,
-    Rule::Symmetric,
-    Rule::EveryEdge,
-    Rule::Winding,
-    Rule::Range,
-    Rule::Discard,
-    Rule::Cover,
-    Rule::Isolines,
-    Rule::PointsSame,
-    Rule::Counts,
-];
+/// Where Vulkan, OpenGL and Direct3D 11 state each rule, in the order of [`Rule`]; empty where a standard has no such
+/// rule. OpenGL's list of invariance has the title and the numbers of Vulkan's. In Direct3D rounded locations may go
+/// backwards, so a triangle may turn the other way, and may coincide, so an edge may show fewer segments than it has;
+/// `Counts` stands for these.
+const SOURCES: [[&str; 3]; Rule::NAMES.len()] = {
+    const GL: &str = "11.2.2 Tessellation Primitive Generation";
+    const SPACING: &str = "22.3 Tessellator Spacing";
+    const POINTS: &str = "22.9 Tessellation Point Mode";
+    const RULES: [&str; 8] = [
+        "Tessellation Invariance, rule 1",
+        "Tessellation Invariance, rule 2",
+        "Tessellation Invariance, rule 3",
+        "Tessellation Invariance, rule 4",
+        "Tessellation Invariance, rule 5",
+        "Tessellation Invariance, rule 6",
+        "Tessellation Invariance, rule 7",
+        "Tessellation Invariance, rule 8",
+    ];
+    [
+        [RULES[0], RULES[0], "13 What the public specification leaves open: order"],
+        [RULES[1], RULES[1], "12.5 Crack-free"],
+        [RULES[2], RULES[2], "12.2 Symmetry"],
+        [RULES[3], RULES[3], "12.5 Crack-free"],
+        [RULES[4], RULES[4], "12.7 Winding"],
+        [RULES[5], RULES[5], ""],
+        [RULES[6], RULES[6], ""],
+        [RULES[7], RULES[7], "12.1 Range"],
+        ["22.2 Tessellator Patch Discard", GL, "3 Factor processing: cull"],
+        [SPACING, GL, ""],
+        [SPACING, GL, ""],
+        [SPACING, GL, ""],
+        ["22.6 Triangle Tessellation, 22.7 Quad Tessellation", GL, "12.3 Area, 12.4 Manifold"],
+        ["22.5 Tessellator Vertex Winding Order", GL, ""],
+        ["22.8 Isoline Tessellation", GL, "6 Points, in order: isoline"],
+        [POINTS, GL, ""],
+        [POINTS, GL, "8 Output primitives"],
+        ["", "", "12.6 Counts"],
+    ]
+};
 
 impl Specification {
     /// Its rules, in the order of [`Rule`].
-    #[must_use]
-    pub const fn rules(self) -> &'static [Rule] {
-        match self {
-            Self::Vulkan | Self::OpenGl => KHRONOS,
-            Self::D3d11 => D3D11,
-        }
+    pub fn rules(self) -> impl Iterator<Item = Rule> {
+        let all = Rule::NAMES.iter().map(|(_, rule)| *rule);
+        all.filter(move |rule| !self.source(*rule).is_empty())
     }
 
-    /// Where it states a rule: section and title. Direct3D's rules are sections of `docs/specification.md`, which
-    /// refines chapter 11 of the D3D11.3 functional specification.
+    /// Where it states a rule: section and title; empty if it has no such rule. Direct3D's rules are sections of
+    /// `docs/specification.md`, which refines chapter 11 of the D3D11.3 functional specification.
     #[must_use]
     pub const fn source(self, rule: Rule) -> &'static str {
-        match self {
-            Self::Vulkan => vulkan(rule),
-            Self::OpenGl => opengl(rule),
-            Self::D3d11 => d3d11(rule),
-        }
-    }
-}
-
-const fn vulkan(rule: Rule) -> &'static str {
-    match rule {
-        Rule::Same => "Tessellation Invariance, rule 1",
-        Rule::EdgeLevel => "Tessellation Invariance, rule 2",
-        Rule::Symmetric => "Tessellation Invariance, rule 3",
-        Rule::EveryEdge => "Tessellation Invariance, rule 4",
-        Rule::Winding => "Tessellation Invariance, rule 5",
-        Rule::Interior => "Tessellation Invariance, rule 6",
-        Rule::Transition => "Tessellation Invariance, rule 7",
-        Rule::Range => "Tessellation Invariance, rule 8",
-        Rule::Discard => "22.2 Tessellator Patch Discard",
-        Rule::Segments | Rule::Spacing | Rule::Monotone => "22.3 Tessellator Spacing",
-        Rule::Orientation => "22.5 Tessellator Vertex Winding Order",
-        Rule::Cover => "22.6 Triangle Tessellation, 22.7 Quad Tessellation",
-        Rule::Isolines => "22.8 Isoline Tessellation",
-        Rule::PointsOnce | Rule::PointsSame => "22.9 Tessellation Point Mode",
-        Rule::Counts => "",
-    }
-}
-
-/// Its list of invariance has the title and the numbers of Vulkan's.
-const fn opengl(rule: Rule) -> &'static str {
-    match rule {
-        Rule::Discard
-        | Rule::Segments
-        | Rule::Spacing
-        | Rule::Monotone
-        | Rule::Orientation
-        | Rule::Cover
-        | Rule::Isolines
-        | Rule::PointsOnce
-        | Rule::PointsSame => "11.2.2 Tessellation Primitive Generation",
-        Rule::Same
-        | Rule::EdgeLevel
-        | Rule::Symmetric
-        | Rule::EveryEdge
-        | Rule::Winding
-        | Rule::Interior
-        | Rule::Transition
-        | Rule::Range
-        | Rule::Counts => vulkan(rule),
-    }
-}
-
-const fn d3d11(rule: Rule) -> &'static str {
-    match rule {
-        Rule::Same => "13 What the public specification leaves open: order",
-        Rule::EdgeLevel | Rule::EveryEdge => "12.5 Crack-free",
-        Rule::Symmetric => "12.2 Symmetry",
-        Rule::Winding => "12.7 Winding",
-        Rule::Range => "12.1 Range",
-        Rule::Discard => "3 Factor processing: cull",
-        Rule::Cover => "12.3 Area, 12.4 Manifold",
-        Rule::Isolines => "6 Points, in order: isoline",
-        Rule::PointsSame => "8 Output primitives",
-        Rule::Counts => "12.6 Counts",
-        Rule::Interior
-        | Rule::Transition
-        | Rule::Segments
-        | Rule::Spacing
-        | Rule::Monotone
-        | Rule::Orientation
-        | Rule::PointsOnce => "",
+        SOURCES[rule as usize][self as usize]
     }
 }

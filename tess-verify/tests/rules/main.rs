@@ -126,7 +126,7 @@ fn documented(column: usize) -> Vec<[String; 2]> {
 fn sources_are_where_rules_stand() {
     let specification = include_str!("../../../docs/specification.md");
     for rule in Specification::D3d11.rules() {
-        let source = Specification::D3d11.source(*rule);
+        let source = Specification::D3d11.source(rule);
         let (number, title) = source.split_once(' ').expect("a number and a title");
         let last = number.split('.').next_back().expect("a number");
         let title = title.split(&[':', ','][..]).next().expect("a title");
@@ -138,7 +138,7 @@ fn sources_are_where_rules_stand() {
         );
     }
     for rule in Specification::OpenGl.rules() {
-        let [gl, vulkan] = [Specification::OpenGl, VULKAN].map(|standard| standard.source(*rule));
+        let [gl, vulkan] = [Specification::OpenGl, VULKAN].map(|standard| standard.source(rule));
         let is_invariance = vulkan.starts_with("Tessellation Invariance, rule ");
         let generation = "11.2.2 Tessellation Primitive Generation";
         assert_eq!(gl, if is_invariance { vulkan } else { generation }, "{}", rule.name());
