@@ -164,9 +164,8 @@ impl Difference {
 
 /// A record alone as a vector file; `None` for a listing, which may be long.
 pub(super) fn file_of(header: &Header, record: &Record) -> Option<String> {
-    let (row, columns) = (record.text()?, header.kind.columns()?);
     let header = Header { count: Some(1), ..header.clone() };
-    Some(format!("{header}\n{}\n{row}\n", columns.join(",")))
+    record.text().map(|row| format!("{}{row}\n", header.head()))
 }
 
 /// Number, line, patch and the first wrong element.

@@ -7,16 +7,14 @@ impl Listing {
     /// A vector file of the kind `listings` with this one record; `backend` made it.
     #[must_use]
     pub fn to_file(&self, backend: &str) -> String {
-        format!("{}\n{self}", header(Kind::Listings, backend))
+        format!("{}{self}", header(Kind::Listings, backend).head())
     }
 
     /// A vector file of the kind `patches` with one row: counts and digests.
     #[must_use]
     pub fn to_csv(&self, backend: &str) -> String {
-        let header = header(Kind::Patches, backend);
-        let columns = Kind::Patches.columns().unwrap_or_default().join(",");
         let row = PatchRow { case: self.case, output: Sizes::of(&self.output) };
-        format!("{header}\n{columns}\n{row}\n")
+        format!("{}{row}\n", header(Kind::Patches, backend).head())
     }
 
     /// A Wavefront OBJ file of the flat patch: x = u, y = v, z = 0.

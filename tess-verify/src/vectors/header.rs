@@ -47,48 +47,22 @@ impl Kind {
         matches!(self, Self::Listings | Self::Patches | Self::Preparation)
     }
 
-    /// The column names of a CSV kind; `None` for listings.
-    #[must_use]
-    pub const fn columns(self) -> Option<&'static [&'static str]> {
-        const CHAIN: &[&str] =
-            &["domain", "partitioning", "output", "row", "cases", "chain_fnv1a64"];
+    /// The line of column names of a CSV kind; `None` for listings.
+    pub(crate) const fn columns(self) -> Option<&'static str> {
         Some(match self {
             Self::Listings => return None,
-            Self::Patches => &[
-                "domain",
-                "partitioning",
-                "output",
-                "split",
-                "factors_f32_hex",
-                "points",
-                "indices",
-                "points_fnv1a64",
-                "indices_fnv1a64",
-            ],
-            Self::Sweep | Self::Uniform => CHAIN,
-            Self::Locations => &[
-                "split",
-                "parity",
-                "factor_bucket",
-                "contexts_fnv1a64",
-                "locations_fnv1a64",
-                "locations",
-            ],
-            Self::Factors => &["partitioning", "exponent", "outer_fnv1a64", "inside_fnv1a64"],
-            Self::Preparation => &[
-                "domain",
-                "partitioning",
-                "reduction",
-                "axis",
-                "output",
-                "input_f32_hex",
-                "unrounded_f32_hex",
-                "rounded_f32_hex",
-                "points",
-                "indices",
-                "points_fnv1a64",
-                "indices_fnv1a64",
-            ],
+            Self::Patches => {
+                "domain,partitioning,output,split,factors_f32_hex,points,indices,points_fnv1a64,indices_fnv1a64"
+            }
+            Self::Sweep | Self::Uniform => "domain,partitioning,output,row,cases,chain_fnv1a64",
+            Self::Locations => {
+                "split,parity,factor_bucket,contexts_fnv1a64,locations_fnv1a64,locations"
+            }
+            Self::Factors => "partitioning,exponent,outer_fnv1a64,inside_fnv1a64",
+            Self::Preparation => {
+                "domain,partitioning,reduction,axis,output,input_f32_hex,unrounded_f32_hex,rounded_f32_hex,\
+                 points,indices,points_fnv1a64,indices_fnv1a64"
+            }
         })
     }
 }
@@ -124,6 +98,13 @@ pub(super) const END: &str = "# end";
 const VERSION: &str = "1";
 
 impl Header {
+    /// Everything in front of the records: this line, and the column names of a CSV kind.
+    #[must_use]
+    pub fn head(&self) -> String {
+        let columns = self.kind.columns().map(|columns| format!("{columns}\n"));
+        format!("{self}\n{}", columns.unwrap_or_default())
+    }
+
     /// What a first line must be, where there is `instead`.
     pub(super) fn missing(instead: &str) -> String {
         format!(

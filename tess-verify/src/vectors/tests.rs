@@ -1,5 +1,7 @@
 //! Every way in which a vector file can be wrong is an error that says where and how.
 
+mod mutated;
+
 use super::*;
 
 const PATCHES: &str = "\
@@ -100,7 +102,7 @@ fn empty_truncated_and_surplus_files() {
 /// A file without records is one only where that is asked for.
 #[test]
 fn files_without_records() {
-    let columns = Kind::Patches.columns().expect("a CSV kind").join(",");
+    let columns = Kind::Patches.columns().expect("a CSV kind");
     for text in [
         "# tess-vectors 1 kind=listings count=0 source=a\n".to_owned(),
         "# tess-vectors 1 kind=listings source=a\n# end\n".to_owned(),

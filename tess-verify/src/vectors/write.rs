@@ -15,23 +15,22 @@ pub fn write_cases(
     header: &Header,
     mut cases: impl Iterator<Item = Case>,
 ) -> io::Result<()> {
-    match header.kind {
-        Kind::Patches => {
-            writeln!(out, "{header}\n{}", Kind::Patches.columns().unwrap_or_default().join(","))?;
-            cases.try_for_each(|case| {
-                let output = Sizes::of(&case.patch().tessellate());
-                writeln!(out, "{}", PatchRow { case, output })
-            })
-        }
-        Kind::Listings => {
-            writeln!(out, "{header}")?;
-            cases.try_for_each(|case| write!(out, "{}", Listing::of_model(case)))
-        }
+    let is_listings = match header.kind {
+        Kind::Patches => false,
+        Kind::Listings => true,
         other => {
             let message = format!("cases are no {}: patches or listings", other.name());
-            Err(io::Error::new(io::ErrorKind::InvalidInput, message))
+            return Err(io::Error::new(io::ErrorKind::InvalidInput, message));
         }
-    }
+    };
+    out.write_all(header.head().as_bytes())?;
+    cases.try_for_each(|case| {
+        let listing = Listing::of_model(case);
+        if is_listings {
+            return write!(out, "{listing}");
+        }
+        writeln!(out, "{}", PatchRow { case, output: Sizes::of(&listing.output) })
+    })
 }
 
 #[cfg(test)]

@@ -37,9 +37,7 @@ impl Failures {
         }
         let mut file = BufWriter::new(OutputFile::create(path)?);
         let header = Header { count: None, ..header.clone() };
-        let columns = header.kind.columns().map(|columns| columns.join(",") + "\n");
-        let begun = write!(file, "{header}\n{}", columns.unwrap_or_default());
-        begun.map_err(|error| Failure::write(path, error))?;
+        file.write_all(header.head().as_bytes()).map_err(|error| Failure::write(path, error))?;
         let waiting = BTreeMap::new();
         let state = Mutex::new(State { file, records: 0, written: Ok(()), next: 1, waiting });
         Ok(Self { path: path.to_owned(), state })

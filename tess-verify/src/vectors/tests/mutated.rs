@@ -1,7 +1,7 @@
 //! Vector files that were damaged at random: an error that says where, or a file that reads back
 //! equal; never a panic, nor more memory than a record needs.
 
-use super::{Listing, Record, Values, VectorError, VectorFile};
+use crate::vectors::{Listing, Record, Values, VectorError, VectorFile};
 use proptest::prelude::*;
 use std::fs::read_to_string;
 
@@ -127,10 +127,7 @@ fn in_lines(bytes: &mut Vec<u8>, change: impl FnOnce(&mut Vec<Vec<u8>>)) {
 /// A file's records as text, after its header and column names.
 fn read(bytes: &[u8]) -> Result<String, VectorError> {
     let mut file = VectorFile::new("damaged", bytes)?;
-    let mut text = format!("{}\n", file.header());
-    if let Some(columns) = file.header().kind.columns() {
-        text += &format!("{}\n", columns.join(","));
-    }
+    let mut text = file.header().head();
     for record in file.by_ref() {
         match record? {
             Record::Listing(listing) => text += &Listing { line: 0, ..listing }.to_string(),
