@@ -1,7 +1,6 @@
 //! What a comparison needs from an implementation, stage by stage.
 
 use std::error::Error;
-use std::fmt;
 use tess_core::{
     Config, FactorContext, FixedFactor, Parity, Partitioning, PatchFactors, SplitOrder,
     Tessellation,
@@ -74,7 +73,8 @@ fn whole_patches_alone(name: &str) -> BackendError {
 }
 
 /// An implementation could not run: no adapter, no such CPU level, a device lost.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{message}")]
 pub struct BackendError {
     /// What happened and what would help.
     pub message: String,
@@ -110,28 +110,9 @@ impl BackendError {
 }
 
 /// Why a configuration could not run: there is none in the implementation.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("the configuration is not supported")]
 struct Unsupported;
-
-impl fmt::Display for Unsupported {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("the configuration is not supported")
-    }
-}
-
-impl Error for Unsupported {}
-
-impl fmt::Display for BackendError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
-
-impl Error for BackendError {
-    fn source(&self) -> Option<&(dyn Error + 'static)> {
-        self.source.as_deref().map(|source| source as _)
-    }
-}
 
 /// Refuses answers that are more or fewer than were asked for.
 pub(crate) fn all_answered<T>(
@@ -188,7 +169,7 @@ mod tests {
         let source = error.source().expect("a source").to_string();
         assert_eq!(source, "the configuration is not supported");
         let other =
-            BackendError { source: Some(Box::new(fmt::Error)), ..BackendError::new("lost") };
+            BackendError { source: Some(Box::new(std::fmt::Error)), ..BackendError::new("lost") };
         assert!(!other.is_unsupported(), "another source");
     }
 }

@@ -122,7 +122,8 @@ fn named<T: Named>(field: &'static str, name: &str) -> Result<T, CaseError> {
 }
 
 /// A text is no case.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{field}: {message}")]
 #[non_exhaustive]
 pub struct CaseError {
     /// The part that is wrong.
@@ -130,14 +131,6 @@ pub struct CaseError {
     /// How it is wrong and what would be right.
     pub message: String,
 }
-
-impl fmt::Display for CaseError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}: {}", self.field, self.message)
-    }
-}
-
-impl std::error::Error for CaseError {}
 
 /// A factor: decimal as Rust reads it (nan, inf, -0, 1e3), or `0x` and the bits of a binary32.
 ///

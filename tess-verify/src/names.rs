@@ -1,7 +1,6 @@
 //! The names that vector files and the command line use.
 
 use crate::quote::quoted;
-use std::fmt;
 use tess_core::prepare::{QuadAxes, Reduction};
 use tess_core::{Domain, OutputPrimitive, Parity, Partitioning, SplitOrder};
 
@@ -33,7 +32,8 @@ pub trait Named: Copy + PartialEq + 'static {
 }
 
 /// A name that stands for nothing.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("unknown {what} {}, expected one of: {}", quoted(name), known.join(", "))]
 #[non_exhaustive]
 pub struct UnknownName {
     /// What was to be chosen.
@@ -43,16 +43,6 @@ pub struct UnknownName {
     /// The names there are.
     pub known: Vec<&'static str>,
 }
-
-impl fmt::Display for UnknownName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let known = self.known.join(", ");
-        let name = quoted(&self.name);
-        write!(f, "unknown {} {name}, expected one of: {known}", self.what)
-    }
-}
-
-impl std::error::Error for UnknownName {}
 
 impl Named for Domain {
     const WHAT: &'static str = "domain";
@@ -106,7 +96,7 @@ impl Named for QuadAxes {
 mod tests {
     use super::*;
 
-    fn round_trip<T: Named + fmt::Debug>() {
+    fn round_trip<T: Named + std::fmt::Debug>() {
         assert!(!T::NAMES.is_empty(), "{} has names", T::WHAT);
         for &(name, value) in T::NAMES {
             assert_eq!(T::from_name(name).ok(), Some(value), "{name}");

@@ -186,40 +186,16 @@ impl fmt::Display for Difference {
 }
 
 /// Why there is no verdict.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CheckError {
     /// The file is malformed, truncated, too long or empty.
-    Vectors(VectorError),
+    #[error("{0}")]
+    Vectors(#[from] VectorError),
     /// Listings were to be tested, and the file's records are of another kind.
+    #[error("a device is tested by its listings; this file's kind is {}", .0.name())]
     NoListings(Kind),
     /// The backend could not run.
-    Backend(BackendError),
+    #[error("{0}")]
+    Backend(#[from] BackendError),
 }
-
-impl From<VectorError> for CheckError {
-    fn from(error: VectorError) -> Self {
-        Self::Vectors(error)
-    }
-}
-
-impl From<BackendError> for CheckError {
-    fn from(error: BackendError) -> Self {
-        Self::Backend(error)
-    }
-}
-
-impl fmt::Display for CheckError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Vectors(error) => error.fmt(f),
-            Self::NoListings(kind) => {
-                let kind = kind.name();
-                write!(f, "a device is tested by its listings; this file's kind is {kind}")
-            }
-            Self::Backend(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for CheckError {}

@@ -3,7 +3,6 @@
 use super::{Coverage, bins};
 use crate::quote::quoted;
 use std::collections::{BTreeSet, HashSet};
-use std::fmt;
 use tess_core::{Config, Domain};
 
 /// Bins that are left out of what a device has to hit. The default has none.
@@ -87,7 +86,12 @@ impl Exclusions {
 }
 
 /// A pattern of no bin.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{}no bin begins with {}; a bin is a path such as middle/oddxeven, and * is any part of one",
+    line.map(|line| format!("line {line}: ")).unwrap_or_default(),
+    quoted(pattern)
+)]
 #[non_exhaustive]
 pub struct UnknownBin {
     /// Line of the text, from 1, if it was read from one.
@@ -95,21 +99,6 @@ pub struct UnknownBin {
     /// The pattern.
     pub pattern: String,
 }
-
-impl fmt::Display for UnknownBin {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some(line) = self.line {
-            write!(f, "line {line}: ")?;
-        }
-        let pattern = quoted(&self.pattern);
-        write!(
-            f,
-            "no bin begins with {pattern}; a bin is a path such as middle/oddxeven, and * is any part of one"
-        )
-    }
-}
-
-impl std::error::Error for UnknownBin {}
 
 #[cfg(test)]
 mod tests {

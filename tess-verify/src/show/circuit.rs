@@ -13,8 +13,6 @@
 
 use crate::case::Case;
 use crate::quote::quoted;
-#[cfg(feature = "serde")]
-use serde::Serialize;
 use std::fmt;
 use tess_core::{Parity, ProcessedFactor};
 
@@ -30,6 +28,18 @@ pub enum Part {
     Point(u32),
     /// A primitive.
     Primitive(u32),
+}
+
+/// Such as `factor 3`.
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Patch => f.write_str("patch"),
+            Self::Factor(k) => write!(f, "factor {k}"),
+            Self::Point(i) => write!(f, "point {i}"),
+            Self::Primitive(t) => write!(f, "primitive {t}"),
+        }
+    }
 }
 
 /// A signal, by the stage and the name that benches give it, and the module of the circuit that makes it.
@@ -61,7 +71,7 @@ fn signals(option: &str) -> impl Iterator<Item = Signal> {
 
 /// A signal that differs from the model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct SignalDifference {
     /// The stage, as benches name it.
@@ -88,30 +98,16 @@ impl fmt::Display for SignalDifference {
 }
 
 /// Nothing can be compared.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SignalError {
     /// The patch has no such factor, point or primitive.
+    #[error("there is no {0}")]
     NoSuchPart(Part),
     /// No signal of this part has this name; the names there are.
+    #[error("no signal {} here, expected one of: {}", quoted(.0), .1.join(", "))]
     NoSuchSignal(String, Vec<&'static str>),
 }
-
-impl fmt::Display for SignalError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoSuchPart(Part::Patch) => write!(f, "there is no such patch"),
-            Self::NoSuchPart(Part::Factor(k)) => write!(f, "there is no factor {k}"),
-            Self::NoSuchPart(Part::Point(i)) => write!(f, "there is no point {i}"),
-            Self::NoSuchPart(Part::Primitive(t)) => write!(f, "there is no primitive {t}"),
-            Self::NoSuchSignal(name, known) => {
-                write!(f, "no signal {} here, expected one of: {}", quoted(name), known.join(", "))
-            }
-        }
-    }
-}
-
-impl std::error::Error for SignalError {}
 
 /// The signals that differ from the model, in the order in which each feeds the next. What follows from the first is
 /// there too.

@@ -1,10 +1,10 @@
 //! What is wrong with a vector file, and where.
 
-use std::fmt;
 use std::sync::Arc;
 
 /// A vector file is malformed, truncated, too long or empty.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{file}:{line}: {field}: {message}")]
 #[non_exhaustive]
 pub struct VectorError {
     /// Name of the file.
@@ -16,14 +16,6 @@ pub struct VectorError {
     /// What is wrong and what would be right.
     pub message: String,
 }
-
-impl fmt::Display for VectorError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:{}: {}: {}", self.file, self.line, self.field, self.message)
-    }
-}
-
-impl std::error::Error for VectorError {}
 
 /// Where the reader is.
 #[derive(Clone, Debug)]

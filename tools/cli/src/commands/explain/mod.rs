@@ -92,22 +92,15 @@ impl Args {
 fn report(case: &Case, part: Part) -> Result<Explanation, Failure> {
     Explanation::new(case, part).ok_or_else(|| {
         let counts = case.patch().counts();
-        let points_and_primitives = format!(
-            "{} and {}",
-            output::counted(counts.points.into(), "point"),
-            output::counted(counts.primitives.into(), "primitive")
-        );
-        let (what, number, there_are) = match part {
-            Part::Factor(k) => {
-                ("factor", k, output::counted(case.domain().factors() as u64, "factor"))
-            }
-            Part::Point(i) => ("point", i, points_and_primitives),
-            Part::Primitive(t) => ("primitive", t, points_and_primitives),
-            _ => ("patch", 0, points_and_primitives),
+        let there_are = match part {
+            Part::Factor(_) => output::counted(case.domain().factors() as u64, "factor"),
+            _ => format!(
+                "{} and {}",
+                output::counted(counts.points.into(), "point"),
+                output::counted(counts.primitives.into(), "primitive")
+            ),
         };
-        Failure::bad_input(format!(
-            "there is no {what} {number}: the patch has {there_are}, from 0"
-        ))
+        Failure::bad_input(format!("there is no {part}: the patch has {there_are}, from 0"))
     })
 }
 
