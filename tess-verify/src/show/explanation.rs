@@ -14,19 +14,17 @@ use crate::names::Named;
 use factors::FactorReport;
 pub(crate) use point::PointReport;
 pub(crate) use primitive::PrimitiveReport;
-#[cfg(feature = "serde")]
-use serde::Serialize;
 use std::fmt;
 use structure::{PointRun, Stitch};
 use tess_core::ProcessedPatch;
 
 /// Where a part of a patch comes from, or every stage of the patch: text, and JSON with the feature `serde`.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Explanation(Report);
 
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize), serde(untagged))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize), serde(untagged))]
 enum Report {
     Patch(Box<PatchReport>),
     Factor(FactorReport),
@@ -60,7 +58,7 @@ impl fmt::Display for Explanation {
 
 /// Every stage of one patch.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[cfg_attr(
     not(feature = "serde"),
     expect(dead_code, reason = "the text repeats them in its command")
@@ -110,7 +108,7 @@ impl PatchReport {
 
 /// A 16.16 or 15.16 number, exactly: hex bits and decimal value.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(crate) struct Fixed {
     /// The bits.
     pub(crate) bits: u32,

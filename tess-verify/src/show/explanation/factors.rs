@@ -2,14 +2,12 @@
 
 use super::Fixed;
 use crate::case::Case;
-#[cfg(feature = "serde")]
-use serde::Serialize;
 use std::fmt;
 use tess_core::{FactorContext, Parity, Patch, PatchFactors, ProcessedFactor};
 
 /// A binary32 number; NaN and infinities have no `value` in JSON.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Float {
     pub(super) bits: u32,
     pub(super) value: f32,
@@ -23,7 +21,7 @@ impl Float {
 
 /// One factor on its way. A culled patch has raw factors alone.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(crate) struct FactorReport {
     pub(super) name: &'static str,
     pub(super) raw: Float,
@@ -60,7 +58,7 @@ impl fmt::Display for FactorReport {
 }
 
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Processed {
     pub(super) clamped: Float,
     pub(super) rounded: Float,
@@ -71,7 +69,7 @@ pub(super) struct Processed {
 
 /// The six numbers of spec section 4, and the half edge that a transition stitch walks.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Context {
     pub(super) half_points: u32,
     pub(super) split: u32,

@@ -1,7 +1,5 @@
 //! One placement in one dimension with its intermediate values (spec section 5).
 
-#[cfg(feature = "serde")]
-use serde::Serialize;
 use std::fmt;
 use tess_core::FactorContext;
 use tess_core::fixed_point::{HALF, ONE};
@@ -9,7 +7,7 @@ use tess_core::place::{Blend, steps};
 
 /// `place(context of factor, position)` and how it came about.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Placement {
     factor: &'static str,
     position: u32,
@@ -20,7 +18,7 @@ pub(super) struct Placement {
 
 /// What is blended on the half edge.
 #[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 struct HalfEdge {
     /// Whether the location is ONE minus that of the mirrored position.
     flipped: bool,

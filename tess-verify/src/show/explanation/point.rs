@@ -3,8 +3,6 @@
 use super::Fixed;
 use super::factors::{name, named};
 use super::placement::Placement;
-#[cfg(feature = "serde")]
-use serde::Serialize;
 use std::fmt;
 use tess_core::fixed_point::{HALF, TWO_THIRDS};
 use tess_core::{Patch, PatchFactors, PointOrigin};
@@ -12,7 +10,7 @@ use tess_core::{ProcessedFactor, QuadFactors, TriangleFactors};
 
 /// One point: its place in the walk, and the placements that its coordinates are made of.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(crate) struct PointReport {
     point: u32,
     location: String,

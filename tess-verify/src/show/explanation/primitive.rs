@@ -1,14 +1,12 @@
 //! Where one primitive comes from (spec sections 7 and 8).
 
 use super::{PointReport, structure};
-#[cfg(feature = "serde")]
-use serde::Serialize;
 use std::fmt;
 use tess_core::{Patch, PrimitiveOrigin};
 
 /// One primitive: its place in the walk, and its vertices.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(crate) struct PrimitiveReport {
     primitive: u32,
     location: String,

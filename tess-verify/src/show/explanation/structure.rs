@@ -1,14 +1,12 @@
 //! The edges, rings and stitches of a patch, as the model walks them (spec sections 6 to 8).
 
 use super::point;
-#[cfg(feature = "serde")]
-use serde::Serialize;
 use tess_core::stitch::{Step, StitchKind};
 use tess_core::{Patch, PointOrigin, PrimitiveOrigin, Side};
 
 /// Consecutive points of one line, edge of a ring, or centre.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct PointRun {
     pub(super) place: String,
     pub(super) first: u32,
@@ -17,7 +15,7 @@ pub(super) struct PointRun {
 
 /// Consecutive primitives of one line, stitch or centre.
 #[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub(super) struct Stitch {
     pub(super) place: String,
     pub(super) first: u32,

@@ -3,61 +3,18 @@
 
 use super::Position;
 
-/// Digits on a grid 4 wide and 6 high, y down; lines of one digit are separated by empty spots.
-const STROKES: [&[&[(u8, u8)]]; 10] = [
-    &[&[(1, 0), (3, 0), (4, 1), (4, 5), (3, 6), (1, 6), (0, 5), (0, 1), (1, 0)]],
-    &[&[(1, 1), (2, 0), (2, 6)], &[(1, 6), (3, 6)]],
-    &[&[(0, 1), (1, 0), (3, 0), (4, 1), (4, 2), (0, 6), (4, 6)]],
-    &[&[(0, 0), (4, 0), (2, 2), (3, 2), (4, 3), (4, 5), (3, 6), (1, 6), (0, 5)]],
-    &[&[(3, 6), (3, 0), (0, 4), (4, 4)]],
-    &[&[(4, 0), (0, 0), (0, 3), (1, 2), (3, 2), (4, 3), (4, 5), (3, 6), (1, 6), (0, 5)]],
-    &[&[
-        (4, 1),
-        (3, 0),
-        (1, 0),
-        (0, 1),
-        (0, 5),
-        (1, 6),
-        (3, 6),
-        (4, 5),
-        (4, 4),
-        (3, 3),
-        (1, 3),
-        (0, 4),
-    ]],
-    &[&[(0, 0), (4, 0), (1, 6)]],
-    &[&[
-        (1, 3),
-        (0, 2),
-        (0, 1),
-        (1, 0),
-        (3, 0),
-        (4, 1),
-        (4, 2),
-        (3, 3),
-        (1, 3),
-        (0, 4),
-        (0, 5),
-        (1, 6),
-        (3, 6),
-        (4, 5),
-        (4, 4),
-        (3, 3),
-    ]],
-    &[&[
-        (0, 5),
-        (1, 6),
-        (3, 6),
-        (4, 5),
-        (4, 1),
-        (3, 0),
-        (1, 0),
-        (0, 1),
-        (0, 2),
-        (1, 3),
-        (3, 3),
-        (4, 2),
-    ]],
+/// Digits on a grid 4 wide and 6 high, y down: x and y of each corner, and a comma between two lines.
+const STROKES: [&str; 10] = [
+    "10 30 41 45 36 16 05 01 10",
+    "11 20 26, 16 36",
+    "01 10 30 41 42 06 46",
+    "00 40 22 32 43 45 36 16 05",
+    "36 30 04 44",
+    "40 00 03 12 32 43 45 36 16 05",
+    "41 30 10 01 05 16 36 45 44 33 13 04",
+    "00 40 16",
+    "13 02 01 10 30 41 42 33 13 04 05 16 36 45 44 33",
+    "05 16 36 45 41 30 10 01 02 13 33 42",
 ];
 
 /// Grid units from one digit to the next.
@@ -74,8 +31,13 @@ pub(super) fn strokes(number: u32, centre: Position, height: f64) -> Vec<Vec<Pos
     let top = centre[1] - height / 2.0;
     let mut lines = Vec::new();
     for digit in number.to_string().bytes().map(|byte| usize::from(byte - b'0')) {
-        let place = |&(x, y): &(u8, u8)| [left + unit * f64::from(x), top + unit * f64::from(y)];
-        lines.extend(STROKES[digit].iter().map(|line| line.iter().map(place).collect()));
+        let units = |byte: u8| unit * f64::from(byte - b'0');
+        let place = |corner: &str| {
+            let [x, y] = [0, 1].map(|axis| units(corner.as_bytes()[axis]));
+            [left + x, top + y]
+        };
+        let line = |line: &str| line.split_whitespace().map(place).collect();
+        lines.extend(STROKES[digit].split(',').map(line));
         left += unit * ADVANCE;
     }
     lines
